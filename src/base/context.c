@@ -1,0 +1,191 @@
+#include "base/context.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void *default_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  (void)user, (void)old_size;
+  if (new_size == 0) {
+    free(block);
+    return NULL;
+  }
+  return realloc(block, new_size);
+}
+
+/* ---------------------------------------------------------------- memory */
+
+static cs_memory *memory_create(celspan_resize resize, void *user) {
+  cs_memory *memory = resize(user, NULL, 0, sizeof *memory);
+  if (!memory)
+    return NULL;
+  memory->resize = resize;
+  memory->user = user;
+  atomic_init(&memory->references, 1);
+  atomic_init(&memory->bytes, 0);
+  atomic_init(&memory->peak, 0);
+  atomic_init(&memory->allocations, 0);
+  return memory;
+}
+
+cs_memory *cs_memory_ref(cs_memory *memory) {
+  atomic_fetch_add_explicit(&memory->references, 1, memory_order_relaxed);
+  return memory;
+}
+
+void cs_memory_unref(cs_memory *memory) {
+  if (atomic_fetch_sub_explicit(&memory->references, 1, memory_order_acq_rel) == 1)
+    memory->resize(memory->user, memory, sizeof *memory, 0);
+}
+
+static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
+  size_t now = atomic_fetch_add_explicit(&memory->bytes, new_size - old_size, memory_order_relaxed) +
+               (new_size - old_size);
+  size_t peak = atomic_load_explicit(&memory->peak, memory_order_relaxed);
+  while (now > peak && !atomic_compare_exchange_weak_explicit(
+                           &memory->peak, &peak, now, memory_order_relaxed, memory_order_relaxed)) {
+  }
+}
+
+void *cs_mem_resize(cs_memory *memory, void *block, size_t old_size, size_t new_size) {
+  void *resized = memory->resize(memory->user, block, old_size, new_size);
+  if (!resized && new_size > 0)
+    return NULL;
+  if (new_size > 0)
+    atomic_fetch_add_explicit(&memory->allocations, 1, memory_order_relaxed);
+  count_bytes(memory, block ? old_size : 0, new_size);
+  return resized;
+}
+
+void cs_mem_free(cs_memory *memory, void *block, size_t size) {
+  if (block)
+    cs_mem_resize(memory, block, size, 0);
+}
+
+void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
+  size_t size;
+  if (count == 0 || __builtin_mul_overflow(count, item_size, &size))
+    return NULL;
+  void *items = cs_mem_resize(memory, NULL, 0, size);
+  return items ? memset(items, 0, size) : NULL;
+}
+
+celspan_status cs_mem_reserve(celspan_context *context, void **items, size_t *capacity,
+                              size_t needed, size_t item_size) {
+  if (needed <= *capacity)
+    return CELSPAN_OK;
+  size_t wanted = *capacity < 16 ? 16 : *capacity, size;
+  while (wanted < needed)
+    if (__builtin_mul_overflow(wanted, (size_t)2, &wanted))
+      return cs_fail_memory(context);
+  if (__builtin_mul_overflow(wanted, item_size, &size))
+    return cs_fail_memory(context);
+  void *grown = cs_mem_resize(context->memory, *items, *capacity * item_size, size);
+  if (!grown)
+    return cs_fail_memory(context);
+  *items = grown;
+  *capacity = wanted;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- errors */
+
+const char *celspan_status_name(celspan_status status) {
+  static const char *const names[] = {
+      [CELSPAN_OK] = "ok",
+      [CELSPAN_NO_MEMORY] = "no memory",
+      [CELSPAN_BAD_ARGUMENT] = "bad argument",
+      [CELSPAN_LIMIT] = "limit",
+      [CELSPAN_INPUT] = "input",
+      [CELSPAN_OUTPUT] = "output",
+      [CELSPAN_CALLBACK] = "callback",
+      [CELSPAN_CANCELLED] = "cancelled",
+      [CELSPAN_INTERNAL] = "internal error",
+  };
+  return (unsigned)status < sizeof names / sizeof *names ? names[status] : "unknown status";
+}
+
+static celspan_status fail(celspan_context *context, celspan_status status, const char *format,
+                           va_list arguments) {
+  vsnprintf(context->error, sizeof context->error, format, arguments);
+  return status;
+}
+
+celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fail(context, status, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+celspan_status celspan_context_fail(celspan_context *context, celspan_status status,
+                                    const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  fail(context, status, format, arguments);
+  va_end(arguments);
+  return status;
+}
+
+celspan_status cs_fail_memory(celspan_context *context) {
+  return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory (%zu bytes are held)",
+                 atomic_load_explicit(&context->memory->bytes, memory_order_relaxed));
+}
+
+/* ---------------------------------------------------------------- context */
+
+celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_context **out) {
+  celspan_context_desc defaults = {.struct_size = sizeof defaults};
+  if (!desc)
+    desc = &defaults;
+  if (desc->struct_size != sizeof *desc)
+    return CELSPAN_BAD_ARGUMENT;
+  cs_memory *memory = memory_create(desc->resize ? desc->resize : default_resize, desc->resize_user);
+  if (!memory)
+    return CELSPAN_NO_MEMORY;
+  celspan_context *context = cs_mem_array(memory, 1, sizeof *context);
+  if (!context) {
+    cs_memory_unref(memory);
+    return CELSPAN_NO_MEMORY;
+  }
+  context->memory = memory;
+  context->root = context;
+  context->picture_bytes = desc->picture_bytes ? desc->picture_bytes : (size_t)512 << 20;
+  *out = context;
+  return CELSPAN_OK;
+}
+
+void celspan_context_destroy(celspan_context *context) {
+  if (!context)
+    return;
+  if (context->pictures)
+    context->pictures->destroy(context->pictures);
+  cs_memory *memory = context->memory;
+  cs_mem_free(memory, context, sizeof *context);
+  cs_memory_unref(memory);
+}
+
+const char *celspan_context_error(const celspan_context *context) { return context->error; }
+
+void celspan_context_memory(const celspan_context *context, size_t *bytes, size_t *peak_bytes,
+                            uint64_t *allocations) {
+  const cs_memory *memory = context->memory;
+  *bytes = atomic_load_explicit(&memory->bytes, memory_order_relaxed);
+  *peak_bytes = atomic_load_explicit(&memory->peak, memory_order_relaxed);
+  *allocations = atomic_load_explicit(&memory->allocations, memory_order_relaxed);
+}
+
+void cs_context_branch(celspan_context *branch, celspan_context *from) {
+  *branch = (celspan_context){
+      .memory = from->memory, .root = from->root, .picture_bytes = from->picture_bytes};
+}
+
+#define CS_TEXT_(x) #x
+#define CS_TEXT(x) CS_TEXT_(x)
+
+const char *celspan_version(void) {
+  return CS_TEXT(CELSPAN_VERSION_MAJOR) "." CS_TEXT(CELSPAN_VERSION_MINOR) "." CS_TEXT(
+      CELSPAN_VERSION_PATCH);
+}

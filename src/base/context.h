@@ -1,0 +1,70 @@
+/* Memory, errors and the context that carries both.
+ *
+ * Every allocation goes through cs_mem_resize, which is told old and new sizes, so bytes held are
+ * known at any moment. A context belongs to one thread; workers get a branch of it: their own error
+ * text over the same memory. All failures pass through cs_fail, a natural breakpoint.
+ */
+#ifndef CS_BASE_CONTEXT_H
+#define CS_BASE_CONTEXT_H
+
+#include <stdatomic.h>
+
+#include "celspan/celspan.h"
+
+/* Shared by a context, its branches and every value made in it; counted, because scene values may
+ * outlive their context. */
+typedef struct cs_memory {
+  celspan_resize resize;
+  void *user;
+  atomic_size_t references;
+  atomic_size_t bytes;
+  atomic_size_t peak;
+  atomic_uint_fast64_t allocations;
+} cs_memory;
+
+/* Something a higher folder keeps in the context, such as the store of picture tiles: destroyed
+ * with the root context. */
+typedef struct cs_service {
+  void (*destroy)(struct cs_service *service);
+} cs_service;
+
+struct celspan_context {
+  cs_memory *memory;
+  celspan_context *root; /* itself, or the context it was branched from */
+  cs_service *pictures;  /* root only; owned; made on first use by scene/picture.c */
+  size_t picture_bytes;
+  char error[1024];
+};
+
+cs_memory *cs_memory_ref(cs_memory *memory);
+void cs_memory_unref(cs_memory *memory);
+
+/* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not
+ * record an error: callers that report use cs_fail_memory. */
+void *cs_mem_resize(cs_memory *memory, void *block, size_t old_size, size_t new_size);
+void cs_mem_free(cs_memory *memory, void *block, size_t size);
+/* count items of item_size bytes, zeroed; NULL on overflow or without memory. count 0 gives NULL. */
+void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
+
+/* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are
+ * kept. Status NO_MEMORY, recorded; *items is then unchanged. */
+CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
+                                              size_t *capacity, size_t needed, size_t item_size);
+
+/* Records "format" and returns status. */
+celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+celspan_status cs_fail_memory(celspan_context *context);
+
+/* A context for a worker thread, on the caller's memory: same cs_memory, own error text. Not
+ * counted; must not outlive the context it is branched from. */
+void cs_context_branch(celspan_context *branch, celspan_context *from);
+
+#define CS_TRY(call)                               \
+  do {                                             \
+    celspan_status try_status_ = (call);           \
+    if (try_status_ != CELSPAN_OK)                 \
+      return try_status_;                          \
+  } while (0)
+
+#endif

@@ -1,0 +1,38 @@
+/* Numbers at the door and on the way to integers.
+ *
+ * Invariant: a number that passed cs_number_is_sane is finite and |x| <= 1e12; a double becomes an
+ * integer only through the saturating helpers here (NaN becomes 0).
+ */
+#ifndef CS_BASE_NUMBER_H
+#define CS_BASE_NUMBER_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define CS_NUMBER_LIMIT 1e12
+
+static inline bool cs_number_is_sane(double x) {
+  return x >= -CS_NUMBER_LIMIT && x <= CS_NUMBER_LIMIT;
+}
+
+static inline int32_t cs_number_to_int32(double x) {
+  return x != x ? 0 : x <= -2147483648.0 ? INT32_MIN : x >= 2147483647.0 ? INT32_MAX : (int32_t)x;
+}
+
+static inline int32_t cs_number_floor(double x) { return cs_number_to_int32(floor(x)); }
+static inline int32_t cs_number_ceil(double x) { return cs_number_to_int32(ceil(x)); }
+
+/* The first column or row whose centre is at or right of x: ceil(x - 1/2). */
+static inline int32_t cs_number_first_centre(double x) { return cs_number_ceil(x - 0.5); }
+
+static inline double cs_number_clamp(double x, double low, double high) {
+  return x < low ? low : x > high ? high : x;
+}
+
+static inline float cs_number_clampf(float x, float low, float high) {
+  return x < low ? low : x > high ? high : x;
+}
+
+#endif

@@ -1,0 +1,35 @@
+/* Paints as affine maps on light, the Beta colour model premultiplied (colour-and-spans 1).
+ *
+ * Light F from the front and I from behind leave a paint as S*F + T*I with S = beta * pigment and
+ * T = (1 - beta) * medium. Invariant: 0 <= S <= beta, 0 <= T <= 1 - beta (pictures may exceed in S).
+ * Opaque means T = 0, never beta = 1.
+ */
+#ifndef CS_COLOUR_PAINT_H
+#define CS_COLOUR_PAINT_H
+
+#include "celspan/celspan.h"
+
+typedef struct cs_paint {
+  float s[3], t[3];
+  float beta;
+} cs_paint;
+
+#define CS_PAINT_CLEAR ((cs_paint){{0, 0, 0}, {1, 1, 1}, 0})
+
+/* Composition stops when every channel of T is at most this (api.md 1). */
+#define CS_PAINT_OPAQUE 0x1p-16f
+
+cs_paint cs_paint_from_straight(const celspan_paint *paint);
+/* The paint of one picture sample, premultiplied linear RGBA. */
+cs_paint cs_paint_from_picture(const float rgba[4], celspan_picture_use use);
+/* weight * paint + (1 - weight) * clear. */
+cs_paint cs_paint_fade(cs_paint paint, float weight);
+/* Whether all seven straight values are in 0..1. */
+bool cs_paint_is_valid(const celspan_paint *paint);
+
+static inline bool cs_paint_is_opaque(const cs_paint *paint) {
+  return paint->t[0] <= CS_PAINT_OPAQUE && paint->t[1] <= CS_PAINT_OPAQUE &&
+         paint->t[2] <= CS_PAINT_OPAQUE;
+}
+
+#endif

@@ -1,0 +1,19 @@
+/* Transfer curves between linear light and coded values in 0..1 (formats.md b10 for Cineon).
+ *
+ * Decode maps coded to linear, encode linear to coded. Deterministic: same bits on every machine.
+ * Values beyond 0..1 are continued (negative ones by odd symmetry for sRGB and Rec.709).
+ */
+#ifndef CS_COLOUR_TRANSFER_H
+#define CS_COLOUR_TRANSFER_H
+
+#include "celspan/celspan.h"
+
+float cs_transfer_decode(celspan_transfer transfer, float coded);
+float cs_transfer_encode(celspan_transfer transfer, float linear);
+/* "srgb", "linear", "rec709", "cineon"; false for another name. */
+bool cs_transfer_parse(const char *name, celspan_transfer *out);
+const char *cs_transfer_name(celspan_transfer transfer);
+/* An exact fast path: linear 0..1 to an 8-bit sRGB code, round to nearest of the true curve. */
+uint8_t cs_transfer_srgb8(float linear);
+
+#endif

@@ -1,0 +1,89 @@
+/* Boundaries: an outline cut into y-monotone chains in the pixels of a frame, and the polyline that
+ * the sweep walks, made vertex by vertex as it is needed.
+ *
+ *   outline --matrix, horizon--> pieces --y extrema--> monotone pieces --frame--> chains
+ *
+ * Invariants
+ *   - A chain runs from its top y0 to its bottom y1 > y0 and is hit by row height y iff
+ *     y0 <= y < y1. Pieces inside it share their ends bitwise, so the windings of a contour sum to
+ *     0 at every y whatever the rounding (colour-and-spans 4.2).
+ *   - x at a height is a function of that height, the chain and the frame alone: not of the row the
+ *     walk began at, nor of strips or crops. Two chains over the same control points, in either
+ *     direction, give the same bits.
+ *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
+ *     wholly above `top` or below `bottom` is dropped.
+ *   - The polyline deviates from the curve by at most about CS_BOUNDARY_TOLERANCE pixels, its inner
+ *     vertices displaced outwards (C'' h^2 / 12) so that the area left of it is kept.
+ */
+#ifndef CS_GEOMETRY_BOUNDARY_H
+#define CS_GEOMETRY_BOUNDARY_H
+
+#include "geometry/outline.h"
+
+#define CS_BOUNDARY_TOLERANCE 0.02
+
+/* One monotone rational Bezier piece, normalised to run downwards: y0 <= y1. */
+typedef struct cs_boundary_piece {
+  double x0, y0, x1, y1;
+  double overhang; /* no vertex is displaced by more than this in y */
+  uint32_t point;  /* its degree + 1 homogeneous points */
+  uint32_t segments;
+  uint8_t degree;
+} cs_boundary_piece;
+
+typedef struct cs_boundary_chain {
+  double y0, y1; /* top and bottom, y0 < y1 */
+  double x0;     /* at the top */
+  uint32_t piece, piece_count;
+  uint32_t leaf;     /* whose outline this is: an index of the caller's */
+  int32_t direction; /* +1: the contour runs downwards here, -1: upwards */
+} cs_boundary_chain;
+
+typedef struct cs_boundary_set {
+  cs_hpoint *points;
+  cs_boundary_piece *pieces;
+  cs_boundary_chain *chains;
+  size_t point_count, point_capacity;
+  size_t piece_count, piece_capacity;
+  size_t chain_count, chain_capacity;
+} cs_boundary_set;
+
+typedef struct cs_boundary_frame {
+  double left, right, top, bottom; /* pixels */
+} cs_boundary_frame;
+
+void cs_boundary_init(cs_boundary_set *set);
+void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
+
+/* Appends the chains of an outline under a matrix (own units to pixels). A contour in part behind
+ * the horizon is cut there. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
+                                               const cs_outline *outline,
+                                               const celspan_matrix *matrix,
+                                               const cs_boundary_frame *frame, uint32_t leaf);
+
+/* Orders the chains by y0, then x0, then leaf and place of origin: the order in which a sweep meets
+ * them, free of memory addresses. Call once, when all is added. */
+void cs_boundary_sort(cs_boundary_set *set);
+
+/* Where a walk down one chain stands: on the segment from (x0, y0) to (x1, y1). */
+typedef struct cs_boundary_walk {
+  double x0, y0, x1, y1;
+  double slope; /* dx/dy, always taken downwards; 0 when y1 <= y0 */
+  uint32_t chain;
+  uint32_t piece;   /* index into pieces */
+  uint32_t segment; /* of that piece */
+} cs_boundary_walk;
+
+/* Stands at the first segment whose y1 is below y (greater): needs y < chain's y1. */
+void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
+                       cs_boundary_walk *walk);
+/* On to the next segment; false, and the walk unchanged, at the end of the chain. */
+bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk);
+
+/* x at a height on the walk's segment. */
+static inline double cs_boundary_x(const cs_boundary_walk *walk, double y) {
+  return walk->x0 + (y - walk->y0) * walk->slope;
+}
+
+#endif

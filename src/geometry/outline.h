@@ -1,0 +1,63 @@
+/* Outlines: closed contours of rational Bezier pieces, the one form of every primitive.
+ *
+ * Invariants: points are homogeneous (w*x, w*y, w) with w > 0; piece i has degrees[i] + 1 points
+ * from starts[i] on; consecutive pieces of a contour share their joint (the last point of one is
+ * the first of the next: starts[i + 1] == starts[i] + degrees[i] inside a contour), and the last
+ * point of a contour equals its first bitwise. contours[c] is the first piece of contour c.
+ */
+#ifndef CS_GEOMETRY_OUTLINE_H
+#define CS_GEOMETRY_OUTLINE_H
+
+#include "base/context.h"
+
+typedef struct cs_hpoint {
+  double x, y, w;
+} cs_hpoint;
+
+typedef struct cs_outline {
+  cs_hpoint *points;
+  uint32_t *starts;
+  uint8_t *degrees;
+  uint32_t *contours;
+  size_t point_count, point_capacity;
+  size_t piece_count, start_capacity, degree_capacity;
+  size_t contour_count, contour_capacity;
+} cs_outline;
+
+/* An empty outline; finish frees what it holds. */
+void cs_outline_init(cs_outline *outline);
+void cs_outline_finish(cs_outline *outline, cs_memory *memory);
+
+/* Building: move begins a contour, the others append a piece from the current point, close ends the
+ * contour with a line when it is open. A contour of no piece vanishes.
+ * Errors: NO_MEMORY; LIMIT past 2^31 points. */
+CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outline *outline,
+                                               cs_hpoint to);
+CELSPAN_CHECKED celspan_status cs_outline_line(celspan_context *context, cs_outline *outline,
+                                               cs_hpoint to);
+/* points: degree homogeneous points after the current one. */
+CELSPAN_CHECKED celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline,
+                                                int degree, const cs_hpoint *points);
+CELSPAN_CHECKED celspan_status cs_outline_close(celspan_context *context, cs_outline *outline);
+
+/* The whole outlines of the primitives. Arguments have been checked at the door. */
+CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline,
+                                               double x, double y, double width, double height,
+                                               double radius);
+CELSPAN_CHECKED celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,
+                                                  celspan_point centre, double radius_x,
+                                                  double radius_y);
+CELSPAN_CHECKED celspan_status cs_outline_polygon(celspan_context *context, cs_outline *outline,
+                                                  const celspan_point *points, size_t count);
+/* Errors: BAD_ARGUMENT for knots, weights, degree and counts (it checks them, naming the knot). */
+CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_outline *outline,
+                                                const celspan_nurbs_desc *desc);
+/* Errors: BAD_ARGUMENT naming the offset and what was expected. */
+CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
+                                               const char *data);
+
+/* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
+ * front of it. */
+bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);
+
+#endif

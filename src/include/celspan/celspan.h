@@ -1,0 +1,618 @@
+/* celspan - a compositing engine for cel animation: scenes in, rows of colour spans out.
+ *
+ * The whole public C interface. A program builds a scene from immutable values (textures, objects,
+ * cels, a rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into
+ * pixels, into a file, or row by row. There is no frame buffer: work and memory follow the number
+ * of colour spans, so a frame may be a million pixels a side.
+ *
+ * Conventions
+ *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
+ *   Order        later is nearer the camera, in every list.
+ *   Colour       linear light, float. What comes out is premultiplied RGBA.
+ *   Angles       radians, clockwise on screen.
+ *   Matrices     row-major 3x3, column vectors: x' = (a x + b y + c)/(g x + h y + i).
+ *   Intervals    [x0, x1) is half-open everywhere.
+ *
+ * Ownership, in four words
+ *   borrowed  the callee uses it during the call and forgets it
+ *   copied    the callee takes a copy of the bytes
+ *   kept      the callee takes a reference of its own
+ *   new       the caller must release it
+ *
+ * Errors: every call that can fail returns a celspan_status; outputs are untouched unless it is
+ * CELSPAN_OK. The sentence for people stands in celspan_context_error(). The library never exits,
+ * prints, or keeps globals; after any error the context can be used again.
+ *
+ * Threads: a context belongs to one thread at a time. Scene values are immutable and counted
+ * atomically: they may be shared by all threads ("shared read").
+ */
+#ifndef CELSPAN_H
+#define CELSPAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(CELSPAN_BUILD) || !defined(_WIN32)
+#define CELSPAN_API __attribute__((visibility("default")))
+#else
+#define CELSPAN_API
+#endif
+#define CELSPAN_CHECKED __attribute__((warn_unused_result))
+
+#define CELSPAN_VERSION_MAJOR 0
+#define CELSPAN_VERSION_MINOR 1
+#define CELSPAN_VERSION_PATCH 0
+
+/* The version of the library that is linked, "0.1.0". Any thread. */
+CELSPAN_API const char *celspan_version(void);
+
+/* ---------------------------------------------------------------- status and context */
+
+typedef enum celspan_status {
+  CELSPAN_OK = 0,
+  CELSPAN_NO_MEMORY,    /* an allocation failed */
+  CELSPAN_BAD_ARGUMENT, /* a number, a name or a combination that is refused */
+  CELSPAN_LIMIT,        /* a stated limit would be passed */
+  CELSPAN_INPUT,        /* a picture is missing, unreadable, corrupt or changed */
+  CELSPAN_OUTPUT,       /* a file cannot be written */
+  CELSPAN_CALLBACK,     /* a function of the caller's reported failure */
+  CELSPAN_CANCELLED,    /* the progress function asked to stop */
+  CELSPAN_INTERNAL      /* celspan broke a rule of its own: please report it */
+} celspan_status;
+
+/* "no memory", "bad argument", ... Any thread. */
+CELSPAN_API const char *celspan_status_name(celspan_status status);
+
+typedef struct celspan_context celspan_context;
+
+/* One hook for all memory, as in Lua: block == NULL allocates, new_size == 0 frees and returns
+ * NULL, else resizes. Must be safe to call from several threads. */
+typedef void *(*celspan_resize)(void *user, void *block, size_t old_size, size_t new_size);
+
+typedef struct celspan_context_desc {
+  size_t struct_size;    /* sizeof(celspan_context_desc) */
+  celspan_resize resize; /* NULL: the C library's */
+  void *resize_user;
+  size_t picture_bytes; /* decoded picture tiles kept in memory; 0: 512 MiB */
+} celspan_context_desc;
+
+/* desc  borrowed, NULL for the defaults      out  new
+ * Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_context_create(const celspan_context_desc *desc,
+                                                                  celspan_context **out);
+/* Scene values may outlive their context. NULL is ignored. */
+CELSPAN_API void celspan_context_destroy(celspan_context *context);
+/* The sentence of the last failure in this context, "" before any. Valid until the next call. */
+CELSPAN_API const char *celspan_context_error(const celspan_context *context);
+/* Records a sentence and returns `status`: for sinks and callbacks that fail. */
+CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspan_status status,
+                                                const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Bytes held now, the most ever held, and allocations made so far. */
+CELSPAN_API void celspan_context_memory(const celspan_context *context, size_t *bytes,
+                                        size_t *peak_bytes, uint64_t *allocations);
+
+/* ---------------------------------------------------------------- plain values */
+
+typedef struct celspan_point {
+  double x, y;
+} celspan_point;
+
+typedef struct celspan_box { /* x, y: the least corner; width, height >= 0 */
+  double x, y, width, height;
+} celspan_box;
+
+typedef struct celspan_matrix {
+  double m[9];
+} celspan_matrix;
+
+CELSPAN_API celspan_matrix celspan_matrix_identity(void);
+CELSPAN_API celspan_matrix celspan_matrix_translation(double dx, double dy);
+CELSPAN_API celspan_matrix celspan_matrix_scaling(double sx, double sy);
+CELSPAN_API celspan_matrix celspan_matrix_rotation(double radians, celspan_point centre);
+CELSPAN_API celspan_matrix celspan_matrix_skewing(double radians_x, double radians_y);
+/* first, then second. */
+CELSPAN_API celspan_matrix celspan_matrix_then(celspan_matrix first, celspan_matrix second);
+/* false, and *out untouched, when singular. */
+CELSPAN_API bool celspan_matrix_inverse(celspan_matrix matrix, celspan_matrix *out);
+/* The perspective that takes four points to four others; false when there is none. */
+CELSPAN_API bool celspan_matrix_quad(const celspan_point from[4], const celspan_point to[4],
+                                     celspan_matrix *out);
+
+/* A paint of the Beta colour model: straight values in 0..1. Light F from the front and I from
+ * behind leave it as beta*pigment*F + (1-beta)*medium*I. */
+typedef struct celspan_paint {
+  float pigment[3];
+  float medium[3];
+  float beta;
+} celspan_paint;
+
+CELSPAN_API celspan_paint celspan_paint_rgb(float r, float g, float b, float alpha);
+CELSPAN_API celspan_paint celspan_paint_gel(float r, float g, float b);
+CELSPAN_API celspan_paint celspan_paint_clear(void);
+/* (1-u) p + u q, premultiplied. */
+CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u);
+/* "#rgb", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not one. */
+CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
+
+/* r, g, b >= 0 without upper limit; a in 0..1 is the matte of a back light (unused in front). */
+typedef struct celspan_light {
+  float r, g, b, a;
+} celspan_light;
+
+/* ---------------------------------------------------------------- textures
+ * In the units of the primitive they are given to; they move with it. A texture is kept by the
+ * objects made with it. All _create functions: Errors NO_MEMORY, BAD_ARGUMENT; out is new. */
+
+typedef struct celspan_texture celspan_texture;
+
+typedef struct celspan_stop {
+  double at; /* 0..1, ascending */
+  celspan_paint paint;
+} celspan_stop;
+
+typedef enum celspan_sampling {
+  CELSPAN_SAMPLING_AUTO = 0, /* identity at scale 1, bilinear enlarged, average when shrunk */
+  CELSPAN_SAMPLING_NEAREST,
+  CELSPAN_SAMPLING_BILINEAR,
+  CELSPAN_SAMPLING_BICUBIC
+} celspan_sampling;
+
+typedef enum celspan_wrap {
+  CELSPAN_WRAP_CLEAR = 0,
+  CELSPAN_WRAP_CLAMP,
+  CELSPAN_WRAP_REPEAT
+} celspan_wrap;
+
+typedef enum celspan_picture_use {
+  CELSPAN_PICTURE_PAINT = 0, /* pigment = rgb, beta = alpha, medium clear */
+  CELSPAN_PICTURE_GEL        /* medium = rgb, beta 0; alpha mixes it with clear */
+} celspan_picture_use;
+
+typedef struct celspan_picture_desc {
+  const char *file;   /* copied */
+  const char *colour; /* NULL: by the file; "srgb" "linear" "rec709" "cineon"; copied */
+  const char *layer;  /* NULL, or the name of a subimage; copied */
+  int subimage;       /* from 0, when layer is NULL */
+  celspan_sampling sampling;
+  celspan_picture_use use;
+  celspan_wrap wrap;
+  bool has_box; /* false: the primitive's own tight bounding rectangle */
+  celspan_box box;
+} celspan_picture_desc;
+
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,
+                                                                        const celspan_paint *paint,
+                                                                        celspan_texture **out);
+/* The paper's triangle: linear in premultiplied values, extrapolated outside. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_create_gradient(celspan_context *context, const celspan_point points[3],
+                                const celspan_paint paints[3], celspan_texture **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_create_linear(celspan_context *context, celspan_point from, celspan_point to,
+                              const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_radial(
+    celspan_context *context, celspan_point centre, double radius, const celspan_stop *stops,
+    size_t stop_count, celspan_texture **out);
+/* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_create_picture(celspan_context *context, const celspan_picture_desc *desc,
+                               celspan_texture **out);
+CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
+CELSPAN_API void celspan_texture_unref(celspan_texture *texture);
+
+typedef struct celspan_picture_info {
+  int32_t width, height; /* the display window, in pixels, after the orientation tag */
+  int channels;
+  bool has_alpha;
+  bool is_float;
+  char format[16]; /* "png", "openexr", ... */
+  char colour[16]; /* how it would be read by default: "srgb", "linear", "cineon" */
+} celspan_picture_info;
+
+/* Reads a picture's header. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_picture_inspect(celspan_context *context,
+                                                                   const celspan_picture_desc *desc,
+                                                                   celspan_picture_info *out);
+
+/* ---------------------------------------------------------------- objects
+ * Primitives and boolean trees of them: one type. texture NULL is opaque black; textures and
+ * operands are kept. A shape of no size, an empty boolean or a singular transform is legal and
+ * draws nothing. NaN, infinity, |number| > 1e12, negative sizes and bad knots are refused. */
+
+typedef struct celspan_object celspan_object;
+
+typedef enum celspan_rule { CELSPAN_RULE_NONZERO = 0, CELSPAN_RULE_EVENODD } celspan_rule;
+
+typedef struct celspan_rect_desc {
+  double x, y, width, height;
+  double radius; /* of the corners; held to half the shorter side */
+  celspan_texture *texture;
+} celspan_rect_desc;
+
+typedef struct celspan_triangle_desc {
+  celspan_point points[3];
+  celspan_texture *texture;
+} celspan_triangle_desc;
+
+typedef struct celspan_ellipse_desc { /* a circle: radius_x == radius_y */
+  celspan_point centre;
+  double radius_x, radius_y;
+  celspan_texture *texture;
+} celspan_ellipse_desc;
+
+typedef struct celspan_polygon_desc {
+  const celspan_point *points; /* copied */
+  size_t point_count;
+  celspan_rule rule;
+  celspan_texture *texture;
+} celspan_polygon_desc;
+
+typedef enum celspan_nurbs_closure {
+  CELSPAN_NURBS_PERIODIC = 0, /* knots: point_count + 1 values of one period */
+  CELSPAN_NURBS_CLAMPED       /* knots: point_count + degree + 1 values; a line closes it */
+} celspan_nurbs_closure;
+
+typedef struct celspan_nurbs_desc {
+  const celspan_point *points; /* the points themselves, not multiplied by weight; copied */
+  const double *weights;       /* NULL: all 1; else > 0, largest/smallest <= 1e6; copied */
+  size_t point_count;          /* at least degree + 1, at most 100,000 */
+  int degree;                  /* 1..15; 0 means 3 */
+  const double *knots;         /* NULL: uniform; copied */
+  size_t knot_count;
+  celspan_nurbs_closure closure;
+  celspan_rule rule;
+  celspan_texture *texture;
+} celspan_nurbs_desc;
+
+typedef struct celspan_path_desc {
+  const char *data; /* SVG path data; open subpaths are closed; copied */
+  celspan_rule rule;
+  celspan_texture *texture;
+} celspan_path_desc;
+
+typedef enum celspan_fit {
+  CELSPAN_FIT_FILL = 0,
+  CELSPAN_FIT_CONTAIN,
+  CELSPAN_FIT_COVER
+} celspan_fit;
+
+/* A rectangle textured with a picture. width, height: 0 0 its size in pixels, one alone keeps the
+ * aspect; fit counts when both are given. Reads the picture's header when either is 0 or fit is
+ * not FILL. */
+typedef struct celspan_image_desc {
+  celspan_picture_desc picture; /* its box is not used */
+  double x, y, width, height;
+  celspan_fit fit;
+} celspan_image_desc;
+
+/* The paper's extension point: a primitive given by a procedure that returns its spans on a row. */
+typedef struct celspan_scanline_row {
+  double x0, x1; /* the part that can be seen, in the primitive's own units */
+  double pixel;  /* the width of a pixel, likewise */
+} celspan_scanline_row;
+
+typedef struct celspan_scanline_output celspan_scanline_output;
+
+/* Appends [x0, x1): sorted, disjoint, cut to the bounds by celspan. One paint is flat, two lie at
+ * x0 and x1, more are evenly spaced from x0 to x1. paints: copied. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_scanline_emit(celspan_scanline_output *output,
+                                                                 double x0, double x1,
+                                                                 const celspan_paint *paints,
+                                                                 size_t paint_count);
+
+typedef celspan_status (*celspan_scanline_spans)(void *user, celspan_context *context, double y,
+                                                 const celspan_scanline_row *row,
+                                                 celspan_scanline_output *output);
+
+typedef struct celspan_scanline_desc {
+  celspan_box bounds;
+  celspan_scanline_spans spans; /* a pure function of y */
+  void *user;
+  void (*release)(void *user); /* NULL, or called once when the object is destroyed */
+  bool any_thread; /* spans may be called by workers; false: the rendering thread alone */
+} celspan_scanline_desc;
+
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rect(
+    celspan_context *context, const celspan_rect_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_triangle(
+    celspan_context *context, const celspan_triangle_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_ellipse(
+    celspan_context *context, const celspan_ellipse_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_polygon(
+    celspan_context *context, const celspan_polygon_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_nurbs(
+    celspan_context *context, const celspan_nurbs_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_path(
+    celspan_context *context, const celspan_path_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
+    celspan_context *context, const celspan_image_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
+    celspan_context *context, const celspan_scanline_desc *desc, celspan_object **out);
+
+typedef enum celspan_operator {
+  CELSPAN_UNION = 0,    /* later over earlier */
+  CELSPAN_INTERSECTION, /* where all are; later over earlier */
+  CELSPAN_DIFFERENCE,   /* the first where no other is */
+  CELSPAN_XOR,          /* where an odd number are; the present ones, over */
+  CELSPAN_CLIP          /* two operands: the first where the second is; only the first is painted */
+} celspan_operator;
+
+/* Nesting is limited to 128 levels. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_create_boolean(celspan_context *context, celspan_operator op,
+                              celspan_object *const *operands, size_t operand_count,
+                              celspan_object **out);
+/* Applied after what is there already, about the origin. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_context *context,
+                                                                    celspan_object *object,
+                                                                    const celspan_matrix *matrix,
+                                                                    celspan_object **out);
+/* The object's composited paint mixed with clear: k in 0..1. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_fade(celspan_context *context,
+                                                               celspan_object *object, double k,
+                                                               celspan_object **out);
+CELSPAN_API celspan_object *celspan_object_ref(celspan_object *object);
+CELSPAN_API void celspan_object_unref(celspan_object *object);
+/* The smallest upright rectangle around what can be painted; false when there is nothing. For
+ * booleans: of their operands (intersections intersect). Shared read. */
+CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box *out);
+/* Whether the point is inside the shape, whatever its paint. Shared read. */
+CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_point point);
+
+/* ---------------------------------------------------------------- cels and rostrum */
+
+typedef struct celspan_cel celspan_cel;
+typedef struct celspan_rostrum celspan_rostrum;
+
+typedef enum celspan_defocus_kernel {
+  CELSPAN_DEFOCUS_GAUSSIAN = 0,
+  CELSPAN_DEFOCUS_BOX,
+  CELSPAN_DEFOCUS_DISC
+} celspan_defocus_kernel;
+
+typedef struct celspan_cel_desc {
+  size_t struct_size;
+  celspan_object *const *objects; /* kept; later is nearer */
+  size_t object_count;
+  bool has_front; /* false: the rostrum's, else white */
+  celspan_light front;
+  celspan_light back; /* shines through the whole frame behind this cel */
+  bool has_viewport;  /* false: the whole film */
+  celspan_box viewport;
+  double defocus_radius; /* film units on the frame; 0: sharp */
+  celspan_defocus_kernel defocus_kernel;
+  double opacity; /* 0..1 */
+} celspan_cel_desc;
+
+/* A description with every field at its default; set what differs. */
+#define CELSPAN_CEL_DESC ((celspan_cel_desc){.struct_size = sizeof(celspan_cel_desc), .opacity = 1})
+
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_create(celspan_context *context,
+                                                              const celspan_cel_desc *desc,
+                                                              celspan_cel **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_transform(celspan_context *context,
+                                                                 celspan_cel *cel,
+                                                                 const celspan_matrix *matrix,
+                                                                 celspan_cel **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_fade(celspan_context *context,
+                                                            celspan_cel *cel, double k,
+                                                            celspan_cel **out);
+CELSPAN_API celspan_cel *celspan_cel_ref(celspan_cel *cel);
+CELSPAN_API void celspan_cel_unref(celspan_cel *cel);
+CELSPAN_API bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out);
+CELSPAN_API bool celspan_cel_contains(const celspan_cel *cel, celspan_point point);
+
+typedef enum celspan_antialias_mode {
+  CELSPAN_ANTIALIAS_AREA = 0, /* the exact mean over each pixel */
+  CELSPAN_ANTIALIAS_NONE      /* pixel centres */
+} celspan_antialias_mode;
+
+typedef struct celspan_rostrum_desc {
+  size_t struct_size;
+  celspan_cel *const *cels; /* kept; later is nearer */
+  size_t cel_count;
+  bool has_front; /* for the cels that name none; else white */
+  celspan_light front;
+  celspan_light back; /* behind the rearmost cel */
+  double brightness;  /* >= 0; multiplies the light, not alpha */
+  bool has_camera_centre, has_camera_width;
+  celspan_point camera_centre;
+  double camera_width;
+  double camera_rotation; /* radians; turns the camera, so the picture turns back */
+  celspan_antialias_mode antialias;
+} celspan_rostrum_desc;
+
+#define CELSPAN_ROSTRUM_DESC \
+  ((celspan_rostrum_desc){.struct_size = sizeof(celspan_rostrum_desc), .brightness = 1})
+
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_create(celspan_context *context,
+                                                                  const celspan_rostrum_desc *desc,
+                                                                  celspan_rostrum **out);
+CELSPAN_API celspan_rostrum *celspan_rostrum_ref(celspan_rostrum *rostrum);
+CELSPAN_API void celspan_rostrum_unref(celspan_rostrum *rostrum);
+/* 128 bits that are equal for equal scenes, in every process: a name for a frame's content. */
+CELSPAN_API void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]);
+
+/* What a rostrum holds, every level counted. */
+typedef struct celspan_rostrum_counts {
+  size_t cels, primitives, pictures;
+} celspan_rostrum_counts;
+CELSPAN_API void celspan_rostrum_count(const celspan_rostrum *rostrum, celspan_rostrum_counts *out);
+/* Reads the header of every picture, hidden or not. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_check(celspan_context *context,
+                                                                 const celspan_rostrum *rostrum);
+
+/* One point by direct evaluation of the tree: no sweep, no spans, no antialiasing, no defocus.
+ * x, y: film units. rgba: linear, premultiplied. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
+typedef struct celspan_exposure {
+  celspan_rostrum *rostrum; /* borrowed */
+  double weight;            /* >= 0 */
+} celspan_exposure;
+
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_probe(celspan_context *context,
+                                                         const celspan_exposure *exposures,
+                                                         size_t exposure_count, double film_width,
+                                                         double film_height, celspan_point point,
+                                                         double rgba[4]);
+
+/* ---------------------------------------------------------------- frames, rows and sinks */
+
+typedef enum celspan_span_kind {
+  CELSPAN_SPAN_SINGLE = 0, /* one colour */
+  CELSPAN_SPAN_GRADIENT,   /* colour + slope * (column - origin) */
+  CELSPAN_SPAN_ARRAY       /* a colour for every pixel */
+} celspan_span_kind;
+
+typedef struct celspan_span {
+  int32_t x0, x1; /* columns of the frame */
+  celspan_span_kind kind;
+  int32_t origin;     /* gradient: the column of `colour`; cutting a span leaves it alone */
+  float colour[4];    /* linear, premultiplied RGBA */
+  float slope[4];     /* gradient: a column */
+  const float *array; /* array: 4 floats a pixel, from x0 on */
+} celspan_span;
+
+/* The colour of one column of a span, x0 <= x < x1. Any thread. */
+static inline void celspan_span_colour(const celspan_span *span, int32_t x, float rgba[4]) {
+  for (int c = 0; c < 4; c++)
+    rgba[c] = span->kind == CELSPAN_SPAN_ARRAY      ? span->array[4 * (size_t)(x - span->x0) + c]
+              : span->kind == CELSPAN_SPAN_GRADIENT ? span->colour[c] + span->slope[c] * (float)(x - span->origin)
+                                                    : span->colour[c];
+}
+
+typedef struct celspan_frame_desc {
+  size_t struct_size;
+  const celspan_exposure *exposures; /* borrowed; light adds, alpha adds and is held to 1 */
+  size_t exposure_count;
+  double film_width, film_height; /* film units; 0 0: the size in pixels */
+  int32_t width, height;          /* pixels of the whole frame, 1..1,048,576 */
+  int32_t crop_x, crop_y;
+  int32_t crop_width, crop_height;         /* 0 0: the whole frame */
+  const celspan_antialias_mode *antialias; /* NULL: each rostrum's own */
+  int workers;                             /* 0: one a processor; 1: the calling thread alone */
+  int strip_rows;                          /* rows handed to a worker at a time; 0: chosen */
+  /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
+  bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
+  void *progress_user;
+} celspan_frame_desc;
+
+#define CELSPAN_FRAME_DESC ((celspan_frame_desc){.struct_size = sizeof(celspan_frame_desc)})
+
+typedef struct celspan_statistics {
+  uint64_t rows, spans, single, gradient, array;
+  uint64_t pixels_in_arrays;
+  uint64_t colour_evaluations; /* times a colour was composed from layers */
+  uint64_t allocations;        /* from the built scene to the last row */
+  uint64_t peak_bytes;         /* above what was held before the frame began */
+} celspan_statistics;
+
+/* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,
+ * disjoint, without gap from column 0 to width-1 of the crop. `end` is called once after a
+ * successful `begin`, with the outcome so far; what it returns counts. begin and end may be NULL. */
+typedef struct celspan_sink {
+  void *user;
+  celspan_status (*begin)(void *user, celspan_context *context, int32_t width, int32_t height);
+  celspan_status (*row)(void *user, celspan_context *context, int32_t y, const celspan_span *spans,
+                        size_t span_count);
+  celspan_status (*end)(void *user, celspan_context *context, celspan_status outcome);
+} celspan_sink;
+
+/* Renders a frame into a sink. statistics may be NULL.
+ * Errors: any; BAD_ARGUMENT for a singular viewport or camera. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_render(celspan_context *context,
+                                                                const celspan_frame_desc *desc,
+                                                                const celspan_sink *sink,
+                                                                celspan_statistics *statistics);
+
+/* Rows on demand, in any order (ascending order is cheapest): for hosts with a loop of their own.
+ * The desc's workers are not used. One thread at a time. */
+typedef struct celspan_rows celspan_rows;
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rows_create(celspan_context *context,
+                                                               const celspan_frame_desc *desc,
+                                                               celspan_rows **out);
+/* y: row of the crop, from 0. *spans stays valid until the next call on `rows`. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rows_get(celspan_rows *rows, int32_t y,
+                                                            const celspan_span **spans,
+                                                            size_t *span_count);
+CELSPAN_API void celspan_rows_destroy(celspan_rows *rows);
+
+/* ---------------------------------------------------------------- pixels and files */
+
+typedef enum celspan_depth {
+  CELSPAN_DEPTH_DEFAULT = 0, /* by the file format; for pixels and raw frames: 8 */
+  CELSPAN_DEPTH_8,
+  CELSPAN_DEPTH_16,
+  CELSPAN_DEPTH_HALF,
+  CELSPAN_DEPTH_FLOAT
+} celspan_depth;
+
+typedef enum celspan_transfer {
+  CELSPAN_TRANSFER_DEFAULT = 0, /* integers sRGB, floats linear, DPX Cineon */
+  CELSPAN_TRANSFER_LINEAR,
+  CELSPAN_TRANSFER_SRGB,
+  CELSPAN_TRANSFER_REC709,
+  CELSPAN_TRANSFER_CINEON
+} celspan_transfer;
+
+typedef enum celspan_alpha {
+  CELSPAN_ALPHA_DEFAULT = 0, /* integers straight, floats premultiplied */
+  CELSPAN_ALPHA_STRAIGHT,
+  CELSPAN_ALPHA_PREMULTIPLIED
+} celspan_alpha;
+
+/* How colours are coded. Straight: un-premultiplied in linear light, then coded, then rounded to
+ * nearest. */
+typedef struct celspan_coding {
+  celspan_depth depth;
+  celspan_transfer transfer;
+  celspan_alpha alpha;
+} celspan_coding;
+
+/* Bytes of one RGBA pixel: 4, 8, 8 or 16. */
+CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
+
+/* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context *context,
+                                                                const celspan_frame_desc *desc,
+                                                                const celspan_coding *coding,
+                                                                void *pixels, size_t stride,
+                                                                celspan_statistics *statistics);
+
+typedef struct celspan_file_desc {
+  size_t struct_size;
+  const char *format; /* NULL: by the ending of the path; "png", "exr", "tiff", "tga", "dpx", ... */
+  celspan_coding coding;
+  const char *title;    /* metadata; NULL: none */
+  double frames_second; /* metadata; 0: none */
+  int32_t frame;        /* metadata: the frame's number */
+} celspan_file_desc;
+
+#define CELSPAN_FILE_DESC ((celspan_file_desc){.struct_size = sizeof(celspan_file_desc)})
+
+/* Renders into a file. The file appears under its name whole or not at all; one that is there is
+ * replaced; missing folders are made. Errors: any; OUTPUT, LIMIT for sizes the format lacks. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *context,
+                                                               const celspan_frame_desc *desc,
+                                                               const char *path,
+                                                               const celspan_file_desc *file,
+                                                               celspan_statistics *statistics);
+
+/* A digest of a frame's pixels in a coding: 128 bits, for comparing runs and machines. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context *context,
+                                                                const celspan_frame_desc *desc,
+                                                                const celspan_coding *coding,
+                                                                uint64_t digest[2]);
+
+/* ---------------------------------------------------------------- Lua
+ * luaopen_celspan and luaopen_celspan_core are declared in celspan/lua.h. */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

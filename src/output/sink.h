@@ -1,0 +1,32 @@
+/* The sinks: where finished rows go. Each _create makes a sink that render/ feeds and `end`
+ * destroys (a sink whose begin was never called is freed by cs_sink_discard).
+ *
+ * Files are written under a temporary name beside the final one, checked, synced and renamed: a
+ * frame appears whole or not at all (output/file.h).
+ */
+#ifndef CS_OUTPUT_SINK_H
+#define CS_OUTPUT_SINK_H
+
+#include "base/context.h"
+
+/* PNG, 8 or 16 bit, straight from spans. coding: resolved, integer. */
+CELSPAN_CHECKED celspan_status cs_sink_png(celspan_context *context, const char *path,
+                                           const celspan_file_desc *file, celspan_sink *out);
+/* Any other format through the picture module; checks the format's limits first. */
+CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const char *path,
+                                               const celspan_file_desc *file, celspan_sink *out);
+/* RGBA pixels into the caller's memory. */
+CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
+                                              const celspan_coding *coding, void *pixels,
+                                              size_t stride, celspan_sink *out);
+/* 128 bits over all coded pixels, written to digest by `end`. */
+CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
+                                              const celspan_coding *coding, uint64_t digest[2],
+                                              celspan_sink *out);
+/* By format or the path's ending: PNG, or the picture module. */
+CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
+                                            const celspan_file_desc *file, celspan_sink *out);
+/* Frees a sink that was never begun. */
+void cs_sink_discard(celspan_context *context, celspan_sink *sink);
+
+#endif

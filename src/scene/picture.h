@@ -1,0 +1,43 @@
+/* Pictures: a file named by a texture, read when it is first seen.
+ *
+ * A cs_picture is an immutable value like the rest of the scene: the name and how to read it. What
+ * was read of it lives in the context's store, keyed by the picture's hash, shared by all workers
+ * under a memory budget. Reading goes through the picture module (OpenImageIO), a shared object
+ * loaded on first use, whose face is the table cs_picture_module below: everything C++ stays behind
+ * it, and nothing of it is touched by a film without pictures.
+ */
+#ifndef CS_SCENE_PICTURE_H
+#define CS_SCENE_PICTURE_H
+
+#include "base/context.h"
+#include "base/hash.h"
+
+typedef struct cs_picture cs_picture;
+
+/* desc's box, sampling, use and wrap are not part of a picture. Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_picture_create(celspan_context *context,
+                                                 const celspan_picture_desc *desc,
+                                                 cs_picture **out);
+cs_picture *cs_picture_ref(cs_picture *picture);
+void cs_picture_unref(cs_picture *picture);
+cs_hash cs_picture_hash(const cs_picture *picture);
+
+/* The header, read once a context. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_picture_info(celspan_context *context, const cs_picture *picture,
+                                               celspan_picture_info *out);
+
+/* One texel block: premultiplied linear RGBA floats, row-major, `size` x `size` texels at mip
+ * `level` (texel = 2^level picture pixels, the mean in linear light), block (column, row). Texels
+ * beyond the picture are clear. Pinned until released. Errors: INPUT, LIMIT, NO_MEMORY. */
+#define CS_PICTURE_BLOCK 64
+
+typedef struct cs_picture_block cs_picture_block;
+CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,
+                                                  const cs_picture *picture, int level,
+                                                  int32_t column, int32_t row,
+                                                  cs_picture_block **out);
+const float *cs_picture_texels(const cs_picture_block *block);
+bool cs_picture_block_is_opaque(const cs_picture_block *block);
+void cs_picture_release(celspan_context *context, cs_picture_block *block);
+
+#endif

@@ -1,0 +1,124 @@
+/* The scene: textures, objects, cels, rostrum. Immutable once made, counted atomically, each with a
+ * 128-bit structural hash made at construction.
+ *
+ *   rostrum -> cels -> objects (boolean trees) -> primitives -> texture
+ *
+ * Only scene/ writes these; the compiler of frames (render/compile.c) and the oracle
+ * (scene/probe.c) read them. Invariant: every number passed the door (finite, in range), every
+ * child pointer is set, nesting is at most CS_SCENE_DEPTH.
+ */
+#ifndef CS_SCENE_SCENE_H
+#define CS_SCENE_SCENE_H
+
+#include "base/hash.h"
+#include "colour/paint.h"
+#include "geometry/outline.h"
+#include "scene/picture.h"
+
+#define CS_SCENE_DEPTH 128
+
+typedef enum cs_texture_kind {
+  CS_TEXTURE_FLAT,
+  CS_TEXTURE_TRIANGLE,
+  CS_TEXTURE_LINEAR,
+  CS_TEXTURE_RADIAL,
+  CS_TEXTURE_PICTURE
+} cs_texture_kind;
+
+typedef struct cs_stop {
+  double at;
+  cs_paint paint;
+} cs_stop;
+
+struct celspan_texture {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_texture_kind kind;
+  cs_paint flat;             /* FLAT */
+  celspan_point points[3];   /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
+  double radius;             /* RADIAL */
+  cs_paint corners[3];       /* TRIANGLE */
+  cs_stop *stops;            /* LINEAR, RADIAL */
+  size_t stop_count;
+  cs_picture *picture;       /* PICTURE */
+  celspan_sampling sampling;
+  celspan_picture_use use;
+  celspan_wrap wrap;
+  bool has_box;
+  celspan_box box; /* where has_box; else the primitive's tight bounds */
+};
+
+typedef enum cs_body_kind { CS_BODY_OUTLINE, CS_BODY_SCANLINE, CS_BODY_BOOLEAN } cs_body_kind;
+
+/* What an object is before its transform and fade: shared by all its transformed copies. */
+typedef struct cs_body {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_body_kind kind;
+  cs_outline outline; /* OUTLINE */
+  celspan_rule rule;
+  celspan_texture *texture; /* OUTLINE; never NULL */
+  celspan_box bounds;       /* OUTLINE, SCANLINE: tight, own units */
+  bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
+  celspan_scanline_desc scanline; /* SCANLINE */
+  celspan_operator op;            /* BOOLEAN */
+  celspan_object **operands;
+  size_t operand_count;
+  int depth; /* levels of booleans below and with this one; 0 for primitives */
+} cs_body;
+
+struct celspan_object {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_body *body;
+  celspan_matrix matrix; /* own units to the parent's */
+  double fade;           /* 0..1 */
+};
+
+struct celspan_cel {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  celspan_object **objects;
+  size_t object_count;
+  celspan_matrix matrix; /* the cel's own transform, before the viewport */
+  bool has_front, has_viewport;
+  celspan_light front, back;
+  celspan_box viewport;
+  double defocus_radius;
+  celspan_defocus_kernel defocus_kernel;
+  double opacity;
+};
+
+struct celspan_rostrum {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  celspan_cel **cels;
+  size_t cel_count;
+  bool has_front;
+  celspan_light front, back;
+  double brightness;
+  bool has_camera_centre, has_camera_width;
+  celspan_point camera_centre;
+  double camera_width;
+  double camera_rotation;
+  celspan_antialias_mode antialias;
+};
+
+/* The matrix from a cel's units (before its own transform) to film units on the frame: transform,
+ * then viewport, then camera. Errors: BAD_ARGUMENT, naming the cel, when viewport or camera is
+ * singular. cel_index is only for the message. */
+CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
+                                                   const celspan_rostrum *rostrum,
+                                                   size_t cel_index, double film_width,
+                                                   double film_height, celspan_matrix *out);
+/* The front light of a cel: its own, the rostrum's, or white; brightness included. */
+celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
+/* A back light times the rostrum's brightness; its matte as it is. */
+celspan_light cs_scene_back(const celspan_rostrum *rostrum, celspan_light back);
+
+#endif
