@@ -22,13 +22,16 @@
 
 #define CS_BOUNDARY_TOLERANCE 0.02
 
-/* One monotone rational Bezier piece, normalised to run downwards: y0 <= y1. */
+/* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
-  double overhang; /* no vertex is displaced by more than this in y */
-  uint32_t point;  /* its degree + 1 homogeneous points */
+  double left, right; /* no vertex lies outside them */
+  double overhang;    /* no vertex is displaced by more than this in y */
+  double step;        /* 1 / segments: of the parameter from vertex to vertex */
+  uint32_t point;     /* its degree + 1 points; none where there is but one segment */
   uint32_t segments;
   uint8_t degree;
+  bool is_power; /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
 
 typedef struct cs_boundary_chain {

@@ -10,5 +10,7 @@ bool cs_matrix_is_sane(const celspan_matrix *matrix); /* every entry passes cs_n
 bool cs_matrix_is_affine(const celspan_matrix *matrix);
 /* Affine without rotation or skew: rows stay rows and columns columns. */
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
+/* The same map with all signs turned where that brings an affine one before the horizon. */
+celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
 
 #endif

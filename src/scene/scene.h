@@ -5,7 +5,8 @@
  *
  * Only scene/ writes these; the compiler of frames (render/compile.c) and the oracle
  * (scene/probe.c) read them. Invariant: every number passed the door (finite, in range), every
- * child pointer is set, nesting is at most CS_SCENE_DEPTH.
+ * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object holds at most
+ * CS_SCENE_PRIMITIVES primitives, shared operands counted as often as they are reached.
  */
 #ifndef CS_SCENE_SCENE_H
 #define CS_SCENE_SCENE_H
@@ -16,6 +17,7 @@
 #include "scene/picture.h"
 
 #define CS_SCENE_DEPTH 128
+#define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
 
 typedef enum cs_texture_kind {
   CS_TEXTURE_FLAT,
@@ -67,6 +69,7 @@ typedef struct cs_body {
   celspan_object **operands;
   size_t operand_count;
   int depth; /* levels of booleans below and with this one; 0 for primitives */
+  size_t primitive_count; /* below and with this one, each as often as it is reached */
 } cs_body;
 
 struct celspan_object {

@@ -20,8 +20,9 @@
  *   new       the caller must release it
  *
  * Errors: every call that can fail returns a celspan_status; outputs are untouched unless it is
- * CELSPAN_OK. The sentence for people stands in celspan_context_error(). The library never exits,
- * prints, or keeps globals; after any error the context can be used again.
+ * CELSPAN_OK. The sentence for people stands in celspan_context_error(); it names fields as scripts
+ * do and counts lists from 1. The library never exits, prints, or keeps globals; after any error
+ * the context can be used again.
  *
  * Threads: a context belongs to one thread at a time. Scene values are immutable and counted
  * atomically: they may be shared by all threads ("shared read").
@@ -132,10 +133,14 @@ typedef struct celspan_paint {
   float beta;
 } celspan_paint;
 
+/* Paints are plain values, checked where a texture is made of them. Any thread.
+ * Pigment r, g, b, beta alpha, medium clear. */
 CELSPAN_API celspan_paint celspan_paint_rgb(float r, float g, float b, float alpha);
+/* A pure filter: beta 0, medium r, g, b. */
 CELSPAN_API celspan_paint celspan_paint_gel(float r, float g, float b);
+/* Nothing at all: beta 0, medium 1. */
 CELSPAN_API celspan_paint celspan_paint_clear(void);
-/* (1-u) p + u q, premultiplied. */
+/* (1-u) p + u q, premultiplied; u is held to 0..1. */
 CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u);
 /* "#rgb", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not one. */
 CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
@@ -147,7 +152,8 @@ typedef struct celspan_light {
 
 /* ---------------------------------------------------------------- textures
  * In the units of the primitive they are given to; they move with it. A texture is kept by the
- * objects made with it. All _create functions: Errors NO_MEMORY, BAD_ARGUMENT; out is new. */
+ * objects made with it. All _create functions: arrays are copied; Errors NO_MEMORY, BAD_ARGUMENT
+ * for numbers that are not finite or beyond 1e12 and paints outside 0..1; out is new. */
 
 typedef struct celspan_texture celspan_texture;
 
@@ -189,20 +195,26 @@ typedef struct celspan_picture_desc {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,
                                                                         const celspan_paint *paint,
                                                                         celspan_texture **out);
-/* The paper's triangle: linear in premultiplied values, extrapolated outside. */
+/* The paper's triangle: linear in premultiplied values, extrapolated outside: beta held to 0..1,
+ * then S to 0..beta and T to 0..1-beta. A triangle without area has the last paint everywhere. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_gradient(celspan_context *context, const celspan_point points[3],
                                 const celspan_paint paints[3], celspan_texture **out);
+/* Stops along a line or out from a centre, from 0 (`from`, `centre`) to 1 (`to`, `radius`): one or
+ * more, ascending in 0..1, linear between them in premultiplied values, held before the first and
+ * after the last. Where two are at one place the colour jumps. Without a length, or a radius, the
+ * last stop is everywhere. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_linear(celspan_context *context, celspan_point from, celspan_point to,
                               const celspan_stop *stops, size_t stop_count, celspan_texture **out);
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_radial(
-    celspan_context *context, celspan_point centre, double radius, const celspan_stop *stops,
-    size_t stop_count, celspan_texture **out);
-/* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. */
 CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_texture_create_picture(celspan_context *context, const celspan_picture_desc *desc,
-                               celspan_texture **out);
+celspan_texture_create_radial(celspan_context *context, celspan_point centre, double radius,
+                              const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+/* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. A box
+ * of no size draws nothing. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
+    celspan_context *context, const celspan_picture_desc *desc, celspan_texture **out);
+/* _ref gives the value back, counted once more; _unref ignores NULL. Here and below: any thread. */
 CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
 CELSPAN_API void celspan_texture_unref(celspan_texture *texture);
 
@@ -223,7 +235,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_picture_inspect(celspan_conte
 /* ---------------------------------------------------------------- objects
  * Primitives and boolean trees of them: one type. texture NULL is opaque black; textures and
  * operands are kept. A shape of no size, an empty boolean or a singular transform is legal and
- * draws nothing. NaN, infinity, |number| > 1e12, negative sizes and bad knots are refused. */
+ * draws nothing. NaN, infinity, |number| > 1e12, negative sizes and bad knots are refused.
+ * All _create functions: desc is borrowed; Errors NO_MEMORY, BAD_ARGUMENT; out is new. */
 
 typedef struct celspan_object celspan_object;
 
@@ -283,8 +296,10 @@ typedef enum celspan_fit {
 } celspan_fit;
 
 /* A rectangle textured with a picture. width, height: 0 0 its size in pixels, one alone keeps the
- * aspect; fit counts when both are given. Reads the picture's header when either is 0 or fit is
- * not FILL. */
+ * aspect; fit counts when both are given: CONTAIN keeps the aspect and shows all of it (the
+ * rectangle is then the picture's own, unless it wraps), COVER keeps it and leaves no part of the
+ * rectangle bare. Reads the picture's header when either is 0 or fit is not FILL: then Errors
+ * INPUT, LIMIT. */
 typedef struct celspan_image_desc {
   celspan_picture_desc picture; /* its box is not used */
   double x, y, width, height;
@@ -318,8 +333,9 @@ typedef struct celspan_scanline_desc {
   bool any_thread; /* spans may be called by workers; false: the rendering thread alone */
 } celspan_scanline_desc;
 
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rect(
-    celspan_context *context, const celspan_rect_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rect(celspan_context *context,
+                                                                      const celspan_rect_desc *desc,
+                                                                      celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_triangle(
     celspan_context *context, const celspan_triangle_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_ellipse(
@@ -328,8 +344,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_polygon(
     celspan_context *context, const celspan_polygon_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_nurbs(
     celspan_context *context, const celspan_nurbs_desc *desc, celspan_object **out);
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_path(
-    celspan_context *context, const celspan_path_desc *desc, celspan_object **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_path(celspan_context *context,
+                                                                      const celspan_path_desc *desc,
+                                                                      celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
     celspan_context *context, const celspan_image_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
@@ -343,17 +360,21 @@ typedef enum celspan_operator {
   CELSPAN_CLIP          /* two operands: the first where the second is; only the first is painted */
 } celspan_operator;
 
-/* Nesting is limited to 128 levels. */
-CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_object_create_boolean(celspan_context *context, celspan_operator op,
-                              celspan_object *const *operands, size_t operand_count,
-                              celspan_object **out);
-/* Applied after what is there already, about the origin. */
+/* operands: kept, the list copied; none is legal (but for CLIP) and draws nothing. Nesting is
+ * limited to 128 levels, and an object to 16,777,216 primitives, shared ones counted wherever they
+ * are used. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_boolean(
+    celspan_context *context, celspan_operator op, celspan_object *const *operands,
+    size_t operand_count, celspan_object **out);
+/* Applied after what is there already, about the origin. The object is kept in part, never changed.
+ * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of it with what is there, is not
+ * finite or beyond 1e12. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_context *context,
                                                                     celspan_object *object,
                                                                     const celspan_matrix *matrix,
                                                                     celspan_object **out);
-/* The object's composited paint mixed with clear: k in 0..1. */
+/* The object's composited paint mixed with clear: k in 0..1; fades multiply. It keeps its shape: a
+ * faded operand still cuts. Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_fade(celspan_context *context,
                                                                celspan_object *object, double k,
                                                                celspan_object **out);
@@ -362,7 +383,8 @@ CELSPAN_API void celspan_object_unref(celspan_object *object);
 /* The smallest upright rectangle around what can be painted; false when there is nothing. For
  * booleans: of their operands (intersections intersect). Shared read. */
 CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box *out);
-/* Whether the point is inside the shape, whatever its paint. Shared read. */
+/* Whether the point is inside the shape, whatever its paint: left and top edges are in, right and
+ * bottom ones out. A scan-line procedure is not asked; its shape is its bounds. Shared read. */
 CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_point point);
 
 /* ---------------------------------------------------------------- cels and rostrum */
@@ -393,9 +415,12 @@ typedef struct celspan_cel_desc {
 /* A description with every field at its default; set what differs. */
 #define CELSPAN_CEL_DESC ((celspan_cel_desc){.struct_size = sizeof(celspan_cel_desc), .opacity = 1})
 
+/* desc: borrowed, but for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a matte
+ * or opacity outside 0..1, a viewport without size. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_create(celspan_context *context,
                                                               const celspan_cel_desc *desc,
                                                               celspan_cel **out);
+/* As for objects; the transform comes before the viewport. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_transform(celspan_context *context,
                                                                  celspan_cel *cel,
                                                                  const celspan_matrix *matrix,
@@ -405,6 +430,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_fade(celspan_context *con
                                                             celspan_cel **out);
 CELSPAN_API celspan_cel *celspan_cel_ref(celspan_cel *cel);
 CELSPAN_API void celspan_cel_unref(celspan_cel *cel);
+/* In the cel's units after its own transform, before the viewport. Shared read. */
 CELSPAN_API bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out);
 CELSPAN_API bool celspan_cel_contains(const celspan_cel *cel, celspan_point point);
 
@@ -428,15 +454,19 @@ typedef struct celspan_rostrum_desc {
   celspan_antialias_mode antialias;
 } celspan_rostrum_desc;
 
-#define CELSPAN_ROSTRUM_DESC \
+#define CELSPAN_ROSTRUM_DESC                                                                       \
   ((celspan_rostrum_desc){.struct_size = sizeof(celspan_rostrum_desc), .brightness = 1})
 
+/* desc: borrowed, but for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
+ * below 0, a camera without width. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_create(celspan_context *context,
                                                                   const celspan_rostrum_desc *desc,
                                                                   celspan_rostrum **out);
 CELSPAN_API celspan_rostrum *celspan_rostrum_ref(celspan_rostrum *rostrum);
 CELSPAN_API void celspan_rostrum_unref(celspan_rostrum *rostrum);
-/* 128 bits that are equal for equal scenes, in every process: a name for a frame's content. */
+/* 128 bits that are equal for equal scenes, in every process: a name for a frame's content.
+ * Pictures count by their names. A scan-line procedure cannot be compared: each object made with
+ * one is another. Shared read. */
 CELSPAN_API void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]);
 
 /* What a rostrum holds, every level counted. */
@@ -481,9 +511,10 @@ typedef struct celspan_span {
 /* The colour of one column of a span, x0 <= x < x1. Any thread. */
 static inline void celspan_span_colour(const celspan_span *span, int32_t x, float rgba[4]) {
   for (int c = 0; c < 4; c++)
-    rgba[c] = span->kind == CELSPAN_SPAN_ARRAY      ? span->array[4 * (size_t)(x - span->x0) + c]
-              : span->kind == CELSPAN_SPAN_GRADIENT ? span->colour[c] + span->slope[c] * (float)(x - span->origin)
-                                                    : span->colour[c];
+    rgba[c] = span->kind == CELSPAN_SPAN_ARRAY ? span->array[4 * (size_t)(x - span->x0) + c]
+              : span->kind == CELSPAN_SPAN_GRADIENT
+                  ? span->colour[c] + span->slope[c] * (float)(x - span->origin)
+                  : span->colour[c];
 }
 
 typedef struct celspan_frame_desc {
@@ -514,7 +545,8 @@ typedef struct celspan_statistics {
 
 /* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,
  * disjoint, without gap from column 0 to width-1 of the crop. `end` is called once after a
- * successful `begin`, with the outcome so far; what it returns counts. begin and end may be NULL. */
+ * successful `begin`, with the outcome so far; what it returns counts. begin and end may be NULL.
+ */
 typedef struct celspan_sink {
   void *user;
   celspan_status (*begin)(void *user, celspan_context *context, int32_t width, int32_t height);

@@ -1,0 +1,141 @@
+--- Easing curves: pure functions from 0..1 to 0..1.
+--
+--   ease "inOutQuad" (u)      tween.lua's names
+--   ease "quadinout" (u)      flux's names
+--   ease "in-out-quad" (u)    hump.timer's names
+--   ease "linear", ease "steps:4", ease "bezier:.4,0,.2,1", ease(function)
+--
+-- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back and elastic overshoot between.
+local core = require "celspan.core"
+
+local pi, sin, sqrt = math.pi, math.sin, math.sqrt
+
+--- The "in" half of each family; the others are made from it.
+local families = {
+  quad = function(u) return u * u end,
+  cubic = function(u) return u * u * u end,
+  quart = function(u) return u * u * u * u end,
+  quint = function(u) return u * u * u * u * u end,
+  sine = function(u) return 1 - math.cos(u * pi / 2) end,
+  expo = function(u) return u == 0 and 0 or 2 ^ (10 * (u - 1)) end,
+  circ = function(u) return 1 - sqrt(1 - u * u) end,
+  back = function(u) return u * u * (2.70158 * u - 1.70158) end,
+  elastic = function(u)
+    if u == 0 or u == 1 then return u end
+    return -(2 ^ (10 * (u - 1))) * sin((u - 1.075) * 2 * pi / 0.3)
+  end,
+}
+
+--- Penner's bounce, told from its "out" half: four parabolas.
+local function bounce_out(u)
+  if u < 1 / 2.75 then return 7.5625 * u * u end
+  if u < 2 / 2.75 then u = u - 1.5 / 2.75; return 7.5625 * u * u + 0.75 end
+  if u < 2.5 / 2.75 then u = u - 2.25 / 2.75; return 7.5625 * u * u + 0.9375 end
+  u = u - 2.625 / 2.75
+  return 7.5625 * u * u + 0.984375
+end
+families.bounce = function(u) return 1 - bounce_out(1 - u) end
+
+local directions = {}
+
+directions["in"] = function(f) return f end
+
+function directions.out(f)
+  return function(u) return 1 - f(1 - u) end
+end
+
+function directions.inout(f)
+  return function(u)
+    if u < 0.5 then return f(2 * u) / 2 end
+    return 1 - f(2 - 2 * u) / 2
+  end
+end
+
+function directions.outin(f)
+  return function(u)
+    if u < 0.5 then return (1 - f(1 - 2 * u)) / 2 end
+    return (1 + f(2 * u - 1)) / 2
+  end
+end
+
+--- Holds a curve to its ends outside 0..1.
+local function held(f)
+  return function(u)
+    if u <= 0 then return 0 end
+    if u >= 1 then return 1 end
+    return f(u)
+  end
+end
+
+local names, curves = { "linear" }, { linear = held(function(u) return u end) }
+
+for _, family in ipairs { "quad", "cubic", "quart", "quint", "sine", "expo", "circ", "back",
+                          "bounce", "elastic" } do
+  for _, direction in ipairs { "in", "out", "inout", "outin" } do
+    local curve = held(directions[direction](families[family]))
+    curves[direction .. family] = curve
+    curves[family .. direction] = curve
+    names[#names + 1] = direction .. family
+    names[#names + 1] = family .. direction
+  end
+  -- hump.timer means the "in" half by the bare name
+  curves[family] = curves["in" .. family]
+  names[#names + 1] = family
+end
+
+--- "steps:4": four equal steps, held; the last value is reached at the end.
+local function steps(text)
+  local count = tonumber(text)
+  if not count or count < 1 or count ~= math.floor(count) then
+    error(("ease: steps takes a whole number of at least 1, got %q"):format(text), 3)
+  end
+  return held(function(u) return math.floor(u * count) / count end)
+end
+
+--- One coordinate of a Bezier curve from 0 to 1 with inner control values a and b.
+local function bezier_at(a, b, t)
+  local s = 1 - t
+  return 3 * s * s * t * a + 3 * s * t * t * b + t * t * t
+end
+
+--- "bezier:x1,y1,x2,y2" as in CSS: the y where the curve's x is u, by bisection.
+local function bezier(text)
+  local n = {}
+  for word in (text .. ","):gmatch "%s*([^,]*)," do n[#n + 1] = tonumber(word) or 0 / 0 end
+  local x1, y1, x2, y2 = table.unpack(n)
+  local good = #n == 4 and x1 >= 0 and x1 <= 1 and x2 >= 0 and x2 <= 1 and y1 == y1 and y2 == y2
+  if not good then
+    error(("ease: bezier takes x1,y1,x2,y2 with x1 and x2 in 0..1, got %q"):format(text), 3)
+  end
+  return held(function(u)
+    local low, high = 0, 1
+    for _ = 1, 52 do
+      local middle = (low + high) / 2
+      if bezier_at(x1, x2, middle) < u then low = middle else high = middle end
+    end
+    return bezier_at(y1, y2, (low + high) / 2)
+  end)
+end
+
+local function find(name)
+  if type(name) == "function" then return name end
+  if type(name) ~= "string" then
+    error("ease: takes a curve's name or a function, got " .. type(name), 3)
+  end
+  local kind, text = name:match "^(%a+):(.*)$"
+  if kind == "steps" then return steps(text) end
+  if kind == "bezier" then return bezier(text) end
+  local plain = name:lower():gsub("[-_ ]", "")
+  local curve = curves[plain]
+  if curve then return curve end
+  local hint = core.nearest(plain, names)
+  error(("ease: there is no curve %q%s"):format(name,
+    hint and ("; did you mean %q?"):format(hint) or ""), 3)
+end
+
+return setmetatable({
+  --- Every name in its plain form: "inquad", "quadin", ...
+  names = names,
+}, {
+  __call = function(_, name) return (find(name)) end,
+})

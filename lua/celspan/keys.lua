@@ -1,0 +1,154 @@
+--- Keyframes: values that change over time.
+--
+--   local x = keys{ {0, 10}, {1, 50, "outQuad"}, {2, 20} }
+--   x:at(f.time)
+--
+-- A key is {time, value [, ease into it]}. Numbers, arrays of numbers and paints are mixed; strings
+-- and booleans hold until the next key. The ends hold, or the whole repeats (loop = "repeat") or
+-- runs to and fro (loop = "mirror").
+local celspan = require "celspan"
+local core = require "celspan.core"
+local ease = require "celspan.ease"
+
+local Track = {}
+Track.__index = Track
+Track.__name = "celspan.keys"
+
+local paint_metatable = getmetatable(celspan.clear)
+
+local function is_paint(value)
+  return getmetatable(value) == paint_metatable
+end
+
+--- "number", "array", "paint" or "held"; nil for what cannot be a value.
+local function kind_of(value)
+  local type_of = type(value)
+  if type_of == "number" then return "number" end
+  if type_of == "string" or type_of == "boolean" then return "held" end
+  if is_paint(value) then return "paint" end
+  if type_of ~= "table" then return nil end
+  for i = 1, #value do
+    if type(value[i]) ~= "number" then return nil end
+  end
+  return #value > 0 and "array" or nil
+end
+
+local mixers = {}
+
+function mixers.number(a, b, u)
+  return a + (b - a) * u
+end
+
+function mixers.array(a, b, u)
+  local mixed = {}
+  for i = 1, #a do mixed[i] = a[i] + (b[i] - a[i]) * u end
+  return mixed
+end
+
+-- Paints have no values outside 0..1, so curves that overshoot are held here.
+function mixers.paint(a, b, u)
+  return celspan.mix(a, b, math.max(0, math.min(1, u)))
+end
+
+function mixers.held(a, b, u)
+  return u >= 1 and b or a
+end
+
+--- Complains at the line that made the keys.
+local function complain(i, text, ...)
+  error(("keys: key %d "):format(i) .. text:format(...), 4)
+end
+
+--- What is wrong with a key by itself, or nil.
+local function problem_of(key)
+  if type(key) ~= "table" then return "must be {time, value}, got " .. type(key) end
+  if type(key[1]) ~= "number" or key[1] ~= key[1] then
+    return "must begin with a time, a number, got " .. type(key[1])
+  end
+  if not kind_of(key[2]) then
+    return "must have a number, an array of numbers, a paint, a string or a boolean as value, got "
+      .. type(key[2])
+  end
+end
+
+local function copy(value)
+  return type(value) == "table" and { table.unpack(value) } or value
+end
+
+local function read_keys(list)
+  local keys, kind = {}, nil
+  for i = 1, #list do
+    local problem = problem_of(list[i])
+    if problem then complain(i, "%s", problem) end
+    local found = kind_of(list[i][2])
+    kind = kind or found
+    local time, value = list[i][1], copy(list[i][2])
+    if found ~= kind then complain(i, "is of another kind (%s) than the first (%s)", found, kind) end
+    if kind == "array" and i > 1 and #value ~= #keys[1].value then
+      complain(i, "has %d numbers, the first has %d", #value, #keys[1].value)
+    end
+    if i > 1 and time < keys[i - 1].time then
+      complain(i, "is at %s, before the key before it", tostring(time))
+    end
+    keys[i] = { time = time, value = value, ease = list[i][3] and ease(list[i][3]) }
+  end
+  return keys, kind
+end
+
+local loops = { ["repeat"] = true, mirror = true }
+
+local function new(_, list)
+  if type(list) ~= "table" then
+    error("keys: takes a list of keys {time, value}, got " .. type(list), 2)
+  end
+  for name in pairs(list) do
+    if type(name) == "string" and name ~= "loop" then
+      local hint = core.nearest(name, { "loop" })
+      error(("keys: unknown field '%s'%s"):format(name, hint and "; did you mean 'loop'?" or ""), 2)
+    end
+  end
+  if #list == 0 then error("keys: needs at least one key {time, value}", 2) end
+  if list.loop ~= nil and not loops[list.loop] then
+    error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 2)
+  end
+  local keys, kind = read_keys(list)
+  return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
+end
+
+--- A time inside the track, by its loop.
+local function fold(track, time)
+  local first, last = track.keys[1].time, track.keys[#track.keys].time
+  local length = last - first
+  if not track.loop or length <= 0 then return time end
+  local offset = (time - first) % length
+  local turns = (time - first) // length
+  if track.loop == "mirror" and turns % 2 == 1 then offset = length - offset end
+  return first + offset
+end
+
+--- The last key at or before a time; 0 when there is none.
+local function place(keys, time)
+  local low, high = 0, #keys
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if keys[middle].time <= time then low = middle else high = middle - 1 end
+  end
+  return low
+end
+
+--- The value at a time. Arrays are new at each call.
+function Track:at(time)
+  if type(time) ~= "number" then
+    error("keys: at takes a time, a number, got " .. type(time), 2)
+  end
+  time = fold(self, time)
+  local i = place(self.keys, time)
+  local before, after = self.keys[i], self.keys[i + 1]
+  if not before then return copy(after.value) end
+  if not after then return copy(before.value) end
+  local u = (time - before.time) / (after.time - before.time)
+  if after.ease then u = after.ease(u) end
+  return mixers[self.kind](before.value, after.value, u)
+end
+
+return setmetatable({}, { __call = new })

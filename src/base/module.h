@@ -1,0 +1,25 @@
+/* A shared object loaded on first use: what it offers is one table of functions.
+ *
+ * It is looked for where the environment says, then beside the object that holds this code (so that
+ * a build tree and a moved installation work), then where it was to be installed. Once loaded it
+ * stays in the process: libraries under it keep threads and statics that do not survive unloading.
+ */
+#ifndef CS_BASE_MODULE_H
+#define CS_BASE_MODULE_H
+
+#include "base/context.h"
+
+typedef struct cs_module_desc {
+  const char *file;     /* "celspan-picture.so" */
+  const char *override; /* the environment variable that names a file instead */
+  const char *symbol;   /* a function without arguments that returns the table */
+  const char *purpose;  /* for the message: "reading and writing pictures" */
+  const char *advice;   /* for the message: what to install */
+} cs_module_desc;
+
+/* The table, valid for the rest of the process. Status `failure` (INPUT or OUTPUT) when there is no
+ * such module or it cannot be loaded. Any thread. */
+CELSPAN_CHECKED celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
+                                              celspan_status failure, const void **table);
+
+#endif

@@ -1,0 +1,23 @@
+/* Four floats at once. The compiler's vector types: every lane is plain IEEE arithmetic, so the bits
+ * do not depend on the instruction set. */
+#ifndef CS_BASE_VECTOR_H
+#define CS_BASE_VECTOR_H
+
+#include <string.h>
+
+typedef float cs_v4 __attribute__((vector_size(16)));
+
+static inline cs_v4 cs_v4_all(float x) { return (cs_v4){x, x, x, x}; }
+
+static inline cs_v4 cs_v4_load(const float *from) {
+  cs_v4 v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+static inline void cs_v4_store(float *to, cs_v4 v) { memcpy(to, &v, sizeof v); }
+
+/* Whether all 128 bits agree: minus zero differs from zero. */
+static inline int cs_v4_same(cs_v4 a, cs_v4 b) { return memcmp(&a, &b, sizeof a) == 0; }
+
+#endif

@@ -1,0 +1,97 @@
+/* Reading the table that a constructor is given: names and types, each fault told in one sentence
+ * at the caller's line. Ranges are the core's affair.
+ *
+ * INVARIANT: reading is raw (no metamethods run), so nothing a script does can change a table while
+ * it is read. Scratch memory is Lua's and stays on the stack until the constructor returns: an
+ * error at any point leaks nothing.
+ */
+#ifndef CS_BIND_FORM_H
+#define CS_BIND_FORM_H
+
+#include <lauxlib.h>
+#include <lua.h>
+
+#include "celspan/celspan.h"
+
+struct cs_kind;
+struct cs_value;
+struct cs_form;
+
+typedef struct cs_field {
+  const char *name;
+  const char *preset; /* what reading gives when it was left out: a number or a word; or NULL */
+} cs_field;
+
+/* What the array part of the table holds. */
+typedef enum cs_list {
+  CS_LIST_NONE,
+  CS_LIST_PARTS, /* a fixed number of parts: :with changes them one by one */
+  CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
+} cs_list;
+
+typedef struct cs_noun {
+  const char *name;
+  const struct cs_kind *kind; /* NULL: a table of options, not a value */
+  cs_list list;
+  const char *item;       /* "object": one of them; NULL without a list */
+  const cs_field *fields; /* ended by a NULL name */
+  const char *either[2];  /* fields of which only one may be given; NULL: none */
+  void (*create)(const struct cs_form *form, struct cs_value *value);
+  void (*complete)(lua_State *L, int fields); /* works out frozen fields; NULL: nothing to do */
+} cs_noun;
+
+typedef struct cs_form {
+  lua_State *L;
+  const cs_noun *noun;
+  int table; /* absolute index */
+} cs_form;
+
+/* Checks that the value at index is a table without unknown fields or holes. */
+cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index);
+/* Raises "noun: ..." with the formats of lua_pushfstring. */
+_Noreturn void cs_form_fail(const cs_form *form, const char *format, ...);
+/* Raises the core's refusal unless OK. */
+void cs_form_try(const cs_form *form, celspan_status status);
+
+/* Fields. Without `_or`, a missing field is an error. */
+bool cs_form_has(const cs_form *form, const char *name);
+double cs_form_number(const cs_form *form, const char *name);
+double cs_form_number_or(const cs_form *form, const char *name, double fallback);
+int cs_form_integer_or(const cs_form *form, const char *name, int fallback);
+const char *cs_form_text(const cs_form *form, const char *name);
+const char *cs_form_text_or(const cs_form *form, const char *name, const char *fallback);
+/* The place of a word among names (ended by NULL); 0 when it is missing. */
+int cs_form_choice(const cs_form *form, const char *name, const char *const *names);
+/* Arrays of `count` numbers; false when the field is missing. */
+bool cs_form_numbers(const cs_form *form, const char *name, int count, double *out);
+bool cs_form_point_or(const cs_form *form, const char *name, celspan_point *out);
+celspan_point cs_form_point(const cs_form *form, const char *name);
+bool cs_form_box(const cs_form *form, const char *name, celspan_box *out);
+/* {r, g, b}, {r, g, b, a} or "#rrggbb"; false when missing. */
+bool cs_form_light(const cs_form *form, const char *name, celspan_light *out);
+/* What `texture` may be; NULL when missing. May leave the maker on the stack. Borrowed. */
+celspan_texture *cs_form_texture(const cs_form *form, const char *name);
+
+/* The array part. */
+int cs_form_length(const cs_form *form);
+/* Pushes item i; raises unless its type is `type`. what: "point", "stop". */
+void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape);
+/* Points {x, y} of the table at index, or {x, y, w} where weights is not NULL. New scratch memory,
+ * left on the stack. *weights stays NULL when every weight is left out. */
+celspan_point *cs_form_points(const cs_form *form, int index, int count, const double **weights);
+/* The numbers of an array field as scratch memory on the stack; NULL when missing. */
+double *cs_form_array(const cs_form *form, const char *name, size_t *count);
+
+/* Paints and numbers in small tables: part `part` of the table at index. `item` is its number, for
+ * the message "stop 2". */
+double cs_form_part_number(const cs_form *form, int index, int part, const char *what, int item);
+celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const char *what,
+                                 int item);
+
+/* count items of `size` bytes, owned by Lua, pushed. */
+void *cs_form_scratch(lua_State *L, size_t count, size_t size);
+
+/* The nearest of `count` names to a word, NULL when none is near. */
+const char *cs_form_nearest(const char *word, const char *const *names, size_t count);
+
+#endif

@@ -1,0 +1,41 @@
+/* What objects and cels can do: transforms, fades, bounds. */
+#include "bind/host.h"
+#include "bind/module.h"
+#include "bind/placed.h"
+#include "bind/value.h"
+
+static void unref(void *handle) { celspan_object_unref(handle); }
+
+static celspan_status transform(celspan_context *context, void *handle,
+                                const celspan_matrix *matrix, void **out) {
+  celspan_object *object = NULL;
+  celspan_status status = celspan_object_transform(context, handle, matrix, &object);
+  if (status == CELSPAN_OK)
+    *out = object;
+  return status;
+}
+
+static celspan_status fade(celspan_context *context, void *handle, double k, void **out) {
+  celspan_object *object = NULL;
+  celspan_status status = celspan_object_fade(context, handle, k, &object);
+  if (status == CELSPAN_OK)
+    *out = object;
+  return status;
+}
+
+static bool bounds(const void *handle, celspan_box *out) {
+  return celspan_object_bounds(handle, out);
+}
+
+static bool contains(const void *handle, celspan_point point) {
+  return celspan_object_contains(handle, point);
+}
+
+const cs_kind cs_kind_object = {.name = "celspan.object",
+                                .unref = unref,
+                                .transform = transform,
+                                .fade = fade,
+                                .bounds = bounds,
+                                .contains = contains};
+
+void cs_object_open(lua_State *L) { cs_value_register(L, &cs_kind_object, cs_placed_methods); }

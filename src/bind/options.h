@@ -1,0 +1,27 @@
+/* Options that several functions share: antialiasing, sizes, crops, exposures. */
+#ifndef CS_BIND_OPTIONS_H
+#define CS_BIND_OPTIONS_H
+
+#include "bind/form.h"
+
+/* A frame as described by Lua; the desc points into it and onto the stack. */
+typedef struct cs_options_frame {
+  celspan_frame_desc desc;
+  celspan_antialias_mode antialias;
+} cs_options_frame;
+
+/* The fields that cs_options_read reads. */
+#define CS_OPTIONS_FIELDS \
+  {"size", NULL}, {"film", NULL}, {"crop", NULL}, {"workers", NULL}, {"antialias", NULL}
+
+/* Reads the field `antialias`; false when it is missing. */
+bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *out);
+/* Reads size, film, crop, workers, antialias. Sizes that are not given are 1920 x 1080. */
+void cs_options_read(const cs_form *form, cs_options_frame *out);
+/* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
+ * left on the stack; the rostrums are borrowed from the value. name: for messages. */
+void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);
+/* The table at index, or an empty one, checked against the noun. Stays on the stack. */
+cs_form cs_options_open(lua_State *L, const cs_noun *noun, int index);
+
+#endif

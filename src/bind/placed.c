@@ -1,0 +1,161 @@
+#include "bind/placed.h"
+
+#include <math.h>
+
+#include "bind/host.h"
+#include "bind/value.h"
+
+#define PI 3.14159265358979323846
+
+double cs_placed_radians(double degrees) { return fmod(degrees, 360) * (PI / 180); }
+
+static cs_value *self(lua_State *L, const char *method) {
+  cs_value *value = cs_value_test(L, 1, &cs_kind_object);
+  return value ? value : cs_value_self(L, &cs_kind_cel, method);
+}
+
+static double argument(lua_State *L, int index, const char *method, const char *name) {
+  if (lua_type(L, index) != LUA_TNUMBER)
+    luaL_error(L, "%s: %s must be a number, got %s", method, name, cs_value_type(L, index));
+  return lua_tonumber(L, index);
+}
+
+/* Pushes a copy of `from` with the same fields and no reference of its own yet. */
+static cs_value *push_twin(lua_State *L, const cs_value *from) {
+  cs_value *twin = cs_value_push(L, from->noun);
+  twin->matrix = from->matrix;
+  twin->fade = from->fade;
+  lua_getiuservalue(L, 1, 1); /* frozen, so it can be shared */
+  lua_setiuservalue(L, -2, 1);
+  return twin;
+}
+
+static int push_transformed(lua_State *L, const char *method, const cs_value *value,
+                            celspan_matrix matrix) {
+  cs_value *twin = push_twin(L, value);
+  cs_host_try(L, method,
+              value->noun->kind->transform(cs_host_context(L), value->handle, &matrix,
+                                           &twin->handle));
+  twin->matrix = celspan_matrix_then(value->matrix, matrix);
+  return 1;
+}
+
+static int translate(lua_State *L) {
+  const cs_value *value = self(L, "translate");
+  double dx = argument(L, 2, "translate", "dx"), dy = argument(L, 3, "translate", "dy");
+  return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
+}
+
+static int scale(lua_State *L) {
+  const cs_value *value = self(L, "scale");
+  double sx = argument(L, 2, "scale", "sx");
+  double sy = lua_isnoneornil(L, 3) ? sx : argument(L, 3, "scale", "sy");
+  return push_transformed(L, "scale", value, celspan_matrix_scaling(sx, sy));
+}
+
+/* Quarter turns without a rounded sine. */
+static celspan_matrix rotation(double degrees, celspan_point centre) {
+  double turn = fmod(degrees, 360);
+  if (fmod(turn, 90) != 0)
+    return celspan_matrix_rotation(cs_placed_radians(degrees), centre);
+  static const double cosines[] = {1, 0, -1, 0};
+  int quarter = ((int)(turn / 90) + 4) % 4;
+  double c = cosines[quarter], s = cosines[(quarter + 3) % 4];
+  return (celspan_matrix){{c, -s, centre.x - c * centre.x + s * centre.y, s, c,
+                           centre.y - s * centre.x - c * centre.y, 0, 0, 1}};
+}
+
+static int rotate(lua_State *L) {
+  const cs_value *value = self(L, "rotate");
+  double degrees = argument(L, 2, "rotate", "the angle in degrees");
+  celspan_point centre = {0, 0};
+  if (!lua_isnoneornil(L, 3) || !lua_isnoneornil(L, 4)) {
+    centre.x = argument(L, 3, "rotate", "the centre's x");
+    centre.y = argument(L, 4, "rotate", "the centre's y");
+  }
+  return push_transformed(L, "rotate", value, rotation(degrees, centre));
+}
+
+static int skew(lua_State *L) {
+  const cs_value *value = self(L, "skew");
+  double x = argument(L, 2, "skew", "the first angle in degrees");
+  double y = argument(L, 3, "skew", "the second angle in degrees");
+  celspan_matrix matrix =
+      celspan_matrix_skewing(cs_placed_radians(x), cs_placed_radians(y));
+  return push_transformed(L, "skew", value, matrix);
+}
+
+static int transform(lua_State *L) {
+  const cs_value *value = self(L, "transform");
+  celspan_matrix matrix;
+  bool good = lua_istable(L, 2) && lua_rawlen(L, 2) == 9;
+  for (int i = 0; good && i < 9; i++) {
+    good = lua_rawgeti(L, 2, i + 1) == LUA_TNUMBER;
+    matrix.m[i] = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+  }
+  if (!good)
+    return luaL_error(L, "transform: takes {a,b,c, d,e,f, g,h,i}, nine numbers row by row");
+  return push_transformed(L, "transform", value, matrix);
+}
+
+static void read_corners(lua_State *L, int index, celspan_point corners[4]) {
+  bool good = lua_istable(L, index) && lua_rawlen(L, index) == 4;
+  for (int i = 0; good && i < 4; i++) {
+    good = lua_rawgeti(L, index, i + 1) == LUA_TTABLE && lua_rawgeti(L, -1, 1) == LUA_TNUMBER &&
+           lua_rawgeti(L, -2, 2) == LUA_TNUMBER;
+    if (good)
+      corners[i] = (celspan_point){lua_tonumber(L, -2), lua_tonumber(L, -1)};
+    lua_settop(L, 3);
+  }
+  if (!good)
+    luaL_error(L, "quad: argument %d must be four points {{x,y}, {x,y}, {x,y}, {x,y}}",
+               index - 1);
+}
+
+static int quad(lua_State *L) {
+  const cs_value *value = self(L, "quad");
+  lua_settop(L, 3);
+  celspan_point from[4], to[4];
+  read_corners(L, 2, from);
+  read_corners(L, 3, to);
+  celspan_matrix matrix;
+  if (!celspan_matrix_quad(from, to, &matrix))
+    return luaL_error(L, "quad: no perspective takes the first four points to the second; "
+                         "no three of them may lie on one line");
+  return push_transformed(L, "quad", value, matrix);
+}
+
+static int fade(lua_State *L) {
+  const cs_value *value = self(L, "fade");
+  double k = argument(L, 2, "fade", "k");
+  cs_value *twin = push_twin(L, value);
+  cs_host_try(L, "fade",
+              value->noun->kind->fade(cs_host_context(L), value->handle, k, &twin->handle));
+  twin->fade = value->fade * k;
+  return 1;
+}
+
+static int bounds(lua_State *L) {
+  const cs_value *value = self(L, "bounds");
+  celspan_box box;
+  if (!value->noun->kind->bounds(value->handle, &box))
+    return 0;
+  lua_pushnumber(L, box.x);
+  lua_pushnumber(L, box.y);
+  lua_pushnumber(L, box.width);
+  lua_pushnumber(L, box.height);
+  return 4;
+}
+
+static int contains(lua_State *L) {
+  const cs_value *value = self(L, "contains");
+  celspan_point point = {argument(L, 2, "contains", "x"), argument(L, 3, "contains", "y")};
+  lua_pushboolean(L, value->noun->kind->contains(value->handle, point));
+  return 1;
+}
+
+const luaL_Reg cs_placed_methods[] = {
+    {"translate", translate}, {"scale", scale},   {"rotate", rotate},     {"skew", skew},
+    {"transform", transform}, {"quad", quad},     {"fade", fade},         {"bounds", bounds},
+    {"contains", contains},   {"with", cs_value_with}, {NULL, NULL}};

@@ -1,0 +1,193 @@
+/* celspan.render: a film or a rostrum into files. */
+#include <limits.h>
+
+#include "bind/film.h"
+#include "bind/host.h"
+#include "bind/module.h"
+#include "bind/options.h"
+#include "bind/sequence.h"
+#include "bind/value.h"
+
+static const cs_field fields[] = {CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL},
+                                  {"format", NULL},  {"depth", NULL},  {"colour", NULL},
+                                  {"alpha", NULL},   {0}};
+static const cs_noun noun = {.name = "render", .fields = fields};
+
+/* One run. The sequence is freed by the userdata that holds the job. */
+typedef struct job {
+  lua_State *L;
+  celspan_context *context;
+  int film;     /* index on the stack */
+  int progress; /* likewise; 0: none */
+  cs_film_info info;
+  cs_options_frame frame;
+  celspan_file_desc file;
+  const char *pattern;
+  cs_sequence sequence;
+  size_t done;
+  bool has_error; /* raised by the progress function; the message is on top of the stack */
+} job;
+
+static int finish_job(lua_State *L) {
+  cs_sequence_finish(&((job *)lua_touserdata(L, 1))->sequence);
+  return 0;
+}
+
+static job *push_job(lua_State *L) {
+  job *j = lua_newuserdatauv(L, sizeof *j, 0);
+  *j = (job){.L = L, .context = cs_host_context(L)};
+  if (luaL_newmetatable(L, "celspan.job")) {
+    lua_pushcfunction(L, finish_job);
+    lua_setfield(L, -2, "__gc");
+  }
+  lua_setmetatable(L, -2);
+  return j;
+}
+
+static void read_coding(const cs_form *form, celspan_coding *out) {
+  static const char *const depths[] = {"default", "8", "16", "half", "float", NULL};
+  static const char *const colours[] = {"default", "linear", "srgb", "rec709", "cineon", NULL};
+  static const char *const alphas[] = {"default", "straight", "premultiplied", NULL};
+  double depth = 0;
+  lua_pushliteral(form->L, "depth");
+  if (lua_rawget(form->L, form->table) == LUA_TNUMBER)
+    depth = lua_tonumber(form->L, -1);
+  if (depth != 0 && depth != 8 && depth != 16)
+    cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %f", depth);
+  out->depth = depth == 8    ? CELSPAN_DEPTH_8
+               : depth == 16 ? CELSPAN_DEPTH_16
+                             : (celspan_depth)cs_form_choice(form, "depth", depths);
+  out->transfer = (celspan_transfer)cs_form_choice(form, "colour", colours);
+  out->alpha = (celspan_alpha)cs_form_choice(form, "alpha", alphas);
+}
+
+/* Called by the core between strips: the share of the whole job that is done, and the frame. */
+static bool report_progress(void *user, int32_t rows_done, int32_t rows_total) {
+  job *j = user;
+  lua_State *L = j->L;
+  double share = rows_total > 0 ? (double)rows_done / rows_total : 0;
+  if (!lua_checkstack(L, 4))
+    return false;
+  lua_pushvalue(L, j->progress);
+  lua_pushnumber(L, ((double)j->done + share) / (double)j->sequence.count);
+  lua_pushinteger(L, j->sequence.frames[j->done]);
+  if (lua_pcall(L, 2, 1, 0) != LUA_OK) {
+    j->has_error = true;
+    return false;
+  }
+  bool goes_on = !lua_isboolean(L, -1) || lua_toboolean(L, -1);
+  lua_pop(L, 1);
+  return goes_on;
+}
+
+static void read_job(const cs_form *form, job *j) {
+  lua_State *L = form->L;
+  cs_options_read(form, &j->frame);
+  read_coding(form, &j->file.coding);
+  j->file.format = cs_form_text_or(form, "format", NULL);
+  lua_pushliteral(L, "progress");
+  int type = lua_rawget(L, form->table);
+  if (type != LUA_TNIL && type != LUA_TFUNCTION)
+    cs_form_fail(form, "field 'progress' must be a function, got %s", cs_value_type(L, -1));
+  if (type == LUA_TFUNCTION) {
+    j->progress = lua_gettop(L);
+    j->frame.desc.progress = report_progress;
+    j->frame.desc.progress_user = j;
+  }
+}
+
+/* Pushes a film for argument 1 where it is a rostrum: as large as the film or size that is given. */
+static void read_film(const cs_form *form, job *j) {
+  lua_State *L = form->L;
+  celspan_frame_desc *desc = &j->frame.desc;
+  bool is_film = cs_value_test(L, 1, &cs_kind_film) != NULL;
+  if (is_film)
+    lua_pushvalue(L, 1);
+  else if (cs_value_test(L, 1, &cs_kind_rostrum))
+    cs_film_push_still(L, 1, desc->width, desc->height);
+  else
+    luaL_error(L, "render: argument 1 must be a film or a rostrum, got %s", cs_value_type(L, 1));
+  j->film = lua_gettop(L);
+  cs_film_read(L, j->film, &j->info);
+  if (!cs_form_has(form, "size")) {
+    desc->width = j->info.width;
+    desc->height = j->info.height;
+  }
+  if (!cs_form_has(form, "film")) {
+    desc->film_width = j->info.width;
+    desc->film_height = j->info.height;
+  }
+  j->file.title = j->info.title;
+  j->file.frames_second = j->info.frames_second;
+}
+
+static celspan_status read_frames(const cs_form *form, job *j) {
+  lua_State *L = form->L;
+  lua_pushliteral(L, "frames");
+  int type = lua_rawget(L, form->table);
+  if (type != LUA_TNIL && type != LUA_TSTRING && !lua_isinteger(L, -1))
+    cs_form_fail(form, "field 'frames' must be a list like \"1-10,20-30:2\" or a whole number, "
+                       "got %s", cs_value_type(L, -1));
+  celspan_status status =
+      type == LUA_TNIL
+          ? cs_sequence_count(j->context, j->info.first, j->info.count, &j->sequence)
+          : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->sequence);
+  if (status == CELSPAN_OK)
+    status = cs_sequence_within(j->context, &j->sequence, j->info.first, j->info.count);
+  if (status == CELSPAN_OK && j->sequence.count > 1 && !cs_sequence_has_number(j->pattern))
+    status = celspan_context_fail(j->context, CELSPAN_BAD_ARGUMENT,
+                                  "\"%.200s\" has no place for a frame number, and there are "
+                                  "%zu frames; write it like shot.####.png",
+                                  j->pattern, j->sequence.count);
+  return status;
+}
+
+static celspan_status write_frame(job *j, int64_t number) {
+  char name[4096];
+  celspan_status status = cs_sequence_name(j->context, j->pattern, number, name, sizeof name);
+  if (status != CELSPAN_OK)
+    return status;
+  cs_film_frame built;
+  status = cs_film_build(j->L, j->film, number, &built);
+  if (status != CELSPAN_OK)
+    return status;
+  j->frame.desc.exposures = built.exposures;
+  j->frame.desc.exposure_count = built.count;
+  j->file.frame = number >= INT32_MIN && number <= INT32_MAX ? (int32_t)number : 0;
+  status = celspan_frame_write(j->context, &j->frame.desc, name, &j->file, NULL);
+  cs_film_finish_frame(&built);
+  return status;
+}
+
+static int render(lua_State *L) {
+  lua_settop(L, 3);
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return luaL_error(L, "render: argument 2 must be a file name like \"shot.####.png\", got %s",
+                      cs_value_type(L, 2));
+  cs_form form = cs_options_open(L, &noun, 3);
+  job *j = push_job(L);
+  j->pattern = lua_tostring(L, 2);
+  j->file = CELSPAN_FILE_DESC;
+  read_job(&form, j);
+  read_film(&form, j);
+  celspan_status status = read_frames(&form, j);
+  lua_State *before = cs_host_enter(L);
+  for (j->done = 0; status == CELSPAN_OK && j->done < j->sequence.count; j->done++)
+    status = write_frame(j, j->sequence.frames[j->done]);
+  cs_host_leave(L, before);
+  if (status == CELSPAN_OK) {
+    lua_pushboolean(L, true);
+    return 1;
+  }
+  luaL_pushfail(L);
+  if (j->has_error)
+    lua_insert(L, -2);
+  else
+    lua_pushstring(L, celspan_context_error(j->context));
+  return 2;
+}
+
+void cs_render_open(lua_State *L) {
+  lua_pushcfunction(L, render);
+  lua_setfield(L, -2, "render");
+}

@@ -1,0 +1,146 @@
+/* Primitives given by a Lua function that returns its spans on a row.
+ *
+ * The function stands in the registry, so that it lives as long as the core's object. It is called
+ * by the rendering thread alone (any_thread = false), always protected: nothing it does can jump
+ * over the core's frames.
+ */
+#include <stdlib.h>
+
+#include "bind/host.h"
+#include "bind/module.h"
+#include "bind/value.h"
+
+typedef struct procedure {
+  cs_host *host; /* counted */
+  int function;  /* in the registry */
+} procedure;
+
+static const cs_field fields[] = {{"bounds", NULL}, {"spans", NULL}, {0}};
+static void create(const cs_form *form, cs_value *value);
+static const cs_noun noun = {
+    .name = "scanline", .kind = &cs_kind_object, .fields = fields, .create = create};
+
+/* One call, as light userdata to the protected function. */
+typedef struct request {
+  const procedure *procedure;
+  double y;
+  const celspan_scanline_row *row;
+  celspan_scanline_output *output;
+  celspan_status status; /* of the core, when it refused a span */
+} request;
+
+static void push_row(lua_State *L, const celspan_scanline_row *row) {
+  lua_createtable(L, 0, 3);
+  lua_pushnumber(L, row->x0);
+  lua_setfield(L, -2, "x0");
+  lua_pushnumber(L, row->x1);
+  lua_setfield(L, -2, "x1");
+  lua_pushnumber(L, row->pixel);
+  lua_setfield(L, -2, "pixel");
+}
+
+/* The paints of the span on top of the stack: parts 3 and 4, or `array`. Scratch memory. */
+static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
+  lua_State *L = form->L;
+  int span = lua_gettop(L), from = span, first = 3;
+  lua_pushliteral(L, "array");
+  if (lua_rawget(L, span) == LUA_TTABLE) {
+    from = lua_gettop(L);
+    first = 1;
+    *count = lua_rawlen(L, from);
+  } else
+    *count = lua_rawlen(L, span) >= 4 ? 2 : 1;
+  celspan_paint *paints = cs_form_scratch(L, *count, sizeof *paints);
+  for (size_t p = 0; p < *count; p++)
+    paints[p] = cs_form_part_paint(form, from, first + (int)p, "span", i);
+  return paints;
+}
+
+/* request: light userdata. Runs protected; raises what is wrong with the function or its result. */
+static int call(lua_State *L) {
+  request *r = lua_touserdata(L, 1);
+  luaL_checkstack(L, 20, "scanline");
+  lua_rawgeti(L, LUA_REGISTRYINDEX, r->procedure->function);
+  lua_pushnumber(L, r->y);
+  push_row(L, r->row);
+  lua_call(L, 2, 1);
+  cs_form form = {L, &noun, lua_gettop(L)};
+  if (lua_isnil(L, -1))
+    return 0;
+  if (!lua_istable(L, -1))
+    cs_form_fail(&form, "spans must return a list of {x0, x1, paint}, got %s",
+                 cs_value_type(L, -1));
+  int count = cs_form_length(&form);
+  for (int i = 1; i <= count && r->status == CELSPAN_OK; i++) {
+    cs_form_item(&form, i, LUA_TTABLE, "span", "{x0, x1, paint}");
+    double x0 = cs_form_part_number(&form, -1, 1, "span", i);
+    double x1 = cs_form_part_number(&form, -1, 2, "span", i);
+    size_t paint_count;
+    const celspan_paint *paints = read_paints(&form, i, &paint_count);
+    r->status = celspan_scanline_emit(r->output, x0, x1, paints, paint_count);
+    lua_settop(L, form.table);
+  }
+  return 0;
+}
+
+static celspan_status spans(void *user, celspan_context *context, double y,
+                            const celspan_scanline_row *row, celspan_scanline_output *output) {
+  const procedure *p = user;
+  lua_State *L = p->host->state;
+  if (!L)
+    return celspan_context_fail(context, CELSPAN_CALLBACK,
+                                "scanline: the Lua state that made it is closed");
+  request r = {p, y, row, output, CELSPAN_OK};
+  if (!lua_checkstack(L, 4))
+    return celspan_context_fail(context, CELSPAN_LIMIT, "scanline: Lua's stack is full");
+  lua_pushcfunction(L, call);
+  lua_pushlightuserdata(L, &r);
+  int outcome = lua_pcall(L, 1, 0, 0);
+  if (outcome == LUA_OK)
+    return r.status;
+  const char *message = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
+                                                       : "the error is not a string";
+  celspan_status status = outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
+  status = celspan_context_fail(context, status, "%s", message);
+  lua_pop(L, 1);
+  return status;
+}
+
+static void release(void *user) {
+  procedure *p = user;
+  if (p->host->state)
+    luaL_unref(p->host->state, LUA_REGISTRYINDEX, p->function);
+  cs_host_unref(p->host);
+  free(p);
+}
+
+static void create(const cs_form *form, cs_value *value) {
+  lua_State *L = form->L;
+  cs_host *host = cs_host_get(L);
+  celspan_scanline_desc desc = {.spans = spans, .release = release};
+  if (!cs_form_box(form, "bounds", &desc.bounds))
+    cs_form_fail(form, "field 'bounds' must be {x, y, width, height}, got nil");
+  lua_pushliteral(L, "spans");
+  if (lua_rawget(L, form->table) != LUA_TFUNCTION)
+    cs_form_fail(form, "field 'spans' must be a function(y, row), got %s", cs_value_type(L, -1));
+  int function = luaL_ref(L, LUA_REGISTRYINDEX);
+  procedure *p = malloc(sizeof *p);
+  if (!p) {
+    luaL_unref(L, LUA_REGISTRYINDEX, function);
+    cs_form_fail(form, "not enough memory");
+  }
+  *p = (procedure){host, function};
+  host->references++;
+  desc.user = p;
+  celspan_object *object = NULL;
+  celspan_status status = celspan_object_create_scanline(host->context, &desc, &object);
+  if (status != CELSPAN_OK)
+    release(p);
+  cs_form_try(form, status);
+  value->handle = object;
+}
+
+void cs_scanline_open(lua_State *L) {
+  cs_value_push_constructor(L, &noun);
+  lua_setfield(L, -2, noun.name);
+}

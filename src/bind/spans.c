@@ -1,0 +1,164 @@
+/* celspan.spans: rows of spans as tables; celspan.probe: one point by direct evaluation. */
+#include "bind/host.h"
+#include "bind/module.h"
+#include "bind/options.h"
+#include "bind/value.h"
+
+#define ROWS "celspan.rows"
+
+static const cs_field span_fields[] = {CS_OPTIONS_FIELDS, {"rows", NULL}, {0}};
+static const cs_noun noun_spans = {.name = "spans", .fields = span_fields};
+static const cs_field probe_fields[] = {{"film", NULL}, {0}};
+static const cs_noun noun_probe = {.name = "probe", .fields = probe_fields};
+
+static int finish_rows(lua_State *L) {
+  celspan_rows **rows = luaL_checkudata(L, 1, ROWS);
+  if (*rows)
+    celspan_rows_destroy(*rows);
+  *rows = NULL;
+  return 0;
+}
+
+static celspan_rows **push_rows(lua_State *L) {
+  celspan_rows **rows = lua_newuserdatauv(L, sizeof *rows, 0);
+  *rows = NULL;
+  luaL_setmetatable(L, ROWS);
+  return rows;
+}
+
+/* The colours of a span as numbers 1, 2, ...: one RGBA of a single span, those of the first and
+ * last pixel of a gradient, every pixel of an array. */
+static void set_colours(lua_State *L, const celspan_span *span) {
+  int32_t count = span->kind == CELSPAN_SPAN_SINGLE     ? 1
+                  : span->kind == CELSPAN_SPAN_GRADIENT ? 2
+                                                        : span->x1 - span->x0;
+  for (int32_t i = 0; i < count; i++) {
+    bool is_end = span->kind == CELSPAN_SPAN_GRADIENT && i == 1;
+    float colour[4];
+    celspan_span_colour(span, is_end ? span->x1 - 1 : span->x0 + i, colour);
+    for (int c = 0; c < 4; c++) {
+      lua_pushnumber(L, colour[c]);
+      lua_rawseti(L, -2, 4 * (lua_Integer)i + c + 1);
+    }
+  }
+}
+
+static void push_span(lua_State *L, const celspan_span *span) {
+  static const char *const kinds[] = {"single", "gradient", "array"};
+  lua_createtable(L, span->kind == CELSPAN_SPAN_SINGLE ? 4 : 8, 3);
+  lua_pushinteger(L, span->x0);
+  lua_setfield(L, -2, "x0");
+  lua_pushinteger(L, span->x1);
+  lua_setfield(L, -2, "x1");
+  lua_pushstring(L, kinds[span->kind]);
+  lua_setfield(L, -2, "kind");
+  set_colours(L, span);
+}
+
+/* The first and last row asked for, inclusive and cut to the frame. */
+static void read_row_range(const cs_form *form, int32_t height, int32_t range[2]) {
+  double numbers[2] = {0, height - 1};
+  cs_form_numbers(form, "rows", 2, numbers);
+  if (!(numbers[0] >= 0 && numbers[0] < height && numbers[1] >= numbers[0]))
+    cs_form_fail(form, "field 'rows' must be {first, last} with 0 <= first <= last, first below "
+                       "%d, got {%f, %f}", height, numbers[0], numbers[1]);
+  range[0] = (int32_t)numbers[0];
+  range[1] = numbers[1] < height - 1 ? (int32_t)numbers[1] : height - 1;
+}
+
+/* Fills the table on top of the stack. */
+static celspan_status fill_rows(lua_State *L, celspan_rows *rows, const int32_t range[2]) {
+  celspan_status status = CELSPAN_OK;
+  for (int32_t y = range[0]; y <= range[1] && status == CELSPAN_OK; y++) {
+    const celspan_span *spans;
+    size_t count;
+    status = celspan_rows_get(rows, y, &spans, &count);
+    if (status != CELSPAN_OK)
+      break;
+    lua_createtable(L, (int)count, 0);
+    for (size_t i = 0; i < count; i++) {
+      push_span(L, &spans[i]);
+      lua_rawseti(L, -2, (lua_Integer)i + 1);
+    }
+    lua_rawseti(L, -2, y);
+  }
+  return status;
+}
+
+/* Runs protected, so that the host is left whatever happens: rows (light userdata), range, table. */
+static int fill_protected(lua_State *L) {
+  celspan_rows *rows = lua_touserdata(L, 1);
+  const int32_t *range = lua_touserdata(L, 2);
+  lua_pushinteger(L, fill_rows(L, rows, range));
+  return 1;
+}
+
+static int fail(lua_State *L) {
+  luaL_pushfail(L);
+  lua_pushstring(L, celspan_context_error(cs_host_context(L)));
+  return 2;
+}
+
+static int spans(lua_State *L) {
+  lua_settop(L, 2);
+  cs_form form = cs_options_open(L, &noun_spans, 2);
+  cs_options_frame frame;
+  cs_options_read(&form, &frame);
+  cs_options_exposures(L, 1, "spans: argument 1", &frame.desc);
+  int32_t range[2];
+  celspan_rows **rows = push_rows(L);
+  int32_t height = frame.desc.crop_height ? frame.desc.crop_height : frame.desc.height;
+  if (celspan_rows_create(cs_host_context(L), &frame.desc, rows) != CELSPAN_OK)
+    return fail(L);
+  read_row_range(&form, height, range);
+  lua_newtable(L);
+  int result = lua_gettop(L);
+  lua_pushcfunction(L, fill_protected);
+  lua_pushlightuserdata(L, *rows);
+  lua_pushlightuserdata(L, range);
+  lua_pushvalue(L, result);
+  lua_State *before = cs_host_enter(L);
+  int outcome = lua_pcall(L, 3, 1, 0);
+  cs_host_leave(L, before);
+  celspan_rows_destroy(*rows);
+  *rows = NULL;
+  if (outcome != LUA_OK)
+    return lua_error(L);
+  bool is_good = lua_tointeger(L, -1) == CELSPAN_OK;
+  lua_settop(L, result);
+  return is_good ? 1 : fail(L);
+}
+
+static double argument(lua_State *L, int index, const char *name) {
+  if (lua_type(L, index) != LUA_TNUMBER)
+    luaL_error(L, "probe: %s must be a number, got %s", name, cs_value_type(L, index));
+  return lua_tonumber(L, index);
+}
+
+static int probe(lua_State *L) {
+  lua_settop(L, 4);
+  celspan_point point = {argument(L, 2, "x"), argument(L, 3, "y")};
+  cs_form form = cs_options_open(L, &noun_probe, 4);
+  double film[2] = {1920, 1080}, rgba[4];
+  cs_form_numbers(&form, "film", 2, film);
+  celspan_frame_desc desc;
+  cs_options_exposures(L, 1, "probe: argument 1", &desc);
+  lua_State *before = cs_host_enter(L);
+  celspan_status status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
+                                        film[0], film[1], point, rgba);
+  cs_host_leave(L, before);
+  if (status != CELSPAN_OK)
+    return fail(L);
+  for (int c = 0; c < 4; c++)
+    lua_pushnumber(L, rgba[c]);
+  return 4;
+}
+
+void cs_spans_open(lua_State *L) {
+  static const luaL_Reg functions[] = {{"spans", spans}, {"probe", probe}, {NULL, NULL}};
+  luaL_newmetatable(L, ROWS);
+  lua_pushcfunction(L, finish_rows);
+  lua_setfield(L, -2, "__gc");
+  lua_pop(L, 1);
+  luaL_setfuncs(L, functions, 0);
+}

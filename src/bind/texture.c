@@ -1,0 +1,110 @@
+/* Textures: gradients and pictures. */
+#include "bind/texture.h"
+
+#include "bind/host.h"
+#include "bind/module.h"
+#include "bind/value.h"
+
+static void unref_texture(void *handle) { celspan_texture_unref(handle); }
+
+const cs_kind cs_kind_texture = {.name = "celspan.texture", .unref = unref_texture};
+
+static void create_gradient(const cs_form *form, cs_value *value) {
+  int count = cs_form_length(form);
+  if (count != 3)
+    cs_form_fail(form, "takes three corners {x, y, paint}, got %d", count);
+  celspan_point points[3];
+  celspan_paint paints[3];
+  for (int i = 0; i < 3; i++) {
+    cs_form_item(form, i + 1, LUA_TTABLE, "corner", "{x, y, paint}");
+    points[i].x = cs_form_part_number(form, -1, 1, "corner", i + 1);
+    points[i].y = cs_form_part_number(form, -1, 2, "corner", i + 1);
+    paints[i] = cs_form_part_paint(form, -1, 3, "corner", i + 1);
+  }
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_gradient(cs_host_context(form->L), points, paints,
+                                                    &texture));
+  value->handle = texture;
+}
+
+/* The stops {at, paint} of the array part: scratch memory, left on the stack. */
+static celspan_stop *read_stops(const cs_form *form, int count) {
+  celspan_stop *stops = cs_form_scratch(form->L, (size_t)count, sizeof *stops);
+  for (int i = 0; i < count; i++) {
+    cs_form_item(form, i + 1, LUA_TTABLE, "stop", "{at, paint}");
+    stops[i].at = cs_form_part_number(form, -1, 1, "stop", i + 1);
+    stops[i].paint = cs_form_part_paint(form, -1, 2, "stop", i + 1);
+    lua_pop(form->L, 1);
+  }
+  return stops;
+}
+
+static void create_linear(const cs_form *form, cs_value *value) {
+  celspan_point from = cs_form_point(form, "from"), to = cs_form_point(form, "to");
+  int count = cs_form_length(form);
+  celspan_stop *stops = read_stops(form, count);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), from, to, stops,
+                                                  (size_t)count, &texture));
+  value->handle = texture;
+}
+
+static void create_radial(const cs_form *form, cs_value *value) {
+  celspan_point centre = cs_form_point(form, "centre");
+  double radius = cs_form_number(form, "radius");
+  int count = cs_form_length(form);
+  celspan_stop *stops = read_stops(form, count);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_radial(cs_host_context(form->L), centre, radius, stops,
+                                                  (size_t)count, &texture));
+  value->handle = texture;
+}
+
+void cs_texture_read_picture(const cs_form *form, celspan_picture_desc *desc) {
+  static const char *const samplings[] = {"auto", "nearest", "bilinear", "bicubic", NULL};
+  static const char *const wraps[] = {"clear", "clamp", "repeat", NULL};
+  static const char *const uses[] = {"paint", "gel", NULL};
+  *desc = (celspan_picture_desc){0};
+  const char *file = cs_form_text(form, "file");
+  desc->colour = cs_form_text_or(form, "colour", NULL);
+  desc->layer = cs_form_text_or(form, "layer", NULL);
+  desc->subimage = cs_form_integer_or(form, "subimage", 0);
+  desc->sampling = (celspan_sampling)cs_form_choice(form, "sampling", samplings);
+  desc->wrap = (celspan_wrap)cs_form_choice(form, "wrap", wraps);
+  desc->use = (celspan_picture_use)cs_form_choice(form, "as", uses);
+  desc->file = cs_host_resolve(form->L, file);
+}
+
+static void create_picture(const cs_form *form, cs_value *value) {
+  celspan_picture_desc desc;
+  cs_texture_read_picture(form, &desc);
+  desc.has_box = cs_form_box(form, "box", &desc.box);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_picture(cs_host_context(form->L), &desc, &texture));
+  value->handle = texture;
+}
+
+static const cs_field no_fields[] = {{0}};
+static const cs_field linear_fields[] = {{"from", NULL}, {"to", NULL}, {0}};
+static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {0}};
+static const cs_field picture_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"box", NULL}, {0}};
+
+static const cs_noun nouns[] = {
+    {.name = "gradient", .kind = &cs_kind_texture, .list = CS_LIST_PARTS, .item = "corner",
+     .fields = no_fields, .create = create_gradient},
+    {.name = "linear", .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop",
+     .fields = linear_fields, .create = create_linear},
+    {.name = "radial", .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop",
+     .fields = radial_fields, .create = create_radial},
+    {.name = "picture", .kind = &cs_kind_texture, .fields = picture_fields,
+     .create = create_picture},
+};
+
+void cs_texture_open(lua_State *L) {
+  static const luaL_Reg methods[] = {{"with", cs_value_with}, {NULL, NULL}};
+  cs_value_register(L, &cs_kind_texture, methods);
+  for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
+    cs_value_push_constructor(L, &nouns[i]);
+    lua_setfield(L, -2, nouns[i].name);
+  }
+}

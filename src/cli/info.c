@@ -1,0 +1,54 @@
+/* celspan info SCRIPT: a film in figures, one "name value" a line. */
+#include <stdio.h>
+
+#include "cli/interrupt.h"
+#include "cli/shot.h"
+#include "cli/verbs.h"
+
+static void keep_larger(size_t *most, size_t count) {
+  if (count > *most)
+    *most = count;
+}
+
+/* The most of each in any frame. */
+static cs_exit count_all(cs_shot *shot, celspan_rostrum_counts *most) {
+  for (int64_t i = 0; i < shot->film.count && !cs_interrupt_signal(); i++) {
+    cs_exit outcome = cs_shot_build(shot, shot->film.first + i);
+    if (outcome != CS_EXIT_OK)
+      return outcome;
+    celspan_rostrum_counts frame = {0, 0, 0};
+    for (size_t e = 0; e < shot->frame.count; e++) {
+      celspan_rostrum_counts counts;
+      celspan_rostrum_count(shot->frame.exposures[e].rostrum, &counts);
+      frame.cels += counts.cels;
+      frame.primitives += counts.primitives;
+      frame.pictures += counts.pictures;
+    }
+    keep_larger(&most->cels, frame.cels);
+    keep_larger(&most->primitives, frame.primitives);
+    keep_larger(&most->pictures, frame.pictures);
+  }
+  return CS_EXIT_OK;
+}
+
+static void print_info(const cs_shot *shot, const celspan_rostrum_counts *most) {
+  if (shot->film.title)
+    printf("title %s\n", shot->film.title);
+  printf("frames %lld\nfirst %lld\nlast %lld\n", (long long)shot->film.count,
+         (long long)shot->film.first, (long long)(shot->film.first + shot->film.count - 1));
+  printf("fps %.9g\nseconds %.9g\nsize %dx%d\n", shot->film.frames_second,
+         (double)shot->film.count / shot->film.frames_second, shot->film.width, shot->film.height);
+  printf("cels %zu\nprimitives %zu\npictures %zu\n", most->cels, most->primitives, most->pictures);
+}
+
+cs_exit cs_info_run(celspan_context *context, const cs_request *request) {
+  cs_shot shot;
+  cs_exit outcome = cs_shot_open(context, request, &shot);
+  celspan_rostrum_counts most = {0, 0, 0};
+  if (outcome == CS_EXIT_OK)
+    outcome = count_all(&shot, &most);
+  if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
+    print_info(&shot, &most);
+  cs_shot_close(&shot);
+  return outcome;
+}

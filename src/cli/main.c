@@ -1,0 +1,145 @@
+/* The command line: which verb, and what becomes of its outcome.
+ *
+ *   main -> request (what is asked) -> a verb -> report (exit code, one line of error)
+ *
+ * Nothing is loaded that the verb does not need: the Lua state is made by the verbs that run a
+ * script, OpenImageIO by the first picture.
+ */
+#include <locale.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bind/form.h"
+#include "cli/interrupt.h"
+#include "cli/verbs.h"
+
+static const cs_verb VERBS[] = {
+    {CS_VERB_RENDER, "render", "SCRIPT -o OUT", 1, 1,
+     "Renders the frames of a film to files, or raw to standard output.",
+     "Missing folders are made and existing frames are replaced; a frame appears under its name\n"
+     "whole or not at all. Colours are worked out in linear light. By default integers are 8 bit,\n"
+     "sRGB-coded, alpha straight; floats are linear, alpha premultiplied. With -o - RGBA rows go "
+     "to\n"
+     "standard output, top to bottom, little endian.\n",
+     cs_render_run},
+    {CS_VERB_INFO, "info", "SCRIPT", 1, 1,
+     "Prints frames, size, cels, primitives and pictures of a film.", NULL, cs_info_run},
+    {CS_VERB_CHECK, "check", "SCRIPT", 1, 1,
+     "Builds every frame without rendering and reports all faults.",
+     "Each frame is built twice, the second time in another order in a fresh film: a frame "
+     "function\n"
+     "that answers differently is not a pure function of its frame. Pictures are looked for.\n"
+     "Frames that hold scan-line procedures are built, but not compared.\n",
+     cs_check_run},
+    {CS_VERB_SPANS, "spans", "SCRIPT", 1, 1, "Prints the spans of a frame as text.",
+     "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
+     "  row x0 x1 single r g b a\n"
+     "  row x0 x1 gradient r g b a r g b a     colours of the first and the last pixel\n"
+     "  row x0 x1 array N\n",
+     cs_spans_run},
+    {CS_VERB_PROBE, "probe", "SCRIPT X Y", 3, 3,
+     "Prints r g b a of one point, by direct evaluation: linear, premultiplied.",
+     "X and Y are film units. There is no antialiasing and no defocus at a point.\n", cs_probe_run},
+    {CS_VERB_CONVERT, "convert", "IN OUT", 2, 2, "Converts any picture to any other.", NULL,
+     cs_convert_run},
+    {CS_VERB_COMPARE, "compare", "A B", 2, 2,
+     "Compares two pictures: exit 0 when they show the same, 1 when not.",
+     "Prints the largest difference of coded values (0..1: sRGB, alpha straight), where it is, "
+     "and\n"
+     "how many pixels differ by more than --fail.\n",
+     cs_compare_run},
+};
+
+enum { VERB_COUNT = sizeof VERBS / sizeof VERBS[0] };
+
+static const cs_verb *find_verb(const char *name) {
+  for (size_t i = 0; i < VERB_COUNT; i++)
+    if (strcmp(VERBS[i].name, name) == 0)
+      return &VERBS[i];
+  return NULL;
+}
+
+static cs_exit refuse_verb(const char *name) {
+  const char *names[VERB_COUNT + 1] = {"help"};
+  for (size_t i = 0; i < VERB_COUNT; i++)
+    names[i + 1] = VERBS[i].name;
+  const char *nearest = cs_form_nearest(name, names, VERB_COUNT + 1);
+  if (nearest)
+    return cs_report_usage("unknown verb '%s': did you mean '%s'?", name, nearest);
+  return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
+}
+
+static void help_overview(FILE *stream) {
+  fprintf(stream,
+          "celspan %s - compositing for cel animation: Lua scripts in, frames out\n\n"
+          "celspan VERB ...\n",
+          celspan_version());
+  for (size_t i = 0; i < VERB_COUNT; i++)
+    fprintf(stream, "  %-8s %-14s %s\n", VERBS[i].name, VERBS[i].operands, VERBS[i].summary);
+  fprintf(stream, "  %-8s %-14s %s\n\n", "help", "VERB", "Says more about a verb.");
+  fputs("celspan --version prints the version.\n\n"
+        "Exit codes\n"
+        "  0   every frame asked for exists      5      an output cannot be written\n"
+        "  1   compare: not the same             6      a limit was hit\n"
+        "  2   wrong usage                       33     out of memory\n"
+        "  3   the script or its scene failed    70     internal error\n"
+        "  4   an input is missing or broken     128+n  ended by signal n\n",
+        stream);
+}
+
+static cs_exit help(const char *name) {
+  if (!name) {
+    help_overview(stdout);
+    return CS_EXIT_OK;
+  }
+  const cs_verb *verb = find_verb(name);
+  if (!verb)
+    return refuse_verb(name);
+  cs_request_help(verb, stdout);
+  return CS_EXIT_OK;
+}
+
+static cs_exit run_verb(const cs_verb *verb, size_t count, char **arguments) {
+  for (size_t i = 0; i < count && strcmp(arguments[i], "--") != 0; i++)
+    if (strcmp(arguments[i], "--help") == 0 || strcmp(arguments[i], "-h") == 0)
+      return help(verb->name);
+  cs_request request;
+  cs_exit outcome = cs_request_parse(verb, count, arguments, &request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  celspan_context *context = NULL;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
+    cs_report_error("no memory to begin");
+    return CS_EXIT_MEMORY;
+  }
+  outcome = verb->run(context, &request);
+  celspan_context_destroy(context);
+  return outcome;
+}
+
+static cs_exit dispatch(int count, char **arguments) {
+  if (count < 2) {
+    help_overview(stderr);
+    return CS_EXIT_USAGE;
+  }
+  const char *first = arguments[1];
+  if (strcmp(first, "--version") == 0) {
+    printf("celspan %s\n", celspan_version());
+    return CS_EXIT_OK;
+  }
+  if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
+    return help(count > 2 ? arguments[2] : NULL);
+  const cs_verb *verb = find_verb(first);
+  return verb ? run_verb(verb, (size_t)count - 2, arguments + 2) : refuse_verb(first);
+}
+
+int main(int count, char **arguments) {
+  /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
+  uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+  cs_interrupt_install();
+  cs_exit outcome = dispatch(count, arguments);
+  cs_exit closed = cs_report_close_output();
+  if (cs_interrupt_signal())
+    cs_interrupt_die();
+  return (int)(outcome == CS_EXIT_OK ? closed : outcome);
+}

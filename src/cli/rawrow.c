@@ -1,0 +1,40 @@
+/* The sink for raw frames and for measuring how fast rows become pixels. */
+#include "cli/rawrow.h"
+
+#include <errno.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "output/pixels.h"
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  cs_rawrow *raw = user;
+  (void)height;
+  raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
+  raw->row = cs_mem_resize(context->memory, NULL, 0, raw->row_size);
+  return raw->row ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  cs_rawrow *raw = user;
+  cs_pixels_row(&raw->coding, spans, span_count, raw->row);
+  if (!raw->stream || fwrite(raw->row, 1, raw->row_size, raw->stream) == raw->row_size)
+    return CELSPAN_OK;
+  return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: row %d: %s", y,
+                              strerror(errno));
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  cs_rawrow *raw = user;
+  cs_mem_free(context->memory, raw->row, raw->row_size);
+  raw->row = NULL;
+  if (outcome == CELSPAN_OK && raw->stream && fflush(raw->stream) != 0)
+    return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
+  return outcome;
+}
+
+celspan_sink cs_rawrow_sink(cs_rawrow *raw, const celspan_coding *coding, FILE *stream) {
+  *raw = (cs_rawrow){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .stream = stream};
+  return (celspan_sink){raw, begin, put_row, end};
+}

@@ -1,0 +1,21 @@
+/* Rows as coded pixels, each in the same reused memory: written to a stream, or dropped.
+ */
+#ifndef CS_CLI_RAWROW_H
+#define CS_CLI_RAWROW_H
+
+#include <stdio.h>
+
+#include "celspan/celspan.h"
+
+typedef struct cs_rawrow {
+  celspan_coding coding; /* every default filled in */
+  FILE *stream;          /* NULL: rows are dropped */
+  unsigned char *row;
+  size_t row_size;
+} cs_rawrow;
+
+/* A sink that codes rows with `coding` (defaults as for raw frames) and writes them to `stream`.
+ * raw: kept by the sink as long as it is used. */
+celspan_sink cs_rawrow_sink(cs_rawrow *raw, const celspan_coding *coding, FILE *stream);
+
+#endif

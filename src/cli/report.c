@@ -1,0 +1,92 @@
+/* Exit codes and diagnostics. */
+#include "cli/report.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/interrupt.h"
+
+static void (*clear_line)(void);
+
+cs_exit cs_report_exit(celspan_status status) {
+  switch (status) {
+  case CELSPAN_OK:
+    return CS_EXIT_OK;
+  case CELSPAN_CANCELLED:
+    return CS_EXIT_SIGNAL;
+  case CELSPAN_NO_MEMORY:
+    return CS_EXIT_MEMORY;
+  case CELSPAN_BAD_ARGUMENT:
+  case CELSPAN_CALLBACK:
+    return CS_EXIT_SCRIPT;
+  case CELSPAN_LIMIT:
+    return CS_EXIT_LIMIT;
+  case CELSPAN_INPUT:
+    return CS_EXIT_INPUT;
+  case CELSPAN_OUTPUT:
+    return CS_EXIT_OUTPUT;
+  case CELSPAN_INTERNAL:
+    break;
+  }
+  return CS_EXIT_INTERNAL;
+}
+
+__attribute__((format(printf, 2, 0))) static void print_line(const char *prefix, const char *format,
+                                                             va_list arguments) {
+  if (clear_line)
+    clear_line();
+  fputs(prefix, stderr);
+  vfprintf(stderr, format, arguments);
+  fputc('\n', stderr);
+}
+
+void cs_report_error(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line("celspan: error: ", format, arguments);
+  va_end(arguments);
+}
+
+void cs_report_note(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line("celspan: ", format, arguments);
+  va_end(arguments);
+}
+
+cs_exit cs_report_usage(const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  print_line("celspan: error: ", format, arguments);
+  va_end(arguments);
+  return CS_EXIT_USAGE;
+}
+
+cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
+                          const char *where) {
+  if (status == CELSPAN_OK)
+    return CS_EXIT_OK;
+  if (status == CELSPAN_CANCELLED || cs_interrupt_signal())
+    return CS_EXIT_SIGNAL;
+  const char *sentence = celspan_context_error(context);
+  if (!sentence[0])
+    sentence = celspan_status_name(status);
+  bool is_placed = where && where[0];
+  cs_report_error("%s%s%s%s", is_placed ? where : "", is_placed ? ": " : "", sentence,
+                  status == CELSPAN_INTERNAL ? " (a fault of celspan itself: please report it)"
+                                             : "");
+  return cs_report_exit(status);
+}
+
+void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
+
+cs_exit cs_report_close_output(void) {
+  errno = 0;
+  bool had_error = ferror(stdout) != 0;
+  if (fclose(stdout) == 0 && !had_error)
+    return CS_EXIT_OK;
+  cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
+  return CS_EXIT_OUTPUT;
+}

@@ -1,0 +1,44 @@
+/* How failure looks from outside: the exit code and one line on standard error.
+ *
+ * INVARIANT  Every exit code of the program is named here and nowhere else, and every diagnostic
+ * leaves through this file, so that a progress bar can be cleared first and standard output
+ * carries nothing but data.
+ */
+#ifndef CS_CLI_REPORT_H
+#define CS_CLI_REPORT_H
+
+#include "celspan/celspan.h"
+
+typedef enum cs_exit {
+  CS_EXIT_OK = 0,
+  CS_EXIT_DIFFERENT = 1, /* compare: not the same */
+  CS_EXIT_USAGE = 2,
+  CS_EXIT_SCRIPT = 3, /* the script failed, or its scene was refused */
+  CS_EXIT_INPUT = 4,
+  CS_EXIT_OUTPUT = 5,
+  CS_EXIT_LIMIT = 6,
+  CS_EXIT_MEMORY = 33, /* the number render farms read as "more memory, then again" */
+  CS_EXIT_INTERNAL = 70,
+  CS_EXIT_SIGNAL = 128 /* main() dies by the signal, which adds its number */
+} cs_exit;
+
+/* The exit code of a call. */
+cs_exit cs_report_exit(celspan_status status);
+
+/* "celspan: error: ..." */
+void cs_report_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* "celspan: ..." */
+void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Reports an error and returns CS_EXIT_USAGE. */
+cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the
+ * exit code. Says nothing about CANCELLED, nor of anything once a signal asked to stop. */
+cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
+
+/* Called before each line on standard error, to clear what stands there; NULL: nothing stands. */
+void cs_report_before_line(void (*clear)(void));
+
+/* Ends standard output: OK, or reported and CS_EXIT_OUTPUT when not all of it could be written. */
+cs_exit cs_report_close_output(void);
+
+#endif

@@ -1,0 +1,211 @@
+/* The table of options, and what is made from it: parsing and help. */
+#include "cli/request.h"
+
+#include <ctype.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "bind/form.h"
+
+typedef struct option {
+  const char *name;
+  const char *value; /* what the help calls the value; NULL: a flag, without one */
+  const char *allowed;
+  unsigned verbs;
+  size_t offset;
+  cs_value_reader read; /* NULL: a flag (bool) */
+  const char *help;     /* NULL: known, but not shown because it is not built */
+} option;
+
+#define FIELD(field) offsetof(cs_request, field)
+#define CODED (CS_VERB_RENDER | CS_VERB_CONVERT)
+
+static const option OPTIONS[] = {
+    {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_value_text,
+     "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames"},
+    {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45", CS_VERB_RENDER, FIELD(frames),
+     cs_value_text, "frames to render, such as 1-10,20-30:2,45; default: all"},
+    {"--frame", "N", "the number of one frame", CS_VERB_SPANS | CS_VERB_PROBE, FIELD(frame),
+     cs_value_integer, "the frame; default: the first"},
+    {"--size", "WxH", "width x height in whole pixels, 1 to 1048576, such as 1920x1080",
+     CODED | CS_VERB_SPANS, FIELD(size), cs_value_size,
+     "pixels of the whole frame; each axis is scaled on its own"},
+    {"--scale", "S", "a number above 0 such as 0.5", CS_VERB_RENDER, FIELD(scale), cs_value_scale,
+     "pixels a film unit, instead of --size"},
+    {"--crop", "X,Y,W,H", "four whole numbers of pixels, width and height above 0", CODED,
+     FIELD(crop), cs_value_crop, "the part to make, in pixels of the output"},
+    {"--rows", "A-B", "two rows from 0, the first not below the second", CS_VERB_SPANS, FIELD(rows),
+     cs_value_rows, "rows from A to B, both included; default: all"},
+    {"--antialias", "MODE", "'area' or 'none'", CS_VERB_RENDER | CS_VERB_SPANS, FIELD(antialias),
+     cs_value_antialias, "area (the mean over each pixel) or none (pixel centres)"},
+    {"--format", "NAME", "the name of a file format such as png", CODED, FIELD(format),
+     cs_value_text, "file format; default: by the ending of OUT"},
+    {"--depth", "DEPTH", "8, 16, half or float", CODED, FIELD(coding.depth), cs_value_depth,
+     "8, 16, half or float; default: by the format"},
+    {"--colour", "CODING", "srgb, linear, rec709 or cineon", CODED, FIELD(coding.transfer),
+     cs_value_colour, "srgb, linear, rec709 or cineon; default: srgb, floats linear"},
+    {"--alpha", "KIND", "straight or premultiplied", CODED, FIELD(coding.alpha), cs_value_alpha,
+     "straight or premultiplied; default: straight, floats premultiplied"},
+    {"--workers", "N", "a whole number from 1 to 1024",
+     CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_CONVERT, FIELD(workers), cs_value_workers,
+     "threads that render; default: one a processor"},
+    {"--progress", "HOW", "auto, bar, lines or none", CS_VERB_RENDER, FIELD(progress),
+     cs_value_progress, "auto, bar, lines or none, on standard error"},
+    {"--hash", NULL, NULL, CS_VERB_RENDER, FIELD(hash), NULL,
+     "print FRAME DIGEST of each frame's pixels; OUT may be left out"},
+    {"--stats", NULL, NULL, CS_VERB_SPANS, FIELD(statistics), NULL,
+     "make all rows, count their spans by kind, print one line of counts"},
+    {"--pixels", "DEPTH", "8, 16, half or float", CS_VERB_SPANS, FIELD(pixels), cs_value_depth,
+     "with --stats: make each row as pixels, in a row that is reused"},
+    {"--fail", "D", "a number, 0 or more", CS_VERB_COMPARE, FIELD(tolerance), cs_value_tolerance,
+     "largest difference of coded values (0..1) that is let pass; default 0"},
+    {"--resume", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
+    {"--force", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
+    {"--keep-going", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
+    {"--memory", "MiB", NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
+};
+
+enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0], NAME_SIZE = 32 };
+
+/* ---------------------------------------------------------------- parsing */
+
+typedef struct parser {
+  const cs_verb *verb;
+  char *const *arguments;
+  size_t count, next;
+  cs_request *out;
+} parser;
+
+static bool belongs(const option *candidate, const cs_verb *verb) {
+  return (candidate->verbs & verb->self) != 0;
+}
+
+static const option *find(const cs_verb *verb, const char *name) {
+  for (size_t i = 0; i < OPTION_COUNT; i++)
+    if (belongs(&OPTIONS[i], verb) && strcmp(OPTIONS[i].name, name) == 0)
+      return &OPTIONS[i];
+  return NULL;
+}
+
+static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
+  const char *names[OPTION_COUNT];
+  size_t count = 0;
+  for (size_t i = 0; i < OPTION_COUNT; i++)
+    if (belongs(&OPTIONS[i], verb) && OPTIONS[i].help)
+      names[count++] = OPTIONS[i].name;
+  const char *nearest = cs_form_nearest(name, names, count);
+  if (nearest)
+    return cs_report_usage("unknown option '%s': did you mean '%s'?", name, nearest);
+  return cs_report_usage("unknown option '%s' ('celspan help %s' lists the options)", name,
+                         verb->name);
+}
+
+static cs_exit read_value(const option *known, const char *text, cs_request *out) {
+  void *field = (char *)out + known->offset;
+  switch (known->read(text, field)) {
+  case CS_VALUE_READ:
+    return CS_EXIT_OK;
+  case CS_VALUE_ABSENT:
+    return cs_report_usage("%s%s%s is not built into this version", known->name,
+                           known->help ? " " : "", known->help ? text : "");
+  case CS_VALUE_BAD:
+    break;
+  }
+  return cs_report_usage("%s: '%s' is not %s", known->name, text, known->allowed);
+}
+
+/* One option: --name value, --name=value, or a flag. */
+static cs_exit parse_option(parser *p) {
+  const char *argument = p->arguments[p->next++];
+  char name[NAME_SIZE];
+  size_t length = argument[1] == '-' ? strcspn(argument, "=") : strlen(argument);
+  if (length >= sizeof name)
+    return refuse_unknown(p->verb, argument);
+  memcpy(name, argument, length);
+  name[length] = '\0';
+  const option *known = find(p->verb, name);
+  if (!known)
+    return refuse_unknown(p->verb, name);
+  const char *value = argument[length] ? argument + length + 1 : NULL;
+  if (!known->value && value)
+    return cs_report_usage("%s takes no value", name);
+  if (!known->read) {
+    *(bool *)((char *)p->out + known->offset) = true;
+    return CS_EXIT_OK;
+  }
+  if (known->value && !value) {
+    if (p->next == p->count)
+      return cs_report_usage("%s needs a value: %s", name,
+                             known->allowed ? known->allowed : known->value);
+    value = p->arguments[p->next++];
+  }
+  return read_value(known, value, p->out);
+}
+
+/* "-" alone is a file, and "-3" a number. */
+static bool is_option(const char *text) {
+  return text[0] == '-' && text[1] && !isdigit((unsigned char)text[1]) && text[1] != '.';
+}
+
+static cs_exit take_script_arguments(parser *p) {
+  if (!(p->verb->self & CS_VERBS_WITH_SCRIPT))
+    return cs_report_usage("'--' ends the options of verbs that run a script; '%s' runs none",
+                           p->verb->name);
+  p->out->script_arguments = p->arguments + p->next;
+  p->out->script_argument_count = p->count - p->next;
+  p->next = p->count;
+  return CS_EXIT_OK;
+}
+
+static cs_exit take_operand(parser *p) {
+  const char *operand = p->arguments[p->next++];
+  if (p->out->operand_count == p->verb->operand_most)
+    return cs_report_usage("'%s' is one too many: celspan %s %s [options]", operand, p->verb->name,
+                           p->verb->operands);
+  p->out->operands[p->out->operand_count++] = operand;
+  return CS_EXIT_OK;
+}
+
+cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *arguments,
+                         cs_request *out) {
+  *out = (cs_request){.rows = {0, -1}};
+  parser p = {verb, arguments, count, 0, out};
+  cs_exit outcome = CS_EXIT_OK;
+  while (p.next < count && outcome == CS_EXIT_OK) {
+    if (strcmp(arguments[p.next], "--") == 0) {
+      p.next++;
+      outcome = take_script_arguments(&p);
+    } else if (is_option(arguments[p.next])) {
+      outcome = parse_option(&p);
+    } else {
+      outcome = take_operand(&p);
+    }
+  }
+  if (outcome == CS_EXIT_OK && out->operand_count < verb->operand_least)
+    return cs_report_usage("usage: celspan %s %s [options] ('celspan help %s' says more)",
+                           verb->name, verb->operands, verb->name);
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- help */
+
+void cs_request_help(const cs_verb *verb, FILE *stream) {
+  bool has_script = (verb->self & CS_VERBS_WITH_SCRIPT) != 0;
+  fprintf(stream, "celspan %s %s [options]%s\n\n%s\n", verb->name, verb->operands,
+          has_script ? " [-- ARGS]" : "", verb->summary);
+  if (verb->notes)
+    fprintf(stream, "\n%s", verb->notes);
+  bool is_first = true;
+  for (size_t i = 0; i < OPTION_COUNT; i++) {
+    const option *known = &OPTIONS[i];
+    if (!belongs(known, verb) || !known->help)
+      continue;
+    fputs(is_first ? "\nOptions\n" : "", stream);
+    is_first = false;
+    char left[40];
+    snprintf(left, sizeof left, "%s %s", known->name, known->value ? known->value : "");
+    fprintf(stream, "  %-18s %s\n", left, known->help);
+  }
+  if (has_script)
+    fputs("\nWhat follows -- arrives in the script as its arguments (...).\n", stream);
+}

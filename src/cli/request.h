@@ -1,0 +1,63 @@
+/* The options of every verb: one table drives parsing, the help text and the nearest name that is
+ * suggested for a misspelt option.
+ */
+#ifndef CS_CLI_REQUEST_H
+#define CS_CLI_REQUEST_H
+
+#include <stdio.h>
+
+#include "celspan/celspan.h"
+#include "cli/report.h"
+#include "cli/values.h"
+
+#define CS_OPERANDS_MAX 3
+
+typedef struct cs_request {
+  const char *operands[CS_OPERANDS_MAX]; /* borrowed from argv, as are all texts here */
+  size_t operand_count;
+  char *const *script_arguments; /* what stands after -- */
+  size_t script_argument_count;
+  const char *output, *format, *frames; /* NULL: not given */
+  cs_given_integer frame;
+  int32_t size[2]; /* 0 0: not given */
+  double scale;    /* 0: not given */
+  int32_t crop[4]; /* width 0: not given */
+  int32_t rows[2]; /* first and last, both included; last -1: not given */
+  cs_antialias_choice antialias;
+  celspan_coding coding;
+  int32_t workers; /* 0: one a processor */
+  cs_progress_style progress;
+  bool hash, statistics;
+  celspan_depth pixels; /* DEFAULT: not given */
+  double tolerance;
+} cs_request;
+
+typedef enum cs_verb_set {
+  CS_VERB_RENDER = 1 << 0,
+  CS_VERB_INFO = 1 << 1,
+  CS_VERB_CHECK = 1 << 2,
+  CS_VERB_SPANS = 1 << 3,
+  CS_VERB_PROBE = 1 << 4,
+  CS_VERB_CONVERT = 1 << 5,
+  CS_VERB_COMPARE = 1 << 6,
+  CS_VERBS_WITH_SCRIPT =
+      CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS | CS_VERB_PROBE
+} cs_verb_set;
+
+typedef struct cs_verb {
+  cs_verb_set self; /* one bit */
+  const char *name;
+  const char *operands; /* as the help shows them */
+  size_t operand_least, operand_most;
+  const char *summary; /* one line */
+  const char *notes;   /* more help, whole lines, or NULL */
+  cs_exit (*run)(celspan_context *context, const cs_request *request);
+} cs_verb;
+
+/* arguments: what follows the verb. OK, or reported and CS_EXIT_USAGE. */
+cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *arguments,
+                         cs_request *out);
+/* Usage, summary and all options of a verb. */
+void cs_request_help(const cs_verb *verb, FILE *stream);
+
+#endif

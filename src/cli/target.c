@@ -1,0 +1,58 @@
+/* Where frames go. */
+#include "cli/target.h"
+
+#include <string.h>
+#include <strings.h>
+
+static const char *const ABSENT_FORMATS[] = {"span", "mp4", "mov", "webm", "mkv", "avi"};
+
+static const char *ending(const char *path) {
+  const char *name = strrchr(path, '/');
+  const char *dot = strrchr(name ? name : path, '.');
+  return dot ? dot + 1 : "";
+}
+
+cs_exit cs_target_refuse(const char *path, const char *format) {
+  const char *wanted = format ? format : ending(path);
+  for (size_t i = 0; i < sizeof ABSENT_FORMATS / sizeof ABSENT_FORMATS[0]; i++)
+    if (strcasecmp(wanted, ABSENT_FORMATS[i]) == 0)
+      return cs_report_usage("%s: writing %s files is not built into this version; write numbered "
+                             "pictures such as shot.####.png",
+                             path, ABSENT_FORMATS[i]);
+  return CS_EXIT_OK;
+}
+
+celspan_file_desc cs_target_file(const cs_request *request) {
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  file.format = request->format;
+  file.coding = request->coding;
+  return file;
+}
+
+bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }
+
+static celspan_status list_frames(const cs_shot *shot, const cs_request *request,
+                                  cs_sequence *out) {
+  const cs_film_info *film = &shot->film;
+  if (!request->frames)
+    return cs_sequence_count(shot->context, film->first, film->count, out);
+  celspan_status status = cs_sequence_parse(shot->context, request->frames, out);
+  if (status == CELSPAN_OK)
+    status = cs_sequence_within(shot->context, out, film->first, film->count);
+  return status;
+}
+
+cs_exit cs_target_frames(const cs_shot *shot, const cs_request *request, cs_sequence *out) {
+  celspan_status status = list_frames(shot, request, out);
+  if (status == CELSPAN_BAD_ARGUMENT)
+    return cs_report_usage("%s", celspan_context_error(shot->context));
+  if (status != CELSPAN_OK)
+    return cs_report_failure(shot->context, status, NULL);
+  bool is_one_file = request->output && !cs_target_is_stream(request->output) &&
+                     !cs_sequence_has_number(request->output);
+  if (is_one_file && out->count > 1)
+    return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
+                           "shot.####.png",
+                           request->output, out->count);
+  return CS_EXIT_OK;
+}

@@ -1,0 +1,18 @@
+/* Where frames go: standard output, one file, or a numbered sequence of files. */
+#ifndef CS_CLI_TARGET_H
+#define CS_CLI_TARGET_H
+
+#include "bind/sequence.h"
+#include "cli/shot.h"
+
+/* OK for what this version can write; else reported: video and span files are not built in. */
+cs_exit cs_target_refuse(const char *path, const char *format);
+/* The description of a file under the options, without a frame's own metadata. */
+celspan_file_desc cs_target_file(const cs_request *request);
+/* The frames of --frames, or all, within the film, with a place for each. out: new. OK, or
+ * reported. */
+cs_exit cs_target_frames(const cs_shot *shot, const cs_request *request, cs_sequence *out);
+/* Standard output, for raw frames. */
+bool cs_target_is_stream(const char *path);
+
+#endif

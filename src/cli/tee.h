@@ -1,0 +1,15 @@
+/* One row to two sinks: a frame is written and hashed while it is made once.
+ */
+#ifndef CS_CLI_TEE_H
+#define CS_CLI_TEE_H
+
+#include "celspan/celspan.h"
+
+typedef struct cs_tee {
+  celspan_sink sinks[2]; /* ended in this order */
+} cs_tee;
+
+/* tee: kept by the sink as long as it is used. */
+celspan_sink cs_tee_sink(cs_tee *tee);
+
+#endif

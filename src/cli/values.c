@@ -1,0 +1,175 @@
+/* Readers of option values. */
+#include "cli/values.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "celspan/celspan.h"
+
+typedef struct choice {
+  const char *name;
+  int value;
+} choice;
+
+#define CHOOSE(text, field, choices)                                                               \
+  choose(text, field, choices, sizeof(choices) / sizeof((choices)[0]))
+
+static const int ABSENT = -1; /* a choice's value: known, but not built */
+
+static cs_value_outcome choose(const char *text, void *field, const choice *choices, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (strcmp(text, choices[i].name) != 0)
+      continue;
+    if (choices[i].value == ABSENT)
+      return CS_VALUE_ABSENT;
+    memcpy(field, &choices[i].value, sizeof choices[i].value);
+    return CS_VALUE_READ;
+  }
+  return CS_VALUE_BAD;
+}
+
+/* `count` whole numbers in [least, most], parted by `separator`, and nothing else. */
+static bool read_integers(const char *text, char separator, int64_t least, int64_t most,
+                          int32_t *out, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    char *end = NULL;
+    errno = 0;
+    long long number = strtoll(text, &end, 10);
+    bool is_last = i + 1 == count;
+    if (end == text || text[0] == ' ' || errno || number < least || number > most)
+      return false;
+    if (*end != (is_last ? '\0' : separator))
+      return false;
+    out[i] = (int32_t)number;
+    text = end + 1;
+  }
+  return true;
+}
+
+static bool read_number(const char *text, double *out) {
+  char *end = NULL;
+  double number = strtod(text, &end);
+  if (end == text || *end || text[0] == ' ' || !isfinite(number))
+    return false;
+  *out = number;
+  return true;
+}
+
+cs_value_outcome cs_value_text(const char *text, void *field) {
+  if (!text[0])
+    return CS_VALUE_BAD;
+  *(const char **)field = text;
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_integer(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, -INT32_MAX, INT32_MAX, &value, 1))
+    return CS_VALUE_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_workers(const char *text, void *field) {
+  return read_integers(text, 0, 1, 1024, field, 1) ? CS_VALUE_READ : CS_VALUE_BAD;
+}
+
+cs_value_outcome cs_value_number(const char *text, void *field) {
+  return read_number(text, field) ? CS_VALUE_READ : CS_VALUE_BAD;
+}
+
+cs_value_outcome cs_value_scale(const char *text, void *field) {
+  double number = 0;
+  if (!read_number(text, &number) || number <= 0 || number > CS_SIDE_MAX)
+    return CS_VALUE_BAD;
+  *(double *)field = number;
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_tolerance(const char *text, void *field) {
+  double number = 0;
+  if (!read_number(text, &number) || number < 0)
+    return CS_VALUE_BAD;
+  *(double *)field = number;
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_size(const char *text, void *field) {
+  int32_t size[2];
+  if (!read_integers(text, 'x', 1, CS_SIDE_MAX, size, 2))
+    return CS_VALUE_BAD;
+  memcpy(field, size, sizeof size);
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_crop(const char *text, void *field) {
+  int32_t crop[4];
+  if (!read_integers(text, ',', 0, CS_SIDE_MAX, crop, 4) || !crop[2] || !crop[3])
+    return CS_VALUE_BAD;
+  memcpy(field, crop, sizeof crop);
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_rows(const char *text, void *field) {
+  int32_t rows[2];
+  if (!read_integers(text, '-', 0, CS_SIDE_MAX - 1, rows, 2) || rows[0] > rows[1])
+    return CS_VALUE_BAD;
+  memcpy(field, rows, sizeof rows);
+  return CS_VALUE_READ;
+}
+
+/* KERNEL[:ROWS]: the part before the colon names the kernel. */
+cs_value_outcome cs_value_antialias(const char *text, void *field) {
+  static const choice choices[] = {
+      {"area", CS_ANTIALIAS_AREA}, {"none", CS_ANTIALIAS_NONE}, {"box", ABSENT},
+      {"gaussian", ABSENT},        {"mitchell", ABSENT},        {"lanczos", ABSENT}};
+  char name[16];
+  size_t length = strcspn(text, ":");
+  if (length >= sizeof name)
+    return CS_VALUE_BAD;
+  memcpy(name, text, length);
+  name[length] = '\0';
+  cs_antialias_choice value = CS_ANTIALIAS_BY_ROSTRUM;
+  cs_value_outcome outcome = CHOOSE(name, &value, choices);
+  if (outcome == CS_VALUE_READ && text[length])
+    return CS_VALUE_BAD;
+  if (outcome == CS_VALUE_READ)
+    memcpy(field, &value, sizeof value);
+  return outcome;
+}
+
+cs_value_outcome cs_value_depth(const char *text, void *field) {
+  static const choice choices[] = {{"8", CELSPAN_DEPTH_8},
+                                   {"16", CELSPAN_DEPTH_16},
+                                   {"half", CELSPAN_DEPTH_HALF},
+                                   {"float", CELSPAN_DEPTH_FLOAT}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_value_outcome cs_value_colour(const char *text, void *field) {
+  static const choice choices[] = {{"srgb", CELSPAN_TRANSFER_SRGB},
+                                   {"linear", CELSPAN_TRANSFER_LINEAR},
+                                   {"rec709", CELSPAN_TRANSFER_REC709},
+                                   {"cineon", CELSPAN_TRANSFER_CINEON}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_value_outcome cs_value_alpha(const char *text, void *field) {
+  static const choice choices[] = {{"straight", CELSPAN_ALPHA_STRAIGHT},
+                                   {"premultiplied", CELSPAN_ALPHA_PREMULTIPLIED}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_value_outcome cs_value_progress(const char *text, void *field) {
+  static const choice choices[] = {
+      {"auto", CS_PROGRESS_AUTO}, {"bar", CS_PROGRESS_BAR}, {"lines", CS_PROGRESS_LINES},
+      {"none", CS_PROGRESS_NONE}, {"json", ABSENT},         {"openjd", ABSENT}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_value_outcome cs_value_absent(const char *text, void *field) {
+  (void)text, (void)field;
+  return CS_VALUE_ABSENT;
+}

@@ -1,0 +1,57 @@
+/* Reading the values of options: text to a field, one function a kind of value.
+ *
+ * A reader changes its field only when it answers READ. Numbers are read in the C locale, which
+ * main() sets for its thread.
+ */
+#ifndef CS_CLI_VALUES_H
+#define CS_CLI_VALUES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define CS_SIDE_MAX 1048576
+
+typedef enum cs_value_outcome {
+  CS_VALUE_READ = 0,
+  CS_VALUE_BAD,
+  CS_VALUE_ABSENT /* promised, but not built into this version */
+} cs_value_outcome;
+
+typedef cs_value_outcome (*cs_value_reader)(const char *text, void *field);
+
+typedef enum cs_progress_style {
+  CS_PROGRESS_AUTO = 0,
+  CS_PROGRESS_BAR,
+  CS_PROGRESS_LINES,
+  CS_PROGRESS_NONE
+} cs_progress_style;
+
+typedef enum cs_antialias_choice {
+  CS_ANTIALIAS_BY_ROSTRUM = 0,
+  CS_ANTIALIAS_AREA,
+  CS_ANTIALIAS_NONE
+} cs_antialias_choice;
+
+typedef struct cs_given_integer {
+  bool is_given;
+  int32_t value;
+} cs_given_integer;
+
+cs_value_outcome cs_value_text(const char *text, void *field);      /* const char * */
+cs_value_outcome cs_value_integer(const char *text, void *field);   /* cs_given_integer */
+cs_value_outcome cs_value_workers(const char *text, void *field);   /* int32_t, 1..1024 */
+cs_value_outcome cs_value_number(const char *text, void *field);    /* double, finite */
+cs_value_outcome cs_value_scale(const char *text, void *field);     /* double, above 0 */
+cs_value_outcome cs_value_tolerance(const char *text, void *field); /* double, 0 or more */
+cs_value_outcome cs_value_size(const char *text, void *field);      /* int32_t[2] */
+cs_value_outcome cs_value_crop(const char *text, void *field);      /* int32_t[4] */
+cs_value_outcome cs_value_rows(const char *text, void *field);      /* int32_t[2], inclusive */
+cs_value_outcome cs_value_antialias(const char *text, void *field); /* cs_antialias_choice */
+cs_value_outcome cs_value_depth(const char *text, void *field);     /* celspan_depth */
+cs_value_outcome cs_value_colour(const char *text, void *field);    /* celspan_transfer */
+cs_value_outcome cs_value_alpha(const char *text, void *field);     /* celspan_alpha */
+cs_value_outcome cs_value_progress(const char *text, void *field);  /* cs_progress_style */
+/* For options that are not built into this version: always ABSENT. */
+cs_value_outcome cs_value_absent(const char *text, void *field);
+
+#endif

@@ -1,0 +1,14 @@
+/* From a film's size and the request to the description of what is rendered: size, crop,
+ * antialiasing, workers. One rule for every verb that makes rows.
+ */
+#ifndef CS_CLI_VIEW_H
+#define CS_CLI_VIEW_H
+
+#include "cli/request.h"
+
+/* Fills *out but for its exposures; the film's size is in film units. OK, or reported and
+ * CS_EXIT_USAGE or CS_EXIT_LIMIT. */
+cs_exit cs_view_frame(const cs_request *request, double film_width, double film_height,
+                      celspan_frame_desc *out);
+
+#endif

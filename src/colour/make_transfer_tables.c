@@ -1,0 +1,78 @@
+/* Writes transfer_tables.h at build time: see transfer.c for what the tables mean. Native, and as
+ * deterministic as base/elementary.c.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/elementary.h"
+
+enum { POINTS = 64, SERIES = 8, OCTAVES = 24 };
+
+static void print_numbers(const char *name, const double *numbers, int count) {
+  printf("  .%s = {", name);
+  for (int i = 0; i < count; i++)
+    printf("%a,%s", numbers[i], i % 4 == 3 ? "\n    " : " ");
+  printf("},\n");
+}
+
+/* x^exponent = octave[e] * point[i] * (1 + r)^exponent where x = 2^e c (1 + r), c the middle of the
+ * i-th of 64 slices of 1..2. */
+static void print_power(const char *name, double exponent) {
+  double point[POINTS], series[SERIES], octave[2 * OCTAVES + 1];
+  for (int i = 0; i < POINTS; i++)
+    point[i] = cs_elementary_pow(1 + (i + 0.5) / POINTS, exponent);
+  series[0] = 1;
+  for (int i = 1; i < SERIES; i++)
+    series[i] = series[i - 1] * (exponent - (i - 1)) / i;
+  for (int e = -OCTAVES; e <= OCTAVES; e++)
+    octave[e + OCTAVES] = cs_elementary_pow(2, e * exponent);
+  printf("static const power_curve %s = {\n  .exponent = %a,\n", name, exponent);
+  print_numbers("point", point, POINTS);
+  print_numbers("series", series, SERIES);
+  print_numbers("octave", octave, 2 * OCTAVES + 1);
+  printf("};\n");
+}
+
+static double srgb_to_linear(double coded) {
+  return coded <= 0.04045 ? coded / 12.92 : cs_elementary_pow((coded + 0.055) / 1.055, 2.4);
+}
+
+/* srgb8_step[k]: the least float whose code is k or more; [256] is never reached. */
+static void print_steps(void) {
+  printf("static const float srgb8_step[257] = {0,");
+  for (int code = 1; code <= 255; code++) {
+    double exact = srgb_to_linear((code - 0.5) / 255);
+    float step = (float)exact;
+    if (step < exact)
+      step = nextafterf(step, 2);
+    printf(" %af,%s", (double)step, code % 4 == 3 ? "\n  " : "");
+  }
+  printf(" 2};\n");
+}
+
+/* srgb8_first[i]: the code at the low end of the i-th of 128 slices of an octave, from 2^-13. */
+static void print_first_codes(void) {
+  printf("static const unsigned char srgb8_first[13 * 128] = {");
+  for (int slice = 0; slice < 13 * 128; slice++) {
+    double low = ldexp(1 + slice % 128 / 128.0, slice / 128 - 13);
+    int code = 0;
+    while (code < 255 && srgb_to_linear((code + 0.5) / 255) <= low)
+      code++;
+    printf("%d,%s", code, slice % 16 == 15 ? "\n  " : " ");
+  }
+  printf("};\n");
+}
+
+int main(void) {
+  printf("/* Made by make_transfer_tables.c. */\n");
+  printf("enum { POINTS = %d, SERIES = %d, OCTAVES = %d };\n", POINTS, SERIES, OCTAVES);
+  printf("typedef struct power_curve {\n  double exponent, point[POINTS], series[SERIES], "
+         "octave[2 * OCTAVES + 1];\n} power_curve;\n");
+  print_power("srgb_encoding", 1 / 2.4);
+  print_power("srgb_decoding", 2.4);
+  print_power("rec709_encoding", 0.45);
+  print_power("rec709_decoding", 1 / 0.45);
+  print_steps();
+  print_first_codes();
+  return ferror(stdout) || fflush(stdout) != 0;
+}

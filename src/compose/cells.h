@@ -1,0 +1,31 @@
+/* The cells between the active boundaries of a row, and which boundaries can be seen.
+ *
+ * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
+ * listed in `visible` iff the cells on its two sides look different. Cells belong to places in the
+ * order, not to boundaries: where the set of leaves at a place is the same as before, its cell is
+ * kept; so a swap composes one cell and a row without events none.
+ */
+#ifndef CS_COMPOSE_CELLS_H
+#define CS_COMPOSE_CELLS_H
+
+#include "compose/composer.h"
+#include "sweep/active.h"
+
+typedef struct cs_cells {
+  cs_cell *cells; /* count + 1 in use */
+  uint32_t *visible;
+  size_t visible_count;
+  size_t known; /* cells that were made, from the left */
+  size_t cell_capacity, visible_capacity;
+} cs_cells;
+
+void cs_cells_init(cs_cells *cells);
+void cs_cells_finish(cs_cells *cells, cs_memory *memory);
+/* Brings the cells up to date with the active boundaries. Errors: NO_MEMORY; what composing meets
+ * stays in composer->failure. */
+CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
+                                               const cs_active *active);
+/* Forgets every cell. */
+void cs_cells_forget(cs_cells *cells);
+
+#endif

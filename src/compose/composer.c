@@ -1,0 +1,297 @@
+#include "compose/composer.h"
+
+#include <math.h>
+
+#define MEMO_SIZE 4096           /* cells remembered; a power of two */
+#define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status take(cs_composer *composer, void *field, size_t count, size_t size) {
+  void *items = cs_mem_array(composer->context->memory, count, size);
+  if (!items && count > 0)
+    return cs_fail_memory(composer->context);
+  memcpy(field, &items, sizeof items);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
+                                const cs_stack *stack) {
+  *composer = (cs_composer){.context = context, .stack = stack};
+  cs_arena_init(&composer->scratch);
+  size_t words = cs_stack_words(stack);
+  CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
+  CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
+  CS_TRY(take(composer, &composer->windings, stack->leaf_count, sizeof(int32_t)));
+  if (stack->procedure_count > 0)
+    CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
+  CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
+  CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
+  return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
+}
+
+void cs_composer_finish(cs_composer *composer) {
+  if (!composer->stack)
+    return;
+  cs_memory *memory = composer->context->memory;
+  const cs_stack *stack = composer->stack;
+  size_t words = cs_stack_words(stack);
+  cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
+  cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
+  cs_mem_free(memory, composer->windings, stack->leaf_count * sizeof(int32_t));
+  cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
+  cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
+  cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
+  cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
+  cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
+  cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
+  cs_mem_free(memory, composer->strips, composer->strip_capacity * sizeof(cs_strip));
+  cs_arena_finish(&composer->scratch, memory);
+  *composer = (cs_composer){0};
+}
+
+bool cs_composer_begin_row(cs_composer *composer) {
+  composer->failure = CELSPAN_OK;
+  composer->strip_count = 0;
+  if (composer->item_count <= ITEM_LIMIT)
+    return false;
+  composer->item_count = 0;
+  memset(composer->memo, 0, MEMO_SIZE * sizeof(cs_memo));
+  return true;
+}
+
+/* ---------------------------------------------------------------- the fold */
+
+/* Light gathered so far (e) and what still shines through (t), inside one faded group. */
+typedef struct level {
+  cs_v4 e, t;
+} level;
+
+typedef struct fold {
+  const cs_stack *stack;
+  cs_v4 e, t;
+  float keep;      /* what the mattes of back lights leave of transparency */
+  uint32_t group;  /* where the fold stands */
+  size_t light;    /* the next back light to be met */
+  uint32_t depth;
+  level outer[CS_SCENE_DEPTH + 2];
+} fold;
+
+static void fold_begin(fold *f, const cs_stack *stack) {
+  f->stack = stack;
+  f->e = cs_v4_all(0);
+  f->t = cs_v4_all(1);
+  f->keep = 1;
+  f->group = CS_STACK_NONE;
+  f->light = 0;
+  f->depth = 0;
+}
+
+static void fold_leave_group(fold *f) {
+  const cs_group *group = &f->stack->groups[f->group];
+  const level *outer = &f->outer[--f->depth];
+  f->e = outer->e + outer->t * (group->fade * f->e);
+  f->t = outer->t * ((1 - group->fade) + group->fade * f->t);
+  f->group = group->parent;
+}
+
+static void fold_enter_group(fold *f, uint32_t group) {
+  const cs_group *inner = &f->stack->groups[group];
+  if (inner->parent != f->group)
+    fold_enter_group(f, inner->parent); /* at most CS_SCENE_DEPTH + 1 levels */
+  f->outer[f->depth++] = (level){f->e, f->t};
+  f->e = cs_v4_all(0);
+  f->t = cs_v4_all(1);
+  f->group = group;
+}
+
+static void fold_light(fold *f) {
+  const cs_back_light *light = &f->stack->lights[f->light++];
+  f->e += f->t * light->light;
+  f->keep *= light->keep;
+}
+
+/* Moves the fold back to just before `leaf`: leaves groups, meets back lights, enters groups. */
+static void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
+  while (f->group != CS_STACK_NONE && leaf < f->stack->groups[f->group].first)
+    fold_leave_group(f);
+  while (f->light < f->stack->light_count && leaf < f->stack->lights[f->light].below)
+    fold_light(f);
+  if (group != f->group)
+    fold_enter_group(f, group);
+}
+
+static inline void fold_paint(fold *f, cs_v4 s, cs_v4 t) {
+  f->e += f->t * s;
+  f->t *= t;
+}
+
+static bool fold_is_opaque(const fold *f) {
+  return f->t[0] <= CS_PAINT_OPAQUE && f->t[1] <= CS_PAINT_OPAQUE && f->t[2] <= CS_PAINT_OPAQUE;
+}
+
+/* Premultiplied RGBA; alpha is the mean of the three mattes (colour-and-spans 2.3b). */
+static cs_v4 fold_end(fold *f) {
+  while (f->group != CS_STACK_NONE)
+    fold_leave_group(f);
+  while (f->light < f->stack->light_count)
+    fold_light(f);
+  cs_v4 rgba = f->e;
+  rgba[3] = 1 - f->keep * ((f->t[0] + f->t[1] + f->t[2]) / 3);
+  return rgba;
+}
+
+cs_v4 cs_composer_fold(const cs_composer *composer, const cs_item *items, size_t count,
+                       const cs_sample *samples) {
+  fold f;
+  fold_begin(&f, composer->stack);
+  for (size_t i = 0; i < count; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[items[i].leaf];
+    fold_reach(&f, items[i].leaf, leaf->group);
+    if (leaf->kind == CS_LEAF_FLAT) {
+      fold_paint(&f, leaf->s, leaf->t);
+    } else {
+      cs_v4 t = (1 - leaf->fade) + leaf->fade * samples[i].t;
+      fold_paint(&f, leaf->front * (leaf->fade * samples[i].s), t);
+    }
+  }
+  return fold_end(&f);
+}
+
+/* ---------------------------------------------------------------- gathering */
+
+static celspan_status gather_item(cs_composer *composer, uint32_t leaf) {
+  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->gathered,
+                        &composer->gathered_capacity, composer->gathered_count + 1,
+                        sizeof(cs_item)));
+  uint32_t strip = composer->stack->leaves[leaf].kind == CS_LEAF_SCANLINE
+                       ? composer->strip_of[leaf]
+                       : 0;
+  composer->gathered[composer->gathered_count++] = (cs_item){leaf, strip};
+  return CELSPAN_OK;
+}
+
+static celspan_status leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf, bool *out) {
+  *out = leaf->is_opaque;
+  if (leaf->kind == CS_LEAF_PICTURE) {
+    const cs_seen_slide *slide;
+    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+    *out = slide->is_opaque && leaf->fade == 1;
+  }
+  return CELSPAN_OK;
+}
+
+/* Takes one leaf into the cell: folds it when it is flat, notes it in any case. Until then a leaf
+ * that varies and is not opaque counts as clear, so the stop comes late, never early. */
+static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index, bool *varies) {
+  const cs_leaf *leaf = &composer->stack->leaves[index];
+  fold_reach(f, index, leaf->group);
+  CS_TRY(gather_item(composer, index));
+  if (leaf->kind == CS_LEAF_FLAT) {
+    fold_paint(f, leaf->s, leaf->t);
+    return CELSPAN_OK;
+  }
+  bool is_opaque;
+  *varies = true;
+  CS_TRY(leaf_is_opaque(composer, leaf, &is_opaque));
+  if (is_opaque)
+    f->t = cs_v4_all(0);
+  return CELSPAN_OK;
+}
+
+/* The highest leaf of the set below `end`, or CS_STACK_NONE. */
+static uint32_t leaf_below(const uint64_t *set, uint32_t end) {
+  if (end == 0)
+    return CS_STACK_NONE;
+  uint32_t word = (end - 1) / 64;
+  uint64_t bits = set[word] & (~(uint64_t)0 >> (63 - (end - 1) % 64));
+  while (bits == 0) {
+    if (word == 0)
+      return CS_STACK_NONE;
+    bits = set[--word];
+  }
+  return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
+}
+
+/* Walks the contributing leaves from the front until nothing shines through. */
+static celspan_status gather(cs_composer *composer, const uint64_t *set, fold *f, bool *varies) {
+  uint32_t end = (uint32_t)composer->stack->leaf_count;
+  composer->gathered_count = 0;
+  for (uint32_t leaf; (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+    CS_TRY(gather_leaf(composer, f, leaf, varies));
+    end = leaf;
+    if (fold_is_opaque(f)) {
+      if (f->group == CS_STACK_NONE)
+        break;
+      end = composer->stack->groups[f->group].first; /* the rest of the group is hidden */
+    }
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
+  size_t count = composer->gathered_count;
+  CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->items, &composer->item_capacity,
+                        composer->item_count + count, sizeof(cs_item)));
+  memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
+  cell->program = (uint32_t)composer->item_count;
+  cell->length = (uint32_t)count;
+  composer->item_count += count;
+  return CELSPAN_OK;
+}
+
+static celspan_status compose(cs_composer *composer, cs_cell *cell) {
+  const uint64_t *set = composer->set;
+  if (composer->stack->tree_count > 0) {
+    memcpy(composer->contributing, set, cs_stack_words(composer->stack) * sizeof *set);
+    cs_tree_resolve(composer->stack, composer->contributing, composer->results);
+    set = composer->contributing;
+  }
+  fold f;
+  bool varies = false;
+  fold_begin(&f, composer->stack);
+  CS_TRY(gather(composer, set, &f, &varies));
+  composer->evaluations++;
+  if (varies)
+    return keep_program(composer, cell);
+  cell->colour = fold_end(&f);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- cells */
+
+void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t strip,
+                             int32_t direction) {
+  /* Rows number their strips alike, and a program names a strip by its number: what the memo holds
+   * of an earlier row is the same program, read with this row's strips. */
+  const cs_mark *mark = &composer->stack->marks[leaf];
+  uint64_t name = (strip + 1) * (uint64_t)0x9e3779b97f4a7c15u;
+  composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
+  composer->hash.a ^= mark->key[0] * (name | 1);
+  composer->hash.b ^= mark->key[1] ^ name;
+  if (direction > 0)
+    composer->strip_of[leaf] = strip;
+}
+
+void cs_composer_cell(cs_composer *composer, cs_cell *out) {
+  cs_memo *memo = &composer->memo[composer->hash.a & (MEMO_SIZE - 1)];
+  if (memo->is_used && cs_set_hash_same(memo->cell.hash, composer->hash)) {
+    *out = memo->cell;
+    return;
+  }
+  cs_cell cell = {.colour = cs_v4_all(0), .hash = composer->hash};
+  celspan_status status = compose(composer, &cell);
+  if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
+    composer->failure = status;
+  *memo = (cs_memo){cell, status == CELSPAN_OK};
+  *out = cell;
+}
+
+bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b) {
+  if (a->length != b->length)
+    return false;
+  if (a->length == 0)
+    return cs_v4_same(a->colour, b->colour);
+  return memcmp(&composer->items[a->program], &composer->items[b->program],
+                a->length * sizeof(cs_item)) == 0;
+}

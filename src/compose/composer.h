@@ -1,0 +1,130 @@
+/* The composer: from the leaves present in a cell to its colour, or to the short program that gives
+ * its colour along a row.
+ *
+ *   walk along a row --cross--> set of leaves present --cell--> colour or program --run--> spans
+ *
+ * Invariants
+ *   - The running set, windings and hash describe the place the walk stands at; crossing the same
+ *     boundary back undoes a crossing.
+ *   - The colour of a cell depends on its set alone, never on the way it was reached: a cell whose
+ *     hash is known is not composed again.
+ *   - A program lists the contributing leaves front to back, cut where nothing shines through.
+ * One composer a worker; the stack is shared.
+ */
+#ifndef CS_COMPOSE_COMPOSER_H
+#define CS_COMPOSE_COMPOSER_H
+
+#include "compose/stack.h"
+#include "span/row.h"
+
+typedef struct cs_set_hash {
+  uint64_t a, b;
+} cs_set_hash;
+
+static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) { return p.a == q.a && p.b == q.b; }
+
+/* One layer of a program. */
+typedef struct cs_item {
+  uint32_t leaf;
+  uint32_t strip; /* SCANLINE: which of the row's strips; else 0 */
+} cs_item;
+
+typedef struct cs_cell {
+  cs_v4 colour;     /* where length == 0 */
+  cs_set_hash hash; /* of the leaves present */
+  uint32_t program; /* index of the first item */
+  uint32_t length;  /* items; 0: one colour everywhere */
+} cs_cell;
+
+/* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */
+typedef struct cs_strip {
+  double x0, x1;
+  const cs_paint *paints;
+  size_t paint_count;
+} cs_strip;
+
+/* A picture leaf as this worker sees it: its header is read when the leaf is first reached. */
+typedef struct cs_seen_slide {
+  bool is_ready, is_opaque;
+  cs_sampler sampler;
+} cs_seen_slide;
+
+typedef struct cs_memo {
+  cs_cell cell;
+  bool is_used;
+} cs_memo;
+
+typedef struct cs_composer {
+  celspan_context *context; /* the worker's branch */
+  const cs_stack *stack;
+  uint64_t *set;          /* leaves present at the walk's place */
+  uint64_t *contributing; /* scratch */
+  int32_t *windings;
+  uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
+  cs_set_hash hash;
+  cs_tree_result *results;
+  cs_seen_slide *slides;
+  cs_memo *memo;
+  cs_item *items;
+  size_t item_count, item_capacity;
+  cs_item *gathered; /* scratch: the items of the cell being composed */
+  size_t gathered_count, gathered_capacity;
+  cs_strip *strips; /* of the current row */
+  size_t strip_count, strip_capacity;
+  cs_arena scratch;       /* of one run */
+  uint64_t evaluations;
+  celspan_status failure; /* sticky: the first failure of the row, recorded in context */
+} cs_composer;
+
+CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
+                                                const cs_stack *stack);
+void cs_composer_finish(cs_composer *composer);
+/* Before each row: forgets strips, and programs when they have grown many; true when cells made
+ * before are no longer valid. */
+bool cs_composer_begin_row(cs_composer *composer);
+
+/* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
+static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
+  const cs_mark *mark = &composer->stack->marks[leaf];
+  int32_t before = composer->windings[leaf], after = before + direction;
+  composer->windings[leaf] = after;
+  if (((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0)) {
+    composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
+    composer->hash.a ^= mark->key[0];
+    composer->hash.b ^= mark->key[1];
+  }
+}
+
+/* Enters (+1) or leaves (-1) a strip of a scan-line leaf. */
+void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t strip,
+                             int32_t direction);
+
+/* The cell at the walk's place. On failure the cell is clear and composer->failure is set. */
+void cs_composer_cell(cs_composer *composer, cs_cell *out);
+
+/* Whether two cells look alike everywhere. */
+bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b);
+
+/* Appends the spans of a cell over the columns [x0, x1) of the row whose centre is at height y.
+ * Gradients are cut so that they are right within 1/1023; the cuts depend on x0, x1 and y alone. */
+CELSPAN_CHECKED celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell,
+                                               int32_t x0, int32_t x1, double y, cs_row *row);
+/* The cell's colour at each column's centre. */
+CELSPAN_CHECKED celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell,
+                                                   int32_t x0, int32_t x1, double y,
+                                                   float (*rgba)[4]);
+
+/* ---- for run.c: the fold of a program at one point */
+
+typedef struct cs_sample { /* what the leaves that vary paint at one pixel */
+  cs_v4 s, t;              /* s not yet lit */
+} cs_sample;
+
+/* Folds items front to back; samples: one an item, read where the leaf varies. */
+cs_v4 cs_composer_fold(const cs_composer *composer, const cs_item *items, size_t count,
+                       const cs_sample *samples);
+/* The sampler of a picture leaf, its header read on first use. */
+CELSPAN_CHECKED celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
+                                                 const cs_seen_slide **out);
+
+#endif

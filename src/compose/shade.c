@@ -1,0 +1,188 @@
+#include "compose/shade.h"
+
+#include "base/number.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------- the triangle */
+
+static double corner_value(const cs_paint *paint, int channel) {
+  return channel < 3 ? paint->s[channel] : channel < 6 ? paint->t[channel - 3] : paint->beta;
+}
+
+/* The plane through the corners' values; a triangle of no area has the mean of its corners. */
+void cs_shade_prepare(cs_shade *shade) {
+  const celspan_texture *texture = shade->texture;
+  const celspan_point *p = texture->points;
+  double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y;
+  double vx = p[2].x - p[0].x, vy = p[2].y - p[0].y;
+  double area = ux * vy - uy * vx;
+  for (int channel = 0; channel < 7; channel++) {
+    double c0 = corner_value(&texture->corners[0], channel);
+    double c1 = corner_value(&texture->corners[1], channel);
+    double c2 = corner_value(&texture->corners[2], channel);
+    double *plane = shade->plane[channel];
+    plane[0] = area == 0 ? 0 : ((c1 - c0) * vy - (c2 - c0) * uy) / area;
+    plane[1] = area == 0 ? 0 : ((c2 - c0) * ux - (c1 - c0) * vx) / area;
+    plane[2] = area == 0 ? (c0 + c1 + c2) / 3 : c0 - plane[0] * p[0].x - plane[1] * p[0].y;
+  }
+}
+
+static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
+  double value[7];
+  for (int channel = 0; channel < 7; channel++) {
+    const double *plane = shade->plane[channel];
+    value[channel] = plane[0] * u + plane[1] * v + plane[2];
+  }
+  double beta = cs_number_clamp(value[6], 0, 1);
+  cs_paint paint = {.beta = (float)beta};
+  for (int c = 0; c < 3; c++) {
+    paint.s[c] = (float)cs_number_clamp(value[c], 0, beta);
+    paint.t[c] = (float)cs_number_clamp(value[c + 3], 0, 1 - beta);
+  }
+  return paint;
+}
+
+/* ---------------------------------------------------------------- stops */
+
+static cs_paint stop_paint(const celspan_texture *texture, double at) {
+  const cs_stop *stops = texture->stops;
+  size_t count = texture->stop_count, next = 0;
+  while (next < count && stops[next].at <= at)
+    next++;
+  if (next == 0)
+    return stops[0].paint;
+  if (next == count)
+    return stops[count - 1].paint;
+  const cs_paint *p = &stops[next - 1].paint, *q = &stops[next].paint;
+  float k = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
+  cs_paint paint = {.beta = p->beta + k * (q->beta - p->beta)};
+  for (int c = 0; c < 3; c++) {
+    paint.s[c] = p->s[c] + k * (q->s[c] - p->s[c]);
+    paint.t[c] = p->t[c] + k * (q->t[c] - p->t[c]);
+  }
+  return paint;
+}
+
+/* Along a linear texture: 0 at `from`, 1 at `to`; past the end where they coincide. */
+static double linear_at(const celspan_texture *texture, double u, double v) {
+  const celspan_point *from = &texture->points[0], *to = &texture->points[1];
+  double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
+  return length == 0 ? 2 : ((u - from->x) * dx + (v - from->y) * dy) / length;
+}
+
+static double radial_at(const celspan_texture *texture, double u, double v) {
+  double dx = u - texture->points[0].x, dy = v - texture->points[0].y;
+  return texture->radius == 0 ? 2 : sqrt(dx * dx + dy * dy) / texture->radius;
+}
+
+cs_paint cs_shade_paint(const cs_shade *shade, double x, double y) {
+  cs_hpoint own = cs_matrix_apply(&shade->inverse, (cs_hpoint){x, y, 1});
+  if (!(own.w > 0))
+    return CS_PAINT_CLEAR;
+  double u = own.x / own.w, v = own.y / own.w;
+  switch (shade->texture->kind) {
+  case CS_TEXTURE_TRIANGLE:
+    return triangle_paint(shade, u, v);
+  case CS_TEXTURE_LINEAR:
+    return stop_paint(shade->texture, linear_at(shade->texture, u, v));
+  case CS_TEXTURE_RADIAL:
+    return stop_paint(shade->texture, radial_at(shade->texture, u, v));
+  case CS_TEXTURE_FLAT:
+  case CS_TEXTURE_PICTURE:
+    break;
+  }
+  return CS_PAINT_CLEAR;
+}
+
+/* ---------------------------------------------------------------- where a row bends
+ *
+ * On a row the homogeneous own coordinates are linear in x: (u, v, w) = base + x * step. A plane
+ * a u + b v + c w is then linear too, and meets a level L where plane(x) - L w(x) = 0; the distance
+ * from a centre meets r L where a quadratic does. */
+
+typedef struct row_map {
+  cs_hpoint base, step;
+} row_map;
+
+static row_map map_row(const cs_shade *shade, double y) {
+  const double *m = shade->inverse.m;
+  return (row_map){{m[1] * y + m[2], m[4] * y + m[5], m[7] * y + m[8]}, {m[0], m[3], m[6]}};
+}
+
+typedef struct breaks {
+  double x0, x1, *out;
+  size_t count;
+} breaks;
+
+static void add_break(breaks *list, double x) {
+  if (x > list->x0 && x < list->x1)
+    list->out[list->count++] = x;
+}
+
+/* Where a u + b v + c w = 0. */
+static void break_plane(breaks *list, const row_map *map, double a, double b, double c) {
+  double base = a * map->base.x + b * map->base.y + c * map->base.w;
+  double step = a * map->step.x + b * map->step.y + c * map->step.w;
+  if (step != 0)
+    add_break(list, -base / step);
+}
+
+static void break_triangle(breaks *list, const cs_shade *shade, const row_map *map) {
+  const double *beta = shade->plane[6];
+  break_plane(list, map, beta[0], beta[1], beta[2]);
+  break_plane(list, map, beta[0], beta[1], beta[2] - 1);
+  for (int channel = 0; channel < 6; channel++) {
+    const double *plane = shade->plane[channel];
+    break_plane(list, map, plane[0], plane[1], plane[2]);
+    break_plane(list, map, plane[0], plane[1], plane[2] - 1);
+    double sign = channel < 3 ? -1 : 1, limit = channel < 3 ? 0 : 1;
+    break_plane(list, map, plane[0] + sign * beta[0], plane[1] + sign * beta[1],
+                plane[2] + sign * beta[2] - limit);
+  }
+}
+
+static void break_linear(breaks *list, const celspan_texture *texture, const row_map *map) {
+  const celspan_point *from = &texture->points[0], *to = &texture->points[1];
+  double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
+  for (size_t i = 0; i < texture->stop_count && length > 0; i++)
+    break_plane(list, map, dx, dy,
+                -(dx * from->x + dy * from->y) - texture->stops[i].at * length);
+}
+
+/* Where |(u, v) - centre| = radius * at, homogeneously, and where the row is nearest the centre. */
+static void break_radial(breaks *list, const celspan_texture *texture, const row_map *map) {
+  double cx = texture->points[0].x, cy = texture->points[0].y;
+  double bu = map->base.x - cx * map->base.w, su = map->step.x - cx * map->step.w;
+  double bv = map->base.y - cy * map->base.w, sv = map->step.y - cy * map->step.w;
+  for (size_t i = 0; i < texture->stop_count; i++) {
+    double r = texture->stops[i].at * texture->radius;
+    double a = su * su + sv * sv - r * r * map->step.w * map->step.w;
+    double b = bu * su + bv * sv - r * r * map->base.w * map->step.w;
+    double c = bu * bu + bv * bv - r * r * map->base.w * map->base.w;
+    double root = b * b - a * c;
+    if (a == 0 || root < 0)
+      continue;
+    add_break(list, (-b - sqrt(root)) / a);
+    add_break(list, (-b + sqrt(root)) / a);
+  }
+  if (su * su + sv * sv > 0)
+    add_break(list, -(bu * su + bv * sv) / (su * su + sv * sv));
+}
+
+size_t cs_shade_break_limit(const cs_shade *shade) {
+  return shade->texture->kind == CS_TEXTURE_TRIANGLE ? 21 : 2 * shade->texture->stop_count + 2;
+}
+
+size_t cs_shade_breaks(const cs_shade *shade, double y, double x0, double x1, double *out) {
+  breaks list = {x0, x1, out, 0};
+  row_map map = map_row(shade, y);
+  break_plane(&list, &map, 0, 0, 1); /* the horizon */
+  if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
+    break_triangle(&list, shade, &map);
+  else if (shade->texture->kind == CS_TEXTURE_LINEAR)
+    break_linear(&list, shade->texture, &map);
+  else
+    break_radial(&list, shade->texture, &map);
+  return list.count;
+}

@@ -1,0 +1,126 @@
+/* Boolean trees on sets of leaves.
+ *
+ * Every operator yields the present operands one over the other, or nothing, so a tree only decides
+ * which leaves contribute. Its leaves are a contiguous range of bits, so operators over leaves alone
+ * are answered a word at a time, however many there are.
+ */
+#include "compose/stack.h"
+
+void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
+  cs_mem_free(memory, stack->leaves, stack->leaf_capacity * sizeof *stack->leaves);
+  cs_mem_free(memory, stack->marks, stack->mark_capacity * sizeof *stack->marks);
+  cs_mem_free(memory, stack->shades, stack->shade_capacity * sizeof *stack->shades);
+  cs_mem_free(memory, stack->slides, stack->slide_capacity * sizeof *stack->slides);
+  cs_mem_free(memory, stack->procedures,
+              stack->procedure_capacity * sizeof *stack->procedures);
+  cs_mem_free(memory, stack->groups, stack->group_capacity * sizeof *stack->groups);
+  cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
+  cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);
+  cs_mem_free(memory, stack->trees, stack->tree_capacity * sizeof *stack->trees);
+  *stack = (cs_stack){0};
+}
+
+/* The bits of word `word` that lie in [first, end). */
+static uint64_t range_mask(uint32_t word, uint32_t first, uint32_t end) {
+  uint32_t base = word * 64;
+  uint64_t mask = ~(uint64_t)0;
+  if (first > base)
+    mask &= ~(uint64_t)0 << (first - base);
+  if (end < base + 64)
+    mask &= ((uint64_t)1 << (end - base)) - 1;
+  return mask;
+}
+
+static uint32_t count_range(const uint64_t *set, uint32_t first, uint32_t end) {
+  uint32_t count = 0;
+  for (uint32_t word = first / 64; word * 64 < end; word++)
+    count += (uint32_t)__builtin_popcountll(set[word] & range_mask(word, first, end));
+  return count;
+}
+
+static bool any_in_range(const uint64_t *set, uint32_t first, uint32_t end) {
+  for (uint32_t word = first / 64; word * 64 < end; word++)
+    if (set[word] & range_mask(word, first, end))
+      return true;
+  return false;
+}
+
+static void clear_range(uint64_t *set, uint32_t first, uint32_t end) {
+  for (uint32_t word = first / 64; word * 64 < end; word++)
+    set[word] &= ~range_mask(word, first, end);
+}
+
+static bool has_bit(const uint64_t *set, uint32_t leaf) {
+  return set[leaf / 64] >> (leaf % 64) & 1;
+}
+
+/* The operator's own presence, given how many operands are present and whether the first is. */
+static bool operator_holds(celspan_operator op, uint32_t operands, uint32_t present, bool first) {
+  if (present == 0)
+    return false;
+  switch (op) {
+  case CELSPAN_UNION:
+    return true;
+  case CELSPAN_INTERSECTION:
+  case CELSPAN_CLIP:
+    return present == operands;
+  case CELSPAN_DIFFERENCE:
+    return first && present == 1;
+  case CELSPAN_XOR:
+    return present % 2 == 1;
+  }
+  return false;
+}
+
+/* Clears what the operator does not paint: everything where it is absent; where a clip is present,
+ * its shape. `first_end` is where the first operand's leaves end. */
+static void clear_hidden(const cs_step *step, uint32_t first_end, bool holds, uint64_t *set) {
+  if (!holds)
+    clear_range(set, step->first, step->end);
+  else if (step->op == CELSPAN_CLIP)
+    clear_range(set, first_end, step->end);
+}
+
+static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
+                                   const cs_tree_result *operands) {
+  uint32_t present = 0, first_end = step->first + 1;
+  bool first = false;
+  if (step->operands == 0)
+    return (cs_tree_result){step->first, step->end, false};
+  if (step->kind == CS_STEP_OPERATOR) {
+    for (uint32_t i = 0; i < step->operands; i++)
+      present += operands[i].is_present;
+    first = operands[0].is_present;
+    first_end = operands[0].end;
+  } else {
+    present = count_range(set, step->first, step->end);
+    first = has_bit(set, step->first);
+  }
+  bool holds = operator_holds(step->op, step->operands, present, first);
+  clear_hidden(step, first_end, holds, set);
+  return (cs_tree_result){step->first, step->end, holds};
+}
+
+static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *set,
+                         cs_tree_result *results) {
+  size_t depth = 0;
+  for (uint32_t i = 0; i < tree->step_count; i++) {
+    const cs_step *step = &stack->steps[tree->step + i];
+    if (step->kind == CS_STEP_LEAF) {
+      results[depth++] = (cs_tree_result){step->first, step->end, has_bit(set, step->first)};
+      continue;
+    }
+    if (step->kind == CS_STEP_OPERATOR)
+      depth -= step->operands;
+    results[depth] = resolve_step(step, set, &results[depth]);
+    depth++;
+  }
+}
+
+void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *results) {
+  for (size_t i = 0; i < stack->tree_count; i++) {
+    const cs_tree *tree = &stack->trees[i];
+    if (any_in_range(set, tree->first, tree->end))
+      resolve_tree(stack, tree, set, results);
+  }
+}

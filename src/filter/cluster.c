@@ -1,0 +1,218 @@
+#include "filter/cluster.h"
+
+/* ---------------------------------------------------------------- fragments */
+
+static const cs_cell *left_of(const cs_cluster *cluster, size_t j) {
+  return j > 0 ? cluster->members[j - 1].right : cluster->left;
+}
+
+/* Gives the window what member j drew since its last event, down to (x, y). */
+static celspan_status flush(cs_cluster *cluster, size_t j, double x, double y) {
+  cs_member *member = &cluster->members[j];
+  const cs_cell *left = left_of(cluster, j);
+  if (y > member->y && !cs_composer_same(&cluster->scan->composer, left, member->right))
+    CS_TRY(cs_window_add(&cluster->scan->window, member->x, x, y - member->y, left, member->right));
+  member->x = x;
+  member->y = y;
+  return CELSPAN_OK;
+}
+
+static celspan_status flush_all(cs_cluster *cluster, double y) {
+  for (size_t j = 0; j < cluster->count; j++)
+    CS_TRY(flush(cluster, j, cluster->members[j].foot, y));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- cells */
+
+static void cross(cs_composer *composer, const cs_member *member, int32_t sign) {
+  if (member->strip == UINT32_MAX)
+    cs_composer_cross(composer, member->leaf, sign * member->direction);
+  else
+    cs_composer_cross_strip(composer, member->leaf, member->strip, sign * member->direction);
+}
+
+/* Brings the cells right of members first..last up to date; the walk returns to the left. */
+static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
+  cs_scan *scan = cluster->scan;
+  cs_composer *composer = &scan->composer;
+  for (size_t j = 0; j <= last; j++) {
+    cs_member *member = &cluster->members[j];
+    cross(composer, member, 1);
+    if (j < first || (member->right && cs_set_hash_same(member->right->hash, composer->hash)))
+      continue;
+    cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
+    if (!cell)
+      return CELSPAN_NO_MEMORY;
+    cs_composer_cell(composer, cell);
+    member->right = cell;
+  }
+  for (size_t j = last + 1; j-- > 0;)
+    cross(composer, &cluster->members[j], -1);
+  return composer->failure;
+}
+
+static celspan_status refresh_all(cs_cluster *cluster) {
+  return cluster->count > 0 ? refresh(cluster, 0, cluster->count - 1) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- bands */
+
+/* x of a member at a height on the segment it stands on. */
+static double member_x(const cs_member *member, double y) {
+  const celspan_point *a = &member->points[member->at - 1], *b = &member->points[member->at];
+  return y >= b->y ? b->x : a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
+}
+
+/* Slope of the segment a member stands on, for settling equal x. */
+static double member_slope(const cs_member *member) {
+  const celspan_point *a = &member->points[member->at - 1], *b = &member->points[member->at];
+  return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
+}
+
+/* The height of the next bend, begin or end below y. */
+static double next_height(const cs_cluster *cluster) {
+  double next = cluster->begin_count > 0 ? cluster->begins[0].points[0].y : cluster->y1;
+  for (size_t j = 0; j < cluster->count; j++) {
+    const cs_member *member = &cluster->members[j];
+    if (member->points[member->at].y < next)
+      next = member->points[member->at].y;
+  }
+  return next;
+}
+
+/* Which neighbours inside the band cross next, and how far down the band (0..1). */
+static bool next_swap(const cs_cluster *cluster, size_t *pair, double *depth) {
+  bool found = false;
+  *depth = 0;
+  for (size_t j = 0; j + 1 < cluster->count; j++) {
+    const cs_member *a = &cluster->members[j], *b = a + 1;
+    double foot = a->foot - b->foot, top = b->top > a->top ? b->top - a->top : 0;
+    if (!(foot > 0))
+      continue;
+    double u = top / (top + foot);
+    if (!found || u < *depth) {
+      *pair = j;
+      *depth = u;
+      found = true;
+    }
+  }
+  return found;
+}
+
+static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
+  cs_member *a = &cluster->members[j], *b = a + 1;
+  CS_TRY(flush(cluster, j, a->top + (a->foot - a->top) * u, y));
+  CS_TRY(flush(cluster, j + 1, b->top + (b->foot - b->top) * u, y));
+  const cs_cell *right = b->right;
+  cs_member moved = *a;
+  *a = *b;
+  *b = moved;
+  b->right = right; /* cells belong to places */
+  return refresh(cluster, j, j);
+}
+
+/* Runs the members from y0 down to y1, all of them straight between. */
+static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
+  for (size_t j = 0; j < cluster->count; j++) {
+    cs_member *member = &cluster->members[j];
+    member->top = member_x(member, y0);
+    member->foot = member_x(member, y1);
+  }
+  double reached = 0, u;
+  for (size_t j = 0; next_swap(cluster, &j, &u);) {
+    reached = u > reached ? u : reached;
+    CS_TRY(swap(cluster, j, reached, y0 + (y1 - y0) * reached));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- between bands */
+
+static bool is_right(const cs_member *a, const cs_member *b) {
+  if (a->foot != b->foot)
+    return a->foot > b->foot;
+  double slope_a = member_slope(a), slope_b = member_slope(b);
+  return slope_a != slope_b ? slope_a > slope_b : a->order > b->order;
+}
+
+/* Moves members that bend or end at y on; true when one ends. */
+static celspan_status step_members(cs_cluster *cluster, double y, bool *ends) {
+  *ends = false;
+  for (size_t j = 0; j < cluster->count; j++) {
+    cs_member *member = &cluster->members[j];
+    if (member->points[member->at].y > y)
+      continue;
+    CS_TRY(flush(cluster, j, member->foot, y));
+    while (member->at < member->point_count && member->points[member->at].y <= y)
+      member->at++;
+    *ends |= member->at == member->point_count;
+  }
+  return CELSPAN_OK;
+}
+
+static void drop_ended(cs_cluster *cluster) {
+  size_t kept = 0;
+  for (size_t j = 0; j < cluster->count; j++)
+    if (cluster->members[j].at < cluster->members[j].point_count)
+      cluster->members[kept++] = cluster->members[j];
+  cluster->count = kept;
+}
+
+/* Lets the members that begin at y in, at the end of the order. */
+static void begin_members(cs_cluster *cluster, double y) {
+  size_t begun = 0;
+  for (; begun < cluster->begin_count && cluster->begins[begun].points[0].y <= y; begun++) {
+    cs_member *member = &cluster->members[cluster->count++];
+    *member = cluster->begins[begun];
+    member->x = member->foot = member->points[0].x;
+    member->y = y;
+    member->at = 1;
+    member->right = NULL;
+  }
+  cluster->begins += begun;
+  cluster->begin_count -= begun;
+}
+
+static bool is_sorted(const cs_cluster *cluster) {
+  for (size_t j = 1; j < cluster->count; j++)
+    if (is_right(&cluster->members[j - 1], &cluster->members[j]))
+      return false;
+  return true;
+}
+
+static void sort(cs_cluster *cluster) {
+  for (size_t i = 1; i < cluster->count; i++)
+    for (size_t j = i; j > 0 && is_right(&cluster->members[j - 1], &cluster->members[j]); j--) {
+      cs_member member = cluster->members[j];
+      cluster->members[j] = cluster->members[j - 1];
+      cluster->members[j - 1] = member;
+    }
+}
+
+/* The events at height y, at the foot of the band just run. */
+static celspan_status turn(cs_cluster *cluster, double y) {
+  bool ends;
+  CS_TRY(step_members(cluster, y, &ends));
+  bool begins = cluster->begin_count > 0 && cluster->begins[0].points[0].y <= y;
+  if (!ends && !begins && is_sorted(cluster))
+    return CELSPAN_OK;
+  CS_TRY(flush_all(cluster, y));
+  drop_ended(cluster);
+  begin_members(cluster, y);
+  sort(cluster);
+  return refresh_all(cluster);
+}
+
+celspan_status cs_cluster_replay(cs_cluster *cluster) {
+  double y = cluster->y0;
+  for (;;) {
+    double next = next_height(cluster);
+    if (next > y)
+      CS_TRY(run_band(cluster, y, next));
+    if (next >= cluster->y1)
+      return flush_all(cluster, cluster->y1);
+    y = next;
+    CS_TRY(turn(cluster, y));
+  }
+}

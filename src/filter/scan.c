@@ -1,0 +1,75 @@
+#include "filter/scan.h"
+
+celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_shot *shot) {
+  *scan = (cs_scan){.context = context, .shot = shot, .row = -1};
+  cs_active_init(&scan->active, &shot->boundaries);
+  cs_cells_init(&scan->cells);
+  cs_arena_init(&scan->arena);
+  return cs_composer_init(&scan->composer, context, &shot->stack);
+}
+
+void cs_scan_finish(cs_scan *scan) {
+  if (!scan->context)
+    return;
+  cs_memory *memory = scan->context->memory;
+  cs_composer_finish(&scan->composer);
+  cs_active_finish(&scan->active, memory);
+  cs_cells_finish(&scan->cells, memory);
+  cs_window_free(&scan->window, memory);
+  cs_arena_finish(&scan->arena, memory);
+  *scan = (cs_scan){0};
+}
+
+/* The height at which the active boundaries stand for a row. */
+static double row_height(const cs_scan *scan, int32_t y) {
+  return scan->shot->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
+}
+
+static celspan_status advance(cs_scan *scan, double height, bool *changed) {
+  cs_active *active = &scan->active;
+  bool settled = false, moved = false;
+  if (active->y_next > active->y)
+    CS_TRY(cs_active_settle(scan->context, active, &settled));
+  if (active->y < height) {
+    CS_TRY(cs_active_reach(scan->context, active, height));
+    CS_TRY(cs_active_settle(scan->context, active, &moved));
+  }
+  *changed = settled || moved;
+  return CELSPAN_OK;
+}
+
+/* Brings boundaries and cells to the row: from the one above when that is where they stand. */
+static celspan_status reach_row(cs_scan *scan, int32_t y) {
+  bool changed = true;
+  if (scan->row >= 0 && scan->row < y)
+    CS_TRY(advance(scan, row_height(scan, y), &changed));
+  else
+    CS_TRY(cs_active_start(scan->context, &scan->active, row_height(scan, y)));
+  if (cs_composer_begin_row(&scan->composer)) {
+    cs_cells_forget(&scan->cells);
+    changed = true;
+  }
+  if (changed)
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  return scan->composer.failure;
+}
+
+static celspan_status make_row(cs_scan *scan, int32_t y, cs_row *out) {
+  CS_TRY(reach_row(scan, y));
+  scan->row = y;
+  if (scan->shot->antialias == CELSPAN_ANTIALIAS_NONE)
+    return cs_centre_row(scan, y, out);
+  CS_TRY(cs_area_row(scan, y, out));
+  return scan->composer.failure;
+}
+
+celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out) {
+  cs_row_clear(out);
+  cs_arena_reset(&scan->arena);
+  celspan_status status = make_row(scan, y, out);
+  if (status != CELSPAN_OK) {
+    scan->row = -1;
+    cs_cells_forget(&scan->cells);
+  }
+  return status;
+}

@@ -1,0 +1,161 @@
+#include "filter/strips.h"
+
+#include "base/number.h"
+#include "scene/scanline.h"
+
+#include <stdlib.h>
+
+/* ---------------------------------------------------------------- calling */
+
+static bool procedure_meets(const cs_procedure *procedure, double y0, double y1) {
+  const celspan_box *box = &procedure->desc->bounds;
+  double a = box->y * procedure->scale_y + procedure->shift_y;
+  double b = (box->y + box->height) * procedure->scale_y + procedure->shift_y;
+  return a < b ? a < y1 && b > y0 : b < y1 && a > y0;
+}
+
+bool cs_strips_meet(const cs_scan *scan, int32_t y) {
+  const cs_stack *stack = &scan->shot->stack;
+  for (size_t i = 0; i < stack->procedure_count; i++)
+    if (procedure_meets(&stack->procedures[i], y, y + 1.0))
+      return true;
+  return false;
+}
+
+/* The part of the frame a procedure can be seen in, in its own units. */
+static celspan_scanline_row visible_row(const cs_procedure *procedure, int32_t width) {
+  const celspan_box *box = &procedure->desc->bounds;
+  double a = (0 - procedure->shift_x) / procedure->scale_x;
+  double b = (width - procedure->shift_x) / procedure->scale_x;
+  double low = a < b ? a : b, high = a < b ? b : a;
+  double pixel = procedure->scale_x < 0 ? -1 / procedure->scale_x : 1 / procedure->scale_x;
+  return (celspan_scanline_row){cs_number_clamp(low, box->x, box->x + box->width),
+                                cs_number_clamp(high, box->x, box->x + box->width), pixel};
+}
+
+static celspan_status add_edge(cs_scan *scan, cs_strip_edges *list, cs_strip_edge edge) {
+  if (list->count == list->capacity) {
+    size_t wanted = list->capacity ? 2 * list->capacity : 64;
+    cs_strip_edge *grown = cs_arena_take(scan->context, &scan->arena, wanted * sizeof *grown);
+    if (!grown)
+      return CELSPAN_NO_MEMORY;
+    if (list->count > 0)
+      memcpy(grown, list->edges, list->count * sizeof *grown);
+    list->edges = grown;
+    list->capacity = wanted;
+  }
+  list->edges[list->count++] = edge;
+  return CELSPAN_OK;
+}
+
+/* One span of a procedure as a strip of the row with its two edges. */
+static celspan_status add_strip(cs_scan *scan, const cs_procedure *procedure,
+                                const cs_scanline_span *span, const cs_paint *paints,
+                                cs_strip_edges *edges) {
+  cs_composer *composer = &scan->composer;
+  double scale = procedure->scale_x, shift = procedure->shift_x, width = scan->shot->width;
+  double a = cs_number_clamp(span->x0 * scale + shift, 0, width);
+  double b = cs_number_clamp(span->x1 * scale + shift, 0, width);
+  if (a == b)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(scan->context, (void **)&composer->strips, &composer->strip_capacity,
+                        composer->strip_count + 1, sizeof *composer->strips));
+  uint32_t strip = (uint32_t)composer->strip_count++;
+  composer->strips[strip] = (cs_strip){span->paint_x0 * scale + shift,
+                                       span->paint_x1 * scale + shift, paints, span->paint_count};
+  CS_TRY(add_edge(scan, edges,
+                  (cs_strip_edge){a < b ? a : b, procedure->leaf, strip, 1}));
+  return add_edge(scan, edges, (cs_strip_edge){a < b ? b : a, procedure->leaf, strip, -1});
+}
+
+static celspan_status add_spans(cs_scan *scan, const cs_procedure *procedure,
+                                const celspan_scanline_output *output, cs_strip_edges *edges) {
+  cs_paint *paints =
+      cs_arena_take(scan->context, &scan->arena, output->paint_count * sizeof *paints);
+  if (!paints)
+    return CELSPAN_NO_MEMORY;
+  if (output->paint_count > 0)
+    memcpy(paints, output->paints, output->paint_count * sizeof *paints);
+  for (size_t i = 0; i < output->span_count; i++)
+    CS_TRY(add_strip(scan, procedure, &output->spans[i], paints + output->spans[i].first_paint,
+                     edges));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_strips_collect(cs_scan *scan, double height, cs_strip_edges *edges) {
+  const cs_stack *stack = &scan->shot->stack;
+  celspan_scanline_output output;
+  celspan_status status = CELSPAN_OK;
+  cs_scanline_init(&output);
+  for (size_t i = 0; i < stack->procedure_count && status == CELSPAN_OK; i++) {
+    const cs_procedure *procedure = &stack->procedures[i];
+    celspan_scanline_row row = visible_row(procedure, scan->shot->width);
+    if (!procedure_meets(procedure, height, height) || !(row.x0 < row.x1))
+      continue;
+    double y = (height - procedure->shift_y) / procedure->scale_y;
+    status = cs_scanline_collect(scan->context, procedure->desc, y, &row, &output);
+    if (status == CELSPAN_OK)
+      status = add_spans(scan, procedure, &output, edges);
+  }
+  cs_scanline_finish(&output, scan->context->memory);
+  return status;
+}
+
+/* ---------------------------------------------------------------- pixel centres */
+
+static int compare_edges(const void *p, const void *q) {
+  const cs_strip_edge *a = p, *b = q;
+  if (a->x != b->x)
+    return a->x < b->x ? -1 : 1;
+  if (a->direction != b->direction) /* where one span ends and the next begins: end first */
+    return a->direction < b->direction ? -1 : 1;
+  return (a->strip > b->strip) - (a->strip < b->strip);
+}
+
+/* Crosses the next boundary or edge of the merged order. */
+static double cross_next(cs_scan *scan, const cs_strip_edges *edges, size_t *boundary,
+                         size_t *edge) {
+  const cs_active *active = &scan->active;
+  if (*edge == edges->count ||
+      (*boundary < active->count && active->x[*boundary] <= edges->edges[*edge].x)) {
+    const cs_boundary_chain *chain = cs_active_chain(active, *boundary);
+    cs_composer_cross(&scan->composer, chain->leaf, chain->direction);
+    return active->x[(*boundary)++];
+  }
+  const cs_strip_edge *e = &edges->edges[(*edge)++];
+  cs_composer_cross_strip(&scan->composer, e->leaf, e->strip, e->direction);
+  return e->x;
+}
+
+static double peek_next(const cs_scan *scan, const cs_strip_edges *edges, size_t boundary,
+                        size_t edge) {
+  double x = scan->shot->width;
+  if (boundary < scan->active.count && scan->active.x[boundary] < x)
+    x = scan->active.x[boundary];
+  if (edge < edges->count && edges->edges[edge].x < x)
+    x = edges->edges[edge].x;
+  return x;
+}
+
+celspan_status cs_strips_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
+  cs_strip_edges edges = {0};
+  CS_TRY(cs_strips_collect(scan, y + 0.5, &edges));
+  if (edges.count > 0)
+    qsort(edges.edges, edges.count, sizeof *edges.edges, compare_edges);
+  size_t boundary = 0, edge = 0, total = scan->active.count + edges.count;
+  int32_t from = 0, width = scan->shot->width;
+  while (from < width || boundary + edge < total) {
+    int32_t to = cs_number_first_centre(peek_next(scan, &edges, boundary, edge));
+    to = boundary + edge == total || to > width ? width : to;
+    if (to > from) {
+      cs_cell cell;
+      cs_composer_cell(&scan->composer, &cell);
+      CS_TRY(scan->composer.failure);
+      CS_TRY(cs_composer_run(&scan->composer, &cell, from, to, y + 0.5, out));
+      from = to;
+    }
+    if (boundary + edge < total)
+      cross_next(scan, &edges, &boundary, &edge);
+  }
+  return CELSPAN_OK;
+}

@@ -1,0 +1,244 @@
+#include "filter/window.h"
+
+#include "base/number.h"
+
+#define TILE 256 /* pixels summed at a time */
+
+void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
+                     int32_t y, const cs_cell *leftmost, cs_row *out) {
+  window->composer = composer;
+  window->arena = arena;
+  window->out = out;
+  window->centre = y + 0.5;
+  window->width = width;
+  window->from = window->end = 0;
+  window->base = window->cell = leftmost;
+  window->fragment_count = 0;
+  window->is_open = window->varies = false;
+}
+
+void cs_window_free(cs_window *window, cs_memory *memory) {
+  cs_mem_free(memory, window->fragments, window->fragment_capacity * sizeof *window->fragments);
+  *window = (cs_window){0};
+}
+
+/* ---------------------------------------------------------------- coverage */
+
+/* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
+static inline int32_t floor_column(double x, int32_t width) {
+  int32_t column = x <= 0 ? 0 : x >= width ? width : (int32_t)x;
+  return column;
+}
+
+static inline int32_t ceil_column(double x, int32_t width) {
+  int32_t column = floor_column(x, width);
+  return column + (column < x && column < width);
+}
+
+/* The integral, up to x, of the share of the fragment's height at which the boundary lies left. */
+static inline double passed(double low, double high, double x) {
+  return x <= low    ? 0
+         : x >= high ? (x - high) + 0.5 * (high - low)
+                     : (x - low) * (x - low) / (2 * (high - low));
+}
+
+/* The area right of the fragment in the pixel of column p, 0..height. */
+static inline double cover(const cs_fragment *f, int32_t p) {
+  double low = f->xa < f->xb ? f->xa : f->xb, high = f->xa < f->xb ? f->xb : f->xa;
+  if (low == high)
+    return f->height * cs_number_clamp(p + 1 - low, 0, 1);
+  return f->height * (passed(low, high, p + 1) - passed(low, high, p));
+}
+
+/* ---------------------------------------------------------------- closing */
+
+/* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
+static celspan_status close_lone(cs_window *window) {
+  const cs_fragment *f = &window->fragments[0];
+  celspan_context *context = window->composer->context;
+  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+  int32_t first = f->first, last = f->end - 1;
+  CS_TRY(cs_row_single(context, window->out, window->from, first, base));
+  CS_TRY(cs_row_single(context, window->out, first, first + 1, base + step * (float)cover(f, first)));
+  if (last - first > 2) {
+    cs_v4 ramp = base + step * (float)cover(f, first + 1);
+    double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+    CS_TRY(cs_row_gradient(context, window->out, first + 1, last, ramp,
+                           step * (float)(f->height / across)));
+  } else if (last - first == 2) {
+    CS_TRY(cs_row_single(context, window->out, first + 1, last,
+                         base + step * (float)cover(f, first + 1)));
+  }
+  if (last == first)
+    return CELSPAN_OK;
+  return cs_row_single(context, window->out, last, last + 1, base + step * (float)cover(f, last));
+}
+
+/* The first column at or right of p where some fragment changes the sum; end when none does. */
+static int32_t next_change(const cs_window *window, int32_t p) {
+  int32_t next = window->end;
+  for (size_t i = 0; i < window->fragment_count; i++) {
+    const cs_fragment *f = &window->fragments[i];
+    int32_t at = f->first > p ? f->first : p;
+    if (f->end >= p && at < next)
+      next = at;
+  }
+  return next;
+}
+
+/* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
+static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, cs_v4 *change) {
+  int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
+  cs_v4 step = f->right->colour - f->left->colour;
+  double before = p > f->first ? cover(f, p - 1) : 0;
+  for (; p <= end; p++) {
+    double now = p < f->end ? cover(f, p) : f->height;
+    change[p - p0] += step * (float)(now - before);
+    before = now;
+  }
+}
+
+/* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
+static celspan_status close_flat(cs_window *window) {
+  celspan_context *context = window->composer->context;
+  cs_v4 change[TILE], sum = window->base->colour;
+  for (int32_t p = window->from; p < window->end;) {
+    int32_t next = next_change(window, p);
+    CS_TRY(cs_row_single(context, window->out, p, next, sum));
+    int32_t stop = window->end - next < TILE ? window->end : next + TILE;
+    memset(change, 0, (size_t)(stop - next) * sizeof *change);
+    for (size_t i = 0; i < window->fragment_count; i++)
+      add_changes(&window->fragments[i], next, stop, change);
+    for (p = next; p < stop; p++) {
+      sum += change[p - next];
+      CS_TRY(cs_row_single(context, window->out, p, p + 1, sum));
+    }
+  }
+  return CELSPAN_OK;
+}
+
+/* ---- cells that vary: every cell's colour at every pixel's centre, weighted by its area */
+
+typedef struct seen_cell {
+  const cs_cell *cell;
+  float (*rgba)[4];
+} seen_cell;
+
+typedef struct tile {
+  cs_window *window;
+  int32_t p0, p1;
+  seen_cell *seen;
+  size_t seen_count;
+  cs_v4 *sum;
+} tile;
+
+/* The colours of a cell over the tile, made when it is first asked for. */
+static celspan_status tile_colours(tile *t, const cs_cell *cell, float (**out)[4]) {
+  for (size_t i = 0; i < t->seen_count; i++)
+    if (t->seen[i].cell == cell) {
+      *out = t->seen[i].rgba;
+      return CELSPAN_OK;
+    }
+  cs_composer *composer = t->window->composer;
+  *out = cs_arena_take(composer->context, t->window->arena, (size_t)(t->p1 - t->p0) * sizeof **out);
+  if (!*out)
+    return CELSPAN_NO_MEMORY;
+  t->seen[t->seen_count++] = (seen_cell){cell, *out};
+  return cs_composer_colours(composer, cell, t->p0, t->p1, t->window->centre, *out);
+}
+
+static celspan_status tile_add(tile *t, const cs_fragment *f) {
+  float(*left)[4], (*right)[4];
+  if (f->first >= t->p1)
+    return CELSPAN_OK;
+  CS_TRY(tile_colours(t, f->left, &left));
+  CS_TRY(tile_colours(t, f->right, &right));
+  for (int32_t p = f->first > t->p0 ? f->first : t->p0; p < t->p1; p++) {
+    double area = p < f->end ? cover(f, p) : f->height;
+    int32_t k = p - t->p0;
+    t->sum[k] += (cs_v4_load(right[k]) - cs_v4_load(left[k])) * (float)area;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status close_tile(cs_window *window, int32_t p0, int32_t p1) {
+  celspan_context *context = window->composer->context;
+  cs_v4 sum[TILE];
+  tile t = {window, p0, p1, NULL, 0, sum};
+  float(*base)[4], *colours;
+  t.seen = cs_arena_take(context, window->arena,
+                         (2 * window->fragment_count + 1) * sizeof *t.seen);
+  if (!t.seen)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(tile_colours(&t, window->base, &base));
+  memcpy(sum, base, (size_t)(p1 - p0) * sizeof *sum);
+  for (size_t i = 0; i < window->fragment_count; i++)
+    CS_TRY(tile_add(&t, &window->fragments[i]));
+  CS_TRY(cs_row_array(context, window->out, p0, p1, &colours));
+  memcpy(colours, sum, (size_t)(p1 - p0) * sizeof *sum);
+  return CELSPAN_OK;
+}
+
+static celspan_status close_varying(cs_window *window) {
+  for (int32_t p = window->from; p < window->end; p += TILE)
+    CS_TRY(close_tile(window, p, window->end - p < TILE ? window->end : p + TILE));
+  return CELSPAN_OK;
+}
+
+static celspan_status close_window(cs_window *window) {
+  if (window->end > window->from) {
+    if (window->varies)
+      CS_TRY(close_varying(window));
+    else if (window->fragment_count == 1)
+      CS_TRY(close_lone(window));
+    else
+      CS_TRY(close_flat(window));
+  }
+  window->from = window->end;
+  window->fragment_count = 0;
+  window->is_open = window->varies = false;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- items */
+
+celspan_status cs_window_reach(cs_window *window, double x) {
+  int32_t first = floor_column(x, window->width);
+  if (window->is_open && first < window->end)
+    return CELSPAN_OK;
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  CS_TRY(cs_composer_run(window->composer, window->cell, window->from, first, window->centre,
+                         window->out));
+  if (first > window->from)
+    window->from = first;
+  window->end = window->from;
+  window->base = window->cell;
+  window->varies = window->base->length > 0;
+  window->is_open = true;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_add(cs_window *window, double xa, double xb, double height,
+                             const cs_cell *left, const cs_cell *right) {
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  cs_fragment fragment = {xa, xb, height, left, right, floor_column(low, window->width),
+                          ceil_column(high, window->width)};
+  if (fragment.first < window->from) /* rounding put it left of what is written */
+    fragment.first = window->from;
+  if (fragment.end > window->end)
+    window->end = fragment.end;
+  CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
+                        &window->fragment_capacity, window->fragment_count + 1,
+                        sizeof *window->fragments));
+  window->fragments[window->fragment_count++] = fragment;
+  window->varies |= left->length > 0 || right->length > 0;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_finish(cs_window *window) {
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  return cs_composer_run(window->composer, window->cell, window->from, window->width,
+                         window->centre, window->out);
+}

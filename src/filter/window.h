@@ -1,0 +1,55 @@
+/* Windows: the pixels of a row that boundaries cross, summed from fragments.
+ *
+ * Composite first, integrate after: each visible piece of boundary (a fragment: straight, between
+ * two cells whose looks do not change beside it) adds its colour step times the area right of it in
+ * every pixel. Between windows a row is whole cells. So coverage is never used as alpha, and
+ * abutting shapes cannot leak.
+ *
+ * Invariants: a window's pixels are summed from its own fragments only, starting from the exact
+ * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
+ * clusters) come from left to right.
+ */
+#ifndef CS_FILTER_WINDOW_H
+#define CS_FILTER_WINDOW_H
+
+#include "compose/composer.h"
+
+typedef struct cs_fragment {
+  double xa, xb; /* at its top and at its bottom */
+  double height; /* of the row: 0..1 */
+  const cs_cell *left, *right;
+  int32_t first, end; /* the columns it crosses; empty when it stands on a pixel's edge */
+} cs_fragment;
+
+typedef struct cs_window {
+  cs_composer *composer;
+  cs_arena *arena;
+  cs_row *out;
+  double centre; /* height of the row's centre */
+  int32_t width; /* of the row */
+  int32_t from;  /* nothing is written from here on */
+  int32_t end;   /* of the open window; from when it is empty */
+  const cs_cell *base; /* left of the window */
+  const cs_cell *cell; /* right of all items so far */
+  cs_fragment *fragments;
+  size_t fragment_count, fragment_capacity;
+  bool is_open, varies;
+} cs_window;
+
+/* Begins a row at `leftmost`; the fragments' room is kept from row to row. */
+void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
+                     int32_t y, const cs_cell *leftmost, cs_row *out);
+void cs_window_free(cs_window *window, cs_memory *memory);
+
+/* An item begins whose least x is `x`: closes the window when it ends before. */
+CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
+/* A fragment of the current item. */
+CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double xb,
+                                             double height, const cs_cell *left,
+                                             const cs_cell *right);
+/* The current item is done; right of it lies `cell`. */
+static inline void cs_window_pass(cs_window *window, const cs_cell *cell) { window->cell = cell; }
+/* Closes the last window and writes the rest of the row. */
+CELSPAN_CHECKED celspan_status cs_window_finish(cs_window *window);
+
+#endif

@@ -1,0 +1,131 @@
+#include "geometry/outline.h"
+
+#include <math.h>
+#include <string.h>
+
+#define POINT_LIMIT ((size_t)1 << 31)
+
+void cs_outline_init(cs_outline *outline) { memset(outline, 0, sizeof *outline); }
+
+void cs_outline_finish(cs_outline *outline, cs_memory *memory) {
+  cs_mem_free(memory, outline->points, outline->point_capacity * sizeof *outline->points);
+  cs_mem_free(memory, outline->starts, outline->start_capacity * sizeof *outline->starts);
+  cs_mem_free(memory, outline->degrees, outline->degree_capacity * sizeof *outline->degrees);
+  cs_mem_free(memory, outline->contours, outline->contour_capacity * sizeof *outline->contours);
+  cs_outline_init(outline);
+}
+
+/* ---------------------------------------------------------------- building */
+
+static celspan_status reserve_points(celspan_context *context, cs_outline *outline, size_t more) {
+  if (more > POINT_LIMIT - outline->point_count)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "the outline has more than %zu points; split it into several objects",
+                   POINT_LIMIT);
+  return cs_mem_reserve(context, (void **)&outline->points, &outline->point_capacity,
+                        outline->point_count + more, sizeof *outline->points);
+}
+
+celspan_status cs_outline_move(celspan_context *context, cs_outline *outline, cs_hpoint to) {
+  CS_TRY(cs_outline_close(context, outline));
+  CS_TRY(reserve_points(context, outline, 1));
+  CS_TRY(cs_mem_reserve(context, (void **)&outline->contours, &outline->contour_capacity,
+                        outline->contour_count + 1, sizeof *outline->contours));
+  outline->contours[outline->contour_count++] = (uint32_t)outline->piece_count;
+  outline->points[outline->point_count++] = to;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline, int degree,
+                                const cs_hpoint *points) {
+  CS_TRY(reserve_points(context, outline, (size_t)degree));
+  CS_TRY(cs_mem_reserve(context, (void **)&outline->starts, &outline->start_capacity,
+                        outline->piece_count + 1, sizeof *outline->starts));
+  CS_TRY(cs_mem_reserve(context, (void **)&outline->degrees, &outline->degree_capacity,
+                        outline->piece_count + 1, sizeof *outline->degrees));
+  outline->starts[outline->piece_count] = (uint32_t)(outline->point_count - 1);
+  outline->degrees[outline->piece_count++] = (uint8_t)degree;
+  memcpy(outline->points + outline->point_count, points, (size_t)degree * sizeof *points);
+  outline->point_count += (size_t)degree;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_outline_line(celspan_context *context, cs_outline *outline, cs_hpoint to) {
+  return cs_outline_piece(context, outline, 1, &to);
+}
+
+celspan_status cs_outline_close(celspan_context *context, cs_outline *outline) {
+  if (outline->contour_count == 0)
+    return CELSPAN_OK;
+  size_t first_piece = outline->contours[outline->contour_count - 1];
+  if (first_piece == outline->piece_count) {
+    outline->contour_count--;
+    outline->point_count--;
+    return CELSPAN_OK;
+  }
+  cs_hpoint first = outline->points[outline->starts[first_piece]];
+  cs_hpoint *last = &outline->points[outline->point_count - 1];
+  if (last->x != first.x || last->y != first.y || last->w != first.w)
+    return cs_outline_line(context, outline, first);
+  *last = first; /* minus zero equals zero, but has other bits */
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- primitives */
+
+static cs_hpoint at(double x, double y) { return (cs_hpoint){x, y, 1}; }
+
+/* A quarter of an ellipse: the corner is where its end tangents meet. */
+static celspan_status quarter(celspan_context *context, cs_outline *outline, double corner_x,
+                              double corner_y, double x, double y) {
+  double weight = sqrt(0.5);
+  const cs_hpoint points[2] = {{corner_x * weight, corner_y * weight, weight}, {x, y, 1}};
+  return cs_outline_piece(context, outline, 2, points);
+}
+
+static celspan_status rounded(celspan_context *context, cs_outline *outline, double x, double y,
+                              double width, double height, double radius) {
+  double right = x + width, bottom = y + height;
+  CS_TRY(cs_outline_move(context, outline, at(x + radius, y)));
+  CS_TRY(cs_outline_line(context, outline, at(right - radius, y)));
+  CS_TRY(quarter(context, outline, right, y, right, y + radius));
+  CS_TRY(cs_outline_line(context, outline, at(right, bottom - radius)));
+  CS_TRY(quarter(context, outline, right, bottom, right - radius, bottom));
+  CS_TRY(cs_outline_line(context, outline, at(x + radius, bottom)));
+  CS_TRY(quarter(context, outline, x, bottom, x, bottom - radius));
+  CS_TRY(cs_outline_line(context, outline, at(x, y + radius)));
+  CS_TRY(quarter(context, outline, x, y, x + radius, y));
+  return cs_outline_close(context, outline);
+}
+
+celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline, double x, double y,
+                               double width, double height, double radius) {
+  radius = fmin(radius, 0.5 * fmin(width, height));
+  if (radius > 0)
+    return rounded(context, outline, x, y, width, height, radius);
+  const celspan_point corners[4] = {
+      {x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
+  return cs_outline_polygon(context, outline, corners, 4);
+}
+
+celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,
+                                  celspan_point centre, double radius_x, double radius_y) {
+  double left = centre.x - radius_x, right = centre.x + radius_x;
+  double top = centre.y - radius_y, bottom = centre.y + radius_y;
+  CS_TRY(cs_outline_move(context, outline, at(right, centre.y)));
+  CS_TRY(quarter(context, outline, right, bottom, centre.x, bottom));
+  CS_TRY(quarter(context, outline, left, bottom, left, centre.y));
+  CS_TRY(quarter(context, outline, left, top, centre.x, top));
+  CS_TRY(quarter(context, outline, right, top, right, centre.y));
+  return cs_outline_close(context, outline);
+}
+
+celspan_status cs_outline_polygon(celspan_context *context, cs_outline *outline,
+                                  const celspan_point *points, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    cs_hpoint point = at(points[i].x, points[i].y);
+    CS_TRY(i == 0 ? cs_outline_move(context, outline, point)
+                  : cs_outline_line(context, outline, point));
+  }
+  return cs_outline_close(context, outline);
+}

@@ -1,0 +1,165 @@
+#include "geometry/polyline.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+
+/* One chord must be this much better than the tolerance: its vertices are the ends, which cannot be
+ * displaced to keep the area. */
+#define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
+#define SEGMENT_LIMIT 1e9
+/* What the second derivative may reach between samples of it. */
+#define SAMPLING_MARGIN 1.25
+
+/* A point of a curve and its second derivative by the parameter. */
+typedef struct curve_point {
+  double x, y, bend_x, bend_y;
+} curve_point;
+
+/* ---------------------------------------------------------------- evaluation */
+
+static curve_point at_power(const cs_hpoint *c, int degree, double t) {
+  if (degree == 2)
+    return (curve_point){(c[2].x * t + c[1].x) * t + c[0].x, (c[2].y * t + c[1].y) * t + c[0].y,
+                         2 * c[2].x, 2 * c[2].y};
+  return (curve_point){((c[3].x * t + c[2].x) * t + c[1].x) * t + c[0].x,
+                       ((c[3].y * t + c[2].y) * t + c[1].y) * t + c[0].y,
+                       6 * c[3].x * t + 2 * c[2].x, 6 * c[3].y * t + 2 * c[2].y};
+}
+
+/* De Casteljau down to three points, from which value and both derivatives follow; then the
+ * quotient rule. */
+static curve_point at_rational(const cs_hpoint *points, int degree, double t) {
+  cs_hpoint work[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; degree > 2 && i <= degree; i++)
+    work[i] = points[i];
+  for (int level = degree; level > 2; level--)
+    for (int i = 0; i < level; i++) {
+      work[i].x += t * (work[i + 1].x - work[i].x);
+      work[i].y += t * (work[i + 1].y - work[i].y);
+      work[i].w += t * (work[i + 1].w - work[i].w);
+    }
+  const cs_hpoint *p = degree > 2 ? work : points;
+  double s = 1 - t, b0 = s * s, b1 = 2 * s * t, b2 = t * t, scale = degree * (degree - 1.0);
+  double w = b0 * p[0].w + b1 * p[1].w + b2 * p[2].w;
+  double w1 = degree * (s * (p[1].w - p[0].w) + t * (p[2].w - p[1].w));
+  double w2 = scale * (p[0].w - 2 * p[1].w + p[2].w);
+  double x1 = degree * (s * (p[1].x - p[0].x) + t * (p[2].x - p[1].x));
+  double y1 = degree * (s * (p[1].y - p[0].y) + t * (p[2].y - p[1].y));
+  double by_w = 1 / w;
+  double x = (b0 * p[0].x + b1 * p[1].x + b2 * p[2].x) * by_w;
+  double y = (b0 * p[0].y + b1 * p[1].y + b2 * p[2].y) * by_w;
+  double slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
+  double x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
+  double y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
+  return (curve_point){x, y, (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
+                       (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
+}
+
+static curve_point at_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                             uint32_t vertex) {
+  const cs_hpoint *points = set->points + piece->point;
+  double t = vertex * piece->step;
+  return piece->is_power ? at_power(points, piece->degree, t)
+                         : at_rational(points, piece->degree, t);
+}
+
+/* Inner vertices share among them the displacement C'' h^2 / 12 of every segment; the ends take
+ * none, so their neighbours take theirs. Source: prototype of the sweep; the area between a chord
+ * and its curve is |C' x C''| h^3 / 12. */
+static double displacement_share(const cs_boundary_piece *piece, uint32_t vertex) {
+  double share = 1 + 0.5 * (vertex == 1) + 0.5 * (vertex + 1 == piece->segments);
+  return share * (1.0 / 12) * (piece->step * piece->step);
+}
+
+celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                 uint32_t vertex) {
+  if (vertex == 0)
+    return (celspan_point){piece->x0, piece->y0};
+  if (vertex == piece->segments)
+    return (celspan_point){piece->x1, piece->y1};
+  curve_point p = at_vertex(set, piece, vertex);
+  double share = displacement_share(piece, vertex);
+  double lift = cs_number_clamp(share * p.bend_y, -piece->overhang, piece->overhang);
+  return (celspan_point){cs_number_clamp(p.x - share * p.bend_x, piece->left, piece->right),
+                         cs_number_clamp(p.y - lift, piece->y0, piece->y1)};
+}
+
+double cs_polyline_plain_y(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                           uint32_t vertex) {
+  return vertex == 0                 ? piece->y0
+         : vertex == piece->segments ? piece->y1
+                                     : at_vertex(set, piece, vertex).y;
+}
+
+/* ---------------------------------------------------------------- fitting */
+
+static double polynomial_bend(const cs_bezier *curve) {
+  double largest = 0, w = curve->points[0].w;
+  for (int i = 0; i + 2 <= curve->degree; i++) {
+    const cs_hpoint *p = curve->points + i;
+    double x = p[0].x - 2 * p[1].x + p[2].x, y = p[0].y - 2 * p[1].y + p[2].y;
+    largest = fmax(largest, x * x + y * y);
+  }
+  return curve->degree * (curve->degree - 1) * sqrt(largest) / w;
+}
+
+static double rational_bend(const cs_bezier *curve) {
+  double largest = 0;
+  int steps = 4 * curve->degree;
+  for (int i = 0; i <= steps; i++) {
+    curve_point p = at_rational(curve->points, curve->degree, (double)i / steps);
+    largest = fmax(largest, p.bend_x * p.bend_x + p.bend_y * p.bend_y);
+  }
+  return SAMPLING_MARGIN * sqrt(largest);
+}
+
+static void to_powers(const cs_bezier *curve, cs_hpoint *c) {
+  cs_hpoint p[4];
+  for (int i = 0; i <= curve->degree; i++)
+    p[i] = (cs_hpoint){curve->points[i].x / curve->points[i].w,
+                       curve->points[i].y / curve->points[i].w, 0};
+  c[0] = p[0];
+  double n = curve->degree;
+  c[1] = (cs_hpoint){n * (p[1].x - p[0].x), n * (p[1].y - p[0].y), 0};
+  double pairs = n * (n - 1) / 2;
+  c[2] = (cs_hpoint){pairs * ((p[2].x - p[1].x) - (p[1].x - p[0].x)),
+                     pairs * ((p[2].y - p[1].y) - (p[1].y - p[0].y)), 0};
+  if (curve->degree == 3)
+    c[3] = (cs_hpoint){(p[3].x - p[0].x) - 3 * (p[2].x - p[1].x),
+                       (p[3].y - p[0].y) - 3 * (p[2].y - p[1].y), 0};
+}
+
+static celspan_status store_points(celspan_context *context, cs_boundary_set *set,
+                                   const cs_bezier *curve, cs_boundary_piece *piece) {
+  size_t count = (size_t)curve->degree + 1;
+  if (set->point_count > UINT32_MAX - count)
+    return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
+  CS_TRY(cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
+                        set->point_count + count, sizeof *set->points));
+  piece->point = (uint32_t)set->point_count;
+  piece->degree = (uint8_t)curve->degree;
+  if (piece->is_power)
+    to_powers(curve, set->points + set->point_count);
+  else
+    memcpy(set->points + set->point_count, curve->points, count * sizeof *set->points);
+  set->point_count += count;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
+                               const cs_bezier *curve, cs_boundary_piece *piece) {
+  bool is_polynomial = cs_bezier_is_polynomial(curve);
+  double bend = is_polynomial ? polynomial_bend(curve) : rational_bend(curve);
+  piece->segments = 1;
+  piece->degree = 1;
+  if (!(bend > 8 * ONE_CHORD))
+    return CELSPAN_OK;
+  double segments = fmin(fmax(2, ceil(sqrt(bend / (8 * CS_BOUNDARY_TOLERANCE)))), SEGMENT_LIMIT);
+  piece->segments = (uint32_t)segments;
+  piece->step = 1 / segments;
+  piece->overhang = bend * displacement_share(piece, 1);
+  piece->is_power = is_polynomial && curve->degree <= 3;
+  return store_points(context, set, curve, piece);
+}

@@ -1,0 +1,271 @@
+#include "output/block.h"
+
+#include <string.h>
+
+#include "output/huffman.h"
+
+enum {
+  LITERALS = 288, /* with the end of block and 29 lengths; the last two are never used */
+  DISTANCES = 30,
+  END_OF_BLOCK = 256,
+  LENGTH_CODES = 19 /* of the code that codes the code lengths */
+};
+
+/* ---------------------------------------------------------------- bits */
+
+static void drain(cs_block_writer *writer, size_t size) {
+  if (writer->status == CELSPAN_OK && size > 0)
+    writer->status = writer->write(writer->user, writer->context, writer->bytes, size);
+  writer->size = 0;
+}
+
+static void put_whole_bytes(cs_block_writer *writer) {
+  if (writer->size + 8 > CS_BLOCK_BYTES)
+    drain(writer, writer->size);
+  memcpy(writer->bytes + writer->size, &writer->bits, 8);
+  writer->size += writer->bit_count / 8;
+  writer->bits >>= writer->bit_count & ~7u;
+  writer->bit_count &= 7;
+}
+
+/* count <= 48. */
+static inline void put_bits(cs_block_writer *writer, uint64_t bits, unsigned count) {
+  if (writer->bit_count + count > 63)
+    put_whole_bytes(writer);
+  writer->bits |= bits << writer->bit_count;
+  writer->bit_count += count;
+}
+
+void cs_block_put_bytes(cs_block_writer *writer, const void *bytes, size_t size) {
+  put_whole_bytes(writer);
+  writer->bit_count = (writer->bit_count + 7) & ~7u;
+  for (size_t i = 0; i < size; i++)
+    put_bits(writer, ((const unsigned char *)bytes)[i], 8);
+}
+
+void cs_block_flush(cs_block_writer *writer) {
+  put_whole_bytes(writer);
+  drain(writer, writer->size);
+}
+
+/* ---------------------------------------------------------------- symbols */
+
+static int floor_log2(unsigned x) { return 31 - __builtin_clz(x); }
+
+/* Lengths and distances are coded alike: a symbol for the leading bits (`kept` of them after the
+ * first one) and the rest as they are. */
+typedef struct parts {
+  int symbol, extra_bits;
+  unsigned extra;
+} parts;
+
+static inline parts split_number(unsigned number, int kept) {
+  if (number >> (kept + 1) == 0)
+    return (parts){(int)number, 0, 0};
+  int extra_bits = floor_log2(number) - kept;
+  int symbol = (extra_bits << kept) + (int)(number >> extra_bits);
+  return (parts){symbol, extra_bits, number & ((1u << extra_bits) - 1)};
+}
+
+static parts split_length(unsigned length_less_3) {
+  parts split = length_less_3 == 255 ? (parts){28, 0, 0} : split_number(length_less_3, 2);
+  split.symbol += END_OF_BLOCK + 1;
+  return split;
+}
+
+static inline parts split_distance(unsigned distance_less_1) {
+  return split_number(distance_less_1, 1);
+}
+
+/* ---------------------------------------------------------------- codes */
+
+typedef struct codes {
+  uint8_t literal_lengths[LITERALS], distance_lengths[DISTANCES];
+  uint16_t literals[LITERALS], distances[DISTANCES];
+} codes;
+
+typedef struct counts {
+  uint32_t literals[LITERALS], distances[DISTANCES];
+} counts;
+
+static void count_tokens(counts *count, const cs_token *tokens, size_t token_count) {
+  uint32_t lengths[256] = {0};
+  memset(count, 0, sizeof *count);
+  for (size_t i = 0; i < token_count; i++)
+    if (tokens[i] < 256) {
+      count->literals[tokens[i]]++;
+    } else {
+      lengths[tokens[i] >> 16 & 255]++;
+      count->distances[split_distance(tokens[i] & 0x7fff).symbol]++;
+    }
+  for (unsigned length = 0; length < 256; length++)
+    count->literals[split_length(length).symbol] += lengths[length];
+  count->literals[END_OF_BLOCK] = 1;
+}
+
+static void assign_codes(codes *code) {
+  cs_huffman_codes(code->literal_lengths, LITERALS, code->literals);
+  cs_huffman_codes(code->distance_lengths, DISTANCES, code->distances);
+}
+
+static void fixed_lengths(codes *code) {
+  for (int symbol = 0; symbol < LITERALS; symbol++)
+    code->literal_lengths[symbol] = symbol < 144 ? 8 : symbol < 256 ? 9 : symbol < 280 ? 7 : 8;
+  memset(code->distance_lengths, 5, DISTANCES);
+}
+
+static void best_lengths(codes *code, const counts *count) {
+  cs_huffman_lengths(count->literals, LITERALS, CS_HUFFMAN_LIMIT, code->literal_lengths);
+  cs_huffman_lengths(count->distances, DISTANCES, CS_HUFFMAN_LIMIT, code->distance_lengths);
+}
+
+/* Bits of a block's tokens without their extra bits, which no code changes. */
+static uint64_t coded_size(const codes *code, const counts *count) {
+  uint64_t bits = 0;
+  for (int symbol = 0; symbol < LITERALS; symbol++)
+    bits += (uint64_t)count->literals[symbol] * code->literal_lengths[symbol];
+  for (int symbol = 0; symbol < DISTANCES; symbol++)
+    bits += (uint64_t)count->distances[symbol] * code->distance_lengths[symbol];
+  return bits;
+}
+
+/* ---------------------------------------------------------------- the header of a block */
+
+/* The code lengths in run lengths, themselves to be coded: symbols 0..15 are lengths, 16 repeats
+ * the last, 17 and 18 are runs of zeros. */
+typedef struct header {
+  int literal_count, distance_count, item_count, code_count;
+  uint8_t symbol[LITERALS + DISTANCES], extra[LITERALS + DISTANCES];
+  uint8_t lengths[LENGTH_CODES];
+  uint16_t codes[LENGTH_CODES];
+  uint64_t size; /* in bits, without the block's first three */
+} header;
+
+static const uint8_t length_extra_bits[LENGTH_CODES] = {[16] = 2, [17] = 3, [18] = 7};
+
+static int used(const uint8_t *lengths, int count, int least) {
+  while (count > least && lengths[count - 1] == 0)
+    count--;
+  return count;
+}
+
+static void add_item(header *head, int symbol, int extra) {
+  head->symbol[head->item_count] = (uint8_t)symbol;
+  head->extra[head->item_count++] = (uint8_t)extra;
+}
+
+/* `run` equal lengths. */
+static void add_run(header *head, int length, int run) {
+  if (length > 0) {
+    add_item(head, length, 0);
+    run--;
+  }
+  while (run >= 3) {
+    int most = length > 0 ? 6 : 138, part = run < most ? run : most;
+    if (length > 0)
+      add_item(head, 16, part - 3);
+    else if (part <= 10)
+      add_item(head, 17, part - 3);
+    else
+      add_item(head, 18, part - 11);
+    run -= part;
+  }
+  while (run-- > 0)
+    add_item(head, length, 0);
+}
+
+static void add_runs(header *head, const uint8_t *lengths, int count) {
+  for (int i = 0, run; i < count; i += run) {
+    for (run = 1; i + run < count && lengths[i + run] == lengths[i]; run++) {
+    }
+    add_run(head, lengths[i], run);
+  }
+}
+
+static const uint8_t length_order[LENGTH_CODES] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
+
+static void make_header(header *head, const codes *code) {
+  uint32_t count[LENGTH_CODES] = {0};
+  head->item_count = 0;
+  head->literal_count = used(code->literal_lengths, LITERALS, 257);
+  head->distance_count = used(code->distance_lengths, DISTANCES, 1);
+  add_runs(head, code->literal_lengths, head->literal_count);
+  add_runs(head, code->distance_lengths, head->distance_count);
+  for (int i = 0; i < head->item_count; i++)
+    count[head->symbol[i]]++;
+  cs_huffman_lengths(count, LENGTH_CODES, 7, head->lengths);
+  cs_huffman_codes(head->lengths, LENGTH_CODES, head->codes);
+  for (head->code_count = LENGTH_CODES; head->code_count > 4; head->code_count--)
+    if (head->lengths[length_order[head->code_count - 1]] > 0)
+      break;
+  head->size = 5 + 5 + 4 + 3 * (uint64_t)head->code_count;
+  for (int i = 0; i < LENGTH_CODES; i++)
+    head->size += count[i] * (uint64_t)(head->lengths[i] + length_extra_bits[i]);
+}
+
+static void put_header(cs_block_writer *writer, const header *head) {
+  put_bits(writer, (unsigned)(head->literal_count - 257), 5);
+  put_bits(writer, (unsigned)(head->distance_count - 1), 5);
+  put_bits(writer, (unsigned)(head->code_count - 4), 4);
+  for (int i = 0; i < head->code_count; i++)
+    put_bits(writer, head->lengths[length_order[i]], 3);
+  for (int i = 0; i < head->item_count; i++) {
+    int symbol = head->symbol[i];
+    put_bits(writer, head->codes[symbol], head->lengths[symbol]);
+    put_bits(writer, head->extra[i], length_extra_bits[symbol]);
+  }
+}
+
+/* ---------------------------------------------------------------- the tokens of a block */
+
+/* A length's code and extra bits in one. */
+typedef struct length_bits {
+  uint32_t bits;
+  unsigned count;
+} length_bits;
+
+static void join_lengths(length_bits joined[256], const codes *code) {
+  for (unsigned length = 0; length < 256; length++) {
+    parts split = split_length(length);
+    unsigned code_bits = code->literal_lengths[split.symbol];
+    joined[length].bits = code->literals[split.symbol] | split.extra << code_bits;
+    joined[length].count = code_bits + (unsigned)split.extra_bits;
+  }
+}
+
+static void put_tokens(cs_block_writer *writer, const codes *code, const cs_token *tokens,
+                       size_t count) {
+  length_bits lengths[256];
+  join_lengths(lengths, code);
+  for (const cs_token *token = tokens; token < tokens + count; token++) {
+    if (*token < 256) {
+      put_bits(writer, code->literals[*token], code->literal_lengths[*token]);
+      continue;
+    }
+    length_bits length = lengths[*token >> 16 & 255];
+    parts split = split_distance(*token & 0x7fff);
+    unsigned code_bits = code->distance_lengths[split.symbol];
+    uint64_t distance = code->distances[split.symbol] | (uint64_t)split.extra << code_bits;
+    put_bits(writer, length.bits | distance << length.count,
+             length.count + code_bits + (unsigned)split.extra_bits);
+  }
+  put_bits(writer, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
+}
+
+void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last) {
+  counts frequency;
+  codes own, fixed;
+  header head;
+  count_tokens(&frequency, tokens, count);
+  best_lengths(&own, &frequency);
+  fixed_lengths(&fixed);
+  make_header(&head, &own);
+  bool own_is_shorter = coded_size(&own, &frequency) + head.size < coded_size(&fixed, &frequency);
+  put_bits(writer, (own_is_shorter ? 4u : 2u) | is_last, 3);
+  if (own_is_shorter)
+    put_header(writer, &head);
+  codes *chosen = own_is_shorter ? &own : &fixed;
+  assign_codes(chosen);
+  put_tokens(writer, chosen, tokens, count);
+}

@@ -1,0 +1,38 @@
+/* Deflate blocks: tokens to bits (RFC 1951). */
+#ifndef CS_OUTPUT_BLOCK_H
+#define CS_OUTPUT_BLOCK_H
+
+#include "base/context.h"
+
+/* Receives compressed bytes, in order. */
+typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, const void *bytes,
+                                         size_t size);
+
+/* A literal is its byte; a match is made here. length 3..258, distance 1..32768. */
+typedef uint32_t cs_token;
+static inline cs_token cs_token_match(size_t length, size_t distance) {
+  return 0x80000000u | (cs_token)(length - 3) << 16 | (cs_token)(distance - 1);
+}
+
+enum { CS_BLOCK_BYTES = 1 << 16 };
+
+/* Bits on their way out. Errors stick in status. */
+typedef struct cs_block_writer {
+  cs_block_write write;
+  void *user;
+  celspan_context *context; /* of the call in progress */
+  celspan_status status;
+  uint64_t bits; /* not yet in bytes, the first lowest */
+  unsigned bit_count;
+  size_t size;
+  unsigned char bytes[CS_BLOCK_BYTES + 8];
+} cs_block_writer;
+
+/* One block, with codes of its own or the fixed ones, whichever is shorter. */
+void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last);
+/* Plain bytes, after filling the byte begun with zeros. */
+void cs_block_put_bytes(cs_block_writer *writer, const void *bytes, size_t size);
+/* Passes on what is held. */
+void cs_block_flush(cs_block_writer *writer);
+
+#endif

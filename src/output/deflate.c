@@ -1,0 +1,297 @@
+#include "output/deflate.h"
+
+#include <string.h>
+#include <zlib.h>
+
+enum {
+  WINDOW = 32768,
+  PENDING = 1 << 16, /* bytes gathered before they are searched */
+  SLACK = 16,        /* read or written beyond the end, never used */
+  LONGEST = 258,
+  SHORTEST = 4,
+  REMEMBERED = 32, /* the longest match whose inner places are remembered */
+  LONG_RUN = 512, /* bytes from which a run is not laid out but written as matches at once */
+  HASH_BITS = 15,
+  BLOCK_TOKENS = 1 << 16,
+  ADLER_BASE = 65521
+};
+
+struct cs_deflate {
+  size_t pixel_size;
+  uint64_t adler_a, adler_b; /* not reduced; see reduce_adler */
+  /* buffer[start..next) is history, [next..end) waits to be searched; buffer[0] is byte `base` of
+   * the stream, modulo 2^32. */
+  uint32_t base;
+  size_t start, next, end;
+  size_t token_count;
+  uint32_t latest[1 << HASH_BITS][2]; /* where four bytes of a hash were seen last and before */
+  cs_token tokens[BLOCK_TOKENS];
+  unsigned char buffer[WINDOW + PENDING + SLACK];
+  cs_block_writer writer;
+};
+
+celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs_block_write write,
+                                 void *user, cs_deflate **out) {
+  cs_deflate *deflate = cs_mem_array(context->memory, 1, sizeof *deflate);
+  if (!deflate)
+    return cs_fail_memory(context);
+  deflate->pixel_size = pixel_size;
+  deflate->adler_a = 1;
+  deflate->writer.write = write;
+  deflate->writer.user = user;
+  static const unsigned char zlib_header[2] = {0x78, 0x9c};
+  cs_block_put_bytes(&deflate->writer, zlib_header, sizeof zlib_header);
+  *out = deflate;
+  return CELSPAN_OK;
+}
+
+void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
+  if (deflate)
+    cs_mem_free(context->memory, deflate, sizeof *deflate);
+}
+
+/* ---------------------------------------------------------------- checksum */
+
+static void reduce_adler(cs_deflate *deflate) {
+  deflate->adler_a %= ADLER_BASE;
+  deflate->adler_b %= ADLER_BASE;
+}
+
+static void adler_bytes(cs_deflate *deflate, const unsigned char *bytes, size_t size) {
+  reduce_adler(deflate);
+  uLong sum = deflate->adler_b << 16 | deflate->adler_a;
+  sum = adler32_z(sum, bytes, size);
+  deflate->adler_a = sum & 0xffff;
+  deflate->adler_b = sum >> 16;
+}
+
+/* n pixels of s bytes p[0..s): a grows by n S, S the sum of the bytes; b by n s a and, since byte j
+ * of pixel i counts once for itself and each byte after it, by S s n (n + 1)/2 - n sum(j p[j]).
+ * Held to 2^20 pixels and reduced in time, nothing passes 2^63. */
+static void adler_run(cs_deflate *deflate, uint64_t pixel, uint64_t count) {
+  uint64_t size = deflate->pixel_size;
+  if (((deflate->adler_a | deflate->adler_b >> 24) >> 32) != 0)
+    reduce_adler(deflate);
+  deflate->adler_b += count * size * deflate->adler_a;
+  if (pixel == 0)
+    return;
+  /* In lanes of 16 bits: bytes 0, 2, 4, 6 and bytes 1, 3, 5, 7; a product gathers its lanes, times
+   * 1 or times their number, in the highest. */
+  const uint64_t lanes = 0x00ff00ff00ff00ffu, ones = 0x0001000100010001u;
+  uint64_t odd = pixel >> 8 & lanes, both = (pixel & lanes) + odd;
+  uint64_t sum = both * ones >> 48;
+  uint64_t weighted = 2 * (both * 0x0000000100020003u >> 48) + (odd * ones >> 48);
+  deflate->adler_a += count * sum;
+  deflate->adler_b += sum * size * (count * (count + 1) / 2) - count * weighted;
+}
+
+/* ---------------------------------------------------------------- tokens */
+
+static void put_token(cs_deflate *deflate, cs_token token) {
+  deflate->tokens[deflate->token_count++] = token;
+  if (deflate->token_count == BLOCK_TOKENS) {
+    cs_block_put(&deflate->writer, deflate->tokens, BLOCK_TOKENS, false);
+    deflate->token_count = 0;
+  }
+}
+
+static inline uint32_t load_4(const unsigned char *at) {
+  uint32_t word;
+  memcpy(&word, at, sizeof word);
+  return word;
+}
+
+static inline uint64_t load_8(const unsigned char *at) {
+  uint64_t word;
+  memcpy(&word, at, sizeof word);
+  return word;
+}
+
+/* How many of the next bytes, `most` at most, equal those `distance` before. */
+static inline size_t match_length(const unsigned char *at, size_t distance, size_t most) {
+  for (size_t length = 0; length < most; length += 8) {
+    uint64_t difference = load_8(at + length) ^ load_8(at + length - distance);
+    if (difference != 0) {
+      length += (size_t)__builtin_ctzll(difference) / 8;
+      return length < most ? length : most;
+    }
+  }
+  return most;
+}
+
+typedef struct match {
+  size_t length, distance;
+} match;
+
+/* Equal bytes, or else equal pixels. */
+static inline match find_run(const cs_deflate *deflate, const unsigned char *at, size_t history,
+                             size_t most) {
+  uint32_t word = load_4(at);
+  if (history >= 1 && word == load_4(at - 1))
+    return (match){match_length(at, 1, most), 1};
+  size_t size = deflate->pixel_size;
+  if (history >= size && word == load_4(at - size))
+    return (match){match_length(at, size, most), size};
+  return (match){0, 0};
+}
+
+static inline uint32_t *places_of(cs_deflate *deflate, uint32_t word) {
+  return deflate->latest[word * 2654435761u >> (32 - HASH_BITS)];
+}
+
+static inline uint32_t position_of(const cs_deflate *deflate, const unsigned char *at) {
+  return deflate->base + (uint32_t)(at - deflate->buffer);
+}
+
+static inline void remember(cs_deflate *deflate, const unsigned char *at) {
+  uint32_t *places = places_of(deflate, load_4(at));
+  places[1] = places[0];
+  places[0] = position_of(deflate, at);
+}
+
+/* The longer of the last two occurrences of the next four bytes. */
+static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, size_t history,
+                                 size_t most) {
+  uint32_t word = load_4(at), position = position_of(deflate, at);
+  const uint32_t *places = places_of(deflate, word);
+  match best = {0, 0};
+  for (int i = 0; i < 2; i++) {
+    size_t distance = position - places[i];
+    if (distance - 1 >= WINDOW || distance > history || load_4(at - distance) != word)
+      continue;
+    size_t length = match_length(at, distance, most);
+    if (length > best.length)
+      best = (match){length, distance};
+  }
+  return best;
+}
+
+/* The places inside short matches are worth remembering in photographs; those inside long ones only
+ * push out the starts of flat runs. */
+static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t most,
+                             match found) {
+  put_token(deflate, cs_token_match(found.length, found.distance));
+  if (found.length <= REMEMBERED)
+    for (size_t i = 1; i < found.length && i + SHORTEST <= most; i++)
+      remember(deflate, at + i);
+}
+
+/* Makes tokens of all that waits. */
+static void search(cs_deflate *deflate) {
+  size_t next = deflate->next, end = deflate->end;
+  while (next < end) {
+    const unsigned char *at = deflate->buffer + next;
+    size_t most = end - next < LONGEST ? end - next : LONGEST, history = next - deflate->start;
+    match best = {0, 0};
+    if (most >= SHORTEST) {
+      best = find_run(deflate, at, history, most);
+      match earlier = find_earlier(deflate, at, history, most);
+      if (earlier.length > best.length)
+        best = earlier;
+      remember(deflate, at);
+    }
+    if (best.length == 0)
+      put_token(deflate, *at);
+    else
+      put_match(deflate, at, most, best);
+    next += best.length == 0 ? 1 : best.length;
+  }
+  deflate->next = next;
+}
+
+/* Searches what waits and moves the last 32 KiB to the front. */
+static void slide(cs_deflate *deflate) {
+  search(deflate);
+  if (deflate->end <= WINDOW)
+    return;
+  size_t gone = deflate->end - WINDOW;
+  memmove(deflate->buffer, deflate->buffer + gone, WINDOW);
+  deflate->base += (uint32_t)gone;
+  deflate->start = deflate->start > gone ? deflate->start - gone : 0;
+  deflate->next = deflate->end = WINDOW;
+}
+
+static size_t room(const cs_deflate *deflate) { return WINDOW + PENDING - deflate->end; }
+
+/* ---------------------------------------------------------------- input */
+
+celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_context *context, const void *bytes,
+                                size_t size) {
+  const unsigned char *from = bytes;
+  deflate->writer.context = context;
+  adler_bytes(deflate, from, size);
+  while (size > 0) {
+    if (room(deflate) == 0)
+      slide(deflate);
+    size_t part = size < room(deflate) ? size : room(deflate);
+    memcpy(deflate->buffer + deflate->end, from, part);
+    deflate->end += part;
+    from += part;
+    size -= part;
+  }
+  return deflate->writer.status;
+}
+
+static void lay_out(cs_deflate *deflate, uint64_t pixel, size_t count) {
+  size_t size = deflate->pixel_size;
+  if (room(deflate) < count * size)
+    slide(deflate);
+  unsigned char *at = deflate->buffer + deflate->end;
+  for (size_t i = 0; i < count; i++, at += size)
+    memcpy(at, &pixel, sizeof pixel);
+  deflate->end += count * size;
+}
+
+static void put_matches(cs_deflate *deflate, size_t bytes, size_t distance) {
+  while (bytes >= LONGEST + 3) {
+    put_token(deflate, cs_token_match(LONGEST, distance));
+    bytes -= LONGEST;
+  }
+  if (bytes > LONGEST) { /* what is left must not be shorter than a match */
+    put_token(deflate, cs_token_match(bytes - 3, distance));
+    bytes = 3;
+  }
+  put_token(deflate, cs_token_match(bytes, distance));
+}
+
+/* A run whose first pixel has been laid out already goes on for `count` pixels: as matches, with as
+ * much of it laid out as anyone can still look back to. */
+static void put_long_run(cs_deflate *deflate, uint64_t pixel, size_t count) {
+  size_t size = deflate->pixel_size, bytes = count * size;
+  search(deflate);
+  put_matches(deflate, bytes, pixel == 0 ? 1 : size);
+  size_t visible = WINDOW / size + 1, laid_out = count < visible ? count : visible;
+  lay_out(deflate, pixel, laid_out);
+  if (laid_out < count) {
+    deflate->base += (uint32_t)(bytes - laid_out * size);
+    deflate->start = deflate->end - laid_out * size;
+  }
+  deflate->next = deflate->end;
+}
+
+celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context, uint64_t pixel,
+                              size_t count) {
+  deflate->writer.context = context;
+  adler_run(deflate, pixel, count);
+  if (count * deflate->pixel_size < LONG_RUN) {
+    lay_out(deflate, pixel, count);
+  } else {
+    lay_out(deflate, pixel, 1);
+    put_long_run(deflate, pixel, count - 1);
+  }
+  return deflate->writer.status;
+}
+
+celspan_status cs_deflate_finish(cs_deflate *deflate, celspan_context *context) {
+  cs_block_writer *writer = &deflate->writer;
+  writer->context = context;
+  search(deflate);
+  cs_block_put(writer, deflate->tokens, deflate->token_count, true);
+  reduce_adler(deflate);
+  uint32_t sum = (uint32_t)(deflate->adler_b << 16 | deflate->adler_a);
+  unsigned char trailer[4] = {(unsigned char)(sum >> 24), (unsigned char)(sum >> 16),
+                              (unsigned char)(sum >> 8), (unsigned char)sum};
+  cs_block_put_bytes(writer, trailer, sizeof trailer);
+  cs_block_flush(writer);
+  return writer->status;
+}

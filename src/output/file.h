@@ -1,0 +1,47 @@
+/* Files that appear whole or not at all.
+ *
+ * Bytes go to a temporary file `.NAME.XXXX.part` in the same folder; cs_file_commit syncs it,
+ * checks its size, renames it and syncs the folder. Until the rename whatever stood under the name
+ * is untouched, and whichever way it ends no temporary file is left. Errors stick: after a failed
+ * write the file can only be discarded or fail to commit.
+ */
+#ifndef CS_OUTPUT_FILE_H
+#define CS_OUTPUT_FILE_H
+
+#include <sys/stat.h>
+#include <sys/types.h>
+
+#include "base/context.h"
+
+typedef struct cs_file cs_file;
+
+/* What a file asks of the system, as in POSIX; tests put failures in between. */
+typedef struct cs_file_system {
+  int (*open)(const char *path, int flags, mode_t mode);
+  ssize_t (*pwrite)(int descriptor, const void *bytes, size_t size, off_t offset);
+  int (*fstat)(int descriptor, struct stat *out);
+  int (*fsync)(int descriptor);
+  int (*close)(int descriptor);
+  int (*rename)(const char *from, const char *to);
+  int (*unlink)(const char *path);
+  int (*mkdir)(const char *path, mode_t mode);
+} cs_file_system;
+
+/* Opens the temporary file; missing folders are made. path: copied. system: NULL for the real one,
+ * else borrowed until the file ends. Errors: OUTPUT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_file_create(celspan_context *context,
+                                              const cs_file_system *system, const char *path,
+                                              cs_file **out);
+/* Appends. */
+CELSPAN_CHECKED celspan_status cs_file_write(cs_file *file, celspan_context *context,
+                                             const void *bytes, size_t size);
+/* Writes over or beyond what is there; the place where cs_file_write appends is the end. */
+CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *context,
+                                                uint64_t offset, const void *bytes, size_t size);
+/* Bytes from the start to the end. */
+uint64_t cs_file_size(const cs_file *file);
+/* Both end the file, whatever they return. NULL is ignored by discard. */
+CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
+void cs_file_discard(cs_file *file, celspan_context *context);
+
+#endif

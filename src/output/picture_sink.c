@@ -1,0 +1,358 @@
+/* Frames in the formats of the picture module: coded here, row by row, and handed over in batches.
+ *
+ *   spans --cs_pixels_row--> RGBA --pack--> the file's own channels --batch--> module --put--> file
+ *
+ * What a format can hold is checked before its writer is opened: some writers end the process, wrap
+ * the size around, or report success and leave an unreadable file.
+ */
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "output/file.h"
+#include "output/pixels.h"
+#include "output/sink.h"
+#include "scene/picture_store.h"
+
+#define BATCH_BYTES ((size_t)4 << 20)
+#define BATCH_ROWS 64
+
+#define HAS(depth) (1u << (depth))
+
+typedef struct file_format {
+  const char *endings; /* each between spaces */
+  const char *name;    /* the module's */
+  int32_t side;        /* pixels, at most */
+  int64_t pixels;      /* in all, at most; 0: no limit of its own */
+  int channels;        /* 4, or 3: the frame over black */
+  celspan_depth depth; /* by default */
+  unsigned depths;     /* what it can hold */
+  bool is_film;        /* ten bits and Cineon by default */
+  bool is_multiplied;  /* alpha is always premultiplied */
+} file_format;
+
+static const file_format formats[] = {
+    {" exr openexr ", "openexr", 1048576, 0, 4, CELSPAN_DEPTH_HALF,
+     HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true},
+    {" tif tiff ", "tiff", 1048576, 0, 4, CELSPAN_DEPTH_8,
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false},
+    {" tga targa ", "targa", 65535, 0, 4, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, false},
+    /* Its writer holds the whole picture in memory. */
+    {" dpx ", "dpx", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true},
+    {" jpg jpeg ", "jpeg", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
+    /* Sizes in the file are 32 bits. */
+    {" bmp ", "bmp", 1048576, (int64_t)1 << 30, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
+     true},
+    {" hdr rgbe ", "hdr", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT), false,
+     true},
+    /* Sixteen bits come out shifted by a byte. */
+    {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
+    {" webp ", "webp", 16383, 0, 4, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, false},
+    {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
+     true},
+    {" jp2 j2k jpeg2000 ", "jpeg2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, true},
+};
+
+typedef struct picture_sink {
+  celspan_context *context; /* of the call that is running, for put */
+  const file_format *format;
+  celspan_coding coding;  /* of `pixels` */
+  celspan_depth depth;    /* in the file */
+  int bits;               /* kept of each value; 0: all */
+  celspan_status put_status;
+  bool is_abandoned;
+  char *path, *title;     /* title: may be NULL */
+  double frames_second;
+  int32_t frame;
+  int32_t width, height;
+  const cs_picture_module *module;
+  cs_picture_writer *writer;
+  cs_file *file;
+  unsigned char *pixels;  /* one row of RGBA */
+  unsigned char *batch;   /* rows as the file has them */
+  int32_t batch_rows, batch_first, batch_count;
+} picture_sink;
+
+/* ---------------------------------------------------------------- formats and codings */
+
+static const file_format *find_format(const char *name) {
+  char wanted[16];
+  size_t length = strlen(name);
+  if (length + 3 > sizeof wanted)
+    return NULL;
+  snprintf(wanted, sizeof wanted, " %s ", name);
+  for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+    if (strcasestr(formats[i].endings, wanted))
+      return &formats[i];
+  return NULL;
+}
+
+static const char *ending_of(const char *path) {
+  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+  return dot ? dot + 1 : "";
+}
+
+static const char *depth_name(celspan_depth depth) {
+  static const char *const names[] = {"default", "8", "16", "half", "float"};
+  return names[depth];
+}
+
+static void list_depths(const file_format *format, char *text, size_t size) {
+  *text = 0;
+  for (int depth = CELSPAN_DEPTH_8; depth <= CELSPAN_DEPTH_FLOAT; depth++)
+    if (format->depths & HAS(depth)) {
+      size_t length = strlen(text);
+      snprintf(text + length, size - length, "%s%s", length ? ", " : "",
+               depth_name((celspan_depth)depth));
+    }
+}
+
+static celspan_status choose_coding(celspan_context *context, const char *path,
+                                    const celspan_coding *asked, picture_sink *sink) {
+  const file_format *format = sink->format;
+  if (asked->depth && !(format->depths & HAS(asked->depth))) {
+    char depths[64];
+    list_depths(format, depths, sizeof depths);
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s files hold depth %s, not %s", path,
+                   format->name, depths, depth_name(asked->depth));
+  }
+  if (format->channels == 4 && format->is_multiplied && asked->alpha == CELSPAN_ALPHA_STRAIGHT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: %s files hold premultiplied alpha, not straight", path, format->name);
+  celspan_coding coding = *asked;
+  if (format->is_film && coding.transfer == CELSPAN_TRANSFER_DEFAULT)
+    coding.transfer = CELSPAN_TRANSFER_CINEON;
+  if (format->is_multiplied)
+    coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+  sink->coding = cs_pixels_resolve(&coding, format->depth);
+  sink->depth = sink->coding.depth;
+  /* Ten bits are rounded here, from the curve itself. */
+  sink->bits = format->is_film && !asked->depth ? 10 : 0;
+  if (sink->bits)
+    sink->coding.depth = CELSPAN_DEPTH_FLOAT;
+  return CELSPAN_OK;
+}
+
+static celspan_status check_size(celspan_context *context, const picture_sink *sink, int32_t width,
+                                 int32_t height) {
+  const file_format *format = sink->format;
+  if (width > format->side || height > format->side)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "%s: the frame is %d x %d pixels; %s files hold at most %d a side", sink->path,
+                   (int)width, (int)height, format->name, (int)format->side);
+  if (format->pixels && (int64_t)width * height > format->pixels)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "%s: the frame is %d x %d pixels; %s files hold at most %lld pixels", sink->path,
+                   (int)width, (int)height, format->name, (long long)format->pixels);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static size_t value_size(celspan_depth depth) {
+  return depth == CELSPAN_DEPTH_8 ? 1 : depth == CELSPAN_DEPTH_FLOAT ? 4 : 2;
+}
+
+static size_t row_size(const picture_sink *sink) {
+  return (size_t)sink->width * (size_t)sink->format->channels * value_size(sink->depth);
+}
+
+/* Ten bits at the top of sixteen, repeated below, as readers widen them. */
+static void pack_film(const float *pixels, int32_t width, uint16_t *out) {
+  for (int32_t x = 0; x < width; x++)
+    for (int c = 0; c < 3; c++) {
+      double value = (double)pixels[4 * (size_t)x + (size_t)c] * 1023 + 0.5;
+      unsigned code = value >= 1023 ? 1023 : value >= 0 ? (unsigned)value : 0;
+      *out++ = (uint16_t)(code << 6 | code >> 4);
+    }
+}
+
+static void pack_row(const picture_sink *sink, unsigned char *out) {
+  size_t from = celspan_coding_pixel_size(&sink->coding);
+  if (sink->bits) {
+    pack_film((const float *)(const void *)sink->pixels, sink->width, (uint16_t *)(void *)out);
+    return;
+  }
+  size_t to = (size_t)sink->format->channels * value_size(sink->depth);
+  for (int32_t x = 0; x < sink->width; x++)
+    memcpy(out + (size_t)x * to, sink->pixels + (size_t)x * from, to);
+}
+
+/* The file's own sentence, where it was the file that failed, says more than the module's. */
+static celspan_status report(const picture_sink *sink, celspan_context *context,
+                             celspan_status status, const cs_picture_failure *failure) {
+  if (status == CELSPAN_OK || sink->put_status != CELSPAN_OK)
+    return sink->put_status == CELSPAN_OK ? status : sink->put_status;
+  return cs_fail(context, status, "%s", failure->text);
+}
+
+static bool put(void *user, uint64_t offset, const void *bytes, size_t size) {
+  picture_sink *sink = user;
+  if (sink->is_abandoned || sink->put_status != CELSPAN_OK)
+    return false;
+  sink->put_status = offset == cs_file_size(sink->file)
+                         ? cs_file_write(sink->file, sink->context, bytes, size)
+                         : cs_file_write_at(sink->file, sink->context, offset, bytes, size);
+  return sink->put_status == CELSPAN_OK;
+}
+
+static celspan_status flush(picture_sink *sink, celspan_context *context) {
+  cs_picture_failure failure;
+  if (sink->batch_count == 0)
+    return CELSPAN_OK;
+  celspan_status status = sink->module->write_rows(sink->writer, sink->batch_first,
+                                                   sink->batch_count, sink->batch, &failure);
+  sink->batch_first += sink->batch_count;
+  sink->batch_count = 0;
+  return report(sink, context, status, &failure);
+}
+
+/* ---------------------------------------------------------------- the sink */
+
+static void free_text(cs_memory *memory, char *text) {
+  if (text)
+    cs_mem_free(memory, text, strlen(text) + 1);
+}
+
+static void destroy(picture_sink *sink, celspan_context *context) {
+  cs_memory *memory = context->memory;
+  sink->is_abandoned = true;
+  if (sink->writer)
+    sink->module->write_abandon(sink->writer);
+  cs_file_discard(sink->file, context);
+  if (sink->pixels)
+    cs_mem_free(memory, sink->pixels,
+                (size_t)sink->width * celspan_coding_pixel_size(&sink->coding));
+  cs_mem_free(memory, sink->batch, (size_t)sink->batch_rows * row_size(sink));
+  free_text(memory, sink->path);
+  free_text(memory, sink->title);
+  cs_mem_free(memory, sink, sizeof *sink);
+}
+
+static celspan_status open_writer(picture_sink *sink, celspan_context *context) {
+  cs_picture_output output = {.put = put,
+                              .user = sink,
+                              .name = sink->path,
+                              .format = sink->format->name,
+                              .width = sink->width,
+                              .height = sink->height,
+                              .channels = sink->format->channels,
+                              .depth = sink->depth,
+                              .bits = sink->bits,
+                              .is_straight = sink->coding.alpha == CELSPAN_ALPHA_STRAIGHT,
+                              .transfer = sink->coding.transfer,
+                              .title = sink->title,
+                              .frames_second = sink->frames_second,
+                              .frame = sink->frame};
+  cs_picture_failure failure;
+  CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
+  celspan_status status = sink->module->write_open(&output, &sink->writer, &failure);
+  return report(sink, context, status, &failure);
+}
+
+static celspan_status start(picture_sink *sink, celspan_context *context, int32_t width,
+                            int32_t height) {
+  CS_TRY(check_size(context, sink, width, height));
+  CS_TRY(cs_store_module(context, CELSPAN_OUTPUT, &sink->module));
+  sink->context = context;
+  sink->width = width;
+  sink->height = height;
+  size_t fitting = BATCH_BYTES / row_size(sink);
+  sink->batch_rows = fitting < 1 ? 1 : fitting > BATCH_ROWS ? BATCH_ROWS : (int32_t)fitting;
+  sink->pixels =
+      cs_mem_array(context->memory, (size_t)width, celspan_coding_pixel_size(&sink->coding));
+  sink->batch = cs_mem_array(context->memory, (size_t)sink->batch_rows, row_size(sink));
+  if (!sink->pixels || !sink->batch)
+    return cs_fail_memory(context);
+  return open_writer(sink, context);
+}
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  celspan_status status = start(user, context, width, height);
+  if (status != CELSPAN_OK)
+    destroy(user, context);
+  return status;
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  picture_sink *sink = user;
+  (void)y;
+  sink->context = context;
+  cs_pixels_row(&sink->coding, spans, span_count, sink->pixels);
+  pack_row(sink, sink->batch + (size_t)sink->batch_count * row_size(sink));
+  sink->batch_count++;
+  return sink->batch_count == sink->batch_rows ? flush(sink, context) : CELSPAN_OK;
+}
+
+/* Some writers call a file complete that nobody can read. */
+static celspan_status check_file(const picture_sink *sink, celspan_context *context) {
+  cs_picture_request request = {.file = sink->path};
+  cs_picture_header header;
+  cs_picture_failure failure;
+  cs_picture_reader *reader;
+  celspan_status status = sink->module->open(&request, &reader, &header, &failure);
+  if (status == CELSPAN_OK) {
+    sink->module->close(reader);
+    if (header.info.width == sink->width && header.info.height == sink->height)
+      return CELSPAN_OK;
+  }
+  unlink(sink->path);
+  return cs_fail(context, CELSPAN_OUTPUT,
+                 "%s: what was written as %s cannot be read back, so it was removed (%s)",
+                 sink->path, sink->format->name,
+                 status == CELSPAN_OK ? "its size is wrong" : failure.text);
+}
+
+static celspan_status finish(picture_sink *sink, celspan_context *context) {
+  cs_picture_failure failure;
+  sink->context = context;
+  CS_TRY(flush(sink, context));
+  cs_picture_writer *writer = sink->writer;
+  sink->writer = NULL;
+  CS_TRY(report(sink, context, sink->module->write_close(writer, &failure), &failure));
+  cs_file *file = sink->file;
+  sink->file = NULL;
+  CS_TRY(cs_file_commit(file, context));
+  return check_file(sink, context);
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  celspan_status status = outcome == CELSPAN_OK ? finish(user, context) : outcome;
+  destroy(user, context);
+  return status;
+}
+
+static char *copy_text(cs_memory *memory, const char *text) {
+  char *copy = cs_mem_resize(memory, NULL, 0, strlen(text) + 1);
+  return copy ? strcpy(copy, text) : NULL;
+}
+
+celspan_status cs_sink_picture(celspan_context *context, const char *path,
+                               const celspan_file_desc *file, celspan_sink *out) {
+  const char *name = file->format ? file->format : ending_of(path);
+  picture_sink made = {.format = find_format(name),
+                       .frames_second = file->frames_second,
+                       .frame = file->frame};
+  if (!made.format)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: the format \"%s\" is not written; png, exr, tiff, tga, dpx, jpeg, bmp, hdr, "
+                   "ppm, webp, gif and jp2 are",
+                   path, name);
+  CS_TRY(choose_coding(context, path, &file->coding, &made));
+  made.path = copy_text(context->memory, path);
+  made.title = file->title ? copy_text(context->memory, file->title) : NULL;
+  picture_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
+  if (!sink || !made.path || !made.title != !file->title) {
+    cs_mem_free(context->memory, sink, sizeof *sink);
+    free_text(context->memory, made.path);
+    free_text(context->memory, made.title);
+    return cs_fail_memory(context);
+  }
+  *sink = made;
+  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  return CELSPAN_OK;
+}

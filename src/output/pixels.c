@@ -1,0 +1,212 @@
+/* A row is cut into runs of at most CHUNK pixels with a colour each; a coder turns a run into
+ * bytes. There is one coder a depth, and one more for what nearly every frame is written as: 8
+ * bits, sRGB, straight.
+ */
+#include "output/pixels.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+#include "colour/transfer.h"
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
+
+enum { CHUNK = 64, FILL_BYTES = 4096 };
+
+size_t celspan_coding_pixel_size(const celspan_coding *coding) {
+  switch (coding->depth) {
+  case CELSPAN_DEPTH_16:
+  case CELSPAN_DEPTH_HALF:
+    return 8;
+  case CELSPAN_DEPTH_FLOAT:
+    return 16;
+  default:
+    return 4;
+  }
+}
+
+celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth) {
+  celspan_coding resolved = coding ? *coding : (celspan_coding){0};
+  if (resolved.depth == CELSPAN_DEPTH_DEFAULT)
+    resolved.depth = default_depth == CELSPAN_DEPTH_DEFAULT ? CELSPAN_DEPTH_8 : default_depth;
+  bool integer = resolved.depth == CELSPAN_DEPTH_8 || resolved.depth == CELSPAN_DEPTH_16;
+  if (resolved.transfer == CELSPAN_TRANSFER_DEFAULT)
+    resolved.transfer = integer ? CELSPAN_TRANSFER_SRGB : CELSPAN_TRANSFER_LINEAR;
+  if (resolved.alpha == CELSPAN_ALPHA_DEFAULT)
+    resolved.alpha = integer ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
+  return resolved;
+}
+
+/* ---------------------------------------------------------------- one pixel */
+
+static uint32_t float_bits(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
+
+/* Round half up of x held to 0..1 times `most`; the product is exact. NaN is 0. */
+static unsigned to_integer(float x, double most) {
+  return !(x > 0) ? 0 : x >= 1 ? (unsigned)most : (unsigned)((double)x * most + 0.5);
+}
+
+/* IEEE binary16, ties to even; too large becomes 65504, NaN stays one. */
+static uint16_t to_half(float x) {
+  uint32_t bits = float_bits(x), sign = bits >> 16 & 0x8000, size = bits & 0x7fffffff;
+  if (size > 0x7f800000)
+    return (uint16_t)(sign | 0x7e00);
+  if (size >= 0x477ff000)
+    return (uint16_t)(sign | 0x7bff);
+  if (size < 0x38800000) { /* below 2^-14: adding 1/2 leaves steps of 2^-24 */
+    float step = fabsf(x) + 0.5f;
+    return (uint16_t)(sign | (float_bits(step) - 0x3f000000));
+  }
+  uint32_t even = size >> 13 & 1;
+  return (uint16_t)(sign | ((size - 0x38000000 + 0xfff + even) >> 13));
+}
+
+/* The colour the transfer curve is applied to. */
+static void to_coded(const celspan_coding *coding, const float rgba[4], float coded[4]) {
+  bool divide = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] != 1;
+  for (int c = 0; c < 3; c++) {
+    float light = !divide ? rgba[c] : rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
+    coded[c] = cs_transfer_encode(coding->transfer, light);
+  }
+  coded[3] = rgba[3];
+}
+
+/* ---------------------------------------------------------------- runs */
+
+typedef void (*coder)(const celspan_coding *coding, const float *rgba, size_t count,
+                      unsigned char *out);
+
+static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba, size_t count,
+                                 unsigned char *out) {
+  (void)coding;
+  for (; count > 0; count--, rgba += 4, out += 4) {
+    float alpha = rgba[3];
+    if (alpha == 1) {
+      for (int c = 0; c < 3; c++)
+        out[c] = cs_transfer_srgb8(rgba[c]);
+      out[3] = 255;
+    } else if (alpha > 0) {
+      for (int c = 0; c < 3; c++)
+        out[c] = cs_transfer_srgb8(rgba[c] / alpha);
+      out[3] = (unsigned char)to_integer(alpha, 255);
+    } else {
+      memset(out, 0, 4);
+    }
+  }
+}
+
+static void code_8(const celspan_coding *coding, const float *rgba, size_t count,
+                   unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 4) {
+    float coded[4];
+    to_coded(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      out[c] = (unsigned char)to_integer(coded[c], 255);
+  }
+}
+
+static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
+                    unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 8) {
+    float coded[4];
+    uint16_t numbers[4];
+    to_coded(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      numbers[c] = (uint16_t)to_integer(coded[c], 65535);
+    memcpy(out, numbers, sizeof numbers);
+  }
+}
+
+static void code_half(const celspan_coding *coding, const float *rgba, size_t count,
+                      unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 8) {
+    float coded[4];
+    uint16_t numbers[4];
+    to_coded(coding, rgba, coded);
+    for (int c = 0; c < 4; c++)
+      numbers[c] = to_half(coded[c]);
+    memcpy(out, numbers, sizeof numbers);
+  }
+}
+
+static void code_float(const celspan_coding *coding, const float *rgba, size_t count,
+                       unsigned char *out) {
+  for (; count > 0; count--, rgba += 4, out += 16) {
+    float coded[4];
+    to_coded(coding, rgba, coded);
+    memcpy(out, coded, sizeof coded);
+  }
+}
+
+static coder choose_coder(const celspan_coding *coding) {
+  switch (coding->depth) {
+  case CELSPAN_DEPTH_16:
+    return code_16;
+  case CELSPAN_DEPTH_HALF:
+    return code_half;
+  case CELSPAN_DEPTH_FLOAT:
+    return code_float;
+  default:
+    return coding->transfer == CELSPAN_TRANSFER_SRGB && coding->alpha == CELSPAN_ALPHA_STRAIGHT
+               ? code_8_srgb_straight
+               : code_8;
+  }
+}
+
+void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel) {
+  choose_coder(coding)(coding, rgba, 1, pixel);
+}
+
+/* ---------------------------------------------------------------- spans */
+
+/* Repeats the first `size` bytes of out until `bytes` are filled: doubling while the block is
+ * small enough to stay in the nearest cache, then block by block. */
+static void repeat(unsigned char *out, size_t size, size_t bytes) {
+  size_t done = size;
+  while (done < bytes) {
+    size_t block = done < FILL_BYTES ? done : FILL_BYTES;
+    block = block < bytes - done ? block : bytes - done;
+    memcpy(out + done, out, block);
+    done += block;
+  }
+}
+
+static void gradient_colours(const celspan_span *span, int32_t x, int32_t count, float *rgba) {
+  for (int32_t i = 0; i < count; i++)
+    for (int c = 0; c < 4; c++)
+      rgba[4 * i + c] = span->colour[c] + span->slope[c] * (float)(x + i - span->origin);
+}
+
+static void code_gradient(const celspan_coding *coding, coder code, const celspan_span *span,
+                          size_t pixel_size, unsigned char *out) {
+  float rgba[4 * CHUNK];
+  for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
+    int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
+    gradient_colours(span, x, count, rgba);
+    code(coding, rgba, (size_t)count, out);
+    out += (size_t)count * pixel_size;
+  }
+}
+
+void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                   void *row) {
+  coder code = choose_coder(coding);
+  size_t pixel_size = celspan_coding_pixel_size(coding);
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    unsigned char *out = (unsigned char *)row + (size_t)span->x0 * pixel_size;
+    size_t count = (size_t)(span->x1 - span->x0);
+    if (span->kind == CELSPAN_SPAN_ARRAY) {
+      code(coding, span->array, count, out);
+    } else if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      code_gradient(coding, code, span, pixel_size, out);
+    } else {
+      code(coding, span->colour, 1, out);
+      repeat(out, pixel_size, count * pixel_size);
+    }
+  }
+}

@@ -1,0 +1,247 @@
+#include "output/png_filter.h"
+
+#include <string.h>
+
+typedef enum filter { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH } filter;
+
+/* ---------------------------------------------------------------- runs */
+
+/* x - y in each of eight bytes. */
+static uint64_t subtract_bytes(uint64_t x, uint64_t y) {
+  const uint64_t high = 0x8080808080808080u;
+  return ((x | high) - (y & ~high)) ^ ((x ^ ~y) & high);
+}
+
+/* Whether the pixel was met lately under this filter; from now on it was. */
+static bool recall(cs_png_seen *seen, filter kind, uint64_t pixel) {
+  uint64_t mixed = pixel * 0x9e3779b97f4a7c15u;
+  uint32_t *tag = &seen->tags[kind][mixed >> (64 - CS_PNG_SEEN_BITS)];
+  bool is_known = *tag == (uint32_t)mixed;
+  *tag = (uint32_t)mixed;
+  return is_known;
+}
+
+/* About the bits a run costs: a match for what was met before, or else a pixel of literals; one more
+ * match when it goes on. An unchanged stretch is that last match alone. */
+enum { KNOWN_BITS = 18, NEW_BITS = 36, MORE_BITS = 24 };
+
+static unsigned run_cost(cs_png_seen *seen, filter kind, uint64_t pixel, int32_t count) {
+  unsigned first = recall(seen, kind, pixel) ? KNOWN_BITS : NEW_BITS;
+  return first + (count > 1 ? MORE_BITS : 0);
+}
+
+static uint64_t cost_within(cs_png_seen *seen, filter kind, const cs_png_row *row) {
+  uint64_t bits = 0, left = 0;
+  int32_t x = 0;
+  for (size_t i = 0; i < row->run_count; i++) {
+    const cs_png_run *run = &row->runs[i];
+    bits += run_cost(seen, kind, subtract_bytes(run->pixel, left), run->end - x);
+    left = kind == FILTER_SUB ? run->pixel : 0;
+    x = run->end;
+  }
+  return bits;
+}
+
+static uint64_t cost_up(cs_png_seen *seen, const cs_png_row *row, const cs_png_row *above) {
+  const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
+  uint64_t bits = MORE_BITS;
+  int32_t x = 0;
+  while (run < last) {
+    int32_t end = upper->end < run->end ? upper->end : run->end;
+    if (upper->pixel != run->pixel)
+      bits += MORE_BITS +
+              run_cost(seen, FILTER_UP, subtract_bytes(run->pixel, upper->pixel), end - x);
+    x = end;
+    upper += upper->end == x;
+    run += run->end == x;
+  }
+  return bits;
+}
+
+static filter choose_for_runs(cs_png_seen *seen, const cs_png_row *row, const cs_png_row *above) {
+  uint64_t none = cost_within(seen, FILTER_NONE, row);
+  uint64_t sub = cost_within(seen, FILTER_SUB, row);
+  uint64_t up = above->run_count > 0 ? cost_up(seen, row, above) : UINT64_MAX;
+  return up <= none && up <= sub ? FILTER_UP : none <= sub ? FILTER_NONE : FILTER_SUB;
+}
+
+static celspan_status put_none(cs_deflate *deflate, celspan_context *context,
+                               const cs_png_row *row) {
+  int32_t x = 0;
+  for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
+    CS_TRY(cs_deflate_run(deflate, context, run->pixel, (size_t)(run->end - x)));
+    x = run->end;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status put_sub(cs_deflate *deflate, celspan_context *context,
+                              const cs_png_row *row) {
+  uint64_t left = 0;
+  int32_t x = 0;
+  for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
+    CS_TRY(cs_deflate_run(deflate, context, subtract_bytes(run->pixel, left), 1));
+    if (run->end - x > 1)
+      CS_TRY(cs_deflate_run(deflate, context, 0, (size_t)(run->end - x - 1)));
+    left = run->pixel;
+    x = run->end;
+  }
+  return CELSPAN_OK;
+}
+
+/* Pieces with the same difference are joined, so that an unchanged row is one run. */
+static celspan_status put_up(cs_deflate *deflate, celspan_context *context, const cs_png_row *row,
+                             const cs_png_row *above) {
+  const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
+  uint64_t held = subtract_bytes(run->pixel, upper->pixel);
+  int32_t x = 0, held_from = 0;
+  while (run < last) {
+    uint64_t difference = subtract_bytes(run->pixel, upper->pixel);
+    if (difference != held) {
+      CS_TRY(cs_deflate_run(deflate, context, held, (size_t)(x - held_from)));
+      held = difference;
+      held_from = x;
+    }
+    x = upper->end < run->end ? upper->end : run->end;
+    upper += upper->end == x;
+    run += run->end == x;
+  }
+  return cs_deflate_run(deflate, context, held, (size_t)(x - held_from));
+}
+
+static celspan_status put_filter(cs_deflate *deflate, celspan_context *context, filter chosen) {
+  unsigned char byte = (unsigned char)chosen;
+  return cs_deflate_bytes(deflate, context, &byte, 1);
+}
+
+celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context, cs_png_seen *seen,
+                                  const cs_png_row *row, const cs_png_row *above) {
+  filter chosen = choose_for_runs(seen, row, above);
+  CS_TRY(put_filter(deflate, context, chosen));
+  switch (chosen) {
+  case FILTER_NONE:
+    return put_none(deflate, context, row);
+  case FILTER_SUB:
+    return put_sub(deflate, context, row);
+  default:
+    return put_up(deflate, context, row, above);
+  }
+}
+
+/* ---------------------------------------------------------------- bytes */
+
+enum { BLOCK = CS_PNG_BLOCK, SCRATCH = 4096 };
+typedef uint8_t bytes __attribute__((vector_size(BLOCK)));
+typedef int16_t shorts __attribute__((vector_size(2 * BLOCK)));
+
+static inline bytes load_block(const unsigned char *at) {
+  bytes block;
+  memcpy(&block, at, sizeof block);
+  return block;
+}
+
+static inline shorts widen(bytes block) { return __builtin_convertvector(block, shorts); }
+
+static inline shorts size_of(shorts x) {
+  shorts negative = x < 0;
+  return (x ^ negative) - negative;
+}
+
+static inline shorts select(shorts condition, shorts yes, shorts no) {
+  return (yes & condition) | (no & ~condition);
+}
+
+static inline bytes paeth(bytes left, bytes up, bytes corner) {
+  shorts a = widen(left), b = widen(up), c = widen(corner);
+  shorts from_a = size_of(b - c), from_b = size_of(a - c), from_c = size_of(a + b - c - c);
+  shorts b_or_c = select(from_b <= from_c, b, c);
+  return __builtin_convertvector(select((from_a <= from_b) & (from_a <= from_c), a, b_or_c), bytes);
+}
+
+/* What is left of a block of a row under a filter. */
+static inline bytes residue(filter kind, const unsigned char *row, const unsigned char *above,
+                            size_t pixel_size) {
+  bytes x = load_block(row), a = load_block(row - pixel_size), b = load_block(above);
+  switch (kind) {
+  case FILTER_NONE: return x;
+  case FILTER_SUB: return x - a;
+  case FILTER_UP: return x - b;
+  case FILTER_AVERAGE: return x - ((a & b) + ((a ^ b) >> 1));
+  case FILTER_PAETH: return x - paeth(a, b, load_block(above - pixel_size));
+  }
+  return x;
+}
+
+static inline void filter_as(filter kind, const unsigned char *row, const unsigned char *above,
+                             size_t pixel_size, size_t size, unsigned char *out) {
+  for (size_t i = 0; i < size; i += BLOCK) {
+    bytes block = residue(kind, row + i, above + i, pixel_size);
+    memcpy(out + i, &block, sizeof block);
+  }
+}
+
+/* Size is rounded up to whole blocks. */
+static void filter_part(filter kind, const unsigned char *row, const unsigned char *above,
+                        size_t pixel_size, size_t size, unsigned char *out) {
+  switch (kind) {
+  case FILTER_NONE: filter_as(FILTER_NONE, row, above, pixel_size, size, out); break;
+  case FILTER_SUB: filter_as(FILTER_SUB, row, above, pixel_size, size, out); break;
+  case FILTER_UP: filter_as(FILTER_UP, row, above, pixel_size, size, out); break;
+  case FILTER_AVERAGE: filter_as(FILTER_AVERAGE, row, above, pixel_size, size, out); break;
+  case FILTER_PAETH: filter_as(FILTER_PAETH, row, above, pixel_size, size, out); break;
+  }
+}
+
+/* The sum of the sizes of the residues as signed bytes: the usual guess at what compresses best.
+ * size: at most 255 blocks, or a lane would overflow; what is beyond the last whole one is left
+ * out. */
+static inline uint64_t cost_as(filter kind, const unsigned char *row, const unsigned char *above,
+                               size_t pixel_size, size_t size) {
+  shorts sums = {0};
+  uint64_t sum = 0;
+  for (size_t i = 0; i + BLOCK <= size; i += BLOCK) {
+    bytes block = residue(kind, row + i, above + i, pixel_size), negated = -block;
+    bytes is_less = (bytes)(block < negated);
+    sums += widen((block & is_less) | (negated & ~is_less));
+  }
+  for (int lane = 0; lane < BLOCK; lane++)
+    sum += (uint64_t)sums[lane];
+  return sum;
+}
+
+static void add_costs(uint64_t costs[5], const unsigned char *row, const unsigned char *above,
+                      size_t pixel_size, size_t size) {
+  costs[FILTER_NONE] += cost_as(FILTER_NONE, row, above, pixel_size, size);
+  costs[FILTER_SUB] += cost_as(FILTER_SUB, row, above, pixel_size, size);
+  costs[FILTER_UP] += cost_as(FILTER_UP, row, above, pixel_size, size);
+  costs[FILTER_AVERAGE] += cost_as(FILTER_AVERAGE, row, above, pixel_size, size);
+  costs[FILTER_PAETH] += cost_as(FILTER_PAETH, row, above, pixel_size, size);
+}
+
+static filter choose_for_bytes(size_t pixel_size, size_t size, const unsigned char *row,
+                               const unsigned char *above) {
+  uint64_t costs[5] = {0};
+  for (size_t at = 0; at < size; at += SCRATCH) {
+    size_t part = size - at < SCRATCH ? size - at : SCRATCH;
+    add_costs(costs, row + at, above + at, pixel_size, part);
+  }
+  int best = FILTER_NONE;
+  for (int kind = FILTER_SUB; kind <= FILTER_PAETH; kind++)
+    if (costs[kind] < costs[best])
+      best = kind;
+  return (filter)best;
+}
+
+celspan_status cs_png_filter_bytes(cs_deflate *deflate, celspan_context *context, size_t pixel_size,
+                                   size_t size, const unsigned char *row,
+                                   const unsigned char *above) {
+  unsigned char scratch[SCRATCH];
+  filter chosen = choose_for_bytes(pixel_size, size, row, above);
+  CS_TRY(put_filter(deflate, context, chosen));
+  for (size_t at = 0; at < size; at += SCRATCH) {
+    size_t part = size - at < SCRATCH ? size - at : SCRATCH;
+    filter_part(chosen, row + at, above + at, pixel_size, part, scratch);
+    CS_TRY(cs_deflate_bytes(deflate, context, scratch, part));
+  }
+  return CELSPAN_OK;
+}

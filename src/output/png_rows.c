@@ -1,0 +1,155 @@
+#include "output/png_rows.h"
+
+#include <string.h>
+
+#include "output/pixels.h"
+#include "output/png_filter.h"
+
+enum { CHUNK = 64, LONG_SPAN = 16, DENSE_PART = 8 };
+
+void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width) {
+  *rows = (cs_png_rows){
+      .coding = coding, .width = width, .pixel_size = celspan_coding_pixel_size(&coding)};
+}
+
+static size_t bytes_allocated(const cs_png_rows *rows) {
+  return rows->pixel_size * ((size_t)rows->width + 1) + CS_PNG_BLOCK;
+}
+
+void cs_png_rows_end(cs_png_rows *rows, celspan_context *context) {
+  for (int i = 0; i < 2; i++) {
+    cs_png_row *row = &rows->rows[i];
+    cs_mem_free(context->memory, row->runs, row->run_capacity * sizeof *row->runs);
+    if (row->bytes)
+      cs_mem_free(context->memory, row->bytes - rows->pixel_size, bytes_allocated(rows));
+  }
+}
+
+/* ---------------------------------------------------------------- spans to runs or bytes */
+
+/* 16-bit samples are big endian in the file. */
+static uint64_t swap_samples(uint64_t pixel) {
+  return (pixel & 0x00ff00ff00ff00ffu) << 8 | (pixel >> 8 & 0x00ff00ff00ff00ffu);
+}
+
+static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *bytes) {
+  uint64_t pixel = 0;
+  memcpy(&pixel, bytes, rows->pixel_size);
+  return rows->pixel_size == 8 ? swap_samples(pixel) : pixel;
+}
+
+static void add_run(cs_png_row *row, int32_t end, uint64_t pixel) {
+  if (row->run_count > 0 && row->runs[row->run_count - 1].pixel == pixel)
+    row->runs[row->run_count - 1].end = end;
+  else
+    row->runs[row->run_count++] = (cs_png_run){end, pixel};
+}
+
+/* [x, x + count) of a span, as a span from column 0. */
+static celspan_span part_of_span(const celspan_span *span, int32_t x, int32_t count) {
+  celspan_span part = *span;
+  part.x0 = 0;
+  part.x1 = count;
+  part.origin = span->origin - x;
+  part.array = span->array ? span->array + 4 * (size_t)(x - span->x0) : NULL;
+  return part;
+}
+
+static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
+  unsigned char coded[8 * CHUNK];
+  for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
+    int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
+    celspan_span part = part_of_span(span, x, count);
+    cs_pixels_row(&rows->coding, &part, 1, coded);
+    for (int32_t i = 0; i < count; i++)
+      add_run(row, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->pixel_size));
+  }
+}
+
+static void spans_to_runs(const cs_png_rows *rows, const celspan_span *spans, size_t span_count,
+                          cs_png_row *row) {
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    if (span->kind == CELSPAN_SPAN_SINGLE) {
+      unsigned char coded[8] = {0};
+      cs_pixels_code(&rows->coding, span->colour, coded);
+      add_run(row, span->x1, load_pixel(rows, coded));
+    } else {
+      varying_to_runs(rows, span, row);
+    }
+  }
+}
+
+static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *context,
+                                    cs_png_row *row) {
+  if (row->bytes)
+    return CELSPAN_OK;
+  unsigned char *bytes = cs_mem_array(context->memory, bytes_allocated(rows), 1);
+  if (!bytes)
+    return cs_fail_memory(context);
+  row->bytes = bytes + rows->pixel_size;
+  return CELSPAN_OK;
+}
+
+static celspan_status spans_to_bytes(const cs_png_rows *rows, celspan_context *context,
+                                     const celspan_span *spans, size_t span_count,
+                                     cs_png_row *row) {
+  CS_TRY(reserve_bytes(rows, context, row));
+  cs_pixels_row(&rows->coding, spans, span_count, row->bytes);
+  if (rows->pixel_size == 8)
+    for (int32_t x = 0; x < rows->width; x++) {
+      uint64_t pixel = load_pixel(rows, row->bytes + 8 * (size_t)x);
+      memcpy(row->bytes + 8 * (size_t)x, &pixel, sizeof pixel);
+    }
+  return CELSPAN_OK;
+}
+
+static celspan_status runs_to_bytes(const cs_png_rows *rows, celspan_context *context,
+                                    cs_png_row *row) {
+  CS_TRY(reserve_bytes(rows, context, row));
+  unsigned char *at = row->bytes;
+  int32_t x = 0;
+  for (size_t i = 0; i < row->run_count; i++)
+    for (; x < row->runs[i].end; x++, at += rows->pixel_size)
+      memcpy(at, &row->runs[i].pixel, rows->pixel_size);
+  if (row->run_count == 0)
+    memset(row->bytes, 0, (size_t)rows->width * rows->pixel_size);
+  return CELSPAN_OK;
+}
+
+/* The most runs the spans can make, and whether the row is dense. */
+static size_t measure(const celspan_span *spans, size_t span_count, int32_t width, bool *is_dense) {
+  size_t runs = span_count, dense = 0;
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    if (span->kind == CELSPAN_SPAN_SINGLE)
+      continue;
+    size_t length = (size_t)(span->x1 - span->x0);
+    runs += length - 1;
+    dense += length >= LONG_SPAN ? length : 0;
+  }
+  *is_dense = dense * DENSE_PART > (size_t)width;
+  return runs;
+}
+
+static celspan_status take_row(const cs_png_rows *rows, celspan_context *context,
+                               const celspan_span *spans, size_t span_count, cs_png_row *row) {
+  size_t runs = measure(spans, span_count, rows->width, &row->is_bytes);
+  row->run_count = 0;
+  if (row->is_bytes)
+    return spans_to_bytes(rows, context, spans, span_count, row);
+  CS_TRY(cs_mem_reserve(context, (void **)&row->runs, &row->run_capacity, runs, sizeof *row->runs));
+  spans_to_runs(rows, spans, span_count, row);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
+                               const celspan_span *spans, size_t span_count, cs_deflate *deflate) {
+  cs_png_row *row = &rows->rows[rows->current], *above = &rows->rows[!rows->current];
+  CS_TRY(take_row(rows, context, spans, span_count, row));
+  rows->current = !rows->current;
+  if (!row->is_bytes)
+    return cs_png_filter_runs(deflate, context, &rows->seen, row, above);
+  if (!above->is_bytes)
+    CS_TRY(runs_to_bytes(rows, context, above));
+  return cs_png_filter_bytes(deflate, context, rows->pixel_size,
+                             (size_t)rows->width * rows->pixel_size, row->bytes, above->bytes);
+}

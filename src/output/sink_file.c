@@ -1,0 +1,23 @@
+#include <string.h>
+#include <strings.h>
+
+#include "output/sink.h"
+
+/* What follows the last dot of the last part of the path; "" without one. */
+static const char *ending(const char *path) {
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  const char *dot = strrchr(name, '.');
+  return dot ? dot + 1 : "";
+}
+
+celspan_status cs_sink_file(celspan_context *context, const char *path,
+                            const celspan_file_desc *file, celspan_sink *out) {
+  const char *format = file->format ? file->format : ending(path);
+  if (format[0] == '\0')
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
+  if (strcasecmp(format, "png") == 0)
+    return cs_sink_png(context, path, file, out);
+  return cs_sink_picture(context, path, file, out);
+}

@@ -1,0 +1,306 @@
+#include "render/bands.h"
+
+#include <pthread.h>
+
+/* Bands that may be made ahead of delivery, a worker. */
+#define AHEAD 3
+
+typedef struct band {
+  int32_t index; /* of the band held, or -1 */
+  bool is_done;
+  celspan_status status;
+  char error[sizeof((celspan_context *)0)->error];
+  cs_row spans;       /* all rows' spans, one after the other */
+  size_t *row_ends;   /* after each row, how many spans */
+  size_t row_capacity;
+} band;
+
+typedef struct pool {
+  celspan_context *context;
+  const cs_frame *frame;
+  cs_lane *lanes;
+  band *bands; /* a ring: band i lies at i % band_count */
+  int lane_count, band_count;
+  int32_t total;   /* bands of the frame */
+  int32_t claimed; /* the next band to be made */
+  int32_t delivered;
+  bool is_stopped;
+  pthread_mutex_t mutex;
+  pthread_cond_t done, room;
+} pool;
+
+typedef struct delivery {
+  celspan_context *context;
+  const celspan_frame_desc *desc;
+  const celspan_sink *sink;
+  celspan_statistics *statistics;
+  int32_t rows_done, rows_total;
+} delivery;
+
+/* ---------------------------------------------------------------- delivery */
+
+static void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count) {
+  statistics->rows++;
+  statistics->spans += count;
+  for (size_t i = 0; i < count; i++) {
+    statistics->single += spans[i].kind == CELSPAN_SPAN_SINGLE;
+    statistics->gradient += spans[i].kind == CELSPAN_SPAN_GRADIENT;
+    if (spans[i].kind == CELSPAN_SPAN_ARRAY) {
+      statistics->array++;
+      statistics->pixels_in_arrays += (uint64_t)(spans[i].x1 - spans[i].x0);
+    }
+  }
+}
+
+static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count) {
+  count_spans(d->statistics, spans, count);
+  return d->sink->row(d->sink->user, d->context, d->rows_done++, spans, count);
+}
+
+static celspan_status report_progress(const delivery *d) {
+  const celspan_frame_desc *desc = d->desc;
+  if (desc->progress && !desc->progress(desc->progress_user, d->rows_done, d->rows_total))
+    return cs_fail(d->context, CELSPAN_CANCELLED, "stopped after %d of %d rows", (int)d->rows_done,
+                   (int)d->rows_total);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- making bands */
+
+static int32_t band_first(const cs_frame *frame, int32_t index) {
+  return index * frame->band_rows;
+}
+
+static int32_t band_end(const cs_frame *frame, int32_t index) {
+  int64_t end = (int64_t)band_first(frame, index) + frame->band_rows;
+  return end < frame->crop_height ? (int32_t)end : frame->crop_height;
+}
+
+/* Copies a row's spans, and the arrays they point to, to the end of the band's. */
+static celspan_status keep_row(celspan_context *context, band *b, const cs_row *row) {
+  cs_row *kept = &b->spans;
+  CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, kept->count + row->count,
+                        sizeof *kept->spans));
+  for (size_t i = 0; i < row->count; i++) {
+    celspan_span span = row->spans[i];
+    if (span.kind == CELSPAN_SPAN_ARRAY) {
+      size_t size = (size_t)(span.x1 - span.x0) * 4 * sizeof(float);
+      float *colours = cs_arena_take(context, &kept->colours, size);
+      if (!colours)
+        return CELSPAN_NO_MEMORY;
+      span.array = memcpy(colours, span.array, size);
+    }
+    kept->spans[kept->count++] = span;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status make_rows(pool *p, cs_lane *lane, band *b) {
+  int32_t first = band_first(p->frame, b->index), end = band_end(p->frame, b->index);
+  cs_row_clear(&b->spans);
+  CS_TRY(cs_mem_reserve(&lane->context, (void **)&b->row_ends, &b->row_capacity,
+                        (size_t)(end - first), sizeof *b->row_ends));
+  for (int32_t y = first; y < end; y++) {
+    const cs_row *row;
+    CS_TRY(cs_lane_row(lane, y, &row));
+    CS_TRY(keep_row(&lane->context, b, row));
+    b->row_ends[y - first] = b->spans.count;
+  }
+  return CELSPAN_OK;
+}
+
+static void make_band(pool *p, cs_lane *lane, band *b) {
+  b->status = make_rows(p, lane, b);
+  if (b->status != CELSPAN_OK)
+    memcpy(b->error, lane->context.error, sizeof b->error);
+}
+
+/* The next band to be made, if there is one and room for it; the mutex is held. */
+static band *claim(pool *p) {
+  if (p->is_stopped || p->claimed == p->total || p->claimed >= p->delivered + p->band_count)
+    return NULL;
+  band *b = &p->bands[p->claimed % p->band_count];
+  b->index = p->claimed++;
+  b->is_done = false;
+  return b;
+}
+
+/* Makes a claimed band with the mutex let go. */
+static void work(pool *p, cs_lane *lane, band *b) {
+  pthread_mutex_unlock(&p->mutex);
+  make_band(p, lane, b);
+  pthread_mutex_lock(&p->mutex);
+  b->is_done = true;
+  pthread_cond_signal(&p->done);
+}
+
+typedef struct worker {
+  pool *pool;
+  cs_lane *lane;
+  pthread_t thread;
+} worker;
+
+static void *worker_main(void *argument) {
+  worker *w = argument;
+  pool *p = w->pool;
+  pthread_mutex_lock(&p->mutex);
+  while (!p->is_stopped && p->claimed < p->total) {
+    band *b = claim(p);
+    if (b)
+      work(p, w->lane, b);
+    else
+      pthread_cond_wait(&p->room, &p->mutex);
+  }
+  pthread_mutex_unlock(&p->mutex);
+  return NULL;
+}
+
+/* ---------------------------------------------------------------- the pool */
+
+static celspan_status deliver_band(delivery *d, const band *b, int32_t rows) {
+  if (b->status != CELSPAN_OK)
+    return cs_fail(d->context, b->status, "%s", b->error);
+  size_t first = 0;
+  for (int32_t k = 0; k < rows; k++) {
+    CS_TRY(deliver_row(d, b->spans.spans + first, b->row_ends[k] - first));
+    first = b->row_ends[k];
+  }
+  return report_progress(d);
+}
+
+/* Delivers bands in order, making one whenever the next is not there yet; the mutex is held, and
+ * let go while the sink works. */
+static celspan_status deliver_all(pool *p, delivery *d) {
+  while (p->delivered < p->total) {
+    band *next = &p->bands[p->delivered % p->band_count];
+    if (next->index == p->delivered && next->is_done) {
+      pthread_mutex_unlock(&p->mutex);
+      int32_t rows = band_end(p->frame, next->index) - band_first(p->frame, next->index);
+      celspan_status status = deliver_band(d, next, rows);
+      pthread_mutex_lock(&p->mutex);
+      CS_TRY(status);
+      p->delivered++;
+      pthread_cond_broadcast(&p->room);
+      continue;
+    }
+    band *own = claim(p);
+    if (own)
+      work(p, &p->lanes[0], own);
+    else
+      pthread_cond_wait(&p->done, &p->mutex);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
+  int started = 1; /* the calling thread is worker 0 */
+  for (; started < p->lane_count; started++) {
+    workers[started] = (worker){.pool = p, .lane = &p->lanes[started]};
+    if (pthread_create(&workers[started].thread, NULL, worker_main, &workers[started]) != 0)
+      break; /* fewer workers make the same rows */
+  }
+  pthread_mutex_lock(&p->mutex);
+  celspan_status status = deliver_all(p, d);
+  p->is_stopped = true;
+  pthread_cond_broadcast(&p->room);
+  pthread_mutex_unlock(&p->mutex);
+  while (--started > 0)
+    pthread_join(workers[started].thread, NULL);
+  return status;
+}
+
+static void free_pool(pool *p, worker *workers) {
+  cs_memory *memory = p->context->memory;
+  for (int i = 0; p->lanes && i < p->lane_count; i++)
+    cs_lane_finish(&p->lanes[i]);
+  for (int i = 0; p->bands && i < p->band_count; i++) {
+    cs_row_finish(&p->bands[i].spans, memory);
+    cs_mem_free(memory, p->bands[i].row_ends,
+                p->bands[i].row_capacity * sizeof *p->bands[i].row_ends);
+  }
+  cs_mem_free(memory, p->lanes, (size_t)p->lane_count * sizeof *p->lanes);
+  cs_mem_free(memory, p->bands, (size_t)p->band_count * sizeof *p->bands);
+  cs_mem_free(memory, workers, (size_t)p->lane_count * sizeof *workers);
+  pthread_cond_destroy(&p->done);
+  pthread_cond_destroy(&p->room);
+  pthread_mutex_destroy(&p->mutex);
+}
+
+static celspan_status init_lanes(celspan_context *context, const cs_frame *frame, cs_lane *lanes,
+                                 int count) {
+  for (int i = 0; i < count; i++) {
+    celspan_status status = cs_lane_init(&lanes[i], context, frame);
+    if (status != CELSPAN_OK)
+      return cs_fail(context, status, "%s", lanes[i].context.error);
+  }
+  return CELSPAN_OK;
+}
+
+static uint64_t sum_evaluations(const cs_lane *lanes, int count) {
+  uint64_t sum = 0;
+  for (int i = 0; i < count; i++)
+    sum += cs_lane_evaluations(&lanes[i]);
+  return sum;
+}
+
+static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d,
+                                  int32_t total) {
+  pool p = {.context = context, .frame = frame, .total = total};
+  p.lane_count = frame->workers < total ? frame->workers : (int)total;
+  p.band_count = p.lane_count * AHEAD;
+  pthread_mutex_init(&p.mutex, NULL);
+  pthread_cond_init(&p.done, NULL);
+  pthread_cond_init(&p.room, NULL);
+  p.lanes = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *p.lanes);
+  p.bands = cs_mem_array(context->memory, (size_t)p.band_count, sizeof *p.bands);
+  worker *workers = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *workers);
+  celspan_status status = CELSPAN_OK;
+  if (!p.lanes || !p.bands || !workers)
+    status = cs_fail_memory(context);
+  for (int i = 0; status == CELSPAN_OK && i < p.band_count; i++)
+    p.bands[i].index = -1;
+  if (status == CELSPAN_OK)
+    status = init_lanes(context, frame, p.lanes, p.lane_count);
+  if (status == CELSPAN_OK)
+    status = run_pool(&p, d, workers);
+  if (p.lanes)
+    d->statistics->colour_evaluations += sum_evaluations(p.lanes, p.lane_count);
+  free_pool(&p, workers);
+  return status;
+}
+
+/* ---------------------------------------------------------------- one worker */
+
+static celspan_status deliver_rows(cs_lane *lane, const cs_frame *frame, delivery *d) {
+  for (int32_t y = 0; y < frame->crop_height; y++) {
+    const cs_row *row;
+    celspan_status status = cs_lane_row(lane, y, &row);
+    if (status != CELSPAN_OK)
+      return cs_fail(d->context, status, "%s", lane->context.error);
+    CS_TRY(deliver_row(d, row->spans, row->count));
+    if ((y + 1) % frame->band_rows == 0 || y + 1 == frame->crop_height)
+      CS_TRY(report_progress(d));
+  }
+  return CELSPAN_OK;
+}
+
+/* Rows go from the scan to the sink without a copy. */
+static celspan_status render_alone(celspan_context *context, const cs_frame *frame, delivery *d) {
+  cs_lane lane;
+  celspan_status status = init_lanes(context, frame, &lane, 1);
+  if (status == CELSPAN_OK)
+    status = deliver_rows(&lane, frame, d);
+  d->statistics->colour_evaluations += cs_lane_evaluations(&lane);
+  cs_lane_finish(&lane);
+  return status;
+}
+
+celspan_status cs_bands_render(celspan_context *context, const cs_frame *frame,
+                               const celspan_frame_desc *desc, const celspan_sink *sink,
+                               celspan_statistics *statistics) {
+  delivery d = {context, desc, sink, statistics, 0, frame->crop_height};
+  int32_t total = (int32_t)(((int64_t)frame->crop_height + frame->band_rows - 1) / frame->band_rows);
+  if (frame->workers == 1 || total == 1)
+    return render_alone(context, frame, &d);
+  return render_pool(context, frame, &d, total);
+}

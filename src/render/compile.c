@@ -1,0 +1,324 @@
+#include "render/compile.h"
+
+#include "base/number.h"
+#include "compose/shade.h"
+
+typedef struct compiler {
+  celspan_context *context;
+  cs_shot *shot;
+  cs_boundary_frame frame;
+  size_t cel; /* from 1: for messages */
+  cs_v4 front;
+  uint32_t group; /* the faded group being filled */
+  bool records;   /* inside a boolean tree: steps are noted */
+} compiler;
+
+#define APPEND(compiler, array, count, capacity)                                             \
+  cs_mem_reserve((compiler)->context, (void **)&(compiler)->shot->stack.array,               \
+                 &(compiler)->shot->stack.capacity, (compiler)->shot->stack.count + 1,       \
+                 sizeof *(compiler)->shot->stack.array)
+
+/* ---------------------------------------------------------------- leaves */
+
+static cs_v4 lit(cs_v4 front, const float s[3]) {
+  return front * (cs_v4){s[0], s[1], s[2], 0};
+}
+
+static void fill_flat(cs_leaf *leaf, cs_paint paint, float fade) {
+  cs_paint faded = cs_paint_fade(paint, fade);
+  leaf->kind = CS_LEAF_FLAT;
+  leaf->s = lit(leaf->front, faded.s);
+  leaf->t = (cs_v4){faded.t[0], faded.t[1], faded.t[2], 0};
+  leaf->is_opaque = cs_paint_is_opaque(&faded);
+}
+
+static bool stops_are_opaque(const celspan_texture *texture) {
+  if (texture->kind == CS_TEXTURE_TRIANGLE)
+    return cs_paint_is_opaque(&texture->corners[0]) && cs_paint_is_opaque(&texture->corners[1]) &&
+           cs_paint_is_opaque(&texture->corners[2]);
+  for (size_t i = 0; i < texture->stop_count; i++)
+    if (!cs_paint_is_opaque(&texture->stops[i].paint))
+      return false;
+  return true;
+}
+
+static celspan_status fill_shaded(compiler *c, cs_leaf *leaf, const celspan_texture *texture,
+                                  const celspan_matrix *inverse) {
+  cs_stack *stack = &c->shot->stack;
+  CS_TRY(APPEND(c, shades, shade_count, shade_capacity));
+  cs_shade *shade = &stack->shades[stack->shade_count];
+  *shade = (cs_shade){.texture = texture, .inverse = *inverse};
+  if (texture->kind == CS_TEXTURE_TRIANGLE)
+    cs_shade_prepare(shade);
+  leaf->kind = CS_LEAF_SHADED;
+  leaf->detail = (uint32_t)stack->shade_count++;
+  leaf->is_opaque = leaf->fade == 1 && cs_matrix_is_affine(inverse) && stops_are_opaque(texture);
+  return CELSPAN_OK;
+}
+
+/* A picture in its primitive's own rectangle is held at its edges: the boundary, not the picture,
+ * says where it ends. */
+static celspan_status fill_picture(compiler *c, cs_leaf *leaf, const celspan_texture *texture,
+                                   const celspan_box *bounds, const celspan_matrix *inverse) {
+  cs_stack *stack = &c->shot->stack;
+  const celspan_box *box = texture->has_box ? &texture->box : bounds;
+  if (box->width <= 0 || box->height <= 0) {
+    fill_flat(leaf, CS_PAINT_CLEAR, 1);
+    return CELSPAN_OK;
+  }
+  CS_TRY(APPEND(c, slides, slide_count, slide_capacity));
+  bool is_own = !texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR;
+  stack->slides[stack->slide_count] = (cs_slide){
+      texture, *inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
+  leaf->kind = CS_LEAF_PICTURE;
+  leaf->detail = (uint32_t)stack->slide_count++;
+  return CELSPAN_OK;
+}
+
+static celspan_status append_leaf(compiler *c, double fade, celspan_rule rule, uint32_t *index) {
+  cs_stack *stack = &c->shot->stack;
+  if (stack->leaf_count == CS_STACK_LEAVES)
+    return cs_fail(c->context, CELSPAN_LIMIT, "cel %zu: more than %zu primitives in one frame",
+                   c->cel, (size_t)CS_STACK_LEAVES);
+  CS_TRY(APPEND(c, leaves, leaf_count, leaf_capacity));
+  CS_TRY(APPEND(c, marks, leaf_count, mark_capacity));
+  *index = (uint32_t)stack->leaf_count++;
+  stack->leaves[*index] = (cs_leaf){.group = c->group, .front = c->front, .fade = (float)fade};
+  cs_hash key = cs_hash_begin(*index);
+  key = cs_hash_end(key);
+  stack->marks[*index] = (cs_mark){{key.a, key.b}, rule == CELSPAN_RULE_EVENODD ? 1 : -1};
+  return CELSPAN_OK;
+}
+
+static celspan_status compile_outline(compiler *c, const cs_body *body, double fade,
+                                      const celspan_matrix *matrix) {
+  uint32_t index;
+  celspan_matrix inverse;
+  CS_TRY(append_leaf(c, fade, body->rule, &index));
+  cs_leaf *leaf = &c->shot->stack.leaves[index];
+  const celspan_texture *texture = body->texture;
+  if (!celspan_matrix_inverse(*matrix, &inverse)) {
+    fill_flat(leaf, CS_PAINT_CLEAR, 1); /* nowhere */
+    return CELSPAN_OK;
+  }
+  if (texture->kind == CS_TEXTURE_FLAT)
+    fill_flat(leaf, texture->flat, (float)fade);
+  else if (texture->kind == CS_TEXTURE_PICTURE)
+    CS_TRY(fill_picture(c, leaf, texture, &body->bounds, &inverse));
+  else
+    CS_TRY(fill_shaded(c, leaf, texture, &inverse));
+  return cs_boundary_add(c->context, &c->shot->boundaries, &body->outline, matrix, &c->frame,
+                         index);
+}
+
+static celspan_status compile_scanline(compiler *c, const cs_body *body, double fade,
+                                       const celspan_matrix *matrix) {
+  cs_stack *stack = &c->shot->stack;
+  const double *m = matrix->m;
+  uint32_t index;
+  CS_TRY(append_leaf(c, fade, CELSPAN_RULE_NONZERO, &index));
+  fill_flat(&stack->leaves[index], CS_PAINT_CLEAR, 1);
+  if (!cs_matrix_is_upright(matrix))
+    return cs_fail(c->context, CELSPAN_BAD_ARGUMENT,
+                   "cel %zu: a scan-line primitive can be moved and scaled, but not rotated, skewed "
+                   "or put in perspective",
+                   c->cel);
+  if (m[0] == 0 || m[4] == 0)
+    return CELSPAN_OK;
+  CS_TRY(APPEND(c, procedures, procedure_count, procedure_capacity));
+  stack->procedures[stack->procedure_count] = (cs_procedure){
+      &body->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+  stack->leaves[index].kind = CS_LEAF_SCANLINE;
+  stack->leaves[index].detail = (uint32_t)stack->procedure_count++;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- trees */
+
+static celspan_status compile_object(compiler *c, const celspan_object *object,
+                                     const celspan_matrix *parent);
+
+static celspan_status append_step(compiler *c, cs_step step) {
+  cs_stack *stack = &c->shot->stack;
+  CS_TRY(APPEND(c, steps, step_count, step_capacity));
+  stack->steps[stack->step_count++] = step;
+  return CELSPAN_OK;
+}
+
+static bool operands_are_leaves(const cs_body *body) {
+  for (size_t i = 0; i < body->operand_count; i++)
+    if (body->operands[i]->body->kind == CS_BODY_BOOLEAN)
+      return false;
+  return true;
+}
+
+/* An operator: its operands' leaves, and the step that decides over them. */
+static celspan_status compile_operator(compiler *c, const cs_body *body,
+                                       const celspan_matrix *matrix) {
+  uint32_t first = (uint32_t)c->shot->stack.leaf_count;
+  bool records = c->records, over_leaves = operands_are_leaves(body);
+  for (size_t i = 0; i < body->operand_count; i++) {
+    uint32_t leaf = (uint32_t)c->shot->stack.leaf_count;
+    c->records = records && !over_leaves;
+    CS_TRY(compile_object(c, body->operands[i], matrix));
+    if (c->records && body->operands[i]->body->kind != CS_BODY_BOOLEAN)
+      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LEAF, .first = leaf, .end = leaf + 1}));
+  }
+  c->records = records;
+  if (!records)
+    return CELSPAN_OK;
+  return append_step(c, (cs_step){.kind = over_leaves ? CS_STEP_LEAVES : CS_STEP_OPERATOR,
+                                  .op = body->op,
+                                  .first = first,
+                                  .end = (uint32_t)c->shot->stack.leaf_count,
+                                  .operands = (uint32_t)body->operand_count});
+}
+
+/* Unions of unions need no decision: what is present is painted. */
+static bool is_plain_union(const cs_body *body) {
+  if (body->kind != CS_BODY_BOOLEAN)
+    return true;
+  if (body->op != CELSPAN_UNION)
+    return false;
+  for (size_t i = 0; i < body->operand_count; i++)
+    if (!is_plain_union(body->operands[i]->body))
+      return false;
+  return true;
+}
+
+/* The most results the tree's steps hold at a time. */
+static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
+  size_t depth = 0, most = 0;
+  for (uint32_t i = 0; i < tree->step_count; i++) {
+    const cs_step *step = &stack->steps[tree->step + i];
+    if (step->kind == CS_STEP_OPERATOR)
+      depth -= step->operands;
+    depth++;
+    most = depth > most ? depth : most;
+  }
+  return most;
+}
+
+/* A boolean that no other holds: the root of a tree, unless it decides nothing. */
+static celspan_status compile_root(compiler *c, const cs_body *body, const celspan_matrix *matrix) {
+  cs_stack *stack = &c->shot->stack;
+  if (c->records || is_plain_union(body))
+    return compile_operator(c, body, matrix);
+  cs_tree tree = {.first = (uint32_t)stack->leaf_count, .step = (uint32_t)stack->step_count};
+  c->records = true;
+  CS_TRY(compile_operator(c, body, matrix));
+  c->records = false;
+  tree.end = (uint32_t)stack->leaf_count;
+  tree.step_count = (uint32_t)stack->step_count - tree.step;
+  CS_TRY(APPEND(c, trees, tree_count, tree_capacity));
+  stack->trees[stack->tree_count++] = tree;
+  size_t depth = measure_depth(stack, &tree) + 1;
+  stack->step_depth = depth > stack->step_depth ? depth : stack->step_depth;
+  return CELSPAN_OK;
+}
+
+static celspan_status begin_group(compiler *c, double fade, uint32_t *outer) {
+  cs_stack *stack = &c->shot->stack;
+  *outer = c->group;
+  if (fade == 1)
+    return CELSPAN_OK;
+  CS_TRY(APPEND(c, groups, group_count, group_capacity));
+  stack->groups[stack->group_count] =
+      (cs_group){c->group, (uint32_t)stack->leaf_count, (float)fade};
+  c->group = (uint32_t)stack->group_count++;
+  return CELSPAN_OK;
+}
+
+static celspan_status compile_object(compiler *c, const celspan_object *object,
+                                     const celspan_matrix *parent) {
+  const cs_body *body = object->body;
+  celspan_matrix matrix = celspan_matrix_then(object->matrix, *parent);
+  if (body->kind == CS_BODY_OUTLINE)
+    return compile_outline(c, body, object->fade, &matrix);
+  if (body->kind == CS_BODY_SCANLINE)
+    return compile_scanline(c, body, object->fade, &matrix);
+  uint32_t outer;
+  CS_TRY(begin_group(c, object->fade, &outer));
+  CS_TRY(compile_root(c, body, &matrix));
+  c->group = outer;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- cels */
+
+static cs_v4 light_colour(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
+
+/* A back light shines behind every leaf from `below` on. Kept rear first while compiling. */
+static celspan_status append_light(compiler *c, celspan_light light, uint32_t below) {
+  cs_stack *stack = &c->shot->stack;
+  if (light.r == 0 && light.g == 0 && light.b == 0 && light.a == 0)
+    return CELSPAN_OK;
+  CS_TRY(APPEND(c, lights, light_count, light_capacity));
+  stack->lights[stack->light_count++] =
+      (cs_back_light){below, light_colour(light), 1 - light.a};
+  return CELSPAN_OK;
+}
+
+static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, size_t index,
+                                  const celspan_matrix *to_pixels, double film_width,
+                                  double film_height) {
+  const celspan_cel *cel = rostrum->cels[index];
+  celspan_matrix matrix;
+  c->cel = index + 1;
+  if (cel->defocus_radius > 0)
+    return cs_fail(c->context, CELSPAN_BAD_ARGUMENT,
+                   "cel %zu: defocus is not built into this version; leave it out", c->cel);
+  CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film_width, film_height, &matrix));
+  matrix = celspan_matrix_then(matrix, *to_pixels);
+  CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->shot->stack.leaf_count));
+  c->front = light_colour(cs_scene_front(rostrum, cel));
+  uint32_t outer;
+  CS_TRY(begin_group(c, cel->opacity, &outer));
+  for (size_t i = 0; i < cel->object_count; i++)
+    CS_TRY(compile_object(c, cel->objects[i], &matrix));
+  c->group = outer;
+  return CELSPAN_OK;
+}
+
+/* The composer meets lights from the camera backwards. */
+static void reverse_lights(cs_stack *stack) {
+  for (size_t i = 0, j = stack->light_count; i + 1 < j; i++) {
+    cs_back_light light = stack->lights[i];
+    stack->lights[i] = stack->lights[--j];
+    stack->lights[j] = light;
+  }
+}
+
+static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostrum,
+                                      double film_width, double film_height) {
+  celspan_matrix to_pixels =
+      celspan_matrix_scaling(c->shot->width / film_width, c->shot->height / film_height);
+  CS_TRY(append_light(c, cs_scene_back(rostrum, rostrum->back), 0));
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    CS_TRY(compile_cel(c, rostrum, i, &to_pixels, film_width, film_height));
+  reverse_lights(&c->shot->stack);
+  cs_boundary_sort(&c->shot->boundaries);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
+                          double film_width, double film_height, int32_t width, int32_t height,
+                          celspan_antialias_mode antialias, cs_shot *out) {
+  cs_shot shot = {.width = width, .height = height, .antialias = antialias};
+  compiler c = {.context = context,
+                .shot = &shot,
+                .frame = {0, width, 0, height},
+                .group = CS_STACK_NONE};
+  cs_boundary_init(&shot.boundaries);
+  celspan_status status = compile_rostrum(&c, rostrum, film_width, film_height);
+  if (status == CELSPAN_OK)
+    *out = shot;
+  else
+    cs_compile_free(&shot, context->memory);
+  return status;
+}
+
+void cs_compile_free(cs_shot *shot, cs_memory *memory) {
+  cs_stack_finish(&shot->stack, memory);
+  cs_boundary_finish(&shot->boundaries, memory);
+}

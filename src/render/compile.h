@@ -1,0 +1,22 @@
+/* Compiling: a rostrum and a frame size become a shot, the flat form that scans read.
+ *
+ *   rostrum --walk, rear to front--> leaves, groups, trees, back lights (compose/stack.h)
+ *                                  + chains of boundaries in frame pixels (geometry/boundary.h)
+ *
+ * The shot borrows textures, pictures and procedures of the rostrum, which must outlive it.
+ */
+#ifndef CS_RENDER_COMPILE_H
+#define CS_RENDER_COMPILE_H
+
+#include "filter/scan.h"
+
+/* film_width, film_height: the film's size in its units; width, height: the frame's in pixels.
+ * Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera, for a rotated scan-line
+ * primitive and for what is not built in, naming the cel. */
+CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
+                                          const celspan_rostrum *rostrum, double film_width,
+                                          double film_height, int32_t width, int32_t height,
+                                          celspan_antialias_mode antialias, cs_shot *out);
+void cs_compile_free(cs_shot *shot, cs_memory *memory);
+
+#endif

@@ -1,0 +1,199 @@
+#include "render/frame.h"
+
+#include "base/number.h"
+#include "render/compile.h"
+
+#include <unistd.h>
+
+#define SIDE_LIMIT 1048576
+#define WORKER_LIMIT 256
+
+/* ---------------------------------------------------------------- checking */
+
+static celspan_status check_size(celspan_context *context, const celspan_frame_desc *desc) {
+  if (desc->struct_size != sizeof *desc)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "frame: struct_size is %zu; set it to sizeof(celspan_frame_desc)",
+                   desc->struct_size);
+  if (desc->width < 1 || desc->height < 1 || desc->width > SIDE_LIMIT || desc->height > SIDE_LIMIT)
+    return cs_fail(context, CELSPAN_LIMIT, "frame: size is %d x %d; each side must be 1 to %d pixels",
+                   (int)desc->width, (int)desc->height, SIDE_LIMIT);
+  bool has_film = desc->film_width != 0 || desc->film_height != 0;
+  if (has_film && !(cs_number_is_sane(desc->film_width) && cs_number_is_sane(desc->film_height) &&
+                    desc->film_width > 0 && desc->film_height > 0))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "frame: film size is %g x %g; both sides must be greater than 0",
+                   desc->film_width, desc->film_height);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_crop(celspan_context *context, const celspan_frame_desc *desc) {
+  if (desc->crop_width == 0 && desc->crop_height == 0)
+    return CELSPAN_OK;
+  int64_t right = (int64_t)desc->crop_x + desc->crop_width;
+  int64_t bottom = (int64_t)desc->crop_y + desc->crop_height;
+  if (desc->crop_x < 0 || desc->crop_y < 0 || desc->crop_width < 1 || desc->crop_height < 1 ||
+      right > desc->width || bottom > desc->height)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "frame: crop %d,%d,%d,%d does not lie inside the frame of %d x %d pixels",
+                   (int)desc->crop_x, (int)desc->crop_y, (int)desc->crop_width,
+                   (int)desc->crop_height, (int)desc->width, (int)desc->height);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_exposures(celspan_context *context, const celspan_frame_desc *desc) {
+  for (size_t i = 0; i < desc->exposure_count; i++) {
+    double weight = desc->exposures[i].weight;
+    if (!(weight >= 0 && cs_number_is_sane(weight)))
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                     "frame: the weight of exposure %zu is %g; it must be 0 or more", i + 1, weight);
+    if (!desc->exposures[i].rostrum)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "frame: exposure %zu has no rostrum", i + 1);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the frame */
+
+static void take_crop(cs_frame *frame, const celspan_frame_desc *desc) {
+  bool is_whole = desc->crop_width == 0 && desc->crop_height == 0;
+  frame->width = desc->width;
+  frame->height = desc->height;
+  frame->crop_x = is_whole ? 0 : desc->crop_x;
+  frame->crop_y = is_whole ? 0 : desc->crop_y;
+  frame->crop_width = is_whole ? desc->width : desc->crop_width;
+  frame->crop_height = is_whole ? desc->height : desc->crop_height;
+}
+
+/* Procedures that must stay on the rendering thread leave one worker. */
+static bool needs_one_thread(const cs_frame *frame) {
+  for (size_t i = 0; i < frame->count; i++)
+    for (size_t k = 0; k < frame->shots[i].stack.procedure_count; k++)
+      if (!frame->shots[i].stack.procedures[k].desc->any_thread)
+        return true;
+  return false;
+}
+
+static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
+  int processors = (int)cs_number_clamp((double)sysconf(_SC_NPROCESSORS_ONLN), 1, WORKER_LIMIT);
+  frame->workers = desc->workers <= 0 ? processors : desc->workers;
+  if (frame->workers > WORKER_LIMIT)
+    frame->workers = WORKER_LIMIT;
+  if (needs_one_thread(frame))
+    frame->workers = 1;
+  int32_t share = frame->crop_height / (frame->workers * 8);
+  frame->band_rows = desc->strip_rows > 0 ? desc->strip_rows : share < 4 ? 4 : share > 64 ? 64 : share;
+}
+
+static celspan_status compile_exposure(celspan_context *context, const celspan_frame_desc *desc,
+                                       const celspan_exposure *exposure, cs_frame *frame) {
+  if (exposure->weight == 0)
+    return CELSPAN_OK;
+  bool has_film = desc->film_width != 0;
+  celspan_antialias_mode antialias =
+      desc->antialias ? *desc->antialias : exposure->rostrum->antialias;
+  CS_TRY(cs_compile(context, exposure->rostrum, has_film ? desc->film_width : desc->width,
+                    has_film ? desc->film_height : desc->height, desc->width, desc->height,
+                    antialias, &frame->shots[frame->count]));
+  frame->weights[frame->count++] = (float)exposure->weight;
+  return CELSPAN_OK;
+}
+
+static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
+                                 cs_frame *frame) {
+  size_t count = desc->exposure_count;
+  frame->shots = cs_mem_array(context->memory, count, sizeof *frame->shots);
+  frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
+  frame->capacity = count;
+  if (count > 0 && (!frame->shots || !frame->weights))
+    return cs_fail_memory(context);
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(compile_exposure(context, desc, &desc->exposures[i], frame));
+  choose_workers(frame, desc);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_frame_create(celspan_context *context, const celspan_frame_desc *desc,
+                               cs_frame *out) {
+  CS_TRY(check_size(context, desc));
+  CS_TRY(check_crop(context, desc));
+  CS_TRY(check_exposures(context, desc));
+  cs_frame frame = {0};
+  take_crop(&frame, desc);
+  celspan_status status = fill_frame(context, desc, &frame);
+  if (status == CELSPAN_OK)
+    *out = frame;
+  else
+    cs_frame_free(&frame, context->memory);
+  return status;
+}
+
+void cs_frame_free(cs_frame *frame, cs_memory *memory) {
+  for (size_t i = 0; i < frame->count; i++)
+    cs_compile_free(&frame->shots[i], memory);
+  cs_mem_free(memory, frame->shots, frame->capacity * sizeof *frame->shots);
+  cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
+  *frame = (cs_frame){0};
+}
+
+/* ---------------------------------------------------------------- lanes */
+
+celspan_status cs_lane_init(cs_lane *lane, celspan_context *context, const cs_frame *frame) {
+  *lane = (cs_lane){.frame = frame};
+  cs_context_branch(&lane->context, context);
+  cs_row_init(&lane->sum);
+  lane->scans = cs_mem_array(context->memory, frame->count, sizeof *lane->scans);
+  lane->rows = cs_mem_array(context->memory, frame->count, sizeof *lane->rows);
+  if (frame->count > 0 && (!lane->scans || !lane->rows))
+    return cs_fail_memory(&lane->context);
+  for (size_t i = 0; i < frame->count; i++) {
+    cs_row_init(&lane->rows[i]);
+    CS_TRY(cs_scan_init(&lane->scans[i], &lane->context, &frame->shots[i]));
+  }
+  return CELSPAN_OK;
+}
+
+void cs_lane_finish(cs_lane *lane) {
+  if (!lane->frame)
+    return;
+  cs_memory *memory = lane->context.memory;
+  for (size_t i = 0; i < lane->frame->count; i++) {
+    if (lane->scans)
+      cs_scan_finish(&lane->scans[i]);
+    if (lane->rows)
+      cs_row_finish(&lane->rows[i], memory);
+  }
+  cs_row_finish(&lane->sum, memory);
+  cs_mem_free(memory, lane->scans, lane->frame->count * sizeof *lane->scans);
+  cs_mem_free(memory, lane->rows, lane->frame->count * sizeof *lane->rows);
+  *lane = (cs_lane){0};
+}
+
+static celspan_status expose(cs_lane *lane, cs_row **out) {
+  const cs_frame *frame = lane->frame;
+  *out = &lane->sum;
+  cs_row_clear(&lane->sum);
+  if (frame->count == 0)
+    return cs_row_single(&lane->context, &lane->sum, 0, frame->width, cs_v4_all(0));
+  return cs_row_expose(&lane->context, &lane->sum, lane->rows, frame->weights, frame->count);
+}
+
+celspan_status cs_lane_row(cs_lane *lane, int32_t y, const cs_row **out) {
+  const cs_frame *frame = lane->frame;
+  for (size_t i = 0; i < frame->count; i++)
+    CS_TRY(cs_scan_row(&lane->scans[i], frame->crop_y + y, &lane->rows[i]));
+  cs_row *row = lane->rows;
+  if (frame->count != 1 || frame->weights[0] != 1)
+    CS_TRY(expose(lane, &row));
+  if (frame->crop_width != frame->width)
+    cs_row_crop(row, frame->crop_x, frame->crop_x + frame->crop_width);
+  *out = row;
+  return CELSPAN_OK;
+}
+
+uint64_t cs_lane_evaluations(const cs_lane *lane) {
+  uint64_t evaluations = 0;
+  for (size_t i = 0; lane->scans && i < lane->frame->count; i++)
+    evaluations += lane->scans[i].composer.evaluations;
+  return evaluations;
+}

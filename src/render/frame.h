@@ -1,0 +1,42 @@
+/* A frame ready to be scanned: its description checked, every exposure compiled; and a lane, which
+ * is what one worker needs to make its rows.
+ *
+ * Invariant: a frame does not change once made; lanes share it. A row of a lane depends on the frame
+ * and the row's number alone.
+ */
+#ifndef CS_RENDER_FRAME_H
+#define CS_RENDER_FRAME_H
+
+#include "filter/scan.h"
+
+typedef struct cs_frame {
+  cs_shot *shots; /* one an exposure of weight > 0 */
+  float *weights;
+  size_t count, capacity;
+  int32_t width, height; /* of the whole frame */
+  int32_t crop_x, crop_y, crop_width, crop_height;
+  int workers; /* at least 1 */
+  int band_rows;
+} cs_frame;
+
+/* Errors: BAD_ARGUMENT naming the field; those of cs_compile. */
+CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
+                                               const celspan_frame_desc *desc, cs_frame *out);
+void cs_frame_free(cs_frame *frame, cs_memory *memory);
+
+typedef struct cs_lane {
+  celspan_context context; /* a branch of the frame's */
+  const cs_frame *frame;
+  cs_scan *scans; /* one a shot */
+  cs_row *rows;   /* one a shot */
+  cs_row sum;
+} cs_lane;
+
+CELSPAN_CHECKED celspan_status cs_lane_init(cs_lane *lane, celspan_context *context,
+                                            const cs_frame *frame);
+void cs_lane_finish(cs_lane *lane);
+/* Row y of the crop. The row stays valid until the next call. Errors are in the lane's context. */
+CELSPAN_CHECKED celspan_status cs_lane_row(cs_lane *lane, int32_t y, const cs_row **out);
+uint64_t cs_lane_evaluations(const cs_lane *lane);
+
+#endif

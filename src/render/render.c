@@ -1,0 +1,162 @@
+/* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by row. */
+#include "output/pixels.h"
+#include "output/sink.h"
+#include "render/bands.h"
+
+/* ---------------------------------------------------------------- into a sink */
+
+/* Peak bytes are measured from the frame's beginning: the context's own peak is put back after. */
+typedef struct meter {
+  size_t bytes, peak;
+  uint64_t allocations;
+} meter;
+
+static meter meter_begin(celspan_context *context) {
+  meter m;
+  celspan_context_memory(context, &m.bytes, &m.peak, &m.allocations);
+  atomic_store(&context->memory->peak, m.bytes);
+  return m;
+}
+
+static void meter_end(celspan_context *context, const meter *m, celspan_statistics *statistics) {
+  size_t bytes, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  statistics->peak_bytes = peak - m->bytes;
+  statistics->allocations = allocations - m->allocations;
+  if (peak < m->peak)
+    atomic_store(&context->memory->peak, m->peak);
+}
+
+/* *ended: the sink's end was called, so it has freed itself. */
+static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
+                                const celspan_frame_desc *desc, const celspan_sink *sink,
+                                celspan_statistics *statistics, bool *ended) {
+  if (sink->begin)
+    CS_TRY(sink->begin(sink->user, context, frame->crop_width, frame->crop_height));
+  celspan_status status = cs_bands_render(context, frame, desc, sink, statistics);
+  if (!sink->end)
+    return status;
+  char error[sizeof context->error];
+  memcpy(error, context->error, sizeof error);
+  *ended = true;
+  celspan_status last = sink->end(sink->user, context, status);
+  if (status == CELSPAN_OK)
+    return last;
+  memcpy(context->error, error, sizeof error); /* the first failure is the one to tell */
+  return status;
+}
+
+static celspan_status render(celspan_context *context, const celspan_frame_desc *desc,
+                             const celspan_sink *sink, celspan_statistics *statistics,
+                             bool *ended) {
+  celspan_statistics counted = {0};
+  meter m = meter_begin(context);
+  cs_frame frame;
+  celspan_status status = cs_frame_create(context, desc, &frame);
+  if (status == CELSPAN_OK) {
+    status = feed_sink(context, &frame, desc, sink, &counted, ended);
+    cs_frame_free(&frame, context->memory);
+  }
+  meter_end(context, &m, &counted);
+  if (statistics)
+    *statistics = counted;
+  return status;
+}
+
+celspan_status celspan_frame_render(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_sink *sink, celspan_statistics *statistics) {
+  bool ended = false;
+  return render(context, desc, sink, statistics, &ended);
+}
+
+/* ---------------------------------------------------------------- our own sinks */
+
+/* Renders into a sink of output/, and frees it when its end was not reached. */
+static celspan_status render_own(celspan_context *context, const celspan_frame_desc *desc,
+                                 celspan_sink *sink, celspan_statistics *statistics) {
+  bool ended = false;
+  celspan_status status = render(context, desc, sink, statistics, &ended);
+  if (!ended)
+    cs_sink_discard(context, sink);
+  return status;
+}
+
+celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_coding *coding, void *pixels, size_t stride,
+                                    celspan_statistics *statistics) {
+  celspan_sink sink;
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
+  return render_own(context, desc, &sink, statistics);
+}
+
+celspan_status celspan_frame_write(celspan_context *context, const celspan_frame_desc *desc,
+                                   const char *path, const celspan_file_desc *file,
+                                   celspan_statistics *statistics) {
+  celspan_sink sink;
+  celspan_file_desc defaults = CELSPAN_FILE_DESC;
+  CS_TRY(cs_sink_file(context, path, file ? file : &defaults, &sink));
+  return render_own(context, desc, &sink, statistics);
+}
+
+celspan_status celspan_frame_digest(celspan_context *context, const celspan_frame_desc *desc,
+                                    const celspan_coding *coding, uint64_t digest[2]) {
+  celspan_sink sink;
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
+  return render_own(context, desc, &sink, NULL);
+}
+
+/* ---------------------------------------------------------------- row by row */
+
+struct celspan_rows {
+  celspan_context *context;
+  cs_memory *memory;
+  cs_frame frame;
+  cs_lane lane;
+};
+
+celspan_status celspan_rows_create(celspan_context *context, const celspan_frame_desc *desc,
+                                   celspan_rows **out) {
+  celspan_rows *rows = cs_mem_array(context->memory, 1, sizeof *rows);
+  if (!rows)
+    return cs_fail_memory(context);
+  rows->context = context;
+  rows->memory = cs_memory_ref(context->memory);
+  celspan_status status = cs_frame_create(context, desc, &rows->frame);
+  if (status == CELSPAN_OK) {
+    status = cs_lane_init(&rows->lane, context, &rows->frame);
+    if (status != CELSPAN_OK)
+      (void)cs_fail(context, status, "%s", rows->lane.context.error);
+  }
+  if (status == CELSPAN_OK)
+    *out = rows;
+  else
+    celspan_rows_destroy(rows);
+  return status;
+}
+
+celspan_status celspan_rows_get(celspan_rows *rows, int32_t y, const celspan_span **spans,
+                                size_t *span_count) {
+  const cs_row *row;
+  if (y < 0 || y >= rows->frame.crop_height)
+    return cs_fail(rows->context, CELSPAN_BAD_ARGUMENT, "rows: row %d is not in 0..%d", (int)y,
+                   (int)rows->frame.crop_height - 1);
+  celspan_status status = cs_lane_row(&rows->lane, y, &row);
+  if (status != CELSPAN_OK)
+    return cs_fail(rows->context, status, "%s", rows->lane.context.error);
+  *spans = row->spans;
+  *span_count = row->count;
+  return CELSPAN_OK;
+}
+
+void celspan_rows_destroy(celspan_rows *rows) {
+  if (!rows)
+    return;
+  cs_memory *memory = rows->memory;
+  cs_lane_finish(&rows->lane);
+  cs_frame_free(&rows->frame, memory);
+  cs_mem_free(memory, rows, sizeof *rows);
+  cs_memory_unref(memory);
+}

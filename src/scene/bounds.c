@@ -1,0 +1,86 @@
+/* Boxes: what an object or a cel can paint at most. */
+#include <math.h>
+
+#include "scene/body.h"
+
+static celspan_box around(celspan_box a, celspan_box b) {
+  double x = fmin(a.x, b.x), y = fmin(a.y, b.y);
+  return (celspan_box){x, y, fmax(a.x + a.width, b.x + b.width) - x,
+                       fmax(a.y + a.height, b.y + b.height) - y};
+}
+
+static celspan_box common(celspan_box a, celspan_box b) {
+  double x = fmax(a.x, b.x), y = fmax(a.y, b.y);
+  return (celspan_box){x, y, fmin(a.x + a.width, b.x + b.width) - x,
+                       fmin(a.y + a.height, b.y + b.height) - y};
+}
+
+static bool object_bounds(const celspan_object *object, const celspan_matrix *parent,
+                          celspan_box *out);
+
+bool cs_body_list_bounds(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
+                         celspan_box *out) {
+  bool found = false;
+  celspan_box box;
+  for (size_t i = 0; i < count; i++) {
+    if (!object_bounds(objects[i], matrix, &box))
+      continue;
+    *out = found ? around(*out, box) : box;
+    found = true;
+  }
+  return found;
+}
+
+static bool list_common(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
+                        celspan_box *out) {
+  celspan_box box;
+  for (size_t i = 0; i < count; i++) {
+    if (!object_bounds(objects[i], matrix, &box))
+      return false;
+    *out = i > 0 ? common(*out, box) : box;
+    if (!(out->width > 0 && out->height > 0))
+      return false;
+  }
+  return count > 0;
+}
+
+static bool body_bounds(const cs_body *body, const celspan_matrix *matrix, celspan_box *out) {
+  if (body->kind != CS_BODY_BOOLEAN)
+    return cs_outline_bounds(&body->outline, matrix, out);
+  switch (body->op) {
+  case CELSPAN_UNION:
+  case CELSPAN_XOR:
+    return cs_body_list_bounds(body->operands, body->operand_count, matrix, out);
+  case CELSPAN_INTERSECTION:
+  case CELSPAN_CLIP:
+    return list_common(body->operands, body->operand_count, matrix, out);
+  case CELSPAN_DIFFERENCE:
+    break;
+  }
+  return object_bounds(body->operands[0], matrix, out);
+}
+
+static bool object_bounds(const celspan_object *object, const celspan_matrix *parent,
+                          celspan_box *out) {
+  celspan_matrix whole = celspan_matrix_then(object->matrix, *parent), inverse;
+  if (object->body->is_empty || !celspan_matrix_inverse(whole, &inverse))
+    return false;
+  return body_bounds(object->body, &whole, out);
+}
+
+bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  celspan_box box;
+  if (!object_bounds(object, &identity, &box))
+    return false;
+  *out = box;
+  return true;
+}
+
+bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out) {
+  celspan_box box;
+  if (!cs_body_list_bounds(cel->objects, cel->object_count, &cel->matrix, &box))
+    return false;
+  *out = box;
+  return true;
+}

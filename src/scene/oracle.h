@@ -1,0 +1,27 @@
+/* Textures at a point, in doubles: the oracle's own, sharing nothing with the composer. */
+#ifndef CS_SCENE_ORACLE_H
+#define CS_SCENE_ORACLE_H
+
+#include "scene/scene.h"
+
+/* A premultiplied paint, as cs_paint. */
+typedef struct cs_oracle_paint {
+  double s[3], t[3], beta;
+} cs_oracle_paint;
+
+extern const cs_oracle_paint cs_oracle_clear;
+
+cs_oracle_paint cs_oracle_over(const cs_oracle_paint *front, const cs_oracle_paint *back);
+/* (1 - u) p + u q */
+cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q, double u);
+/* No light from behind comes through: what is there need not be looked at. */
+bool cs_oracle_hides(const cs_oracle_paint *shade);
+
+/* The paint of a primitive at a point of its own units that is inside it. Pictures are bilinear at
+ * full resolution; procedures are asked for their row, and *is_there tells whether a span of it
+ * covers the point (true for all else). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
+CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context, const cs_body *body,
+                                                   celspan_point point, bool *is_there,
+                                                   cs_oracle_paint *out);
+
+#endif

@@ -1,0 +1,239 @@
+#include "scene/texture.h"
+
+#include <math.h>
+
+#include "scene/door.h"
+#include "scene/value.h"
+
+/* Twice the area of a triangle below this share of its longest side squared is rounding. */
+#define FLAT_TRIANGLE 1e-12
+
+static celspan_status create(celspan_context *context, cs_texture_kind kind,
+                             celspan_texture **out) {
+  celspan_texture *texture = cs_mem_array(context->memory, 1, sizeof *texture);
+  if (!texture)
+    return cs_fail_memory(context);
+  atomic_init(&texture->references, 1);
+  texture->memory = cs_memory_ref(context->memory);
+  texture->kind = kind;
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+static void hash_picture(cs_hash *hash, const celspan_texture *texture) {
+  cs_hash_hash(hash, cs_picture_hash(texture->picture));
+  cs_hash_word(hash, texture->sampling);
+  cs_hash_word(hash, texture->use);
+  cs_hash_word(hash, texture->wrap);
+  cs_hash_word(hash, texture->has_box);
+  cs_value_hash_box(hash, &texture->box);
+}
+
+static cs_hash hash_texture(const celspan_texture *texture) {
+  cs_hash hash = cs_hash_begin(CS_VALUE_TEXTURE);
+  cs_hash_word(&hash, texture->kind);
+  cs_value_hash_paint(&hash, &texture->flat);
+  for (int i = 0; i < 3; i++) {
+    cs_value_hash_point(&hash, texture->points[i]);
+    cs_value_hash_paint(&hash, &texture->corners[i]);
+  }
+  cs_hash_number(&hash, texture->radius);
+  cs_hash_word(&hash, texture->stop_count);
+  for (size_t i = 0; i < texture->stop_count; i++) {
+    cs_hash_number(&hash, texture->stops[i].at);
+    cs_value_hash_paint(&hash, &texture->stops[i].paint);
+  }
+  if (texture->kind == CS_TEXTURE_PICTURE)
+    hash_picture(&hash, texture);
+  return cs_hash_end(hash);
+}
+
+static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
+  texture->hash = hash_texture(texture);
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+static celspan_status create_flat(celspan_context *context, const cs_paint *paint,
+                                  celspan_texture **out) {
+  celspan_texture *texture;
+  CS_TRY(create(context, CS_TEXTURE_FLAT, &texture));
+  texture->flat = *paint;
+  return finish(texture, out);
+}
+
+static celspan_status create_flat_straight(celspan_context *context, const celspan_paint *paint,
+                                           celspan_texture **out) {
+  cs_paint flat = cs_paint_from_straight(paint);
+  return create_flat(context, &flat, out);
+}
+
+celspan_status celspan_texture_create_paint(celspan_context *context, const celspan_paint *paint,
+                                            celspan_texture **out) {
+  CS_TRY(cs_door_given(context, "paint", "the paint", paint));
+  CS_TRY(cs_door_paint(context, "paint", "", 0, paint));
+  return create_flat_straight(context, paint, out);
+}
+
+celspan_status cs_texture_or_black(celspan_context *context, celspan_texture *texture,
+                                   celspan_texture **out) {
+  const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
+  if (!texture)
+    return create_flat_straight(context, &black, out);
+  *out = celspan_texture_ref(texture);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- gradients */
+
+static double square(double x) { return x * x; }
+
+static double distance_squared(celspan_point a, celspan_point b) {
+  return square(a.x - b.x) + square(a.y - b.y);
+}
+
+static bool triangle_is_flat(const celspan_point p[3]) {
+  double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+  double longest = distance_squared(p[0], p[1]);
+  longest = fmax(longest, distance_squared(p[1], p[2]));
+  longest = fmax(longest, distance_squared(p[2], p[0]));
+  return fabs(area) <= FLAT_TRIANGLE * longest;
+}
+
+celspan_status celspan_texture_create_gradient(celspan_context *context,
+                                               const celspan_point points[3],
+                                               const celspan_paint paints[3],
+                                               celspan_texture **out) {
+  for (size_t i = 0; i < 3; i++) {
+    CS_TRY(cs_door_point(context, "gradient", "points", i + 1, points[i]));
+    CS_TRY(cs_door_paint(context, "gradient", "paints", i + 1, &paints[i]));
+  }
+  if (triangle_is_flat(points))
+    return create_flat_straight(context, &paints[2], out);
+  celspan_texture *texture;
+  CS_TRY(create(context, CS_TEXTURE_TRIANGLE, &texture));
+  for (int i = 0; i < 3; i++) {
+    texture->points[i] = points[i];
+    texture->corners[i] = cs_paint_from_straight(&paints[i]);
+  }
+  return finish(texture, out);
+}
+
+static celspan_status check_stops(celspan_context *context, const char *noun,
+                                  const celspan_stop *stops, size_t count) {
+  if (!stops || count == 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
+                   noun);
+  for (size_t i = 0; i < count; i++) {
+    double least = i > 0 ? stops[i - 1].at : 0;
+    CS_TRY(cs_door_item(context, noun, "stops", i + 1, "at", stops[i].at, least, 1));
+    CS_TRY(cs_door_paint(context, noun, "stops", i + 1, &stops[i].paint));
+  }
+  return CELSPAN_OK;
+}
+
+/* is_degenerate: no length to spread the stops over. Everything is then past the last. */
+static celspan_status create_stops(celspan_context *context, cs_texture_kind kind,
+                                   const celspan_stop *stops, size_t count, bool is_degenerate,
+                                   celspan_texture **out) {
+  if (is_degenerate || count == 1)
+    return create_flat_straight(context, &stops[count - 1].paint, out);
+  celspan_texture *texture;
+  CS_TRY(create(context, kind, &texture));
+  texture->stops = cs_mem_array(context->memory, count, sizeof *texture->stops);
+  if (!texture->stops) {
+    celspan_texture_unref(texture);
+    return cs_fail_memory(context);
+  }
+  texture->stop_count = count;
+  for (size_t i = 0; i < count; i++)
+    texture->stops[i] = (cs_stop){stops[i].at, cs_paint_from_straight(&stops[i].paint)};
+  *out = texture;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_texture_create_linear(celspan_context *context, celspan_point from,
+                                             celspan_point to, const celspan_stop *stops,
+                                             size_t stop_count, celspan_texture **out) {
+  CS_TRY(cs_door_point(context, "linear", "from", 0, from));
+  CS_TRY(cs_door_point(context, "linear", "to", 0, to));
+  CS_TRY(check_stops(context, "linear", stops, stop_count));
+  celspan_texture *texture;
+  CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
+                      !(distance_squared(from, to) > 0), &texture));
+  if (texture->kind == CS_TEXTURE_LINEAR) {
+    texture->points[0] = from;
+    texture->points[1] = to;
+  }
+  return finish(texture, out);
+}
+
+celspan_status celspan_texture_create_radial(celspan_context *context, celspan_point centre,
+                                             double radius, const celspan_stop *stops,
+                                             size_t stop_count, celspan_texture **out) {
+  CS_TRY(cs_door_point(context, "radial", "centre", 0, centre));
+  CS_TRY(cs_door_size(context, "radial", "radius", radius));
+  CS_TRY(check_stops(context, "radial", stops, stop_count));
+  celspan_texture *texture;
+  CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
+  if (texture->kind == CS_TEXTURE_RADIAL) {
+    texture->points[0] = centre;
+    texture->radius = radius;
+  }
+  return finish(texture, out);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+static celspan_status check_picture(celspan_context *context, const celspan_picture_desc *desc) {
+  CS_TRY(cs_door_given(context, "picture", "the description", desc));
+  CS_TRY(cs_door_choice(context, "picture", "sampling", (unsigned)desc->sampling,
+                        CELSPAN_SAMPLING_BICUBIC + 1));
+  CS_TRY(cs_door_choice(context, "picture", "use", (unsigned)desc->use, CELSPAN_PICTURE_GEL + 1));
+  CS_TRY(cs_door_choice(context, "picture", "wrap", (unsigned)desc->wrap, CELSPAN_WRAP_REPEAT + 1));
+  return desc->has_box ? cs_door_box(context, "picture", "box", &desc->box) : CELSPAN_OK;
+}
+
+celspan_status celspan_texture_create_picture(celspan_context *context,
+                                              const celspan_picture_desc *desc,
+                                              celspan_texture **out) {
+  const cs_paint clear = CS_PAINT_CLEAR;
+  CS_TRY(check_picture(context, desc));
+  cs_picture *picture;
+  CS_TRY(cs_picture_create(context, desc, &picture));
+  bool is_degenerate = desc->has_box && !(desc->box.width > 0 && desc->box.height > 0);
+  celspan_texture *texture;
+  celspan_status status = is_degenerate ? create_flat(context, &clear, &texture)
+                                        : create(context, CS_TEXTURE_PICTURE, &texture);
+  if (status != CELSPAN_OK || is_degenerate)
+    cs_picture_unref(picture);
+  CS_TRY(status);
+  if (!is_degenerate) {
+    texture->picture = picture;
+    texture->sampling = desc->sampling;
+    texture->use = desc->use;
+    texture->wrap = desc->wrap;
+    texture->has_box = desc->has_box;
+    if (desc->has_box)
+      texture->box = desc->box;
+  }
+  return finish(texture, out);
+}
+
+/* ---------------------------------------------------------------- references */
+
+celspan_texture *celspan_texture_ref(celspan_texture *texture) {
+  cs_value_keep(&texture->references);
+  return texture;
+}
+
+void celspan_texture_unref(celspan_texture *texture) {
+  if (!texture || !cs_value_drop(&texture->references))
+    return;
+  cs_memory *memory = texture->memory;
+  cs_mem_free(memory, texture->stops, texture->stop_count * sizeof *texture->stops);
+  if (texture->picture)
+    cs_picture_unref(texture->picture);
+  cs_mem_free(memory, texture, sizeof *texture);
+  cs_memory_unref(memory);
+}

@@ -1,0 +1,37 @@
+/* What all scene values share: how they are counted and how their parts are hashed.
+ *
+ * A value is made with one reference and the last one given back frees it; the count is the only
+ * thing in it that ever changes.
+ */
+#ifndef CS_SCENE_VALUE_H
+#define CS_SCENE_VALUE_H
+
+#include "base/context.h"
+#include "base/hash.h"
+#include "colour/paint.h"
+
+/* The first word of every structural hash, so that values of different nouns never meet. */
+typedef enum cs_value_kind {
+  CS_VALUE_TEXTURE = 1,
+  CS_VALUE_BODY,
+  CS_VALUE_OBJECT,
+  CS_VALUE_CEL,
+  CS_VALUE_ROSTRUM
+} cs_value_kind;
+
+static inline void cs_value_keep(atomic_size_t *references) {
+  atomic_fetch_add_explicit(references, 1, memory_order_relaxed);
+}
+
+/* Whether that was the last reference. */
+static inline bool cs_value_drop(atomic_size_t *references) {
+  return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
+}
+
+void cs_value_hash_point(cs_hash *hash, celspan_point point);
+void cs_value_hash_box(cs_hash *hash, const celspan_box *box);
+void cs_value_hash_matrix(cs_hash *hash, const celspan_matrix *matrix);
+void cs_value_hash_paint(cs_hash *hash, const cs_paint *paint);
+void cs_value_hash_light(cs_hash *hash, const celspan_light *light);
+
+#endif

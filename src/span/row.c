@@ -1,0 +1,140 @@
+#include "span/row.h"
+
+#include "base/number.h"
+
+void cs_row_init(cs_row *row) {
+  *row = (cs_row){0};
+  cs_arena_init(&row->colours);
+}
+
+void cs_row_finish(cs_row *row, cs_memory *memory) {
+  cs_mem_free(memory, row->spans, row->capacity * sizeof *row->spans);
+  cs_arena_finish(&row->colours, memory);
+  *row = (cs_row){0};
+}
+
+void cs_row_clear(cs_row *row) {
+  row->count = 0;
+  cs_arena_reset(&row->colours);
+}
+
+celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
+  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, row->count + 1,
+                        sizeof *row->spans);
+}
+
+static celspan_status append(celspan_context *context, cs_row *row, celspan_span span) {
+  if (row->count == row->capacity)
+    CS_TRY(cs_row_grow(context, row));
+  row->spans[row->count++] = span;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                               cs_v4 colour, cs_v4 slope) {
+  if (x1 - x0 < 2 || cs_v4_same(slope, cs_v4_all(0)))
+    return cs_row_single(context, row, x0, x1, colour);
+  celspan_span span = {.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_GRADIENT, .origin = x0};
+  cs_v4_store(span.colour, colour);
+  cs_v4_store(span.slope, slope);
+  return append(context, row, span);
+}
+
+celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                            float **colours) {
+  *colours = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * 4 * sizeof(float));
+  if (!*colours)
+    return CELSPAN_NO_MEMORY;
+  return append(context, row,
+                (celspan_span){.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_ARRAY, .origin = x0,
+                               .array = *colours});
+}
+
+void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
+  size_t kept = 0;
+  for (size_t i = 0; i < row->count; i++) {
+    celspan_span span = row->spans[i];
+    int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;
+    if (from >= to)
+      continue;
+    if (span.kind == CELSPAN_SPAN_ARRAY)
+      span.array += 4 * (size_t)(from - span.x0);
+    span.x0 = from - x0;
+    span.x1 = to - x0;
+    span.origin -= x0;
+    row->spans[kept++] = span;
+  }
+  row->count = kept;
+}
+
+/* ---------------------------------------------------------------- exposures */
+
+/* A ramp whose alpha is held to 1: it bends at the column where its alpha passes 1. */
+static celspan_status expose_ramp(celspan_context *context, cs_row *out, int32_t x0, int32_t x1,
+                                  cs_v4 colour, cs_v4 slope) {
+  bool held = colour[3] > 1;
+  int32_t bend = x0;
+  while (bend < x1 && (colour[3] + slope[3] * (float)(bend - x0) > 1) == held)
+    bend = slope[3] == 0 ? x1 : bend + 1;
+  cs_v4 rest = colour + slope * (float)(bend - x0), rest_slope = slope;
+  if (held) {
+    colour[3] = 1;
+    slope[3] = 0;
+  } else {
+    rest[3] = 1;
+    rest_slope[3] = 0;
+  }
+  CS_TRY(cs_row_gradient(context, out, x0, bend, colour, slope));
+  return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
+}
+
+/* The sum of the spans under [x0, x1), one a row, none of which ends inside. */
+static celspan_status expose_interval(celspan_context *context, cs_row *out, const cs_row *rows,
+                                      const float *weights, const size_t *at, size_t count,
+                                      int32_t x0, int32_t x1) {
+  cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
+  bool has_array = false;
+  for (size_t i = 0; i < count; i++) {
+    const celspan_span *span = &rows[i].spans[at[i]];
+    has_array |= span->kind == CELSPAN_SPAN_ARRAY;
+    float colour[4];
+    celspan_span_colour(span, x0, colour);
+    first += weights[i] * cs_v4_load(colour);
+    if (span->kind == CELSPAN_SPAN_GRADIENT)
+      slope += weights[i] * cs_v4_load(span->slope);
+  }
+  if (!has_array)
+    return expose_ramp(context, out, x0, x1, first, slope);
+  float *colours;
+  CS_TRY(cs_row_array(context, out, x0, x1, &colours));
+  for (int32_t x = x0; x < x1; x++, colours += 4) {
+    cs_v4 sum = cs_v4_all(0);
+    for (size_t i = 0; i < count; i++) {
+      float colour[4];
+      celspan_span_colour(&rows[i].spans[at[i]], x, colour);
+      sum += weights[i] * cs_v4_load(colour);
+    }
+    sum[3] = sum[3] > 1 ? 1 : sum[3];
+    cs_v4_store(colours, sum);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_expose(celspan_context *context, cs_row *out, const cs_row *rows,
+                             const float *weights, size_t count) {
+  size_t *at = cs_arena_take(context, &out->colours, count * sizeof *at);
+  if (!at)
+    return CELSPAN_NO_MEMORY;
+  memset(at, 0, count * sizeof *at);
+  for (int32_t x0 = 0; at[0] < rows[0].count;) {
+    int32_t x1 = INT32_MAX;
+    for (size_t i = 0; i < count; i++)
+      if (rows[i].spans[at[i]].x1 < x1)
+        x1 = rows[i].spans[at[i]].x1;
+    CS_TRY(expose_interval(context, out, rows, weights, at, count, x0, x1));
+    for (size_t i = 0; i < count; i++)
+      at[i] += rows[i].spans[at[i]].x1 == x1;
+    x0 = x1;
+  }
+  return CELSPAN_OK;
+}

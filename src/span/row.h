@@ -1,0 +1,62 @@
+/* A row of spans under construction.
+ *
+ * Invariant: spans are sorted, disjoint and not empty; two neighbouring singles never have the same
+ * colour; array colours live in the row's arena and stay where they are until the next clear.
+ */
+#ifndef CS_SPAN_ROW_H
+#define CS_SPAN_ROW_H
+
+#include "base/arena.h"
+#include "base/vector.h"
+
+typedef struct cs_row {
+  celspan_span *spans;
+  size_t count, capacity;
+  cs_arena colours;
+} cs_row;
+
+void cs_row_init(cs_row *row);
+void cs_row_finish(cs_row *row, cs_memory *memory);
+void cs_row_clear(cs_row *row);
+
+/* Appends [x0, x1), x0 at or right of the last span's end; an empty interval is nothing. */
+CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0,
+                                               int32_t x1, cs_v4 colour, cs_v4 slope);
+/* *colours: new room for x1 - x0 colours, to be filled by the caller. */
+CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0,
+                                            int32_t x1, float **colours);
+CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
+
+static inline celspan_status cs_row_single(celspan_context *context, cs_row *row, int32_t x0,
+                                           int32_t x1, cs_v4 colour) {
+  if (x1 <= x0)
+    return CELSPAN_OK;
+  if (row->count > 0) {
+    celspan_span *last = &row->spans[row->count - 1];
+    if (last->kind == CELSPAN_SPAN_SINGLE && last->x1 == x0 &&
+        cs_v4_same(cs_v4_load(last->colour), colour)) {
+      last->x1 = x1;
+      return CELSPAN_OK;
+    }
+  }
+  if (row->count == row->capacity)
+    CS_TRY(cs_row_grow(context, row));
+  celspan_span *span = &row->spans[row->count++];
+  span->x0 = x0;
+  span->x1 = x1;
+  span->kind = CELSPAN_SPAN_SINGLE;
+  span->origin = x0;
+  cs_v4_store(span->colour, colour);
+  return CELSPAN_OK;
+}
+
+/* Cuts a row to the columns [x0, x1) and moves it left by x0. Gradients keep their line. */
+void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
+
+/* out = sum of weights[i] * rows[i], alpha held to 1: the exposures of one frame. All rows cover
+ * the same columns without gap. */
+CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *out,
+                                             const cs_row *rows, const float *weights,
+                                             size_t count);
+
+#endif

@@ -1,0 +1,229 @@
+#include "sweep/active.h"
+
+#include <string.h>
+
+/* Bytes of one boundary over all arrays: six doubles, two slots, a walk. */
+#define ITEM_SIZE (6 * sizeof(double) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
+
+void cs_active_init(cs_active *active, const cs_boundary_set *set) {
+  *active = (cs_active){.set = set};
+}
+
+void cs_active_finish(cs_active *active, cs_memory *memory) {
+  cs_mem_free(memory, active->block, active->capacity * ITEM_SIZE);
+  cs_mem_free(memory, active->bends, active->bend_capacity * sizeof *active->bends);
+  cs_mem_free(memory, active->vertices, active->vertex_capacity * sizeof *active->vertices);
+  *active = (cs_active){0};
+}
+
+/* ---------------------------------------------------------------- room */
+
+static void *carve(unsigned char **at, const void *old, size_t old_count, size_t new_count,
+                   size_t item_size) {
+  void *array = *at;
+  if (old_count > 0)
+    memcpy(array, old, old_count * item_size);
+  *at += new_count * item_size;
+  return array;
+}
+
+/* All arrays lie in one block: the wider items first, so that each is aligned. */
+static celspan_status grow(celspan_context *context, cs_active *active) {
+  size_t old = active->capacity, wanted = old ? 2 * old : 64;
+  unsigned char *block = cs_mem_array(context->memory, wanted, ITEM_SIZE), *at = block;
+  if (!block)
+    return cs_fail_memory(context);
+  active->walks = carve(&at, active->walks, old, wanted, sizeof *active->walks);
+  active->x = carve(&at, active->x, old, wanted, sizeof *active->x);
+  active->x_next = carve(&at, active->x_next, old, wanted, sizeof *active->x_next);
+  active->x0 = carve(&at, active->x0, old, wanted, sizeof *active->x0);
+  active->y0 = carve(&at, active->y0, old, wanted, sizeof *active->y0);
+  active->slope = carve(&at, active->slope, old, wanted, sizeof *active->slope);
+  active->y1 = carve(&at, active->y1, old, wanted, sizeof *active->y1);
+  active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
+  active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
+  cs_mem_free(context->memory, active->block, old * ITEM_SIZE);
+  active->block = block;
+  active->capacity = wanted;
+  for (size_t slot = wanted; slot-- > old;)
+    active->free_slots[active->free_count++] = (uint32_t)slot;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- one boundary */
+
+/* Copies the segment the walk stands on into the arrays. */
+static void take_segment(cs_active *active, size_t i) {
+  const cs_boundary_walk *walk = &active->walks[active->slot[i]];
+  active->x0[i] = walk->x0;
+  active->y0[i] = walk->y0;
+  active->slope[i] = walk->slope;
+  active->y1[i] = walk->y1;
+}
+
+static celspan_status append(celspan_context *context, cs_active *active, uint32_t chain,
+                             double y) {
+  if (active->count == active->capacity)
+    CS_TRY(grow(context, active));
+  uint32_t slot = active->free_slots[--active->free_count];
+  size_t i = active->count++;
+  active->slot[i] = slot;
+  cs_boundary_start(active->set, chain, y, &active->walks[slot]);
+  take_segment(active, i);
+  active->x[i] = cs_boundary_x(&active->walks[slot], y);
+  return CELSPAN_OK;
+}
+
+static void move_boundary(cs_active *active, size_t to, size_t from) {
+  active->x[to] = active->x[from];
+  active->x0[to] = active->x0[from];
+  active->y0[to] = active->y0[from];
+  active->slope[to] = active->slope[from];
+  active->y1[to] = active->y1[from];
+  active->slot[to] = active->slot[from];
+}
+
+/* ---------------------------------------------------------------- order */
+
+/* Whether boundary i belongs right of boundary j. */
+static inline bool is_right(const cs_active *active, size_t i, size_t j) {
+  if (active->x[i] != active->x[j])
+    return active->x[i] > active->x[j];
+  if (active->slope[i] != active->slope[j])
+    return active->slope[i] > active->slope[j];
+  return active->walks[active->slot[i]].chain > active->walks[active->slot[j]].chain;
+}
+
+/* Moves boundary i left to its place among 0..i-1, which are in order. */
+static bool settle(cs_active *active, size_t i) {
+  size_t to = i;
+  while (to > 0 && is_right(active, to - 1, i))
+    to--;
+  if (to == i)
+    return false;
+  double x = active->x[i], x0 = active->x0[i], y0 = active->y0[i];
+  double slope = active->slope[i], y1 = active->y1[i];
+  uint32_t slot = active->slot[i];
+  for (size_t j = i; j > to; j--)
+    move_boundary(active, j, j - 1);
+  active->x[to] = x;
+  active->x0[to] = x0;
+  active->y0[to] = y0;
+  active->slope[to] = slope;
+  active->y1[to] = y1;
+  active->slot[to] = slot;
+  return true;
+}
+
+static bool sort(cs_active *active) {
+  bool changed = false;
+  const double *x = active->x;
+  for (size_t i = 1; i < active->count; i++)
+    if (!(x[i - 1] < x[i])) /* equal x too: slopes and chains decide */
+      changed |= settle(active, i);
+  return changed;
+}
+
+/* ---------------------------------------------------------------- heights */
+
+static celspan_status begin_chains(celspan_context *context, cs_active *active, double y,
+                                   bool *changed) {
+  const cs_boundary_chain *chains = active->set->chains;
+  for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++)
+    if (y < chains[active->next].y1) {
+      CS_TRY(append(context, active, (uint32_t)active->next, y));
+      *changed = true;
+    }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
+  bool changed;
+  for (size_t i = 0; i < active->count; i++)
+    active->free_slots[active->free_count++] = active->slot[i];
+  active->count = 0;
+  active->next = 0;
+  active->y = active->y_next = y;
+  CS_TRY(begin_chains(context, active, y, &changed));
+  sort(active);
+  return CELSPAN_OK;
+}
+
+static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
+  CS_TRY(cs_mem_reserve(context, (void **)&active->vertices, &active->vertex_capacity,
+                        active->vertex_count + 1, sizeof *active->vertices));
+  active->vertices[active->vertex_count++] = (celspan_point){x, y};
+  return CELSPAN_OK;
+}
+
+/* Steps boundary i on until its segment holds y or its chain ends, noting the vertices passed.
+ * Displaced vertices may run back a little; those hold no height and are not noted. */
+static celspan_status bend(celspan_context *context, cs_active *active, size_t i, double y) {
+  cs_boundary_walk *walk = &active->walks[active->slot[i]];
+  cs_bend noted = {.boundary = (uint32_t)i, .vertex = (uint32_t)active->vertex_count};
+  double above = active->y;
+  while (walk->y1 <= y && !noted.ends) {
+    active->x_next[i] = walk->x1;
+    if (walk->y1 > above && walk->y1 < y)
+      CS_TRY(note_vertex(context, active, walk->x1, above = walk->y1));
+    noted.ends = !cs_boundary_next(active->set, walk);
+  }
+  noted.vertex_count = (uint32_t)active->vertex_count - noted.vertex;
+  take_segment(active, i);
+  if (!noted.ends)
+    active->x_next[i] = cs_boundary_x(walk, y);
+  CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
+                        active->bend_count + 1, sizeof *active->bends));
+  active->bends[active->bend_count++] = noted;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
+  double *restrict x_next = active->x_next;
+  const double *restrict x0 = active->x0, *restrict y0 = active->y0;
+  const double *restrict slope = active->slope, *restrict y1 = active->y1;
+  size_t count = active->count;
+  int ends = 0;
+  active->y_next = y;
+  active->bend_count = active->vertex_count = 0;
+  for (size_t i = 0; i < count; i++) {
+    x_next[i] = x0[i] + (y - y0[i]) * slope[i];
+    ends |= y1[i] <= y;
+  }
+  for (size_t i = 0; ends && i < count; i++)
+    if (y1[i] <= y)
+      CS_TRY(bend(context, active, i, y));
+  return CELSPAN_OK;
+}
+
+/* Takes the chains that have ended out of the order. */
+static bool drop_ended(cs_active *active) {
+  size_t kept = 0, next_bend = 0;
+  for (size_t i = 0; i < active->count; i++) {
+    while (next_bend < active->bend_count && active->bends[next_bend].boundary < i)
+      next_bend++;
+    if (next_bend < active->bend_count && active->bends[next_bend].boundary == i &&
+        active->bends[next_bend].ends) {
+      active->free_slots[active->free_count++] = active->slot[i];
+      continue;
+    }
+    if (kept != i)
+      move_boundary(active, kept, i);
+    kept++;
+  }
+  bool changed = kept != active->count;
+  active->count = kept;
+  return changed;
+}
+
+celspan_status cs_active_settle(celspan_context *context, cs_active *active, bool *changed) {
+  double *left_behind = active->x;
+  active->x = active->x_next;
+  active->x_next = left_behind;
+  active->y = active->y_next;
+  *changed = active->bend_count > 0 && drop_ended(active);
+  active->bend_count = active->vertex_count = 0;
+  CS_TRY(begin_chains(context, active, active->y, changed));
+  *changed |= sort(active);
+  return CELSPAN_OK;
+}

@@ -1,0 +1,66 @@
+/* The active boundaries: the chains that a row height crosses, from left to right.
+ *
+ * The fields that every row reads lie in arrays of like fields, in order, so that advancing and
+ * order checking run at memory speed; the walk of a boundary is found by its slot.
+ *
+ * Invariants, at height y
+ *   - exactly the chains with y0 <= y < y1 are listed;
+ *   - they are ordered by x at y, then by slope, then by chain: an order that depends on y and the
+ *     set alone, not on the rows swept before (so strips agree to the bit);
+ *   - x[i] is cs_boundary_x at y on the segment that holds y.
+ */
+#ifndef CS_SWEEP_ACTIVE_H
+#define CS_SWEEP_ACTIVE_H
+
+#include "geometry/boundary.h"
+
+/* What a boundary does between two heights, when that is not one straight piece. */
+typedef struct cs_bend {
+  uint32_t boundary;     /* index into the order at the upper height */
+  uint32_t vertex;       /* its vertices strictly between the heights: downwards */
+  uint32_t vertex_count;
+  bool ends; /* at its last vertex, or at the lower height when it has none */
+} cs_bend;
+
+typedef struct cs_active {
+  const cs_boundary_set *set;
+  /* arrays of like fields, `count` of each, in order */
+  double *x;     /* at the current height */
+  double *x_next; /* at the height reached; where the chain ends, if it ends before */
+  double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
+  uint32_t *slot;
+  size_t count;
+  /* by slot */
+  cs_boundary_walk *walks;
+  uint32_t *free_slots;
+  size_t free_count;
+  void *block;     /* that holds all the arrays above */
+  size_t capacity; /* of each of them */
+  size_t next;     /* the first chain of the set that has not begun */
+  double y;        /* the current height */
+  double y_next;   /* the height reached */
+  cs_bend *bends;  /* between the two, in order of their boundaries */
+  celspan_point *vertices;
+  size_t bend_count, bend_capacity;
+  size_t vertex_count, vertex_capacity;
+} cs_active;
+
+void cs_active_init(cs_active *active, const cs_boundary_set *set);
+void cs_active_finish(cs_active *active, cs_memory *memory);
+/* Stands at height y, from nothing. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_active *active,
+                                               double y);
+/* Looks down to height y, at or below the current one: fills x_next and bends; the order stays as it
+ * is at the current height. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
+                                               double y);
+/* Moves down to the height reached. *changed: boundaries began, ended or changed places.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
+                                                bool *changed);
+
+static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, size_t i) {
+  return &active->set->chains[active->walks[active->slot[i]].chain];
+}
+
+#endif

@@ -1,0 +1,510 @@
+-- The command line: what it prints, where, and how it ends.
+
+local BINARY = os.getenv("CELSPAN") or "build/celspan"
+
+local folder
+
+local function read(path)
+  local file = io.open(path, "rb")
+  if not file then
+    return nil
+  end
+  local text = file:read("a")
+  file:close()
+  return text
+end
+
+local function write(name, text)
+  local path = folder .. "/" .. name
+  local file = assert(io.open(path, "wb"))
+  file:write(text)
+  file:close()
+  return path
+end
+
+-- Runs a shell command; answers its exit code (128 + n for signal n), standard output and error.
+local function shell(command)
+  local out, err = folder .. "/stdout", folder .. "/stderr"
+  local _, how, code = os.execute(("( %s ) >'%s' 2>'%s'"):format(command, out, err))
+  return how == "signal" and 128 + code or code, read(out), read(err)
+end
+
+local function celspan(arguments)
+  return shell(BINARY .. " " .. arguments)
+end
+
+local function files_in(path)
+  local names = {}
+  local list = assert(io.popen("ls -A '" .. path .. "' 2>/dev/null"))
+  for name in list:lines() do
+    names[#names + 1] = name
+  end
+  list:close()
+  return names
+end
+
+-- Red on the left half, a quarter of blue on the right; frame n moves the edge by n - 1 pixels.
+local PLAIN = [[
+local celspan = require "celspan"
+return celspan.film{ size = {8, 4}, frames = 12, fps = 12, title = "plain", frame = function(f)
+  return celspan.rostrum{ celspan.cel{
+    celspan.rect{ 0, 0, 8, 4, texture = celspan.rgb(0, 0, 1, 0.25) },
+    celspan.rect{ 0, 0, 4 + f.index, 4, texture = celspan.rgb(1, 0, 0) } } }
+end }
+]]
+
+-- As large as it needs to be to still run when a signal comes.
+local LONG = [[
+local celspan = require "celspan"
+return celspan.film{ size = {100, 100}, frames = 100000, frame = function(f)
+  return celspan.rostrum{ celspan.cel{ celspan.circle{ centre = {50, 50}, radius = 40 } } }
+end }
+]]
+
+local function usage_error(arguments, pattern)
+  local code, out, err = celspan(arguments)
+  assert.equal(2, code, err)
+  assert.equal("", out)
+  assert.truthy(err:match("^celspan: error: [^\n]+\n$"), "one line: " .. err)
+  assert.truthy(err:find(pattern, 1, true), err)
+end
+
+describe("the command line", function()
+  local plain
+
+  before_each(function()
+    folder = os.tmpname()
+    os.remove(folder)
+    assert(os.execute("mkdir '" .. folder .. "'"))
+    plain = write("plain.lua", PLAIN)
+  end)
+
+  after_each(function()
+    os.execute("rm -rf '" .. folder .. "'")
+  end)
+
+  describe("help", function()
+    it("prints the version", function()
+      local code, out, err = celspan("--version")
+      assert.same({ 0, "" }, { code, err })
+      assert.truthy(out:match("^celspan %d+%.%d+%.%d+\n$"))
+    end)
+
+    it("lists every verb, and says more about each", function()
+      local code, out = celspan("--help")
+      assert.equal(0, code)
+      for _, verb in ipairs { "render", "info", "check", "spans", "probe", "convert", "compare" } do
+        assert.truthy(out:find("\n  " .. verb .. " ", 1, true), verb)
+        local verb_code, text = celspan("help " .. verb)
+        assert.equal(0, verb_code)
+        assert.equal("celspan " .. verb .. " ", text:sub(1, 9 + #verb))
+        assert.same({ 0, text, "" }, { celspan(verb .. " --help") })
+      end
+    end)
+
+    it("shows no option that is not built", function()
+      local _, out = celspan("help render")
+      assert.falsy(out:find("--resume", 1, true))
+      assert.truthy(out:find("--frames LIST", 1, true))
+    end)
+
+    it("is wrong usage to give no verb, and goes to standard error", function()
+      local code, out, err = celspan("")
+      assert.equal(2, code)
+      assert.equal("", out)
+      assert.truthy(err:find("render", 1, true))
+    end)
+  end)
+
+  describe("wrong usage", function()
+    it("suggests the nearest verb and the nearest option", function()
+      usage_error("rendr x.lua", "did you mean 'render'?")
+      usage_error("render x.lua -o y.png --frmaes 1", "did you mean '--frames'?")
+      usage_error("render x.lua -o y.png --nothing-like-it 1", "celspan help render")
+    end)
+
+    it("names the option, what was given and what is allowed", function()
+      usage_error("render x.lua -o y.png --size 12", "--size: '12' is not width x height")
+      usage_error("render x.lua -o y.png --size 0x4", "--size")
+      usage_error("render x.lua -o y.png --size 4x1048577", "1048576")
+      usage_error("render x.lua -o y.png --crop 1,2,3", "--crop: '1,2,3' is not four")
+      usage_error("render x.lua -o y.png --scale -1", "--scale")
+      usage_error("render x.lua -o y.png --scale nan", "--scale")
+      usage_error("render x.lua -o y.png --depth 12", "8, 16, half or float")
+      usage_error("render x.lua -o y.png --workers 0", "1 to 1024")
+      usage_error("spans x.lua --rows 5-2", "--rows")
+      usage_error("render x.lua -o y.png --hash=1", "--hash takes no value")
+      usage_error("render x.lua -o", "-o needs a value")
+    end)
+
+    it("says what this version does not have", function()
+      for _, option in ipairs { "--resume", "--force", "--keep-going", "--memory 100",
+        "--progress json", "--progress=openjd", "--antialias gaussian", "--antialias lanczos:8" } do
+        usage_error("render x.lua -o y.png " .. option, "is not built into this version")
+      end
+      usage_error("render x.lua -o film.mp4", "is not built into this version")
+      usage_error("render x.lua -o shot.####.span", "is not built into this version")
+      usage_error("convert in.png out.span", "is not built into this version")
+    end)
+
+    it("counts operands", function()
+      usage_error("probe x.lua 1", "usage: celspan probe SCRIPT X Y")
+      usage_error("info x.lua y.lua", "'y.lua' is one too many")
+      usage_error("convert a b -- c", "runs none")
+      usage_error("probe " .. plain .. " one 2", "X: 'one' is not a number")
+    end)
+
+    it("refuses to guess", function()
+      usage_error("render " .. plain, "-o shot.####.png")
+      usage_error("render " .. plain .. " -o - --hash", "--hash")
+      usage_error("render " .. plain .. " -o y.png --size 4x4 --scale 2", "--scale")
+      usage_error("spans " .. plain .. " --pixels 8", "--stats")
+    end)
+
+    it("is asking for what the film does not have", function()
+      local one = folder .. "/one.png"
+      usage_error("render " .. plain .. " -o " .. one, "several frames")
+      usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 12-13", "13")
+      usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 1-3,2", "2")
+      usage_error("render " .. plain .. " -o " .. one .. " --frames 1 --crop 4,0,5,4", "8 x 4")
+      usage_error("spans " .. plain .. " --frame 13", "13")
+      usage_error("spans " .. plain .. " --rows 0-4", "rows 0 to 3")
+      assert.is_nil(read(one))
+    end)
+  end)
+
+  describe("failures", function()
+    local function failure(expected, arguments, pattern)
+      local code, out, err = celspan(arguments)
+      assert.equal(expected, code, err)
+      assert.equal("", out)
+      assert.truthy(err:find("^celspan: error: "), err)
+      assert.truthy(err:find(pattern, 1, true), err)
+    end
+
+    it("of a script that is missing end with 4", function()
+      failure(4, "info " .. folder .. "/none.lua", "none.lua")
+    end)
+
+    it("of a script end with 3 and tell file and line", function()
+      failure(3, "info " .. write("syntax.lua", "\nreturn )"), "syntax.lua:2:")
+      failure(3, "info " .. write("nothing.lua", "return 7"), "nothing.lua")
+      local bad = write("bad.lua", PLAIN:gsub("local celspan", "local gone\nlocal celspan", 1)
+        :gsub("%+ f%.index", "+ (f.number == 3 and gone.x or 0)"))
+      failure(3, "render " .. bad .. " --progress none -o " .. folder .. "/f.##.png", "frame 3")
+      failure(3, "spans " .. bad .. " --frame 3", "bad.lua:")
+      assert.same({ "f.01.png", "f.02.png" }, {
+        read(folder .. "/f.01.png") and "f.01.png", read(folder .. "/f.02.png") and "f.02.png" })
+      assert.is_nil(read(folder .. "/f.03.png"))
+    end)
+
+    it("of a picture end with 4", function()
+      local script = write("picture.lua", [[
+        local celspan = require "celspan"
+        return celspan.rostrum{ celspan.cel{ celspan.image{ file = "no-such.png" } } }]])
+      failure(4, "spans " .. script, "no-such.png")
+      failure(4, "check " .. script, "no-such.png")
+      failure(4, "convert " .. folder .. "/none.png " .. folder .. "/out.png", "none.png")
+    end)
+
+    it("of an output end with 5 and leave nothing behind", function()
+      write("file", "")
+      failure(5, "render " .. plain .. " --progress none --frames 1 -o " .. folder .. "/file/f.png",
+        "frame 1: ")
+      assert.equal(5, (celspan("spans " .. plain .. " > /dev/full")))
+      assert.equal(5, (celspan("render " .. plain .. " --progress none -o - > /dev/full")))
+      for _, name in ipairs(files_in(folder)) do
+        assert.falsy(name:find("%.part$"), name)
+      end
+    end)
+
+    it("of a closed pipe end with 5, not with a signal", function()
+      local code = shell("{ " .. BINARY .. " spans " .. plain
+        .. " --size 8x200000; echo $? > " .. folder .. "/code; } | head -n 1")
+      assert.equal(0, code)
+      assert.equal("5\n", read(folder .. "/code"))
+    end)
+  end)
+
+  describe("render", function()
+    it("writes numbered frames into folders that it makes", function()
+      local code, out, err = celspan("render " .. plain .. " -o " .. folder
+        .. "/new/deep/f.####.png --frames 2-4,9-11:2 --progress none")
+      assert.equal(0, code, err)
+      assert.same({ "", "" }, { out, err })
+      assert.same({ "f.0002.png", "f.0003.png", "f.0004.png", "f.0009.png", "f.0011.png" },
+        files_in(folder .. "/new/deep"))
+      assert.equal("\137PNG", read(folder .. "/new/deep/f.0002.png"):sub(1, 4))
+    end)
+
+    it("takes printf patterns, and a # run that grows with the number", function()
+      celspan("render " .. plain .. " -o " .. folder .. "/p%03d.png --frames 7 --progress none")
+      assert.truthy(read(folder .. "/p007.png"))
+      celspan("render " .. plain .. " -o " .. folder .. "/g#.png --frames 9-10 --progress none")
+      assert.truthy(read(folder .. "/g9.png"))
+      assert.truthy(read(folder .. "/g10.png"))
+    end)
+
+    it("writes one frame under a plain name, over one that is there", function()
+      local path = write("one.png", "old")
+      local code, _, err = celspan("render " .. plain .. " -o " .. path .. " --frames 5 --progress none")
+      assert.equal(0, code, err)
+      assert.equal("\137PNG", read(path):sub(1, 4))
+    end)
+
+    it("says a line a frame when asked to, on standard error alone", function()
+      local code, out, err = celspan("render " .. plain .. " -o " .. folder
+        .. "/f.#.png --frames 1-4 --progress lines")
+      assert.equal(0, code, err)
+      assert.equal("", out)
+      local lines = 0
+      for line in err:gmatch("[^\n]+") do
+        lines = lines + 1
+        assert.truthy(line:find("^celspan: "), line)
+      end
+      assert.equal(5, lines)
+      assert.truthy(err:find("(2 of 4, 50 %)", 1, true), err)
+    end)
+
+    it("draws a bar when asked to, and takes it away", function()
+      local code, out, err = celspan("render " .. plain .. " -o " .. folder
+        .. "/f.#.png --progress bar")
+      assert.equal(0, code)
+      assert.equal("", out)
+      assert.truthy(err:match("12 frames in 0:%d%d %(100 %%%)\n$"), err)
+    end)
+
+    it("puts raw frames on standard output, and nothing else", function()
+      local code, out, err = celspan("render " .. plain .. " -o - --frames 1-2 --progress none")
+      assert.equal(0, code, err)
+      assert.equal(2 * 8 * 4 * 4, #out)
+      assert.equal("\255\0\0\255", out:sub(1, 4))
+      assert.equal("\0\0\255\64", out:sub(29, 32))
+    end)
+
+    it("codes raw frames as asked", function()
+      local raw = "render " .. plain .. " -o - --frames 1 --progress none "
+      local _, deep = celspan(raw .. "--depth 16 --crop 7,3,1,1")
+      assert.same({ 0, 0, 65535, 16384, 9 }, { string.unpack("<I2I2I2I2", deep) })
+      local _, linear = celspan(raw .. "--depth float --crop 7,0,1,1")
+      local r, g, b, a = string.unpack("<ffff", linear)
+      assert.same({ 0, 0, 0.25, 0.25 }, { r, g, b, a })
+      local _, premultiplied = celspan(raw .. "--crop 7,0,1,1 --alpha premultiplied --colour linear")
+      assert.equal("\0\0\64\64", premultiplied)
+    end)
+
+    it("makes a crop of the same bytes as the part of the whole", function()
+      local raw = "render " .. plain .. " -o - --frames 1 --progress none --size 16x8 "
+      local _, whole = celspan(raw)
+      local _, crop = celspan(raw .. "--crop 3,2,9,4")
+      local rows = {}
+      for y = 2, 5 do
+        rows[#rows + 1] = whole:sub(4 * (16 * y + 3) + 1, 4 * (16 * y + 12))
+      end
+      assert.equal(4 * 9 * 4, #crop)
+      assert.equal(table.concat(rows), crop)
+    end)
+
+    it("scales the film", function()
+      local _, out = celspan("render " .. plain .. " -o - --frames 1 --progress none --scale 2.5")
+      assert.equal(20 * 10 * 4, #out)
+    end)
+
+    it("prints the same digests for any number of workers #workers", function()
+      local command = "render " .. plain .. " --hash --size 500x300 --progress none --workers "
+      local code, one = celspan(command .. "1")
+      assert.equal(0, code)
+      local _, four = celspan(command .. "4")
+      assert.equal(one, four)
+      local count = 0
+      for number, digest in one:gmatch("(%d+) (%x+)\n") do
+        count = count + 1
+        assert.equal(count, tonumber(number))
+        assert.equal(32, #digest)
+      end
+      assert.equal(12, count)
+      assert.equal(one:match("^[^\n]+\n"), (select(2, celspan(command .. "2 --frames 1"))))
+    end)
+
+    it("gives the script what stands after --", function()
+      local script = write("arguments.lua", [[
+        local celspan = require "celspan"
+        local width, name = ...
+        assert(name == "--size", name)
+        return celspan.film{ size = {tonumber(width), 1}, frames = 1, frame = function()
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 1, 1 } } } end }]])
+      local code, out, err = celspan("render " .. script .. " -o - --progress none -- 5 --size")
+      assert.equal(0, code, err)
+      assert.equal(5 * 4, #out)
+    end)
+
+    it("stops at a signal, dies by it and leaves no half frame", function()
+      local script = write("long.lua", LONG)
+      local code, _, err = shell(BINARY .. " render " .. script .. " --size 4000x4000 --progress none -o "
+        .. folder .. "/out/f.####.png & pid=$!; sleep 0.5; kill -TERM $pid; wait $pid; exit $?")
+      assert.equal(143, code, err)
+      for _, name in ipairs(files_in(folder .. "/out")) do
+        assert.truthy(name:find("^f%.%d+%.png$"), name)
+      end
+    end)
+  end)
+
+  describe("spans", function()
+    it("prints one line a span", function()
+      local code, out, err = celspan("spans " .. plain .. " --rows 0-1")
+      assert.equal(0, code, err)
+      assert.equal("0 0 4 single 1 0 0 1\n0 4 8 single 0 0 0.25 0.25\n"
+        .. "1 0 4 single 1 0 0 1\n1 4 8 single 0 0 0.25 0.25\n", out)
+    end)
+
+    it("prints the rows and the frame that were asked for", function()
+      local _, out = celspan("spans " .. plain .. " --frame 3 --rows 3-3 --antialias none")
+      assert.equal("3 0 6 single 1 0 0 1\n3 6 8 single 0 0 0.25 0.25\n", out)
+    end)
+
+    it("prints the first and the last pixel of a gradient", function()
+      local script = write("gradient.lua", [[
+        local celspan = require "celspan"
+        local ramp = celspan.linear{ from = {0, 0}, to = {8, 0}, {0, celspan.rgb(0, 0, 0)}, {1, celspan.rgb(1, 1, 1)} }
+        return celspan.film{ size = {8, 1}, frames = 1, frame = function()
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 8, 1, texture = ramp } } } end }]])
+      local _, out = celspan("spans " .. script .. " --antialias none")
+      assert.equal("0 0 8 gradient 0.0625 0.0625 0.0625 1 0.9375 0.9375 0.9375 1\n", out)
+    end)
+
+    local STATISTICS = "^rows (%d+) spans (%d+) single (%d+) gradient (%d+) array (%d+) "
+      .. "pixels_in_arrays (%d+) colour_evaluations (%d+) allocations (%d+) peak_bytes (%d+) "
+      .. "seconds (%d+%.%d+)\n$"
+
+    it("counts spans by kind", function()
+      local code, out, err = celspan("spans " .. plain .. " --stats")
+      assert.equal(0, code, err)
+      local rows, spans, single, gradient, array, pixels = out:match(STATISTICS)
+      assert.same({ "4", "8", "8", "0", "0", "0" }, { rows, spans, single, gradient, array, pixels }, out)
+    end)
+
+    it("counts the same when rows are made as pixels", function()
+      local _, counted = celspan("spans " .. plain .. " --stats --size 100x50")
+      for _, depth in ipairs { "8", "16", "half", "float" } do
+        local code, out = celspan("spans " .. plain .. " --stats --size 100x50 --pixels " .. depth)
+        assert.equal(0, code)
+        assert.same({ select(2, counted:find(" array %d+")) }, { select(2, out:find(" array %d+")) })
+        assert.truthy(out:match(STATISTICS), out)
+      end
+    end)
+
+    it("prints the same with any number of workers #workers", function()
+      local _, one = celspan("spans " .. plain .. " --size 99x77 --workers 1")
+      local _, four = celspan("spans " .. plain .. " --size 99x77 --workers 4")
+      assert.truthy(one:find("^0 0 "))
+      assert.equal(one, four)
+    end)
+  end)
+
+  describe("probe", function()
+    it("prints one colour", function()
+      assert.same({ 0, "1 0 0 1\n", "" }, { celspan("probe " .. plain .. " 1 1") })
+      assert.same({ 0, "0 0 0.25 0.25\n", "" }, { celspan("probe " .. plain .. " 7.5 1") })
+      assert.same({ 0, "1 0 0 1\n", "" }, { celspan("probe " .. plain .. " --frame 12 7.5 1") })
+    end)
+
+    it("takes negative coordinates", function()
+      assert.same({ 0, "0 0 0 0\n", "" }, { celspan("probe " .. plain .. " -1 -.5") })
+    end)
+  end)
+
+  describe("info", function()
+    it("prints a film in figures", function()
+      local code, out, err = celspan("info " .. plain)
+      assert.equal(0, code, err)
+      assert.equal("title plain\nframes 12\nfirst 1\nlast 12\nfps 12\nseconds 1\nsize 8x4\n"
+        .. "cels 1\nprimitives 2\npictures 0\n", out)
+    end)
+  end)
+
+  describe("check", function()
+    it("has nothing to say about a film that is right", function()
+      local code, out, err = celspan("check " .. plain)
+      assert.equal(0, code, err)
+      assert.equal("", out)
+      assert.truthy(err:find("12 frames checked: no faults", 1, true), err)
+    end)
+
+    it("finds frame functions that are not pure", function()
+      local script = write("impure.lua", (PLAIN:gsub("local celspan", "local n = 0\nlocal celspan", 1)
+        :gsub("return celspan%.rostrum", "n = n + 1\n  return celspan.rostrum")
+        :gsub("f%.index", "n")))
+      local code, _, err = celspan("check " .. script)
+      assert.equal(3, code, err)
+      assert.truthy(err:find("is not pure", 1, true), err)
+    end)
+
+    it("does not take procedures made anew in each frame for a fault", function()
+      local script = write("procedure.lua", [[
+        local celspan = require "celspan"
+        return celspan.film{ size = {8, 4}, frames = 3, frame = function(f)
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 8, 4 } - celspan.scanline{
+            bounds = {0, 0, 8, 4}, spans = function(y) return { {0, y, "#f00"} } end } } }
+        end }]])
+      local code, _, err = celspan("check " .. script)
+      assert.equal(0, code, err)
+    end)
+
+    it("goes on after a fault and reports each once", function()
+      local script = write("faults.lua", [[
+        local celspan = require "celspan"
+        return celspan.film{ size = {8, 4}, frames = 6, frame = function(f)
+          if f.number == 2 then error("the second is missing") end
+          if f.number == 5 then return 7 end
+          return celspan.rostrum{ celspan.cel{
+            celspan.image{ file = "gone.png", w = 3, h = 3 }, celspan.rect{ 0, 0, 8, 4 } } }
+        end }]])
+      local code, _, err = celspan("check " .. script)
+      assert.equal(4, code, err)
+      assert.truthy(err:find("the second is missing", 1, true), err)
+      assert.truthy(err:find("frame 5", 1, true), err)
+      local _, mentions = err:gsub("gone%.png", "")
+      assert.equal(1, mentions, err)
+    end)
+  end)
+
+  describe("convert and compare", function()
+    local function png(name, frame)
+      local path = folder .. "/" .. name
+      local code, _, err = celspan("render " .. plain .. " --progress none --frames " .. frame .. " -o " .. path)
+      assert.equal(0, code, err)
+      return path
+    end
+
+    it("keep every coded value of a PNG", function()
+      local a, b = png("a.png", 1), folder .. "/b.png"
+      local code, out, err = celspan("convert " .. a .. " " .. b)
+      assert.equal(0, code, err)
+      assert.same({ "", "" }, { out, err })
+      assert.same({ 0, "largest_difference 0 pixels_differing 0 pixels 32\n", "" },
+        { celspan("compare " .. a .. " " .. b) })
+    end)
+
+    it("tell the largest difference, where it is and how many pixels differ", function()
+      local a, b = png("a.png", 1), png("b.png", 2)
+      local code, out = celspan("compare " .. a .. " " .. b)
+      assert.equal(1, code)
+      assert.equal("largest_difference 1 x 4 y 0 channel r pixels_differing 4 pixels 32\n", out)
+      assert.equal(0, (celspan("compare " .. a .. " " .. b .. " --fail 1")))
+      assert.equal(1, (celspan("compare " .. a .. " " .. b .. " --fail 0.99")))
+    end)
+
+    it("tell sizes that differ", function()
+      local a, b = png("a.png", 1), folder .. "/b.png"
+      assert.equal(0, (celspan("convert " .. a .. " " .. b .. " --crop 4,1,3,2")))
+      assert.same({ 1, "sizes_differ 8x4 3x2\n", "" }, { celspan("compare " .. a .. " " .. b) })
+    end)
+
+    it("resize", function()
+      local a, b = png("a.png", 1), folder .. "/b.png"
+      assert.equal(0, (celspan("convert " .. a .. " " .. b .. " --size 4x2")))
+      local _, out = celspan("compare " .. a .. " " .. b)
+      assert.equal("sizes_differ 8x4 4x2\n", out)
+    end)
+  end)
+end)

@@ -1,0 +1,122 @@
+-- The pure functions of time: ease and keys.
+local celspan = require "celspan"
+local ease = require "celspan.ease"
+local keys = require "celspan.keys"
+
+describe("ease", function()
+  it("knows the names of flux, tween.lua and hump.timer", function()
+    for u = 0, 1, 0.125 do
+      local expected = ease "inOutQuad" (u)
+      assert.are.equal(expected, ease "quadinout" (u))
+      assert.are.equal(expected, ease "in-out-quad" (u))
+    end
+    assert.are.equal(ease "quad" (0.3), ease "inQuad" (0.3))
+  end)
+
+  it("starts at 0 and ends at 1, and holds outside", function()
+    for _, name in ipairs(ease.names) do
+      local curve = ease(name)
+      assert.are.same({ 0, 0, 1, 1 }, { curve(-1), curve(0), curve(1), curve(2) }, name)
+    end
+  end)
+
+  it("joins halves without a jump", function()
+    for _, name in ipairs(ease.names) do
+      local curve = ease(name)
+      assert.is_true(math.abs(curve(0.5 - 1e-9) - curve(0.5 + 1e-9)) < 1e-3, name)
+    end
+  end)
+
+  it("follows the known formulas", function()
+    assert.are.equal(0.25, ease "inQuad" (0.5))
+    assert.are.equal(0.75, ease "outQuad" (0.5))
+    assert.are.equal(0.125, ease "inCubic" (0.5))
+    assert.is_true(ease "outBack" (0.7) > 1)
+    assert.is_true(math.abs(ease "outBounce" (1 / 2.75) - 1) < 1e-12)
+  end)
+
+  it("steps", function()
+    local on_fours = ease "steps:4"
+    assert.are.same({ 0, 0.25, 0.25, 0.75, 1 },
+      { on_fours(0.2), on_fours(0.25), on_fours(0.49), on_fours(0.99), on_fours(1) })
+  end)
+
+  it("takes Bezier curves as CSS does", function()
+    local straight = ease "bezier:.25,.25,.75,.75"
+    for u = 0, 1, 0.1 do assert.is_true(math.abs(straight(u) - u) < 1e-12) end
+    assert.is_true(math.abs(ease "bezier:.42,0,.58,1" (0.5) - 0.5) < 1e-12)
+  end)
+
+  it("takes functions", function()
+    assert.are.equal(7, ease(function() return 7 end)(0))
+  end)
+
+  it("names the nearest curve", function()
+    local _, message = pcall(function() local _ = ease "inOutQad" end)
+    assert.is_truthy(message:find('did you mean "inoutquad"?', 1, true))
+    assert.is_truthy(message:find("timing_spec.lua:", 1, true))
+    assert.is_false(pcall(ease, "steps:0"))
+    assert.is_false(pcall(ease, "bezier:2,0,1,1"))
+  end)
+end)
+
+describe("keys", function()
+  it("mix numbers, arrays and paints", function()
+    assert.are.equal(15, keys { { 0, 10 }, { 2, 20 } }:at(1))
+    assert.are.same({ 1.5, 3 }, keys { { 0, { 1, 2 } }, { 1, { 2, 4 } } }:at(0.5))
+    local paint = keys { { 0, celspan.rgb(1, 0, 0) }, { 1, celspan.clear } }:at(0.5)
+    assert.are.equal(0.5, paint.beta)
+  end)
+
+  it("hold at the ends, and hold strings and booleans", function()
+    local x = keys { { 1, 10 }, { 2, 20 } }
+    assert.are.same({ 10, 20 }, { x:at(0), x:at(5) })
+    local mouth = keys { { 0, "open" }, { 1, "shut" }, { 2, "open" } }
+    assert.are.same({ "open", "shut", "shut", "open" },
+      { mouth:at(0.99), mouth:at(1), mouth:at(1.99), mouth:at(3) })
+    assert.is_true(keys { { 0, true }, { 1, false } }:at(0.5))
+  end)
+
+  it("ease into a key", function()
+    assert.are.equal(25, keys { { 0, 0 }, { 1, 100, "inQuad" } }:at(0.5))
+    assert.are.equal(40, keys { { 0, 0 }, { 1, 100, function() return 0.4 end } }:at(0.5))
+  end)
+
+  it("repeat and mirror", function()
+    local again = keys { { 0, 0 }, { 1, 10 }, loop = "repeat" }
+    assert.are.same({ 2.5, 2.5, 2.5 }, { again:at(0.25), again:at(3.25), again:at(-0.75) })
+    local back = keys { { 0, 0 }, { 1, 10 }, loop = "mirror" }
+    assert.are.same({ 7.5, 7.5, 7.5, 2.5 },
+      { back:at(0.75), back:at(1.25), back:at(-0.75), back:at(2.25) })
+  end)
+
+  it("jump where two keys share a time", function()
+    local x = keys { { 0, 0 }, { 1, 10 }, { 1, 50 }, { 2, 60 } }
+    assert.are.same({ 50, 55 }, { x:at(1), x:at(1.5) })
+  end)
+
+  it("do not change with the table they were made from", function()
+    local list = { { 0, { 1 } }, { 1, { 2 } } }
+    local x = keys(list)
+    list[1][2][1] = 99
+    assert.are.same({ 1 }, x:at(0))
+    x:at(0)[1] = 99
+    assert.are.same({ 1 }, x:at(0))
+  end)
+
+  it("complain at the line that made them", function()
+    local cases = {
+      { "keys: key 2 must be {time, value}, got number", { { 0, 1 }, 3 } },
+      { "keys: key 2 is of another kind (held) than the first (number)", { { 0, 1 }, { 1, "x" } } },
+      { "keys: key 2 is at 1, before the key before it", { { 2, 1 }, { 1, 2 } } },
+      { "keys: key 2 has 1 numbers, the first has 2", { { 0, { 1, 2 } }, { 1, { 1 } } } },
+      { "keys: needs at least one key {time, value}", {} },
+      { "keys: unknown field 'lop'; did you mean 'loop'?", { { 0, 1 }, lop = "repeat" } },
+      { 'keys: loop must be "repeat" or "mirror", got no', { { 0, 1 }, loop = "no" } },
+    }
+    for _, case in ipairs(cases) do
+      local _, message = pcall(function() local _ = keys(case[2]) end)
+      assert.are.equal(case[1], message:match "timing_spec%.lua:%d+: (.*)$")
+    end
+  end)
+end)

@@ -1,0 +1,49 @@
+/* Checks for unit tests: a plain main calls them and ends with `return check_done();`. A failed
+ * check is printed with its place and the test goes on.
+ */
+#ifndef CELSPAN_TESTS_CHECK_H
+#define CELSPAN_TESTS_CHECK_H
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static int check_count, check_failures;
+
+static inline int check_record(int passed, const char *file, int line, const char *what) {
+  check_count++;
+  if (!passed && ++check_failures <= 20)
+    fprintf(stderr, "%s:%d: failed: %s\n", file, line, what);
+  return passed;
+}
+
+static inline int check_near(double a, double b, double tolerance, const char *file, int line,
+                             const char *what) {
+  char text[256];
+  snprintf(text, sizeof text, "%s (%.17g against %.17g)", what, a, b);
+  return check_record(fabs(a - b) <= tolerance, file, line, text);
+}
+
+static inline int check_text(const char *a, const char *b, const char *file, int line,
+                             const char *what) {
+  char text[512];
+  snprintf(text, sizeof text, "%s (\"%s\" against \"%s\")", what, a ? a : "(null)",
+           b ? b : "(null)");
+  return check_record(a && b && strcmp(a, b) == 0, file, line, text);
+}
+
+/* Each is 1 when it passed, 0 when it failed. */
+#define CHECK(condition) check_record(!!(condition), __FILE__, __LINE__, #condition)
+#define CHECK_NEAR(a, b, tolerance) \
+  check_near((a), (b), (tolerance), __FILE__, __LINE__, #a " near " #b)
+#define CHECK_TEXT(a, b) check_text((a), (b), __FILE__, __LINE__, #a " is " #b)
+
+static inline int check_done(void) {
+  if (check_failures)
+    printf("%d of %d checks failed\n", check_failures, check_count);
+  else
+    printf("%d checks passed\n", check_count);
+  return check_failures != 0;
+}
+
+#endif

@@ -1,0 +1,139 @@
+-- Checks that includes go only down the list of folders, and never in a circle.
+--
+--   lua5.4 tests/support/includes.lua [ROOT]
+--
+-- The list is the one in src/meson.build, followed by the folders that are built apart. The public
+-- header, celspan/..., may be included from everywhere and includes nothing of ours.
+
+local root = arg[1] or "."
+local BUILT_APART = { "picture", "bind", "cli" }
+
+local function read(path)
+  local file = assert(io.open(path, "r"))
+  local text = file:read("a")
+  file:close()
+  return text
+end
+
+local function folder_ranks()
+  local list = read(root .. "/src/meson.build"):match("foreach%s+layer%s*:%s*(%b[])")
+  assert(list, "src/meson.build: no list of layers found")
+  local ranks, count = {}, 0
+  local function add(name)
+    count = count + 1
+    ranks[name] = count
+  end
+  for name in list:gmatch("'([%w_]+)'") do
+    add(name)
+  end
+  for _, name in ipairs(BUILT_APART) do
+    if not ranks[name] then
+      add(name)
+    end
+  end
+  return ranks
+end
+
+local function source_files()
+  local paths = {}
+  local find = assert(io.popen("cd '" .. root .. "/src' && find . -name '*.[ch]' -o -name '*.cpp' | sort"))
+  for line in find:lines() do
+    paths[#paths + 1] = line:sub(3)
+  end
+  find:close()
+  return paths
+end
+
+local function includes_of(path)
+  local found, number = {}, 0
+  for line in (read(root .. "/src/" .. path) .. "\n"):gmatch("(.-)\n") do
+    number = number + 1
+    local name = line:match('^%s*#%s*include%s*"([^"]+)"')
+    if name then
+      found[#found + 1] = { name = name, line = number }
+    end
+  end
+  return found
+end
+
+local faults = {}
+local function fault(format, ...)
+  faults[#faults + 1] = string.format(format, ...)
+end
+
+local ranks = folder_ranks()
+local paths = source_files()
+local known, edges = {}, {}
+for _, path in ipairs(paths) do
+  known[path:gsub("^include/", "")] = true
+end
+
+-- A header that the build makes is named in its folder's meson.build.
+local function is_generated(name)
+  local folder, file = name:match("^([%w_]+)/([%w_]+%.h)$")
+  local build = folder and io.open(("%s/src/%s/meson.build"):format(root, folder))
+  if not build then
+    return false
+  end
+  local text = build:read("a")
+  build:close()
+  return text:find("'" .. file .. "'", 1, true) ~= nil
+end
+
+local function check_include(path, include)
+  local place = ("src/%s:%d"):format(path, include.line)
+  local from, to = path:match("^([%w_]+)/"), include.name:match("^([%w_]+)/")
+  if not known[include.name] and not is_generated(include.name) then
+    fault('%s: "%s" is no file of src/ (write it as "folder/file.h")', place, include.name)
+  elseif to == "celspan" then
+    return
+  elseif from == "include" then
+    fault('%s: the public header includes "%s", which is not public', place, include.name)
+  elseif not ranks[from] or not ranks[to] then
+    fault("%s: the folder %s is not in the list", place, ranks[from] and to or from)
+  elseif ranks[to] > ranks[from] then
+    fault('%s: "%s" is above %s/ in the list of folders', place, include.name, from)
+  end
+end
+
+local checks = 0
+for _, path in ipairs(paths) do
+  local name = path:gsub("^include/", "")
+  edges[name] = {}
+  for _, include in ipairs(includes_of(path)) do
+    checks = checks + 1
+    check_include(path, include)
+    table.insert(edges[name], include.name)
+  end
+end
+
+local DONE, OPEN = 2, 1
+local state = {}
+local function visit(name, trail)
+  if state[name] == DONE or not edges[name] then
+    return
+  end
+  trail[#trail + 1] = name
+  if state[name] == OPEN then
+    fault("includes go in a circle: %s", table.concat(trail, " -> "))
+  else
+    state[name] = OPEN
+    for _, next_name in ipairs(edges[name]) do
+      visit(next_name, trail)
+    end
+    state[name] = DONE
+  end
+  trail[#trail] = nil
+end
+for _, path in ipairs(paths) do
+  visit(path:gsub("^include/", ""), {})
+end
+
+for _, sentence in ipairs(faults) do
+  io.stderr:write(sentence, "\n")
+end
+if #faults > 0 then
+  print(("%d of %d checks failed"):format(#faults, checks))
+  os.exit(1)
+end
+print(("%d checks passed"):format(checks))

@@ -1,0 +1,48 @@
+/* A memory hook for tests: counts what is held, checks the sizes it is told, and can make the n-th
+ * allocation fail. */
+#ifndef CELSPAN_TESTS_MEMORY_H
+#define CELSPAN_TESTS_MEMORY_H
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "celspan/celspan.h"
+
+typedef struct memory_watch {
+  size_t blocks, bytes;
+  size_t size_errors; /* blocks resized or freed with another size than they had */
+  size_t allocations; /* made so far, failed ones included */
+  size_t fail_at;     /* the allocation of this number fails, counted from 1; 0: none */
+} memory_watch;
+
+typedef union memory_header {
+  size_t size;
+  max_align_t align;
+} memory_header;
+
+static inline void *memory_watch_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  memory_watch *watch = user;
+  memory_header *header = block ? (memory_header *)block - 1 : NULL;
+  if (header && header->size != old_size)
+    watch->size_errors++;
+  if (new_size > 0 && ++watch->allocations == watch->fail_at)
+    return NULL;
+  watch->blocks += (new_size > 0) - (size_t)(block != NULL);
+  watch->bytes += new_size - (header ? header->size : 0);
+  if (new_size == 0) {
+    free(header);
+    return NULL;
+  }
+  header = realloc(header, sizeof *header + new_size);
+  header->size = new_size;
+  return header + 1;
+}
+
+static inline celspan_context *memory_watch_context(memory_watch *watch) {
+  celspan_context_desc desc = {
+      .struct_size = sizeof desc, .resize = memory_watch_resize, .resize_user = watch};
+  celspan_context *context = NULL;
+  return celspan_context_create(&desc, &context) == CELSPAN_OK ? context : NULL;
+}
+
+#endif

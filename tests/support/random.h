@@ -1,0 +1,27 @@
+/* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). */
+#ifndef CELSPAN_TESTS_RANDOM_H
+#define CELSPAN_TESTS_RANDOM_H
+
+#include <stdint.h>
+
+typedef struct test_random {
+  uint64_t state;
+} test_random;
+
+static inline uint64_t random_bits(test_random *random) {
+  uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+static inline double random_between(test_random *random, double low, double high) {
+  return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
+}
+
+/* 0 .. count - 1 */
+static inline int random_below(test_random *random, int count) {
+  return (int)(random_bits(random) % (uint64_t)count);
+}
+
+#endif

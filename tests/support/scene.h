@@ -1,0 +1,145 @@
+/* Scenes in few words, for tests: everything made is kept in a list and let go at the end; a
+ * failure is a failed check. */
+#ifndef CELSPAN_TESTS_SCENE_H
+#define CELSPAN_TESTS_SCENE_H
+
+#include "celspan/celspan.h"
+#include "tests/support/check.h"
+
+#define STUDIO_CAPACITY 512
+
+/* Where a test builds its scene. */
+typedef struct studio {
+  celspan_context *context;
+  celspan_object *objects[STUDIO_CAPACITY];
+  celspan_texture *textures[STUDIO_CAPACITY];
+  celspan_cel *cels[STUDIO_CAPACITY];
+  celspan_rostrum *rostrums[STUDIO_CAPACITY];
+  size_t object_count, texture_count, cel_count, rostrum_count;
+} studio;
+
+static inline void studio_finish(studio *s) {
+  while (s->rostrum_count > 0)
+    celspan_rostrum_unref(s->rostrums[--s->rostrum_count]);
+  while (s->cel_count > 0)
+    celspan_cel_unref(s->cels[--s->cel_count]);
+  while (s->object_count > 0)
+    celspan_object_unref(s->objects[--s->object_count]);
+  while (s->texture_count > 0)
+    celspan_texture_unref(s->textures[--s->texture_count]);
+}
+
+static inline void studio_check(studio *s, celspan_status status) {
+  if (!CHECK(status == CELSPAN_OK))
+    fprintf(stderr, "  %s\n", celspan_context_error(s->context));
+}
+
+/* Takes the new value of a call into the studio and gives it back: NULL after a failed check. */
+#define STUDIO_TAKE(s, list, count, type, call)                                                    \
+  type *made = NULL;                                                                               \
+  studio_check(s, call);                                                                           \
+  if (made)                                                                                        \
+    s->list[s->count++] = made;                                                                    \
+  return made
+
+static inline celspan_texture *studio_paint(studio *s, celspan_paint paint) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_paint(s->context, &paint, &made));
+}
+
+static inline celspan_texture *studio_linear(studio *s, celspan_point from, celspan_point to,
+                                             const celspan_stop *stops, size_t count) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_linear(s->context, from, to, stops, count, &made));
+}
+
+static inline celspan_texture *studio_radial(studio *s, celspan_point centre, double radius,
+                                             const celspan_stop *stops, size_t count) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_radial(s->context, centre, radius, stops, count, &made));
+}
+
+static inline celspan_texture *studio_gradient(studio *s, const celspan_point points[3],
+                                               const celspan_paint paints[3]) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_gradient(s->context, points, paints, &made));
+}
+
+static inline celspan_object *studio_rect(studio *s, double x, double y, double width,
+                                          double height, celspan_texture *texture) {
+  celspan_rect_desc desc = {x, y, width, height, 0, texture};
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_rect(s->context, &desc, &made));
+}
+
+static inline celspan_object *studio_circle(studio *s, double x, double y, double radius,
+                                            celspan_texture *texture) {
+  celspan_ellipse_desc desc = {{x, y}, radius, radius, texture};
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_ellipse(s->context, &desc, &made));
+}
+
+static inline celspan_object *studio_polygon(studio *s, const celspan_point *points, size_t count,
+                                             celspan_rule rule, celspan_texture *texture) {
+  celspan_polygon_desc desc = {points, count, rule, texture};
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_polygon(s->context, &desc, &made));
+}
+
+static inline celspan_object *studio_path(studio *s, const char *data, celspan_texture *texture) {
+  celspan_path_desc desc = {data, CELSPAN_RULE_NONZERO, texture};
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_path(s->context, &desc, &made));
+}
+
+static inline celspan_object *studio_scanline(studio *s, const celspan_scanline_desc *desc) {
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_scanline(s->context, desc, &made));
+}
+
+static inline celspan_object *studio_boolean(studio *s, celspan_operator op,
+                                             celspan_object *const *operands, size_t count) {
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_create_boolean(s->context, op, operands, count, &made));
+}
+
+static inline celspan_object *studio_pair(studio *s, celspan_operator op, celspan_object *a,
+                                          celspan_object *b) {
+  celspan_object *const operands[] = {a, b};
+  return studio_boolean(s, op, operands, 2);
+}
+
+static inline celspan_object *studio_transform(studio *s, celspan_object *object,
+                                               celspan_matrix matrix) {
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_transform(s->context, object, &matrix, &made));
+}
+
+static inline celspan_object *studio_fade(studio *s, celspan_object *object, double k) {
+  STUDIO_TAKE(s, objects, object_count, celspan_object,
+              celspan_object_fade(s->context, object, k, &made));
+}
+
+static inline celspan_cel *studio_cel(studio *s, celspan_cel_desc desc,
+                                      celspan_object *const *objects, size_t count) {
+  desc.objects = objects;
+  desc.object_count = count;
+  STUDIO_TAKE(s, cels, cel_count, celspan_cel, celspan_cel_create(s->context, &desc, &made));
+}
+
+static inline celspan_rostrum *studio_rostrum(studio *s, celspan_rostrum_desc desc,
+                                              celspan_cel *const *cels, size_t count) {
+  desc.cels = cels;
+  desc.cel_count = count;
+  STUDIO_TAKE(s, rostrums, rostrum_count, celspan_rostrum,
+              celspan_rostrum_create(s->context, &desc, &made));
+}
+
+/* One cel of one object, everything else at its default. */
+static inline celspan_rostrum *studio_show(studio *s, celspan_object *object) {
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, &object, 1);
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+}
+
+#undef STUDIO_TAKE
+#endif

@@ -1,0 +1,585 @@
+/* Pictures in and out: what is written is read back as light, and what is broken is refused. */
+#include <pthread.h>
+#include <sys/stat.h>
+
+#include "tests/support/memory.h"
+#include "tests/support/picture.h"
+
+static celspan_context *context;
+
+/* ---------------------------------------------------------------- paints */
+
+static void paint_waves(int x, int y, float rgba[4]) {
+  float alpha = (float)(1 + (x * 7 + y * 3) % 16) / 16;
+  rgba[0] = alpha * (float)(x % 32) / 31;
+  rgba[1] = alpha * (float)(y % 16) / 15;
+  rgba[2] = alpha * (float)((x + y) % 8) / 7;
+  rgba[3] = alpha;
+}
+
+static void paint_opaque(int x, int y, float rgba[4]) {
+  paint_waves(x, y, rgba);
+  for (int c = 0; c < 3; c++)
+    rgba[c] /= rgba[3];
+  rgba[3] = 1;
+}
+
+static void paint_over_black(int x, int y, float rgba[4]) {
+  paint_waves(x, y, rgba);
+  rgba[3] = 1;
+}
+
+static void paint_smooth(int x, int y, float rgba[4]) {
+  rgba[0] = (float)x / 200;
+  rgba[1] = (float)y / 200;
+  rgba[2] = 0.25f;
+  rgba[3] = 1;
+}
+
+static void paint_bright(int x, int y, float rgba[4]) {
+  rgba[0] = (float)(x + 1);
+  rgba[1] = (float)(y + 1) / 64;
+  rgba[2] = 0.5f;
+  rgba[3] = 1;
+}
+
+/* ---------------------------------------------------------------- out and in again */
+
+/* The greatest difference between what was painted and what is read. */
+static double difference(const cs_picture *picture, int width, int height, picture_paint paint) {
+  double worst = 0;
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x++) {
+      float wanted[4], got[4];
+      paint(x, y, wanted);
+      if (picture_texel(context, picture, 0, x, y, got) != CELSPAN_OK)
+        return INFINITY;
+      for (int c = 0; c < 4; c++)
+        worst = fmax(worst, fabs((double)wanted[c] - (double)got[c]));
+    }
+  return worst;
+}
+
+typedef struct round_trip {
+  const char *name;
+  celspan_depth depth;
+  picture_paint paint, expected;
+  double tolerance;
+  const char *format, *colour;
+  bool has_alpha, is_float;
+} round_trip;
+
+static void test_round_trip(const round_trip *t) {
+  const char *path = picture_path(t->name);
+  celspan_coding coding = {.depth = t->depth};
+  cs_picture *picture;
+  celspan_picture_info info;
+  if (!CHECK(picture_write(context, path, &coding, 150, 100, t->paint) == CELSPAN_OK) ||
+      !CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK)) {
+    fprintf(stderr, "%s: %s\n", t->name, celspan_context_error(context));
+    return;
+  }
+  CHECK(info.width == 150 && info.height == 100);
+  CHECK(info.has_alpha == t->has_alpha && info.is_float == t->is_float);
+  CHECK_TEXT(info.format, t->format);
+  CHECK_TEXT(info.colour, t->colour);
+  if (!CHECK_NEAR(difference(picture, 150, 100, t->expected), 0, t->tolerance))
+    fprintf(stderr, "  %s: %s\n", t->name, celspan_context_error(context));
+  cs_picture_unref(picture);
+  unlink(path);
+}
+
+static void test_round_trips(void) {
+  const double byte = 0.006, fine = 3e-5;
+  const round_trip trips[] = {
+      {"a.png", CELSPAN_DEPTH_8, paint_waves, paint_waves, byte, "png", "srgb", true, false},
+      {"b.png", CELSPAN_DEPTH_16, paint_waves, paint_waves, fine, "png", "srgb", true, false},
+      {"a.tif", CELSPAN_DEPTH_DEFAULT, paint_waves, paint_waves, byte, "tiff", "srgb", true, false},
+      {"b.tif", CELSPAN_DEPTH_16, paint_waves, paint_waves, fine, "tiff", "srgb", true, false},
+      {"c.tif", CELSPAN_DEPTH_FLOAT, paint_waves, paint_waves, 1e-6, "tiff", "linear", true, true},
+      {"a.exr", CELSPAN_DEPTH_DEFAULT, paint_waves, paint_waves, 3e-4, "openexr", "linear", true,
+       true},
+      {"b.exr", CELSPAN_DEPTH_FLOAT, paint_waves, paint_waves, 0, "openexr", "linear", true, true},
+      {"a.tga", CELSPAN_DEPTH_8, paint_waves, paint_waves, byte, "targa", "srgb", true, false},
+      {"a.webp", CELSPAN_DEPTH_8, paint_opaque, paint_opaque, byte, "webp", "srgb", false, false},
+      {"a.bmp", CELSPAN_DEPTH_8, paint_waves, paint_over_black, byte, "bmp", "srgb", false, false},
+      {"a.ppm", CELSPAN_DEPTH_8, paint_waves, paint_over_black, byte, "pnm", "srgb", false, false},
+      {"a.hdr", CELSPAN_DEPTH_FLOAT, paint_waves, paint_over_black, 8e-3, "hdr", "linear", false,
+       true},
+      {"a.jpg", CELSPAN_DEPTH_8, paint_smooth, paint_smooth, 0.03, "jpeg", "srgb", false, false},
+      {"a.jp2", CELSPAN_DEPTH_8, paint_smooth, paint_smooth, 0.03, "jpeg2000", "srgb", false,
+       false},
+      {"a.dpx", CELSPAN_DEPTH_DEFAULT, paint_waves, paint_over_black, 0.005, "dpx", "cineon", false,
+       false},
+      {"b.dpx", CELSPAN_DEPTH_16, paint_waves, paint_over_black, 1e-4, "dpx", "cineon", false,
+       false},
+  };
+  for (size_t i = 0; i < sizeof trips / sizeof *trips; i++)
+    test_round_trip(&trips[i]);
+}
+
+static void test_light_beyond_white(void) {
+  const char *path = picture_path("bright.exr");
+  cs_picture *picture;
+  celspan_picture_info info;
+  float rgba[4];
+  CHECK(picture_write(context, path, NULL, 70, 3, paint_bright) == CELSPAN_OK);
+  if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
+    return;
+  CHECK(picture_texel(context, picture, 0, 69, 2, rgba) == CELSPAN_OK);
+  CHECK_NEAR(rgba[0], 70, 0);
+  cs_picture_unref(picture);
+  unlink(path);
+}
+
+/* ---------------------------------------------------------------- levels */
+
+/* Every level against the mean taken in double over the picture's own pixels. */
+static void check_levels(const cs_picture *picture, int width, int height, picture_paint paint) {
+  double worst = 0;
+  int level = 0;
+  for (int w = width, h = height;; w = (w + 1) / 2, h = (h + 1) / 2, level++) {
+    for (int y = 0; y < h; y += 3)
+      for (int x = 0; x < w; x += (w > 5 ? 5 : 1)) {
+        double sum[4] = {0}, count = 0;
+        for (int j = y << level; j < (y + 1) << level && j < height; j++)
+          for (int i = x << level; i < (x + 1) << level && i < width; i++, count++) {
+            float pixel[4];
+            paint(i, j, pixel);
+            for (int c = 0; c < 4; c++)
+              sum[c] += (double)pixel[c];
+          }
+        float got[4];
+        if (!CHECK(picture_texel(context, picture, level, x, y, got) == CELSPAN_OK))
+          return;
+        for (int c = 0; c < 4; c++)
+          worst = fmax(worst, fabs(sum[c] / count - (double)got[c]));
+      }
+    if (w == 1 && h == 1)
+      break;
+  }
+  CHECK_NEAR(worst, 0, 2e-6);
+}
+
+static void test_levels(void) {
+  const char *path = picture_path("levels.exr");
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  cs_picture *picture;
+  celspan_picture_info info;
+  CHECK(picture_write(context, path, &coding, 333, 157, paint_waves) == CELSPAN_OK);
+  if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
+    return;
+  check_levels(picture, 333, 157, paint_waves);
+  cs_picture_unref(picture);
+  unlink(path);
+}
+
+/* ---------------------------------------------------------------- budget and threads */
+
+typedef struct reading {
+  celspan_context *context;
+  const cs_picture *picture;
+  int width, height, direction;
+  uint64_t digest;
+  celspan_status status;
+} reading;
+
+static uint64_t digest_block(celspan_context *on, const cs_picture *picture, int level, int column,
+                             int row, celspan_status *status) {
+  cs_picture_block *block;
+  *status = cs_picture_acquire(on, picture, level, column, row, &block);
+  if (*status != CELSPAN_OK)
+    return 0;
+  uint32_t words[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
+  memcpy(words, cs_picture_texels(block), sizeof words);
+  cs_picture_release(on, block);
+  uint64_t digest = (uint64_t)(level * 1000 + column * 100 + row);
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    digest = (digest ^ words[i]) * 0x100000001b3u;
+  return digest;
+}
+
+/* All blocks of all levels; the sum does not depend on their order. */
+static void *read_all(void *user) {
+  reading *r = user;
+  int w = r->width, h = r->height;
+  for (int level = 0;; level++, w = (w + 1) / 2, h = (h + 1) / 2) {
+    int columns = (w + 63) / 64, rows = (h + 63) / 64;
+    for (int i = 0; i < columns * rows && r->status == CELSPAN_OK; i++) {
+      int at = r->direction > 0 ? i : columns * rows - 1 - i;
+      r->digest += digest_block(r->context, r->picture, level, at % columns, at / columns,
+                                &r->status);
+    }
+    if (w == 1 && h == 1)
+      return NULL;
+  }
+}
+
+static uint64_t digest_with(const char *path, size_t budget, int threads) {
+  celspan_context_desc desc = {.struct_size = sizeof desc, .picture_bytes = budget};
+  celspan_context *own, branches[4];
+  cs_picture *picture;
+  celspan_picture_info info;
+  pthread_t ids[4];
+  reading readings[4];
+  CHECK(celspan_context_create(&desc, &own) == CELSPAN_OK);
+  if (!CHECK(picture_open(own, path, &picture, &info) == CELSPAN_OK))
+    return 0;
+  for (int i = 0; i < threads; i++) {
+    cs_context_branch(&branches[i], own);
+    readings[i] = (reading){&branches[i], picture, info.width, info.height, i % 2 ? -1 : 1, 0, 0};
+    pthread_create(&ids[i], NULL, read_all, &readings[i]);
+  }
+  for (int i = 0; i < threads; i++) {
+    pthread_join(ids[i], NULL);
+    CHECK(readings[i].status == CELSPAN_OK && readings[i].digest == readings[0].digest);
+  }
+  cs_picture_unref(picture);
+  celspan_context_destroy(own);
+  return readings[0].digest;
+}
+
+static void test_budget_and_threads(void) {
+  const char *names[] = {"budget.png", "budget.exr", "budget.tif"};
+  for (int i = 0; i < 3; i++) {
+    const char *path = picture_path(names[i]);
+    CHECK(picture_write(context, path, NULL, 701, 403, paint_waves) == CELSPAN_OK);
+    uint64_t ample = digest_with(path, (size_t)64 << 20, 1);
+    CHECK(ample == digest_with(path, (size_t)64 << 20, 2));
+    CHECK(ample == digest_with(path, (size_t)3 << 20, 2));
+    CHECK(ample == digest_with(path, (size_t)1 << 19, 2));
+    CHECK(ample == digest_with(path, 1, 2));
+    unlink(path);
+  }
+}
+
+/* ---------------------------------------------------------------- what is refused */
+
+static void write_bytes(const char *path, const void *bytes, size_t size) {
+  FILE *file = fopen(path, "wb");
+  CHECK(file && fwrite(bytes, 1, size, file) == size);
+  if (file)
+    fclose(file);
+}
+
+/* The status of reading every block of a file. */
+static celspan_status read_file(const char *path) {
+  celspan_context *own;
+  cs_picture *picture;
+  celspan_picture_info info;
+  if (celspan_context_create(NULL, &own) != CELSPAN_OK)
+    return CELSPAN_NO_MEMORY;
+  celspan_status status = picture_open(own, path, &picture, &info);
+  if (status == CELSPAN_OK) {
+    float rgba[4];
+    for (int y = 0; y < info.height && status == CELSPAN_OK; y += 64)
+      for (int x = 0; x < info.width && status == CELSPAN_OK; x += 64)
+        status = picture_texel(own, picture, 0, x, y, rgba);
+    cs_picture_unref(picture);
+  }
+  if (status != CELSPAN_OK) {
+    CHECK(strstr(celspan_context_error(own), path));
+    celspan_context_fail(context, status, "%s", celspan_context_error(own));
+  }
+  celspan_context_destroy(own);
+  return status;
+}
+
+static void test_missing(void) {
+  const char *path = picture_path("none.png");
+  CHECK(read_file(path) == CELSPAN_INPUT);
+  CHECK(strstr(celspan_context_error(context), "No such file"));
+  CHECK(read_file("/tmp") == CELSPAN_INPUT);
+  write_bytes(path, "", 0);
+  CHECK(read_file(path) == CELSPAN_INPUT && strstr(celspan_context_error(context), "empty"));
+  write_bytes(path, "these are not the pixels", 24);
+  CHECK(read_file(path) == CELSPAN_INPUT);
+  write_bytes(path, "FOR4 and so on, an iff file", 27);
+  CHECK(read_file(path) == CELSPAN_INPUT && strstr(celspan_context_error(context), "IFF"));
+  unlink(path);
+}
+
+static void test_truncated(void) {
+  static const char *const names[] = {"t.png", "t.tif", "t.exr", "t.tga", "t.dpx", "t.jpg", "t.bmp",
+                                      "t.ppm", "t.hdr", "t.webp", "t.gif", "t.jp2"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const char *path = picture_path(names[i]);
+    struct stat status;
+    if (!CHECK(picture_write(context, path, NULL, 300, 200, paint_opaque) == CELSPAN_OK)) {
+      fprintf(stderr, "  %s: %s\n", names[i], celspan_context_error(context));
+      continue;
+    }
+    CHECK(read_file(path) == CELSPAN_OK);
+    CHECK(stat(path, &status) == 0 && truncate(path, status.st_size * 6 / 10) == 0);
+    if (!CHECK(read_file(path) == CELSPAN_INPUT))
+      fprintf(stderr, "  %s cut to %lld bytes\n", names[i], (long long)status.st_size * 6 / 10);
+    CHECK(truncate(path, 30) == 0);
+    CHECK(read_file(path) != CELSPAN_OK);
+    unlink(path);
+  }
+}
+
+/* Every byte of small files, changed: the answer may be anything but a crash or a hang. */
+static void test_corrupt(void) {
+  static const char *const names[] = {"c.png", "c.tga", "c.exr", "c.gif"};
+  static unsigned char bytes[1 << 16];
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    const char *path = picture_path(names[i]);
+    CHECK(picture_write(context, path, NULL, 9, 7, paint_opaque) == CELSPAN_OK);
+    FILE *file = fopen(path, "rb");
+    size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+    if (file)
+      fclose(file);
+    size_t refused = 0;
+    for (size_t at = 0; at < size; at += 1 + size / 100) {
+      unsigned char kept = bytes[at];
+      bytes[at] ^= 0xa5;
+      write_bytes(path, bytes, size);
+      refused += read_file(path) != CELSPAN_OK;
+      bytes[at] = kept;
+    }
+    CHECK(refused > 0);
+    unlink(path);
+  }
+}
+
+static void test_huge_headers(void) {
+  const char *path = picture_path("huge.tga");
+  unsigned char tga[18] = {0, 0, 2, [12] = 0xff, 0xff, 0xff, 0xff, 32, 8};
+  write_bytes(path, tga, sizeof tga);
+  CHECK(read_file(path) == CELSPAN_LIMIT);
+  CHECK(strstr(celspan_context_error(context), "65535 x 65535"));
+  unsigned char gif[13] = {'G', 'I', 'F', '8', '9', 'a', 0xff, 0xff, 0xff, 0xff};
+  write_bytes(path, gif, sizeof gif);
+  CHECK(read_file(path) == CELSPAN_LIMIT);
+  unsigned char psd[26] = {'8', 'B', 'P', 'S', 0, 1, [13] = 3, 0x7f, 0, 0, 1, 0x7f, 0, 0, 1, 0, 8, 0, 3};
+  write_bytes(path, psd, sizeof psd);
+  CHECK(read_file(path) == CELSPAN_LIMIT);
+  unlink(path);
+}
+
+static void test_changed(void) {
+  const char *path = picture_path("changed.tif");
+  cs_picture *picture;
+  celspan_picture_info info;
+  float rgba[4];
+  CHECK(picture_write(context, path, NULL, 65, 40, paint_opaque) == CELSPAN_OK);
+  if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
+    return;
+  CHECK(picture_write(context, path, NULL, 65, 41, paint_waves) == CELSPAN_OK);
+  CHECK(picture_texel(context, picture, 0, 0, 0, rgba) == CELSPAN_INPUT);
+  CHECK(strstr(celspan_context_error(context), "changed"));
+  cs_picture_unref(picture);
+  unlink(path);
+}
+
+static void test_arguments(void) {
+  celspan_picture_info info;
+  celspan_picture_desc desc = {.file = ""};
+  unsetenv("OCIO");
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+  desc = (celspan_picture_desc){.file = "a.png", .colour = "mauve"};
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "mauve"));
+  desc = (celspan_picture_desc){.file = "a.png", .subimage = -1};
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void test_hash(void) {
+  const celspan_picture_desc descs[] = {{.file = "a"},
+                                        {.file = "b"},
+                                        {.file = "a", .colour = "srgb"},
+                                        {.file = "a", .layer = "srgb"},
+                                        {.file = "a", .subimage = 1}};
+  cs_hash hashes[5];
+  for (int i = 0; i < 5; i++) {
+    cs_picture *picture;
+    CHECK(cs_picture_create(context, &descs[i], &picture) == CELSPAN_OK);
+    hashes[i] = cs_picture_hash(picture);
+    for (int j = 0; j < i; j++)
+      CHECK(hashes[i].a != hashes[j].a || hashes[i].b != hashes[j].b);
+    cs_picture_unref(picture);
+  }
+}
+
+/* Every allocation fails once: nothing is lost, the next try succeeds. */
+static void test_memory(void) {
+  const char *path = picture_path("memory.png");
+  CHECK(picture_write(context, path, NULL, 100, 70, paint_waves) == CELSPAN_OK);
+  for (size_t n = 1;; n++) {
+    memory_watch watch = {0};
+    celspan_context *own = memory_watch_context(&watch);
+    cs_picture *picture;
+    celspan_picture_info info;
+    float rgba[4];
+    watch.fail_at = watch.allocations + n;
+    celspan_status status = picture_open(own, path, &picture, &info);
+    if (status == CELSPAN_OK) {
+      status = picture_texel(own, picture, 1, 3, 3, rgba);
+      if (status == CELSPAN_NO_MEMORY)
+        CHECK(picture_texel(own, picture, 1, 3, 3, rgba) == CELSPAN_OK);
+      cs_picture_unref(picture);
+    }
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+    bool is_done = watch.allocations < watch.fail_at;
+    celspan_context_destroy(own);
+    CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+    if (is_done)
+      break;
+  }
+  unlink(path);
+}
+
+/* ---------------------------------------------------------------- pictures made by others */
+
+static const char *material;
+static int material_skips;
+
+static const char *material_path(const char *name) {
+  static char paths[2][1024];
+  static int next;
+  char *path = paths[next++ % 2];
+  snprintf(path, sizeof paths[0], "%s/%s", material, name);
+  if (!material || access(path, R_OK) != 0) {
+    material_skips++;
+    return NULL;
+  }
+  return path;
+}
+
+static void test_film_log(void) {
+  const char *path = material_path("film-log/cannon_log10.dpx");
+  const char *table = material_path("film-log/cannon_log10.samples.tsv");
+  cs_picture *picture;
+  celspan_picture_info info;
+  if (!path || !table)
+    return;
+  if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
+    return;
+  CHECK_TEXT(info.colour, "cineon");
+  CHECK(info.width == 780 && info.height == 566);
+  FILE *file = fopen(table, "r");
+  char line[256];
+  int rows = 0;
+  while (file && fgets(line, sizeof line, file)) {
+    int x, y, code[3];
+    double light[3];
+    if (sscanf(line, "%d %d %d %d %d %lf %lf %lf", &x, &y, code, code + 1, code + 2, light,
+               light + 1, light + 2) != 8)
+      continue;
+    float rgba[4];
+    CHECK(picture_texel(context, picture, 0, x, y, rgba) == CELSPAN_OK);
+    for (int c = 0; c < 3; c++)
+      CHECK_NEAR((double)rgba[c], light[c], 1e-6);
+    rows++;
+  }
+  if (file)
+    fclose(file);
+  CHECK(rows >= 16);
+  cs_picture_unref(picture);
+}
+
+/* One texel of a file against a value known from elsewhere. */
+static void check_texel(const char *name, const char *layer, int width, int height, int x, int y,
+                        double r, double g, double b, double a, double tolerance) {
+  const char *path = material_path(name);
+  if (!path)
+    return;
+  celspan_picture_desc desc = {.file = path, .layer = layer};
+  cs_picture *picture;
+  celspan_picture_info info;
+  float rgba[4] = {0};
+  CHECK(cs_picture_create(context, &desc, &picture) == CELSPAN_OK);
+  bool is_right = CHECK(cs_picture_info(context, picture, &info) == CELSPAN_OK) &&
+                  CHECK(info.width == width && info.height == height) &&
+                  CHECK(picture_texel(context, picture, 0, x, y, rgba) == CELSPAN_OK) &
+                      CHECK_NEAR((double)rgba[0], r, tolerance) &
+                      CHECK_NEAR((double)rgba[1], g, tolerance) &
+                      CHECK_NEAR((double)rgba[2], b, tolerance) &
+                      CHECK_NEAR((double)rgba[3], a, tolerance);
+  if (!is_right)
+    fprintf(stderr, "  %s %d %d: %d x %d, %s\n", name, x, y, (int)info.width, (int)info.height,
+            celspan_context_error(context));
+  cs_picture_unref(picture);
+}
+
+static void test_windows(void) {
+  /* The overscan lies outside the display window and is cut away. */
+  check_texel("exr/grid-overscan.exr", NULL, 1000, 1000, 0, 0, 0.50049, 0.50049, 0.50049, 1, 1);
+  check_texel("exr/DisplayWindow/t01.exr", NULL, 400, 300, 0, 0, 0.5, 0.5, 0.5, 1, 1);
+  /* The data window is larger, smaller or elsewhere: the display window counts. */
+  static const char *const names[] = {"t03", "t04", "t05", "t06", "t10", "t13", "t16"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    char name[64];
+    snprintf(name, sizeof name, "exr/DisplayWindow/%s.exr", names[i]);
+    const char *path = material_path(name);
+    CHECK(!path || read_file(path) == CELSPAN_OK);
+  }
+}
+
+/* The suite's good files are read, those that are corrupt on purpose refused. */
+static void test_png_suite(void) {
+  static const char *const good[] = {
+      "basi0g01", "basi2c16", "basi3p08", "basi4a16", "basi6a16", "basn0g01", "basn0g02", "basn0g04",
+      "basn0g08", "basn0g16", "basn2c08", "basn2c16", "basn3p01", "basn3p02", "basn3p04", "basn3p08",
+      "basn4a08", "basn4a16", "basn6a08", "basn6a16", "tbbn3p08", "tbrn2c08", "s01n3p01", "s39i3p04",
+      "z00n2c08", "oi9n2c16", "tp0n3p08", "tbwn0g16"};
+  static const char *const bad[] = {"xc1n0g08", "xcsn0g01", "xd0n2c08", "xd9n2c08", "xhdn0g08",
+                                    "xlfn0g04", "xs1n0g01", "xs7n0g01", "xdtn0g01", "xcrn0g04"};
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    char name[64];
+    snprintf(name, sizeof name, "pngsuite/%s.png", good[i]);
+    const char *path = material_path(name);
+    if (path && !CHECK(read_file(path) == CELSPAN_OK))
+      fprintf(stderr, "  %s\n", celspan_context_error(context));
+  }
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    char name[64];
+    snprintf(name, sizeof name, "pngsuite/%s.png", bad[i]);
+    const char *path = material_path(name);
+    if (path && !CHECK(read_file(path) != CELSPAN_OK))
+      fprintf(stderr, "  %s was read\n", name);
+  }
+}
+
+/* A layer by its name, and a file whose reader would never come back. */
+static void test_psd(void) {
+  const char *path = material_path("psd/blend-modes/hard-mix.psd");
+  if (path)
+    CHECK(read_file(path) == CELSPAN_INPUT);
+  path = material_path("psd/group.psd");
+  if (path) {
+    CHECK(read_file(path) == CELSPAN_OK);
+    celspan_picture_desc desc = {.file = path, .layer = "no such layer"};
+    celspan_picture_info info;
+    CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT);
+    CHECK(strstr(celspan_context_error(context), "no such layer"));
+  }
+}
+
+int main(void) {
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  material = getenv("CELSPAN_MATERIAL");
+  test_arguments();
+  test_hash();
+  if (picture_module_is_there(context)) {
+    test_round_trips();
+    test_light_beyond_white();
+    test_levels();
+    test_budget_and_threads();
+    test_missing();
+    test_truncated();
+    test_corrupt();
+    test_huge_headers();
+    test_changed();
+    test_memory();
+    test_film_log();
+    test_windows();
+    test_png_suite();
+    test_psd();
+    if (material_skips)
+      printf("%d pictures were not there (CELSPAN_MATERIAL)\n", material_skips);
+  }
+  celspan_context_destroy(context);
+  return check_done();
+}

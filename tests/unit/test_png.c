@@ -1,0 +1,220 @@
+/* output/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c makes of
+ * them. */
+#include <png.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "output/pixels.h"
+#include "output/sink.h"
+#include "tests/support/check.h"
+
+static uint64_t random_state = 1;
+
+static uint32_t random_below(uint32_t limit) {
+  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+  return (uint32_t)((random_state >> 32) * limit >> 32);
+}
+
+static float random_unit(void) { return (float)random_below(1001) / 1000; }
+
+/* ---------------------------------------------------------------- frames */
+
+typedef struct frame {
+  int32_t width, height;
+  int style;     /* 0 any mixture, 1 long flat, 2 pictures, 3 nothing but one colour */
+  float *arrays; /* width pixels */
+  celspan_span *spans;
+} frame;
+
+static void random_colour(float colour[4]) {
+  static const float palette[6] = {0, 1, 0.5f, 0.25f, 0.1f, 0.9f};
+  bool clear = random_below(8) == 0, flat = random_below(2) == 0;
+  for (int c = 0; c < 4; c++)
+    colour[c] = clear ? 0 : flat ? palette[random_below(6)] : random_unit();
+  if (random_below(2))
+    colour[3] = 1;
+}
+
+static void fill_array(frame *made, celspan_span *span, int32_t y) {
+  float *array = made->arrays + 4 * (size_t)span->x0;
+  bool noise = random_below(3) == 0;
+  for (int32_t x = span->x0; x < span->x1; x++)
+    for (int c = 0; c < 4; c++)
+      array[4 * (x - span->x0) + c] =
+          noise ? random_unit() : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
+  span->array = array;
+}
+
+static int32_t span_length(const frame *made) {
+  if (made->style == 3)
+    return made->width;
+  if (made->style == 1)
+    return 1 + (int32_t)random_below(random_below(3) ? 3000 : 100000);
+  return 1 + (int32_t)random_below(random_below(4) ? 12 : 400);
+}
+
+static int span_kind(const frame *made) {
+  if (made->style == 2)
+    return random_below(8) ? CELSPAN_SPAN_ARRAY : CELSPAN_SPAN_GRADIENT;
+  return made->style != 0 || random_below(3) ? CELSPAN_SPAN_SINGLE
+                                             : CELSPAN_SPAN_GRADIENT + (int)random_below(2);
+}
+
+/* A row from its seed alone, so that it can be made again. */
+static size_t make_row(frame *made, int32_t y) {
+  size_t count = 0;
+  random_state = 1000003u * (uint64_t)(random_below(2) ? y : y / 7) + 12345;
+  for (int32_t x = 0; x < made->width; count++) {
+    celspan_span *span = &made->spans[count];
+    *span = (celspan_span){.x0 = x, .origin = x - (int32_t)random_below(10)};
+    int32_t length = span_length(made);
+    span->x1 = length < made->width - x ? x + length : made->width;
+    span->kind = (celspan_span_kind)span_kind(made);
+    random_colour(span->colour);
+    for (int c = 0; c < 4; c++)
+      span->slope[c] = (random_unit() - 0.5f) / 50;
+    if (span->kind == CELSPAN_SPAN_ARRAY)
+      fill_array(made, span, y);
+    x = span->x1;
+  }
+  return count;
+}
+
+/* Rows repeat in sevens in part: their seeds must not depend on what was drawn before. */
+static size_t row_of(frame *made, int32_t y) {
+  random_state = (uint64_t)y * 0x9e3779b97f4a7c15u;
+  return make_row(made, y);
+}
+
+static celspan_status write_frame(celspan_context *context, frame *made, const char *path,
+                                  const celspan_file_desc *file) {
+  celspan_sink sink;
+  celspan_status status = cs_sink_png(context, path, file, &sink);
+  if (status != CELSPAN_OK)
+    return status;
+  status = sink.begin(sink.user, context, made->width, made->height);
+  if (status != CELSPAN_OK)
+    return status;
+  for (int32_t y = 0; y < made->height && status == CELSPAN_OK; y++) {
+    size_t count = row_of(made, y);
+    status = sink.row(sink.user, context, y, made->spans, count);
+  }
+  return sink.end(sink.user, context, status);
+}
+
+/* ---------------------------------------------------------------- reading back */
+
+static void check_file(frame *made, const char *path, const celspan_coding *coding,
+                       const char *title) {
+  png_image_free(&(png_image){.version = PNG_IMAGE_VERSION});
+  FILE *stream = fopen(path, "rb");
+  if (!CHECK(stream != NULL))
+    return;
+  png_structp reader = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+  png_infop info = png_create_info_struct(reader);
+  size_t pixel_size = celspan_coding_pixel_size(coding), size = (size_t)made->width * pixel_size;
+  unsigned char *expected = malloc(size), *found = malloc(size);
+  volatile int wrong_rows = -1;
+  if (setjmp(png_jmpbuf(reader)) == 0) {
+    png_set_user_limits(reader, 0x7fffffff, 0x7fffffff);
+    png_init_io(reader, stream);
+    png_read_info(reader, info);
+    CHECK((int32_t)png_get_image_width(reader, info) == made->width);
+    CHECK((int32_t)png_get_image_height(reader, info) == made->height);
+    CHECK(png_get_color_type(reader, info) == PNG_COLOR_TYPE_RGB_ALPHA);
+    CHECK(png_get_bit_depth(reader, info) == (pixel_size == 8 ? 16 : 8));
+    CHECK(!!png_get_valid(reader, info, PNG_INFO_sRGB) ==
+          (coding->transfer == CELSPAN_TRANSFER_SRGB));
+    CHECK(!!png_get_valid(reader, info, PNG_INFO_gAMA) ==
+          (coding->transfer != CELSPAN_TRANSFER_REC709));
+    if (pixel_size == 8)
+      png_set_swap(reader);
+    int differing = 0;
+    for (int32_t y = 0; y < made->height; y++) {
+      png_read_row(reader, found, NULL);
+      size_t count = row_of(made, y);
+      cs_pixels_row(coding, made->spans, count, expected);
+      differing += memcmp(expected, found, size) != 0;
+    }
+    png_read_end(reader, info);
+    wrong_rows = differing;
+    png_textp texts;
+    int text_count = 0;
+    png_get_text(reader, info, &texts, &text_count);
+    CHECK(text_count == (title ? 2 : 1));
+    CHECK_TEXT(texts[0].text, "celspan");
+    if (title && text_count == 2)
+      CHECK_TEXT(texts[1].text, title);
+  }
+  CHECK(wrong_rows == 0);
+  png_destroy_read_struct(&reader, &info, NULL);
+  fclose(stream);
+  free(expected);
+  free(found);
+}
+
+static void check_frame(celspan_context *context, int32_t width, int32_t height, int style,
+                        celspan_coding asked, const char *title) {
+  frame made = {.width = width, .height = height, .style = style};
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  char path[] = "/tmp/celspan-test-png-XXXXXX";
+  close(mkstemp(path));
+  made.arrays = calloc((size_t)width, 4 * sizeof(float));
+  made.spans = calloc((size_t)width, sizeof *made.spans);
+  file.coding = asked;
+  file.title = title;
+  celspan_status status = write_frame(context, &made, path, &file);
+  if (!CHECK(status == CELSPAN_OK))
+    fprintf(stderr, "%s\n", celspan_context_error(context));
+  celspan_coding coding = cs_pixels_resolve(&asked, CELSPAN_DEPTH_8);
+  check_file(&made, path, &coding, title);
+  unlink(path);
+  free(made.arrays);
+  free(made.spans);
+}
+
+static void check_refusals(celspan_context *context) {
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_sink sink;
+  file.coding.depth = CELSPAN_DEPTH_HALF;
+  CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_BAD_ARGUMENT);
+  file.coding = (celspan_coding){.alpha = CELSPAN_ALPHA_PREMULTIPLIED};
+  CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_BAD_ARGUMENT);
+  file.coding = (celspan_coding){0};
+  CHECK(cs_sink_png(context, "/dev/null/x.png", &file, &sink) == CELSPAN_OK);
+  CHECK(sink.begin(sink.user, context, 1, 1) == CELSPAN_OUTPUT);
+  CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_OK);
+  cs_sink_discard(context, &sink);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  static const celspan_coding codings[] = {
+      {0}, {.depth = CELSPAN_DEPTH_16}, {.transfer = CELSPAN_TRANSFER_LINEAR},
+      {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_REC709, CELSPAN_ALPHA_STRAIGHT}};
+  size_t before, after, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &before, &peak, &allocations);
+  for (int style = 0; style < 4; style++)
+    for (int i = 0; i < 4; i++) {
+      check_frame(context, 1, 1, style, codings[i], NULL);
+      check_frame(context, 1, 300, style, codings[i], "a title");
+      check_frame(context, 300, 1, style, codings[i], "Titel mit \xc3\xa4");
+      check_frame(context, 2, 2, style, codings[i], NULL);
+      check_frame(context, 333, 200, style, codings[i], NULL);
+      check_frame(context, 3001, 120, style, codings[i], NULL);
+    }
+  for (int i = 0; i < 2; i++) {
+    check_frame(context, 1000000, 12, 1, codings[i], NULL);
+    check_frame(context, 1000000, 6, 3, codings[i], NULL);
+  }
+  for (int32_t width = 1; width < 300; width++)
+    check_frame(context, width, 9, width % 4, codings[width % 2], NULL);
+  check_refusals(context);
+  celspan_context_memory(context, &after, &peak, &allocations);
+  CHECK(after == before);
+  celspan_context_destroy(context);
+  return check_done();
+}
