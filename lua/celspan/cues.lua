@@ -1,8 +1,8 @@
 --- Readers of lip-sync files: text in, timed cues out. What lips.lua makes frames of.
 --
--- Each reader gives { cues = { {start, stop, shape}, ... }, fps = number or nil } in seconds
--- (Rhubarb), or { marks = { {frame, shape}, ... }, count = frames or nil, fps = ... } in frames from
--- 1 (Moho, Papagayo), where a mark holds until the next one; or nil and a message.
+-- Each reader gives { cues = { {start, stop, shape}, ... } } in seconds (Rhubarb), or
+-- { marks = { {frame, shape}, ... }, count = frames or nil, fps = number or nil } in frames from 1
+-- (Moho, Papagayo), where a mark holds until the next one; or nil and a message.
 local json = require "celspan.json"
 
 local cues = {}
@@ -99,7 +99,9 @@ end
 --- Papagayo's .pgo 1 of the first voice: counted lists of lines, tabs without meaning.
 local function read_pgo1(text)
   local lines, at = {}, 1
-  for line in (text .. "\n"):gmatch "([^\r\n]*)\r?\n" do lines[#lines + 1] = line:match "^%s*(.-)%s*$" end
+  for line in (text .. "\n"):gmatch "([^\r\n]*)\r?\n" do
+    lines[#lines + 1] = line:match "^%s*(.-)%s*$"
+  end
   local function next_line()
     at = at + 1
     return lines[at] or ""
@@ -132,6 +134,9 @@ local function read_pgo1(text)
 end
 
 --- Tells the format by the text itself, so that a wrong ending does not matter.
+---@param text string
+---@return table? found
+---@return string? message
 function cues.read(text)
   local start = text:gsub("^\239\187\191", "")
   if start:find "^%s*{" then return read_json(start) end

@@ -133,6 +133,9 @@ local function find(name)
     hint and ("; did you mean %q?"):format(hint) or ""), 3)
 end
 
+---@class celspan.ease
+---@field names string[]
+---@overload fun(curve: string|fun(u: number): number): fun(u: number): number
 return setmetatable({
   --- Every name in its plain form: "inquad", "quadin", ...
   names = names,

@@ -67,7 +67,7 @@ end
 
 local function read_number(text, at)
   local digits = text:match("^-?%d+%.?%d*[eE]?[+-]?%d*", at)
-  local good = digits and not digits:find "^-?0%d" and not digits:find "%.$" and not digits:find "%.[eE]"
+  local good = digits and not (digits:find "^-?0%d" or digits:find "%.$" or digits:find "%.[eE]")
   local number = good and tonumber(digits)
   if not number then fail(text, at, "a value is missing or not JSON") end
   return number, at + #digits
@@ -123,6 +123,9 @@ function read_value(text, at, depth)
   return read_number(text, at)
 end
 
+---@param text string
+---@return any value
+---@return string? message
 function json.decode(text)
   if type(text) ~= "string" then
     error("json: decode takes a string, got " .. type(text), 2)

@@ -10,6 +10,7 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 local ease = require "celspan.ease"
 
+---@class celspan.keys.track
 local Track = {}
 Track.__index = Track
 Track.__name = "celspan.keys"
@@ -83,7 +84,9 @@ local function read_keys(list)
     local found = kind_of(list[i][2])
     kind = kind or found
     local time, value = list[i][1], copy(list[i][2])
-    if found ~= kind then complain(i, "is of another kind (%s) than the first (%s)", found, kind) end
+    if found ~= kind then
+      complain(i, "is of another kind (%s) than the first (%s)", found, kind)
+    end
     if kind == "array" and i > 1 and #value ~= #keys[1].value then
       complain(i, "has %d numbers, the first has %d", #value, #keys[1].value)
     end
@@ -137,6 +140,8 @@ local function place(keys, time)
 end
 
 --- The value at a time. Arrays are new at each call.
+---@param time number
+---@return any
 function Track:at(time)
   if type(time) ~= "number" then
     error("keys: at takes a time, a number, got " .. type(time), 2)
@@ -151,4 +156,6 @@ function Track:at(time)
   return mixers[self.kind](before.value, after.value, u)
 end
 
+---@class celspan.keys
+---@overload fun(list: table): celspan.keys.track
 return setmetatable({}, { __call = new })

@@ -41,8 +41,9 @@ static void create_xor(const cs_form *form, cs_value *value) { create(form, valu
 static void create_clip(const cs_form *form, cs_value *value) { create(form, value, CELSPAN_CLIP); }
 
 static const cs_field no_fields[] = {{0}};
-#define BOOLEAN(noun) .name = #noun, .kind = &cs_kind_object, .fields = no_fields, \
-                      .item = "object", .create = create_##noun
+#define BOOLEAN(noun)                                                                              \
+  .name = #noun, .kind = &cs_kind_object, .fields = no_fields, .item = "object",                   \
+  .create = create_##noun
 static const cs_noun noun_union = {BOOLEAN(union), .list = CS_LIST_ITEMS};
 static const cs_noun noun_intersection = {BOOLEAN(intersection), .list = CS_LIST_ITEMS};
 static const cs_noun noun_difference = {BOOLEAN(difference), .list = CS_LIST_ITEMS};

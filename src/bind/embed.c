@@ -59,12 +59,11 @@ static const char head[] =
     "  lua_call(L, 0, 1);\n"
     "  return 1;\n}\n\n";
 
-static const char tail[] =
-    "  {\"celspan.core\", luaopen_celspan_core},\n  {NULL, NULL}};\n\n"
-    "void cs_embedded_open(lua_State *L) {\n"
-    "  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);\n"
-    "  luaL_setfuncs(L, modules, 0);\n"
-    "  lua_pop(L, 1);\n}\n";
+static const char tail[] = "  {\"celspan.core\", luaopen_celspan_core},\n  {NULL, NULL}};\n\n"
+                           "void cs_embedded_open(lua_State *L) {\n"
+                           "  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);\n"
+                           "  luaL_setfuncs(L, modules, 0);\n"
+                           "  lua_pop(L, 1);\n}\n";
 
 int main(int argument_count, char **arguments) {
   if (argument_count < 2)

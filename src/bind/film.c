@@ -87,7 +87,7 @@ static void complete(lua_State *L, int table) {
 }
 
 static const cs_field fields[] = {
-    {"size", NULL},  {"fps", "24"},   {"frames", NULL},       {"duration", NULL}, {"first", "1"},
+    {"size", NULL},  {"fps", "24"},   {"frames", NULL},      {"duration", NULL}, {"first", "1"},
     {"title", NULL}, {"sound", NULL}, {"sound_offset", "0"}, {"frame", NULL},    {0}};
 const cs_noun cs_noun_film = {.name = "film",
                               .kind = &cs_kind_film,
@@ -178,7 +178,8 @@ static size_t position_length(const char *message) {
   return 0;
 }
 
-/* Pushes the traceback without the lines of C functions, which mean nothing to a script's author. */
+/* Pushes the traceback without the lines of C functions, which mean nothing to a script's author.
+ */
 static void push_traceback(lua_State *L) {
   luaL_Buffer kept;
   luaL_traceback(L, L, NULL, 2);

@@ -298,8 +298,7 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
 int cs_form_length(const cs_form *form) {
   size_t length = lua_rawlen(form->L, form->table);
   if (length > 10000000)
-    cs_form_fail(form, "the list has %I items; at most 10000000 are allowed",
-                 (LUAI_UACINT)length);
+    cs_form_fail(form, "the list has %I items; at most 10000000 are allowed", (LUAI_UACINT)length);
   return (int)length;
 }
 
@@ -373,4 +372,10 @@ celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const
   }
   lua_pop(L, 1);
   return paint;
+}
+
+double cs_form_argument(lua_State *L, int index, const char *function, const char *name) {
+  if (lua_type(L, index) != LUA_TNUMBER)
+    luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_value_type(L, index));
+  return lua_tonumber(L, index);
 }

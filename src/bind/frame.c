@@ -7,10 +7,9 @@
 
 const cs_kind cs_kind_frame = {.name = "celspan.frame"};
 
-static const cs_field fields[] = {{"number", NULL}, {"index", NULL},  {"time", NULL},
-                                  {"middle", NULL}, {"count", NULL},  {"fps", NULL},
-                                  {"width", NULL},  {"height", NULL}, {"progress", NULL},
-                                  {0}};
+static const cs_field fields[] = {
+    {"number", NULL}, {"index", NULL}, {"time", NULL},   {"middle", NULL},   {"count", NULL},
+    {"fps", NULL},    {"width", NULL}, {"height", NULL}, {"progress", NULL}, {0}};
 static const cs_noun noun = {.name = "frame", .kind = &cs_kind_frame, .fields = fields};
 
 /* ---------------------------------------------------------------- random numbers
@@ -47,7 +46,8 @@ static uint64_t seed_of(const cs_film_info *film, int64_t number) {
   return hash_integer(seed, (uint64_t)number);
 }
 
-/* 0..span-1, each equally likely: the few highest values that would tip the scale are drawn again. */
+/* 0..span-1, each equally likely: the few highest values that would tip the scale are drawn again.
+ */
 static uint64_t below(uint64_t hash, uint64_t span) {
   uint64_t reject = (0 - span) % span; /* 2^64 mod span */
   while (hash < reject)

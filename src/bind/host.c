@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char host_key = 0;   /* addresses in the registry */
+static const char host_key = 0; /* addresses in the registry */
 static const char folder_key = 0;
 
 void cs_host_unref(cs_host *host) {

@@ -13,7 +13,7 @@
 
 typedef struct cs_host {
   size_t references;
-  lua_State *state;   /* the thread that Lua callbacks run on */
+  lua_State *state; /* the thread that Lua callbacks run on */
   celspan_context *context;
   bool owns_context;
   celspan_status failure; /* of the last core call that raised; its sentence is in the context */

@@ -40,9 +40,9 @@ int luaopen_celspan_core(lua_State *L) {
 
 int luaopen_celspan(lua_State *L) {
   static void (*const openers[])(lua_State *) = {
-      cs_paint_open,   cs_texture_open, cs_object_open, cs_primitive_open, cs_scanline_open,
-      cs_boolean_open, cs_cel_open,     cs_rostrum_open, cs_film_open,     cs_render_open,
-      cs_pixels_open,  cs_spans_open};
+      cs_paint_open,    cs_texture_open, cs_object_open, cs_primitive_open,
+      cs_scanline_open, cs_boolean_open, cs_cel_open,    cs_rostrum_open,
+      cs_film_open,     cs_render_open,  cs_pixels_open, cs_spans_open};
   luaL_checkversion(L);
   cs_host_open(L, NULL);
   lua_createtable(L, 0, 32);

@@ -11,8 +11,8 @@ typedef struct cs_options_frame {
 } cs_options_frame;
 
 /* The fields that cs_options_read reads. */
-#define CS_OPTIONS_FIELDS \
-  {"size", NULL}, {"film", NULL}, {"crop", NULL}, {"workers", NULL}, {"antialias", NULL}
+#define CS_OPTIONS_FIELDS                                                                          \
+  {"size", NULL}, {"film", NULL}, {"crop", NULL}, {"workers", NULL}, { "antialias", NULL }
 
 /* Reads the field `antialias`; false when it is missing. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *out);

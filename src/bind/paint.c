@@ -59,22 +59,16 @@ static int push_paint(lua_State *L, const char *noun, const double pigment[3],
   return 1;
 }
 
-static double argument(lua_State *L, int index, const char *function, const char *name) {
-  if (lua_type(L, index) != LUA_TNUMBER)
-    luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_value_type(L, index));
-  return lua_tonumber(L, index);
-}
-
 static void read_rgb(lua_State *L, const char *function, double rgb[3]) {
   static const char *const names[] = {"red", "green", "blue"};
   for (int i = 0; i < 3; i++)
-    rgb[i] = argument(L, i + 1, function, names[i]);
+    rgb[i] = cs_form_argument(L, i + 1, function, names[i]);
 }
 
 static int make_rgb(lua_State *L) {
   double pigment[3];
   read_rgb(L, "rgb", pigment);
-  double alpha = lua_isnoneornil(L, 4) ? 1 : argument(L, 4, "rgb", "alpha");
+  double alpha = lua_isnoneornil(L, 4) ? 1 : cs_form_argument(L, 4, "rgb", "alpha");
   return push_paint(L, "rgb", pigment, (const double[]){1, 1, 1}, alpha);
 }
 
@@ -97,7 +91,7 @@ static celspan_paint mix_argument(lua_State *L, int index) {
 
 static int mix(lua_State *L) {
   celspan_paint p = mix_argument(L, 1), q = mix_argument(L, 2);
-  double u = argument(L, 3, "mix", "the share of the second paint");
+  double u = cs_form_argument(L, 3, "mix", "the share of the second paint");
   if (!(u >= 0 && u <= 1))
     return luaL_error(L, "mix: the share of the second paint must be 0..1, got %f", u);
   celspan_paint paint = celspan_paint_mix(p, q, (float)u);

@@ -80,9 +80,8 @@ static int pixels(lua_State *L) {
                            CELSPAN_ALPHA_PREMULTIPLIED};
   celspan_context *context = cs_host_context(L);
   lua_State *before = cs_host_enter(L);
-  celspan_status status =
-      celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
-                           (size_t)picture->width * 4 * sizeof(float), NULL);
+  celspan_status status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
+                                               (size_t)picture->width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
   if (status == CELSPAN_OK)
     return 1;

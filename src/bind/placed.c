@@ -14,12 +14,6 @@ static cs_value *self(lua_State *L, const char *method) {
   return value ? value : cs_value_self(L, &cs_kind_cel, method);
 }
 
-static double argument(lua_State *L, int index, const char *method, const char *name) {
-  if (lua_type(L, index) != LUA_TNUMBER)
-    luaL_error(L, "%s: %s must be a number, got %s", method, name, cs_value_type(L, index));
-  return lua_tonumber(L, index);
-}
-
 /* Pushes a copy of `from` with the same fields and no reference of its own yet. */
 static cs_value *push_twin(lua_State *L, const cs_value *from) {
   cs_value *twin = cs_value_push(L, from->noun);
@@ -33,23 +27,24 @@ static cs_value *push_twin(lua_State *L, const cs_value *from) {
 static int push_transformed(lua_State *L, const char *method, const cs_value *value,
                             celspan_matrix matrix) {
   cs_value *twin = push_twin(L, value);
-  cs_host_try(L, method,
-              value->noun->kind->transform(cs_host_context(L), value->handle, &matrix,
-                                           &twin->handle));
+  cs_host_try(
+      L, method,
+      value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &twin->handle));
   twin->matrix = celspan_matrix_then(value->matrix, matrix);
   return 1;
 }
 
 static int translate(lua_State *L) {
   const cs_value *value = self(L, "translate");
-  double dx = argument(L, 2, "translate", "dx"), dy = argument(L, 3, "translate", "dy");
+  double dx = cs_form_argument(L, 2, "translate", "dx"),
+         dy = cs_form_argument(L, 3, "translate", "dy");
   return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
 }
 
 static int scale(lua_State *L) {
   const cs_value *value = self(L, "scale");
-  double sx = argument(L, 2, "scale", "sx");
-  double sy = lua_isnoneornil(L, 3) ? sx : argument(L, 3, "scale", "sy");
+  double sx = cs_form_argument(L, 2, "scale", "sx");
+  double sy = lua_isnoneornil(L, 3) ? sx : cs_form_argument(L, 3, "scale", "sy");
   return push_transformed(L, "scale", value, celspan_matrix_scaling(sx, sy));
 }
 
@@ -67,21 +62,20 @@ static celspan_matrix rotation(double degrees, celspan_point centre) {
 
 static int rotate(lua_State *L) {
   const cs_value *value = self(L, "rotate");
-  double degrees = argument(L, 2, "rotate", "the angle in degrees");
+  double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
   celspan_point centre = {0, 0};
   if (!lua_isnoneornil(L, 3) || !lua_isnoneornil(L, 4)) {
-    centre.x = argument(L, 3, "rotate", "the centre's x");
-    centre.y = argument(L, 4, "rotate", "the centre's y");
+    centre.x = cs_form_argument(L, 3, "rotate", "the centre's x");
+    centre.y = cs_form_argument(L, 4, "rotate", "the centre's y");
   }
   return push_transformed(L, "rotate", value, rotation(degrees, centre));
 }
 
 static int skew(lua_State *L) {
   const cs_value *value = self(L, "skew");
-  double x = argument(L, 2, "skew", "the first angle in degrees");
-  double y = argument(L, 3, "skew", "the second angle in degrees");
-  celspan_matrix matrix =
-      celspan_matrix_skewing(cs_placed_radians(x), cs_placed_radians(y));
+  double x = cs_form_argument(L, 2, "skew", "the first angle in degrees");
+  double y = cs_form_argument(L, 3, "skew", "the second angle in degrees");
+  celspan_matrix matrix = celspan_matrix_skewing(cs_placed_radians(x), cs_placed_radians(y));
   return push_transformed(L, "skew", value, matrix);
 }
 
@@ -109,8 +103,7 @@ static void read_corners(lua_State *L, int index, celspan_point corners[4]) {
     lua_settop(L, 3);
   }
   if (!good)
-    luaL_error(L, "quad: argument %d must be four points {{x,y}, {x,y}, {x,y}, {x,y}}",
-               index - 1);
+    luaL_error(L, "quad: argument %d must be four points {{x,y}, {x,y}, {x,y}, {x,y}}", index - 1);
 }
 
 static int quad(lua_State *L) {
@@ -128,7 +121,7 @@ static int quad(lua_State *L) {
 
 static int fade(lua_State *L) {
   const cs_value *value = self(L, "fade");
-  double k = argument(L, 2, "fade", "k");
+  double k = cs_form_argument(L, 2, "fade", "k");
   cs_value *twin = push_twin(L, value);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &twin->handle));
@@ -150,12 +143,13 @@ static int bounds(lua_State *L) {
 
 static int contains(lua_State *L) {
   const cs_value *value = self(L, "contains");
-  celspan_point point = {argument(L, 2, "contains", "x"), argument(L, 3, "contains", "y")};
+  celspan_point point = {cs_form_argument(L, 2, "contains", "x"),
+                         cs_form_argument(L, 3, "contains", "y")};
   lua_pushboolean(L, value->noun->kind->contains(value->handle, point));
   return 1;
 }
 
 const luaL_Reg cs_placed_methods[] = {
-    {"translate", translate}, {"scale", scale},   {"rotate", rotate},     {"skew", skew},
-    {"transform", transform}, {"quad", quad},     {"fade", fade},         {"bounds", bounds},
+    {"translate", translate}, {"scale", scale},        {"rotate", rotate}, {"skew", skew},
+    {"transform", transform}, {"quad", quad},          {"fade", fade},     {"bounds", bounds},
     {"contains", contains},   {"with", cs_value_with}, {NULL, NULL}};

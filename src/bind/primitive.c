@@ -14,8 +14,7 @@ static celspan_rule read_rule(const cs_form *form) {
 static double corner(const cs_form *form, int place, const char *name) {
   lua_State *L = form->L;
   if (lua_rawgeti(L, form->table, place) != LUA_TNUMBER)
-    cs_form_fail(form, "value %d (%s) must be a number, got %s", place, name,
-                 cs_value_type(L, -1));
+    cs_form_fail(form, "value %d (%s) must be a number, got %s", place, name, cs_value_type(L, -1));
   double number = lua_tonumber(L, -1);
   lua_pop(L, 1);
   return number;
@@ -96,10 +95,10 @@ static void create_polygon(const cs_form *form, cs_value *value) {
 static void create_nurbs(const cs_form *form, cs_value *value) {
   static const char *const closures[] = {"periodic", "clamped", NULL};
   lua_State *L = form->L;
-  celspan_nurbs_desc desc = {
-      .degree = cs_form_integer_or(form, "degree", 3),
-      .closure = (celspan_nurbs_closure)cs_form_choice(form, "closed", closures),
-      .rule = read_rule(form)};
+  celspan_nurbs_desc desc = {.degree = cs_form_integer_or(form, "degree", 3),
+                             .closure =
+                                 (celspan_nurbs_closure)cs_form_choice(form, "closed", closures),
+                             .rule = read_rule(form)};
   if (desc.degree == 0) /* which would stand for the default */
     cs_form_fail(form, "field 'degree' must be at least 1, got 0");
   lua_pushliteral(L, "points");
@@ -138,21 +137,24 @@ static void create_image(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-#define TEXTURE {"texture", NULL}
-#define RULE {"rule", "nonzero"}
+#define TEXTURE                                                                                    \
+  { "texture", NULL }
+#define RULE                                                                                       \
+  { "rule", "nonzero" }
 static const cs_field rect_fields[] = {{"radius", "0"}, TEXTURE, {0}};
 static const cs_field triangle_fields[] = {TEXTURE, {0}};
 static const cs_field circle_fields[] = {{"centre", NULL}, {"radius", NULL}, TEXTURE, {0}};
 static const cs_field ellipse_fields[] = {{"centre", NULL}, {"radii", NULL}, TEXTURE, {0}};
 static const cs_field polygon_fields[] = {RULE, TEXTURE, {0}};
-static const cs_field nurbs_fields[] = {{"points", NULL}, {"degree", "3"}, {"knots", NULL},
-                                        {"closed", "periodic"}, RULE, TEXTURE, {0}};
+static const cs_field nurbs_fields[] = {
+    {"points", NULL}, {"degree", "3"}, {"knots", NULL}, {"closed", "periodic"}, RULE, TEXTURE, {0}};
 static const cs_field path_fields[] = {{"d", NULL}, RULE, TEXTURE, {0}};
-static const cs_field image_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"x", "0"}, {"y", "0"},
-                                        {"w", NULL}, {"h", NULL}, {"fit", "fill"}, {0}};
+static const cs_field image_fields[] = {
+    CS_TEXTURE_PICTURE_FIELDS, {"x", "0"}, {"y", "0"}, {"w", NULL}, {"h", NULL},
+    {"fit", "fill"},           {0}};
 
-#define OBJECT(noun) .name = #noun, .kind = &cs_kind_object, .fields = noun##_fields, \
-                     .create = create_##noun
+#define OBJECT(noun)                                                                               \
+  .name = #noun, .kind = &cs_kind_object, .fields = noun##_fields, .create = create_##noun
 static const cs_noun nouns[] = {
     {OBJECT(rect), .list = CS_LIST_PARTS, .item = "number"},
     {OBJECT(triangle), .list = CS_LIST_PARTS, .item = "point"},

@@ -8,9 +8,9 @@
 #include "bind/sequence.h"
 #include "bind/value.h"
 
-static const cs_field fields[] = {CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL},
-                                  {"format", NULL},  {"depth", NULL},  {"colour", NULL},
-                                  {"alpha", NULL},   {0}};
+static const cs_field fields[] = {
+    CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL}, {"format", NULL},
+    {"depth", NULL},   {"colour", NULL}, {"alpha", NULL},    {0}};
 static const cs_noun noun = {.name = "render", .fields = fields};
 
 /* One run. The sequence is freed by the userdata that holds the job. */
@@ -96,7 +96,8 @@ static void read_job(const cs_form *form, job *j) {
   }
 }
 
-/* Pushes a film for argument 1 where it is a rostrum: as large as the film or size that is given. */
+/* Pushes a film for argument 1 where it is a rostrum: as large as the film or size that is given.
+ */
 static void read_film(const cs_form *form, job *j) {
   lua_State *L = form->L;
   celspan_frame_desc *desc = &j->frame.desc;
@@ -126,12 +127,13 @@ static celspan_status read_frames(const cs_form *form, job *j) {
   lua_pushliteral(L, "frames");
   int type = lua_rawget(L, form->table);
   if (type != LUA_TNIL && type != LUA_TSTRING && !lua_isinteger(L, -1))
-    cs_form_fail(form, "field 'frames' must be a list like \"1-10,20-30:2\" or a whole number, "
-                       "got %s", cs_value_type(L, -1));
+    cs_form_fail(form,
+                 "field 'frames' must be a list like \"1-10,20-30:2\" or a whole number, "
+                 "got %s",
+                 cs_value_type(L, -1));
   celspan_status status =
-      type == LUA_TNIL
-          ? cs_sequence_count(j->context, j->info.first, j->info.count, &j->sequence)
-          : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->sequence);
+      type == LUA_TNIL ? cs_sequence_count(j->context, j->info.first, j->info.count, &j->sequence)
+                       : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->sequence);
   if (status == CELSPAN_OK)
     status = cs_sequence_within(j->context, &j->sequence, j->info.first, j->info.count);
   if (status == CELSPAN_OK && j->sequence.count > 1 && !cs_sequence_has_number(j->pattern))

@@ -49,7 +49,7 @@ static void create(const cs_form *form, cs_value *value) {
   value->handle = rostrum;
 }
 
-static const cs_field fields[] = {{"front", NULL},  {"back", NULL},         {"brightness", "1"},
+static const cs_field fields[] = {{"front", NULL},  {"back", NULL},        {"brightness", "1"},
                                   {"camera", NULL}, {"antialias", "area"}, {0}};
 const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .kind = &cs_kind_rostrum,

@@ -98,8 +98,8 @@ static celspan_status spans(void *user, celspan_context *context, double y,
   int outcome = lua_pcall(L, 1, 0, 0);
   if (outcome == LUA_OK)
     return r.status;
-  const char *message = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1)
-                                                       : "the error is not a string";
+  const char *message =
+      lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "the error is not a string";
   celspan_status status = outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
   status = celspan_context_fail(context, status, "%s", message);
   lua_pop(L, 1);

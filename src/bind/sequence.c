@@ -16,9 +16,10 @@ typedef struct reader {
 } reader;
 
 static celspan_status refuse(const reader *r, const char *what) {
-  return celspan_context_fail(r->context, CELSPAN_BAD_ARGUMENT,
-                              "frames \"%.200s\": %s at character %d; write it like 1-10,20-30:2,45",
-                              r->list, what, (int)(r->at - r->list) + 1);
+  return celspan_context_fail(
+      r->context, CELSPAN_BAD_ARGUMENT,
+      "frames \"%.200s\": %s at character %d; write it like 1-10,20-30:2,45", r->list, what,
+      (int)(r->at - r->list) + 1);
 }
 
 static void skip_spaces(reader *r) { r->at += strspn(r->at, " \t"); }
@@ -188,10 +189,9 @@ bool cs_sequence_has_number(const char *pattern) { return find_place(pattern).is
 celspan_status cs_sequence_name(celspan_context *context, const char *pattern, int64_t frame,
                                 char *name, size_t size) {
   place at = find_place(pattern);
-  int length = at.is_found
-                   ? snprintf(name, size, "%.*s%0*lld%s", (int)at.start, pattern, at.width,
-                              (long long)frame, pattern + at.end)
-                   : snprintf(name, size, "%s", pattern);
+  int length = at.is_found ? snprintf(name, size, "%.*s%0*lld%s", (int)at.start, pattern, at.width,
+                                      (long long)frame, pattern + at.end)
+                           : snprintf(name, size, "%s", pattern);
   if (length < 0 || (size_t)length >= size)
     return celspan_context_fail(context, CELSPAN_BAD_ARGUMENT,
                                 "the file name \"%.80s...\" is too long", pattern);

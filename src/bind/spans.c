@@ -2,7 +2,6 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/options.h"
-#include "bind/value.h"
 
 #define ROWS "celspan.rows"
 
@@ -60,8 +59,10 @@ static void read_row_range(const cs_form *form, int32_t height, int32_t range[2]
   double numbers[2] = {0, height - 1};
   cs_form_numbers(form, "rows", 2, numbers);
   if (!(numbers[0] >= 0 && numbers[0] < height && numbers[1] >= numbers[0]))
-    cs_form_fail(form, "field 'rows' must be {first, last} with 0 <= first <= last, first below "
-                       "%d, got {%f, %f}", height, numbers[0], numbers[1]);
+    cs_form_fail(form,
+                 "field 'rows' must be {first, last} with 0 <= first <= last, first below "
+                 "%d, got {%f, %f}",
+                 height, numbers[0], numbers[1]);
   range[0] = (int32_t)numbers[0];
   range[1] = numbers[1] < height - 1 ? (int32_t)numbers[1] : height - 1;
 }
@@ -85,7 +86,8 @@ static celspan_status fill_rows(lua_State *L, celspan_rows *rows, const int32_t 
   return status;
 }
 
-/* Runs protected, so that the host is left whatever happens: rows (light userdata), range, table. */
+/* Runs protected, so that the host is left whatever happens: rows (light userdata), range, table.
+ */
 static int fill_protected(lua_State *L) {
   celspan_rows *rows = lua_touserdata(L, 1);
   const int32_t *range = lua_touserdata(L, 2);
@@ -129,15 +131,10 @@ static int spans(lua_State *L) {
   return is_good ? 1 : fail(L);
 }
 
-static double argument(lua_State *L, int index, const char *name) {
-  if (lua_type(L, index) != LUA_TNUMBER)
-    luaL_error(L, "probe: %s must be a number, got %s", name, cs_value_type(L, index));
-  return lua_tonumber(L, index);
-}
-
 static int probe(lua_State *L) {
   lua_settop(L, 4);
-  celspan_point point = {argument(L, 2, "x"), argument(L, 3, "y")};
+  celspan_point point = {cs_form_argument(L, 2, "probe", "x"),
+                         cs_form_argument(L, 3, "probe", "y")};
   cs_form form = cs_options_open(L, &noun_probe, 4);
   double film[2] = {1920, 1080}, rgba[4];
   cs_form_numbers(&form, "film", 2, film);

@@ -22,8 +22,8 @@ static void create_gradient(const cs_form *form, cs_value *value) {
     paints[i] = cs_form_part_paint(form, -1, 3, "corner", i + 1);
   }
   celspan_texture *texture = NULL;
-  cs_form_try(form, celspan_texture_create_gradient(cs_host_context(form->L), points, paints,
-                                                    &texture));
+  cs_form_try(form,
+              celspan_texture_create_gradient(cs_host_context(form->L), points, paints, &texture));
   value->handle = texture;
 }
 
@@ -90,13 +90,27 @@ static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {0}
 static const cs_field picture_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"box", NULL}, {0}};
 
 static const cs_noun nouns[] = {
-    {.name = "gradient", .kind = &cs_kind_texture, .list = CS_LIST_PARTS, .item = "corner",
-     .fields = no_fields, .create = create_gradient},
-    {.name = "linear", .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop",
-     .fields = linear_fields, .create = create_linear},
-    {.name = "radial", .kind = &cs_kind_texture, .list = CS_LIST_ITEMS, .item = "stop",
-     .fields = radial_fields, .create = create_radial},
-    {.name = "picture", .kind = &cs_kind_texture, .fields = picture_fields,
+    {.name = "gradient",
+     .kind = &cs_kind_texture,
+     .list = CS_LIST_PARTS,
+     .item = "corner",
+     .fields = no_fields,
+     .create = create_gradient},
+    {.name = "linear",
+     .kind = &cs_kind_texture,
+     .list = CS_LIST_ITEMS,
+     .item = "stop",
+     .fields = linear_fields,
+     .create = create_linear},
+    {.name = "radial",
+     .kind = &cs_kind_texture,
+     .list = CS_LIST_ITEMS,
+     .item = "stop",
+     .fields = radial_fields,
+     .create = create_radial},
+    {.name = "picture",
+     .kind = &cs_kind_texture,
+     .fields = picture_fields,
      .create = create_picture},
 };
 

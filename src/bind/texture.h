@@ -4,9 +4,11 @@
 
 #include "bind/form.h"
 
-#define CS_TEXTURE_PICTURE_FIELDS                                                           \
-  {"file", NULL}, {"colour", NULL}, {"sampling", "auto"}, {"as", "paint"}, {"wrap", "clear"}, \
-      {"subimage", NULL}, {"layer", NULL}
+#define CS_TEXTURE_PICTURE_FIELDS                                                                  \
+  {"file", NULL}, {"colour", NULL}, {"sampling", "auto"}, {"as", "paint"}, {"wrap", "clear"},      \
+      {"subimage", NULL}, {                                                                        \
+    "layer", NULL                                                                                  \
+  }
 
 /* Reads them; strings are borrowed from the table or from the stack, where the name of the file,
  * resolved against the script's folder, is left. */

@@ -94,7 +94,7 @@ cs_value *cs_value_self(lua_State *L, const cs_kind *kind, const char *method) {
 }
 
 const char *cs_value_type(lua_State *L, int index) {
-  static const cs_kind *const kinds[] = {&cs_kind_object, &cs_kind_cel,     &cs_kind_paint,
+  static const cs_kind *const kinds[] = {&cs_kind_object,  &cs_kind_cel,     &cs_kind_paint,
                                          &cs_kind_texture, &cs_kind_rostrum, &cs_kind_film,
                                          &cs_kind_frame};
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -282,10 +282,8 @@ static int describe(lua_State *L) {
 }
 
 void cs_value_register(lua_State *L, const cs_kind *kind, const luaL_Reg *methods) {
-  static const luaL_Reg plain[] = {{"__newindex", refuse_assignment},
-                                   {"__tostring", describe},
-                                   {"__gc", release},
-                                   {NULL, NULL}};
+  static const luaL_Reg plain[] = {
+      {"__newindex", refuse_assignment}, {"__tostring", describe}, {"__gc", release}, {NULL, NULL}};
   if (!luaL_newmetatable(L, kind->name)) {
     lua_pop(L, 1);
     return;

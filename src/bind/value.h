@@ -15,10 +15,10 @@
 #include "bind/form.h"
 
 typedef struct cs_kind {
-  const char *name;   /* of the metatable, "celspan.object" */
+  const char *name; /* of the metatable, "celspan.object" */
   void (*unref)(void *handle);
-  celspan_status (*transform)(celspan_context *context, void *handle,
-                              const celspan_matrix *matrix, void **out);
+  celspan_status (*transform)(celspan_context *context, void *handle, const celspan_matrix *matrix,
+                              void **out);
   celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
   bool (*bounds)(const void *handle, celspan_box *out);
   bool (*contains)(const void *handle, celspan_point point);

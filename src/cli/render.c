@@ -45,7 +45,10 @@ static celspan_status render_hashed(const render_job *job, const char *path,
     return status;
   }
   celspan_sink sink = cs_tee_sink(&tee);
-  return celspan_frame_render(context, &job->frame, &sink, NULL);
+  status = celspan_frame_render(context, &job->frame, &sink, NULL);
+  for (int i = 0; i < 2 && !tee.is_begun; i++)
+    cs_sink_discard(context, &tee.sinks[i]);
+  return status;
 }
 
 /* digest: NULL when none is asked for. */

@@ -6,6 +6,7 @@
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   cs_tee *tee = user;
   celspan_sink *first = &tee->sinks[0], *second = &tee->sinks[1];
+  tee->is_begun = true;
   celspan_status status = first->begin(first->user, context, width, height);
   if (status != CELSPAN_OK) {
     cs_sink_discard(context, second);
@@ -31,4 +32,7 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
-celspan_sink cs_tee_sink(cs_tee *tee) { return (celspan_sink){tee, begin, put_row, end}; }
+celspan_sink cs_tee_sink(cs_tee *tee) {
+  tee->is_begun = false;
+  return (celspan_sink){tee, begin, put_row, end};
+}

@@ -7,9 +7,10 @@
 
 typedef struct cs_tee {
   celspan_sink sinks[2]; /* ended in this order */
+  bool is_begun;         /* false: the sinks are still the caller's to discard */
 } cs_tee;
 
-/* tee: kept by the sink as long as it is used. */
+/* tee: its sinks are set; kept by the sink as long as it is used. */
 celspan_sink cs_tee_sink(cs_tee *tee);
 
 #endif

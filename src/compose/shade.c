@@ -10,7 +10,7 @@ static double corner_value(const cs_paint *paint, int channel) {
   return channel < 3 ? paint->s[channel] : channel < 6 ? paint->t[channel - 3] : paint->beta;
 }
 
-/* The plane through the corners' values; a triangle of no area has the mean of its corners. */
+/* The plane through the corners' values. The door makes flat what has no area or no length. */
 void cs_shade_prepare(cs_shade *shade) {
   const celspan_texture *texture = shade->texture;
   const celspan_point *p = texture->points;
@@ -22,9 +22,9 @@ void cs_shade_prepare(cs_shade *shade) {
     double c1 = corner_value(&texture->corners[1], channel);
     double c2 = corner_value(&texture->corners[2], channel);
     double *plane = shade->plane[channel];
-    plane[0] = area == 0 ? 0 : ((c1 - c0) * vy - (c2 - c0) * uy) / area;
-    plane[1] = area == 0 ? 0 : ((c2 - c0) * ux - (c1 - c0) * vx) / area;
-    plane[2] = area == 0 ? (c0 + c1 + c2) / 3 : c0 - plane[0] * p[0].x - plane[1] * p[0].y;
+    plane[0] = ((c1 - c0) * vy - (c2 - c0) * uy) / area;
+    plane[1] = ((c2 - c0) * ux - (c1 - c0) * vx) / area;
+    plane[2] = c0 - plane[0] * p[0].x - plane[1] * p[0].y;
   }
 }
 
@@ -64,16 +64,16 @@ static cs_paint stop_paint(const celspan_texture *texture, double at) {
   return paint;
 }
 
-/* Along a linear texture: 0 at `from`, 1 at `to`; past the end where they coincide. */
+/* Along a linear texture: 0 at `from`, 1 at `to`. */
 static double linear_at(const celspan_texture *texture, double u, double v) {
   const celspan_point *from = &texture->points[0], *to = &texture->points[1];
   double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
-  return length == 0 ? 2 : ((u - from->x) * dx + (v - from->y) * dy) / length;
+  return ((u - from->x) * dx + (v - from->y) * dy) / length;
 }
 
 static double radial_at(const celspan_texture *texture, double u, double v) {
   double dx = u - texture->points[0].x, dy = v - texture->points[0].y;
-  return texture->radius == 0 ? 2 : sqrt(dx * dx + dy * dy) / texture->radius;
+  return sqrt(dx * dx + dy * dy) / texture->radius;
 }
 
 cs_paint cs_shade_paint(const cs_shade *shade, double x, double y) {
@@ -145,7 +145,7 @@ static void break_triangle(breaks *list, const cs_shade *shade, const row_map *m
 static void break_linear(breaks *list, const celspan_texture *texture, const row_map *map) {
   const celspan_point *from = &texture->points[0], *to = &texture->points[1];
   double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
-  for (size_t i = 0; i < texture->stop_count && length > 0; i++)
+  for (size_t i = 0; i < texture->stop_count; i++)
     break_plane(list, map, dx, dy,
                 -(dx * from->x + dy * from->y) - texture->stops[i].at * length);
 }

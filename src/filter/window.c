@@ -236,6 +236,45 @@ celspan_status cs_window_add(cs_window *window, double xa, double xb, double hei
   return CELSPAN_OK;
 }
 
+/* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
+ * most rows. The same sums as close_lone, in closed form. */
+static celspan_status write_edge(cs_window *window, double low, double high, int32_t first,
+                                 int32_t end, const cs_cell *left, const cs_cell *right) {
+  celspan_context *context = window->composer->context;
+  cs_row *out = window->out;
+  cs_v4 base = left->colour, step = right->colour - base;
+  CS_TRY(cs_row_single(context, out, window->from, first, base));
+  if (end - first == 1) {
+    float area = (float)(first + 1 - 0.5 * (low + high));
+    CS_TRY(cs_row_single(context, out, first, end, base + step * area));
+  } else if (end - first == 2) {
+    double split = first + 1, twice = 2 * (high - low);
+    float area = (float)((split - low) * (split - low) / twice);
+    float rest = (float)(1 - (high - split) * (high - split) / twice);
+    CS_TRY(cs_row_single(context, out, first, first + 1, base + step * area));
+    CS_TRY(cs_row_single(context, out, first + 1, end, base + step * rest));
+  }
+  window->from = window->end = end;
+  window->cell = right;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_cell *left,
+                              const cs_cell *right, double next_x) {
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  int32_t first = floor_column(low, window->width), end = ceil_column(high, window->width);
+  if (end - first <= 2 && end <= next_x && left->length == 0 && right->length == 0 &&
+      first >= window->end) {
+    if (window->is_open)
+      CS_TRY(close_window(window));
+    return write_edge(window, low, high, first, end, left, right);
+  }
+  CS_TRY(cs_window_reach(window, low));
+  CS_TRY(cs_window_add(window, xa, xb, 1, left, right));
+  cs_window_pass(window, right);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_window_finish(cs_window *window) {
   if (window->is_open)
     CS_TRY(close_window(window));

@@ -47,6 +47,11 @@ CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double xb,
                                              double height, const cs_cell *left,
                                              const cs_cell *right);
+/* A whole item: one straight edge through the whole row. next_x: nothing that comes later lies left
+ * of it; any lesser value when that is not known. */
+CELSPAN_CHECKED celspan_status cs_window_edge(cs_window *window, double xa, double xb,
+                                              const cs_cell *left, const cs_cell *right,
+                                              double next_x);
 /* The current item is done; right of it lies `cell`. */
 static inline void cs_window_pass(cs_window *window, const cs_cell *cell) { window->cell = cell; }
 /* Closes the last window and writes the rest of the row. */

@@ -10,7 +10,7 @@ enum {
   LONGEST = 258,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  LONG_RUN = 512, /* bytes from which a run is not laid out but written as matches at once */
+  LONG_RUN = 512,  /* bytes from which a run is not laid out but written as matches at once */
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
   ADLER_BASE = 65521
@@ -171,7 +171,7 @@ static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, s
 static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t most,
                              match found) {
   put_token(deflate, cs_token_match(found.length, found.distance));
-  if (found.length <= REMEMBERED)
+  if (found.length <= REMEMBERED && found.distance > deflate->pixel_size)
     for (size_t i = 1; i < found.length && i + SHORTEST <= most; i++)
       remember(deflate, at + i);
 }

@@ -19,10 +19,8 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   digest_sink *sink = user;
   sink->row_size = (size_t)width * celspan_coding_pixel_size(&sink->coding);
   sink->row = cs_mem_resize(context->memory, NULL, 0, sink->row_size);
-  if (!sink->row) {
-    destroy(sink, context);
+  if (!sink->row)
     return cs_fail_memory(context);
-  }
   cs_hash_word(&sink->hash, (uint64_t)width);
   cs_hash_word(&sink->hash, (uint64_t)height);
   cs_hash_word(&sink->hash, (uint64_t)sink->coding.depth);

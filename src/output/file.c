@@ -18,7 +18,8 @@ struct cs_file {
   const cs_file_system *system;
   size_t allocated;
   int descriptor;
-  bool failed;
+  const char *failed_to; /* NULL, or what failed first, with the system's `error` */
+  int error;
   uint64_t flushed; /* bytes from the start that the system has */
   size_t buffered;
   char *path, *temporary;
@@ -37,11 +38,16 @@ static const cs_file_system real_system = {.open = system_open,
                                            .unlink = unlink,
                                            .mkdir = mkdir};
 
-static celspan_status fail(cs_file *file, celspan_context *context, const char *what) {
+static celspan_status report(const cs_file *file, celspan_context *context) {
   char text[256];
-  file->failed = true;
-  return cs_fail(context, CELSPAN_OUTPUT, "%s: %s: %s", file->path, what,
-                 strerror_r(errno, text, sizeof text));
+  return cs_fail(context, CELSPAN_OUTPUT, "%s: %s: %s", file->path, file->failed_to,
+                 strerror_r(file->error, text, sizeof text));
+}
+
+static celspan_status fail(cs_file *file, celspan_context *context, const char *failed_to) {
+  file->error = errno;
+  file->failed_to = failed_to;
+  return report(file, context);
 }
 
 static void release(cs_file *file, celspan_context *context) {
@@ -155,10 +161,8 @@ static celspan_status write_all(cs_file *file, celspan_context *context, uint64_
   return CELSPAN_OK;
 }
 
-static celspan_status check_usable(cs_file *file, celspan_context *context) {
-  if (!file->failed)
-    return CELSPAN_OK;
-  return cs_fail(context, CELSPAN_OUTPUT, "%s: cannot write: an earlier write failed", file->path);
+static celspan_status check_usable(const cs_file *file, celspan_context *context) {
+  return file->failed_to ? report(file, context) : CELSPAN_OK;
 }
 
 static celspan_status flush(cs_file *file, celspan_context *context) {
@@ -230,7 +234,6 @@ static celspan_status check_size(cs_file *file, celspan_context *context) {
     return fail(file, context, "cannot check its size");
   if ((uint64_t)there.st_size == file->flushed)
     return CELSPAN_OK;
-  file->failed = true;
   return cs_fail(context, CELSPAN_OUTPUT, "%s: cannot write: it has %lld bytes instead of %llu",
                  file->path, (long long)there.st_size, (unsigned long long)file->flushed);
 }

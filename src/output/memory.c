@@ -8,15 +8,13 @@ typedef struct memory_sink {
 } memory_sink;
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
-  memory_sink *sink = user;
+  const memory_sink *sink = user;
   (void)height;
   size_t needed = (size_t)width * celspan_coding_pixel_size(&sink->coding);
   if (sink->stride >= needed)
     return CELSPAN_OK;
-  size_t stride = sink->stride;
-  cs_mem_free(context->memory, sink, sizeof *sink);
   return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "the stride is %zu bytes; a row of %d pixels needs at least %zu", stride,
+                 "the stride is %zu bytes; a row of %d pixels needs at least %zu", sink->stride,
                  (int)width, needed);
 }
 

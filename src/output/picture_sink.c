@@ -49,7 +49,8 @@ static const file_format formats[] = {
      true},
     /* Sixteen bits come out shifted by a byte. */
     {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
-    {" webp ", "webp", 16383, 0, 4, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, false},
+    /* Its writer divides by alpha along a curve of its own, so none is handed to it. */
+    {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
     {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
      true},
     {" jp2 j2k jpeg2000 ", "jpeg2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,

@@ -79,19 +79,12 @@ static void destroy(png_sink *sink, celspan_context *context) {
   cs_mem_free(context->memory, sink, sink->allocated);
 }
 
-static celspan_status start(png_sink *sink, celspan_context *context, int32_t width,
-                            int32_t height) {
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  png_sink *sink = user;
   cs_png_rows_begin(&sink->rows, sink->coding, width);
   CS_TRY(cs_deflate_create(context, sink->rows.pixel_size, put_image_data, sink, &sink->deflate));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return put_start(sink, context, width, height);
-}
-
-static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
-  celspan_status status = start(user, context, width, height);
-  if (status != CELSPAN_OK)
-    destroy(user, context);
-  return status;
 }
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,

@@ -21,8 +21,8 @@ static bool recall(cs_png_seen *seen, filter kind, uint64_t pixel) {
   return is_known;
 }
 
-/* About the bits a run costs: a match for what was met before, or else a pixel of literals; one more
- * match when it goes on. An unchanged stretch is that last match alone. */
+/* About the bits a run costs: a match for what was met before, or else a pixel of literals; one
+ * more match when it goes on. An unchanged stretch is that last match alone. */
 enum { KNOWN_BITS = 18, NEW_BITS = 36, MORE_BITS = 24 };
 
 static unsigned run_cost(cs_png_seen *seen, filter kind, uint64_t pixel, int32_t count) {
@@ -49,8 +49,8 @@ static uint64_t cost_up(cs_png_seen *seen, const cs_png_row *row, const cs_png_r
   while (run < last) {
     int32_t end = upper->end < run->end ? upper->end : run->end;
     if (upper->pixel != run->pixel)
-      bits += MORE_BITS +
-              run_cost(seen, FILTER_UP, subtract_bytes(run->pixel, upper->pixel), end - x);
+      bits +=
+          MORE_BITS + run_cost(seen, FILTER_UP, subtract_bytes(run->pixel, upper->pixel), end - x);
     x = end;
     upper += upper->end == x;
     run += run->end == x;
@@ -130,9 +130,9 @@ celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
 
 /* ---------------------------------------------------------------- bytes */
 
-enum { BLOCK = CS_PNG_BLOCK, SCRATCH = 4096 };
+enum { BLOCK = CS_PNG_BLOCK, SCRATCH = 255 * BLOCK };
 typedef uint8_t bytes __attribute__((vector_size(BLOCK)));
-typedef int16_t shorts __attribute__((vector_size(2 * BLOCK)));
+typedef uint16_t words __attribute__((vector_size(BLOCK)));
 
 static inline bytes load_block(const unsigned char *at) {
   bytes block;
@@ -140,22 +140,20 @@ static inline bytes load_block(const unsigned char *at) {
   return block;
 }
 
-static inline shorts widen(bytes block) { return __builtin_convertvector(block, shorts); }
-
-static inline shorts size_of(shorts x) {
-  shorts negative = x < 0;
-  return (x ^ negative) - negative;
-}
-
-static inline shorts select(shorts condition, shorts yes, shorts no) {
+static inline bytes select(bytes condition, bytes yes, bytes no) {
   return (yes & condition) | (no & ~condition);
 }
 
-static inline bytes paeth(bytes left, bytes up, bytes corner) {
-  shorts a = widen(left), b = widen(up), c = widen(corner);
-  shorts from_a = size_of(b - c), from_b = size_of(a - c), from_c = size_of(a + b - c - c);
-  shorts b_or_c = select(from_b <= from_c, b, c);
-  return __builtin_convertvector(select((from_a <= from_b) & (from_a <= from_c), a, b_or_c), bytes);
+/* Of a, b and c the one nearest to a + b - c; a before b before c. Its distance to c is that of a
+ * and that of b apart, when c is between them; else it is no less than both, and c is not taken. */
+static inline bytes paeth(bytes a, bytes b, bytes c) {
+  bytes a_is_less = (bytes)(a <= c), b_is_less = (bytes)(b <= c);
+  bytes from_b = select(a_is_less, c - a, a - c), from_a = select(b_is_less, c - b, b - c);
+  bytes a_is_nearer = (bytes)(from_a <= from_b);
+  bytes apart = select(a_is_nearer, from_b - from_a, from_a - from_b);
+  bytes from_c = apart | (bytes)(a_is_less == b_is_less);
+  bytes b_or_c = select((bytes)(from_b <= from_c), b, c);
+  return select(a_is_nearer & (bytes)(from_a <= from_c), a, b_or_c);
 }
 
 /* What is left of a block of a row under a filter. */
@@ -163,11 +161,16 @@ static inline bytes residue(filter kind, const unsigned char *row, const unsigne
                             size_t pixel_size) {
   bytes x = load_block(row), a = load_block(row - pixel_size), b = load_block(above);
   switch (kind) {
-  case FILTER_NONE: return x;
-  case FILTER_SUB: return x - a;
-  case FILTER_UP: return x - b;
-  case FILTER_AVERAGE: return x - ((a & b) + ((a ^ b) >> 1));
-  case FILTER_PAETH: return x - paeth(a, b, load_block(above - pixel_size));
+  case FILTER_NONE:
+    return x;
+  case FILTER_SUB:
+    return x - a;
+  case FILTER_UP:
+    return x - b;
+  case FILTER_AVERAGE:
+    return x - ((a & b) + ((a ^ b) >> 1));
+  case FILTER_PAETH:
+    return x - paeth(a, b, load_block(above - pixel_size));
   }
   return x;
 }
@@ -184,28 +187,38 @@ static inline void filter_as(filter kind, const unsigned char *row, const unsign
 static void filter_part(filter kind, const unsigned char *row, const unsigned char *above,
                         size_t pixel_size, size_t size, unsigned char *out) {
   switch (kind) {
-  case FILTER_NONE: filter_as(FILTER_NONE, row, above, pixel_size, size, out); break;
-  case FILTER_SUB: filter_as(FILTER_SUB, row, above, pixel_size, size, out); break;
-  case FILTER_UP: filter_as(FILTER_UP, row, above, pixel_size, size, out); break;
-  case FILTER_AVERAGE: filter_as(FILTER_AVERAGE, row, above, pixel_size, size, out); break;
-  case FILTER_PAETH: filter_as(FILTER_PAETH, row, above, pixel_size, size, out); break;
+  case FILTER_NONE:
+    filter_as(FILTER_NONE, row, above, pixel_size, size, out);
+    break;
+  case FILTER_SUB:
+    filter_as(FILTER_SUB, row, above, pixel_size, size, out);
+    break;
+  case FILTER_UP:
+    filter_as(FILTER_UP, row, above, pixel_size, size, out);
+    break;
+  case FILTER_AVERAGE:
+    filter_as(FILTER_AVERAGE, row, above, pixel_size, size, out);
+    break;
+  case FILTER_PAETH:
+    filter_as(FILTER_PAETH, row, above, pixel_size, size, out);
+    break;
   }
 }
 
 /* The sum of the sizes of the residues as signed bytes: the usual guess at what compresses best.
- * size: at most 255 blocks, or a lane would overflow; what is beyond the last whole one is left
+ * size: at most 255 blocks, or a word would overflow; what is beyond the last whole block is left
  * out. */
 static inline uint64_t cost_as(filter kind, const unsigned char *row, const unsigned char *above,
                                size_t pixel_size, size_t size) {
-  shorts sums = {0};
+  words sums = {0};
   uint64_t sum = 0;
   for (size_t i = 0; i + BLOCK <= size; i += BLOCK) {
     bytes block = residue(kind, row + i, above + i, pixel_size), negated = -block;
-    bytes is_less = (bytes)(block < negated);
-    sums += widen((block & is_less) | (negated & ~is_less));
+    words least = (words)select((bytes)(block <= negated), block, negated);
+    sums += (least & 255) + (least >> 8);
   }
-  for (int lane = 0; lane < BLOCK; lane++)
-    sum += (uint64_t)sums[lane];
+  for (int word = 0; word < BLOCK / 2; word++)
+    sum += sums[word];
   return sum;
 }
 

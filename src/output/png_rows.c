@@ -33,9 +33,11 @@ static uint64_t swap_samples(uint64_t pixel) {
 }
 
 static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *bytes) {
-  uint64_t pixel = 0;
-  memcpy(&pixel, bytes, rows->pixel_size);
-  return rows->pixel_size == 8 ? swap_samples(pixel) : pixel;
+  uint64_t eight;
+  uint32_t four;
+  if (rows->pixel_size == 4)
+    return memcpy(&four, bytes, sizeof four), four;
+  return memcpy(&eight, bytes, sizeof eight), swap_samples(eight);
 }
 
 static void add_run(cs_png_row *row, int32_t end, uint64_t pixel) {

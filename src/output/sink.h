@@ -1,5 +1,6 @@
-/* The sinks: where finished rows go. Each _create makes a sink that render/ feeds and `end`
- * destroys (a sink whose begin was never called is freed by cs_sink_discard).
+/* The sinks: where finished rows go. Each function makes a sink that render/ feeds and `end`
+ * destroys. A sink that did not come so far, because its begin failed or was never called, is
+ * destroyed by cs_sink_discard: neither begin nor row ever does.
  *
  * Files are written under a temporary name beside the final one, checked, synced and renamed: a
  * frame appears whole or not at all (output/file.h).
@@ -26,7 +27,7 @@ CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
 /* By format or the path's ending: PNG, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* Frees a sink that was never begun. */
+/* Destroys a sink whose end was not called and keeps the recorded sentence. */
 void cs_sink_discard(celspan_context *context, celspan_sink *sink);
 
 #endif

@@ -136,10 +136,12 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("compression", "zip");
   if (format == "targa")
     spec.attribute("compression", "rle");
-  if (format == "jpeg")
+  if (format == "jpeg") {
     spec.attribute("CompressionQuality", 95);
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  }
   if (format == "webp")
-    spec.attribute("compression", "lossless");
+    spec.attribute("compression", "webp:100");
   if (format == "dpx")
     spec.attribute("dpx:Transfer", film_transfer(output.transfer));
   return spec;

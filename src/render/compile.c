@@ -97,7 +97,7 @@ static celspan_status compile_outline(compiler *c, const cs_body *body, double f
   CS_TRY(append_leaf(c, fade, body->rule, &index));
   cs_leaf *leaf = &c->shot->stack.leaves[index];
   const celspan_texture *texture = body->texture;
-  if (!celspan_matrix_inverse(*matrix, &inverse)) {
+  if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &inverse)) {
     fill_flat(leaf, CS_PAINT_CLEAR, 1); /* nowhere */
     return CELSPAN_OK;
   }

@@ -93,8 +93,6 @@ static celspan_status write_frame(celspan_context *context, frame *made, const c
   if (status != CELSPAN_OK)
     return status;
   status = sink.begin(sink.user, context, made->width, made->height);
-  if (status != CELSPAN_OK)
-    return status;
   for (int32_t y = 0; y < made->height && status == CELSPAN_OK; y++) {
     size_t count = row_of(made, y);
     status = sink.row(sink.user, context, y, made->spans, count);
@@ -183,6 +181,7 @@ static void check_refusals(celspan_context *context) {
   file.coding = (celspan_coding){0};
   CHECK(cs_sink_png(context, "/dev/null/x.png", &file, &sink) == CELSPAN_OK);
   CHECK(sink.begin(sink.user, context, 1, 1) == CELSPAN_OUTPUT);
+  cs_sink_discard(context, &sink);
   CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_OK);
   cs_sink_discard(context, &sink);
 }
@@ -192,7 +191,9 @@ int main(void) {
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
     return 1;
   static const celspan_coding codings[] = {
-      {0}, {.depth = CELSPAN_DEPTH_16}, {.transfer = CELSPAN_TRANSFER_LINEAR},
+      {0},
+      {.depth = CELSPAN_DEPTH_16},
+      {.transfer = CELSPAN_TRANSFER_LINEAR},
       {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_REC709, CELSPAN_ALPHA_STRAIGHT}};
   size_t before, after, peak;
   uint64_t allocations;

@@ -1,0 +1,486 @@
+---@meta celspan
+--- What editors know of celspan: for the Lua language server. Film coordinates start at the top left,
+--- x to the right, y down. Later is nearer the camera in every list. Angles are degrees, clockwise.
+--- Colours are linear light unless they are written as strings.
+
+---@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rrggbb", "#rrggbbaa" (sRGB-coded)
+---@alias celspan.surface celspan.colour|celspan.texture What a primitive's texture may be
+---@alias celspan.light number[]|string {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1
+---@alias celspan.point number[] {x, y}
+---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
+---@alias celspan.antialias "area"|"none" The exact mean over each pixel, or pixel centres
+---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
+
+---@class celspan
+---@field _VERSION string "celspan 0.1.0"
+---@field clear celspan.paint Nothing at all: light passes unchanged
+local celspan = {}
+
+-- ------------------------------------------------------------------ paints
+
+--- How a surface treats light: `pigment` reflects the front light, `medium` filters what comes from
+--- behind, `beta` says how much of the one and the other. All values are straight, 0..1.
+---@class celspan.paint
+---@field pigment number[] {r, g, b}
+---@field medium number[] {r, g, b}
+---@field beta number
+local paint = {}
+
+--- A copy with changes.
+---@param changes celspan.paint.fields
+---@return celspan.paint
+function paint:with(changes) end
+
+---@class celspan.paint.fields
+---@field pigment? number[] {r, g, b}; default black
+---@field medium? number[] {r, g, b}; default white, which is clear
+---@field beta? number Default 1, all pigment
+
+--- A paint of the Beta colour model.
+---@param fields celspan.paint.fields
+---@return celspan.paint
+function celspan.paint(fields) end
+
+--- A pigment over a clear medium.
+---@param r number
+---@param g number
+---@param b number
+---@param alpha? number Default 1
+---@return celspan.paint
+function celspan.rgb(r, g, b, alpha) end
+
+--- A pure filter, like a coloured gel: it is seen only in the light from behind.
+---@param r number
+---@param g number
+---@param b number
+---@return celspan.paint
+function celspan.gel(r, g, b) end
+
+--- (1-u) p + u q, premultiplied.
+---@param p celspan.colour
+---@param q celspan.colour
+---@param u number 0..1
+---@return celspan.paint
+function celspan.mix(p, q, u) end
+
+-- ------------------------------------------------------------------ textures
+
+--- A gradient or a picture, in the units of the primitive it is given to; it moves with it.
+---@class celspan.texture
+local texture = {}
+
+--- A copy with changes.
+---@param changes table
+---@return celspan.texture
+function texture:with(changes) end
+
+--- The triangle gradient: three corners {x, y, paint}, continued outside.
+---@param corners table[]
+---@return celspan.texture
+function celspan.gradient(corners) end
+
+---@class celspan.linear.fields
+---@field from celspan.point Where 0 lies
+---@field to celspan.point Where 1 lies
+---@field [integer] table Stops {at, paint}, at ascending in 0..1
+
+--- A gradient along a line; held outside.
+---@param fields celspan.linear.fields
+---@return celspan.texture
+function celspan.linear(fields) end
+
+---@class celspan.radial.fields
+---@field centre celspan.point
+---@field radius number Where 1 lies
+---@field [integer] table Stops {at, paint}, at ascending in 0..1
+
+--- A gradient around a point; held outside.
+---@param fields celspan.radial.fields
+---@return celspan.texture
+function celspan.radial(fields) end
+
+---@class celspan.picture.common
+---@field file string Relative to the script
+---@field colour? string "srgb", "linear", "rec709", "cineon"; default by the file
+---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic"
+---@field as? "paint"|"gel" Painted, or a slide lit from behind
+---@field wrap? "clear"|"clamp"|"repeat" Outside the box
+---@field subimage? integer From 0
+---@field layer? string The name of a subimage
+
+---@class celspan.picture.fields: celspan.picture.common
+---@field box? number[] {x, y, w, h}; default the primitive's bounding rectangle
+
+--- A picture as a texture. It is read when it is first seen.
+---@param fields celspan.picture.fields
+---@return celspan.texture
+function celspan.picture(fields) end
+
+-- ------------------------------------------------------------------ objects
+
+--- What objects and cels can do. Each method returns a new value.
+---@class celspan.placed
+local placed = {}
+
+---@generic T: celspan.placed
+---@param self T
+---@param dx number
+---@param dy number
+---@return T
+function placed:translate(dx, dy) end
+
+---@generic T: celspan.placed
+---@param self T
+---@param sx number
+---@param sy? number Default sx
+---@return T
+function placed:scale(sx, sy) end
+
+--- Turns clockwise on screen, about the origin or a centre.
+---@generic T: celspan.placed
+---@param self T
+---@param degrees number
+---@param cx? number
+---@param cy? number
+---@return T
+function placed:rotate(degrees, cx, cy) end
+
+---@generic T: celspan.placed
+---@param self T
+---@param degrees_x number
+---@param degrees_y number
+---@return T
+function placed:skew(degrees_x, degrees_y) end
+
+--- A 3x3 matrix row by row, for column vectors.
+---@generic T: celspan.placed
+---@param self T
+---@param matrix number[] Nine numbers
+---@return T
+function placed:transform(matrix) end
+
+--- The perspective that takes the first four points to the second.
+---@generic T: celspan.placed
+---@param self T
+---@param from celspan.point[]
+---@param to celspan.point[]
+---@return T
+function placed:quad(from, to) end
+
+--- The paint mixed with clear: 1 leaves it, 0 makes it vanish.
+---@generic T: celspan.placed
+---@param self T
+---@param k number 0..1
+---@return T
+function placed:fade(k) end
+
+--- The smallest upright rectangle around it; nothing when there is nothing to paint.
+---@return number? x, number? y, number? width, number? height
+function placed:bounds() end
+
+--- Whether a point is inside the shape, whatever its paint.
+---@param x number
+---@param y number
+---@return boolean
+function placed:contains(x, y) end
+
+--- A copy with changes; transforms and fades are kept.
+---@generic T: celspan.placed
+---@param self T
+---@param changes table
+---@return T
+function placed:with(changes) end
+
+--- A primitive or a boolean tree of them.
+---@class celspan.object: celspan.placed
+---@operator bor(celspan.object): celspan.object
+---@operator band(celspan.object): celspan.object
+---@operator bxor(celspan.object): celspan.object
+---@operator sub(celspan.object): celspan.object
+
+---@class celspan.rect.fields
+---@field [integer] number x, y, width, height
+---@field radius? number Of the corners; default 0
+---@field texture? celspan.surface Default opaque black
+
+---@param fields celspan.rect.fields
+---@return celspan.object
+function celspan.rect(fields) end
+
+---@class celspan.triangle.fields
+---@field [integer] celspan.point Three points
+---@field texture? celspan.surface
+
+---@param fields celspan.triangle.fields
+---@return celspan.object
+function celspan.triangle(fields) end
+
+---@class celspan.circle.fields
+---@field centre celspan.point
+---@field radius number
+---@field texture? celspan.surface
+
+---@param fields celspan.circle.fields
+---@return celspan.object
+function celspan.circle(fields) end
+
+---@class celspan.ellipse.fields
+---@field centre celspan.point
+---@field radii number[] {rx, ry}
+---@field texture? celspan.surface
+
+---@param fields celspan.ellipse.fields
+---@return celspan.object
+function celspan.ellipse(fields) end
+
+---@class celspan.polygon.fields
+---@field [integer] celspan.point
+---@field rule? celspan.rule
+---@field texture? celspan.surface
+
+---@param fields celspan.polygon.fields
+---@return celspan.object
+function celspan.polygon(fields) end
+
+---@class celspan.nurbs.fields
+---@field points number[][] {x, y} or {x, y, weight}; the point itself, not multiplied by its weight
+---@field degree? integer 1..15, default 3
+---@field knots? number[] Default uniform
+---@field closed? "periodic"|"clamped"
+---@field rule? celspan.rule
+---@field texture? celspan.surface
+
+--- A closed curve of any degree, weighted or not.
+---@param fields celspan.nurbs.fields
+---@return celspan.object
+function celspan.nurbs(fields) end
+
+---@class celspan.path.fields
+---@field d string SVG path data; open subpaths are closed
+---@field rule? celspan.rule
+---@field texture? celspan.surface
+
+---@param fields celspan.path.fields
+---@return celspan.object
+function celspan.path(fields) end
+
+---@class celspan.image.fields: celspan.picture.common
+---@field x? number Default 0
+---@field y? number Default 0
+---@field w? number Default the picture's width; one alone keeps the aspect
+---@field h? number
+---@field fit? "fill"|"contain"|"cover" When both w and h are given
+
+--- A rectangle textured with a picture.
+---@param fields celspan.image.fields
+---@return celspan.object
+function celspan.image(fields) end
+
+---@class celspan.scanline.row
+---@field x0 number The part that can be seen
+---@field x1 number
+---@field pixel number The width of a pixel
+
+---@class celspan.scanline.fields
+---@field bounds number[] {x, y, w, h}
+---@field spans fun(y: number, row: celspan.scanline.row): table[] {x0, x1, paint [, paint]} or {x0, x1, array = {paint, ...}}
+
+--- A primitive given by a function that returns its spans on a row.
+---@param fields celspan.scanline.fields
+---@return celspan.object
+function celspan.scanline(fields) end
+
+--- Later over earlier; a | b.
+---@param objects celspan.object[]
+---@return celspan.object
+function celspan.union(objects) end
+
+--- Where all are, later over earlier; a & b.
+---@param objects celspan.object[]
+---@return celspan.object
+function celspan.intersection(objects) end
+
+--- The first where no other is; a - b.
+---@param objects celspan.object[]
+---@return celspan.object
+function celspan.difference(objects) end
+
+--- Where an odd number are; a ~ b.
+---@param objects celspan.object[]
+---@return celspan.object
+function celspan.xor(objects) end
+
+--- The art where the shape is; the shape's own texture is not painted.
+---@param art celspan.object
+---@param shape celspan.object
+---@return celspan.object
+function celspan.clip(art, shape) end
+
+-- ------------------------------------------------------------------ cels and rostrum
+
+---@class celspan.cel: celspan.placed
+
+---@class celspan.cel.fields
+---@field [integer] celspan.object
+---@field front? celspan.light Default the rostrum's, else white
+---@field back? celspan.light Shines through the whole frame behind this cel; default none
+---@field viewport? number[] {x, y, w, h}: the part that fills the frame
+---@field defocus? number|{radius: number, kernel?: "gaussian"|"box"|"disc"} Film units on the frame
+---@field opacity? number 0..1, default 1
+
+--- A sheet with objects and lights of its own.
+---@param fields celspan.cel.fields
+---@return celspan.cel
+function celspan.cel(fields) end
+
+---@class celspan.rostrum
+local rostrum = {}
+
+--- A copy with changes.
+---@param changes celspan.rostrum.fields
+---@return celspan.rostrum
+function rostrum:with(changes) end
+
+---@class celspan.camera
+---@field centre? celspan.point
+---@field width? number Of what is seen
+---@field rotate? number Degrees; turns the camera, so the picture turns back
+
+---@class celspan.rostrum.fields
+---@field [integer] celspan.cel
+---@field front? celspan.light For the cels that name none
+---@field back? celspan.light Behind the rearmost cel: "#fff" is a white ground
+---@field brightness? number Multiplies the light, not alpha; default 1
+---@field camera? celspan.camera
+---@field antialias? celspan.antialias Default "area"
+
+--- Cels under one camera.
+---@param fields celspan.rostrum.fields
+---@return celspan.rostrum
+function celspan.rostrum(fields) end
+
+-- ------------------------------------------------------------------ films
+
+--- What a frame function is given.
+---@class celspan.frame
+---@field number integer From `first` on
+---@field index integer From 0
+---@field time number Seconds: index / fps
+---@field middle number Seconds at the middle of the frame
+---@field count integer
+---@field fps number
+---@field width integer
+---@field height integer
+---@field progress number 0 at the first frame, 1 at the last
+local frame = {}
+
+--- The index held for n frames: f:on(2) animates on twos.
+---@param n integer
+---@return integer
+function frame:on(n) end
+
+--- A number that depends on film, frame and label alone: 0 <= x < 1, or 1..m, or m..n. The film
+--- counts by its title and size.
+---@param label string|number
+---@param m? integer
+---@param n? integer
+---@return number
+function frame:random(label, m, n) end
+
+---@class celspan.film.fields
+---@field size? integer[] {width, height}; default {1920, 1080}
+---@field fps? number Default 24
+---@field frames? integer
+---@field duration? number Seconds, instead of frames
+---@field first? integer The first frame's number, default 1
+---@field title? string
+---@field sound? string A file
+---@field sound_offset? number Seconds
+---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
+
+---@class celspan.film: celspan.film.fields
+local film = {}
+
+--- A copy with changes.
+---@param changes celspan.film.fields
+---@return celspan.film
+function film:with(changes) end
+
+--- What the frame function returns for a frame's number.
+---@param number integer
+---@return celspan.exposures
+function film:at(number) end
+
+--- What a script returns.
+---@param fields celspan.film.fields
+---@return celspan.film
+function celspan.film(fields) end
+
+-- ------------------------------------------------------------------ rendering
+
+---@class celspan.options
+---@field size? integer[] {width, height} in pixels; default {1920, 1080}
+---@field film? number[] {width, height} in film units; default the size
+---@field crop? integer[] {x, y, width, height} in pixels
+---@field workers? integer Default one a processor
+---@field antialias? celspan.antialias Instead of each rostrum's own
+
+---@class celspan.render.options: celspan.options
+---@field frames? string|integer "1-10,20-30:2,45"; default all
+---@field format? string Default by the file's ending
+---@field depth? 8|16|"half"|"float"
+---@field colour? "linear"|"srgb"|"rec709"|"cineon"
+---@field alpha? "straight"|"premultiplied"
+---@field progress? fun(share: number, frame: integer): boolean? The share of the whole job; false stops
+
+--- Renders into files; #### or %04d is the frame's number.
+---@param what celspan.film|celspan.rostrum
+---@param pattern string
+---@param options? celspan.render.options
+---@return true? done
+---@return string? message
+function celspan.render(what, pattern, options) end
+
+--- Pixels in memory, linear and premultiplied.
+---@class celspan.pixels.image
+---@field width integer
+---@field height integer
+local image = {}
+
+---@param x integer From 0
+---@param y integer From 0
+---@return number r, number g, number b, number a
+function image:get(x, y) end
+
+---@param what celspan.exposures
+---@param options? celspan.options
+---@return celspan.pixels.image? image
+---@return string? message
+function celspan.pixels(what, options) end
+
+--- One RGBA (single), those of the first and last pixel (gradient), or one a pixel (array).
+---@class celspan.span
+---@field x0 integer
+---@field x1 integer
+---@field kind "single"|"gradient"|"array"
+---@field [integer] number
+
+---@class celspan.spans.options: celspan.options
+---@field rows? integer[] {first, last}, inclusive, from 0
+
+--- Rows of spans: rows[y] is a list.
+---@param what celspan.exposures
+---@param options? celspan.spans.options
+---@return table<integer, celspan.span[]>? rows
+---@return string? message
+function celspan.spans(what, options) end
+
+--- The colour of one point of the film by direct evaluation: no sweep, no antialiasing, no defocus.
+---@param what celspan.exposures
+---@param x number
+---@param y number
+---@param options? {film?: number[]}
+---@return number? r, number|string g, number b, number a
+function celspan.probe(what, x, y, options) end
+
+return celspan

@@ -1,0 +1,111 @@
+-- The valley, plane by plane. Built once: none of it moves by itself.
+local celspan = require "celspan"
+local palette = require "demo.palette"
+local shapes = require "demo.shapes"
+
+local landscape = {}
+
+local bottom = 1100
+
+--- Crest colour above, haze or shade below.
+local function shaded(colours, top, low)
+  return celspan.linear { from = { 0, top }, to = { 0, low }, { 0, colours[1] }, { 1, colours[2] } }
+end
+
+landscape.mountains = shapes.ridge({
+  { -60, 560 }, { 120, 500 }, { 270, 430 }, { 380, 470 }, { 520, 545 }, { 650, 590 }, { 790, 560 },
+  { 930, 480 }, { 1060, 415 }, { 1150, 395 }, { 1260, 450 }, { 1400, 525 }, { 1560, 500 },
+  { 1720, 430 }, { 1900, 470 }, { 2120, 540 },
+}, bottom, shaded(palette.mountains, 400, 690))
+
+landscape.hills = shapes.ridge({
+  { -60, 600 }, { 140, 585 }, { 330, 610 }, { 520, 650 }, { 760, 662 }, { 980, 630 }, { 1180, 590 },
+  { 1380, 572 }, { 1600, 600 }, { 1850, 560 }, { 2240, 590 },
+}, bottom, shaded(palette.hills, 560, 700))
+
+--- Water: the colour of the low sky, with long calm lines.
+local function lake()
+  local parts = { celspan.rect { -60, 668, 2500, 240, texture = shaded(palette.lake, 668, 800) } }
+  local glints = { { 560, 684, 260, 3 }, { 500, 696, 420, 4 }, { 620, 712, 300, 5 },
+                   { 900, 730, 380, 5 }, { 1280, 700, 300, 4 }, { 1500, 724, 420, 5 } }
+  for _, g in ipairs(glints) do
+    parts[#parts + 1] = celspan.rect { g[1], g[2], g[3], g[4], radius = g[4] / 2,
+                                       texture = "#ffe6b380" }
+  end
+  return celspan.union(parts)
+end
+landscape.lake = lake()
+
+landscape.slope = shapes.ridge({
+  { -80, 690 }, { 160, 672 }, { 360, 655 }, { 560, 665 }, { 760, 690 }, { 940, 726 }, { 1100, 760 },
+  { 1300, 790 }, { 1600, 815 },
+}, bottom, shaded(palette.village, 650, 800))
+
+landscape.near = shapes.ridge({
+  { -80, 800 }, { 180, 796 }, { 430, 830 }, { 700, 858 }, { 960, 842 }, { 1230, 790 }, { 1500, 742 },
+  { 1800, 722 }, { 2140, 740 }, { 2500, 760 },
+}, bottom, shaded(palette.near, 720, 980))
+
+--- A poplar: a flame on a short stem.
+local function poplar(x, y, tall, colour)
+  local w = tall * 0.17
+  return shapes.blob({ { x, y - tall * 1.18 }, { x + w * 0.9, y - tall * 0.55 }, { x + w * 1.1, y },
+                       { x, y + tall * 0.04 }, { x - w * 1.1, y }, { x - w * 0.9, y - tall * 0.55 } }, colour)
+end
+
+--- A round tree: crown and trunk.
+local function oak(x, y, size, colour)
+  return celspan.union {
+    celspan.rect { x - size * 0.06, y - size * 0.5, size * 0.12, size * 0.5, texture = palette.boot },
+    celspan.circle { centre = { x, y - size * 0.72 }, radius = size * 0.42, texture = colour },
+    celspan.circle { centre = { x + size * 0.3, y - size * 0.55 }, radius = size * 0.3, texture = colour },
+    celspan.circle { centre = { x - size * 0.3, y - size * 0.52 }, radius = size * 0.28, texture = colour },
+  }
+end
+
+local function grove(list, plant)
+  local parts = {}
+  for i, t in ipairs(list) do
+    local dark, light = "#35492f", "#7d8248"
+    local colour = celspan.linear { from = { t[1] - t[3] * 0.3, 0 }, to = { t[1] + t[3] * 0.35, 0 },
+                                    { 0, light }, { 1, dark } }
+    parts[i] = plant(t[1], t[2], t[3], colour)
+  end
+  return celspan.union(parts)
+end
+
+landscape.poplars = grove({ { 96, 690, 120 }, { 132, 690, 150 }, { 170, 688, 126 }, { 792, 706, 110 },
+                            { 826, 712, 138 }, { 862, 718, 100 } }, poplar)
+landscape.oaks = grove({ { 1640, 742, 130 }, { 1790, 734, 170 }, { 1960, 740, 140 }, { 210, 806, 110 } }, oak)
+
+landscape.ground = shapes.ridge({
+  { -120, 985 }, { 260, 972 }, { 620, 985 }, { 960, 962 }, { 1260, 915 }, { 1520, 892 }, { 1820, 905 },
+  { 2200, 950 }, { 2500, 970 },
+}, bottom, shaded(palette.ground, 890, 1080))
+
+--- Grass blades, umbels: what stands between the camera and the stage.
+local function meadow()
+  local parts = {}
+  for i = 0, 22 do
+    local x, lean = -80 + i * 43 + i * 29 % 31, (i * 37 % 60) - 22
+    local tall = 120 + i * 53 % 150 - i * 4
+    parts[#parts + 1] = shapes.ribbon({ { x, 1120, 20 }, { x + lean * 0.4, 1120 - tall * 0.6, 12 },
+                                        { x + lean * 1.5, 1120 - tall * 1.1, 1 } }, palette.silhouette)
+  end
+  for _, u in ipairs { { 120, 700, 96 }, { 270, 810, 76 }, { 470, 880, 60 } } do
+    local x, y, size = u[1], u[2], u[3]
+    parts[#parts + 1] = shapes.ribbon({ { x - 30, 1120, 9 }, { x - 12, (y + 1120) / 2, 7 }, { x, y, 4 } },
+                                      palette.silhouette)
+    for k = -3, 3 do
+      local px, py = x + k * size * 0.3, y - size * (0.62 - 0.045 * k * k)
+      parts[#parts + 1] = shapes.ribbon({ { x, y, 4 }, { x + k * size * 0.18, y - size * 0.3, 3 },
+                                          { px, py, 2 } }, palette.silhouette)
+      parts[#parts + 1] = celspan.ellipse { centre = { px, py - 3 }, radii = { size * 0.15, size * 0.085 },
+                                            texture = palette.silhouette }
+    end
+  end
+  return celspan.union(parts)
+end
+landscape.meadow = meadow()
+
+return landscape

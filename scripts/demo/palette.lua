@@ -1,0 +1,55 @@
+-- Every colour of the film, and how the evening changes them. Times are seconds.
+local celspan = require "celspan"
+local keys = require "celspan.keys"
+
+local palette = {}
+
+--- A colour that goes from gold to dusk.
+local function turning(gold, dusk)
+  return keys { { 0.5, celspan.mix(gold, gold, 0) }, { 8.5, celspan.mix(dusk, dusk, 0), "inOutSine" } }
+end
+
+palette.sky = {
+  { 0.00, turning("#4d7896", "#0e1533") },
+  { 0.30, turning("#8fa9a8", "#242656") },
+  { 0.48, turning("#dcb98d", "#4c3569") },
+  { 0.60, turning("#f7b267", "#96506f") },
+  { 0.68, turning("#f79d5c", "#e0825f") },
+}
+palette.cloud = turning("#fbdcae", "#6d4672")
+palette.sun = turning("#fff3c9", "#ff9a5e")
+
+--- Front lights by distance: they dim and cool, the farther the hazier.
+palette.lights = {
+  far = keys { { 0.5, { 1, 1, 1 } }, { 8.5, { 0.26, 0.17, 0.42 }, "inOutSine" } },
+  middle = keys { { 0.5, { 1, 1, 1 } }, { 8.5, { 0.17, 0.14, 0.36 }, "inOutSine" } },
+  near = keys { { 0.5, { 1, 1, 1 } }, { 8.5, { 0.14, 0.13, 0.30 }, "inOutSine" } },
+  figure = keys { { 0.5, { 1, 0.98, 0.94 } }, { 8.5, { 0.52, 0.40, 0.46 }, "inOutSine" } },
+}
+
+palette.mountains = { "#b98a86", "#ecb98c" }
+palette.hills = { "#8d6f78", "#c99880" }
+palette.lake = { "#f6be82", "#9c7f86" }
+palette.village = { "#6d7358", "#54604f" }
+palette.near = { "#55683f", "#3b4d3c" }
+palette.ground = { "#4b5a33", "#27362b" }
+palette.silhouette = "#15201f"
+
+palette.walls = { "#efd7b4", "#e3b98f", "#d99f7d" }
+palette.roofs = { "#b1543f", "#8e4a48", "#a3633f" }
+palette.pane = "#3d4a58"
+palette.gels = { { 1, 0.62, 0.22 }, { 1, 0.74, 0.36 }, { 1, 0.46, 0.20 } }
+
+palette.skin = "#f3c39b"
+palette.skin_shade = "#d9906f"
+palette.cheek = "#e8654f66"
+palette.ink = "#2b1b2c"
+palette.hair = "#4b2a33"
+palette.coat = { "#2f7f86", "#17404f" }
+palette.coat_trim = "#f0d9a8"
+palette.scarf = { "#e9573f", "#b5343f" }
+palette.hat = { "#e8a33d", "#b5672d" }
+palette.boot = "#3b2430"
+palette.brass = "#7a4b2a"
+
+return palette

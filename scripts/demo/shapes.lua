@@ -1,0 +1,59 @@
+-- Outlines that the drawings share: everything here is a path made from a few points.
+local celspan = require "celspan"
+
+local shapes = {}
+
+local number = "%.2f %.2f "
+
+--- Cubic pieces through points {x, y}, Catmull-Rom; the ends run straight.
+local function through(points)
+  local d = {}
+  for i = 1, #points - 1 do
+    local before, a = points[i - 1] or points[i], points[i]
+    local b, after = points[i + 1], points[i + 2] or points[i + 1]
+    d[#d + 1] = ("C" .. number:rep(3)):format(
+      a[1] + (b[1] - before[1]) / 6, a[2] + (b[2] - before[2]) / 6,
+      b[1] - (after[1] - a[1]) / 6, b[2] - (after[2] - a[2]) / 6, b[1], b[2])
+  end
+  return table.concat(d)
+end
+
+--- Land: a crest through the points, closed along `bottom`.
+function shapes.ridge(points, bottom, texture)
+  local first, last = points[1], points[#points]
+  local d = ("M" .. number .. "L" .. number):format(first[1], bottom, first[1], first[2])
+    .. through(points) .. ("L" .. number .. "Z"):format(last[1], bottom)
+  return celspan.path { d = d, texture = texture }
+end
+
+--- A soft closed outline with the points as its control cage.
+function shapes.blob(points, texture)
+  return celspan.nurbs { points = points, texture = texture }
+end
+
+--- A ribbon along a line of points {x, y, width}.
+function shapes.ribbon(points, texture)
+  local there, back = {}, {}
+  for i, p in ipairs(points) do
+    local a, b = points[i - 1] or p, points[i + 1] or p
+    local dx, dy = b[1] - a[1], b[2] - a[2]
+    local k = p[3] / 2 / math.sqrt(dx * dx + dy * dy)
+    there[i] = { p[1] - dy * k, p[2] + dx * k }
+    back[#points + 1 - i] = { p[1] + dy * k, p[2] - dx * k }
+  end
+  local d = ("M" .. number):format(there[1][1], there[1][2]) .. through(there)
+    .. ("L" .. number):format(back[1][1], back[1][2]) .. through(back) .. "Z"
+  return celspan.path { d = d, texture = texture }
+end
+
+--- A halo of flat rings of thin paint; strong front lights make it glow (see lamp lights).
+function shapes.halo(x, y, radius, rings, paint)
+  local parts = {}
+  for i = 1, rings do
+    local r = radius * (1 - (i - 1) / rings) ^ 1.3
+    parts[i] = celspan.circle { centre = { x, y }, radius = r, texture = paint }
+  end
+  return celspan.union(parts)
+end
+
+return shapes

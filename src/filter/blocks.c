@@ -1,0 +1,302 @@
+#include "filter/blocks.h"
+
+#include <stdlib.h>
+
+static void *take(cs_blocks *b, size_t count, size_t size) {
+  return cs_arena_take(b->scan->context, &b->scan->arena, count * size);
+}
+
+const cs_bend *cs_blocks_bend(const cs_active *active, size_t i) {
+  size_t low = 0, high = active->bend_count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (active->bends[middle].boundary < i)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
+}
+
+cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
+                           uint32_t count) {
+  const cs_boundary_chain *c = &active->set->chains[chain];
+  return (cs_member){.points = points,
+                     .point_count = count,
+                     .at = 1,
+                     .leaf = c->leaf,
+                     .strip = UINT32_MAX,
+                     .order = chain,
+                     .direction = c->direction,
+                     .x = points[0].x,
+                     .y = points[0].y,
+                     .foot = points[0].x};
+}
+
+/* ---------------------------------------------------------------- x-ranges */
+
+typedef struct range {
+  double low, high;
+} range;
+
+/* Where boundary i is inside the row. */
+static range boundary_range(const cs_active *active, size_t i) {
+  double top = active->x[i], foot = active->x_next[i];
+  range r = {top < foot ? top : foot, top < foot ? foot : top};
+  const cs_bend *bend = active->bend_count > 0 ? cs_blocks_bend(active, i) : NULL;
+  for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
+    double x = active->vertices[bend->vertex + k].x;
+    r.low = x < r.low ? x : r.low;
+    r.high = x > r.high ? x : r.high;
+  }
+  return r;
+}
+
+/* ---------------------------------------------------------------- blocks */
+
+static celspan_status add_block(cs_blocks *b, size_t low, size_t high) {
+  if (b->count == b->capacity) {
+    size_t wanted = b->capacity ? 2 * b->capacity : 64;
+    cs_block *grown = take(b, wanted, sizeof *grown);
+    if (!grown)
+      return CELSPAN_NO_MEMORY;
+    if (b->count > 0)
+      memcpy(grown, b->blocks, b->count * sizeof *grown);
+    b->blocks = grown;
+    b->capacity = wanted;
+  }
+  b->blocks[b->count++] = (cs_block){low, high, low};
+  return CELSPAN_OK;
+}
+
+static bool is_sorted(const double *x, size_t count) {
+  int falls = 0;
+  for (size_t i = 1; i < count; i++)
+    falls |= x[i - 1] > x[i];
+  return !falls;
+}
+
+/* Blocks that the order at the foot permutes: back from each boundary that is overtaken, to the
+ * first one at or left of which nothing ends up right of it. */
+static celspan_status add_swaps(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  const double *foot = active->x_next;
+  if (is_sorted(foot, active->count))
+    return CELSPAN_OK;
+  double *greatest = take(b, active->count, sizeof *greatest);
+  if (!greatest)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < active->count; i++) {
+    greatest[i] = i > 0 && greatest[i - 1] > foot[i] ? greatest[i - 1] : foot[i];
+    size_t low = i;
+    while (low > 0 && greatest[low - 1] > foot[i])
+      low--;
+    if (low < i)
+      CS_TRY(add_block(b, low, i + 1));
+  }
+  return CELSPAN_OK;
+}
+
+/* Blocks of bent boundaries with the neighbours that they may touch. */
+static celspan_status add_bends(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  for (size_t k = 0; k < active->bend_count; k++) {
+    const cs_bend *bend = &active->bends[k];
+    size_t i = bend->boundary, low = i, high = i + 1;
+    if (bend->vertex_count == 0)
+      continue;
+    range own = boundary_range(active, i);
+    while (low > 0 && boundary_range(active, low - 1).high > own.low)
+      low--;
+    while (high < active->count && boundary_range(active, high).low < own.high)
+      high++;
+    if (high - low > 1)
+      CS_TRY(add_block(b, low, high));
+  }
+  return CELSPAN_OK;
+}
+
+static int compare_events(const void *p, const void *q) {
+  const cs_row_event *a = p, *b = q;
+  if (a->y != b->y)
+    return a->y < b->y ? -1 : 1;
+  if (a->leaf != b->leaf)
+    return a->leaf < b->leaf ? -1 : 1;
+  if (a->x != b->x)
+    return a->x < b->x ? -1 : 1;
+  return (a->begin > b->begin) - (a->begin < b->begin);
+}
+
+/* The x-ranges of all boundaries: events ask for each of them. */
+static celspan_status measure_ranges(cs_blocks *b, range **out) {
+  const cs_active *active = &b->scan->active;
+  range *ranges = take(b, active->count, sizeof *ranges);
+  if (!ranges)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < active->count; i++) {
+    double top = active->x[i], foot = active->x_next[i];
+    ranges[i] = (range){top < foot ? top : foot, top < foot ? foot : top};
+  }
+  for (size_t k = 0; k < active->bend_count; k++)
+    ranges[active->bends[k].boundary] = boundary_range(active, active->bends[k].boundary);
+  *out = ranges;
+  return CELSPAN_OK;
+}
+
+/* The block of the boundaries whose x-range meets [low, high], or the place between two. */
+static celspan_status add_range(cs_blocks *b, const range *ranges, double low, double high,
+                                size_t *block_low) {
+  const cs_active *active = &b->scan->active;
+  size_t first = active->count, end = 0, place = 0;
+  for (size_t i = 0; i < active->count; i++) {
+    place += active->x[i] <= low;
+    if (ranges[i].high < low || ranges[i].low > high)
+      continue;
+    first = i < first ? i : first;
+    end = i + 1;
+  }
+  *block_low = first < end ? first : place;
+  return add_block(b, *block_low, first < end ? end : place);
+}
+
+/* Blocks of begins and ends: one for all of a leaf at one height. */
+static celspan_status add_events(cs_blocks *b) {
+  range *ranges;
+  if (b->event_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(measure_ranges(b, &ranges));
+  if (b->event_count > 1)
+    qsort(b->events, b->event_count, sizeof *b->events, compare_events);
+  for (size_t first = 0, end; first < b->event_count; first = end) {
+    const cs_row_event *e = &b->events[first];
+    for (end = first + 1;
+         end < b->event_count && b->events[end].y == e->y && b->events[end].leaf == e->leaf;)
+      end++;
+    size_t block_low;
+    CS_TRY(add_range(b, ranges, e->x, b->events[end - 1].x, &block_low));
+    for (size_t i = first; i < end; i++)
+      if (b->events[i].begin >= 0)
+        b->begin_low[b->events[i].begin] = block_low;
+  }
+  return CELSPAN_OK;
+}
+
+static int compare_blocks(const void *p, const void *q) {
+  const cs_block *a = p, *b = q;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  return (a->high > b->high) - (a->high < b->high);
+}
+
+/* Joins blocks that share a boundary, and places that touch a block. */
+static void merge_blocks(cs_blocks *b) {
+  size_t kept = 0;
+  if (b->count > 1)
+    qsort(b->blocks, b->count, sizeof *b->blocks, compare_blocks);
+  for (size_t i = 0; i < b->count; i++) {
+    cs_block *next = &b->blocks[i], *last = kept > 0 ? &b->blocks[kept - 1] : NULL;
+    bool touches = last && next->low == last->high &&
+                   (next->low == next->high || last->last_low == last->high);
+    if (last && (next->low < last->high || touches)) {
+      last->high = next->high > last->high ? next->high : last->high;
+      last->last_low = next->low;
+    } else {
+      b->blocks[kept++] = *next;
+    }
+  }
+  b->count = kept;
+}
+
+/* ---------------------------------------------------------------- begins and ends */
+
+/* The polyline of a chain that begins inside the row, down to its end or the foot of the row. */
+static celspan_status chain_points(cs_blocks *b, uint32_t chain, const celspan_point **points,
+                                   uint32_t *count) {
+  const cs_boundary_set *set = b->scan->active.set;
+  double top = set->chains[chain].y0;
+  cs_boundary_walk walk;
+  size_t room = 3;
+  cs_boundary_start(set, chain, top, &walk);
+  for (cs_boundary_walk ahead = walk; ahead.y1 < b->y1 && cs_boundary_next(set, &ahead);)
+    room++;
+  celspan_point *p = take(b, room, sizeof *p), *last = p;
+  if (!p)
+    return CELSPAN_NO_MEMORY;
+  *points = p;
+  *p++ = (celspan_point){cs_boundary_x(&walk, top), top};
+  bool more = true;
+  while (more && walk.y1 < b->y1) {
+    if (walk.y1 > last->y) {
+      last = p;
+      *p++ = (celspan_point){walk.x1, walk.y1};
+    }
+    more = cs_boundary_next(set, &walk);
+  }
+  if (more)
+    *p++ = (celspan_point){cs_boundary_x(&walk, b->y1), b->y1};
+  *count = (uint32_t)(p - *points);
+  return CELSPAN_OK;
+}
+
+static size_t count_begins(const cs_active *active, double y1) {
+  size_t end = active->next;
+  while (end < active->set->chain_count && active->set->chains[end].y0 < y1)
+    end++;
+  return end - active->next;
+}
+
+celspan_status cs_blocks_begins(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  b->begin_count = count_begins(active, b->y1);
+  b->begins = take(b, b->begin_count, sizeof *b->begins);
+  b->begin_low = take(b, b->begin_count, sizeof *b->begin_low);
+  if (!b->begins || !b->begin_low)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++) {
+    uint32_t chain = (uint32_t)(active->next + k), count;
+    const celspan_point *points;
+    CS_TRY(chain_points(b, chain, &points, &count));
+    b->begins[k] = cs_blocks_member(active, chain, points, count);
+  }
+  return CELSPAN_OK;
+}
+
+static void note_event(cs_blocks *b, celspan_point at, uint32_t leaf, int32_t begin) {
+  b->events[b->event_count++] = (cs_row_event){at.x, at.y, leaf, begin};
+}
+
+static celspan_status find_events(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  b->events = take(b, 2 * b->begin_count + active->bend_count, sizeof *b->events);
+  if (!b->events)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++) {
+    const cs_member *member = &b->begins[k];
+    celspan_point last = member->points[member->point_count - 1];
+    note_event(b, member->points[0], member->leaf, (int32_t)k);
+    if (last.y < b->y1)
+      note_event(b, last, member->leaf, -1);
+  }
+  for (size_t k = 0; k < active->bend_count; k++) {
+    const cs_bend *bend = &active->bends[k];
+    if (bend->ends && bend->vertex_count > 0)
+      note_event(b, active->vertices[bend->vertex + bend->vertex_count - 1],
+                 cs_active_chain(active, bend->boundary)->leaf, -1);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_blocks_find(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  CS_TRY(add_swaps(b));
+  if (active->bend_count > 0)
+    CS_TRY(add_bends(b));
+  if (count_begins(active, b->y1) > 0)
+    CS_TRY(cs_blocks_begins(b));
+  if (b->begin_count > 0 || active->bend_count > 0) {
+    CS_TRY(find_events(b));
+    CS_TRY(add_events(b));
+  }
+  merge_blocks(b);
+  return CELSPAN_OK;
+}

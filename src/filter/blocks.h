@@ -1,0 +1,51 @@
+/* Blocks: which boundaries of a row must be replayed together.
+ *
+ * A block is the smallest run of neighbours that holds all of: the boundaries that the order at the
+ * foot of the row permutes; a bent boundary and those whose x-range it meets; what begins and ends
+ * at one height in one leaf (its windings balance only together) and all between.
+ *
+ * Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
+ * boundaries (low == high) touches no other block.
+ */
+#ifndef CS_FILTER_BLOCKS_H
+#define CS_FILTER_BLOCKS_H
+
+#include "filter/cluster.h"
+
+/* Neighbours [low, high) to be replayed together; low == high: what begins and ends between two. */
+typedef struct cs_block {
+  size_t low, high;
+  size_t last_low; /* the greatest `low` merged into it */
+} cs_block;
+
+/* A begin or an end inside the row. */
+typedef struct cs_row_event {
+  double x, y;
+  uint32_t leaf;
+  int32_t begin; /* index into begins, or -1: an end */
+} cs_row_event;
+
+typedef struct cs_blocks {
+  cs_scan *scan;
+  double y0, y1;      /* the row */
+  cs_member *begins;  /* chains that begin inside the row */
+  size_t *begin_low;  /* for each: the low end of the block it belongs to */
+  size_t begin_count;
+  cs_row_event *events;
+  size_t event_count;
+  cs_block *blocks;
+  size_t count, capacity;
+} cs_blocks;
+
+/* Finds the blocks of the row the scan's active boundaries have reached through. */
+CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
+/* Fills begins alone. */
+CELSPAN_CHECKED celspan_status cs_blocks_begins(cs_blocks *blocks);
+
+/* The bend of active boundary i, or NULL. */
+const cs_bend *cs_blocks_bend(const cs_active *active, size_t i);
+/* A chain as a member that stands at the top of its points. */
+cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
+                           uint32_t count);
+
+#endif

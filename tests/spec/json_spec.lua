@@ -1,0 +1,40 @@
+-- The JSON reader: what it takes, what it refuses, and how it says so.
+local json = require "celspan.json"
+
+describe("json", function()
+  it("reads every kind of value", function()
+    assert.are.same({ 1, -2.5, 1e3, true, false, "x", {}, { a = { 1 } } },
+      json.decode ' [1, -2.5, 1E+3, true, false, "x", [], {"a": [1]}] ')
+    assert.are.equal(json.null, json.decode "null")
+    assert.are.equal(0, json.decode "0")
+  end)
+
+  it("reads escapes and surrogate pairs", function()
+    assert.are.equal('a"\\/\b\f\n\r\tä€😀\127', json.decode
+      '"a\\"\\\\\\/\\b\\f\\n\\r\\t\\u00e4\\u20AC\\ud83d\\ude00\127"')
+    assert.are.equal("\u{FFFD}x", json.decode '"\\ud83dx"')
+  end)
+
+  it("lets a byte order mark pass", function()
+    assert.are.equal(3, json.decode "\239\187\1913")
+  end)
+
+  it("refuses what is not JSON, by line", function()
+    for _, text in ipairs { "", " ", "[", "[1,]", "[1 2]", "{", '{"a"}', '{"a":}', "{a:1}", '"',
+                            '"\\x"', '"\\u12"', '"\n"', "01", "-", "1.", "1.e3", ".5", "nul",
+                            "tru", "True", "1 2", "NaN", "Infinity", "'x'", "[1]]" } do
+      local value, message = json.decode(text)
+      assert.is_nil(value, text)
+      assert.is_truthy(message:find "^line %d+: ", text)
+    end
+    assert.are.equal("line 3: a comma or ] is missing in an array",
+      select(2, json.decode "[1,\n2\n3]"))
+  end)
+
+  it("has a limit on nesting, and none on plain length", function()
+    local deep = ("["):rep(200) .. ("]"):rep(200)
+    assert.are.equal("line 1: nested deeper than 100 levels", select(2, json.decode(deep)))
+    assert.is_truthy(json.decode(("["):rep(99) .. ("]"):rep(99)))
+    assert.are.equal(20000, #json.decode("[" .. ("1,"):rep(19999) .. "1]"))
+  end)
+end)

@@ -1,0 +1,226 @@
+-- From values to pixels, spans, points and files, through the Lua face.
+local celspan = require "celspan"
+
+local red, blue = celspan.rgb(1, 0, 0), celspan.rgb(0, 0, 1)
+
+--- A red square on [2, 6) x [1, 4) over a blue ground; a film of 8 x 5.
+local function scene()
+  return celspan.rostrum {
+    celspan.cel { celspan.rect { 0, 0, 8, 5, texture = blue },
+                  celspan.rect { 2, 1, 4, 3, texture = red } },
+  }
+end
+
+local options = { size = { 8, 5 }, workers = 1 }
+
+describe("pixels", function()
+  it("are linear and premultiplied, counted from 0", function()
+    local image = assert(celspan.pixels(scene(), options))
+    assert.are.same({ 8, 5 }, { image.width, image.height })
+    assert.are.same({ 0, 0, 1, 1 }, { image:get(0, 0) })
+    assert.are.same({ 1, 0, 0, 1 }, { image:get(2, 1) })
+    assert.are.same({ 0, 0, 1, 1 }, { image:get(6, 1) })
+    assert.is_false(pcall(image.get, image, 8, 0))
+    assert.is_false(pcall(image.get, image, 0, -1))
+    assert.is_false(pcall(image.get, image, 0.5, 0))
+  end)
+
+  it("of a crop are those of the whole", function()
+    local whole = assert(celspan.pixels(scene(), options))
+    local crop = assert(celspan.pixels(scene(), { size = { 8, 5 }, crop = { 1, 1, 3, 2 } }))
+    assert.are.same({ 3, 2 }, { crop.width, crop.height })
+    for y = 0, 1 do
+      for x = 0, 2 do
+        assert.are.same({ whole:get(x + 1, y + 1) }, { crop:get(x, y) })
+      end
+    end
+  end)
+
+  it("scale with the size when the film is told", function()
+    local image = assert(celspan.pixels(scene(), { size = { 16, 10 }, film = { 8, 5 } }))
+    assert.are.same({ 1, 0, 0, 1 }, { image:get(11, 7) })
+    assert.are.same({ 0, 0, 1, 1 }, { image:get(12, 7) })
+  end)
+
+  it("of several exposures add", function()
+    local image = assert(celspan.pixels({ { scene(), 0.25 }, { celspan.rostrum {}, 1 } }, options))
+    assert.are.same({ 0.25, 0, 0, 0.25 }, { image:get(2, 1) })
+  end)
+
+  it("answer nil and a message when the frame is refused", function()
+    local image, message = celspan.pixels(scene(), { size = { 8, 5 }, crop = { 5, 0, 9, 5 } })
+    assert.is_nil(image)
+    assert.are.equal("string", type(message))
+  end)
+end)
+
+describe("spans", function()
+  it("cover each row without a gap", function()
+    local rows = assert(celspan.spans(scene(), options))
+    for y = 0, 4 do
+      local at = 0
+      for _, span in ipairs(rows[y]) do
+        assert.are.equal(at, span.x0)
+        at = span.x1
+      end
+      assert.are.equal(8, at)
+    end
+  end)
+
+  it("are single where nothing varies", function()
+    local rows = assert(celspan.spans(scene(), { size = { 8, 5 }, rows = { 2, 3 } }))
+    assert.is_nil(rows[1])
+    assert.is_nil(rows[4])
+    assert.are.same({ { x0 = 0, x1 = 2, kind = "single", 0, 0, 1, 1 },
+                      { x0 = 2, x1 = 6, kind = "single", 1, 0, 0, 1 },
+                      { x0 = 6, x1 = 8, kind = "single", 0, 0, 1, 1 } }, rows[2])
+  end)
+
+  it("are gradients with the colours of the first and last pixel", function()
+    local ramp = celspan.linear { from = { 0, 0 }, to = { 8, 0 }, { 0, "#000" }, { 1, "#fff" } }
+    local rostrum = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 5, texture = ramp } } }
+    local span = assert(celspan.spans(rostrum, options))[2][1]
+    assert.are.equal("gradient", span.kind)
+    assert.is_true(math.abs(span[1] - 1 / 16) < 1e-6 and math.abs(span[5] - 15 / 16) < 1e-6)
+  end)
+end)
+
+describe("probe", function()
+  it("is the colour at a point of the film", function()
+    assert.are.same({ 1, 0, 0, 1 }, { celspan.probe(scene(), 3.5, 2, { film = { 8, 5 } }) })
+    assert.are.same({ 0, 0, 1, 1 }, { celspan.probe(scene(), 7, 2, { film = { 8, 5 } }) })
+  end)
+end)
+
+describe("scanline", function()
+  local function procedure(spans)
+    return celspan.rostrum {
+      celspan.cel { celspan.scanline { bounds = { 0, 0, 8, 5 }, spans = spans } },
+    }
+  end
+
+  it("paints what the function returns", function()
+    local rostrum = procedure(function(y) return { { 1, 3, red }, { 4, 4 + y / 2, blue } } end)
+    local image = assert(celspan.pixels(rostrum, { size = { 8, 5 }, antialias = "none" }))
+    assert.are.same({ 0, 0, 0, 0 }, { image:get(0, 0) })
+    assert.are.same({ 1, 0, 0, 1 }, { image:get(1, 0) })
+    assert.are.same({ 0, 0, 1, 1 }, { image:get(5, 3) })
+    assert.are.same({ 0, 0, 0, 0 }, { image:get(5, 0) })
+  end)
+
+  it("is told which part can be seen", function()
+    local seen
+    local rostrum = procedure(function(_, row)
+      seen = row
+      return {}
+    end)
+    assert(celspan.pixels(rostrum, { size = { 8, 5 }, antialias = "none" }))
+    assert.are.equal(1, seen.pixel)
+    assert.is_true(seen.x0 <= 0 and seen.x1 >= 8)
+  end)
+
+  it("hands on errors of the function, with their line", function()
+    local image, message = celspan.pixels(procedure(function() error "no rain today" end), options)
+    assert.is_nil(image)
+    assert.is_truthy(message:find "render_spec.lua:%d+: no rain today")
+    image, message = celspan.pixels(procedure(function() return { { 1, "x", red } } end), options)
+    assert.is_nil(image)
+    assert.is_truthy(message:find("scanline: span 1: its value 2 must be a number", 1, true))
+  end)
+
+  it("lives as long as the object, not the value", function()
+    local rostrum = procedure(function() return { { 0, 8, red } } end)
+    collectgarbage()
+    collectgarbage()
+    assert.are.same({ 1, 0, 0, 1 }, { assert(celspan.pixels(rostrum, options)):get(3, 3) })
+  end)
+end)
+
+describe("render", function()
+  local folder
+
+  local function exists(name)
+    local file = io.open(folder .. name, "rb")
+    if file then file:close() end
+    return file ~= nil
+  end
+
+  local function film(fields)
+    fields = fields or {}
+    fields.size, fields.frames = { 8, 5 }, fields.frames or 12
+    fields.frame = fields.frame or scene
+    return celspan.film(fields)
+  end
+
+  before_each(function()
+    folder = os.tmpname()
+    os.remove(folder)
+    folder = folder .. "/"
+  end)
+  after_each(function() os.execute("rm -rf '" .. folder .. "'") end)
+
+  it("writes the frames of a film", function()
+    assert(celspan.render(film { frames = 3 }, folder .. "a.####.png"))
+    assert.are.same({ true, true, true, false }, { exists "a.0001.png", exists "a.0002.png",
+      exists "a.0003.png", exists "a.0004.png" })
+  end)
+
+  it("writes the frames that are asked for, in names that grow", function()
+    assert(celspan.render(film { first = 8 }, folder .. "b.%02d.png", { frames = "8-10:2" }))
+    assert.are.same({ true, false, true }, { exists "b.08.png", exists "b.09.png",
+      exists "b.10.png" })
+    assert(celspan.render(film(), folder .. "c.#.png", { frames = 12 }))
+    assert.is_true(exists "c.12.png")
+  end)
+
+  it("writes a rostrum as one picture", function()
+    assert(celspan.render(scene(), folder .. "one.png", { size = { 8, 5 } }))
+    assert.is_true(exists "one.png")
+  end)
+
+  it("refuses lists that overlap, leave the film or are not lists", function()
+    local function message(frames, pattern)
+      local done, text = celspan.render(film(), folder .. (pattern or "d.####.png"),
+        { frames = frames })
+      assert.is_nil(done)
+      return text
+    end
+    assert.is_truthy(message("1-5,3"):find("frame 3 stands in it twice", 1, true))
+    assert.is_truthy(message("1-20:2,4-8:3"):find("frame 7 stands in it twice", 1, true))
+    assert.is_truthy(message("1-13"):find("frame 13 is outside the film", 1, true))
+    assert.is_truthy(message("-3"):find("frame -3 is outside the film", 1, true))
+    assert.is_truthy(message("1-3:0"):find("step of 0", 1, true))
+    assert.is_truthy(message("5-1"):find("needs a step below 0", 1, true))
+    assert.is_truthy(message("1,,2"):find("a whole number is missing at character 3", 1, true))
+    assert.is_truthy(message(""):find("a whole number is missing", 1, true))
+    assert.is_truthy(message("1-2", "d.png"):find("no place for a frame number", 1, true))
+  end)
+
+  it("answers with the line and the frame of an error", function()
+    local bad = film { frame = function(f)
+      return celspan.rostrum { f.number > 1 and 3 or nil }
+    end }
+    local done, message = celspan.render(bad, folder .. "e.####.png")
+    assert.is_nil(done)
+    assert.is_truthy(message:find(
+      "render_spec.lua:%d+: frame 2: rostrum: item 1 must be a cel, got number"), message)
+    assert.is_true(exists "e.0001.png")
+  end)
+
+  it("tells its progress, and stops when told to", function()
+    local shares, last = {}, 0
+    assert(celspan.render(film { frames = 2 }, folder .. "f.#.png", { workers = 1,
+      progress = function(share, frame)
+        assert.is_true(share >= last and share <= 1 and (frame == 1 or frame == 2))
+        last = share
+        shares[#shares + 1] = share
+      end }))
+    assert.is_true(#shares >= 2)
+    local done = celspan.render(film(), folder .. "g.#.png",
+      { progress = function() return false end })
+    assert.is_nil(done)
+    local _, message = celspan.render(film(), folder .. "h.#.png",
+      { progress = function() error "enough" end })
+    assert.is_truthy(message:find "enough")
+  end)
+end)

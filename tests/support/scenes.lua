@@ -1,0 +1,381 @@
+-- Random scenes as the text of Lua scripts, so that a case which fails is printed as it stands.
+--
+--   scenes.script(seed [, { straight = true }]) -> text of a film script, traits
+--
+-- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened), light (the brightest that can leave
+-- the frame), has_rows (scan-line primitives: placed upright).
+local prng = require "tests.support.prng"
+
+local scenes = {}
+local maker = {}
+maker.__index = maker
+
+-- ---------------------------------------------------------------- numbers
+
+local function text_of(number)
+  local text = ("%.4f"):format(number):gsub("0+$", ""):gsub("%.$", "")
+  return text == "-0" and "0" or text
+end
+
+--- A number; now and then one where edges meet pixel centres and pixel borders.
+function maker:number(low, high)
+  local number = self.random:between(low, high)
+  if self.random:once(5) then number = math.floor(number * 2 + 0.5) / 2 end
+  return text_of(number)
+end
+
+function maker:share()
+  local any = self.random:between(0, 1)
+  return text_of(self.random:pick { 0, 1, any, any })
+end
+
+--- A share that seldom lets nothing be seen.
+function maker:part() return self.random:once(20) and "0" or text_of(self.random:between(0.2, 1)) end
+
+--- A point of the frame or somewhat beyond.
+function maker:point()
+  local w, h = self.traits.width, self.traits.height
+  return self:number(-0.3 * w, 1.3 * w), self:number(-0.3 * h, 1.3 * h)
+end
+
+function maker:point_text() return ("{%s, %s}"):format(self:point()) end
+
+function maker:points(count)
+  local points = {}
+  for i = 1, count do points[i] = self:point_text() end
+  return table.concat(points, ", ")
+end
+
+-- ---------------------------------------------------------------- paints and textures
+
+function maker:triple() return self:share() .. ", " .. self:share() .. ", " .. self:share() end
+
+function maker:paint(depth)
+  local kind = self.random:whole(1, depth and 6 or 7)
+  if kind == 1 then return ("%q"):format(("#%06x"):format(self.random:whole(0, 0xffffff))) end
+  if kind == 2 then return ("celspan.rgb(%s)"):format(self:triple()) end
+  if kind == 3 then return ("celspan.rgb(%s, %s)"):format(self:triple(), self:share()) end
+  if kind == 4 then return ("celspan.gel(%s)"):format(self:triple()) end
+  if kind == 5 then
+    return ("celspan.paint{ pigment = {%s}, medium = {%s}, beta = %s }")
+      :format(self:triple(), self:triple(), self:share())
+  end
+  if kind == 6 then return ("%q"):format(("#%08x"):format(self.random:whole(0, 0xffffffff))) end
+  return ("celspan.mix(%s, %s, %s)"):format(self:paint(true), self:paint(true), self:share())
+end
+
+function maker:stops()
+  local places, stops = {}, {}
+  for i = 1, self.random:whole(1, 4) do
+    places[i] = self.random:once(4) and self.random:pick { 0, 0.5, 1 } or self.random:between(0, 1)
+  end
+  table.sort(places)
+  for i, place in ipairs(places) do stops[i] = ("{%s, %s}"):format(text_of(place), self:paint()) end
+  return table.concat(stops, ", ")
+end
+
+function maker:texture()
+  local kind = self.random:whole(1, 8)
+  if kind == 1 then
+    return ("celspan.gradient{ {%s, %s, %s}, {%s, %s, %s}, {%s, %s, %s} }"):format(
+      self:number(0, 40), self:number(0, 40), self:paint(), self:number(0, 40), self:number(0, 40),
+      self:paint(), self:number(0, 40), self:number(0, 40), self:paint())
+  end
+  if kind == 2 then
+    return ("celspan.linear{ from = %s, to = %s, %s }"):format(self:point_text(), self:point_text(),
+                                                              self:stops())
+  end
+  if kind == 3 then
+    return ("celspan.radial{ centre = %s, radius = %s, %s }"):format(
+      self:point_text(), self:number(1, 30), self:stops())
+  end
+  return self:paint()
+end
+
+-- ---------------------------------------------------------------- primitives
+
+function maker:rule() return self.random:once(2) and 'rule = "evenodd", ' or "" end
+
+function maker:rect()
+  local radius = ""
+  if not self.is_straight and self.random:once(3) then
+    radius = (", radius = %s"):format(self:number(0, 9))
+    self.traits.is_curved = true
+  end
+  local x, y = self:point()
+  return ("celspan.rect{ %s, %s, %s, %s%s, texture = %s }"):format(
+    x, y, self:number(0, 30), self:number(0, 30), radius, self:texture())
+end
+
+function maker:triangle()
+  return ("celspan.triangle{ %s, texture = %s }"):format(self:points(3), self:texture())
+end
+
+function maker:polygon()
+  return ("celspan.polygon{ %s, %stexture = %s }"):format(self:points(self.random:whole(3, 9)),
+                                                         self:rule(), self:texture())
+end
+
+function maker:circle()
+  self.traits.is_curved = true
+  return ("celspan.circle{ centre = %s, radius = %s, texture = %s }"):format(
+    self:point_text(), self:number(0, 20), self:texture())
+end
+
+function maker:ellipse()
+  self.traits.is_curved = true
+  return ("celspan.ellipse{ centre = %s, radii = {%s, %s}, texture = %s }"):format(
+    self:point_text(), self:number(0, 25), self:number(0, 25), self:texture())
+end
+
+function maker:knots(count)
+  local knots, at = {}, 0
+  for i = 1, count do
+    knots[i] = text_of(at)
+    at = at + self.random:pick { 1, 1, 0.25, self.random:between(0.01, 3) }
+  end
+  return "{" .. table.concat(knots, ", ") .. "}"
+end
+
+function maker:nurbs()
+  self.traits.is_curved = true
+  local degree = self.random:pick { 1, 2, 3, 3, 3, 4, 5 }
+  local count = degree + self.random:whole(1, 5)
+  local is_weighted, is_clamped = self.random:once(3), self.random:once(3)
+  local points, fields = {}, {}
+  for i = 1, count do
+    local x, y = self:point()
+    points[i] = is_weighted and ("{%s, %s, %s}"):format(x, y, text_of(self.random:between(0.05, 8)))
+      or ("{%s, %s}"):format(x, y)
+  end
+  if is_clamped then fields[#fields + 1] = 'closed = "clamped", ' end
+  if self.random:once(2) then
+    fields[#fields + 1] = ("knots = %s, "):format(
+      self:knots(is_clamped and count + degree + 1 or count + 1))
+  end
+  return ("celspan.nurbs{ points = {%s}, degree = %d, %s%stexture = %s }"):format(
+    table.concat(points, ", "), degree, table.concat(fields), self:rule(), self:texture())
+end
+
+local segments = {
+  L = "xy", H = "x", V = "y", C = "xyxyxy", S = "xyxy", Q = "xyxy", T = "xy", A = "a", Z = "",
+}
+
+function maker:segment(letter)
+  local is_relative = self.random:once(2)
+  local words = { is_relative and letter:lower() or letter }
+  local pattern = segments[letter] == "a" and "xy" or segments[letter]
+  if letter == "A" then
+    words[1] = ("%s%s %s %s %d %d"):format(words[1], self:number(0.5, 20), self:number(0.5, 20),
+      self:number(-180, 180), self.random:whole(0, 1), self.random:whole(0, 1))
+  end
+  for axis in pattern:gmatch "." do
+    local side = axis == "x" and self.traits.width or self.traits.height
+    words[#words + 1] = is_relative and self:number(-0.5 * side, 0.5 * side)
+      or self:number(-0.2 * side, 1.2 * side)
+  end
+  return table.concat(words, " ")
+end
+
+function maker:path()
+  local letters = { "L", "H", "V", "C", "S", "Q", "T", "A" }
+  if self.is_straight then letters = { "L", "H", "V" } else self.traits.is_curved = true end
+  local words = {}
+  for _ = 1, self.random:whole(1, 3) do
+    words[#words + 1] = ("M%s %s"):format(self:point())
+    for _ = 1, self.random:whole(2, 6) do
+      words[#words + 1] = self:segment(self.random:pick(letters))
+    end
+    if self.random:once(2) then words[#words + 1] = "Z" end
+  end
+  return ("celspan.path{ d = %q, %stexture = %s }"):format(table.concat(words, " "), self:rule(),
+                                                          self:texture())
+end
+
+--- Spans that move with the row: one flat, one of two paints, one of several.
+function maker:scanline()
+  self.traits.has_rows = true
+  local w, h = self.traits.width, self.traits.height
+  local a, b = text_of(self.random:between(-0.06, 0.06)), text_of(self.random:between(-0.06, 0.06))
+  local x0, x1 = self:number(0, 0.3 * w), self:number(0.35 * w, 0.5 * w)
+  local x2, x3 = self:number(0.8 * w, w), self:number(1.2 * w, 1.3 * w)
+  local kinds = {
+    ("{%s + %s * y, %s + %s * y, %s}"):format(x0, a, x1, a, self:paint()),
+    ("{%s + %s * y, %s + %s * y, %s, %s}"):format(x1, a, x2, b, self:paint(), self:paint()),
+    ("{%s + %s * y, %s, array = {%s, %s, %s}}"):format(x2, b, x3, self:paint(), self:paint(),
+                                                     self:paint()),
+  }
+  local spans = {}
+  for i, span in ipairs(kinds) do
+    if i == 1 or self.random:once(2) then spans[#spans + 1] = span end
+  end
+  return ("celspan.scanline{ bounds = {%s, %s, %d, %d}, spans = function(y) return {%s} end }")
+    :format(self:number(-5, 5), self:number(-5, 5), w, h, table.concat(spans, ", "))
+end
+
+--- Now and then one that was there before: coincident edges.
+function maker:primitive()
+  if #self.made > 0 and self.random:once(6) then return self.random:pick(self.made) end
+  self.made[#self.made + 1] = self:fresh()
+  return self.made[#self.made]
+end
+
+function maker:fresh()
+  if self.is_upright and self.random:once(3) then return self:scanline() end
+  local kinds = { "rect", "triangle", "polygon", "polygon", "path" }
+  if not self.is_straight then
+    kinds = { "rect", "triangle", "circle", "ellipse", "polygon", "nurbs", "nurbs", "path", "path" }
+  end
+  return self[self.random:pick(kinds)](self)
+end
+
+-- ---------------------------------------------------------------- transforms and booleans
+
+function maker:quad()
+  local w, h = self.traits.width, self.traits.height
+  local jitter = 0.35
+  local corners = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }
+  local from, to = {}, {}
+  for i, corner in ipairs(corners) do
+    from[i] = ("{%d, %d}"):format(corner[1] * w, corner[2] * h)
+    to[i] = ("{%s, %s}"):format(
+      self:number((corner[1] - jitter) * w, (corner[1] + jitter) * w),
+      self:number((corner[2] - jitter) * h, (corner[2] + jitter) * h))
+  end
+  return (":quad({%s}, {%s})"):format(table.concat(from, ", "), table.concat(to, ", "))
+end
+
+--- A perspective; often its horizon crosses the frame.
+function maker:perspective()
+  local function small() return ("%.5f"):format(self.random:between(-0.03, 0.03)) end
+  return (":transform{ %s, %s, %s, %s, %s, %s, %s, %s, 1 }"):format(
+    self:number(0.5, 1.5), self:number(-0.4, 0.4), self:number(-8, 8), self:number(-0.4, 0.4),
+    self:number(0.5, 1.5), self:number(-8, 8), small(), small())
+end
+
+function maker:transform()
+  local kind = self.random:whole(1, 9)
+  if kind <= 2 then return (":translate(%s, %s)"):format(self:number(-12, 12), self:number(-12, 12)) end
+  if kind == 3 then return (":scale(%s)"):format(self:number(0.3, 1.8)) end
+  if kind == 4 then
+    return (":scale(%s, %s):translate(%s, %s)"):format(self.random:pick { "-", "" } .. self:number(0.3, 1.5), self:number(0.2, 1.5),
+      self:number(0, 20), self:number(0, 10))
+  end
+  if self.is_upright then return "" end
+  if kind == 5 then
+    return (":rotate(%s, %s, %s)"):format(self:number(-180, 180), self:number(0, 40), self:number(0, 30))
+  end
+  if kind == 6 then return (":skew(%s, %s)"):format(self:number(-40, 40), self:number(-40, 40)) end
+  if kind == 7 then return self:quad() end
+  if kind == 8 then return self:perspective() end
+  return (":rotate(%d)"):format(self.random:pick { 90, 180, 270, 45 })
+end
+
+function maker:dress(object)
+  if self.random:once(2) then object = object .. self:transform() end
+  if self.random:once(8) then object = object .. self:transform() end
+  if self.random:once(6) then object = ("%s:fade(%s)"):format(object, self:part()) end
+  return object
+end
+
+function maker:object(depth)
+  if depth == 0 or self.random:once(3) then return self:dress(self:primitive()) end
+  local kind = self.random:pick { "union", "intersection", "difference", "xor", "clip", "|", "&", "-", "~" }
+  if #kind == 1 then
+    return self:dress(("(%s %s %s)"):format(self:object(depth - 1), kind, self:object(depth - 1)))
+  end
+  if kind == "clip" then
+    return self:dress(("celspan.clip(%s, %s)"):format(self:object(depth - 1), self:object(depth - 1)))
+  end
+  local operands = {}
+  for i = 1, self.random:whole(1, 4) do operands[i] = self:object(depth - 1) end
+  return self:dress(("celspan.%s{ %s }"):format(kind, table.concat(operands, ", ")))
+end
+
+-- ---------------------------------------------------------------- cels and rostrums
+
+function maker:light(most)
+  local light, values = math.max(1, most), {}
+  for i = 1, 3 do values[i] = self:number(0, most) end
+  self.lights = self.lights + light
+  return table.concat(values, ", ")
+end
+
+function maker:cel()
+  local fields = {}
+  for i = 1, self.random:whole(1, self.most) do
+    fields[i] = "\n        " .. self:object(self.random:whole(0, self.depth))
+  end
+  if self.random:once(3) then fields[#fields + 1] = ("front = {%s}"):format(self:light(1.5)) end
+  if self.random:once(5) then
+    fields[#fields + 1] = ("back = {%s, %s}"):format(self:light(1), self:share())
+  end
+  if self.random:once(6) then
+    fields[#fields + 1] = ("viewport = {%s, %s, %s, %s}"):format(
+      self:number(-10, 10), self:number(-10, 10), self:number(15, 60), self:number(15, 60))
+  end
+  if self.random:once(5) then fields[#fields + 1] = ("opacity = %s"):format(self:part()) end
+  local transform = self.random:once(5) and self:transform() or ""
+  return ("celspan.cel{ %s }%s"):format(table.concat(fields, ", "), transform)
+end
+
+function maker:rostrum()
+  local fields = {}
+  self.lights = 1
+  for i = 1, self.random:whole(1, self.most) do fields[i] = "\n      " .. self:cel() end
+  if self.random:once(4) then fields[#fields + 1] = ("front = {%s}"):format(self:light(1.2)) end
+  if self.random:once(3) then
+    fields[#fields + 1] = ("back = {%s, %s}"):format(self:light(1), self:share())
+  end
+  if self.random:once(5) then
+    local brightness = self.random:between(0, 2)
+    fields[#fields + 1] = ("brightness = %s"):format(text_of(brightness))
+    self.lights = self.lights * math.max(1, brightness)
+  end
+  if self.random:once(4) then
+    local rotate = not self.is_upright and self.random:once(2) and self:number(-180, 180) or "0"
+    fields[#fields + 1] = ("camera = { centre = %s, width = %s, rotate = %s }"):format(
+      self:point_text(), self:number(15, 70), rotate)
+  end
+  return ("celspan.rostrum{ %s }"):format(table.concat(fields, ", "))
+end
+
+function maker:exposures()
+  if not self.random:once(6) then
+    local rostrum = self:rostrum()
+    self.traits.light = self.lights
+    return rostrum
+  end
+  local list = {}
+  for i = 1, self.random:whole(1, 3) do
+    local weight = self.random:between(0, 1.2)
+    list[i] = ("{ %s, %s }"):format(self:rostrum(), text_of(weight))
+    self.traits.light = self.traits.light + weight * self.lights
+  end
+  return "{ " .. table.concat(list, ", ") .. " }"
+end
+
+--- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
+function scenes.script(seed, options)
+  local random = prng.new(seed)
+  local traits = { width = random:whole(20, 56), height = random:whole(16, 40), light = 0,
+                   is_curved = false, has_rows = false }
+  local scale = random:pick { 1, 1, random:between(0.5, 8) }
+  traits.size = { math.ceil(traits.width * scale), math.ceil(traits.height * scale) }
+  local is_straight = random:once(2) or (options and options.is_straight)
+  local self = setmetatable({ random = random, traits = traits, is_straight = is_straight, made = {},
+                              is_upright = random:once(4), most = random:pick { 1, 1, 3 },
+                              depth = random:pick { 0, 1, 2, 4 } }, maker)
+  local exposures = self:exposures()
+  return ([[
+local celspan = require "celspan"
+return celspan.film{ size = {%d, %d}, frame = function()
+  return %s
+end }
+]]):format(traits.width, traits.height, exposures), traits
+end
+
+--- The film of a script's text.
+function scenes.load(text) return assert(load(text, "=scene"))() end
+
+return scenes

@@ -1,0 +1,214 @@
+/* output/deflate.c and below: zlib inflates to the bytes that went in; code lengths are optimal. */
+#include "output/deflate.h"
+
+#include <stdlib.h>
+#include <zlib.h>
+
+#include "output/huffman.h"
+#include "tests/support/check.h"
+
+static uint64_t random_state = 1;
+
+static uint32_t random_below(uint32_t limit) {
+  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+  return (uint32_t)((random_state >> 32) * limit >> 32);
+}
+
+/* ---------------------------------------------------------------- streams */
+
+typedef struct store {
+  unsigned char *bytes;
+  size_t size, capacity, limit;
+} store;
+
+static void append(store *to, const void *bytes, size_t size) {
+  while (to->size + size >= to->capacity)
+    to->bytes = realloc(to->bytes, to->capacity = 2 * to->capacity + size + 1);
+  memcpy(to->bytes + to->size, bytes, size);
+  to->size += size;
+}
+
+static celspan_status write_store(void *user, celspan_context *context, const void *bytes,
+                                  size_t size) {
+  store *to = user;
+  if (to->limit && to->size + size > to->limit)
+    return celspan_context_fail(context, CELSPAN_OUTPUT, "full");
+  append(to, bytes, size);
+  return CELSPAN_OK;
+}
+
+static void check_inflates(const store *plain, const store *packed) {
+  unsigned char *found = malloc(plain->size + 1);
+  uLongf size = plain->size + 1;
+  CHECK(uncompress(found, &size, packed->bytes, packed->size) == Z_OK);
+  CHECK(size == plain->size && memcmp(found, plain->bytes, plain->size) == 0);
+  free(found);
+}
+
+static uint64_t random_pixel(int style) {
+  static const uint64_t palette[4] = {0, 0xff00000000ff8040u, 0x0101010101010101u, 0x80};
+  uint64_t pixel = palette[random_below(4)];
+  if (style % 3 == 2 || random_below(8) == 0)
+    pixel ^= (uint64_t)random_below(0xffffffffu) << 32 | random_below(0xffffffffu);
+  return pixel;
+}
+
+static size_t random_count(int style) {
+  uint32_t most[] = {2, 8, 100, 600, style % 2 ? 20000u : 3u, style > 6 ? 1000000u : 2u};
+  return 1 + random_below(most[random_below(6)]);
+}
+
+static void add_bytes(store *plain, cs_deflate *deflate, celspan_context *context, int style) {
+  unsigned char bytes[3000];
+  size_t size = random_below(style % 4 == 3 ? 3000 : 20);
+  for (size_t i = 0; i < size; i++)
+    bytes[i] = (unsigned char)(style & 1 ? random_below(256) : random_below(3) * 50);
+  append(plain, bytes, size);
+  CHECK(cs_deflate_bytes(deflate, context, bytes, size) == CELSPAN_OK);
+}
+
+static void add_run(store *plain, cs_deflate *deflate, celspan_context *context, int style,
+                    size_t pixel_size) {
+  uint64_t pixel = random_pixel(style);
+  size_t count = random_count(style);
+  pixel &= UINT64_MAX >> (64 - 8 * pixel_size);
+  for (size_t i = 0; i < count; i++)
+    append(plain, &pixel, pixel_size);
+  CHECK(cs_deflate_run(deflate, context, pixel, count) == CELSPAN_OK);
+}
+
+static void check_stream(celspan_context *context, int style, size_t pixel_size, int pieces) {
+  store plain = {0}, packed = {0};
+  cs_deflate *deflate;
+  CHECK(cs_deflate_create(context, pixel_size, write_store, &packed, &deflate) == CELSPAN_OK);
+  for (int i = 0; i < pieces; i++)
+    if (random_below(3) == 0)
+      add_bytes(&plain, deflate, context, style);
+    else
+      add_run(&plain, deflate, context, style, pixel_size);
+  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OK);
+  cs_deflate_destroy(deflate, context);
+  append(&plain, "", 0);
+  check_inflates(&plain, &packed);
+  free(plain.bytes);
+  free(packed.bytes);
+}
+
+/* 2^20 pixels of 255 over and over: the checksum's closed form at its largest. */
+static void check_long_white(celspan_context *context) {
+  store plain = {0}, packed = {0};
+  cs_deflate *deflate;
+  CHECK(cs_deflate_create(context, 8, write_store, &packed, &deflate) == CELSPAN_OK);
+  plain.bytes = malloc(plain.size = plain.capacity = (size_t)16 << 20);
+  memset(plain.bytes, 255, plain.size);
+  for (int i = 0; i < 2; i++)
+    CHECK(cs_deflate_run(deflate, context, UINT64_MAX, 1 << 20) == CELSPAN_OK);
+  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OK);
+  cs_deflate_destroy(deflate, context);
+  check_inflates(&plain, &packed);
+  CHECK(packed.size < plain.size / 600);
+  free(plain.bytes);
+  free(packed.bytes);
+}
+
+static void check_errors_stick(celspan_context *context) {
+  store packed = {.limit = 100000};
+  cs_deflate *deflate;
+  CHECK(cs_deflate_create(context, 4, write_store, &packed, &deflate) == CELSPAN_OK);
+  celspan_status status = CELSPAN_OK;
+  for (int i = 0; i < 300000; i++)
+    status = cs_deflate_run(deflate, context, random_below(0xffffffffu), 1);
+  CHECK(status == CELSPAN_OUTPUT);
+  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OUTPUT);
+  CHECK(packed.size <= packed.limit);
+  CHECK_TEXT(celspan_context_error(context), "full");
+  cs_deflate_destroy(deflate, context);
+  cs_deflate_destroy(NULL, context);
+  free(packed.bytes);
+}
+
+/* ---------------------------------------------------------------- code lengths */
+
+/* Huffman's own construction, without a limit: the least possible sum. */
+static uint64_t least_size(const uint32_t *counts, int symbols) {
+  uint64_t weights[CS_HUFFMAN_SYMBOLS], sum = 0;
+  int left = 0;
+  for (int i = 0; i < symbols; i++)
+    if (counts[i])
+      weights[left++] = counts[i];
+  while (left > 1) {
+    for (int pick = 0; pick < 2; pick++) {
+      int least = pick;
+      for (int i = pick; i < left; i++)
+        if (weights[i] < weights[least])
+          least = i;
+      uint64_t weight = weights[least];
+      weights[least] = weights[pick];
+      weights[pick] = weight;
+    }
+    weights[1] += weights[0];
+    sum += weights[1];
+    weights[0] = weights[--left];
+  }
+  return sum;
+}
+
+static void check_lengths(const uint32_t *counts, int symbols, int limit) {
+  uint8_t lengths[CS_HUFFMAN_SYMBOLS];
+  uint64_t size = 0, kraft = 0;
+  int used = 0, longest = 0;
+  cs_huffman_lengths(counts, symbols, limit, lengths);
+  for (int i = 0; i < symbols; i++) {
+    CHECK((lengths[i] > 0) == (counts[i] > 0));
+    used += counts[i] > 0;
+    longest = lengths[i] > longest ? lengths[i] : longest;
+    size += (uint64_t)lengths[i] * counts[i];
+    kraft += lengths[i] ? (uint64_t)1 << (32 - lengths[i]) : 0;
+  }
+  CHECK(longest <= limit);
+  CHECK(used < 2 || kraft == (uint64_t)1 << 32);
+  CHECK(used < 2 || (longest < limit ? size == least_size(counts, symbols)
+                                     : size >= least_size(counts, symbols)));
+}
+
+static void check_huffman(void) {
+  uint32_t counts[CS_HUFFMAN_SYMBOLS] = {0};
+  check_lengths(counts, 30, 15);
+  counts[7] = 5;
+  check_lengths(counts, 30, 15);
+  for (int round = 0; round < 200; round++) {
+    int symbols = 2 + (int)random_below(CS_HUFFMAN_SYMBOLS - 1);
+    for (int i = 0; i < symbols; i++)
+      counts[i] = random_below(3) ? random_below(1u << random_below(20)) : 0;
+    check_lengths(counts, symbols, symbols < 100 && round % 2 ? 7 : 15);
+  }
+  uint32_t a = 1, b = 1; /* Fibonacci's numbers make the deepest tree */
+  for (int i = 0; i < 40; i++) {
+    counts[i] = a;
+    b += a;
+    a = b - a;
+  }
+  check_lengths(counts, 40, 15);
+  check_lengths(counts, 40, 7);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  check_huffman();
+  for (int style = 0; style < 9; style++)
+    for (size_t pixel_size = 1; pixel_size <= 8; pixel_size++)
+      for (int pieces = 0; pieces < 80; pieces += 1 + pieces)
+        check_stream(context, style, pixel_size, pieces);
+  for (int style = 0; style < 6; style++)
+    check_stream(context, style, style % 2 ? 8 : 4, 4000);
+  check_long_white(context);
+  check_errors_stick(context);
+  size_t bytes, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  CHECK(peak < 1000000);
+  celspan_context_destroy(context);
+  return check_done();
+}

@@ -1,0 +1,216 @@
+/* output/pixels.c and the sinks that use it alone: memory and digest. */
+#include "output/pixels.h"
+
+#include <stdlib.h>
+
+#include "colour/transfer.h"
+#include "output/sink.h"
+#include "tests/support/check.h"
+
+static float half_value(uint16_t half) {
+  int exponent = half >> 10 & 31, mantissa = half & 1023;
+  float size = exponent == 0 ? ldexpf((float)mantissa, -24)
+                             : ldexpf((float)(mantissa + 1024), exponent - 25);
+  return half & 0x8000 ? -size : size;
+}
+
+static uint16_t code_half(float x) {
+  celspan_coding coding = {CELSPAN_DEPTH_HALF, CELSPAN_TRANSFER_LINEAR,
+                           CELSPAN_ALPHA_PREMULTIPLIED};
+  float rgba[4] = {x, 0, 0, 1};
+  uint16_t pixel[4];
+  cs_pixels_code(&coding, rgba, pixel);
+  return pixel[0];
+}
+
+static void check_half(void) {
+  int wrong = 0;
+  for (unsigned half = 0; half < 0x7bff; half++) {
+    float low = half_value((uint16_t)half), high = half_value((uint16_t)(half + 1));
+    float middle = low + (high - low) / 2;
+    wrong += code_half(low) != half || code_half(-low) != (half | 0x8000);
+    wrong += code_half(middle) != (half & 1 ? half + 1 : half);
+    wrong += code_half(nextafterf(middle, 0)) != half;
+    wrong += code_half(nextafterf(middle, HUGE_VALF)) != half + 1;
+  }
+  CHECK(wrong == 0);
+  CHECK(code_half(65504) == 0x7bff && code_half(65519) == 0x7bff && code_half(1e30f) == 0x7bff);
+  CHECK(code_half(HUGE_VALF) == 0x7bff && code_half(-HUGE_VALF) == 0xfbff);
+  CHECK((code_half(NAN) & 0x7fff) > 0x7c00);
+}
+
+static void check_defaults(void) {
+  celspan_coding made = cs_pixels_resolve(NULL, CELSPAN_DEPTH_DEFAULT);
+  CHECK(made.depth == CELSPAN_DEPTH_8 && made.transfer == CELSPAN_TRANSFER_SRGB &&
+        made.alpha == CELSPAN_ALPHA_STRAIGHT);
+  made = cs_pixels_resolve(&(celspan_coding){0}, CELSPAN_DEPTH_HALF);
+  CHECK(made.depth == CELSPAN_DEPTH_HALF && made.transfer == CELSPAN_TRANSFER_LINEAR &&
+        made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
+  made = cs_pixels_resolve(
+      &(celspan_coding){CELSPAN_DEPTH_16, CELSPAN_TRANSFER_CINEON, CELSPAN_ALPHA_PREMULTIPLIED},
+      CELSPAN_DEPTH_8);
+  CHECK(made.depth == CELSPAN_DEPTH_16 && made.transfer == CELSPAN_TRANSFER_CINEON &&
+        made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
+  static const size_t sizes[] = {4, 4, 8, 8, 16};
+  for (int depth = 0; depth < 5; depth++)
+    CHECK(celspan_coding_pixel_size(&(celspan_coding){.depth = (celspan_depth)depth}) ==
+          sizes[depth]);
+}
+
+static void check_straight(void) {
+  celspan_coding coding = cs_pixels_resolve(NULL, CELSPAN_DEPTH_8);
+  unsigned char pixel[4];
+  float half_covered[4] = {0.25f, 0.5f, 0.0f, 0.5f};
+  cs_pixels_code(&coding, half_covered, pixel);
+  CHECK(pixel[0] == 188 && pixel[1] == 255 && pixel[2] == 0 && pixel[3] == 128);
+  float glow[4] = {0.25f, 0.5f, 0.0f, 0.0f}, bad[4] = {NAN, 2, -1, 1};
+  cs_pixels_code(&coding, glow, pixel);
+  CHECK(pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0 && pixel[3] == 0);
+  cs_pixels_code(&coding, bad, pixel);
+  CHECK(pixel[0] == 0 && pixel[1] == 255 && pixel[2] == 0 && pixel[3] == 255);
+  coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+  cs_pixels_code(&coding, half_covered, pixel);
+  CHECK(pixel[0] == 137 && pixel[1] == 188 && pixel[2] == 0 && pixel[3] == 128);
+  coding = (celspan_coding){CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT};
+  float floats[4];
+  cs_pixels_code(&coding, half_covered, floats);
+  CHECK(floats[0] == 0.5f && floats[1] == 1 && floats[2] == 0 && floats[3] == 0.5f);
+}
+
+static void check_16(void) {
+  celspan_coding coding = {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT};
+  int wrong = 0;
+  for (int code = 0; code < 65536; code++) {
+    float x = (float)((code + 0.49) / 65535), rgba[4] = {x, (float)(code / 65535.0), 0, 1};
+    uint16_t pixel[4];
+    cs_pixels_code(&coding, rgba, pixel);
+    wrong += pixel[0] != code || pixel[1] != code || pixel[3] != 65535;
+  }
+  CHECK(wrong == 0);
+}
+
+/* ---------------------------------------------------------------- rows */
+
+enum { WIDTH = 5000 };
+static float colours[4 * WIDTH];
+
+static size_t make_row(celspan_span *spans) {
+  size_t count = 0;
+  for (int32_t x = 0; x < WIDTH; count++) {
+    int32_t length = 1 + (int32_t)(count * count * 7 % 997);
+    celspan_span *span = &spans[count];
+    *span = (celspan_span){.x0 = x, .x1 = x + length < WIDTH ? x + length : WIDTH};
+    span->kind = (celspan_span_kind)(count % 3);
+    span->origin = x - 5;
+    span->array = colours + 4 * x;
+    for (int c = 0; c < 4; c++) {
+      span->colour[c] = (float)(count * (unsigned)(c + 3) % 11) / 10;
+      span->slope[c] = (float)(c - 2) / 3000;
+    }
+    x = span->x1;
+  }
+  return count;
+}
+
+static void check_row(celspan_coding coding, const celspan_span *spans, size_t count) {
+  size_t size = celspan_coding_pixel_size(&coding);
+  unsigned char *row = malloc(WIDTH * size + 1), expected[16];
+  int wrong = 0;
+  row[WIDTH * size] = 77;
+  cs_pixels_row(&coding, spans, count, row);
+  for (size_t i = 0; i < count; i++)
+    for (int32_t x = spans[i].x0; x < spans[i].x1; x++) {
+      float rgba[4];
+      celspan_span_colour(&spans[i], x, rgba);
+      cs_pixels_code(&coding, rgba, expected);
+      wrong += memcmp(expected, row + (size_t)x * size, size) != 0;
+    }
+  CHECK(wrong == 0 && row[WIDTH * size] == 77);
+  free(row);
+}
+
+static void check_rows(void) {
+  static celspan_span spans[WIDTH];
+  for (int i = 0; i < 4 * WIDTH; i++)
+    colours[i] = i % 4 == 3 ? (float)(i % 7) / 6 : (float)(i % 101) / 100;
+  size_t count = make_row(spans);
+  for (int depth = CELSPAN_DEPTH_8; depth <= CELSPAN_DEPTH_FLOAT; depth++)
+    for (int transfer = CELSPAN_TRANSFER_LINEAR; transfer <= CELSPAN_TRANSFER_CINEON; transfer++)
+      for (int alpha = CELSPAN_ALPHA_STRAIGHT; alpha <= CELSPAN_ALPHA_PREMULTIPLIED; alpha++)
+        check_row((celspan_coding){(celspan_depth)depth, (celspan_transfer)transfer,
+                                   (celspan_alpha)alpha},
+                  spans, count);
+}
+
+/* ---------------------------------------------------------------- sinks */
+
+static celspan_status feed(celspan_context *context, celspan_sink *sink, const celspan_span *spans,
+                           int32_t height) {
+  celspan_status status = sink->begin(sink->user, context, 3, height);
+  if (status != CELSPAN_OK) {
+    cs_sink_discard(context, sink);
+    return status;
+  }
+  for (int32_t y = 0; y < height && status == CELSPAN_OK; y++)
+    status = sink->row(sink->user, context, y, spans, 2);
+  return sink->end(sink->user, context, status);
+}
+
+static void check_memory_sink(celspan_context *context, const celspan_span *spans) {
+  unsigned char pixels[2][20];
+  celspan_sink sink;
+  memset(pixels, 9, sizeof pixels);
+  CHECK(cs_sink_memory(context, NULL, pixels, 20, &sink) == CELSPAN_OK);
+  CHECK(feed(context, &sink, spans, 2) == CELSPAN_OK);
+  CHECK(pixels[1][0] == 255 && pixels[1][11] == 255 && pixels[0][12] == 9);
+  CHECK(memcmp(pixels[0], pixels[1], 20) == 0);
+  CHECK(cs_sink_memory(context, NULL, pixels, 11, &sink) == CELSPAN_OK);
+  CHECK(feed(context, &sink, spans, 2) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void digest_of(celspan_context *context, const celspan_span *spans, int32_t height,
+                      const celspan_coding *coding, uint64_t digest[2]) {
+  celspan_sink sink;
+  CHECK(cs_sink_digest(context, coding, digest, &sink) == CELSPAN_OK);
+  CHECK(feed(context, &sink, spans, height) == CELSPAN_OK);
+}
+
+static void check_digest_sink(celspan_context *context, const celspan_span *spans) {
+  uint64_t first[2], cut[2], taller[2], other[2];
+  celspan_span moved[2] = {spans[0], spans[1]};
+  moved[0].x1 = moved[1].x0 = 1;
+  digest_of(context, spans, 4, NULL, first);
+  digest_of(context, moved, 4, NULL, cut);
+  CHECK((first[0] == cut[0]) == (memcmp(spans[0].colour, spans[1].colour, 16) == 0));
+  digest_of(context, spans, 5, NULL, taller);
+  CHECK(first[0] != taller[0] && first[1] != taller[1]);
+  digest_of(context, spans, 4, &(celspan_coding){.depth = CELSPAN_DEPTH_16}, other);
+  CHECK(first[0] != other[0]);
+}
+
+int main(void) {
+  celspan_context *context;
+  celspan_span same[2] = {{.x0 = 0, .x1 = 2, .colour = {1, 1, 1, 1}},
+                          {.x0 = 2, .x1 = 3, .colour = {1, 1, 1, 1}}};
+  celspan_span different[2] = {same[0], {.x0 = 2, .x1 = 3, .colour = {1, 0, 1, 1}}};
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  size_t before, after, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &before, &peak, &allocations);
+  check_defaults();
+  check_half();
+  check_straight();
+  check_16();
+  check_rows();
+  check_memory_sink(context, same);
+  check_digest_sink(context, same);
+  check_digest_sink(context, different);
+  celspan_sink sink;
+  CHECK(cs_sink_digest(context, NULL, (uint64_t[2]){0}, &sink) == CELSPAN_OK);
+  cs_sink_discard(context, &sink);
+  celspan_context_memory(context, &after, &peak, &allocations);
+  CHECK(after == before);
+  celspan_context_destroy(context);
+  return check_done();
+}
