@@ -75,7 +75,7 @@ function maker:stops()
 end
 
 function maker:texture()
-  local kind = self.random:whole(1, 8)
+  local kind = self.is_flat and 8 or self.random:whole(1, 8)
   if kind == 1 then
     return ("celspan.gradient{ {%s, %s, %s}, {%s, %s, %s}, {%s, %s, %s} }"):format(
       self:number(0, 40), self:number(0, 40), self:paint(), self:number(0, 40), self:number(0, 40),
@@ -341,7 +341,7 @@ function maker:rostrum()
 end
 
 function maker:exposures()
-  if not self.random:once(6) then
+  if self.is_single or not self.random:once(6) then
     local rostrum = self:rostrum()
     self.traits.light = self.lights
     return rostrum
@@ -362,9 +362,10 @@ function scenes.script(seed, options)
                    is_curved = false, has_rows = false }
   local scale = random:pick { 1, 1, random:between(0.5, 8) }
   traits.size = { math.ceil(traits.width * scale), math.ceil(traits.height * scale) }
-  local is_straight = random:once(2) or (options and options.is_straight)
+  options = options or {}
+  local is_straight = random:once(2) or options.is_straight
   local self = setmetatable({ random = random, traits = traits, is_straight = is_straight, made = {},
-                              is_upright = random:once(4), most = random:pick { 1, 1, 3 },
+                              is_flat = options.is_flat, is_single = options.is_single, is_upright = options.has_rows ~= false and random:once(4), most = random:pick { 1, 1, 3 },
                               depth = random:pick { 0, 1, 2, 4 } }, maker)
   local exposures = self:exposures()
   return ([[

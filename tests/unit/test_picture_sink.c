@@ -126,9 +126,9 @@ static void test_ten_bits(void) {
   static unsigned char bytes[1 << 16];
   const char *path = picture_path("film.dpx");
   CHECK(picture_write(context, path, NULL, 32, 8, paint) == CELSPAN_OK);
-  CHECK(read_bytes(path, bytes, sizeof bytes) == 2048 + 32 * 8 * 4);
+  CHECK(read_bytes(path, bytes, sizeof bytes) == 8192 + 32 * 8 * 4);
   CHECK(bytes[803] == 10); /* bits of an element */
-  CHECK(bytes[801] == 1);  /* transfer: printing density */
+  CHECK(bytes[801] == 3);  /* transfer: logarithmic */
   unlink(path);
 }
 
