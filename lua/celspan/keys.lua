@@ -7,8 +7,8 @@
 -- and booleans hold until the next key. The ends hold, or the whole repeats (loop = "repeat") or
 -- runs to and fro (loop = "mirror").
 local celspan = require "celspan"
-local core = require "celspan.core"
 local ease = require "celspan.ease"
+local fields = require "celspan.fields"
 
 ---@class celspan.keys.track
 local Track = {}
@@ -101,15 +101,7 @@ end
 local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
-  if type(list) ~= "table" then
-    error("keys: takes a list of keys {time, value}, got " .. type(list), 2)
-  end
-  for name in pairs(list) do
-    if type(name) == "string" and name ~= "loop" then
-      local hint = core.nearest(name, { "loop" })
-      error(("keys: unknown field '%s'%s"):format(name, hint and "; did you mean 'loop'?" or ""), 2)
-    end
-  end
+  fields.check("keys", list, { loop = "string" })
   if #list == 0 then error("keys: needs at least one key {time, value}", 2) end
   if list.loop ~= nil and not loops[list.loop] then
     error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 2)

@@ -8,6 +8,7 @@
 -- rest), which are missed when they are missing, are never dropped.
 local core = require "celspan.core"
 local cues = require "celspan.cues"
+local fields = require "celspan.fields"
 local mouths = require "celspan.mouths"
 
 local lips = {}
@@ -23,26 +24,10 @@ Track.__name = "celspan.lips"
 --- What stands in for a shape that a set of drawings lacks: Rhubarb's own rules.
 local fallbacks = { G = "A", H = "C", X = "A" }
 
-local option_names = { "fps", "hold", "map", "set" }
+local known = { fps = "number", hold = "number", map = "table", set = "table" }
 
-local function check_options(options)
-  local known = { fps = "number", hold = "number", map = "table", set = "table" }
-  local names = {}
-  for name in pairs(options) do names[#names + 1] = tostring(name) end
-  table.sort(names)
-  for _, name in ipairs(names) do
-    if not known[name] then
-      local hint = core.nearest(name, option_names)
-      error(("lips: unknown field '%s'%s"):format(name,
-        hint and ("; did you mean '%s'?"):format(hint) or ""), 3)
-    end
-  end
-  for _, name in ipairs(option_names) do
-    local value = options[name]
-    if value ~= nil and type(value) ~= known[name] then
-      error(("lips: field '%s' must be a %s, got %s"):format(name, known[name], type(value)), 3)
-    end
-  end
+--- Ranges; names and types are checked before.
+local function check_ranges(options)
   local fps, hold = options.fps or 24, options.hold or 2
   if not (fps > 0 and fps <= 1000) then
     error("lips: field 'fps' must be above 0 and at most 1000", 3)
@@ -90,10 +75,8 @@ end
 function lips.read(path, options)
   if type(path) ~= "string" then error("lips: read takes a file name, got " .. type(path), 2) end
   options = options or {}
-  if type(options) ~= "table" then
-    error("lips: read takes a table of options, got " .. type(options), 2)
-  end
-  check_options(options)
+  fields.check("lips", options, known)
+  check_ranges(options)
   local file, message = io.open(core.resolve(path), "rb")
   local text = file and file:read "a"
   if file then file:close() end

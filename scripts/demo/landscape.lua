@@ -36,15 +36,36 @@ local function lake()
 end
 landscape.lake = lake()
 
-landscape.slope = shapes.ridge({
+--- Land with furrows: ribbons across it, cut to its shape.
+local function field(land, furrows, paint)
+  local parts = {}
+  for i, points in ipairs(furrows) do parts[i] = shapes.ribbon(points, paint) end
+  return celspan.union { land, celspan.clip(celspan.union(parts), land) }
+end
+
+local function furrows(count, x, y, spread)
+  local list = {}
+  for i = 1, count do
+    local w = 5 + i * 1.6
+    list[i] = { { x - i * 14, y + i * 8, w }, { x + spread + i * 10, y + 34 + i * 16, w * 1.6 },
+                { x + spread * 2.4 + i * 40, y + 108 + i * 20, w * 2 } }
+  end
+  return list
+end
+
+landscape.slope = field(shapes.ridge({
   { -80, 690 }, { 160, 672 }, { 360, 655 }, { 560, 665 }, { 760, 690 }, { 940, 726 }, { 1100, 760 },
   { 1300, 790 }, { 1600, 815 },
-}, bottom, shaded(palette.village, 650, 800))
+}, bottom, shaded(palette.village, 650, 800)), furrows(7, 760, 690, 130), "#8b8f6150")
 
-landscape.near = shapes.ridge({
+local near = shapes.ridge({
   { -80, 800 }, { 180, 796 }, { 430, 830 }, { 700, 858 }, { 960, 842 }, { 1230, 790 }, { 1500, 742 },
   { 1800, 722 }, { 2140, 740 }, { 2500, 760 },
 }, bottom, shaded(palette.near, 720, 980))
+
+--- The path that the lamplighter came by.
+landscape.near = field(near, { { { 560, 838, 8 }, { 640, 868, 16 }, { 800, 890, 26 }, { 900, 930, 44 },
+                                 { 860, 1000, 80 } } }, "#b9a273a0")
 
 --- A poplar: a flame on a short stem.
 local function poplar(x, y, tall, colour)
@@ -107,5 +128,22 @@ local function meadow()
   return celspan.union(parts)
 end
 landscape.meadow = meadow()
+
+--- A branch that hangs into the picture from the right.
+local function branch()
+  local parts = {}
+  local bough = { { 2420, -30, 26 }, { 2260, 40, 20 }, { 2090, 76, 13 }, { 1930, 84, 8 }, { 1800, 66, 3 } }
+  parts[1] = shapes.ribbon(bough, palette.silhouette)
+  for i = 0, 15 do
+    local x = 1800 + i * 37
+    local y = 66 + 22 * math.sin((i + 1) / 5.2) - math.max(0, i - 10) * 17
+    local turn = (i % 2 == 0 and 62 or -48) + i * 23 % 30
+    parts[#parts + 1] = celspan.path { d = "M0 0C14 -26 52 -30 84 0C52 24 16 22 0 0Z",
+                                       texture = palette.silhouette }
+      :scale(0.8 + i * 11 % 5 * 0.1):rotate(180 - turn):translate(x, y)
+  end
+  return celspan.union(parts)
+end
+landscape.branch = branch()
 
 return landscape

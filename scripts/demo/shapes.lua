@@ -46,14 +46,14 @@ function shapes.ribbon(points, texture)
   return celspan.path { d = d, texture = texture }
 end
 
---- A halo of flat rings of thin paint; strong front lights make it glow (see lamp lights).
-function shapes.halo(x, y, radius, rings, paint)
-  local parts = {}
-  for i = 1, rings do
-    local r = radius * (1 - (i - 1) / rings) ^ 1.3
-    parts[i] = celspan.circle { centre = { x, y }, radius = r, texture = paint }
-  end
-  return celspan.union(parts)
+--- A glow: paint far too thin to hide anything, which shows only under a strong front light.
+function shapes.glow(x, y, radius, r, g, b, strength)
+  local texture = celspan.radial {
+    centre = { x, y }, radius = radius,
+    { 0, celspan.rgb(r, g, b, strength) }, { 0.3, celspan.rgb(r, g, b, strength * 0.42) },
+    { 0.65, celspan.rgb(r, g, b, strength * 0.1) }, { 1, celspan.rgb(r, g, b, 0) },
+  }
+  return celspan.circle { centre = { x, y }, radius = radius, texture = texture }
 end
 
 return shapes

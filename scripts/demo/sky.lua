@@ -3,7 +3,6 @@ local celspan = require "celspan"
 local ease = require "celspan.ease"
 local keys = require "celspan.keys"
 local palette = require "demo.palette"
-local shapes = require "demo.shapes"
 
 local sky = {}
 
@@ -15,35 +14,36 @@ function sky.air(time)
   return celspan.cel { celspan.rect { 0, 0, width, height, texture = celspan.linear(gradient) } }
 end
 
-local sun_height = keys { { 0, 500 }, { 7, 760, "inOutSine" } }
+local sun_height = keys { { 0, 490 }, { 7.5, 790, "inOutSine" } }
+local sun_strength = keys { { 2, 1 }, { 9, 0.35, "inOutSine" } }
 
 --- The disc is painted; the rings round it are paint too thin to hide anything, under strong lights.
 function sky.sun(time)
   local x, y = 690, sun_height:at(time)
+  local strength = 6 * sun_strength:at(time)
+  local rings = {}
+  for i, radius in ipairs { 430, 318, 216, 132 } do
+    rings[i] = celspan.circle { centre = { x, y }, radius = radius,
+                                texture = celspan.rgb(1, 0.62, 0.28, 0.007 + 0.003 * i) }
+  end
   local disc = celspan.circle { centre = { x, y }, radius = 74, texture = palette.sun:at(time) }
-  local rings = shapes.halo(x, y, 430, 5, celspan.rgb(1, 0.66, 0.3, 0.012))
-  return celspan.cel { rings, front = { 6, 6, 6 } },
+  return celspan.cel { celspan.union(rings), front = { strength, strength, strength } },
     celspan.cel { disc, front = { 1.15, 1.1, 1 } }
 end
 
---- {x, y, length, thickness}: flat below, swelling above.
-local banks = {
-  { 180, 250, 520, 40 }, { 420, 282, 380, 26 }, { 1150, 190, 600, 44 }, { 1420, 226, 420, 30 },
-  { 860, 372, 460, 26 }, { 60, 420, 300, 20 }, { 1640, 392, 440, 28 },
-}
-
-local function cloud(x, y, length, thickness, texture)
-  local l, t = length, thickness
-  return celspan.path { texture = texture, d = ("M%g %g c%g %g %g %g %g %g s%g %g %g %g s%g %g %g %g Z"):format(
-    x, y, l * 0.10, -t * 0.9, l * 0.2, -t * 0.9, l * 0.3, -t * 0.6,
-    l * 0.18, -t, l * 0.34, -t * 0.5, l * 0.24, t * 0.5, l * 0.36, t * 0.6) }
-end
+--- Banks of cloud: {x, y, size}, and the pills {x, y, length} that a bank is made of, stacked upwards.
+local banks = { { 130, 236, 1 }, { 1090, 176, 1.2 }, { 1660, 330, 0.9 }, { 840, 392, 0.62 }, { -40, 402, 0.7 } }
+local pills = { { 0, 0, 420 }, { 70, -26, 270 }, { 132, -52, 128 }, { 250, 24, 300 }, { -90, 26, 190 } }
 
 function sky.clouds(time)
-  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.62)
+  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.55)
   local parts = {}
   for i, bank in ipairs(banks) do
-    parts[i] = cloud(bank[1] + time * (3 + i % 3 * 2), bank[2], bank[3], bank[4], paint)
+    local x, y, size = bank[1] + time * (3 + i % 3 * 2), bank[2], bank[3]
+    for _, pill in ipairs(pills) do
+      parts[#parts + 1] = celspan.rect { x + pill[1] * size, y + pill[2] * size, pill[3] * size, 26.4 * size,
+                                         radius = 13.2 * size, texture = paint }
+    end
   end
   return celspan.cel { celspan.union(parts) }
 end

@@ -53,15 +53,23 @@ static int32_t wrap(int32_t i, int32_t size, celspan_wrap mode) {
   return rest < 0 ? rest + size : rest;
 }
 
-/* Repeated pictures are sampled near their own origin, so far tiles cost no precision. */
+static double bring_axis(double u, int32_t size, celspan_wrap mode) {
+  if (u >= 0 && u < size)
+    return u;
+  return mode == CELSPAN_WRAP_REPEAT ? u - floor(u / size) * size : cs_number_clamp(u, -1e9, 1e9);
+}
+
+/* Repeated pictures are sampled near their own origin, so far tiles cost no precision. Afterwards
+ * both coordinates fit an int32_t. */
 static void bring_home(const cs_sampler *sampler, double *u, double *v) {
-  if (sampler->wrap == CELSPAN_WRAP_REPEAT) {
-    *u -= floor(*u / sampler->width) * sampler->width;
-    *v -= floor(*v / sampler->height) * sampler->height;
-  } else {
-    *u = cs_number_clamp(*u, -1e9, 1e9);
-    *v = cs_number_clamp(*v, -1e9, 1e9);
-  }
+  *u = bring_axis(*u, sampler->width, sampler->wrap);
+  *v = bring_axis(*v, sampler->height, sampler->wrap);
+}
+
+/* floor of what fits, without a call. */
+static int32_t floor_near(double x) {
+  int32_t whole = (int32_t)x;
+  return whole - (x < whole);
 }
 
 static bool is_outside(const cs_sampler *sampler, double u, double v) {
@@ -72,9 +80,10 @@ static bool is_outside(const cs_sampler *sampler, double u, double v) {
 
 /* The texel left of or at u - 1/2 and the share of its right neighbour. */
 static int32_t split(double u, float *share) {
-  double left = floor(u - 0.5 + SAME_PLACE), rest = u - 0.5 - left;
+  int32_t left = floor_near(u - 0.5 + SAME_PLACE);
+  double rest = u - 0.5 - left;
   *share = rest < SAME_PLACE ? 0.0f : (float)rest;
-  return cs_number_to_int32(left);
+  return left;
 }
 
 /* ---------------------------------------------------------------- kernels */
@@ -83,8 +92,8 @@ static cs_v4 lerp(cs_v4 a, cs_v4 b, float share) { return a + share * (b - a); }
 
 static void sample_nearest(sampler_run *run, double u, double v, float rgba[4]) {
   const cs_sampler *s = run->sampler;
-  int32_t x = wrap(cs_number_floor(u + SAME_PLACE), s->width, s->wrap);
-  int32_t y = wrap(cs_number_floor(v + SAME_PLACE), s->height, s->wrap);
+  int32_t x = wrap(floor_near(u + SAME_PLACE), s->width, s->wrap);
+  int32_t y = wrap(floor_near(v + SAME_PLACE), s->height, s->wrap);
   memcpy(rgba, cs_texels_at(&run->texels, 0, x, y), 4 * sizeof(float));
 }
 
@@ -163,8 +172,8 @@ static void cut_extent(double centre, double width, int32_t size, int level, boo
     high = cs_number_clamp(high, 0, size);
   }
   /* Within SAME_PLACE of a texel's edge the neighbour is not touched. */
-  int32_t first = cs_number_floor((low + SAME_PLACE) / side);
-  int32_t last = cs_number_ceil((high - SAME_PLACE) / side);
+  int32_t first = floor_near((low + SAME_PLACE) / side);
+  int32_t last = -floor_near((SAME_PLACE - high) / side);
   out->first = first;
   out->count = last > first ? last - first : 1;
   for (int32_t i = 0; i < out->count; i++) {
@@ -174,25 +183,59 @@ static void cut_extent(double centre, double width, int32_t size, int level, boo
   }
 }
 
-/* The mean over the box, the sums taken about its first texel. */
-static void average(sampler_run *run, int level, const extent *across, const extent *down, float rgba[4]) {
-  const cs_sampler *s = run->sampler;
-  int32_t width = cs_levels_size(s->width, level), height = cs_levels_size(s->height, level);
-  cs_v4 first = {0}, sum = {0};
+/* Whether the texels lie inside the picture and in one row or column of blocks. */
+static bool is_in_block(const extent *e, int32_t size) {
+  int32_t last = e->first + e->count - 1;
+  return e->first >= 0 && last < size && e->first / CS_PICTURE_BLOCK == last / CS_PICTURE_BLOCK;
+}
+
+typedef struct box_sum {
+  cs_v4 first, sum; /* the first texel, and the weighted differences of all from it */
+  float total;
+} box_sum;
+
+static void sum_block(sampler_run *run, int level, const extent *across, const extent *down,
+                      box_sum *box) {
+  const float *corner = cs_texels_at(&run->texels, level, across->first, down->first);
+  cs_v4 first = cs_v4_load(corner), sum = {0};
   float total = 0;
-  for (int32_t j = 0; j < down->count; j++) {
-    int32_t y = wrap(down->first + j, height, s->wrap);
+  for (int32_t j = 0; j < down->count; j++)
     for (int32_t i = 0; i < across->count; i++) {
-      int32_t x = wrap(across->first + i, width, s->wrap);
-      cs_v4 texel = cs_v4_load(cs_texels_at(&run->texels, level, x, y));
       float weight = across->weights[i] * down->weights[j];
-      if (total == 0)
-        first = texel;
-      sum += weight * (texel - first);
+      sum += weight * (cs_v4_load(corner + 4 * (j * CS_PICTURE_BLOCK + i)) - first);
       total += weight;
     }
-  }
-  cs_v4_store(rgba, first + sum / total);
+  *box = (box_sum){first, sum, total};
+}
+
+static void sum_anywhere(sampler_run *run, int level, const extent *across, const extent *down,
+                         box_sum *box) {
+  const cs_sampler *s = run->sampler;
+  int32_t width = cs_levels_size(s->width, level), height = cs_levels_size(s->height, level);
+  *box = (box_sum){0};
+  for (int32_t j = 0; j < down->count; j++)
+    for (int32_t i = 0; i < across->count; i++) {
+      cs_v4 texel = cs_v4_load(cs_texels_at(&run->texels, level,
+                                            wrap(across->first + i, width, s->wrap),
+                                            wrap(down->first + j, height, s->wrap)));
+      float weight = across->weights[i] * down->weights[j];
+      if (i == 0 && j == 0)
+        box->first = texel;
+      box->sum += weight * (texel - box->first);
+      box->total += weight;
+    }
+}
+
+static void average(sampler_run *run, int level, const extent *across, const extent *down,
+                    float rgba[4]) {
+  const cs_sampler *s = run->sampler;
+  box_sum box;
+  if (is_in_block(across, cs_levels_size(s->width, level)) &&
+      is_in_block(down, cs_levels_size(s->height, level)))
+    sum_block(run, level, across, down, &box);
+  else
+    sum_anywhere(run, level, across, down, &box);
+  cs_v4_store(rgba, box.first + box.sum / box.total);
 }
 
 /* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there. */

@@ -96,7 +96,7 @@ static celspan_status active_points(cs_blocks *b, size_t i, const celspan_point 
   *p++ = (celspan_point){active->x[i], b->y0};
   for (uint32_t k = 0; k < inner; k++)
     *p++ = active->vertices[bend->vertex + k];
-  if (!bend || !bend->ends || inner == 0)
+  if (!bend || !bend->ends_above)
     *p++ = (celspan_point){active->x_next[i], b->y1};
   *count = (uint32_t)(p - *points);
   return CELSPAN_OK;

@@ -122,8 +122,6 @@ static int compare_events(const void *p, const void *q) {
     return a->y < b->y ? -1 : 1;
   if (a->leaf != b->leaf)
     return a->leaf < b->leaf ? -1 : 1;
-  if (a->x != b->x)
-    return a->x < b->x ? -1 : 1;
   return (a->begin > b->begin) - (a->begin < b->begin);
 }
 
@@ -169,11 +167,14 @@ static celspan_status add_events(cs_blocks *b) {
     qsort(b->events, b->event_count, sizeof *b->events, compare_events);
   for (size_t first = 0, end; first < b->event_count; first = end) {
     const cs_row_event *e = &b->events[first];
+    range r = {e->low, e->high};
     for (end = first + 1;
-         end < b->event_count && b->events[end].y == e->y && b->events[end].leaf == e->leaf;)
-      end++;
+         end < b->event_count && b->events[end].y == e->y && b->events[end].leaf == e->leaf; end++) {
+      r.low = b->events[end].low < r.low ? b->events[end].low : r.low;
+      r.high = b->events[end].high > r.high ? b->events[end].high : r.high;
+    }
     size_t block_low;
-    CS_TRY(add_range(b, ranges, e->x, b->events[end - 1].x, &block_low));
+    CS_TRY(add_range(b, ranges, r.low, r.high, &block_low));
     for (size_t i = first; i < end; i++)
       if (b->events[i].begin >= 0)
         b->begin_low[b->events[i].begin] = block_low;
@@ -261,8 +262,17 @@ celspan_status cs_blocks_begins(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
-static void note_event(cs_blocks *b, celspan_point at, uint32_t leaf, int32_t begin) {
-  b->events[b->event_count++] = (cs_row_event){at.x, at.y, leaf, begin};
+static void note_event(cs_blocks *b, double y, range r, uint32_t leaf, int32_t begin) {
+  b->events[b->event_count++] = (cs_row_event){y, r.low, r.high, leaf, begin};
+}
+
+static range member_range(const cs_member *member) {
+  range r = {member->points[0].x, member->points[0].x};
+  for (uint32_t k = 1; k < member->point_count; k++) {
+    r.low = member->points[k].x < r.low ? member->points[k].x : r.low;
+    r.high = member->points[k].x > r.high ? member->points[k].x : r.high;
+  }
+  return r;
 }
 
 static celspan_status find_events(cs_blocks *b) {
@@ -272,16 +282,18 @@ static celspan_status find_events(cs_blocks *b) {
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++) {
     const cs_member *member = &b->begins[k];
-    celspan_point last = member->points[member->point_count - 1];
-    note_event(b, member->points[0], member->leaf, (int32_t)k);
-    if (last.y < b->y1)
-      note_event(b, last, member->leaf, -1);
+    range r = member_range(member);
+    double end = member->points[member->point_count - 1].y;
+    note_event(b, member->points[0].y, r, member->leaf, (int32_t)k);
+    if (end < b->y1)
+      note_event(b, end, r, member->leaf, -1);
   }
   for (size_t k = 0; k < active->bend_count; k++) {
     const cs_bend *bend = &active->bends[k];
-    if (bend->ends && bend->vertex_count > 0)
-      note_event(b, active->vertices[bend->vertex + bend->vertex_count - 1],
-                 cs_active_chain(active, bend->boundary)->leaf, -1);
+    if (!bend->ends_above)
+      continue;
+    celspan_point end = active->vertices[bend->vertex + bend->vertex_count - 1];
+    note_event(b, end.y, (range){end.x, end.x}, cs_active_chain(active, bend->boundary)->leaf, -1);
   }
   return CELSPAN_OK;
 }

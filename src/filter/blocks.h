@@ -2,7 +2,8 @@
  *
  * A block is the smallest run of neighbours that holds all of: the boundaries that the order at the
  * foot of the row permutes; a bent boundary and those whose x-range it meets; what begins and ends
- * at one height in one leaf (its windings balance only together) and all between.
+ * at one height in one leaf (its windings balance only together), all between, and all it may meet
+ * further down.
  *
  * Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
  * boundaries (low == high) touches no other block.
@@ -18,9 +19,9 @@ typedef struct cs_block {
   size_t last_low; /* the greatest `low` merged into it */
 } cs_block;
 
-/* A begin or an end inside the row. */
+/* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
 typedef struct cs_row_event {
-  double x, y;
+  double y, low, high;
   uint32_t leaf;
   int32_t begin; /* index into begins, or -1: an end */
 } cs_row_event;

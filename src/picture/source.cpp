@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -10,6 +11,7 @@
 
 /* Reads at or past the end that a sane reader may make in one piece of work. */
 static const int MISSES = 1000;
+static const size_t AHEAD = 1 << 15;
 
 Source::Source(const char *path) : IOProxy(path, Read), path_(path) {
   /* NONBLOCK: opening a pipe that nobody writes must not wait. */
@@ -38,6 +40,25 @@ size_t Source::read(void *bytes, size_t size) {
 }
 
 size_t Source::pread(void *bytes, size_t size, int64_t offset) {
+  size_t got = size < AHEAD ? copy_ahead(bytes, size, offset) : read_file(bytes, size, offset);
+  if (got < size && ++misses_ > MISSES)
+    throw Failure(CELSPAN_INPUT, "is corrupt: its parts lead past its end again and again");
+  return got;
+}
+
+size_t Source::copy_ahead(void *bytes, size_t size, int64_t offset) {
+  if (offset < ahead_at_ || offset + int64_t(size) > ahead_at_ + int64_t(ahead_.size())) {
+    std::vector<char> fresh(AHEAD);
+    fresh.resize(read_file(fresh.data(), AHEAD, offset));
+    ahead_.swap(fresh);
+    ahead_at_ = offset;
+  }
+  size_t got = std::min(size, ahead_.size() - size_t(offset - ahead_at_));
+  memcpy(bytes, ahead_.data() + (offset - ahead_at_), got);
+  return got;
+}
+
+size_t Source::read_file(void *bytes, size_t size, int64_t offset) {
   size_t done = 0;
   while (done < size) {
     ssize_t got = ::pread(descriptor_, static_cast<char *>(bytes) + done, size - done,
@@ -50,8 +71,6 @@ size_t Source::pread(void *bytes, size_t size, int64_t offset) {
       break;
     done += size_t(got);
   }
-  if (done < size && ++misses_ > MISSES)
-    throw Failure(CELSPAN_INPUT, "is corrupt: its parts lead past its end again and again");
   return done;
 }
 

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include <string>
+#include <vector>
 
 class Source : public OIIO::Filesystem::IOProxy {
 public:
@@ -27,7 +28,12 @@ public:
   bool is_unchanged() const;
 
 private:
+  size_t copy_ahead(void *bytes, size_t size, int64_t offset);
+  size_t read_file(void *bytes, size_t size, int64_t offset);
+
   std::string path_;
+  std::vector<char> ahead_; /* bytes of the file from ahead_at_ on: some readers ask for few */
+  int64_t ahead_at_ = 0;
   int descriptor_ = -1;
   int misses_ = 0;
   struct stat status_;

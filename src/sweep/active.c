@@ -168,6 +168,7 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
       CS_TRY(note_vertex(context, active, walk->x1, above = walk->y1));
     noted.ends = !cs_boundary_next(active->set, walk);
   }
+  noted.ends_above = noted.ends && walk->y1 < y;
   noted.vertex_count = (uint32_t)active->vertex_count - noted.vertex;
   take_segment(active, i);
   if (!noted.ends)

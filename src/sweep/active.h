@@ -19,7 +19,8 @@ typedef struct cs_bend {
   uint32_t boundary;     /* index into the order at the upper height */
   uint32_t vertex;       /* its vertices strictly between the heights: downwards */
   uint32_t vertex_count;
-  bool ends; /* at its last vertex, or at the lower height when it has none */
+  bool ends;       /* it is not there at the lower height */
+  bool ends_above; /* it ended before, at its last vertex */
 } cs_bend;
 
 typedef struct cs_active {

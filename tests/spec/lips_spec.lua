@@ -121,7 +121,8 @@ describe("a file", function()
 
   it("with wrong options raises at the caller's line", function()
     local _, message = pcall(function() lips.read("x", { fsp = 12 }) end)
-    assert.is_truthy(message:find "lips_spec.lua:%d+: lips: unknown field 'fsp'; did you mean 'fps'?")
+    assert.is_truthy(message:find
+      "lips_spec.lua:%d+: lips: unknown field 'fsp'; did you mean 'fps'?")
     assert.is_false(pcall(lips.read, "x", { hold = 0 }))
     assert.is_false(pcall(lips.read, 3))
   end)
@@ -130,7 +131,8 @@ end)
 describe("real recordings", function()
   local function each(try)
     if not material then return pending "CELSPAN_MATERIAL is not set" end
-    for _, name in ipairs { "human/austen-0880", "human/austen-0930", "espeak/fox", "espeak/peter" } do
+    for _, name in ipairs { "human/austen-0880", "human/austen-0930", "espeak/fox",
+                            "espeak/peter" } do
       try(material .. "/lipsync/" .. name)
     end
   end

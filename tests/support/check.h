@@ -34,7 +34,7 @@ static inline int check_text(const char *a, const char *b, const char *file, int
 
 /* Each is 1 when it passed, 0 when it failed. */
 #define CHECK(condition) check_record(!!(condition), __FILE__, __LINE__, #condition)
-#define CHECK_NEAR(a, b, tolerance) \
+#define CHECK_NEAR(a, b, tolerance)                                                                \
   check_near((a), (b), (tolerance), __FILE__, __LINE__, #a " near " #b)
 #define CHECK_TEXT(a, b) check_text((a), (b), __FILE__, __LINE__, #a " is " #b)
 

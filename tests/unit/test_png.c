@@ -93,6 +93,10 @@ static celspan_status write_frame(celspan_context *context, frame *made, const c
   if (status != CELSPAN_OK)
     return status;
   status = sink.begin(sink.user, context, made->width, made->height);
+  if (status != CELSPAN_OK) {
+    cs_sink_discard(context, &sink);
+    return status;
+  }
   for (int32_t y = 0; y < made->height && status == CELSPAN_OK; y++) {
     size_t count = row_of(made, y);
     status = sink.row(sink.user, context, y, made->spans, count);
@@ -186,6 +190,49 @@ static void check_refusals(celspan_context *context) {
   cs_sink_discard(context, &sink);
 }
 
+/* ---------------------------------------------------------------- no memory */
+
+static int allocations_left;
+
+static void *failing_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  (void)user, (void)old_size;
+  if (new_size == 0) {
+    free(block);
+    return NULL;
+  }
+  return --allocations_left == 0 ? NULL : realloc(block, new_size);
+}
+
+/* With the n-th allocation failing, for every n: the status says so, nothing leaks, and no file. */
+static void check_without_memory(void) {
+  static float arrays[4 * 500];
+  static celspan_span spans[500];
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  frame made = {.width = 500, .height = 20, .style = 0, .arrays = arrays, .spans = spans};
+  celspan_context_desc desc = {.struct_size = sizeof desc, .resize = failing_resize};
+  celspan_context *context;
+  char path[] = "/tmp/celspan-test-png-XXXXXX";
+  allocations_left = 0;
+  close(mkstemp(path));
+  CHECK(celspan_context_create(&desc, &context) == CELSPAN_OK);
+  celspan_status status = CELSPAN_NO_MEMORY;
+  for (int n = 1; n < 50 && status != CELSPAN_OK; n++) {
+    size_t before, after, peak;
+    uint64_t allocations;
+    unlink(path);
+    celspan_context_memory(context, &before, &peak, &allocations);
+    allocations_left = n;
+    status = write_frame(context, &made, path, &file);
+    CHECK(status == (allocations_left > 0 ? CELSPAN_OK : CELSPAN_NO_MEMORY));
+    CHECK((access(path, F_OK) == 0) == (status == CELSPAN_OK));
+    celspan_context_memory(context, &after, &peak, &allocations);
+    CHECK(after == before && (status != CELSPAN_OK || n > 4));
+  }
+  CHECK(status == CELSPAN_OK);
+  unlink(path);
+  celspan_context_destroy(context);
+}
+
 int main(void) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
@@ -214,6 +261,7 @@ int main(void) {
   for (int32_t width = 1; width < 300; width++)
     check_frame(context, width, 9, width % 4, codings[width % 2], NULL);
   check_refusals(context);
+  check_without_memory();
   celspan_context_memory(context, &after, &peak, &allocations);
   CHECK(after == before);
   celspan_context_destroy(context);

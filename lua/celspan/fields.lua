@@ -1,0 +1,40 @@
+--- Checking the table that a function of the library is given, in the words of the C constructors.
+local core = require "celspan.core"
+
+local fields = {}
+
+--- The least unknown name, so that what is reported does not depend on the order of the table.
+local function unknown_in(given, known)
+  local least
+  for name in pairs(given) do
+    if type(name) == "string" and not known[name] and (not least or name < least) then
+      least = name
+    end
+  end
+  return least
+end
+
+--- Raises at the line of the caller's caller. known: name -> what type() must give.
+function fields.check(noun, given, known)
+  if type(given) ~= "table" then
+    error(("%s: takes a table, got %s"):format(noun, type(given)), 3)
+  end
+  local names = {}
+  for name in pairs(known) do names[#names + 1] = name end
+  table.sort(names)
+  local unknown = unknown_in(given, known)
+  if unknown then
+    local hint = core.nearest(unknown, names)
+    error(("%s: unknown field '%s'%s"):format(noun, unknown,
+      hint and ("; did you mean '%s'?"):format(hint)
+        or "; the fields are " .. table.concat(names, ", ")), 3)
+  end
+  for _, name in ipairs(names) do
+    local value = given[name]
+    if value ~= nil and known[name] ~= "any" and type(value) ~= known[name] then
+      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, known[name], type(value)), 3)
+    end
+  end
+end
+
+return fields

@@ -1,0 +1,60 @@
+--- Motion blur: a frame function that exposes a frame at several moments.
+--
+--   frame = shutter{ angle = 180, samples = 8, frame = function(f) ... end }
+--
+-- The shutter opens at the frame's time and stays open for angle / 360 of a frame. The inner function
+-- is called once for each sample with an f whose time, middle and progress lie at the middle of that
+-- sample's share; number, index, f:on and f:random stay those of the frame. The samples are exposed
+-- with equal weights that add up to 1.
+local fields = require "celspan.fields"
+
+local known = { angle = "number", samples = "number", frame = "function" }
+
+--- f, moved in time by a share of a frame.
+local function moved(f, share)
+  local g = {
+    time = f.time + share / f.fps,
+    middle = f.middle + share / f.fps,
+    progress = f.count > 1 and (f.index + share) / (f.count - 1) or 0,
+    on = function(_, ...) return f:on(...) end,
+    random = function(_, ...) return f:random(...) end,
+  }
+  return setmetatable(g, {
+    __index = function(_, name) return f[name] end,
+    __newindex = function() error("frames are immutable", 2) end,
+  })
+end
+
+--- Adds what a frame function returned, weighted.
+local function expose(exposures, result, weight)
+  if type(result) ~= "table" then
+    exposures[#exposures + 1] = { result, weight }
+    return
+  end
+  for i = 1, #result do
+    exposures[#exposures + 1] = { result[i][1], (result[i][2] or 1) * weight }
+  end
+end
+
+local function shutter(_, settings)
+  fields.check("shutter", settings, known)
+  local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
+  if not (angle >= 0 and angle <= 360) then
+    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(angle), 2)
+  end
+  if samples < 1 or samples > 10000 or samples ~= math.floor(samples) then
+    error(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(samples), 2)
+  end
+  if not frame then error("shutter: field 'frame' must be a function, got nil", 2) end
+  return function(f)
+    local exposures = {}
+    for k = 1, samples do
+      expose(exposures, frame(moved(f, (k - 0.5) / samples * angle / 360)), 1 / samples)
+    end
+    return exposures
+  end
+end
+
+---@class celspan.shutter
+---@overload fun(settings: {angle?: number, samples?: integer, frame: fun(f: celspan.frame): any}): function
+return setmetatable({}, { __call = shutter })

@@ -1,0 +1,38 @@
+-- Nine mouths, one a shape of Rhubarb's alphabet: A-F spoken, G and H for f and l, X at rest.
+-- Each is drawn round (0, 0), about 60 units wide.
+local celspan = require "celspan"
+local palette = require "demo.palette"
+local shapes = require "demo.shapes"
+
+local dark, teeth, tongue, lip = "#5b1624", "#fff3e2", "#dd5a58", "#a83b3f"
+
+--- Closed lips: a line through the points.
+local function line(...)
+  return shapes.ribbon({ ... }, palette.ink)
+end
+
+--- An open mouth: half its width, its depth, and how far teeth and tongue reach into it.
+local function open(half, depth, upper, lower)
+  local outline = celspan.path { texture = dark, d = ("M%g 0Q0 %g %g 0C%g %g %g %g %g 0Z"):format(
+    -half, -depth * 0.22, half, half * 1.05, depth * 1.33, -half * 1.05, depth * 1.33, -half) }
+  local inside = celspan.union {
+    celspan.ellipse { centre = { 0, depth * 1.08 - lower }, radii = { half * 0.66, lower + 2 },
+                      texture = tongue },
+    celspan.rect { -half * 0.82, -depth, half * 1.64, depth + upper, radius = 4, texture = teeth },
+  }
+  return celspan.union { outline, celspan.clip(inside, outline) }
+end
+
+return {
+  A = line({ -25, 3, 2 }, { -12, 1, 5 }, { 0, 3, 6 }, { 12, 1, 5 }, { 25, 3, 2 }),
+  B = open(28, 15, 10, 0),
+  C = open(28, 27, 7, 9),
+  D = open(31, 46, 9, 17),
+  E = open(20, 34, 5, 10),
+  F = celspan.union { celspan.ellipse { centre = { 0, 8 }, radii = { 15, 14 }, texture = lip },
+                      celspan.ellipse { centre = { 0, 8 }, radii = { 9, 8 }, texture = dark } },
+  G = celspan.union { open(25, 14, 12, 0),
+                      shapes.ribbon({ { -20, 11, 3 }, { 0, 15, 9 }, { 20, 11, 3 } }, lip) },
+  H = open(26, 36, 7, 26),
+  X = line({ -27, -3, 2 }, { -14, 4, 4 }, { 0, 6, 5 }, { 14, 4, 4 }, { 27, -3, 2 }),
+}

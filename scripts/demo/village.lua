@@ -1,0 +1,77 @@
+-- The village: houses for the first pass, and for the second a black card with the windows cut out
+-- and coloured gels behind the cuts, lit from the back as on a real rostrum.
+local celspan = require "celspan"
+local ease = require "celspan.ease"
+local palette = require "demo.palette"
+local shapes = require "demo.shapes"
+
+local village = {}
+
+--- {x, ground, width, height of the wall, windows}; the gable is as wide as the wall.
+local houses = {
+  { 236, 690, 70, 62, 2 }, { 322, 682, 92, 74, 3 }, { 520, 684, 84, 66, 2 }, { 622, 694, 66, 84, 2 },
+  { 702, 706, 78, 60, 2 }, { 286, 716, 84, 56, 2 }, { 470, 722, 100, 60, 3 }, { 596, 730, 82, 60, 2 },
+}
+
+local art, panes = {}, {}
+
+local function rect(x, y, w, h, texture)
+  return celspan.rect { x, y, w, h, texture = texture }
+end
+
+local function window(x, y, w, h)
+  panes[#panes + 1] = celspan.path { texture = palette.pane,
+    d = ("M%g %gv%ga%g %g 0 0 1 %g 0v%gz"):format(x, y + h, w / 2 - h, w / 2, w / 2, w, h - w / 2) }
+end
+
+local function house(i, x, y, w, h, windows)
+  local wall = palette.walls[i % #palette.walls + 1]
+  local roof = palette.roofs[i % #palette.roofs + 1]
+  local lit = celspan.linear { from = { x, 0 }, to = { x + w, 0 }, { 0, wall }, { 1, "#a9796a" } }
+  art[#art + 1] = rect(x + w * 0.68, y - h - w * 0.62, w * 0.12, w * 0.4, palette.roofs[2])
+  art[#art + 1] = rect(x, y - h, w, h + 10, lit)
+  art[#art + 1] = celspan.polygon { { x - w * 0.1, y - h + 3 }, { x + w * 0.5, y - h - w * 0.52 },
+                                    { x + w * 1.1, y - h + 3 }, texture = roof }
+  local step = w / windows
+  for k = 1, windows do window(x + (k - 0.5) * step - 7, y - h * 0.68, 14, 24) end
+end
+
+local function church(x, y)
+  art[#art + 1] = rect(x, y - 150, 52, 160, celspan.linear {
+    from = { x, 0 }, to = { x + 52, 0 }, { 0, "#f2dcb8" }, { 1, "#a9796a" } })
+  art[#art + 1] = celspan.polygon { { x - 7, y - 148 }, { x + 26, y - 262 }, { x + 59, y - 148 },
+                                    texture = palette.roofs[2] }
+  window(x + 18, y - 132, 16, 36)
+  window(x + 18, y - 70, 16, 30)
+end
+
+church(434, 682)
+for i, h in ipairs(houses) do house(i, table.unpack(h)) end
+
+village.houses = celspan.union(art)
+village.panes = celspan.union(panes)
+
+local windows = celspan.union(panes)
+local card = celspan.rect { -200, 0, 2600, 1080 } - windows
+
+local brighten = ease "outQuad"
+
+--- The light box: gels that come up one window after another from `cue` on, behind the card.
+function village.light_box(time, cue, viewport)
+  local gels, halos = {}, {}
+  for i, pane in ipairs(panes) do
+    local level = brighten(math.max(0, math.min(1, (time - cue - (i * 5 % #panes) * 0.11) / 0.35)))
+    level = level * (0.94 + 0.06 * math.sin(time * 9 + i * 2))
+    local r, g, b = table.unpack(palette.gels[i % #palette.gels + 1])
+    gels[i] = pane:with { texture = celspan.gel(r * level, g * level, b * level) }
+    if level > 0 then
+      local x, y, w, h = pane:bounds()
+      halos[#halos + 1] = shapes.glow(x + w / 2, y + h / 2, 74, 1, 0.5, 0.16, 0.06 * level)
+    end
+  end
+  return celspan.cel { celspan.union(gels), back = { 1.5, 1.5, 1.5 }, viewport = viewport },
+    celspan.cel { card, front = { 0, 0, 0 }, viewport = viewport },
+    celspan.cel { celspan.union(halos), front = { 7, 7, 7 }, viewport = viewport }
+end
+
+return village

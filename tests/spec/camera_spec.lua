@@ -1,0 +1,101 @@
+-- The multiplane camera and the shutter.
+local celspan = require "celspan"
+local multiplane = require "celspan.multiplane"
+local shutter = require "celspan.shutter"
+
+local function cel(texture)
+  return celspan.cel { celspan.rect { 40, 20, 20, 10, texture = texture } }
+end
+
+local film = { 100, 50 }
+
+local function box(rostrum, i)
+  return { rostrum[i]:bounds() }
+end
+
+describe("multiplane", function()
+  it("shows a plane at depth 0 as it is", function()
+    local rostrum = multiplane { film = film, { cel(), z = 0 } }
+    assert.are.same({ 40, 20, 20, 10 }, box(rostrum, 1))
+  end)
+
+  it("shrinks far planes about the centre and pans them less", function()
+    local rostrum = multiplane { film = film, focal = 1000, camera = { x = 10 },
+      { cel(), z = 0 }, { cel(), z = 1000 } }
+    assert.are.same({ 40, 22.5, 10, 5 }, box(rostrum, 1))
+    assert.are.same({ 30, 20, 20, 10 }, box(rostrum, 2))
+  end)
+
+  it("puts farther planes first and keeps the order of equals", function()
+    local rostrum = multiplane { film = film,
+      { cel "#100", z = 0 }, { cel "#200", z = 500 }, { cel "#300", z = 500 }, { cel "#400" } }
+    local textures = {}
+    for i = 1, 4 do textures[i] = rostrum[i][1].texture end
+    assert.are.same({ "#200", "#300", "#100", "#400" }, textures)
+  end)
+
+  it("leaves out what is behind the camera", function()
+    local rostrum = multiplane { film = film, camera = { z = 1000 }, { cel(), z = 0 },
+      { cel(), z = 1 } }
+    assert.is_truthy(rostrum[1])
+    assert.is_nil(rostrum[2])
+  end)
+
+  it("defocuses what is off the focus distance", function()
+    local rostrum = multiplane { film = film, focal = 1000, aperture = 12, focus = 1000,
+      { cel(), z = 0 }, { cel(), z = 1000 } }
+    assert.are.equal(6, rostrum[1].defocus.radius)
+    assert.is_nil(rostrum[2].defocus)
+  end)
+
+  it("says what is wrong at the caller's line", function()
+    local _, message = pcall(function() local _ = multiplane { film = film, focl = 3 } end)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: unknown field 'focl'"), message)
+    _, message = pcall(function() local _ = multiplane { film = film, { 3 } } end)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 must be"), message)
+    assert.is_false(pcall(function() multiplane { { cel() } } end))
+  end)
+end)
+
+describe("shutter", function()
+  local function exposures_of(settings, number)
+    local times = {}
+    settings.frame = settings.frame or function(f)
+      times[#times + 1] = f.time
+      return celspan.rostrum {}
+    end
+    local result = celspan.film { fps = 10, frames = 5, frame = shutter(settings) }:at(number)
+    return result, times
+  end
+
+  it("exposes at the middles of equal shares of the open time", function()
+    local result, times = exposures_of({ angle = 180, samples = 2 }, 3)
+    assert.are.equal(2, #result)
+    assert.are.same({ 0.5, 0.5 }, { result[1][2], result[2][2] })
+    assert.is_true(math.abs(times[1] - 0.2125) < 1e-12 and math.abs(times[2] - 0.2375) < 1e-12)
+  end)
+
+  it("keeps the weights of several exposures", function()
+    local rostrum = celspan.rostrum {}
+    local result = exposures_of({ samples = 4, frame = function()
+      return { { rostrum, 0.25 }, { rostrum, 0.75 } }
+    end }, 1)
+    assert.are.equal(8, #result)
+    assert.are.equal(0.75 / 4, result[2][2])
+  end)
+
+  it("hands on everything else of f", function()
+    local seen = {}
+    exposures_of({ samples = 1, frame = function(f)
+      seen = { f.number, f.index, f:on(2), f.width, f:random "x" == f:random "x" }
+      return celspan.rostrum {}
+    end }, 4)
+    assert.are.same({ 4, 3, 2, 1920, true }, seen)
+  end)
+
+  it("refuses angles and samples that make no sense", function()
+    assert.is_false(pcall(shutter, { angle = 400, frame = print }))
+    assert.is_false(pcall(shutter, { samples = 0, frame = print }))
+    assert.is_false(pcall(shutter, {}))
+  end)
+end)
