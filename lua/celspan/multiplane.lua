@@ -3,11 +3,11 @@
 --   multiplane{ film = {1920, 1080}, camera = { x = 0, y = 0, z = 0 }, focal = 1000,
 --               focus = 1000, aperture = 0, { hills, z = 800 }, { tree, z = 0 } }  -> rostrum
 --
--- A plane at depth z (away from the camera, film units) is drawn at the scale focal / distance about
--- the film's centre, distance being focal + z - camera.z, and panned by -camera.x, -camera.y times
--- that scale. Farther planes come first. A plane whose distance differs from `focus` (default: focal)
--- by d is defocused by aperture |d| / distance, on top of what its cel has. Planes at or behind the
--- camera are not seen. front, back, brightness and antialias go to the rostrum.
+-- A plane at depth z (away from the camera, film units) is drawn at the scale focal / distance
+-- about the film's centre, distance being focal + z - camera.z, and panned by -camera.x, -camera.y
+-- times that scale. Farther planes come first. A plane whose distance differs from `focus`
+-- (default: focal) by d is defocused by aperture |d| / distance, on top of what its cel has. Planes
+-- at or behind the camera are not seen. front, back, brightness and antialias go to the rostrum.
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 
@@ -26,12 +26,11 @@ local function seen(plane, scene, scale, blur)
   local own = cel.defocus or 0
   local radius = type(own) == "table" and own.radius or own
   local kernel = type(own) == "table" and own.kernel or "gaussian"
-  -- variances of blurs add
-  return cel:with { defocus = { radius = math.sqrt(radius * radius + blur * blur), kernel = kernel } }
+  radius = math.sqrt(radius * radius + blur * blur) -- variances add
+  return cel:with { defocus = { radius = radius, kernel = kernel } }
 end
 
 local function check(scene)
-  fields.check("multiplane", scene, known)
   local film = scene.film
   if not film or math.type(film[1]) == nil or math.type(film[2]) == nil then
     error("multiplane: field 'film' must be {width, height}, the size of the film", 3)
@@ -50,6 +49,7 @@ local function check(scene)
 end
 
 local function multiplane(_, scene)
+  fields.check("multiplane", scene, known)
   check(scene)
   fields.check("multiplane: camera", scene.camera or {}, known_camera)
   local focal = scene.focal or 1000

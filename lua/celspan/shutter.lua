@@ -2,10 +2,10 @@
 --
 --   frame = shutter{ angle = 180, samples = 8, frame = function(f) ... end }
 --
--- The shutter opens at the frame's time and stays open for angle / 360 of a frame. The inner function
--- is called once for each sample with an f whose time, middle and progress lie at the middle of that
--- sample's share; number, index, f:on and f:random stay those of the frame. The samples are exposed
--- with equal weights that add up to 1.
+-- The shutter opens at the frame's time and stays open for angle / 360 of a frame. The inner
+-- function is called once for each sample with an f whose time, middle and progress lie at the
+-- middle of that sample's share; number, index, f:on and f:random stay those of the frame. The
+-- samples are exposed with equal weights that add up to 1.
 local fields = require "celspan.fields"
 
 local known = { angle = "number", samples = "number", frame = "function" }
@@ -56,5 +56,5 @@ local function shutter(_, settings)
 end
 
 ---@class celspan.shutter
----@overload fun(settings: {angle?: number, samples?: integer, frame: fun(f: celspan.frame): any}): function
+---@overload fun(settings: table): fun(f: celspan.frame): table[]
 return setmetatable({}, { __call = shutter })

@@ -8,25 +8,21 @@ local shapes = require "demo.shapes"
 
 local character = {}
 
-local function lit(colours, x0, x1)
-  return celspan.linear { from = { x0, 0 }, to = { x1, 0 }, { 0, colours[1] }, { 1, colours[2] } }
-end
-
 local function disc(x, y, r, texture)
   return celspan.circle { centre = { x, y }, radius = r, texture = texture }
 end
 
-local cloth = lit(palette.coat, -110, 140)
-local trim = lit({ "#f6e3b8", "#b98f63" }, -130, 140)
+local cloth = shapes.across(-110, 140, table.unpack(palette.coat))
+local trim = shapes.across(-130, 140, table.unpack(palette.trim))
 
 local function coat()
   local outline = celspan.path { texture = cloth, d =
     "M-58 -300C-104 -280 -132 -120 -158 -34Q0 14 158 -34C132 -120 104 -280 58 -300Z" }
   local hem = shapes.ribbon({ { -164, -46, 26 }, { -80, -24, 26 }, { 0, -18, 26 }, { 80, -24, 26 },
                               { 164, -46, 26 } }, trim)
-  local front = shapes.ribbon({ { -6, -300, 5 }, { -12, -160, 5 }, { -16, -20, 5 } }, "#17404f")
+  local front = shapes.ribbon({ { -6, -300, 5 }, { -12, -160, 5 }, { -16, -20, 5 } }, palette.coat[2])
   local parts = { outline, celspan.clip(celspan.union { hem, front }, outline) }
-  for i = 0, 2 do parts[#parts + 1] = disc(-34, -230 + i * 62, 9, "#f0d9a8") end
+  for i = 0, 2 do parts[#parts + 1] = disc(-34, -230 + i * 62, 9, palette.button) end
   return celspan.union(parts)
 end
 
@@ -36,7 +32,7 @@ local boots = celspan.union {
 }
 local body = celspan.union { boots, coat() }
 local collar = shapes.ribbon({ { -86, -306, 30 }, { -40, -284, 46 }, { 10, -278, 50 }, { 56, -286, 44 },
-                               { 88, -308, 28 } }, lit(palette.scarf, -80, 110))
+                               { 88, -308, 28 } }, shapes.across(-80, 110, table.unpack(palette.scarf)))
 
 --- One end of the scarf: a wave that runs down the cloth and grows.
 local function tail(time, phase, length, drop)
@@ -46,7 +42,7 @@ local function tail(time, phase, length, drop)
     local wave = math.sin(time * 4.2 + phase - u * 4.4) * 26 * u
     points[i + 1] = { 40 + length * u, -290 + drop * u + wave, 40 + 8 * u }
   end
-  return shapes.ribbon(points, lit(palette.scarf, 40, 60 + length))
+  return shapes.ribbon(points, shapes.across(40, 60 + length, table.unpack(palette.scarf)))
 end
 
 --- Two bones from the shoulder; angles in degrees from straight down, outwards positive.
@@ -56,8 +52,9 @@ local function arm(side, upper, lower)
   local ex, ey = x + side * 92 * math.sin(a), y + 92 * math.cos(a)
   local hx, hy = ex + side * 84 * math.sin(b), ey + 84 * math.cos(b)
   local gx, gy = hx + side * 22 * math.sin(b), hy + 22 * math.cos(b)
-  local sleeve = shapes.ribbon({ { x - side * 16, y - 4, 44 }, { ex, ey, 54 }, { hx, hy, 58 } },
-                               lit(palette.coat, x - 60 + side * 30, x + 90 + side * 30))
+  local wool = shapes.across(x - 60 + side * 30, x + 90 + side * 30, table.unpack(palette.coat))
+  local sleeve = disc(x, y, 25, wool)
+    | shapes.ribbon({ { x, y, 50 }, { ex, ey, 55 }, { hx, hy, 58 } }, wool)
   local cuff = shapes.ribbon({ { hx - side * 9 * math.sin(b), hy - 9 * math.cos(b), 62 },
                                { hx + side * 9 * math.sin(b), hy + 9 * math.cos(b), 64 } }, trim)
   local hand = celspan.union { disc(gx, gy, 23, palette.skin),
@@ -82,7 +79,7 @@ local function lantern(x, y, swing)
     celspan.rect { -3, 34, 6, 60, texture = palette.brass },
   }
   local function place(v) return v:rotate(swing):translate(x, y) end
-  return place(glass), place(frame), place(shapes.glow(0, 66, 300, 1, 0.55, 0.18, 0.12))
+  return place(glass), place(frame), place(shapes.glow(0, 66, 250, 1, 0.55, 0.18, 0.12))
 end
 
 --- figure, lantern's glass, lantern's frame, its glow; all in the figure's units.

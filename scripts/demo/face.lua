@@ -11,22 +11,17 @@ local function disc(x, y, rx, ry, texture)
   return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
 end
 
---- A side lit from the left, by the sun.
-local function lit(colours, x0, x1)
-  return celspan.linear { from = { x0, 0 }, to = { x1, 0 }, { 0, colours[1] }, { 1, colours[2] } }
-end
-
 local back_hair = shapes.blob({ { -128, 10 }, { -118, -120 }, { 0, -160 }, { 118, -120 }, { 132, 10 },
                                 { 128, 92 }, { 60, 84 }, { 0, 60 }, { -60, 84 }, { -124, 92 } },
   palette.hair)
-local skull = disc(0, 0, 104, 97, lit({ "#ffd7ac", palette.skin_shade }, -70, 130))
+local skull = disc(0, 0, 104, 97, shapes.across(-70, 130, palette.skin_lit, palette.skin_shade))
 local cheeks = celspan.union { disc(-68, 26, 20, 15, palette.cheek), disc(50, 26, 20, 15, palette.cheek) }
 local nose = disc(-10, 12, 10, 8, palette.skin_shade)
 local fringe = celspan.clip(
   celspan.union { disc(-64, -92, 82, 64, palette.hair), disc(58, -92, 92, 58, palette.hair) },
   disc(0, -2, 106, 100))
 local band = shapes.ribbon({ { -118, -34, 40 }, { -70, -70, 46 }, { 0, -84, 48 }, { 70, -70, 46 },
-                             { 118, -34, 40 } }, lit({ "#fbe9c6", "#c99f74" }, -90, 120))
+                             { 118, -34, 40 } }, shapes.across(-90, 120, table.unpack(palette.wool)))
 
 --- Seconds at which the lids are shut.
 local blinks = { 0.7, 2.9, 4.3, 5.6, 8.3, 9.4 }
@@ -60,10 +55,11 @@ end
 local function hat(time)
   local swing = 12 * math.sin(time * 2.1) + 6 * math.sin(time * 3.7)
   local x, y = 92 + swing, -228 + swing * 0.4
-  local cone = celspan.path { texture = lit(palette.hat, -90, 130), d =
+  local cone = celspan.path { texture = shapes.across(-90, 130, table.unpack(palette.hat)), d =
     ("M-112 -44C-104 -150 -30 -236 %g %gC%g %g 104 -140 112 -44Q0 -104 -112 -44Z"):format(
       x, y, x - 8, y + 46) }
-  return celspan.union { cone, band, disc(x + 4, y + 4, 27, 27, lit({ "#fbe9c6", "#c99f74" }, x - 20, x + 30)) }
+  local pompom = disc(x + 4, y + 4, 27, 27, shapes.across(x - 20, x + 30, table.unpack(palette.wool)))
+  return celspan.union { cone, band, pompom }
 end
 
 --- The head round its own middle, saying `shape`.

@@ -8,9 +8,7 @@ local landscape = {}
 local bottom = 1100
 
 --- Crest colour above, haze or shade below.
-local function shaded(colours, top, low)
-  return celspan.linear { from = { 0, top }, to = { 0, low }, { 0, colours[1] }, { 1, colours[2] } }
-end
+local function shaded(colours, top, low) return shapes.down(top, low, table.unpack(colours)) end
 
 landscape.mountains = shapes.ridge({
   { -60, 560 }, { 120, 500 }, { 270, 430 }, { 380, 470 }, { 520, 545 }, { 650, 590 }, { 790, 560 },
@@ -87,10 +85,9 @@ end
 local function grove(list, plant)
   local parts = {}
   for i, t in ipairs(list) do
-    local dark, light = "#35492f", "#7d8248"
-    local colour = celspan.linear { from = { t[1] - t[3] * 0.3, 0 }, to = { t[1] + t[3] * 0.35, 0 },
-                                    { 0, light }, { 1, dark } }
-    parts[i] = plant(t[1], t[2], t[3], colour)
+    local light, dark = table.unpack(palette.leaves)
+    local x, y, size = table.unpack(t)
+    parts[i] = plant(x, y, size, shapes.across(x - size * 0.3, x + size * 0.35, light, dark))
   end
   return celspan.union(parts)
 end

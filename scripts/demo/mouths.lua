@@ -13,25 +13,27 @@ end
 
 --- An open mouth: half its width, its depth, and how far teeth and tongue reach into it.
 local function open(half, depth, upper, lower)
-  local outline = celspan.path { texture = dark, d = ("M%g 0Q0 %g %g 0C%g %g %g %g %g 0Z"):format(
-    -half, -depth * 0.22, half, half * 1.05, depth * 1.33, -half * 1.05, depth * 1.33, -half) }
+  local dip = 7 + depth * 0.06
+  local outline = celspan.path { texture = dark, d = ("M%g -4Q0 %g %g -4C%g %g %g %g %g -4Z"):format(
+    -half, dip, half, half * 1.06, depth * 1.4, -half * 1.06, depth * 1.4, -half) }
   local inside = celspan.union {
-    celspan.ellipse { centre = { 0, depth * 1.08 - lower }, radii = { half * 0.66, lower + 2 },
+    celspan.ellipse { centre = { 0, depth * 1.1 - lower }, radii = { half * 0.68, lower + 2 },
                       texture = tongue },
-    celspan.rect { -half * 0.82, -depth, half * 1.64, depth + upper, radius = 4, texture = teeth },
+    celspan.path { texture = teeth, d = ("M%g -9H%gV%gQ0 %g %g %gZ"):format(
+      -half * 0.86, half * 0.86, upper - 5, dip + upper, -half * 0.86, upper - 5) },
   }
   return celspan.union { outline, celspan.clip(inside, outline) }
 end
 
 return {
-  A = line({ -25, 3, 2 }, { -12, 1, 5 }, { 0, 3, 6 }, { 12, 1, 5 }, { 25, 3, 2 }),
-  B = open(28, 15, 10, 0),
+  A = line({ -25, -1, 2 }, { -12, 2, 5 }, { 0, 5, 6 }, { 12, 2, 5 }, { 25, -1, 2 }),
+  B = open(28, 15, 9, 0),
   C = open(28, 27, 7, 9),
   D = open(31, 46, 9, 17),
   E = open(20, 34, 5, 10),
   F = celspan.union { celspan.ellipse { centre = { 0, 8 }, radii = { 15, 14 }, texture = lip },
                       celspan.ellipse { centre = { 0, 8 }, radii = { 9, 8 }, texture = dark } },
-  G = celspan.union { open(25, 14, 12, 0),
+  G = celspan.union { open(25, 14, 10, 0),
                       shapes.ribbon({ { -20, 11, 3 }, { 0, 15, 9 }, { 20, 11, 3 } }, lip) },
   H = open(26, 36, 7, 26),
   X = line({ -27, -3, 2 }, { -14, 4, 4 }, { 0, 6, 5 }, { 14, 4, 4 }, { 27, -3, 2 }),

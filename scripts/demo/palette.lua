@@ -33,20 +33,25 @@ palette.lake = { "#f6be82", "#9c7f86" }
 palette.village = { "#6d7358", "#54604f" }
 palette.near = { "#55683f", "#3b4d3c" }
 palette.ground = { "#4b5a33", "#27362b" }
+palette.leaves = { "#7d8248", "#35492f" }
 palette.silhouette = "#15201f"
 
+palette.wall_shade = "#a9796a"
 palette.walls = { "#efd7b4", "#e3b98f", "#d99f7d" }
 palette.roofs = { "#b1543f", "#8e4a48", "#a3633f" }
 palette.pane = "#3d4a58"
 palette.gels = { { 1, 0.62, 0.22 }, { 1, 0.74, 0.36 }, { 1, 0.46, 0.20 } }
 
 palette.skin = "#f3c39b"
+palette.skin_lit = "#ffd7ac"
 palette.skin_shade = "#d9906f"
 palette.cheek = "#e8654f66"
 palette.ink = "#2b1b2c"
 palette.hair = "#4b2a33"
 palette.coat = { "#2f7f86", "#17404f" }
-palette.coat_trim = "#f0d9a8"
+palette.trim = { "#f6e3b8", "#b98f63" }
+palette.button = "#f0d9a8"
+palette.wool = { "#fbe9c6", "#c99f74" }
 palette.scarf = { "#e9573f", "#b5343f" }
 palette.hat = { "#e8a33d", "#b5672d" }
 palette.boot = "#3b2430"

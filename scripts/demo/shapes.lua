@@ -3,6 +3,17 @@ local celspan = require "celspan"
 
 local shapes = {}
 
+--- Colours evenly spaced from one point to another.
+local function between(from, to, colours)
+  local stops = { from = from, to = to }
+  for i, colour in ipairs(colours) do stops[i] = { (i - 1) / (#colours - 1), colour } end
+  return celspan.linear(stops)
+end
+
+--- A gradient from top to bottom, and one from left to right.
+function shapes.down(y0, y1, ...) return between({ 0, y0 }, { 0, y1 }, { ... }) end
+function shapes.across(x0, x1, ...) return between({ x0, 0 }, { x1, 0 }, { ... }) end
+
 local number = "%.2f %.2f "
 
 --- Cubic pieces through points {x, y}, Catmull-Rom; the ends run straight.

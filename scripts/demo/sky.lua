@@ -15,7 +15,7 @@ function sky.air(time)
 end
 
 local sun_height = keys { { 0, 490 }, { 7.5, 790, "inOutSine" } }
-local sun_strength = keys { { 2, 1 }, { 9, 0.35, "inOutSine" } }
+local sun_strength = keys { { 2, 1 }, { 9, 0.2, "inOutSine" } }
 
 --- The disc is painted; the rings round it are paint too thin to hide anything, under strong lights.
 function sky.sun(time)
@@ -36,16 +36,17 @@ local banks = { { 130, 236, 1 }, { 1090, 176, 1.2 }, { 1660, 330, 0.9 }, { 840, 
 local pills = { { 0, 0, 420 }, { 70, -26, 270 }, { 132, -52, 128 }, { 250, 24, 300 }, { -90, 26, 190 } }
 
 function sky.clouds(time)
-  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.55)
   local parts = {}
   for i, bank in ipairs(banks) do
     local x, y, size = bank[1] + time * (3 + i % 3 * 2), bank[2], bank[3]
     for _, pill in ipairs(pills) do
-      parts[#parts + 1] = celspan.rect { x + pill[1] * size, y + pill[2] * size, pill[3] * size, 26.4 * size,
-                                         radius = 13.2 * size, texture = paint }
+      parts[#parts + 1] = celspan.rect {
+        x + pill[1] * size, y + pill[2] * size, pill[3] * size, 26 * size, radius = 13 * size }
     end
   end
-  return celspan.cel { celspan.union(parts) }
+  local paint = celspan.mix(celspan.clear, palette.cloud:at(time), 0.55)
+  return celspan.cel { celspan.clip(celspan.rect { -200, 0, width + 400, 640, texture = paint },
+                                    celspan.union(parts)) }
 end
 
 --- Stars lie on a spiral of golden angles, so that they look strewn and never crowd.

@@ -106,8 +106,8 @@ const char *celspan_status_name(celspan_status status) {
   return (unsigned)status < sizeof names / sizeof *names ? names[status] : "unknown status";
 }
 
-static celspan_status fail(celspan_context *context, celspan_status status, const char *format,
-                           va_list arguments) {
+__attribute__((format(printf, 3, 0))) static celspan_status
+fail(celspan_context *context, celspan_status status, const char *format, va_list arguments) {
   vsnprintf(context->error, sizeof context->error, format, arguments);
   return status;
 }

@@ -88,7 +88,7 @@ static void help_overview(FILE *stream) {
 }
 
 static cs_exit help(const char *name) {
-  if (!name) {
+  if (!name || strcmp(name, "help") == 0) {
     help_overview(stdout);
     return CS_EXIT_OK;
   }

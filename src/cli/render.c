@@ -46,7 +46,7 @@ static celspan_status render_hashed(const render_job *job, const char *path,
   }
   celspan_sink sink = cs_tee_sink(&tee);
   status = celspan_frame_render(context, &job->frame, &sink, NULL);
-  for (int i = 0; i < 2 && !tee.is_begun; i++)
+  for (int i = 0; i < 2 && !tee.is_ended; i++)
     cs_sink_discard(context, &tee.sinks[i]);
   return status;
 }

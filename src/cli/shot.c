@@ -25,9 +25,23 @@ static void interrupt_script(void) {
               1);
 }
 
+/* Standard output is for what was asked for: what a script prints goes to standard error. And a
+ * script cannot end the program, or a render that did nothing could look like one that did all. */
+static const char HOUSE_RULES[] =
+    "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
+    "io.output(stderr)\n"
+    "function print(...)\n"
+    "  local words = pack(...)\n"
+    "  for i = 1, words.n do words[i] = tostring(words[i]) end\n"
+    "  stderr:write(concat(words, '\\t'), '\\n')\n"
+    "end\n"
+    "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
+
 /* light userdata: the context. Runs protected. */
 static int prepare(lua_State *L) {
   luaL_openlibs(L);
+  if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
+    return lua_error(L);
   cs_host_open(L, lua_touserdata(L, 1));
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   return 0;

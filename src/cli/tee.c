@@ -1,19 +1,12 @@
 /* A sink that feeds two. */
 #include "cli/tee.h"
 
-#include "output/sink.h"
-
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   cs_tee *tee = user;
-  celspan_sink *first = &tee->sinks[0], *second = &tee->sinks[1];
-  tee->is_begun = true;
-  celspan_status status = first->begin(first->user, context, width, height);
-  if (status != CELSPAN_OK) {
-    cs_sink_discard(context, second);
-    return status;
-  }
-  status = second->begin(second->user, context, width, height);
-  return status == CELSPAN_OK ? status : first->end(first->user, context, status);
+  celspan_status status = CELSPAN_OK;
+  for (int i = 0; i < 2 && status == CELSPAN_OK; i++)
+    status = tee->sinks[i].begin(tee->sinks[i].user, context, width, height);
+  return status;
 }
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
@@ -27,12 +20,13 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   cs_tee *tee = user;
+  tee->is_ended = true;
   for (int i = 0; i < 2; i++)
     outcome = tee->sinks[i].end(tee->sinks[i].user, context, outcome);
   return outcome;
 }
 
 celspan_sink cs_tee_sink(cs_tee *tee) {
-  tee->is_begun = false;
+  tee->is_ended = false;
   return (celspan_sink){tee, begin, put_row, end};
 }

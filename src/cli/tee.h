@@ -7,7 +7,7 @@
 
 typedef struct cs_tee {
   celspan_sink sinks[2]; /* ended in this order */
-  bool is_begun;         /* false: the sinks are still the caller's to discard */
+  bool is_ended;         /* false after a render: the sinks are the caller's to discard */
 } cs_tee;
 
 /* tee: its sinks are set; kept by the sink as long as it is used. */

@@ -26,8 +26,9 @@ static celspan_status walk_bent(cs_scan *scan, size_t i, const cs_bend *bend) {
     least = vertex[k].x < least ? vertex[k].x : least;
   CS_TRY(cs_window_reach(&scan->window, least));
   for (uint32_t k = 0; k < bend->vertex_count; at = vertex[k++])
-    CS_TRY(cs_window_add(&scan->window, at.x, vertex[k].x, vertex[k].y - at.y, left, right));
-  CS_TRY(cs_window_add(&scan->window, at.x, active->x_next[i], active->y_next - at.y, left, right));
+    CS_TRY(cs_window_add(&scan->window, at.x, at.y, vertex[k].x, vertex[k].y, left, right));
+  CS_TRY(
+      cs_window_add(&scan->window, at.x, at.y, active->x_next[i], active->y_next, left, right));
   cs_window_pass(&scan->window, right);
   return CELSPAN_OK;
 }
@@ -162,7 +163,7 @@ static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member
   if (!*begins)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++)
-    if (b->begin_low[k] >= block->low && b->begin_low[k] <= block->last_low)
+    if (b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low)
       (*begins)[(*count)++] = b->begins[k];
   return CELSPAN_OK;
 }

@@ -97,13 +97,59 @@ static celspan_status add_swaps(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
-/* Blocks of bent boundaries with the neighbours that they may touch. */
-static celspan_status add_bends(cs_blocks *b) {
+/* The x-ranges of all boundaries, and how far left and right something reaches from each place on:
+ * where the row permutes boundaries their ranges are in no order. */
+typedef struct ranges {
+  range *own;
+  double *high_upto; /* the greatest high of 0..i */
+  double *low_from;  /* the least low of i.. */
+} ranges;
+
+static celspan_status measure_ranges(cs_blocks *b, ranges *out) {
+  const cs_active *active = &b->scan->active;
+  size_t count = active->count;
+  ranges r = {take(b, count, sizeof *r.own), take(b, count, sizeof *r.high_upto),
+              take(b, count, sizeof *r.low_from)};
+  if (!r.own || !r.high_upto || !r.low_from)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < count; i++) {
+    double top = active->x[i], foot = active->x_next[i];
+    r.own[i] = (range){top < foot ? top : foot, top < foot ? foot : top};
+  }
+  for (size_t k = 0; k < active->bend_count; k++)
+    r.own[active->bends[k].boundary] = boundary_range(active, active->bends[k].boundary);
+  for (size_t i = 0; i < count; i++)
+    r.high_upto[i] = i > 0 && r.high_upto[i - 1] > r.own[i].high ? r.high_upto[i - 1] : r.own[i].high;
+  for (size_t i = count; i-- > 0;)
+    r.low_from[i] =
+        i + 1 < count && r.low_from[i + 1] < r.own[i].low ? r.low_from[i + 1] : r.own[i].low;
+  *out = r;
+  return CELSPAN_OK;
+}
+
+/* Blocks of bent boundaries with all that they may touch; the row also permutes boundaries. */
+static celspan_status add_bends_far(cs_blocks *b, const ranges *r) {
   const cs_active *active = &b->scan->active;
   for (size_t k = 0; k < active->bend_count; k++) {
-    const cs_bend *bend = &active->bends[k];
-    size_t i = bend->boundary, low = i, high = i + 1;
-    if (bend->vertex_count == 0)
+    size_t i = active->bends[k].boundary, low = i, high = i + 1;
+    if (active->bends[k].vertex_count == 0)
+      continue;
+    while (low > 0 && r->high_upto[low - 1] > r->own[i].low)
+      low--;
+    while (high < active->count && r->low_from[high] < r->own[i].high)
+      high++;
+    if (high - low > 1)
+      CS_TRY(add_block(b, low, high));
+  }
+  return CELSPAN_OK;
+}
+
+/* The same in a row that keeps its order, where what a boundary touches are its neighbours. */
+static celspan_status add_bends_near(cs_blocks *b) {
+  const cs_active *active = &b->scan->active;
+  for (size_t k = 0; k < active->bend_count; k++) {
+    size_t i = active->bends[k].boundary, low = i, high = i + 1;
+    if (active->bends[k].vertex_count == 0)
       continue;
     range own = boundary_range(active, i);
     while (low > 0 && boundary_range(active, low - 1).high > own.low)
@@ -122,47 +168,46 @@ static int compare_events(const void *p, const void *q) {
     return a->y < b->y ? -1 : 1;
   if (a->leaf != b->leaf)
     return a->leaf < b->leaf ? -1 : 1;
-  return (a->begin > b->begin) - (a->begin < b->begin);
-}
-
-/* The x-ranges of all boundaries: events ask for each of them. */
-static celspan_status measure_ranges(cs_blocks *b, range **out) {
-  const cs_active *active = &b->scan->active;
-  range *ranges = take(b, active->count, sizeof *ranges);
-  if (!ranges)
-    return CELSPAN_NO_MEMORY;
-  for (size_t i = 0; i < active->count; i++) {
-    double top = active->x[i], foot = active->x_next[i];
-    ranges[i] = (range){top < foot ? top : foot, top < foot ? foot : top};
-  }
-  for (size_t k = 0; k < active->bend_count; k++)
-    ranges[active->bends[k].boundary] = boundary_range(active, active->bends[k].boundary);
-  *out = ranges;
-  return CELSPAN_OK;
+  if (a->begin != b->begin)
+    return a->begin < b->begin ? -1 : 1;
+  return a->is_end - b->is_end;
 }
 
 /* The block of the boundaries whose x-range meets [low, high], or the place between two. */
-static celspan_status add_range(cs_blocks *b, const range *ranges, double low, double high,
-                                size_t *block_low) {
+static celspan_status add_range(cs_blocks *b, const range *own, double low, double high,
+                                cs_block *out) {
   const cs_active *active = &b->scan->active;
   size_t first = active->count, end = 0, place = 0;
   for (size_t i = 0; i < active->count; i++) {
     place += active->x[i] <= low;
-    if (ranges[i].high < low || ranges[i].low > high)
+    if (own[i].high < low || own[i].low > high)
       continue;
     first = i < first ? i : first;
     end = i + 1;
   }
-  *block_low = first < end ? first : place;
-  return add_block(b, *block_low, first < end ? end : place);
+  *out = first < end ? (cs_block){first, end, first} : (cs_block){place, place, place};
+  return add_block(b, out->low, out->high);
+}
+
+/* A chain that begins and ends inside the row ties the blocks of both events together. */
+static celspan_status tie_ends(cs_blocks *b, const cs_row_event *events, size_t count,
+                               cs_block at) {
+  for (size_t i = 0; i < count; i++) {
+    if (events[i].begin < 0)
+      continue;
+    cs_block *begin = &b->begin_blocks[events[i].begin];
+    if (!events[i].is_end) {
+      *begin = at;
+      continue;
+    }
+    CS_TRY(add_block(b, begin->low < at.low ? begin->low : at.low,
+                     begin->high > at.high ? begin->high : at.high));
+  }
+  return CELSPAN_OK;
 }
 
 /* Blocks of begins and ends: one for all of a leaf at one height. */
-static celspan_status add_events(cs_blocks *b) {
-  range *ranges;
-  if (b->event_count == 0)
-    return CELSPAN_OK;
-  CS_TRY(measure_ranges(b, &ranges));
+static celspan_status add_events(cs_blocks *b, const range *own) {
   if (b->event_count > 1)
     qsort(b->events, b->event_count, sizeof *b->events, compare_events);
   for (size_t first = 0, end; first < b->event_count; first = end) {
@@ -173,11 +218,9 @@ static celspan_status add_events(cs_blocks *b) {
       r.low = b->events[end].low < r.low ? b->events[end].low : r.low;
       r.high = b->events[end].high > r.high ? b->events[end].high : r.high;
     }
-    size_t block_low;
-    CS_TRY(add_range(b, ranges, r.low, r.high, &block_low));
-    for (size_t i = first; i < end; i++)
-      if (b->events[i].begin >= 0)
-        b->begin_low[b->events[i].begin] = block_low;
+    cs_block at;
+    CS_TRY(add_range(b, own, r.low, r.high, &at));
+    CS_TRY(tie_ends(b, e, end - first, at));
   }
   return CELSPAN_OK;
 }
@@ -250,8 +293,8 @@ celspan_status cs_blocks_begins(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   b->begin_count = count_begins(active, b->y1);
   b->begins = take(b, b->begin_count, sizeof *b->begins);
-  b->begin_low = take(b, b->begin_count, sizeof *b->begin_low);
-  if (!b->begins || !b->begin_low)
+  b->begin_blocks = take(b, b->begin_count, sizeof *b->begin_blocks);
+  if (!b->begins || !b->begin_blocks)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++) {
     uint32_t chain = (uint32_t)(active->next + k), count;
@@ -262,8 +305,9 @@ celspan_status cs_blocks_begins(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
-static void note_event(cs_blocks *b, double y, range r, uint32_t leaf, int32_t begin) {
-  b->events[b->event_count++] = (cs_row_event){y, r.low, r.high, leaf, begin};
+static void note_event(cs_blocks *b, double y, range r, uint32_t leaf, int32_t begin,
+                       bool is_end) {
+  b->events[b->event_count++] = (cs_row_event){y, r.low, r.high, leaf, begin, is_end};
 }
 
 static range member_range(const cs_member *member) {
@@ -284,16 +328,17 @@ static celspan_status find_events(cs_blocks *b) {
     const cs_member *member = &b->begins[k];
     range r = member_range(member);
     double end = member->points[member->point_count - 1].y;
-    note_event(b, member->points[0].y, r, member->leaf, (int32_t)k);
+    note_event(b, member->points[0].y, r, member->leaf, (int32_t)k, false);
     if (end < b->y1)
-      note_event(b, end, r, member->leaf, -1);
+      note_event(b, end, r, member->leaf, (int32_t)k, true);
   }
   for (size_t k = 0; k < active->bend_count; k++) {
     const cs_bend *bend = &active->bends[k];
     if (!bend->ends_above)
       continue;
     celspan_point end = active->vertices[bend->vertex + bend->vertex_count - 1];
-    note_event(b, end.y, (range){end.x, end.x}, cs_active_chain(active, bend->boundary)->leaf, -1);
+    note_event(b, end.y, (range){end.x, end.x}, cs_active_chain(active, bend->boundary)->leaf, -1,
+               true);
   }
   return CELSPAN_OK;
 }
@@ -301,13 +346,17 @@ static celspan_status find_events(cs_blocks *b) {
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   CS_TRY(add_swaps(b));
-  if (active->bend_count > 0)
-    CS_TRY(add_bends(b));
   if (count_begins(active, b->y1) > 0)
     CS_TRY(cs_blocks_begins(b));
-  if (b->begin_count > 0 || active->bend_count > 0) {
+  if (b->begin_count > 0 || active->bend_count > 0)
     CS_TRY(find_events(b));
-    CS_TRY(add_events(b));
+  if (b->event_count > 0 || (b->count > 0 && active->bend_count > 0)) {
+    ranges r;
+    CS_TRY(measure_ranges(b, &r));
+    CS_TRY(add_bends_far(b, &r));
+    CS_TRY(add_events(b, r.own));
+  } else {
+    CS_TRY(add_bends_near(b));
   }
   merge_blocks(b);
   return CELSPAN_OK;

@@ -23,14 +23,15 @@ typedef struct cs_block {
 typedef struct cs_row_event {
   double y, low, high;
   uint32_t leaf;
-  int32_t begin; /* index into begins, or -1: an end */
+  int32_t begin; /* which of begins this is about, or -1: a boundary that ends */
+  bool is_end;
 } cs_row_event;
 
 typedef struct cs_blocks {
   cs_scan *scan;
   double y0, y1;      /* the row */
   cs_member *begins;  /* chains that begin inside the row */
-  size_t *begin_low;  /* for each: the low end of the block it belongs to */
+  cs_block *begin_blocks; /* for each: where its begin is replayed */
   size_t begin_count;
   cs_row_event *events;
   size_t event_count;

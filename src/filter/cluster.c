@@ -11,7 +11,7 @@ static celspan_status flush(cs_cluster *cluster, size_t j, double x, double y) {
   cs_member *member = &cluster->members[j];
   const cs_cell *left = left_of(cluster, j);
   if (y > member->y && !cs_composer_same(&cluster->scan->composer, left, member->right))
-    CS_TRY(cs_window_add(&cluster->scan->window, member->x, x, y - member->y, left, member->right));
+    CS_TRY(cs_window_add(&cluster->scan->window, member->x, member->y, x, y, left, member->right));
   member->x = x;
   member->y = y;
   return CELSPAN_OK;

@@ -138,24 +138,30 @@ static double peek_next(const cs_scan *scan, const cs_strip_edges *edges, size_t
 }
 
 celspan_status cs_strips_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
+  cs_composer *composer = &scan->composer;
   cs_strip_edges edges = {0};
   CS_TRY(cs_strips_collect(scan, y + 0.5, &edges));
   if (edges.count > 0)
     qsort(edges.edges, edges.count, sizeof *edges.edges, compare_edges);
   size_t boundary = 0, edge = 0, total = scan->active.count + edges.count;
-  int32_t from = 0, width = scan->shot->width;
-  while (from < width || boundary + edge < total) {
+  int32_t from = 0, at = 0, width = scan->shot->width; /* the run being gathered: [from, at) */
+  cs_cell run = {.colour = cs_v4_all(0)};
+  while (at < width || boundary + edge < total) {
     int32_t to = cs_number_first_centre(peek_next(scan, &edges, boundary, edge));
     to = boundary + edge == total || to > width ? width : to;
-    if (to > from) {
+    if (to > at) {
       cs_cell cell;
-      cs_composer_cell(&scan->composer, &cell);
-      CS_TRY(scan->composer.failure);
-      CS_TRY(cs_composer_run(&scan->composer, &cell, from, to, y + 0.5, out));
-      from = to;
+      cs_composer_cell(composer, &cell);
+      CS_TRY(composer->failure);
+      if (!cs_composer_same(composer, &cell, &run)) {
+        CS_TRY(cs_composer_run(composer, &run, from, at, y + 0.5, out));
+        from = at;
+        run = cell;
+      }
+      at = to;
     }
     if (boundary + edge < total)
       cross_next(scan, &edges, &boundary, &edge);
   }
-  return CELSPAN_OK;
+  return cs_composer_run(composer, &run, from, width, y + 0.5, out);
 }

@@ -35,6 +35,12 @@ static inline int32_t ceil_column(double x, int32_t width) {
   return column + (column < x && column < width);
 }
 
+/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
+static inline double round_area(double x) {
+  const double bias = 0x1.8p24;
+  return (x + bias) - bias;
+}
+
 /* The integral, up to x, of the share of the fragment's height at which the boundary lies left. */
 static inline double passed(double low, double high, double x) {
   return x <= low    ? 0
@@ -46,11 +52,23 @@ static inline double passed(double low, double high, double x) {
 static inline double cover(const cs_fragment *f, int32_t p) {
   double low = f->xa < f->xb ? f->xa : f->xb, high = f->xa < f->xb ? f->xb : f->xa;
   if (low == high)
-    return f->height * cs_number_clamp(p + 1 - low, 0, 1);
-  return f->height * (passed(low, high, p + 1) - passed(low, high, p));
+    return round_area(f->height * cs_number_clamp(p + 1 - low, 0, 1));
+  return round_area(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
 }
 
 /* ---------------------------------------------------------------- closing */
+
+/* Light is never negative and alpha at most 1: sums may miss that by a last bit. */
+static inline cs_v4 hold(cs_v4 colour) {
+  for (int c = 0; c < 4; c++)
+    colour[c] = colour[c] < 0 ? 0 : colour[c];
+  colour[3] = colour[3] > 1 ? 1 : colour[3];
+  return colour;
+}
+
+static inline celspan_status put_pixel(cs_window *window, int32_t p, cs_v4 colour) {
+  return cs_row_single(window->composer->context, window->out, p, p + 1, hold(colour));
+}
 
 /* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
 static celspan_status close_lone(cs_window *window) {
@@ -59,19 +77,18 @@ static celspan_status close_lone(cs_window *window) {
   cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
   CS_TRY(cs_row_single(context, window->out, window->from, first, base));
-  CS_TRY(cs_row_single(context, window->out, first, first + 1, base + step * (float)cover(f, first)));
+  CS_TRY(put_pixel(window, first, base + step * (float)cover(f, first)));
   if (last - first > 2) {
     cs_v4 ramp = base + step * (float)cover(f, first + 1);
     double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
     CS_TRY(cs_row_gradient(context, window->out, first + 1, last, ramp,
                            step * (float)(f->height / across)));
   } else if (last - first == 2) {
-    CS_TRY(cs_row_single(context, window->out, first + 1, last,
-                         base + step * (float)cover(f, first + 1)));
+    CS_TRY(put_pixel(window, first + 1, base + step * (float)cover(f, first + 1)));
   }
   if (last == first)
     return CELSPAN_OK;
-  return cs_row_single(context, window->out, last, last + 1, base + step * (float)cover(f, last));
+  return put_pixel(window, last, base + step * (float)cover(f, last));
 }
 
 /* The first column at or right of p where some fragment changes the sum; end when none does. */
@@ -86,14 +103,22 @@ static int32_t next_change(const cs_window *window, int32_t p) {
   return next;
 }
 
+/* Four doubles: the sums of colour steps. */
+typedef double sum4 __attribute__((vector_size(32)));
+
+static inline void add_step(sum4 *sum, const cs_fragment *f, double area) {
+  cs_v4 left = f->left->colour, right = f->right->colour;
+  for (int c = 0; c < 4; c++)
+    (*sum)[c] += ((double)right[c] - (double)left[c]) * area;
+}
+
 /* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
-static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, cs_v4 *change) {
+static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *change) {
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
-  cs_v4 step = f->right->colour - f->left->colour;
   double before = p > f->first ? cover(f, p - 1) : 0;
   for (; p <= end; p++) {
     double now = p < f->end ? cover(f, p) : f->height;
-    change[p - p0] += step * (float)(now - before);
+    add_step(&change[p - p0], f, now - before);
     before = now;
   }
 }
@@ -101,17 +126,19 @@ static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, cs_v4 *cha
 /* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
 static celspan_status close_flat(cs_window *window) {
   celspan_context *context = window->composer->context;
-  cs_v4 change[TILE], sum = window->base->colour;
+  cs_v4 base = window->base->colour, colour = base;
+  sum4 change[TILE], sum = {base[0], base[1], base[2], base[3]};
   for (int32_t p = window->from; p < window->end;) {
     int32_t next = next_change(window, p);
-    CS_TRY(cs_row_single(context, window->out, p, next, sum));
+    CS_TRY(cs_row_single(context, window->out, p, next, colour));
     int32_t stop = window->end - next < TILE ? window->end : next + TILE;
     memset(change, 0, (size_t)(stop - next) * sizeof *change);
     for (size_t i = 0; i < window->fragment_count; i++)
       add_changes(&window->fragments[i], next, stop, change);
     for (p = next; p < stop; p++) {
       sum += change[p - next];
-      CS_TRY(cs_row_single(context, window->out, p, p + 1, sum));
+      colour = hold((cs_v4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]});
+      CS_TRY(put_pixel(window, p, colour));
     }
   }
   return CELSPAN_OK;
@@ -175,7 +202,8 @@ static celspan_status close_tile(cs_window *window, int32_t p0, int32_t p1) {
   for (size_t i = 0; i < window->fragment_count; i++)
     CS_TRY(tile_add(&t, &window->fragments[i]));
   CS_TRY(cs_row_array(context, window->out, p0, p1, &colours));
-  memcpy(colours, sum, (size_t)(p1 - p0) * sizeof *sum);
+  for (int32_t k = 0; k < p1 - p0; k++)
+    cs_v4_store(colours + 4 * k, hold(sum[k]));
   return CELSPAN_OK;
 }
 
@@ -219,9 +247,10 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_window_add(cs_window *window, double xa, double xb, double height,
+celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
                              const cs_cell *left, const cs_cell *right) {
-  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa, top = window->centre - 0.5;
+  double height = round_area(yb - top) - round_area(ya - top);
   cs_fragment fragment = {xa, xb, height, left, right, floor_column(low, window->width),
                           ceil_column(high, window->width)};
   if (fragment.first < window->from) /* rounding put it left of what is written */
@@ -246,13 +275,13 @@ static celspan_status write_edge(cs_window *window, double low, double high, int
   CS_TRY(cs_row_single(context, out, window->from, first, base));
   if (end - first == 1) {
     float area = (float)(first + 1 - 0.5 * (low + high));
-    CS_TRY(cs_row_single(context, out, first, end, base + step * area));
+    CS_TRY(put_pixel(window, first, base + step * area));
   } else if (end - first == 2) {
     double split = first + 1, twice = 2 * (high - low);
     float area = (float)((split - low) * (split - low) / twice);
     float rest = (float)(1 - (high - split) * (high - split) / twice);
-    CS_TRY(cs_row_single(context, out, first, first + 1, base + step * area));
-    CS_TRY(cs_row_single(context, out, first + 1, end, base + step * rest));
+    CS_TRY(put_pixel(window, first, base + step * area));
+    CS_TRY(put_pixel(window, first + 1, base + step * rest));
   }
   window->from = window->end = end;
   window->cell = right;
@@ -270,7 +299,7 @@ celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_
     return write_edge(window, low, high, first, end, left, right);
   }
   CS_TRY(cs_window_reach(window, low));
-  CS_TRY(cs_window_add(window, xa, xb, 1, left, right));
+  CS_TRY(cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right));
   cs_window_pass(window, right);
   return CELSPAN_OK;
 }

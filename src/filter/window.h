@@ -5,6 +5,9 @@
  * every pixel. Between windows a row is whole cells. So coverage is never used as alpha, and
  * abutting shapes cannot leak.
  *
+ * Areas are rounded to multiples of 2^-28 such that the pieces of a whole pixel sum to it exactly: a
+ * pixel that abutting black shapes cover together is black, not nearly so.
+ *
  * Invariants: a window's pixels are summed from its own fragments only, starting from the exact
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
  * clusters) come from left to right.
@@ -16,7 +19,7 @@
 
 typedef struct cs_fragment {
   double xa, xb; /* at its top and at its bottom */
-  double height; /* of the row: 0..1 */
+  double height; /* of the row: 0..1, a multiple of 2^-28 */
   const cs_cell *left, *right;
   int32_t first, end; /* the columns it crosses; empty when it stands on a pixel's edge */
 } cs_fragment;
@@ -43,9 +46,9 @@ void cs_window_free(cs_window *window, cs_memory *memory);
 
 /* An item begins whose least x is `x`: closes the window when it ends before. */
 CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
-/* A fragment of the current item. */
-CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double xb,
-                                             double height, const cs_cell *left,
+/* A fragment of the current item, from (xa, ya) to (xb, yb). */
+CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
+                                             double yb, const cs_cell *left,
                                              const cs_cell *right);
 /* A whole item: one straight edge through the whole row. next_x: nothing that comes later lies left
  * of it; any lesser value when that is not known. */

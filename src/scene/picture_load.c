@@ -2,8 +2,8 @@
  * level below.
  *
  *   level <= base   a pass over the rows of the file that a row of blocks needs; means are taken on
- *                   the way, with one row waiting a level, and blocks of every column in a window
- *                   are filled at once, with those of the next level, which is wanted next
+ *                   the way, with one row waiting a level, and the blocks of every column in a
+ *                   window are filled at once
  *   level > base    from the four blocks below, all of which fit in memory together
  */
 #include <string.h>
@@ -13,24 +13,17 @@
 #define BATCH_BYTES ((size_t)4 << 20)
 #define LEVELS 24
 
-/* A rectangle of blocks of one level, being filled. */
-typedef struct block_plane {
-  int level;
-  int32_t column, row, columns, rows;
-  cs_picture_block **blocks; /* row-major */
-} block_plane;
-
 typedef struct file_pass {
   celspan_context *context;
   cs_picture_store *store;
   cs_picture_entry *entry;
-  block_plane planes[2];
-  int plane_count;
-  int top;                /* the highest level that is filled */
-  int32_t x0, x1, y0, y1; /* pixels */
-  float *batch;           /* decoded rows of the file */
+  int level;                          /* that is filled */
+  int32_t column, row, columns, rows; /* the rectangle of its blocks */
+  cs_picture_block **blocks;          /* row-major; those handed over are NULL */
+  int32_t x0, x1, y0, y1;             /* pixels */
+  float *batch;                       /* decoded rows of the file */
   int32_t batch_rows;
-  float *waiting[LEVELS]; /* of each level below the top: a row whose lower half is to come */
+  float *waiting[LEVELS]; /* of each level below: a row whose lower half is to come */
 } file_pass;
 
 static int32_t blocks_of(int32_t texels) {
@@ -52,57 +45,42 @@ static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 /* The picture fits: whole rows of blocks. What lies between the last row read and this one has to
  * be decoded anyway in a sequential format; a turned picture is read at once. */
 static void cover_fitting(file_pass *pass, int32_t row) {
-  cs_picture_entry *entry = pass->entry;
-  int32_t first = row, last = row + 1;
+  const cs_picture_entry *entry = pass->entry;
+  pass->columns = columns_of(entry, 0);
+  pass->row = row;
+  pass->rows = 1;
   if (entry->header.is_turned) {
-    first = 0;
-    last = rows_of(entry, 0);
+    pass->row = 0;
+    pass->rows = rows_of(entry, 0);
   } else if (entry->header.is_sequential) {
-    first = row >= entry->next_strip ? entry->next_strip : 0;
+    pass->row = row >= entry->next_strip ? entry->next_strip : 0;
+    pass->rows = row + 1 - pass->row;
   }
-  pass->planes[0] = (block_plane){.level = 0,
-                            .row = first,
-                            .columns = columns_of(entry, 0),
-                            .rows = last - first};
-  pass->plane_count = 1;
 }
 
-/* The picture does not fit: a window of columns as wide as half the budget, and the row of the
- * next level that lies over it. */
-static void cover_window(file_pass *pass, int level, int32_t column, int32_t row) {
+/* The picture does not fit: a window of columns, as many as may be made at a time. */
+static void cover_window(file_pass *pass, int32_t column, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
-  bool has_next = level < entry->base;
-  int32_t window = least((int64_t)(pass->store->budget / 2 / sizeof(cs_picture_block)), 1 << 20);
-  window = has_next ? window * 2 / 5 / 2 * 2 : window;
-  window = window < 1 + has_next ? 1 + has_next : window;
-  int32_t first = column / window * window, top_row = has_next ? row & ~1 : row;
-  block_plane *low = &pass->planes[0];
-  *low = (block_plane){.level = level,
-                 .column = first,
-                 .row = top_row,
-                 .columns = least(window, columns_of(entry, level) - first),
-                 .rows = least(1 + has_next, rows_of(entry, level) - top_row)};
-  pass->planes[1] = (block_plane){.level = level + 1,
-                            .column = first / 2,
-                            .row = top_row / 2,
-                            .columns = (low->columns + 1) / 2,
-                            .rows = 1};
-  pass->plane_count = 1 + has_next;
+  int32_t columns = columns_of(entry, pass->level);
+  int32_t window = least(columns, entry->share < 1 ? 1 : (int64_t)entry->share);
+  pass->column = column / window * window;
+  pass->columns = least(window, columns - pass->column);
+  pass->row = row;
+  pass->rows = 1;
 }
 
 static void cover(file_pass *pass, int level, int32_t column, int32_t row) {
   const celspan_picture_info *info = &pass->entry->header.info;
+  int64_t side = (int64_t)CS_PICTURE_BLOCK << level;
+  pass->level = level;
   if (pass->entry->base == 0)
     cover_fitting(pass, row);
   else
-    cover_window(pass, level, column, row);
-  const block_plane *top = &pass->planes[pass->plane_count - 1];
-  int64_t side = (int64_t)CS_PICTURE_BLOCK << top->level;
-  pass->top = top->level;
-  pass->x0 = (int32_t)(top->column * side);
-  pass->x1 = least((top->column + top->columns) * side, info->width);
-  pass->y0 = (int32_t)(top->row * side);
-  pass->y1 = least((top->row + top->rows) * side, info->height);
+    cover_window(pass, column, row);
+  pass->x0 = (int32_t)(pass->column * side);
+  pass->x1 = least((pass->column + pass->columns) * side, info->width);
+  pass->y0 = (int32_t)(pass->row * side);
+  pass->y1 = least((pass->row + pass->rows) * side, info->height);
 }
 
 /* ---------------------------------------------------------------- its memory */
@@ -125,60 +103,56 @@ static bool make_buffers(file_pass *pass) {
   pass->batch_rows = rows;
   pass->batch = cs_mem_array(memory, (size_t)rows, row_bytes(pass));
   bool is_made = pass->batch;
-  for (int level = 0; level < pass->top && is_made; level++) {
+  for (int level = 0; level < pass->level && is_made; level++) {
     pass->waiting[level] = cs_mem_array(memory, 1, waiting_bytes(pass, level));
     is_made = pass->waiting[level];
   }
   return is_made;
 }
 
+static size_t block_count(const file_pass *pass) {
+  return (size_t)pass->columns * (size_t)pass->rows;
+}
+
 static celspan_status make_blocks(file_pass *pass) {
-  for (int p = 0; p < pass->plane_count; p++) {
-    block_plane *plane = &pass->planes[p];
-    plane->blocks = cs_mem_array(pass->store->memory, (size_t)plane->columns * (size_t)plane->rows,
-                                 sizeof(cs_picture_block *));
-    if (!plane->blocks)
-      return cs_fail_memory(pass->context);
-    for (int32_t row = 0; row < plane->rows; row++)
-      for (int32_t column = 0; column < plane->columns; column++)
-        CS_TRY(cs_store_make(pass->context, pass->store, pass->entry, plane->level,
-                             plane->column + column, plane->row + row,
-                             &plane->blocks[(size_t)row * (size_t)plane->columns + (size_t)column]));
+  pass->blocks =
+      cs_mem_array(pass->store->memory, block_count(pass), sizeof(cs_picture_block *));
+  if (!pass->blocks)
+    return cs_fail_memory(pass->context);
+  for (size_t i = 0; i < block_count(pass); i++) {
+    int32_t row = (int32_t)(i / (size_t)pass->columns), column = (int32_t)(i % (size_t)pass->columns);
+    CS_TRY(cs_store_make(pass->context, pass->store, pass->entry, pass->level,
+                         pass->column + column, pass->row + row, &pass->blocks[i]));
   }
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- its rows */
 
-static void fill_plane(const block_plane *plane, int32_t y, int32_t x, int32_t count,
-                       const float *texels) {
-  size_t row = (size_t)(y / CS_PICTURE_BLOCK - plane->row) * (size_t)plane->columns;
-  int32_t inner = y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK;
-  for (int32_t done = 0; done < count; done += CS_PICTURE_BLOCK) {
-    int32_t part = least(count - done, CS_PICTURE_BLOCK);
-    cs_picture_block *block =
-        plane->blocks[row + (size_t)((x + done) / CS_PICTURE_BLOCK - plane->column)];
-    memcpy(block->texels + 4 * (size_t)inner, texels + 4 * (size_t)done,
-           (size_t)part * 4 * sizeof(float));
-  }
+static void fill_blocks(const file_pass *pass, int32_t y, int32_t count, const float *texels) {
+  size_t row = (size_t)(y / CS_PICTURE_BLOCK - pass->row) * (size_t)pass->columns;
+  size_t inner = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK);
+  for (int32_t done = 0; done < count; done += CS_PICTURE_BLOCK)
+    memcpy(pass->blocks[row + (size_t)(done / CS_PICTURE_BLOCK)]->texels + inner,
+           texels + 4 * (size_t)done,
+           (size_t)least(count - done, CS_PICTURE_BLOCK) * 4 * sizeof(float));
 }
 
-/* A row of a level, complete: into the blocks, and on to the next level. */
-static void take_row(file_pass *pass, int level, int32_t y, float *texels) {
+/* A row of a level, complete: into the blocks, or on to the next level. */
+static void take_row(file_pass *pass, int level, int32_t y, const float *texels) {
   const celspan_picture_info *info = &pass->entry->header.info;
-  int32_t x = pass->x0 >> level, count = cs_levels_size(pass->x1 - pass->x0, level);
-  for (int p = 0; p < pass->plane_count; p++)
-    if (pass->planes[p].level == level)
-      fill_plane(&pass->planes[p], y, x, count, texels);
-  if (level == pass->top)
+  int32_t count = cs_levels_size(pass->x1 - pass->x0, level);
+  if (level == pass->level) {
+    fill_blocks(pass, y, count, texels);
     return;
+  }
   bool is_upper = y % 2 == 0, is_last = y + 1 == cs_levels_size(info->height, level);
   float *waiting = pass->waiting[level];
   if (is_upper)
     memcpy(waiting, texels, (size_t)count * 4 * sizeof(float));
   if (is_upper && !is_last)
     return;
-  cs_levels_mean(info->width, info->height, level, x, y & ~1, count, waiting,
+  cs_levels_mean(info->width, info->height, level, pass->x0 >> level, y & ~1, count, waiting,
                  is_upper ? NULL : texels, waiting);
   take_row(pass, level + 1, y / 2, waiting);
 }
@@ -202,33 +176,25 @@ static celspan_status read_rows(file_pass *pass) {
 /* ---------------------------------------------------------------- a pass from start to end */
 
 /* Hands the blocks to the store; the one that was asked for comes back with a pin. */
-static cs_picture_block *hand_over(file_pass *pass, int level, int32_t column, int32_t row) {
+static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
-  for (int p = 0; p < pass->plane_count; p++) {
-    block_plane *plane = &pass->planes[p];
-    size_t count = (size_t)plane->columns * (size_t)plane->rows;
-    for (size_t i = 0; i < count; i++) {
-      cs_picture_block *block = plane->blocks[i];
-      bool is_wanted = block->level == level && block->column == column && block->row == row;
-      plane->blocks[i] = NULL;
-      block = cs_store_insert(pass->store, block, is_wanted);
-      if (is_wanted)
-        wanted = block;
-    }
+  for (size_t i = 0; i < block_count(pass); i++) {
+    cs_picture_block *block = pass->blocks[i];
+    bool is_wanted = block->column == column && block->row == row;
+    pass->blocks[i] = NULL;
+    block = cs_store_insert(pass->store, block, is_wanted);
+    if (is_wanted)
+      wanted = block;
   }
   return wanted;
 }
 
 static void finish_pass(file_pass *pass) {
   cs_memory *memory = pass->store->memory;
-  for (int p = 0; p < pass->plane_count; p++) {
-    block_plane *plane = &pass->planes[p];
-    size_t count = (size_t)plane->columns * (size_t)plane->rows;
-    for (size_t i = 0; plane->blocks && i < count; i++)
-      cs_store_discard(pass->store, plane->blocks[i]);
-    cs_mem_free(memory, plane->blocks, count * sizeof *plane->blocks);
-  }
-  for (int level = 0; level < pass->top; level++)
+  for (size_t i = 0; pass->blocks && i < block_count(pass); i++)
+    cs_store_discard(pass->store, pass->blocks[i]);
+  cs_mem_free(memory, pass->blocks, block_count(pass) * sizeof *pass->blocks);
+  for (int level = 0; level < pass->level; level++)
     cs_mem_free(memory, pass->waiting[level], waiting_bytes(pass, level));
   cs_mem_free(memory, pass->batch, (size_t)pass->batch_rows * row_bytes(pass));
 }
@@ -243,8 +209,8 @@ static celspan_status run_pass(celspan_context *context, cs_picture_store *store
   if (status == CELSPAN_OK)
     status = read_rows(&pass);
   if (status == CELSPAN_OK) {
-    *out = hand_over(&pass, level, column, row);
-    entry->next_strip = pass.planes[0].row + pass.planes[0].rows;
+    *out = hand_over(&pass, column, row);
+    entry->next_strip = pass.row + pass.rows;
   }
   finish_pass(&pass);
   return status;

@@ -277,16 +277,22 @@ static cs_picture_entry *find_entry(const cs_picture_store *store, cs_hash hash)
   return entry;
 }
 
-static int base_level(const cs_picture_store *store, const cs_picture_entry *entry) {
+static size_t blocks_across(int32_t size, int level) {
+  return ((size_t)cs_levels_size(size, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
+}
+
+/* Rows of a frame run along a row of blocks, so with less than that each would read the file anew;
+ * the quarter more is for the row of blocks that comes next. The caller holds the lock. */
+static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
-  int level = 0;
-  for (; level < entry->level_count - 1; level++) {
-    size_t columns = ((size_t)cs_levels_size(info->width, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
-    size_t rows = ((size_t)cs_levels_size(info->height, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
-    if (columns * rows <= store->budget / 2 / sizeof(cs_picture_block))
-      break;
-  }
-  return level;
+  size_t least = blocks_across(info->width, 0) * sizeof(cs_picture_block) * 5 / 4;
+  store->budget = store->budget < least ? least : store->budget;
+  entry->share = store->budget / 2 / sizeof(cs_picture_block);
+  entry->level_count = cs_levels_count(info->width, info->height);
+  while (entry->base < entry->level_count - 1 &&
+         blocks_across(info->width, entry->base) * blocks_across(info->height, entry->base) >
+             entry->share)
+    entry->base++;
 }
 
 /* Light by code, once for all pictures of a kind. The caller holds the lock. */
@@ -332,8 +338,6 @@ static celspan_status open_entry(celspan_context *context, cs_picture_store *sto
   pthread_mutex_init(&entry->reading, NULL);
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
   entry->hash = picture->hash;
-  entry->level_count = cs_levels_count(entry->header.info.width, entry->header.info.height);
-  entry->base = base_level(store, entry);
   *out = entry;
   return CELSPAN_OK;
 }
@@ -361,6 +365,7 @@ static void close_readers(cs_picture_store *store) {
 static bool keep_entry(cs_picture_store *store, cs_picture_entry *entry) {
   if (!set_decoder(store, entry))
     return false;
+  plan_entry(store, entry);
   close_readers(store);
   store->reader_count++;
   entry->number = store->entry_count++;

@@ -45,9 +45,10 @@ struct cs_picture_entry {
   cs_picture_header header;
   cs_levels_decoder decoder;
   int level_count;
-  /* The first level of which all blocks fit half the budget. Levels below it are read from the
-   * file in rows, those above are made from it. */
+  /* The first level of which all blocks fit `share`. Levels below it are read from the file in
+   * rows, those above are made from it. */
   int base;
+  size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
   cs_picture_reader *reader; /* NULL while closed */
   int32_t next_strip;        /* of a sequential format: the first row of blocks not read yet */
@@ -58,7 +59,7 @@ struct cs_picture_store {
   cs_memory *memory;
   pthread_mutex_t lock;
   const cs_picture_module *module; /* NULL until it is needed */
-  size_t budget, bytes;
+  size_t budget, bytes; /* the budget holds a row of blocks of the widest picture at least */
   cs_picture_entry *entries[256]; /* by hash */
   uint32_t entry_count;
   size_t reader_count; /* readers open now */

@@ -5,6 +5,7 @@
 -- CELSPAN_SCENES=n sets how many are tried.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
+local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
 local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 300
@@ -25,30 +26,6 @@ local function is_near(p, q, tolerance)
   return true
 end
 
-local function span_at(row, x)
-  local low, high = 1, #row
-  while low < high do
-    local middle = (low + high) // 2
-    if row[middle].x1 > x then high = middle else low = middle + 1 end
-  end
-  return row[low]
-end
-
-local function colour_at(row, x)
-  local span = span_at(row, x)
-  if span.kind == "single" then return { span[1], span[2], span[3], span[4] } end
-  local colour, last = {}, span.x1 - 1 - span.x0
-  for c = 1, 4 do
-    if span.kind == "array" then
-      colour[c] = span[4 * (x - span.x0) + c]
-    else
-      local u = last > 0 and (x - span.x0) / last or 0
-      colour[c] = span[c] + (span[4 + c] - span[c]) * u
-    end
-  end
-  return colour
-end
-
 --- Whether some point about (x, y) looks as the span does: an edge passes there.
 local function has_edge(probe, x, y, colour, radius, tolerance)
   for _, share in ipairs { 1, 0.5, 0.2 } do
@@ -67,7 +44,8 @@ end
 --- The first wrong pixel as a sentence, or nil; points tried; points excused.
 local function compare(exposures, traits, case)
   local size, film = traits.size, { traits.width, traits.height }
-  local rows = assert(celspan.spans(exposures, { size = size, film = film, antialias = "none", workers = 1 }))
+  local list = assert(celspan.spans(exposures, { size = size, film = film, antialias = "none",
+                                                 workers = 1 }))
   local options = { film = film }
   local function probe(x, y) -- pixels
     return { celspan.probe(exposures, x * film[1] / size[1], y * film[2] / size[2], options) }
@@ -76,13 +54,13 @@ local function compare(exposures, traits, case)
   local random, excused = prng.new(-case), 0
   for _ = 1, POINTS do
     local x, y = random:whole(0, size[1] - 1), random:whole(0, size[2] - 1)
-    local colour = colour_at(rows[y], x)
+    local colour, kind = rows.colour(list[y], x)
     local truth = probe(x + 0.5, y + 0.5)
     if not is_near(truth, colour, tolerance) then
       local radius = traits.is_curved and CURVED_EDGE or EDGE
       if not has_edge(probe, x + 0.5, y + 0.5, colour, radius, tolerance) then
         return ("pixel %d, %d is %s (%s), the oracle says %s"):format(
-          x, y, text_of(colour), span_at(rows[y], x).kind, text_of(truth)), POINTS, excused
+          x, y, text_of(colour), kind, text_of(truth)), POINTS, excused
       end
       excused = excused + 1
     end

@@ -1,6 +1,6 @@
 -- Random scenes as the text of Lua scripts, so that a case which fails is printed as it stands.
 --
---   scenes.script(seed [, { straight = true }]) -> text of a film script, traits
+--   scenes.script(seed [, options]) -> text of a film script, traits
 --
 -- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened), light (the brightest that can leave
 -- the frame), has_rows (scan-line primitives: placed upright).
@@ -355,25 +355,42 @@ function maker:exposures()
   return "{ " .. table.concat(list, ", ") .. " }"
 end
 
---- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
-function scenes.script(seed, options)
+local function start(seed, options)
   local random = prng.new(seed)
   local traits = { width = random:whole(20, 56), height = random:whole(16, 40), light = 0,
                    is_curved = false, has_rows = false }
   local scale = random:pick { 1, 1, random:between(0.5, 8) }
   traits.size = { math.ceil(traits.width * scale), math.ceil(traits.height * scale) }
-  options = options or {}
-  local is_straight = random:once(2) or options.is_straight
-  local self = setmetatable({ random = random, traits = traits, is_straight = is_straight, made = {},
-                              is_flat = options.is_flat, is_single = options.is_single, is_upright = options.has_rows ~= false and random:once(4), most = random:pick { 1, 1, 3 },
-                              depth = random:pick { 0, 1, 2, 4 } }, maker)
+  return setmetatable({
+    random = random, traits = traits, made = {},
+    is_straight = random:once(2), is_upright = options.has_rows ~= false and random:once(4),
+    is_flat = options.is_flat, is_single = options.is_single,
+    most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
+  }, maker)
+end
+
+--- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
+-- options: is_flat (no gradients), is_single (one exposure), has_rows = false (no scan-lines).
+function scenes.script(seed, options)
+  local self = start(seed, options or {})
   local exposures = self:exposures()
   return ([[
 local celspan = require "celspan"
 return celspan.film{ size = {%d, %d}, frame = function()
   return %s
 end }
-]]):format(traits.width, traits.height, exposures), traits
+]]):format(self.traits.width, self.traits.height, exposures), self.traits
+end
+
+--- A random object as text, and the traits of the frame around it.
+function scenes.object(seed, options)
+  local self = start(seed, options or {})
+  return self:object(self.depth), self.traits
+end
+
+--- The value of a text that stands after "return".
+function scenes.value(text)
+  return assert(load('local celspan = require "celspan" return ' .. text, "=object"))()
 end
 
 --- The film of a script's text.

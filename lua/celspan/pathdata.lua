@@ -1,0 +1,145 @@
+--- SVG path data as points in order: what motion.lua walks along. A curve becomes `pieces` chords.
+local pathdata = {}
+
+local pieces = 64
+
+--- How many numbers each command takes.
+local counts = { M = 2, L = 2, H = 1, V = 1, C = 6, S = 4, Q = 4, T = 2, A = 7, Z = 0 }
+
+local number_pattern = "^[%s,]*([+-]?%d*%.?%d*[eE]?[+-]?%d*)"
+
+--- One number at `at`; flags of arcs are single digits that may touch.
+local function read_number(text, at, is_flag)
+  if is_flag then
+    local flag, after = text:match("^[%s,]*([01])()", at)
+    return tonumber(flag), after
+  end
+  local digits = text:match(number_pattern, at)
+  -- an e that belongs to nothing, or a second sign, ends the number before it
+  while digits and digits ~= "" and not tonumber(digits) do digits = digits:sub(1, -2) end
+  if not digits or digits == "" then return nil end
+  local _, stop = text:find("^[%s,]*", at)
+  return tonumber(digits), stop + 1 + #digits
+end
+
+local function add(pen, x, y)
+  pen.points[#pen.points + 1] = { x, y }
+  pen.x, pen.y = x, y
+end
+
+--- A cubic with inner control points 1 and 2.
+local function cubic(pen, x1, y1, x2, y2, x, y)
+  local x0, y0 = pen.x, pen.y
+  for i = 1, pieces do
+    local t = i / pieces
+    local s = 1 - t
+    local a, b, c, d = s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t
+    add(pen, a * x0 + b * x1 + c * x2 + d * x, a * y0 + b * y1 + c * y2 + d * y)
+  end
+  pen.control_x, pen.control_y = x2, y2
+end
+
+local function quadratic(pen, x1, y1, x, y)
+  local x0, y0 = pen.x, pen.y
+  cubic(pen, x0 + 2 / 3 * (x1 - x0), y0 + 2 / 3 * (y1 - y0), x + 2 / 3 * (x1 - x),
+    y + 2 / 3 * (y1 - y), x, y)
+  pen.control_x, pen.control_y = x1, y1
+end
+
+--- An elliptical arc, from end points to centre as in SVG's appendix on arcs.
+local function arc(pen, rx, ry, degrees, is_large, is_sweep, x, y)
+  rx, ry = math.abs(rx), math.abs(ry)
+  local x0, y0 = pen.x, pen.y
+  if rx == 0 or ry == 0 or (x0 == x and y0 == y) then return add(pen, x, y) end
+  local cos, sin = math.cos(math.rad(degrees)), math.sin(math.rad(degrees))
+  local dx, dy = (x0 - x) / 2, (y0 - y) / 2
+  local px, py = (cos * dx + sin * dy) / rx, (cos * dy - sin * dx) / ry
+  local reach = px * px + py * py
+  if reach > 1 then
+    local grown = math.sqrt(reach)
+    rx, ry, px, py, reach = rx * grown, ry * grown, px / grown, py / grown, 1
+  end
+  local k = math.sqrt(math.max(0, 1 / reach - 1))
+  if is_large == is_sweep then k = -k end
+  local cx, cy = k * py, -k * px -- the centre on the unit circle's plane
+  local from, to = math.atan(py - cy, px - cx), math.atan(-py - cy, -px - cx)
+  if is_sweep == 1 and to < from then to = to + 2 * math.pi end
+  if is_sweep == 0 and to > from then to = to - 2 * math.pi end
+  local mx, my = (x0 + x) / 2, (y0 + y) / 2
+  for i = 1, pieces - 1 do
+    local angle = from + (to - from) * i / pieces
+    local ux, uy = rx * (math.cos(angle) + cx), ry * (math.sin(angle) + cy)
+    add(pen, mx + cos * ux - sin * uy, my + sin * ux + cos * uy)
+  end
+  add(pen, x, y)
+end
+
+local draw = {}
+
+function draw.M(pen, x, y)
+  add(pen, x, y)
+  pen.start_x, pen.start_y = x, y
+end
+
+function draw.L(pen, x, y) add(pen, x, y) end
+function draw.H(pen, x) add(pen, x, pen.y) end
+function draw.V(pen, y) add(pen, pen.x, y) end
+function draw.Z(pen) add(pen, pen.start_x, pen.start_y) end
+draw.C, draw.Q, draw.A = cubic, quadratic, arc
+
+--- The control point mirrored at the pen, where the command before was of the same family.
+local function mirrored(pen, family)
+  if not family:find(pen.last, 1, true) then return pen.x, pen.y end
+  return 2 * pen.x - pen.control_x, 2 * pen.y - pen.control_y
+end
+
+function draw.S(pen, x2, y2, x, y)
+  local x1, y1 = mirrored(pen, "CS")
+  cubic(pen, x1, y1, x2, y2, x, y)
+end
+
+function draw.T(pen, x, y)
+  local x1, y1 = mirrored(pen, "QT")
+  quadratic(pen, x1, y1, x, y)
+end
+
+--- Adds the pen to relative numbers.
+local function make_absolute(pen, command, n)
+  if command == "H" then n[1] = n[1] + pen.x
+  elseif command == "V" then n[1] = n[1] + pen.y
+  elseif command == "A" then n[6], n[7] = n[6] + pen.x, n[7] + pen.y
+  else
+    for i = 1, #n, 2 do n[i], n[i + 1] = n[i] + pen.x, n[i + 1] + pen.y end
+  end
+end
+
+--- The points of path data in order, or nil and a message.
+---@param text string
+---@return number[][]? points
+---@return string? message
+function pathdata.points(text)
+  local pen = { points = {}, x = 0, y = 0, start_x = 0, start_y = 0, last = "M" }
+  local at, letter = 1, nil
+  while true do
+    at = text:find("[^%s,]", at)
+    if not at then return pen.points end
+    local found = text:match("^[A-Za-z]", at)
+    if found then letter, at = found, at + 1 end
+    local command = letter and letter:upper()
+    local count = command and counts[command]
+    if not count or (count == 0 and not found) or (at == 2 and command ~= "M") then
+      return nil, ("path data has something unknown at byte %d"):format(at)
+    end
+    local n = {}
+    for i = 1, count do
+      n[i], at = read_number(text, at, command == "A" and (i == 4 or i == 5))
+      if not n[i] then return nil, ("path data lacks a number after '%s'"):format(letter) end
+    end
+    if letter ~= command then make_absolute(pen, command, n) end
+    draw[command](pen, table.unpack(n))
+    pen.last = command
+    if command == "M" then letter = letter == "M" and "L" or "l" end
+  end
+end
+
+return pathdata

@@ -1,0 +1,66 @@
+-- A gallery in one-point perspective: floor, walls and pictures are flat drawings, each carried to its
+-- place by quad(), the homography that takes four corners to four others. The camera walks in.
+local celspan = require "celspan"
+local shapes = require "demo.shapes"
+
+local deep = 9 -- metres from the first picture to the far wall
+local eye_height, half_width, tall, focal = 1.6, 2.4, 3.6, 820
+
+--- A drawing on a rectangle of `w` by `h` units, set on four points of the room {x, y up, z}.
+local function hang(art, w, h, corners, camera)
+  local to = {}
+  for i, p in ipairs(corners) do
+    local z = math.max(0.05, p[3] - camera)
+    to[i] = { 960 + focal * p[1] / z, 560 - focal * (p[2] - eye_height) / z }
+  end
+  return art:quad({ { 0, 0 }, { w, 0 }, { w, h }, { 0, h } }, to)
+end
+
+local function chequers(columns, rows, dark, light)
+  local parts = { celspan.rect { 0, 0, columns, rows, texture = light } }
+  for i = 0, columns * rows - 1 do
+    local x, y = i % columns, i // columns
+    if (x + y) % 2 == 0 then parts[#parts + 1] = celspan.rect { x, y, 1, 1, texture = dark } end
+  end
+  return celspan.union(parts)
+end
+
+--- An abstract in a frame, 100 by 130.
+local function painting(n)
+  local inks = { "#d1495b", "#edae49", "#00798c", "#30638e", "#f4e3c1", "#3d2645" }
+  local function ink(k) return inks[(n * 2 + k) % #inks + 1] end
+  local field = celspan.rect { 8, 8, 84, 114, texture = ink(0) }
+  local art = celspan.union {
+    celspan.circle { centre = { 30 + n * 17 % 40, 44 }, radius = 26, texture = ink(1) },
+    celspan.ellipse { centre = { 60 - n * 11 % 30, 122 }, radii = { 62, 44 - n * 7 % 20 }, texture = ink(2) },
+    celspan.rect { 20 + n * 23 % 40, 8, 9, 114, texture = ink(3) },
+  }
+  return celspan.union { celspan.rect { 0, 0, 100, 130, texture = "#c8a25c" },
+                         celspan.rect { 4, 4, 92, 122, texture = "#fbf4e4" }, field, celspan.clip(art, field) }
+end
+
+local floor = chequers(6, 28, "#4b2e3a", "#e6cfae")
+local shade = shapes.across(0, 100, "#f2d9b0", "#6f8f8c")
+local wall = celspan.rect { 0, 0, 100, 100, texture = shade }
+local ceiling = celspan.rect { 0, 0, 100, 100, texture = shapes.down(0, 100, "#5b7f80", "#fbeccb") }
+local far = celspan.rect { 0, 0, 100, 100, texture = "#3f6f73" }
+
+return celspan.film { frames = 48, frame = function(f)
+  local w, h = half_width, tall
+  local camera = -1.7 + 1.9 * f.progress
+  local near, back = camera + 0.3, deep + 0.6
+  local art = {
+    hang(far, 100, 100, { { -w, h, back }, { w, h, back }, { w, 0, back }, { -w, 0, back } }, camera),
+    hang(painting(4), 100, 130, { { -0.8, 2.7, back }, { 0.8, 2.7, back }, { 0.8, 0.7, back }, { -0.8, 0.7, back } }, camera),
+    hang(floor, 6, 28, { { -w, 0, back }, { w, 0, back }, { w, 0, back - 22.4 * 0.56 }, { -w, 0, back - 22.4 * 0.56 } }, camera),
+    hang(ceiling, 100, 100, { { -w, h, back }, { w, h, back }, { w, h, near }, { -w, h, near } }, camera),
+    hang(wall, 100, 100, { { -w, h, near }, { -w, h, back }, { -w, 0, back }, { -w, 0, near } }, camera),
+    hang(wall, 100, 100, { { w, h, near }, { w, h, back }, { w, 0, back }, { w, 0, near } }, camera),
+  }
+  for i = 4, 0, -1 do
+    local z = 0.8 + i * 1.8
+    art[#art + 1] = hang(painting(i), 100, 130, { { -w, 2.6, z }, { -w, 2.6, z + 1 }, { -w, 1.1, z + 1 }, { -w, 1.1, z } }, camera)
+    art[#art + 1] = hang(painting(i + 7), 100, 130, { { w, 2.6, z + 1 }, { w, 2.6, z }, { w, 1.1, z }, { w, 1.1, z + 1 } }, camera)
+  end
+  return celspan.rostrum { celspan.cel(art) }
+end }

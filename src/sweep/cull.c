@@ -1,0 +1,360 @@
+#include "sweep/cull.h"
+
+#include <string.h>
+
+#define LEAVES_LEAST 8 /* with fewer there is nothing to gain */
+#define TILE_ROWS_MOST 256
+#define TILE_HEIGHT_LEAST 4
+
+/* The columns a chain touches in one row of tiles. */
+typedef struct reach {
+  uint8_t low, high;
+} reach;
+
+typedef struct culler {
+  celspan_context *context;
+  const cs_boundary_set *set;
+  const cs_cull_leaf *leaves;
+  size_t leaf_count;
+  double width, height, opaque;
+  cs_cull *cull;
+  reach *reaches;        /* one a kept bit */
+  size_t reach_count;
+  uint32_t *leaf_starts; /* leaf_count + 1, into by_leaf */
+  uint32_t *by_leaf;     /* chains of each leaf */
+  uint64_t *live;        /* one a row of tiles */
+  double *through;       /* one a tile */
+  cs_toggle *toggles;    /* in the order they were found */
+  uint32_t *toggle_rows;
+  size_t toggle_count, toggle_capacity, toggle_row_capacity;
+} culler;
+
+/* ---------------------------------------------------------------- the grid */
+
+static int32_t choose_rows(size_t leaves, int32_t height) {
+  int32_t rows = 16;
+  while (rows < TILE_ROWS_MOST && (double)rows * rows < 16.0 * (double)leaves)
+    rows *= 2;
+  while (rows > 1 && height / rows < TILE_HEIGHT_LEAST)
+    rows /= 2;
+  return rows;
+}
+
+/* Rows of tiles that a chain crosses inside the frame; false when it does not. */
+static bool chain_rows(const culler *c, uint32_t chain, int32_t *first, int32_t *last) {
+  const cs_boundary_chain *ch = &c->set->chains[chain];
+  if (ch->y1 <= 0 || ch->y0 >= c->height)
+    return false;
+  *first = cs_cull_row(c->cull, ch->y0);
+  *last = cs_cull_row(c->cull, ch->y1);
+  return true;
+}
+
+static uint8_t column(const culler *c, double x) {
+  double at = x * CS_CULL_COLUMNS / c->width;
+  return at <= 0 ? 0 : at >= CS_CULL_COLUMNS - 1 ? CS_CULL_COLUMNS - 1 : (uint8_t)at;
+}
+
+static double column_edge(const culler *c, uint8_t index) {
+  return c->width * index / CS_CULL_COLUMNS;
+}
+
+static uint64_t column_mask(reach r) {
+  uint64_t upto = r.high == 63 ? ~(uint64_t)0 : ((uint64_t)1 << (r.high + 1)) - 1;
+  return upto & (~(uint64_t)0 << r.low);
+}
+
+/* ---------------------------------------------------------------- where chains go */
+
+static void widen(reach *r, uint8_t at) {
+  r->low = at < r->low ? at : r->low;
+  r->high = at > r->high ? at : r->high;
+}
+
+/* Walks a chain down the frame and notes the columns it touches in every row of tiles. A tile's
+ * edge counts for both tiles beside it, so that rounding cannot put a boundary outside its reach. */
+static void trace_chain(const culler *c, uint32_t chain, int32_t first, int32_t last,
+                        reach *reaches) {
+  const cs_boundary_chain *ch = &c->set->chains[chain];
+  double y = ch->y0 > 0 ? ch->y0 : 0, foot = ch->y1 < c->height ? ch->y1 : c->height;
+  cs_boundary_walk walk;
+  cs_boundary_start(c->set, chain, y, &walk);
+  for (int32_t row = first; row <= last; row++) {
+    double end = (double)(row + 1) * c->cull->tile_height;
+    reach *r = &reaches[row - first];
+    end = end < foot ? end : foot;
+    *r = (reach){column(c, cs_boundary_x(&walk, y)), column(c, cs_boundary_x(&walk, y))};
+    while (walk.y1 < end) {
+      widen(r, column(c, walk.x1));
+      if (!cs_boundary_next(c->set, &walk))
+        break;
+    }
+    widen(r, column(c, cs_boundary_x(&walk, end < walk.y1 ? end : walk.y1)));
+    r->low -= r->low > 0;
+    r->high += r->high < CS_CULL_COLUMNS - 1;
+    y = end;
+  }
+}
+
+static celspan_status trace_chains(culler *c) {
+  cs_cull *cull = c->cull;
+  size_t chains = c->set->chain_count, bits = 0;
+  int32_t first, last;
+  for (uint32_t chain = 0; chain < chains; chain++) {
+    cull->bits[chain] = bits;
+    if (chain_rows(c, chain, &first, &last))
+      bits += (size_t)(last - first + 1);
+  }
+  c->reach_count = bits;
+  cull->kept_words = bits / 64 + 1;
+  c->reaches = cs_mem_array(c->context->memory, bits, sizeof *c->reaches);
+  cull->kept = cs_mem_array(c->context->memory, cull->kept_words, sizeof *cull->kept);
+  if ((bits > 0 && !c->reaches) || !cull->kept)
+    return cs_fail_memory(c->context);
+  for (uint32_t chain = 0; chain < chains; chain++)
+    if (chain_rows(c, chain, &first, &last))
+      trace_chain(c, chain, first, last, c->reaches + cull->bits[chain]);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- one leaf */
+
+static celspan_status note_toggle(culler *c, int32_t row, double x,
+                                  const cs_boundary_chain *chain) {
+  CS_TRY(cs_mem_reserve(c->context, (void **)&c->toggles, &c->toggle_capacity, c->toggle_count + 1,
+                        sizeof *c->toggles));
+  CS_TRY(cs_mem_reserve(c->context, (void **)&c->toggle_rows, &c->toggle_row_capacity,
+                        c->toggle_count + 1, sizeof *c->toggle_rows));
+  c->toggle_rows[c->toggle_count] = (uint32_t)row;
+  c->toggles[c->toggle_count++] = (cs_toggle){x, chain->leaf, chain->direction};
+  return CELSPAN_OK;
+}
+
+/* What the chains of a leaf do in one row of tiles. */
+typedef struct footprint {
+  uint64_t touched;
+  reach turning; /* columns between what begins and ends in the row */
+  bool turns;
+  int32_t winding[CS_CULL_COLUMNS + 1]; /* differences along the columns at the top of the row */
+} footprint;
+
+static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footprint *f) {
+  const cs_boundary_chain *ch = &c->set->chains[chain];
+  double top = (double)row * c->cull->tile_height, foot = top + c->cull->tile_height;
+  int32_t first = cs_cull_row(c->cull, ch->y0);
+  size_t bit = c->cull->bits[chain] + (size_t)(row - first);
+  reach r = c->reaches[bit];
+  f->touched |= column_mask(r);
+  if (ch->y0 <= top)
+    f->winding[r.low + 1] += ch->direction;
+  bool turns = ch->y0 > top || ch->y1 < foot;
+  if (turns) {
+    f->turning = f->turns ? f->turning : r;
+    widen(&f->turning, r.low);
+    widen(&f->turning, r.high);
+    f->turns = true;
+  }
+  if (turns || (column_mask(r) & c->live[row])) {
+    c->cull->kept[bit / 64] |= (uint64_t)1 << (bit % 64);
+    return CELSPAN_OK;
+  }
+  return note_toggle(c, row, column_edge(c, r.low), ch);
+}
+
+/* The columns that lie wholly inside the leaf through the row of tiles. */
+static uint64_t inside_mask(const footprint *f, int32_t winding_mask) {
+  uint64_t inside = 0;
+  int32_t winding = 0;
+  for (int column_index = 0; column_index < CS_CULL_COLUMNS; column_index++) {
+    winding += f->winding[column_index];
+    if (winding & winding_mask)
+      inside |= (uint64_t)1 << column_index;
+  }
+  inside &= ~f->touched;
+  return f->turns ? inside & ~column_mask(f->turning) : inside;
+}
+
+/* Darkens the tiles that the leaf covers. */
+static void cover(culler *c, int32_t row, uint64_t inside, double through) {
+  for (uint64_t left = inside & c->live[row]; left; left &= left - 1) {
+    int index = __builtin_ctzll(left);
+    double *tile = &c->through[(size_t)row * CS_CULL_COLUMNS + (size_t)index];
+    *tile *= through;
+    if (*tile < c->opaque)
+      c->live[row] &= ~((uint64_t)1 << index);
+  }
+}
+
+static celspan_status cull_leaf_row(culler *c, uint32_t leaf, int32_t row) {
+  footprint f = {0};
+  for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
+    int32_t first, last;
+    if (chain_rows(c, c->by_leaf[k], &first, &last) && row >= first && row <= last)
+      CS_TRY(place_chain(c, c->by_leaf[k], row, &f));
+  }
+  if (f.touched && c->leaves[leaf].through < 1)
+    cover(c, row, inside_mask(&f, c->leaves[leaf].winding_mask), c->leaves[leaf].through);
+  return CELSPAN_OK;
+}
+
+static celspan_status cull_leaf(culler *c, uint32_t leaf) {
+  int32_t top = c->cull->tile_rows, bottom = -1;
+  for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
+    int32_t first, last;
+    if (!chain_rows(c, c->by_leaf[k], &first, &last))
+      continue;
+    top = first < top ? first : top;
+    bottom = last > bottom ? last : bottom;
+  }
+  for (int32_t row = top; row <= bottom; row++)
+    CS_TRY(cull_leaf_row(c, leaf, row));
+  return CELSPAN_OK;
+}
+
+/* Lists the chains of every leaf. */
+static void group_by_leaf(culler *c) {
+  size_t chains = c->set->chain_count;
+  for (size_t i = 0; i < chains; i++)
+    c->leaf_starts[c->set->chains[i].leaf + 1]++;
+  for (size_t leaf = 0; leaf < c->leaf_count; leaf++)
+    c->leaf_starts[leaf + 1] += c->leaf_starts[leaf];
+  for (size_t i = 0; i < chains; i++)
+    c->by_leaf[c->leaf_starts[c->set->chains[i].leaf]++] = (uint32_t)i;
+  for (size_t leaf = c->leaf_count; leaf > 0; leaf--)
+    c->leaf_starts[leaf] = c->leaf_starts[leaf - 1];
+  c->leaf_starts[0] = 0;
+}
+
+/* ---------------------------------------------------------------- by row of tiles */
+
+/* Sorts the toggles by row of tiles, then column: counting, so that equal ones keep their order. */
+static celspan_status sort_toggles(culler *c) {
+  cs_cull *cull = c->cull;
+  size_t keys = (size_t)cull->tile_rows * CS_CULL_COLUMNS;
+  uint32_t *starts = cs_mem_array(c->context->memory, keys + 1, sizeof *starts);
+  cull->toggles = cs_mem_array(c->context->memory, c->toggle_count, sizeof *cull->toggles);
+  cull->toggle_count = c->toggle_count;
+  if (!starts || (c->toggle_count > 0 && !cull->toggles)) {
+    cs_mem_free(c->context->memory, starts, (keys + 1) * sizeof *starts);
+    return cs_fail_memory(c->context);
+  }
+  for (size_t i = 0; i < c->toggle_count; i++)
+    starts[c->toggle_rows[i] * CS_CULL_COLUMNS + column(c, c->toggles[i].x) + 1]++;
+  for (size_t key = 0; key < keys; key++)
+    starts[key + 1] += starts[key];
+  for (int32_t row = 0; row <= cull->tile_rows; row++)
+    cull->toggle_starts[row] = starts[(size_t)row * CS_CULL_COLUMNS];
+  for (size_t i = 0; i < c->toggle_count; i++)
+    cull->toggles[starts[c->toggle_rows[i] * CS_CULL_COLUMNS + column(c, c->toggles[i].x)]++] =
+        c->toggles[i];
+  cs_mem_free(c->context->memory, starts, (keys + 1) * sizeof *starts);
+  return CELSPAN_OK;
+}
+
+/* Calls for every row of tiles of every chain below its first in which it is kept and was not. */
+static void list_enters(culler *c, uint32_t *counts, uint32_t *enters) {
+  int32_t first, last;
+  for (uint32_t chain = 0; chain < c->set->chain_count; chain++) {
+    if (!chain_rows(c, chain, &first, &last))
+      continue;
+    for (int32_t row = first + 1; row <= last; row++)
+      if (cs_cull_keeps(c->cull, c->set, chain, row) &&
+          !cs_cull_keeps(c->cull, c->set, chain, row - 1)) {
+        if (enters)
+          enters[counts[row]] = chain;
+        counts[row]++;
+      }
+  }
+}
+
+static celspan_status find_enters(culler *c) {
+  cs_cull *cull = c->cull;
+  list_enters(c, cull->enter_starts + 1, NULL);
+  for (int32_t row = 0; row < cull->tile_rows; row++)
+    cull->enter_starts[row + 1] += cull->enter_starts[row];
+  cull->enter_count = cull->enter_starts[cull->tile_rows];
+  cull->enters = cs_mem_array(c->context->memory, cull->enter_count, sizeof *cull->enters);
+  if (cull->enter_count > 0 && !cull->enters)
+    return cs_fail_memory(c->context);
+  list_enters(c, cull->enter_starts, cull->enters);
+  for (int32_t row = cull->tile_rows; row > 0; row--)
+    cull->enter_starts[row] = cull->enter_starts[row - 1];
+  cull->enter_starts[0] = 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- life */
+
+static celspan_status take_room(culler *c) {
+  cs_memory *memory = c->context->memory;
+  cs_cull *cull = c->cull;
+  size_t rows = (size_t)cull->tile_rows, chains = c->set->chain_count;
+  cull->bits = cs_mem_array(memory, chains, sizeof *cull->bits);
+  cull->toggle_starts = cs_mem_array(memory, rows + 1, sizeof *cull->toggle_starts);
+  cull->enter_starts = cs_mem_array(memory, rows + 1, sizeof *cull->enter_starts);
+  c->leaf_starts = cs_mem_array(memory, c->leaf_count + 1, sizeof *c->leaf_starts);
+  c->by_leaf = cs_mem_array(memory, chains, sizeof *c->by_leaf);
+  c->live = cs_mem_array(memory, rows, sizeof *c->live);
+  c->through = cs_mem_array(memory, rows * CS_CULL_COLUMNS, sizeof *c->through);
+  if (!cull->bits || !cull->toggle_starts || !cull->enter_starts || !c->leaf_starts ||
+      !c->by_leaf || !c->live || !c->through)
+    return cs_fail_memory(c->context);
+  memset(c->live, 0xff, rows * sizeof *c->live);
+  for (size_t i = 0; i < rows * CS_CULL_COLUMNS; i++)
+    c->through[i] = 1;
+  return CELSPAN_OK;
+}
+
+static void give_room_back(culler *c) {
+  cs_memory *memory = c->context->memory;
+  size_t rows = (size_t)c->cull->tile_rows;
+  cs_mem_free(memory, c->reaches, c->reach_count * sizeof *c->reaches);
+  cs_mem_free(memory, c->leaf_starts, (c->leaf_count + 1) * sizeof *c->leaf_starts);
+  cs_mem_free(memory, c->by_leaf, c->set->chain_count * sizeof *c->by_leaf);
+  cs_mem_free(memory, c->live, rows * sizeof *c->live);
+  cs_mem_free(memory, c->through, rows * CS_CULL_COLUMNS * sizeof *c->through);
+  cs_mem_free(memory, c->toggles, c->toggle_capacity * sizeof *c->toggles);
+  cs_mem_free(memory, c->toggle_rows, c->toggle_row_capacity * sizeof *c->toggle_rows);
+}
+
+static celspan_status cull_all(culler *c) {
+  CS_TRY(take_room(c));
+  CS_TRY(trace_chains(c));
+  group_by_leaf(c);
+  for (size_t leaf = c->leaf_count; leaf-- > 0;)
+    CS_TRY(cull_leaf(c, (uint32_t)leaf));
+  CS_TRY(sort_toggles(c));
+  return find_enters(c);
+}
+
+celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
+                              const cs_cull_leaf *leaves, size_t leaf_count, int32_t width,
+                              int32_t height, double opaque, cs_cull *out) {
+  *out = (cs_cull){.chain_count = set->chain_count};
+  if (leaf_count < LEAVES_LEAST || set->chain_count == 0)
+    return CELSPAN_OK;
+  cs_cull cull = {.chain_count = set->chain_count};
+  int32_t rows = choose_rows(leaf_count, height);
+  cull.tile_height = (int32_t)(((int64_t)height + rows - 1) / rows);
+  cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
+  culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
+              .width = width, .height = height, .opaque = opaque, .cull = &cull};
+  celspan_status status = cull_all(&c);
+  give_room_back(&c);
+  if (status == CELSPAN_OK)
+    *out = cull;
+  else
+    cs_cull_free(&cull, context->memory);
+  return status;
+}
+
+void cs_cull_free(cs_cull *cull, cs_memory *memory) {
+  size_t rows = (size_t)cull->tile_rows + 1;
+  cs_mem_free(memory, cull->toggles, cull->toggle_count * sizeof *cull->toggles);
+  cs_mem_free(memory, cull->toggle_starts, rows * sizeof *cull->toggle_starts);
+  cs_mem_free(memory, cull->enters, cull->enter_count * sizeof *cull->enters);
+  cs_mem_free(memory, cull->enter_starts, rows * sizeof *cull->enter_starts);
+  cs_mem_free(memory, cull->kept, cull->kept_words * sizeof *cull->kept);
+  cs_mem_free(memory, cull->bits, cull->chain_count * sizeof *cull->bits);
+  *cull = (cs_cull){0};
+}

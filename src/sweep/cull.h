@@ -1,0 +1,69 @@
+/* The cull: which boundaries can be left out because nothing shines through to them.
+ *
+ * The frame is laid out in rows of tiles, 64 columns each, a machine word a row. The tiles are filled
+ * leaf by leaf from the camera backwards; where the leaves that cover a whole tile let (almost)
+ * nothing through, the tile is dead for all leaves behind. In a row of tiles
+ *
+ *   a chain is kept if it touches a tile that is live for its leaf, or begins or ends there;
+ *   else it becomes a toggle: its crossing happens at the left edge of its first tile, unseen.
+ *
+ * Invariants: no composed colour changes by it: in a dead tile composing stops before the leaf is
+ * reached, so where in such a tile its presence changes does not show; a cell that begins in a dead
+ * tile is opaque as far as it goes. What is kept depends on the frame and the row alone.
+ */
+#ifndef CS_SWEEP_CULL_H
+#define CS_SWEEP_CULL_H
+
+#include "geometry/boundary.h"
+
+#define CS_CULL_COLUMNS 64
+
+/* A leaf as the cull sees it, in order from the rear to the camera. */
+typedef struct cs_cull_leaf {
+  double through; /* the most that any channel lets through wherever the leaf is present; 1: unknown */
+  int32_t winding_mask;
+} cs_cull_leaf;
+
+/* A crossing that takes the place of a culled chain in one row of tiles. */
+typedef struct cs_toggle {
+  double x;
+  uint32_t leaf;
+  int32_t direction;
+} cs_toggle;
+
+typedef struct cs_cull {
+  int32_t tile_rows; /* 0: nothing is culled */
+  int32_t tile_height; /* pixels */
+  cs_toggle *toggles; /* by row of tiles, then by x */
+  uint32_t *toggle_starts; /* tile_rows + 1 */
+  uint32_t *enters; /* by row of tiles: chains kept there that were not in the row above it */
+  uint32_t *enter_starts;
+  uint64_t *kept; /* a bit for every row of tiles of every chain */
+  size_t *bits;   /* by chain: its first bit */
+  size_t toggle_count, enter_count, kept_words, chain_count;
+} cs_cull;
+
+/* Culls a set in its final order. opaque: what counts as nothing shining through.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
+                                              const cs_cull_leaf *leaves, size_t leaf_count,
+                                              int32_t width, int32_t height, double opaque,
+                                              cs_cull *out);
+void cs_cull_free(cs_cull *cull, cs_memory *memory);
+
+/* The row of tiles that holds a height inside the frame. */
+static inline int32_t cs_cull_row(const cs_cull *cull, double y) {
+  int32_t row = y <= 0 ? 0 : (int32_t)(y / cull->tile_height);
+  return row < cull->tile_rows ? row : cull->tile_rows - 1;
+}
+
+/* Whether a chain that crosses the row of tiles is kept in it. */
+static inline bool cs_cull_keeps(const cs_cull *cull, const cs_boundary_set *set, uint32_t chain,
+                                 int32_t row) {
+  if (cull->tile_rows == 0)
+    return true;
+  size_t bit = cull->bits[chain] + (size_t)(row - cs_cull_row(cull, set->chains[chain].y0));
+  return cull->kept[bit / 64] >> (bit % 64) & 1;
+}
+
+#endif

@@ -1,0 +1,104 @@
+/* The bytes of a span file: sizes, letters and numbers. docs/spanfile.md is the specification; this
+ * is its only other home.
+ *
+ * Invariant: all numbers are little endian, whatever the machine.
+ */
+#ifndef SF_LAYOUT_H
+#define SF_LAYOUT_H
+
+#include <string.h>
+
+#include "spanfile.h"
+
+enum {
+  SF_HEADER_BYTES = 46, /* a Targa header and its image ID */
+  SF_ID_BYTES = 28,
+  SF_IMAGE_TYPE = 197, /* 128 and more are for private use (TGA 2.0) */
+  SF_TRAILER_BYTES = 40,
+  SF_FOOTER_BYTES = 26,
+  SF_END_BYTES = SF_TRAILER_BYTES + SF_FOOTER_BYTES,
+
+  SF_PACKET_MOST = 32768, /* pixels */
+  SF_NODE_ENTRIES = 512,
+  SF_ENTRY_BYTES = 12,
+  SF_LEVELS = 4,          /* 512^4 is more than there can be rows */
+  SF_LENGTH_BYTES = 9,    /* of a varint that stands for a size */
+  SF_CHECK_BYTES = 4,
+  SF_KEY_ROWS = 256,      /* at most from key row to key row */
+  SF_KEY_BYTES = 64 * 1024
+};
+
+/* How a record begins. */
+enum { SF_PACKETS = 'P', SF_MOVED = 'M', SF_SAME = 'S', SF_INDEX = 'I' };
+/* Stands for the row in the checksum of an index record. */
+#define SF_INDEX_ROW UINT32_MAX
+
+static const unsigned char sf_magic[8] = {'c', 'e', 'l', 's', 'p', 'a', 'n', 1};
+static const unsigned char sf_end_magic[8] = {'s', 'p', 'a', 'n', 's', 'e', 'n', 'd'};
+/* No extension area and no developer directory: their offsets have 32 bits. */
+static const unsigned char sf_footer[SF_FOOTER_BYTES] = "\0\0\0\0\0\0\0\0TRUEVISION-XFILE.";
+
+static inline void sf_store_32(unsigned char *at, uint32_t number) {
+  for (int i = 0; i < 4; i++)
+    at[i] = (unsigned char)(number >> 8 * i);
+}
+static inline void sf_store_64(unsigned char *at, uint64_t number) {
+  sf_store_32(at, (uint32_t)number);
+  sf_store_32(at + 4, (uint32_t)(number >> 32));
+}
+static inline uint32_t sf_load_32(const unsigned char *at) {
+  return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+}
+static inline uint64_t sf_load_64(const unsigned char *at) {
+  return sf_load_32(at) | (uint64_t)sf_load_32(at + 4) << 32;
+}
+
+static inline void sf_store_pixel(unsigned char *at, size_t pixel_size, uint64_t pixel) {
+  sf_store_32(at, (uint32_t)pixel);
+  if (pixel_size == 8)
+    sf_store_32(at + 4, (uint32_t)(pixel >> 32));
+}
+static inline uint64_t sf_load_pixel(const unsigned char *at, size_t pixel_size) {
+  return pixel_size == 8 ? sf_load_64(at) : sf_load_32(at);
+}
+
+/* Seven bits a byte, the lowest first, the top bit set in all but the last. Returns the bytes
+ * written: at most 5 for 32 bits, 10 for 64. */
+static inline size_t sf_store_varint(unsigned char *at, uint64_t number) {
+  size_t size = 0;
+  for (; number >= 0x80; number >>= 7)
+    at[size++] = (unsigned char)(number | 0x80);
+  at[size++] = (unsigned char)number;
+  return size;
+}
+/* Returns the bytes read, or 0 when the number does not end within `most` bytes. */
+static inline size_t sf_load_varint(const unsigned char *at, size_t most, uint64_t *number) {
+  *number = 0;
+  for (size_t i = 0; i < most; i++) {
+    *number |= (uint64_t)(at[i] & 0x7f) << 7 * i;
+    if (at[i] < 0x80)
+      return i + 1;
+  }
+  return 0;
+}
+
+/* 0, -1, 1, -2, 2, ... as 0, 1, 2, 3, 4, ... */
+static inline uint64_t sf_zigzag(int64_t number) {
+  return number < 0 ? ~((uint64_t)number << 1) : (uint64_t)number << 1;
+}
+static inline int64_t sf_unzigzag(uint64_t code) {
+  return code & 1 ? -(int64_t)(code >> 1) - 1 : (int64_t)(code >> 1);
+}
+
+/* CRC-32C (Castagnoli), continued from `sum`; 0 to begin. */
+uint32_t sf_crc32c(uint32_t sum, const void *bytes, size_t size);
+/* The same on any machine; what the tests hold the other against. */
+uint32_t sf_crc32c_by_tables(uint32_t sum, const void *bytes, size_t size);
+/* Of a record: the row's number, then its bytes. */
+static inline uint32_t sf_record_sum(uint32_t row, const void *bytes, size_t size) {
+  unsigned char number[4];
+  sf_store_32(number, row);
+  return sf_crc32c(sf_crc32c(0, number, sizeof number), bytes, size);
+}
+
+#endif

@@ -1,0 +1,63 @@
+/* Growing memory, and a row that is being put together.
+ *
+ * Invariant of a row: `spans` and `values` are as spanfile_row says, up to the last end.
+ */
+#ifndef SF_STORE_H
+#define SF_STORE_H
+
+#include "layout.h"
+
+typedef struct sf_memory {
+  spanfile_resize resize;
+  void *user;
+} sf_memory;
+
+/* resize: NULL for the C library's. */
+sf_memory sf_memory_of(spanfile_resize resize, void *user);
+void *sf_take(const sf_memory *memory, size_t size);
+void sf_give(const sf_memory *memory, void *block, size_t size);
+
+typedef struct sf_bytes {
+  unsigned char *at;
+  size_t size, capacity;
+} sf_bytes;
+
+/* Room for `more` bytes after the size; false: no memory, and nothing changed. */
+bool sf_bytes_grow(const sf_memory *memory, sf_bytes *bytes, size_t more);
+static inline bool sf_bytes_room(const sf_memory *memory, sf_bytes *bytes, size_t more) {
+  return more <= bytes->capacity - bytes->size || sf_bytes_grow(memory, bytes, more);
+}
+bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const void *more, size_t size);
+void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes);
+
+typedef struct sf_row {
+  spanfile_span *spans;
+  size_t count, capacity;
+  sf_bytes values;
+} sf_row;
+
+static inline uint32_t sf_row_end(const sf_row *row) {
+  return row->count ? row->spans[row->count - 1].end : 0;
+}
+bool sf_row_grow(const sf_memory *memory, sf_row *row);
+/* Appends pixels that are a run, or that have (raw) or will have (gradient) their values in
+ * `values`; joins what must not be neighbours. */
+static inline bool sf_row_add(const sf_memory *memory, sf_row *row, uint32_t count, uint32_t kind,
+                              uint64_t pixel) {
+  uint32_t end = sf_row_end(row) + count;
+  if (row->count && kind != SPANFILE_GRADIENT) {
+    spanfile_span *last = &row->spans[row->count - 1];
+    if (last->kind == kind && last->pixel == pixel) {
+      last->end = end;
+      return true;
+    }
+  }
+  if (row->count == row->capacity && !sf_row_grow(memory, row))
+    return false;
+  row->spans[row->count++] = (spanfile_span){end, kind, pixel};
+  return true;
+}
+void sf_row_clear(sf_row *row);
+void sf_row_free(const sf_memory *memory, sf_row *row);
+
+#endif

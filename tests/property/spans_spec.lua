@@ -1,0 +1,136 @@
+-- What rows of spans are like: table 1 of the paper, order, size.
+local celspan = require "celspan"
+local rows = require "tests.support.rows"
+local scenes = require "tests.support.scenes"
+
+local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 300
+local ONLY = tonumber(os.getenv "CASE")
+
+local function each_scene(count, antialias, options, test)
+  for case = ONLY or 1, ONLY or count do
+    local script, traits = scenes.script(case, options)
+    if ONLY then print(script) end
+    local list = assert(celspan.spans(scenes.load(script):at(1), {
+      size = traits.size, film = { traits.width, traits.height }, antialias = antialias, workers = 1 }))
+    for y = 0, traits.size[2] - 1 do test(list[y], traits, ("CASE=%d: row %d"):format(case, y)) end
+  end
+end
+
+describe("a row of spans", function()
+  it("is sorted, disjoint and covers its columns under none", function()
+    each_scene(COUNT, "none", {}, function(row, traits, where)
+      local fault = rows.fault(row, traits.size[1])
+      if fault then error(where .. ": " .. fault) end
+    end)
+  end)
+
+  it("is sorted, disjoint and covers its columns under area", function()
+    each_scene(COUNT // 2, "area", {}, function(row, traits, where)
+      local fault = rows.fault(row, traits.size[1])
+      if fault then error(where .. ": " .. fault) end
+    end)
+  end)
+
+  it("holds no array without pictures, under none", function()
+    each_scene(COUNT, "none", {}, function(row, _, where)
+      for _, span in ipairs(row) do
+        if span.kind == "array" then error(where .. " holds an array span") end
+      end
+    end)
+  end)
+
+  it("holds singles alone where all paints are flat, under none", function()
+    each_scene(COUNT, "none", { is_flat = true, has_rows = false }, function(row, _, where)
+      for _, span in ipairs(row) do
+        if span.kind ~= "single" then error(where .. " holds a " .. span.kind .. " span") end
+      end
+    end)
+  end)
+
+  it("keeps alpha in 0..1 and light at 0 or more", function()
+    for _, antialias in ipairs { "none", "area" } do
+      each_scene(COUNT // 2, antialias, {}, function(row, traits, where)
+        for x = 0, traits.size[1] - 1 do
+          local colour, kind = rows.colour(row, x)
+          -- The lines of gradient spans may leave their range by what they may be off.
+          local slack = kind == "gradient" and 1 / 1023 or 1e-5
+          for c = 1, 4 do
+            if colour[c] < -slack or (c == 4 and colour[c] > 1 + slack) then
+              error(("%s (%s): column %d is %s"):format(where, antialias, x, table.concat(colour, " ")))
+            end
+          end
+        end
+      end)
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- counters
+
+local celspan_command = os.getenv "CELSPAN" or "build/celspan"
+
+--- The counters of `celspan spans --stats` for a script's text.
+local function statistics(script, options)
+  local path = os.tmpname()
+  local file = assert(io.open(path, "w"))
+  file:write(script)
+  file:close()
+  local pipe = assert(io.popen(("%s spans %s --stats --workers 1 %s"):format(celspan_command, path, options)))
+  local line = pipe:read "a"
+  pipe:close()
+  os.remove(path)
+  local counters = {}
+  for name, value in line:gmatch "(%a[%a_]*) ([%d.]+)" do counters[name] = tonumber(value) end
+  assert(counters.peak_bytes, "no counters: " .. line)
+  return counters
+end
+
+--- A script of B-splines in the unit square, as the benchmark's scenes.
+local function bench_script(path)
+  local lines = { [[
+local celspan = require "celspan"
+local list = { celspan.rect{ 0, 0, 1000, 1000, texture = "#fff" } }
+local function add(r, g, b, a, ...)
+  local n, points = {...}, {}
+  for i = 1, 7, 2 do points[#points + 1] = { 1000 * n[i], 1000 * n[i + 1] } end
+  list[#list + 1] = celspan.nurbs{ points = points, degree = 3, rule = "evenodd",
+                                   texture = celspan.rgb(r / 255, g / 255, b / 255, a / 255) }
+end]] }
+  for line in io.lines(path) do
+    if line:find "^%d" then lines[#lines + 1] = "add(" .. line:gsub("%s+", ", ") .. ")" end
+  end
+  lines[#lines + 1] = "return celspan.film{ size = {1000, 1000}, frame = function() return "
+    .. "celspan.rostrum{ celspan.cel(list) } end }"
+  return table.concat(lines, "\n")
+end
+
+describe("the work for a frame", function()
+  local still = [[
+local celspan = require "celspan"
+local ramp = celspan.linear{ from = {0, 0}, to = {90, 40}, {0, "#f00"}, {1, "#0000ff88"} }
+return celspan.rostrum{ celspan.cel{
+  celspan.rect{ 3, 3, 90, 90, texture = ramp },
+  celspan.circle{ centre = {50, 50}, radius = 30, texture = "#00ff0088" } - celspan.rect{ 40, 40, 20, 20 } } }
+]]
+
+  it("needs memory that does not grow with the height and hardly with the width", function()
+    for _, antialias in ipairs { "none", "area" } do
+      local function peak(size)
+        return statistics(still, ("--size %s --antialias %s"):format(size, antialias)).peak_bytes
+      end
+      local small = peak "500x500"
+      assert.is_true(peak "500x20000" <= 1.25 * small, "height under " .. antialias)
+      assert.is_true(peak "20000x500" <= 2 * small, "width under " .. antialias)
+    end
+  end)
+
+  it("composes few colours for 100 shapes at 30,000 x 30,000", function()
+    local material = os.getenv "CELSPAN_MATERIAL"
+    if not material then return pending "CELSPAN_MATERIAL is not set" end
+    local counters = statistics(bench_script(material .. "/bench-scenes/scene100.txt"),
+                                "--size 30000x30000 --antialias none")
+    assert.are.equal(30000, counters.rows)
+    assert.are.equal(0, counters.array)
+    assert.is_true(counters.colour_evaluations < 40000, counters.colour_evaluations .. " evaluations")
+  end)
+end)
