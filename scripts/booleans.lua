@@ -1,5 +1,5 @@
--- The four boolean operations on the same two objects, a ripple of rings and a flower:
--- union, intersection, difference and exclusive-or, from left to right. Trees of booleans are objects too.
+-- The four boolean operations on the same two objects, a ripple of rings and a flower: union,
+-- intersection, difference and exclusive-or. The rings are an exclusive-or of discs themselves.
 local celspan = require "celspan"
 
 local grounds = { "#15233f", "#f3e7cf", "#f0a23b", "#b93a3f" }
@@ -14,31 +14,29 @@ local function ripple(count, radius, texture)
 end
 
 local function flower(petals, radius, texture)
-  local list = {}
-  for i = 1, petals do
-    list[i] = celspan.ellipse { centre = { 0, -radius * 0.56 }, radii = { radius * 0.27, radius * 0.46 },
-                                texture = texture }:rotate(360 * i / petals)
-  end
-  return celspan.union(list) | celspan.circle { centre = { 0, 0 }, radius = radius * 0.3, texture = texture }
+  local petal = celspan.ellipse { centre = { 0, -radius * 0.56 },
+                                  radii = { radius * 0.27, radius * 0.46 }, texture = texture }
+  local list = { celspan.circle { centre = { 0, 0 }, radius = radius * 0.3, texture = texture } }
+  for i = 1, petals do list[i + 1] = petal:rotate(360 * i / petals) end
+  return celspan.union(list)
 end
 
-local function pair(rings, petals)
-  return ripple(9, 204, rings), flower(8, 212, petals)
-end
+--- {colour of the rings, of the flower, the operation}
+local operations = {
+  { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end },
+  { "#1f4e79", "#d9483b", function(a, b) return a & b end },
+  { "#5b1f3a", "#fff1d6", function(a, b) return a - b end },
+  { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end },
+}
 
 return celspan.film { size = { 1920, 640 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local lift = 52 + 26 * math.sin(2 * math.pi * u)
-  local operations = {
-    { "#3fa7a3", "#f7d9a0", function(a, b) return a | b end },
-    { "#1f4e79", "#d9483b", function(a, b) return a & b end },
-    { "#5b1f3a", "#fff1d6", function(a, b) return a - b end },
-    { "#f9dfae", "#1d1a38", function(a, b) return a ~ b end },
-  }
   local art = {}
   for i, operation in ipairs(operations) do
-    local rings, petals = pair(operation[1], operation[2])
-    local object = operation[3](rings:translate(-18, lift), petals:rotate(45 * u):translate(18, -lift))
+    local rings = ripple(9, 204, operation[1]):translate(-18, lift)
+    local petals = flower(8, 212, operation[2]):rotate(45 * u):translate(18, -lift)
+    local object = operation[3](rings, petals)
     art[#art + 1] = celspan.rect { (i - 1) * 480, 0, 480, 640, texture = grounds[i] }
     art[#art + 1] = object:translate((i - 0.5) * 480, 320)
   end

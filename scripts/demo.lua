@@ -1,7 +1,7 @@
 -- The lamplighter: ten seconds in which the evening comes, cel by cel.
 --
--- A slow pan over nine planes; front lights that dim from gold to dusk; a figure whose lips follow a
--- recorded line; and a second exposure for everything that glows.
+-- A slow pan over planes at their own depths; front lights that dim from gold to dusk; a figure
+-- whose lips follow a recorded line; and a second exposure for everything that glows.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local keys = require "celspan.keys"

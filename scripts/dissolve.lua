@@ -1,5 +1,5 @@
--- A dissolve: one frame, two exposures. Light adds on film, so weights that sum to one pass from the
--- desert at noon to the sea at night; halfway both are there at once.
+-- A dissolve: one frame, two exposures. Light adds on film, so weights that sum to one pass from
+-- the desert at sunset to the sea at night; halfway both are there at once.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local shapes = require "demo.shapes"
@@ -13,19 +13,21 @@ local function disc(x, y, r, texture)
 end
 
 local desert = celspan.cel {
-  celspan.rect { 0, 0, 1920, 1080, texture = down(0, 800, "#e9724c", "#f7a95c", "#ffe1a0") },
+  celspan.rect { 0, 0, 1920, 1080, texture = down(0, 800, { "#e9724c", "#f7a95c", "#ffe1a0" }) },
   disc(960, 470, 205, "#fff0c9"),
-  shapes.ridge({ { -40, 800 }, { 300, 690 }, { 620, 640 }, { 900, 700 }, { 1300, 640 }, { 1700, 560 }, { 1960, 610 } },
-    bottom, across(0, 1920, "#e2935a", "#c25b4a")),
-  shapes.ridge({ { -40, 790 }, { 380, 880 }, { 820, 800 }, { 1180, 780 }, { 1560, 880 }, { 1960, 840 } },
-    bottom, across(0, 1920, "#d9703f", "#9c3a3f")),
+  shapes.ridge({ { -40, 800 }, { 300, 690 }, { 620, 640 }, { 900, 700 }, { 1300, 640 },
+                 { 1700, 560 }, { 1960, 610 } }, bottom, across(0, 1920, { "#e2935a", "#c25b4a" })),
+  shapes.ridge({ { -40, 790 }, { 380, 880 }, { 820, 800 }, { 1180, 780 }, { 1560, 880 },
+                 { 1960, 840 } }, bottom, across(0, 1920, { "#d9703f", "#9c3a3f" })),
   shapes.ridge({ { -40, 1000 }, { 420, 960 }, { 900, 1010 }, { 1420, 940 }, { 1960, 1000 } },
-    bottom, across(0, 1920, "#a63f3c", "#5e2436")),
+               bottom, across(0, 1920, { "#a63f3c", "#5e2436" })),
 }
 
 local function waves(n, y, colour)
   local crest = {}
-  for i = 0, 16 do crest[i + 1] = { -60 + i * 130, y + (i % 2 * 2 - 1) * (8 + 6 * n) + 8 * math.sin(i + n) } end
+  for i = 0, 16 do
+    crest[i + 1] = { -60 + i * 130, y + (i % 2 * 2 - 1) * (8 + 6 * n) + 8 * math.sin(i + n) }
+  end
   return shapes.ridge(crest, bottom, colour)
 end
 
@@ -33,13 +35,14 @@ local function sea(time)
   local glitter = {}
   for i = 0, 16 do
     local w = (60 + i * 17) * (0.75 + 0.25 * math.sin(i * 2.4 + time * 5))
-    glitter[i + 1] = celspan.rect { 960 - w / 2 + 22 * math.sin(i * 3.1), 716 + i * 21, w, 7, radius = 3.5,
-                                    texture = "#cfe6e6a0" }
+    local x = 960 - w / 2 + 22 * math.sin(i * 3.1)
+    glitter[i + 1] = celspan.rect { x, 716 + i * 21, w, 7, radius = 3.5, texture = "#cfe6e6a0" }
   end
   return celspan.cel {
-    celspan.rect { 0, 0, 1920, 1080, texture = down(0, 760, "#0b1030", "#1d2f5f", "#4f6f97") },
-    disc(960, 470, 205, "#e9f1ec"), disc(900, 420, 38, "#cfdcdc"), disc(1030, 530, 56, "#cfdcdc"), disc(1010, 390, 22, "#cfdcdc"),
-    celspan.rect { 0, 700, 1920, 400, texture = down(700, 1080, "#31557f", "#0d1c3c") },
+    celspan.rect { 0, 0, 1920, 1080, texture = down(0, 760, { "#0b1030", "#1d2f5f", "#4f6f97" }) },
+    disc(960, 470, 205, "#e9f1ec"),
+    disc(900, 420, 38, "#cfdcdc"), disc(1030, 530, 56, "#cfdcdc"), disc(1010, 390, 22, "#cfdcdc"),
+    celspan.rect { 0, 700, 1920, 400, texture = down(700, 1080, { "#31557f", "#0d1c3c" }) },
     celspan.union(glitter),
     waves(1, 900, "#12305c8c"):translate(20 * math.sin(time * 2), 0),
     waves(2, 1000, "#0a1a3cc8"):translate(-30 * math.sin(time * 2), 0),

@@ -1,5 +1,5 @@
--- The three gradients as a painter's still life: radial for the ball, linear for the vase and the
--- cloth, the paper's triangle of three colours for the facets of the cut stone. No pictures, no noise.
+-- The three gradients as a painter's still life: radial for the balls and the shadows, linear for
+-- the vase, the wall and the table, the triangle of three colours for the facets of the stone.
 local celspan = require "celspan"
 
 local function linear(x0, y0, x1, y1, ...)
@@ -9,8 +9,10 @@ local function linear(x0, y0, x1, y1, ...)
 end
 
 local function shadow(x, y, w, h)
-  local dark = celspan.radial { centre = { x, y }, radius = w, { 0, "#1a0d1ec0" }, { 0.55, "#1a0d1e66" }, { 1, "#1a0d1e00" } }
-  return celspan.circle { centre = { x, y }, radius = w, texture = dark }:translate(0, -y):scale(1, h / w):translate(0, y)
+  local dark = celspan.radial { centre = { 0, 0 }, radius = w,
+                                { 0, "#1a0d1ec0" }, { 0.55, "#1a0d1e66" }, { 1, "#1a0d1e00" } }
+  return celspan.circle { centre = { 0, 0 }, radius = w, texture = dark }:scale(1,
+    h / w):translate(x, y)
 end
 
 local function ball(x, y, r, light, middle, dark, rim)
@@ -20,9 +22,11 @@ local function ball(x, y, r, light, middle, dark, rim)
 end
 
 local vase = celspan.path {
-  d = "M648 250C640 330 690 360 640 440C560 540 540 640 600 760C620 800 640 806 660 812Q760 832 860 812C880 806 900 800 920 760"
-    .. "C980 640 960 540 880 440C830 360 880 330 872 250C800 268 720 268 648 250Z",
-  texture = linear(560, 0, 960, 0, { 0, "#0f5a63" }, { 0.22, "#7fd0c4" }, { 0.36, "#2f9a97" }, { 0.75, "#0c3f4e" }, { 1, "#175766" }) }
+  d = "M648 250C640 330 690 360 640 440C560 540 540 640 600 760C620 800 640 806 660 812"
+    .. "Q760 832 860 812C880 806 900 800 920 760C980 640 960 540 880 440C830 360 880 330 872 250"
+    .. "C800 268 720 268 648 250Z",
+  texture = linear(560, 0, 960, 0, { 0, "#0f5a63" }, { 0.22, "#7fd0c4" }, { 0.36, "#2f9a97" },
+                   { 0.75, "#0c3f4e" }, { 1, "#175766" }) }
 local mouth = celspan.ellipse { centre = { 760, 252 }, radii = { 112, 20 }, texture =
   linear(648, 0, 872, 0, { 0, "#062a35" }, { 1, "#1f6a72" }) }
 
@@ -31,7 +35,8 @@ local function stone(x, y, r, turn)
   local facets = {}
   local function corner(i)
     local a = math.rad(i * 60 + turn)
-    return { x + r * math.cos(a), y - r * 0.5 + r * 0.30 * math.sin(a) }, 0.5 + 0.5 * math.cos(a + 2.2)
+    local light = 0.5 + 0.5 * math.cos(a + 2.2)
+    return { x + r * math.cos(a), y - r * 0.5 + r * 0.3 * math.sin(a) }, light
   end
   local function colour(u) return celspan.mix("#3c0a4a", "#ffb3b8", u) end
   local function facet(a, b, c, ua, ub, uc)
@@ -48,11 +53,15 @@ local function stone(x, y, r, turn)
   return celspan.union(facets)
 end
 
+local wall = celspan.rect { 0, 0, 1920, 700, texture =
+  linear(0, 0, 1920, 500, { 0, "#e9c9a0" }, { 0.55, "#b98273" }, { 1, "#5a3b52" }) }
+local board = celspan.rect { 0, 690, 1920, 390, texture =
+  linear(0, 690, 0, 1080, { 0, "#7a3f4a" }, { 0.08, "#a35a50" }, { 1, "#dd9a68" }) }
+
 return celspan.film { frames = 48, frame = function(f)
   local turn = 60 * f.index / f.count
   return celspan.rostrum { celspan.cel {
-    celspan.rect { 0, 0, 1920, 700, texture = linear(0, 0, 1920, 500, { 0, "#e9c9a0" }, { 0.55, "#b98273" }, { 1, "#5a3b52" }) },
-    celspan.rect { 0, 690, 1920, 390, texture = linear(0, 690, 0, 1080, { 0, "#7a3f4a" }, { 0.08, "#a35a50" }, { 1, "#dd9a68" }) },
+    wall, board,
     shadow(860, 815, 420, 52), vase, mouth,
     shadow(1330, 868, 330, 44), ball(1230, 700, 176, "#fff0c4", "#f2a93b", "#a2431f", "#c9673a"),
     shadow(500, 930, 230, 30), ball(420, 838, 104, "#ffd9cf", "#d9483b", "#6d1426", "#a3303a"),

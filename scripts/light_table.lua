@@ -1,9 +1,10 @@
--- An animator's light table: six sheets of paper on a peg bar, lit from below. Paper scatters a little
--- and lets the rest through, so the older drawings fade away beneath the newest, sheet by sheet.
+-- An animator's light table: six sheets of paper on a peg bar, lit from below. Paper scatters a
+-- little and lets the rest through, so that older drawings fade beneath the newest, sheet by sheet.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
-local paper = celspan.paint { pigment = { 0.95, 0.92, 0.86 }, medium = { 0.98, 0.93, 0.84 }, beta = 0.3 }
+local paper = celspan.paint { pigment = { 0.95, 0.92, 0.86 }, medium = { 0.98, 0.93, 0.84 },
+                              beta = 0.3 }
 local graphite, blue = "#33303a", "#6f9bd2"
 
 local pegs = celspan.union {
@@ -12,16 +13,23 @@ local pegs = celspan.union {
 }
 local sheet = celspan.rect { 300, 110, 1320, 920, radius = 10, texture = paper } - pegs
 
---- The field guide printed on every sheet, and the path of action.
-local function guide()
+--- A shape in one colour.
+local function flood(colour, shape)
+  return celspan.clip(celspan.rect { 0, 0, 1920, 1080, texture = colour }, shape)
+end
+
+--- The field guide printed on every sheet.
+local function fields()
   local parts = {}
   for i = 0, 3 do
     local w, h = 1180 - i * 236, 700 - i * 140
     parts[#parts + 1] = celspan.rect { 960 - w / 2, 540 - h / 2, w, h }
     parts[#parts + 1] = celspan.rect { 962 - w / 2, 542 - h / 2, w - 4, h - 4 }
   end
-  return celspan.clip(celspan.rect { 0, 0, 1920, 1080, texture = blue }, celspan.xor(parts)):fade(0.16)
+  return flood(blue, celspan.xor(parts)):fade(0.16)
 end
+
+local guide = fields()
 
 --- A ball of pencil: an outline of two discs, a shadow of hatching, a stretch along its way.
 local function ball(x, y, stretch, turn)
@@ -47,13 +55,14 @@ local function drawing(n)
   local turn = math.deg(math.atan(-tall * 4 * (1 - 2 * hop), 620))
   local fast = math.abs(1 - 2 * hop)
   local x, y = 480 + 960 * u, 768 - tall * 4 * hop * (1 - hop) + (lands and 16 or 0)
-  return celspan.cel { sheet, guide(), ball(x, y, lands and 1.28 or 1 + 0.22 * fast ^ 3, lands and 0 or turn) }
+  local stretch = lands and 1.28 or 1 + 0.22 * fast ^ 3
+  return celspan.cel { sheet, guide, ball(x, y, stretch, lands and 0 or turn) }
 end
 
-local wood = shapes.down(0, 1080, "#5d4331", "#38271e")
+local wood = shapes.down(0, 1080, { "#5d4331", "#38271e" })
 local table_top = celspan.rect { 0, 0, 1920, 1080, texture = wood }
   - celspan.rect { 210, 60, 1500, 1000, radius = 30 }
-local pegs_up = celspan.clip(celspan.rect { 0, 0, 1920, 1080, texture = "#2c2d33" }, pegs)
+local pegs_up = flood("#2c2d33", pegs)
 local bar = celspan.rect { 560, 946, 800, 52, radius = 26, texture = "#8e9299" }
 
 return celspan.film { frames = 48, frame = function(f)

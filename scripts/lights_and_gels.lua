@@ -1,5 +1,5 @@
--- A rose window: leading of opaque paint, panes of pure gel. As the front light on the wall goes down,
--- the light behind the glass comes up; gels have no colour of their own until light comes through.
+-- A rose window: a wall of opaque paint, panes of pure gel. As the front light on the wall goes
+-- down, the light behind the glass comes up: gels have no colour until light comes through them.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 
@@ -12,9 +12,10 @@ end
 --- A drop that points to the middle.
 local function drop(near, far, half, texture)
   local middle = near * 0.35 + far * 0.65
-  return celspan.path { texture = texture, d = ("M%g %gC%g %g %g %g %g %gC%g %g %g %g %g %gZ"):format(
+  local d = ("M%g %gC%g %g %g %g %g %gC%g %g %g %g %g %gZ"):format(
     cx, cy - near, cx - half * 1.5, cy - middle, cx - half, cy - far, cx, cy - far,
-    cx + half, cy - far, cx + half * 1.5, cy - middle, cx, cy - near) }
+    cx + half, cy - far, cx + half * 1.5, cy - middle, cx, cy - near)
+  return celspan.path { d = d, texture = texture }
 end
 
 --- `count` of the same, round the middle.
@@ -24,7 +25,7 @@ local function wreath(count, part, offset)
   return celspan.union(list)
 end
 
---- One ring of the window: glass between two radii, cut by spokes and by the leading round the ornaments.
+--- One ring: glass between two radii, cut by spokes and by the leading round the ornaments.
 local function ring(inner, outer, glass, spokes, ornaments, leading)
   local spoke = celspan.rect { cx - 3, cy - outer, 6, outer - inner }
   return (disc(0, outer, glass) - disc(0, inner) - wreath(spokes, spoke, 0.5) - leading) | ornaments
@@ -35,15 +36,18 @@ local ruby, rose = celspan.gel(0.66, 0.012, 0.03), celspan.gel(0.80, 0.16, 0.16)
 local amber, green = celspan.gel(0.92, 0.42, 0.03), celspan.gel(0.03, 0.30, 0.13)
 
 local window = celspan.union {
-  ring(446, 506, azure, 24, wreath(24, disc(476, 20, ruby)) , wreath(24, disc(476, 26))),
+  ring(446, 506, azure, 24, wreath(24, disc(476, 20, ruby)), wreath(24, disc(476, 26))),
   ring(232, 436, blue, 12,
-    wreath(12, drop(246, 424, 44, ruby)) | wreath(12, disc(392, 24, amber), 0.5) | wreath(12, disc(326, 15, rose), 0.5),
-    wreath(12, drop(236, 430, 51)) | wreath(12, disc(392, 30), 0.5) | wreath(12, disc(326, 20), 0.5)),
+    wreath(12, drop(246, 424, 44, ruby)) | wreath(12, disc(392, 24, amber), 0.5)
+      | wreath(12, disc(326, 15, rose), 0.5),
+    wreath(12, drop(236, 430, 51)) | wreath(12, disc(392, 30), 0.5)
+      | wreath(12, disc(326, 20), 0.5)),
   ring(84, 222, green, 12, wreath(12, drop(94, 214, 24, amber)), wreath(12, drop(86, 219, 30))),
   disc(0, 74, azure) - wreath(6, drop(4, 66, 22)), wreath(6, drop(8, 62, 17, rose)),
 }
 
-local stone = celspan.radial { centre = { cx, cy }, radius = 1100, { 0, "#7d6a58" }, { 0.46, "#8d7863" },
+local stone = celspan.radial { centre = { cx, cy }, radius = 1100, { 0, "#7d6a58" },
+                               { 0.46, "#8d7863" },
                                { 0.461, "#c2ab8c" }, { 0.5, "#a38b70" }, { 0.501, "#bba384" },
                                { 1, "#57494a" } }
 local wall = celspan.rect { 0, 0, 1920, 1080, texture = stone } - window

@@ -17,7 +17,8 @@ local scarf = celspan.nurbs { texture = "#d8473b", points = {
 
 return celspan.film { frames = 48, frame = function(f)
   local shape = track:at(f.number + 24)
-  local head = face.draw(f.time + 1, shape):rotate(2 * math.sin(f.time * 3)):scale(2):translate(960, 560)
+  local head = face.draw(f.time + 1, shape)
+    :rotate(2 * math.sin(f.time * 3)):scale(2):translate(960, 560)
   local dim, lit = {}, {}
   for i, name in ipairs(names) do
     local x = 960 + (i - 5) * 196

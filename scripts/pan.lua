@@ -1,5 +1,5 @@
--- A pan: one long drawing, a row of houses on a canal, seen through a viewport that slides along it.
--- The water is the same drawing again, turned over and faded: values are shared, never drawn twice.
+-- A pan: one long drawing, a row of houses on a canal, seen through a viewport that slides along.
+-- The water shows the same drawing again, turned over and faded: values are shared, not redrawn.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local shapes = require "demo.shapes"
@@ -12,12 +12,13 @@ local function house(i, x, w, h)
   local wall, top = walls[i * 3 % 7 + 1], quay - h
   local gable = ({
     ("M%g %gl%g %gl%g %gz"):format(x, top, w / 2, -w * 0.55, w / 2, w * 0.55),
-    ("M%g %gv-24h%gv-30h%gv-30h%gv-20h%gv20h%gv30h%gv30h%gv24z"):format(x, top, w * .14, w * .14, w * .14,
-      w * .16, w * .14, w * .14, w * .14),
-    ("M%g %gc%g -10 %g -40 %g -96q%g -22 %g 0c%g 56 %g 86 %g 96z"):format(x, top, w * .22, w * .1, w * .3,
-      w * .2, w * .4, w * .2, w * .08, w * .3),
+    ("M%g %gv-24h%gv-30h%gv-30h%gv-20h%gv20h%gv30h%gv30h%gv24z"):format(
+      x, top, w * .14, w * .14, w * .14, w * .16, w * .14, w * .14, w * .14),
+    ("M%g %gc%g -10 %g -40 %g -96q%g -22 %g 0c%g 56 %g 86 %g 96z"):format(
+      x, top, w * .22, w * .1, w * .3, w * .2, w * .4, w * .2, w * .08, w * .3),
   })[i % 3 + 1]
-  local parts = { celspan.rect { x, top - 1, w, h + 1, texture = wall }, celspan.path { d = gable, texture = wall },
+  local parts = { celspan.rect { x, top - 1, w, h + 1, texture = wall },
+                  celspan.path { d = gable, texture = wall },
                   celspan.rect { x, top - 2, w, 7, texture = "#f3e6cd" } }
   local columns, rows = w > 130 and 3 or 2, math.floor(h / 96)
   for k = 0, columns * rows - 1 do
@@ -26,7 +27,8 @@ local function house(i, x, w, h)
     parts[#parts + 1] = celspan.rect { wx - 4, wy - 4, 34, 58, texture = "#f3e6cd" }
     parts[#parts + 1] = celspan.rect { wx, wy, 26, 50, texture = is_lit and "#ffd27a" or "#26343f" }
   end
-  parts[#parts + 1] = celspan.circle { centre = { x + w / 2, top - 26 }, radius = 11, texture = "#26343f" }
+  parts[#parts + 1] = celspan.circle { centre = { x + w / 2, top - 26 }, radius = 11,
+                                       texture = "#26343f" }
   return celspan.union(parts)
 end
 
@@ -38,13 +40,15 @@ for i = 1, 26 do
 end
 local houses = celspan.union(row)
 local street = celspan.rect { -100, quay, 4000, 26, texture = "#6b5b52" }
-local water = shapes.down(quay, 1080, "#59737c", "#1f3140")
-local sky = shapes.down(0, quay, "#7fa3b5", "#c2bda9", "#efcfa3", "#f4b183")
+local water = shapes.down(quay, 1080, { "#59737c", "#1f3140" })
+local sky = shapes.down(0, quay, { "#7fa3b5", "#c2bda9", "#efcfa3", "#f4b183" })
+
+local reflection = houses:translate(0, -quay - 26):scale(1, -0.82):translate(0, quay + 26)
 
 local ripples = {}
 for i = 1, 60 do
-  ripples[i] = celspan.rect { i * 389 % 3900 - 60, quay + 40 + i * i % 340, 90 + i * 31 % 160, 3, radius = 1.5,
-                              texture = "#dbe6e066" }
+  ripples[i] = celspan.rect { i * 389 % 3900 - 60, quay + 40 + i * i % 340, 90 + i * 31 % 160, 3,
+                              radius = 1.5, texture = "#dbe6e066" }
 end
 
 return celspan.film { frames = 48, frame = function(f)
@@ -54,7 +58,7 @@ return celspan.film { frames = 48, frame = function(f)
     celspan.cel { celspan.rect { 0, 0, 1920, 1080, texture = sky } },
     celspan.cel { houses, street, viewport = window },
     celspan.cel { celspan.rect { 0, quay + 26, 1920, 400, texture = water } },
-    celspan.cel { houses:translate(0, -quay - 26):scale(1, -0.82):translate(0, quay + 26), opacity = 0.34, viewport = window },
+    celspan.cel { reflection, opacity = 0.34, viewport = window },
     celspan.cel { celspan.union(ripples):translate(-30 * f.time, 0), viewport = window },
   }
 end }

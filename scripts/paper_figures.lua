@@ -1,5 +1,6 @@
--- The Beta colour model against plain alpha. Above: three paints that only cover, opaque, half and a
--- fifth. Below: the same beta, but what is not covered filters like gelatine; the last is filter alone.
+-- The Beta colour model against plain alpha. Above: three paints that only cover, opaque, half and
+-- a fifth. Below: the same, but what a paint does not cover it filters, as a sheet of gelatine
+-- does; the last is a filter alone.
 local celspan = require "celspan"
 
 local cream = "#f4ead5"
@@ -25,7 +26,8 @@ local media = { { 0.95, 0.35, 0.30 }, { 0.25, 0.85, 0.75 }, { 0.75, 0.35, 0.90 }
 
 local function leaf(texture, turn)
   return celspan.path { texture = texture, d =
-    "M0 -216C120 -190 226 -110 226 0C226 120 120 206 0 206C-130 206 -226 120 -226 -10C-226 -120 -130 -230 0 -216Z" }
+    "M0 -216C120 -190 226 -110 226 0C226 120 120 206 0 206"
+    .. "C-130 206 -226 120 -226 -10C-226 -120 -130 -230 0 -216Z" }
     :rotate(turn)
 end
 

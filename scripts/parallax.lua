@@ -1,18 +1,20 @@
--- Parallax: a wood in the morning mist, five planes of trunks. The same pan moves every plane by its
--- own depth, and each farther plane is paler, as if more air lay before it.
+-- Parallax: a wood in the morning mist, five planes of trunks. One pan moves every plane by its own
+-- depth, and each farther plane is paler, as if more air lay before it.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
 --- {depth 0..1, trunks, width, colour at the top, colour at the foot}
 local planes = {
   { 0.10, 15, 26, "#bcd3c4", "#e9ecd2" }, { 0.22, 12, 40, "#94b8ac", "#d3dfc6" },
-  { 0.40, 9, 62, "#5f9088", "#a3bfa8" }, { 0.65, 7, 96, "#2f6263", "#5c8278" }, { 1.0, 4, 150, "#12343b", "#1c3f41" },
+  { 0.40, 9, 62, "#5f9088", "#a3bfa8" }, { 0.65, 7, 96, "#2f6263", "#5c8278" },
+  { 1.0, 4, 150, "#12343b", "#1c3f41" },
 }
 
 local length = 2900
 
 local function trunk(x, w, lean)
-  return shapes.ribbon({ { x + lean, -60, w * 0.66 }, { x + lean * 0.5, 400, w * 0.8 }, { x, 820, w },
+  return shapes.ribbon({ { x + lean, -60, w * 0.66 }, { x + lean * 0.5, 400, w * 0.8 },
+                         { x, 820, w },
                          { x - w * 0.1, 1000, w * 1.35 }, { x - w * 0.2, 1120, w * 2.1 } })
 end
 
@@ -32,7 +34,8 @@ local function wood(n, plane)
     local lean = 50 * math.sin(i * 1.9 + n * 2)
     parts[#parts + 1] = trunk(x, w * (0.8 + 0.2 * math.sin(i * 5 + n)), lean)
     for k = 0, 2 do
-      parts[#parts + 1] = bough(x, 130 + (i * 97 + k * 233 + n * 61) % 470, w, lean, (i + k) % 2 * 2 - 1)
+      local y = 130 + (i * 97 + k * 233 + n * 61) % 470
+      parts[#parts + 1] = bough(x, y, w, lean, (i + k) % 2 * 2 - 1)
     end
   end
   local crest = {}
@@ -40,14 +43,16 @@ local function wood(n, plane)
     crest[i + 1] = { -100 + i * length / 11, 800 + n * 45 + 26 * math.sin(i * 1.3 + n * 2) }
   end
   parts[#parts + 1] = shapes.ridge(crest, 1160)
-  local mist = celspan.linear { from = { 0, 100 }, to = { 0, 1040 }, { 0, top }, { 1, foot } }
-  return celspan.clip(celspan.rect { -200, -100, length + 400, 1300, texture = mist }, celspan.union(parts))
+  local mist = celspan.rect { -200, -100, length + 400, 1300,
+                              texture = shapes.down(100, 1040, { top, foot }) }
+  return celspan.clip(mist, celspan.union(parts))
 end
 
 local woods = {}
 for n, plane in ipairs(planes) do woods[n] = wood(n, plane) end
 
-local glow = celspan.radial { centre = { 1180, 420 }, radius = 1150, { 0, "#fffbe6" }, { 0.25, "#fdeec2" },
+local glow = celspan.radial { centre = { 1180, 420 }, radius = 1150, { 0, "#fffbe6" },
+                              { 0.25, "#fdeec2" },
                               { 0.6, "#dfe3c5" }, { 1, "#bfd2c4" } }
 local air = celspan.rect { 0, 0, 1920, 1080, texture = glow }
 local sun = celspan.circle { centre = { 1180, 420 }, radius = 96, texture = "#fffdf2" }
@@ -55,7 +60,8 @@ local sun = celspan.circle { centre = { 1180, 420 }, radius = 96, texture = "#ff
 return celspan.film { frames = 48, frame = function(f)
   local cels = { celspan.cel { air, sun } }
   for n, plane in ipairs(planes) do
-    cels[n + 1] = celspan.cel { woods[n], viewport = { 560 * f.progress * plane[1], 0, f.width, f.height } }
+    local travel = 560 * f.progress * plane[1]
+    cels[n + 1] = celspan.cel { woods[n], viewport = { travel, 0, f.width, f.height } }
   end
   return celspan.rostrum(cels)
 end }

@@ -1,5 +1,5 @@
--- A gallery in one-point perspective: floor, walls and pictures are flat drawings, each carried to its
--- place by quad(), the homography that takes four corners to four others. The camera walks in.
+-- A gallery in one-point perspective: floor, walls and pictures are flat drawings, each carried to
+-- its place by quad(), which takes four corners to four others. The camera walks in.
 local celspan = require "celspan"
 local shapes = require "demo.shapes"
 
@@ -32,35 +32,50 @@ local function painting(n)
   local field = celspan.rect { 8, 8, 84, 114, texture = ink(0) }
   local art = celspan.union {
     celspan.circle { centre = { 30 + n * 17 % 40, 44 }, radius = 26, texture = ink(1) },
-    celspan.ellipse { centre = { 60 - n * 11 % 30, 122 }, radii = { 62, 44 - n * 7 % 20 }, texture = ink(2) },
+    celspan.ellipse { centre = { 60 - n * 11 % 30, 122 }, radii = { 62, 44 - n * 7 % 20 },
+                      texture = ink(2) },
     celspan.rect { 20 + n * 23 % 40, 8, 9, 114, texture = ink(3) },
   }
   return celspan.union { celspan.rect { 0, 0, 100, 130, texture = "#c8a25c" },
-                         celspan.rect { 4, 4, 92, 122, texture = "#fbf4e4" }, field, celspan.clip(art, field) }
+                         celspan.rect { 4, 4, 92, 122, texture = "#fbf4e4" },
+                         field, celspan.clip(art, field) }
 end
 
-local floor = chequers(6, 28, "#4b2e3a", "#e6cfae")
-local shade = shapes.across(0, 100, "#f2d9b0", "#6f8f8c")
-local wall = celspan.rect { 0, 0, 100, 100, texture = shade }
-local ceiling = celspan.rect { 0, 0, 100, 100, texture = shapes.down(0, 100, "#5b7f80", "#fbeccb") }
-local far = celspan.rect { 0, 0, 100, 100, texture = "#3f6f73" }
+local room = {
+  floor = chequers(6, 28, "#4b2e3a", "#e6cfae"),
+  wall = celspan.rect { 0, 0, 100, 100, texture = shapes.across(0, 100, { "#f2d9b0", "#6f8f8c" }) },
+  ceiling = celspan.rect { 0, 0, 100, 100,
+                           texture = shapes.down(0, 100, { "#5b7f80", "#fbeccb" }) },
+  far = celspan.rect { 0, 0, 100, 100, texture = "#3f6f73" },
+}
+
+--- Corners of an upright rectangle, from the upper left: from (x0, z0) to (x1, z1) on the plan.
+local function upright(x0, z0, x1, z1, low, high)
+  return { { x0, high, z0 }, { x1, high, z1 }, { x1, low, z1 }, { x0, low, z0 } }
+end
+
+--- Corners of a level rectangle as wide as the room, the far edge first.
+local function level(y, z0, z1)
+  local w = half_width
+  return { { -w, y, z0 }, { w, y, z0 }, { w, y, z1 }, { -w, y, z1 } }
+end
 
 return celspan.film { frames = 48, frame = function(f)
-  local w, h = half_width, tall
+  local w = half_width
   local camera = -1.7 + 1.9 * f.progress
   local near, back = camera + 0.3, deep + 0.6
   local art = {
-    hang(far, 100, 100, { { -w, h, back }, { w, h, back }, { w, 0, back }, { -w, 0, back } }, camera),
-    hang(painting(4), 100, 130, { { -0.8, 2.7, back }, { 0.8, 2.7, back }, { 0.8, 0.7, back }, { -0.8, 0.7, back } }, camera),
-    hang(floor, 6, 28, { { -w, 0, back }, { w, 0, back }, { w, 0, back - 22.4 * 0.56 }, { -w, 0, back - 22.4 * 0.56 } }, camera),
-    hang(ceiling, 100, 100, { { -w, h, back }, { w, h, back }, { w, h, near }, { -w, h, near } }, camera),
-    hang(wall, 100, 100, { { -w, h, near }, { -w, h, back }, { -w, 0, back }, { -w, 0, near } }, camera),
-    hang(wall, 100, 100, { { w, h, near }, { w, h, back }, { w, 0, back }, { w, 0, near } }, camera),
+    hang(room.far, 100, 100, upright(-w, back, w, back, 0, tall), camera),
+    hang(painting(4), 100, 130, upright(-0.8, back, 0.8, back, 0.7, 2.7), camera),
+    hang(room.floor, 6, 28, level(0, back, back - 12.5), camera),
+    hang(room.ceiling, 100, 100, level(tall, back, near), camera),
+    hang(room.wall, 100, 100, upright(-w, near, -w, back, 0, tall), camera),
+    hang(room.wall, 100, 100, upright(w, near, w, back, 0, tall), camera),
   }
   for i = 4, 0, -1 do
     local z = 0.8 + i * 1.8
-    art[#art + 1] = hang(painting(i), 100, 130, { { -w, 2.6, z }, { -w, 2.6, z + 1 }, { -w, 1.1, z + 1 }, { -w, 1.1, z } }, camera)
-    art[#art + 1] = hang(painting(i + 7), 100, 130, { { w, 2.6, z + 1 }, { w, 2.6, z }, { w, 1.1, z }, { w, 1.1, z + 1 } }, camera)
+    art[#art + 1] = hang(painting(i), 100, 130, upright(-w, z, -w, z + 1, 1.1, 2.6), camera)
+    art[#art + 1] = hang(painting(i + 7), 100, 130, upright(w, z + 1, w, z, 1.1, 2.6), camera)
   end
   return celspan.rostrum { celspan.cel(art) }
 end }

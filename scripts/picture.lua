@@ -1,5 +1,5 @@
--- Pictures as paint and as light: two postcards lie on a desk as opaque paint, under perspective; the
--- third is a slide, a picture of pure gel, that shines once the lamp behind it is lit.
+-- Pictures as paint and as light: two postcards lie on a desk as opaque paint, under perspective;
+-- the third is a slide, a picture of pure gel, that shines once the lamp behind it is lit.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 
@@ -20,14 +20,15 @@ local function lay(art, corners)
 end
 
 local canal, wood = card "canal.png", card "wood.png"
-local slide = celspan.image { file = "pictures/village.png", as = "gel", w = 880 }:translate(520, 66)
+local slide = celspan.image { file = "pictures/village.png", as = "gel", x = 520, y = 66, w = 880 }
 
 local grain = {}
 for i = 0, 13 do
   grain[i + 1] = celspan.rect { 0, i * 80, 1920, 78, texture = celspan.linear {
-    from = { 0, 0 }, to = { 1920, 0 }, { 0, "#3b2730" }, { 0.5 + 0.3 * math.sin(i * 2), "#5b3b3b" }, { 1, "#2c1d29" } } }
+    from = { 0, 0 }, to = { 1920, 0 },
+    { 0, "#3b2730" }, { 0.5 + 0.3 * math.sin(i * 2), "#5b3b3b" }, { 1, "#2c1d29" } } }
 end
-local desk = celspan.union { celspan.rect { 0, 0, 1920, 1080, texture = "#21161f" }, celspan.union(grain) }
+local desk = celspan.rect { 0, 0, 1920, 1080, texture = "#21161f" } | celspan.union(grain)
 local mount = celspan.rect { 476, 22, 968, 583, radius = 26, texture = "#e9e2d4" }
 
 return celspan.film { frames = 48, frame = function(f)

@@ -28,9 +28,11 @@ local tiles = {
   { teal, celspan.circle { centre = { 0, 0 }, radius = 140, texture = cream }, 0 },
   { ink, celspan.ellipse { centre = { 0, 0 }, radii = { 160, 84 }, texture = gold }, 180 },
   { ink, star(9, 165, 96), 40 },
-  { cream, celspan.nurbs { points = { { 0, -210 }, { 150, -160 }, { 40, 0 }, { 210, 90 }, { 20, 190 },
-                                      { -60, 90 }, { -220, 120 }, { -110, -60 } }, texture = ink }, 360 },
-  { coral, celspan.path { d = "M0 160C-260 -20 -150 -170 0 -70C150 -170 260 -20 0 160Z", texture = cream }, 0 },
+  { cream, celspan.nurbs { texture = ink, points = {
+    { 0, -210 }, { 150, -160 }, { 40, 0 }, { 210, 90 }, { 20, 190 }, { -60, 90 }, { -220, 120 },
+    { -110, -60 } } }, 360 },
+  { coral, celspan.path { texture = cream,
+                          d = "M0 160C-260 -20 -150 -170 0 -70C150 -170 260 -20 0 160Z" }, 0 },
   { gold, celspan.scanline { bounds = { -150, -150, 300, 300 }, spans = blinds }, 0 },
 }
 

@@ -11,17 +11,18 @@ local function disc(x, y, rx, ry, texture)
   return celspan.ellipse { centre = { x, y }, radii = { rx, ry }, texture = texture }
 end
 
-local back_hair = shapes.blob({ { -128, 10 }, { -118, -120 }, { 0, -160 }, { 118, -120 }, { 132, 10 },
-                                { 128, 92 }, { 60, 84 }, { 0, 60 }, { -60, 84 }, { -124, 92 } },
-  palette.hair)
-local skull = disc(0, 0, 104, 97, shapes.across(-70, 130, palette.skin_lit, palette.skin_shade))
-local cheeks = celspan.union { disc(-68, 26, 20, 15, palette.cheek), disc(50, 26, 20, 15, palette.cheek) }
-local nose = disc(-10, 12, 10, 8, palette.skin_shade)
+local back_hair = shapes.blob({ { -128, 10 }, { -118, -120 }, { 0, -160 }, { 118, -120 },
+                                { 132, 10 }, { 128, 92 }, { 60, 84 }, { 0, 60 }, { -60, 84 },
+                                { -124, 92 } }, palette.hair)
+local skull = disc(0, 0, 104, 97, shapes.across(-70, 130, palette.face))
+local cheeks = celspan.union { disc(-68, 26, 20, 15, palette.cheek),
+                               disc(50, 26, 20, 15, palette.cheek) }
+local nose = disc(-10, 12, 10, 8, palette.nose)
 local fringe = celspan.clip(
   celspan.union { disc(-64, -92, 82, 64, palette.hair), disc(58, -92, 92, 58, palette.hair) },
   disc(0, -2, 106, 100))
 local band = shapes.ribbon({ { -118, -34, 40 }, { -70, -70, 46 }, { 0, -84, 48 }, { 70, -70, 46 },
-                             { 118, -34, 40 } }, shapes.across(-90, 120, table.unpack(palette.wool)))
+                             { 118, -34, 40 } }, shapes.across(-90, 120, palette.wool))
 
 --- Seconds at which the lids are shut.
 local blinks = { 0.7, 2.9, 4.3, 5.6, 8.3, 9.4 }
@@ -35,9 +36,9 @@ end
 local gaze = keys { { 1, { 0, 0 } }, { 1.3, { -3, -2 } }, { 3, { -7, -1 }, "outQuad" },
                     { 4.6, { -8, 3 }, "outQuad" }, { 6, { 0, 0 }, "outQuad" },
                     { 7.2, { -5, -7 }, "outQuad" }, { 9, { -5, -7 } } }
-local brows = keys { { 1, 0 }, { 1.2, -6, "outQuad" }, { 2.6, 0, "inOutQuad" }, { 3.2, -5 }, { 4.2, 0 },
-                     { 4.8, -8, "outQuad" }, { 5.6, 0, "inOutQuad" }, { 6.2, -4 }, { 7.5, -11, "outQuad" },
-                     { 9.6, -5 } }
+local brows = keys { { 1, 0 }, { 1.2, -6, "outQuad" }, { 2.6, 0, "inOutQuad" }, { 3.2, -5 },
+                     { 4.2, 0 }, { 4.8, -8, "outQuad" }, { 5.6, 0, "inOutQuad" }, { 6.2, -4 },
+                     { 7.5, -11, "outQuad" }, { 9.6, -5 } }
 
 local function eye(x, dx, dy, openness)
   return celspan.union {
@@ -55,10 +56,10 @@ end
 local function hat(time)
   local swing = 12 * math.sin(time * 2.1) + 6 * math.sin(time * 3.7)
   local x, y = 92 + swing, -228 + swing * 0.4
-  local cone = celspan.path { texture = shapes.across(-90, 130, table.unpack(palette.hat)), d =
+  local cone = celspan.path { texture = shapes.across(-90, 130, palette.hat), d =
     ("M-112 -44C-104 -150 -30 -236 %g %gC%g %g 104 -140 112 -44Q0 -104 -112 -44Z"):format(
       x, y, x - 8, y + 46) }
-  local pompom = disc(x + 4, y + 4, 27, 27, shapes.across(x - 20, x + 30, table.unpack(palette.wool)))
+  local pompom = disc(x + 4, y + 4, 27, 27, shapes.across(x - 20, x + 30, palette.wool))
   return celspan.union { cone, band, pompom }
 end
 

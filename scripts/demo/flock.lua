@@ -1,14 +1,16 @@
 -- Geese: a wedge that beats its wings, each a little later than the one before.
 local celspan = require "celspan"
+local palette = require "demo.palette"
 
 local flock = {}
 
 local function goose(x, y, size, beat)
   local tip, bend = -size * 0.62 * beat, -size * 0.30 - size * 0.14 * beat
   local s = size
-  return celspan.path { texture = "#33263d", d = ("M%g %gQ%g %g %g 0Q%g %g %g %gQ%g %g %g %gQ%g %g %g %gZ"):format(
+  local d = ("M%g %gQ%g %g %g 0Q%g %g %g %gQ%g %g %g %gQ%g %g %g %gZ"):format(
     -s, tip, -s * 0.45, bend, -s * 0.1, s * 0.45, bend, s, tip,
-    s * 0.5, bend + s * 0.3, s * 0.1, s * 0.16, -s * 0.45, bend + s * 0.3, -s, tip) }:translate(x, y)
+    s * 0.5, bend + s * 0.3, s * 0.1, s * 0.16, -s * 0.45, bend + s * 0.3, -s, tip)
+  return celspan.path { d = d, texture = palette.goose }:translate(x, y)
 end
 
 --- The leader at (x, y), flying left to right.

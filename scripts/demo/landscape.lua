@@ -8,7 +8,9 @@ local landscape = {}
 local bottom = 1100
 
 --- Crest colour above, haze or shade below.
-local function shaded(colours, top, low) return shapes.down(top, low, table.unpack(colours)) end
+local function shaded(colours, top, low)
+  return shapes.down(top, low, colours)
+end
 
 landscape.mountains = shapes.ridge({
   { -60, 560 }, { 120, 500 }, { 270, 430 }, { 380, 470 }, { 520, 545 }, { 650, 590 }, { 790, 560 },
@@ -28,7 +30,7 @@ local function lake()
                    { 900, 730, 380, 5 }, { 1280, 700, 300, 4 }, { 1500, 724, 420, 5 } }
   for _, g in ipairs(glints) do
     parts[#parts + 1] = celspan.rect { g[1], g[2], g[3], g[4], radius = g[4] / 2,
-                                       texture = "#ffe6b380" }
+                                       texture = palette.glint }
   end
   return celspan.union(parts)
 end
@@ -54,73 +56,84 @@ end
 landscape.slope = field(shapes.ridge({
   { -80, 690 }, { 160, 672 }, { 360, 655 }, { 560, 665 }, { 760, 690 }, { 940, 726 }, { 1100, 760 },
   { 1300, 790 }, { 1600, 815 },
-}, bottom, shaded(palette.village, 650, 800)), furrows(7, 760, 690, 130), "#8b8f6150")
+}, bottom, shaded(palette.village, 650, 800)), furrows(7, 760, 690, 130), palette.furrow)
 
 local near = shapes.ridge({
-  { -80, 800 }, { 180, 796 }, { 430, 830 }, { 700, 858 }, { 960, 842 }, { 1230, 790 }, { 1500, 742 },
-  { 1800, 722 }, { 2140, 740 }, { 2500, 760 },
+  { -80, 800 }, { 180, 796 }, { 430, 830 }, { 700, 858 }, { 960, 842 }, { 1230, 790 },
+  { 1500, 742 }, { 1800, 722 }, { 2140, 740 }, { 2500, 760 },
 }, bottom, shaded(palette.near, 720, 980))
 
 --- The path that the lamplighter came by.
-landscape.near = field(near, { { { 560, 838, 8 }, { 640, 868, 16 }, { 800, 890, 26 }, { 900, 930, 44 },
-                                 { 860, 1000, 80 } } }, "#b9a273a0")
+landscape.near = field(near, {
+  { { 560, 838, 8 }, { 640, 868, 16 }, { 800, 890, 26 }, { 900, 930, 44 }, { 860, 1000, 80 } },
+}, palette.path)
 
 --- A poplar: a flame on a short stem.
 local function poplar(x, y, tall, colour)
   local w = tall * 0.17
   return shapes.blob({ { x, y - tall * 1.18 }, { x + w * 0.9, y - tall * 0.55 }, { x + w * 1.1, y },
-                       { x, y + tall * 0.04 }, { x - w * 1.1, y }, { x - w * 0.9, y - tall * 0.55 } }, colour)
+                       { x, y + tall * 0.04 }, { x - w * 1.1, y },
+                       { x - w * 0.9, y - tall * 0.55 } }, colour)
 end
 
 --- A round tree: crown and trunk.
 local function oak(x, y, size, colour)
-  return celspan.union {
-    celspan.rect { x - size * 0.06, y - size * 0.5, size * 0.12, size * 0.5, texture = palette.boot },
-    celspan.circle { centre = { x, y - size * 0.72 }, radius = size * 0.42, texture = colour },
-    celspan.circle { centre = { x + size * 0.3, y - size * 0.55 }, radius = size * 0.3, texture = colour },
-    celspan.circle { centre = { x - size * 0.3, y - size * 0.52 }, radius = size * 0.28, texture = colour },
-  }
+  local function leaves(dx, dy, r)
+    return celspan.circle { centre = { x + size * dx, y + size * dy }, radius = size * r,
+                            texture = colour }
+  end
+  local trunk = celspan.rect { x - size * 0.06, y - size * 0.5, size * 0.12, size * 0.5,
+                               texture = palette.boot }
+  return celspan.union { trunk, leaves(0, -0.72, 0.42), leaves(0.3, -0.55, 0.3),
+                         leaves(-0.3, -0.52, 0.28) }
 end
 
 local function grove(list, plant)
   local parts = {}
   for i, t in ipairs(list) do
-    local light, dark = table.unpack(palette.leaves)
     local x, y, size = table.unpack(t)
-    parts[i] = plant(x, y, size, shapes.across(x - size * 0.3, x + size * 0.35, light, dark))
+    parts[i] = plant(x, y, size, shapes.across(x - size * 0.3, x + size * 0.35, palette.leaves))
   end
   return celspan.union(parts)
 end
 
-landscape.poplars = grove({ { 96, 690, 120 }, { 132, 690, 150 }, { 170, 688, 126 }, { 792, 706, 110 },
-                            { 826, 712, 138 }, { 862, 718, 100 } }, poplar)
-landscape.oaks = grove({ { 1640, 742, 130 }, { 1790, 734, 170 }, { 1960, 740, 140 }, { 210, 806, 110 } }, oak)
+landscape.poplars = grove({ { 96, 690, 120 }, { 132, 690, 150 }, { 170, 688, 126 },
+                            { 792, 706, 110 }, { 826, 712, 138 }, { 862, 718, 100 } }, poplar)
+landscape.oaks = grove({ { 1640, 742, 130 }, { 1790, 734, 170 }, { 1960, 740, 140 },
+                         { 210, 806, 110 } }, oak)
 
 landscape.ground = shapes.ridge({
-  { -120, 985 }, { 260, 972 }, { 620, 985 }, { 960, 962 }, { 1260, 915 }, { 1520, 892 }, { 1820, 905 },
-  { 2200, 950 }, { 2500, 970 },
+  { -120, 985 }, { 260, 972 }, { 620, 985 }, { 960, 962 }, { 1260, 915 }, { 1520, 892 },
+  { 1820, 905 }, { 2200, 950 }, { 2500, 970 },
 }, bottom, shaded(palette.ground, 890, 1080))
 
---- Grass blades, umbels: what stands between the camera and the stage.
+--- A stalk through the points, as a silhouette.
+local function stalk(...)
+  return shapes.ribbon({ ... }, palette.silhouette)
+end
+
+--- A flower like a parasol: seven rays from (x, y), each with a floret.
+local function umbel(x, y, size)
+  local parts = { stalk({ x - 30, 1120, 9 }, { x - 12, (y + 1120) / 2, 7 }, { x, y, 4 }) }
+  for k = -3, 3 do
+    local px, py = x + k * size * 0.3, y - size * (0.62 - 0.045 * k * k)
+    parts[#parts + 1] = stalk({ x, y, 4 }, { x + k * size * 0.18, y - size * 0.3, 3 },
+                              { px, py, 2 })
+    parts[#parts + 1] = celspan.ellipse { centre = { px, py - 3 },
+                                          radii = { size * 0.15, size * 0.085 },
+                                          texture = palette.silhouette }
+  end
+  return celspan.union(parts)
+end
+
+--- What stands between the camera and the stage.
 local function meadow()
-  local parts = {}
+  local parts = { umbel(120, 700, 96), umbel(270, 810, 76), umbel(470, 880, 60) }
   for i = 0, 22 do
     local x, lean = -80 + i * 43 + i * 29 % 31, (i * 37 % 60) - 22
     local tall = 120 + i * 53 % 150 - i * 4
-    parts[#parts + 1] = shapes.ribbon({ { x, 1120, 20 }, { x + lean * 0.4, 1120 - tall * 0.6, 12 },
-                                        { x + lean * 1.5, 1120 - tall * 1.1, 1 } }, palette.silhouette)
-  end
-  for _, u in ipairs { { 120, 700, 96 }, { 270, 810, 76 }, { 470, 880, 60 } } do
-    local x, y, size = u[1], u[2], u[3]
-    parts[#parts + 1] = shapes.ribbon({ { x - 30, 1120, 9 }, { x - 12, (y + 1120) / 2, 7 }, { x, y, 4 } },
-                                      palette.silhouette)
-    for k = -3, 3 do
-      local px, py = x + k * size * 0.3, y - size * (0.62 - 0.045 * k * k)
-      parts[#parts + 1] = shapes.ribbon({ { x, y, 4 }, { x + k * size * 0.18, y - size * 0.3, 3 },
-                                          { px, py, 2 } }, palette.silhouette)
-      parts[#parts + 1] = celspan.ellipse { centre = { px, py - 3 }, radii = { size * 0.15, size * 0.085 },
-                                            texture = palette.silhouette }
-    end
+    parts[#parts + 1] = stalk({ x, 1120, 20 }, { x + lean * 0.4, 1120 - tall * 0.6, 12 },
+                              { x + lean * 1.5, 1120 - tall * 1.1, 1 })
   end
   return celspan.union(parts)
 end
@@ -128,9 +141,8 @@ landscape.meadow = meadow()
 
 --- A branch that hangs into the picture from the right.
 local function branch()
-  local parts = {}
-  local bough = { { 2420, -30, 26 }, { 2260, 40, 20 }, { 2090, 76, 13 }, { 1930, 84, 8 }, { 1800, 66, 3 } }
-  parts[1] = shapes.ribbon(bough, palette.silhouette)
+  local parts = { stalk({ 2420, -30, 26 }, { 2260, 40, 20 }, { 2090, 76, 13 }, { 1930, 84, 8 },
+                        { 1800, 66, 3 }) }
   for i = 0, 15 do
     local x = 1800 + i * 37
     local y = 66 + 22 * math.sin((i + 1) / 5.2) - math.max(0, i - 10) * 17

@@ -14,7 +14,8 @@ end
 --- An open mouth: half its width, its depth, and how far teeth and tongue reach into it.
 local function open(half, depth, upper, lower)
   local dip = 7 + depth * 0.06
-  local outline = celspan.path { texture = dark, d = ("M%g -4Q0 %g %g -4C%g %g %g %g %g -4Z"):format(
+  local outline = celspan.path { texture = dark,
+                                 d = ("M%g -4Q0 %g %g -4C%g %g %g %g %g -4Z"):format(
     -half, dip, half, half * 1.06, depth * 1.4, -half * 1.06, depth * 1.4, -half) }
   local inside = celspan.union {
     celspan.ellipse { centre = { 0, depth * 1.1 - lower }, radii = { half * 0.68, lower + 2 },

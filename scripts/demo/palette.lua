@@ -6,7 +6,8 @@ local palette = {}
 
 --- A colour that goes from gold to dusk.
 local function turning(gold, dusk)
-  return keys { { 0.5, celspan.mix(gold, gold, 0) }, { 8.5, celspan.mix(dusk, dusk, 0), "inOutSine" } }
+  return keys { { 0.5, celspan.mix(gold, gold, 0) },
+                { 8.5, celspan.mix(dusk, dusk, 0), "inOutSine" } }
 end
 
 palette.sky = {
@@ -16,6 +17,7 @@ palette.sky = {
   { 0.60, turning("#f7b267", "#96506f") },
   { 0.68, turning("#f79d5c", "#e0825f") },
 }
+palette.goose = "#33263d"
 palette.cloud = turning("#fbdcae", "#6d4672")
 palette.sun = turning("#fff3c9", "#ff9a5e")
 
@@ -30,6 +32,9 @@ palette.lights = {
 palette.mountains = { "#b98a86", "#ecb98c" }
 palette.hills = { "#8d6f78", "#c99880" }
 palette.lake = { "#f6be82", "#9c7f86" }
+palette.glint = "#ffe6b380"
+palette.furrow = "#8b8f6150"
+palette.path = "#b9a273a0"
 palette.village = { "#6d7358", "#54604f" }
 palette.near = { "#55683f", "#3b4d3c" }
 palette.ground = { "#4b5a33", "#27362b" }
@@ -43,8 +48,8 @@ palette.pane = "#3d4a58"
 palette.gels = { { 1, 0.62, 0.22 }, { 1, 0.74, 0.36 }, { 1, 0.46, 0.20 } }
 
 palette.skin = "#f3c39b"
-palette.skin_lit = "#ffd7ac"
-palette.skin_shade = "#d9906f"
+palette.face = { "#ffd7ac", "#d9906f" }
+palette.nose = "#d9906f"
 palette.cheek = "#e8654f66"
 palette.ink = "#2b1b2c"
 palette.hair = "#4b2a33"

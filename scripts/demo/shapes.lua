@@ -11,8 +11,8 @@ local function between(from, to, colours)
 end
 
 --- A gradient from top to bottom, and one from left to right.
-function shapes.down(y0, y1, ...) return between({ 0, y0 }, { 0, y1 }, { ... }) end
-function shapes.across(x0, x1, ...) return between({ x0, 0 }, { x1, 0 }, { ... }) end
+function shapes.down(y0, y1, colours) return between({ 0, y0 }, { 0, y1 }, colours) end
+function shapes.across(x0, x1, colours) return between({ x0, 0 }, { x1, 0 }, colours) end
 
 local number = "%.2f %.2f "
 

@@ -17,7 +17,7 @@ end
 local sun_height = keys { { 0, 490 }, { 7.5, 790, "inOutSine" } }
 local sun_strength = keys { { 2, 1 }, { 9, 0.2, "inOutSine" } }
 
---- The disc is painted; the rings round it are paint too thin to hide anything, under strong lights.
+--- The disc is painted; the rings round it are paint too thin to hide anything, strongly lit.
 function sky.sun(time)
   local x, y = 690, sun_height:at(time)
   local strength = 6 * sun_strength:at(time)
@@ -31,9 +31,11 @@ function sky.sun(time)
     celspan.cel { disc, front = { 1.15, 1.1, 1 } }
 end
 
---- Banks of cloud: {x, y, size}, and the pills {x, y, length} that a bank is made of, stacked upwards.
-local banks = { { 130, 236, 1 }, { 1090, 176, 1.2 }, { 1660, 330, 0.9 }, { 840, 392, 0.62 }, { -40, 402, 0.7 } }
-local pills = { { 0, 0, 420 }, { 70, -26, 270 }, { 132, -52, 128 }, { 250, 24, 300 }, { -90, 26, 190 } }
+--- Banks of cloud: {x, y, size}, and the pills {x, y, length} that a bank is made of.
+local banks = { { 130, 236, 1 }, { 1090, 176, 1.2 }, { 1660, 330, 0.9 }, { 840, 392, 0.62 },
+                { -40, 402, 0.7 } }
+local pills = { { 0, 0, 420 }, { 70, -26, 270 }, { 132, -52, 128 }, { 250, 24, 300 },
+                { -90, 26, 190 } }
 
 function sky.clouds(time)
   local parts = {}

@@ -30,12 +30,13 @@ end
 --- letter -> its width and its strokes; the line stands on y = 0, small letters are 100 high.
 local letters = {
   c = { 92, arc(50, -50, 50, -48, -312) },
-  e = { 104, join({ { 4, -50, pen }, { 50, -50, pen } }, arc(50, -50, 50, 0, -318)) },
+  e = { 104, line(4, -50, 96, -50), arc(50, -50, 50, 0, -318) },
   l = { 26, line(10, -150, 10, 0) },
   s = { 74, join(arc(34, -74, 26, -30, -250), arc(34, -25, 25, -70, 150)) },
   p = { 104, line(0, -100, 0, 46), arc(50, -50, 50, 180, 540) },
   a = { 104, arc(50, -50, 50, 0, -360), line(100, -100, 100, 0) },
-  n = { 84, line(0, 0, 0, -100), join(arc(38, -62, 38, -180, 0), { { 76, -30, pen }, { 76, 0, pen } }) },
+  n = { 84, line(0, 0, 0, -100),
+        join(arc(38, -62, 38, -180, 0), { { 76, -30, pen }, { 76, 0, pen } }) },
 }
 
 --- The first part of a stroke, with round ends.

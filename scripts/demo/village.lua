@@ -9,11 +9,12 @@ local village = {}
 
 --- {x, ground, width, height of the wall, windows}; the gable is as wide as the wall.
 local houses = {
-  { 236, 690, 70, 62, 2 }, { 322, 682, 92, 74, 3 }, { 520, 684, 84, 66, 2 }, { 622, 694, 66, 84, 2 },
-  { 702, 706, 78, 60, 2 }, { 286, 716, 84, 56, 2 }, { 470, 722, 100, 60, 3 }, { 596, 730, 82, 60, 2 },
+  { 236, 690, 70, 62, 2 }, { 322, 682, 92, 74, 3 }, { 520, 684, 84, 66, 2 },
+  { 622, 694, 66, 84, 2 }, { 702, 706, 78, 60, 2 }, { 286, 716, 84, 56, 2 },
+  { 470, 722, 100, 60, 3 }, { 596, 730, 82, 60, 2 },
 }
 
---- What is painted; the windows, each with its house's number; the middle and reach of each house's glow.
+--- What is painted; the windows, and the house of each; the middle and reach of each house's glow.
 local art, panes, homes, glows = {}, {}, {}, {}
 
 local function rect(x, y, w, h, texture)
@@ -29,7 +30,7 @@ end
 local function house(i, x, y, w, h, windows)
   local wall = palette.walls[i % #palette.walls + 1]
   local roof = palette.roofs[i % #palette.roofs + 1]
-  local lit = shapes.across(x, x + w, wall, palette.wall_shade)
+  local lit = shapes.across(x, x + w, { wall, palette.wall_shade })
   art[#art + 1] = rect(x + w * 0.68, y - h - w * 0.62, w * 0.12, w * 0.4, palette.roofs[2])
   art[#art + 1] = rect(x, y - h, w, h + 10, lit)
   art[#art + 1] = celspan.polygon { { x - w * 0.1, y - h + 3 }, { x + w * 0.5, y - h - w * 0.52 },
@@ -40,7 +41,8 @@ local function house(i, x, y, w, h, windows)
 end
 
 local function church(x, y)
-  art[#art + 1] = rect(x, y - 150, 52, 160, shapes.across(x, x + 52, palette.walls[1], palette.wall_shade))
+  local lit = shapes.across(x, x + 52, { palette.walls[1], palette.wall_shade })
+  art[#art + 1] = rect(x, y - 150, 52, 160, lit)
   art[#art + 1] = celspan.polygon { { x - 7, y - 148 }, { x + 26, y - 262 }, { x + 59, y - 148 },
                                     texture = palette.roofs[2] }
   glows[#glows + 1] = { x + 26, y - 98, 80 }
@@ -54,8 +56,7 @@ for i, h in ipairs(houses) do house(i, table.unpack(h)) end
 village.houses = celspan.union(art)
 village.panes = celspan.union(panes)
 
-local windows = celspan.union(panes)
-local card = celspan.rect { -200, 0, 2600, 1080 } - windows
+local card = celspan.rect { -200, 0, 2600, 1080 } - village.panes
 
 local brighten = ease "outQuad"
 

@@ -1,43 +1,91 @@
 #include "bind/options.h"
 
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 
 #include "bind/value.h"
+#include "scene/antialias.h"
 
 /* ---------------------------------------------------------------- antialiasing */
 
 static const cs_field kernel_fields[] = {{"kernel", NULL}, {"radius", NULL}, {"rows", NULL}, {0}};
 static const cs_noun noun_kernel = {.name = "antialias", .fields = kernel_fields};
 
-static void check_kernel(const cs_form *form) {
-  static const char *const kernels[] = {"box", "gaussian", "mitchell", "lanczos", NULL};
-  lua_pushliteral(form->L, "kernel");
-  if (lua_rawget(form->L, form->table) != LUA_TFUNCTION) {
-    cs_form_text(form, "kernel");
-    cs_form_choice(form, "kernel", kernels);
-  }
-  cs_form_number_or(form, "radius", 0);
-  cs_form_integer_or(form, "rows", 16);
+/* A kernel given as a function: its values at the places where the core asks for them. */
+typedef struct kernel_values {
+  double radius;
+  double values[CS_ANTIALIAS_SAMPLES];
+} kernel_values;
+
+static celspan_status kernel_value(void *user, celspan_context *context, double x, double *out) {
+  const kernel_values *kernel = user;
+  (void)context;
+  *out = kernel->values[(int)((x / kernel->radius + 1) * (CS_ANTIALIAS_SAMPLES / 2))];
+  return CELSPAN_OK;
 }
 
-bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *out) {
+/* Calls the function on top of the stack; the values stay in its place. A radius that the core will
+ * refuse asks for no call. */
+static void sample_function(const cs_form *form, celspan_filter_desc *filter) {
+  lua_State *L = form->L;
+  int function = lua_gettop(L);
+  kernel_values *kernel = cs_form_scratch(L, 1, sizeof *kernel);
+  kernel->radius = filter->radius;
+  for (int i = 0; filter->radius > 0 && filter->radius < HUGE_VAL && i < CS_ANTIALIAS_SAMPLES;
+       i++) {
+    double x = ((2 * i + 1.0) / CS_ANTIALIAS_SAMPLES - 1) * filter->radius;
+    lua_pushvalue(L, function);
+    lua_pushnumber(L, x);
+    lua_call(L, 1, 1);
+    if (lua_type(L, -1) != LUA_TNUMBER)
+      cs_form_fail(form, "the kernel function must return a number, got %s at x = %f",
+                   cs_value_type(L, -1), x);
+    kernel->values[i] = lua_tonumber(L, -1);
+    lua_pop(L, 1);
+  }
+  filter->kernel = CELSPAN_KERNEL_FUNCTION;
+  filter->function = kernel_value;
+  filter->function_user = kernel;
+  lua_replace(L, function);
+}
+
+static void read_kernel(const cs_form *form, celspan_filter_desc *filter) {
+  static const char *const kernels[] = {"box", "gaussian", "mitchell", "lanczos", NULL};
+  *filter = (celspan_filter_desc){.has_radius = cs_form_has(form, "radius")};
+  if (filter->has_radius)
+    filter->radius = cs_form_number(form, "radius");
+  filter->rows = cs_form_integer_or(form, "rows", 0);
+  if (filter->rows == 0 && cs_form_has(form, "rows"))
+    cs_form_fail(form, "rows is 0; it must be between 1 and 256");
+  lua_pushliteral(form->L, "kernel");
+  if (lua_rawget(form->L, form->table) == LUA_TFUNCTION) {
+    sample_function(form, filter);
+    return;
+  }
+  cs_form_text(form, "kernel");
+  filter->kernel = (celspan_kernel)cs_form_choice(form, "kernel", kernels);
+  lua_pop(form->L, 1);
+}
+
+bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
+                          celspan_filter_desc *filter) {
   static const char *const modes[] = {"area", "none", NULL};
   lua_State *L = form->L;
   lua_pushliteral(L, "antialias");
   int type = lua_rawget(L, form->table);
   if (type == LUA_TTABLE) {
     cs_form inner = cs_form_open(L, &noun_kernel, -1);
-    check_kernel(&inner);
-    cs_form_fail(form, "antialias: kernel filters are not built into this version; "
-                       "use \"area\" or \"none\"");
+    read_kernel(&inner, filter);
+    *mode = CELSPAN_ANTIALIAS_FILTER;
+    return true;
   }
   if (type != LUA_TNIL && type != LUA_TSTRING)
-    cs_form_fail(form, "field 'antialias' must be \"area\" or \"none\", got %s",
+    cs_form_fail(form, "field 'antialias' must be \"area\", \"none\" or {kernel =, ...}, got %s",
                  cs_value_type(L, -1));
   lua_pop(L, 1);
   if (type != LUA_TNIL)
-    *out = (celspan_antialias_mode)cs_form_choice(form, "antialias", modes);
+    *mode = (celspan_antialias_mode)cs_form_choice(form, "antialias", modes);
   return type != LUA_TNIL;
 }
 
@@ -71,7 +119,7 @@ void cs_options_read(const cs_form *form, cs_options_frame *out) {
   desc->crop_width = crop[2];
   desc->crop_height = crop[3];
   desc->workers = cs_form_integer_or(form, "workers", 0);
-  if (cs_options_antialias(form, &out->antialias))
+  if (cs_options_antialias(form, &out->antialias, &desc->filter))
     desc->antialias = &out->antialias;
 }
 

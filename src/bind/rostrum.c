@@ -43,7 +43,7 @@ static void create(const cs_form *form, cs_value *value) {
   cs_form_light(form, "back", &desc.back);
   desc.brightness = cs_form_number_or(form, "brightness", 1);
   read_camera(form, &desc);
-  cs_options_antialias(form, &desc.antialias);
+  cs_options_antialias(form, &desc.antialias, &desc.filter);
   celspan_rostrum *rostrum = NULL;
   cs_form_try(form, celspan_rostrum_create(cs_host_context(L), &desc, &rostrum));
   value->handle = rostrum;

@@ -36,8 +36,12 @@ static const option OPTIONS[] = {
      FIELD(crop), cs_value_crop, "the part to make, in pixels of the output"},
     {"--rows", "A-B", "two rows from 0, the first not below the second", CS_VERB_SPANS, FIELD(rows),
      cs_value_rows, "rows from A to B, both included; default: all"},
-    {"--antialias", "MODE", "'area' or 'none'", CS_VERB_RENDER | CS_VERB_SPANS, FIELD(antialias),
-     cs_value_antialias, "area (the mean over each pixel) or none (pixel centres)"},
+    {"--antialias", "MODE",
+     "'area', 'none', or 'box', 'gaussian', 'mitchell' or 'lanczos' with ':ROWS' (1 to 256) or "
+     "without",
+     CS_VERB_RENDER | CS_VERB_SPANS, FIELD(antialias), cs_value_antialias,
+     "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box,\n"
+     "                     gaussian, mitchell, lanczos; ROWS: parts of a pixel row, 16"},
     {"--format", "NAME", "the name of a file format such as png", CODED, FIELD(format),
      cs_value_text, "file format; default: by the ending of OUT"},
     {"--depth", "DEPTH", "8, 16, half or float", CODED, FIELD(coding.depth), cs_value_depth,

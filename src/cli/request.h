@@ -23,7 +23,7 @@ typedef struct cs_request {
   double scale;    /* 0: not given */
   int32_t crop[4]; /* width 0: not given */
   int32_t rows[2]; /* first and last, both included; last -1: not given */
-  cs_antialias_choice antialias;
+  cs_given_antialias antialias;
   celspan_coding coding;
   int32_t workers; /* 0: one a processor */
   cs_progress_style progress;

@@ -122,22 +122,28 @@ cs_value_outcome cs_value_rows(const char *text, void *field) {
 
 /* KERNEL[:ROWS]: the part before the colon names the kernel. */
 cs_value_outcome cs_value_antialias(const char *text, void *field) {
-  static const choice choices[] = {
-      {"area", CS_ANTIALIAS_AREA}, {"none", CS_ANTIALIAS_NONE}, {"box", ABSENT},
-      {"gaussian", ABSENT},        {"mitchell", ABSENT},        {"lanczos", ABSENT}};
+  static const choice modes[] = {{"area", CELSPAN_ANTIALIAS_AREA}, {"none", CELSPAN_ANTIALIAS_NONE}};
+  static const choice kernels[] = {{"box", CELSPAN_KERNEL_BOX},
+                                   {"gaussian", CELSPAN_KERNEL_GAUSSIAN},
+                                   {"mitchell", CELSPAN_KERNEL_MITCHELL},
+                                   {"lanczos", CELSPAN_KERNEL_LANCZOS}};
+  cs_given_antialias given = {.is_given = true, .mode = CELSPAN_ANTIALIAS_FILTER};
   char name[16];
   size_t length = strcspn(text, ":");
+  int32_t rows = 0;
   if (length >= sizeof name)
     return CS_VALUE_BAD;
   memcpy(name, text, length);
   name[length] = '\0';
-  cs_antialias_choice value = CS_ANTIALIAS_BY_ROSTRUM;
-  cs_value_outcome outcome = CHOOSE(name, &value, choices);
-  if (outcome == CS_VALUE_READ && text[length])
-    return CS_VALUE_BAD;
-  if (outcome == CS_VALUE_READ)
-    memcpy(field, &value, sizeof value);
-  return outcome;
+  if (CHOOSE(text, &given.mode, modes) != CS_VALUE_READ) {
+    if (CHOOSE(name, &given.filter.kernel, kernels) != CS_VALUE_READ)
+      return CS_VALUE_BAD;
+    if (text[length] && !read_integers(text + length + 1, '\0', 1, 256, &rows, 1))
+      return CS_VALUE_BAD;
+    given.filter.rows = rows;
+  }
+  memcpy(field, &given, sizeof given);
+  return CS_VALUE_READ;
 }
 
 cs_value_outcome cs_value_depth(const char *text, void *field) {

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "celspan/celspan.h"
+
 #define CS_SIDE_MAX 1048576
 
 typedef enum cs_value_outcome {
@@ -26,11 +28,11 @@ typedef enum cs_progress_style {
   CS_PROGRESS_NONE
 } cs_progress_style;
 
-typedef enum cs_antialias_choice {
-  CS_ANTIALIAS_BY_ROSTRUM = 0,
-  CS_ANTIALIAS_AREA,
-  CS_ANTIALIAS_NONE
-} cs_antialias_choice;
+typedef struct cs_given_antialias {
+  bool is_given;
+  celspan_antialias_mode mode;
+  celspan_filter_desc filter;
+} cs_given_antialias;
 
 typedef struct cs_given_integer {
   bool is_given;
@@ -46,7 +48,7 @@ cs_value_outcome cs_value_tolerance(const char *text, void *field); /* double, 0
 cs_value_outcome cs_value_size(const char *text, void *field);      /* int32_t[2] */
 cs_value_outcome cs_value_crop(const char *text, void *field);      /* int32_t[4] */
 cs_value_outcome cs_value_rows(const char *text, void *field);      /* int32_t[2], inclusive */
-cs_value_outcome cs_value_antialias(const char *text, void *field); /* cs_antialias_choice */
+cs_value_outcome cs_value_antialias(const char *text, void *field); /* cs_given_antialias */
 cs_value_outcome cs_value_depth(const char *text, void *field);     /* celspan_depth */
 cs_value_outcome cs_value_colour(const char *text, void *field);    /* celspan_transfer */
 cs_value_outcome cs_value_alpha(const char *text, void *field);     /* celspan_alpha */

@@ -3,9 +3,6 @@
 
 #include "cli/interrupt.h"
 
-static const celspan_antialias_mode MODES[] = {
-    [CS_ANTIALIAS_AREA] = CELSPAN_ANTIALIAS_AREA, [CS_ANTIALIAS_NONE] = CELSPAN_ANTIALIAS_NONE};
-
 /* Film units to pixels, nearest, one at least; -1 when that is more than a frame can have. */
 static int32_t pixels(double units, double scale) {
   double side = units * scale + 0.5;
@@ -47,8 +44,8 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
   out->film_height = film_height;
   out->workers = request->workers;
   out->progress = cs_interrupt_progress;
-  if (request->antialias != CS_ANTIALIAS_BY_ROSTRUM)
-    out->antialias = &MODES[request->antialias];
+  out->antialias = request->antialias.is_given ? &request->antialias.mode : NULL;
+  out->filter = request->antialias.filter;
   cs_exit outcome = set_size(request, out);
   return outcome == CS_EXIT_OK ? set_crop(request->crop, out) : outcome;
 }

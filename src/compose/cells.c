@@ -1,5 +1,7 @@
 #include "compose/cells.h"
 
+#include <math.h>
+
 void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){0}; }
 
 void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
@@ -16,18 +18,22 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
                         sizeof *cells->cells));
   CS_TRY(cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity,
                         active->count + 1, sizeof *cells->visible));
-  if (cells->known == 0)
+  const cs_toggle *end, *toggle = cs_active_toggles(active, &end);
+  toggle = cs_cells_toggle(composer, toggle, end, 0);
+  if (cells->known == 0 || !cs_set_hash_same(cells->cells[0].hash, composer->hash))
     cs_composer_cell(composer, &cells->cells[0]);
   cells->visible_count = 0;
   for (size_t i = 0; i < active->count; i++) {
     const cs_boundary_chain *chain = cs_active_chain(active, i);
     cs_cell *cell = &cells->cells[i + 1];
+    toggle = cs_cells_toggle(composer, toggle, end, active->x[i]);
     cs_composer_cross(composer, chain->leaf, chain->direction);
     if (i + 1 >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
       cs_composer_cell(composer, cell);
     if (!cs_composer_same(composer, cell, cell - 1))
       cells->visible[cells->visible_count++] = (uint32_t)i;
   }
+  cs_cells_toggle(composer, toggle, end, INFINITY);
   cells->known = active->count + 1;
   return CELSPAN_OK;
 }

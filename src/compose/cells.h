@@ -11,6 +11,15 @@
 #include "compose/composer.h"
 #include "sweep/active.h"
 
+/* Crosses the toggles up to and at x: culled boundaries take effect there, unseen. A cell is composed
+ * with the toggles at or left of its own left end, neither more nor fewer. */
+static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_toggle *next,
+                                               const cs_toggle *end, double x) {
+  for (; next < end && next->x <= x; next++)
+    cs_composer_cross(composer, next->leaf, next->direction);
+  return next;
+}
+
 typedef struct cs_cells {
   cs_cell *cells; /* count + 1 in use */
   uint32_t *visible;

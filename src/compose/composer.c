@@ -171,14 +171,14 @@ static celspan_status gather_item(cs_composer *composer, uint32_t leaf) {
   return CELSPAN_OK;
 }
 
-static celspan_status leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf, bool *out) {
-  *out = leaf->is_opaque;
-  if (leaf->kind == CS_LEAF_PICTURE) {
-    const cs_seen_slide *slide;
-    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-    *out = slide->is_opaque && leaf->fade == 1;
-  }
-  return CELSPAN_OK;
+/* A picture whose header cannot be read counts as clear until it is really seen: only then is it an
+ * error. */
+static bool leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf) {
+  const cs_seen_slide *slide;
+  if (leaf->kind != CS_LEAF_PICTURE)
+    return leaf->is_opaque;
+  return cs_composer_slide(composer, leaf->detail, &slide) == CELSPAN_OK && slide->is_opaque &&
+         leaf->fade == 1;
 }
 
 /* Takes one leaf into the cell: folds it when it is flat, notes it in any case. Until then a leaf
@@ -191,10 +191,8 @@ static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index
     fold_paint(f, leaf->s, leaf->t);
     return CELSPAN_OK;
   }
-  bool is_opaque;
   *varies = true;
-  CS_TRY(leaf_is_opaque(composer, leaf, &is_opaque));
-  if (is_opaque)
+  if (leaf_is_opaque(composer, leaf))
     f->t = cs_v4_all(0);
   return CELSPAN_OK;
 }

@@ -43,6 +43,13 @@ typedef struct cs_strip {
   size_t paint_count;
 } cs_strip;
 
+/* A program on its own, free of the composer's lists: what varies along a row, front to back. */
+typedef struct cs_program {
+  const cs_item *items;
+  const cs_strip *strips; /* that items of SCANLINE leaves name */
+  uint32_t length;        /* above 0 */
+} cs_program;
+
 /* A picture leaf as this worker sees it: its header is read when the leaf is first reached. */
 typedef struct cs_seen_slide {
   bool is_ready, is_opaque;
@@ -113,6 +120,16 @@ CELSPAN_CHECKED celspan_status cs_composer_run(cs_composer *composer, const cs_c
 CELSPAN_CHECKED celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell,
                                                    int32_t x0, int32_t x1, double y,
                                                    float (*rgba)[4]);
+
+/* The program of a cell whose length is not 0, valid until the next cell is composed. */
+cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell);
+/* As cs_composer_run and cs_composer_colours. */
+CELSPAN_CHECKED celspan_status cs_composer_run_program(cs_composer *composer,
+                                                       const cs_program *program, int32_t x0,
+                                                       int32_t x1, double y, cs_row *row);
+CELSPAN_CHECKED celspan_status cs_composer_program_colours(cs_composer *composer,
+                                                           const cs_program *program, int32_t x0,
+                                                           int32_t x1, double y, float (*rgba)[4]);
 
 /* ---- for run.c: the fold of a program at one point */
 

@@ -64,8 +64,9 @@ static cs_paint strip_paint(const cs_strip *strip, double x) {
 }
 
 /* Fills samples[k * stride], one a pixel from x0 on, with what a leaf paints. */
-static celspan_status sample_leaf(cs_composer *composer, cs_item item, int32_t x0, int32_t count,
-                                  double y, cs_sample *samples, size_t stride) {
+static celspan_status sample_leaf(cs_composer *composer, const cs_strip *strips, cs_item item,
+                                  int32_t x0, int32_t count, double y, cs_sample *samples,
+                                  size_t stride) {
   const cs_stack *stack = composer->stack;
   const cs_leaf *leaf = &stack->leaves[item.leaf];
   if (leaf->kind == CS_LEAF_PICTURE) {
@@ -83,41 +84,52 @@ static celspan_status sample_leaf(cs_composer *composer, cs_item item, int32_t x
   } else if (leaf->kind == CS_LEAF_SCANLINE) {
     for (int32_t k = 0; k < count; k++)
       samples[(size_t)k * stride] =
-          sample_paint(strip_paint(&composer->strips[item.strip], x0 + k + 0.5));
+          sample_paint(strip_paint(&strips[item.strip], x0 + k + 0.5));
   }
   return CELSPAN_OK;
 }
 
-static celspan_status colours_batch(cs_composer *composer, const cs_cell *cell, int32_t x0,
+static celspan_status colours_batch(cs_composer *composer, const cs_program *program, int32_t x0,
                                     int32_t count, double y, cs_sample *samples,
                                     float (*rgba)[4]) {
-  const cs_item *items = &composer->items[cell->program];
-  for (uint32_t i = 0; i < cell->length; i++)
-    CS_TRY(sample_leaf(composer, items[i], x0, count, y, samples + i, cell->length));
+  uint32_t length = program->length;
+  for (uint32_t i = 0; i < length; i++)
+    CS_TRY(sample_leaf(composer, program->strips, program->items[i], x0, count, y, samples + i,
+                       length));
   for (int32_t k = 0; k < count; k++)
-    cs_v4_store(rgba[k], cs_composer_fold(composer, items, cell->length,
-                                          samples + (size_t)k * cell->length));
+    cs_v4_store(rgba[k], cs_composer_fold(composer, program->items, length,
+                                          samples + (size_t)k * length));
   composer->evaluations += (uint64_t)count;
   return CELSPAN_OK;
 }
 
-celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, int32_t x0,
-                                   int32_t x1, double y, float (*rgba)[4]) {
-  if (cell->length == 0) {
-    for (int32_t x = x0; x < x1; x++)
-      cs_v4_store(rgba[x - x0], cell->colour);
-    return CELSPAN_OK;
-  }
+celspan_status cs_composer_program_colours(cs_composer *composer, const cs_program *program,
+                                           int32_t x0, int32_t x1, double y, float (*rgba)[4]) {
   int32_t batch = x1 - x0 < BATCH ? x1 - x0 : BATCH;
   cs_arena_reset(&composer->scratch);
   cs_sample *samples = cs_arena_take(composer->context, &composer->scratch,
-                                     (size_t)batch * cell->length * sizeof *samples);
+                                     (size_t)batch * program->length * sizeof *samples);
   if (!samples)
     return CELSPAN_NO_MEMORY;
   for (int32_t x = x0; x < x1; x += batch) {
     int32_t count = x1 - x < batch ? x1 - x : batch;
-    CS_TRY(colours_batch(composer, cell, x, count, y, samples, rgba + (x - x0)));
+    CS_TRY(colours_batch(composer, program, x, count, y, samples, rgba + (x - x0)));
   }
+  return CELSPAN_OK;
+}
+
+cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell) {
+  return (cs_program){&composer->items[cell->program], composer->strips, cell->length};
+}
+
+celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, int32_t x0,
+                                   int32_t x1, double y, float (*rgba)[4]) {
+  if (cell->length > 0) {
+    cs_program program = cs_composer_program(composer, cell);
+    return cs_composer_program_colours(composer, &program, x0, x1, y, rgba);
+  }
+  for (int32_t x = x0; x < x1; x++)
+    cs_v4_store(rgba[x - x0], cell->colour);
   return CELSPAN_OK;
 }
 
@@ -125,14 +137,14 @@ celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, i
 
 typedef struct ramp {
   cs_composer *composer;
-  const cs_cell *cell;
+  const cs_program *program;
   double y;
   cs_row *row;
 } ramp;
 
 static celspan_status ramp_colour(const ramp *r, int32_t x, cs_v4 *out) {
   float rgba[1][4];
-  CS_TRY(cs_composer_colours(r->composer, r->cell, x, x + 1, r->y, rgba));
+  CS_TRY(cs_composer_program_colours(r->composer, r->program, x, x + 1, r->y, rgba));
   *out = cs_v4_load(rgba[0]);
   return CELSPAN_OK;
 }
@@ -204,39 +216,39 @@ static size_t strip_breaks(const cs_strip *strip, double x0, double x1, double *
   return count;
 }
 
-static size_t item_break_limit(const cs_composer *composer, cs_item item) {
+static size_t item_break_limit(const cs_composer *composer, const cs_strip *strips,
+                               cs_item item) {
   const cs_leaf *leaf = &composer->stack->leaves[item.leaf];
   return leaf->kind == CS_LEAF_SHADED
              ? cs_shade_break_limit(&composer->stack->shades[leaf->detail])
-         : leaf->kind == CS_LEAF_SCANLINE ? strip_break_limit(&composer->strips[item.strip])
+         : leaf->kind == CS_LEAF_SCANLINE ? strip_break_limit(&strips[item.strip])
                                           : 0;
 }
 
-static size_t item_breaks(const cs_composer *composer, cs_item item, double y, double x0,
-                          double x1, double *out) {
+static size_t item_breaks(const cs_composer *composer, const cs_strip *strips, cs_item item,
+                          double y, double x0, double x1, double *out) {
   const cs_leaf *leaf = &composer->stack->leaves[item.leaf];
   return leaf->kind == CS_LEAF_SHADED
              ? cs_shade_breaks(&composer->stack->shades[leaf->detail], y, x0, x1, out)
          : leaf->kind == CS_LEAF_SCANLINE
-             ? strip_breaks(&composer->strips[item.strip], x0, x1, out)
+             ? strip_breaks(&strips[item.strip], x0, x1, out)
              : 0;
 }
 
 /* The columns strictly inside [x0, x1) at which a formula of the program changes, sorted, in room
  * of the row's own arena (the scratch arena is used anew for every colour). */
-static celspan_status run_breaks(cs_composer *composer, const cs_cell *cell, int32_t x0,
+static celspan_status run_breaks(cs_composer *composer, const cs_program *program, int32_t x0,
                                  int32_t x1, double y, cs_row *row, int32_t **columns,
                                  size_t *column_count) {
-  const cs_item *items = &composer->items[cell->program];
   size_t limit = 0, count = 0;
-  for (uint32_t i = 0; i < cell->length; i++)
-    limit += item_break_limit(composer, items[i]);
+  for (uint32_t i = 0; i < program->length; i++)
+    limit += item_break_limit(composer, program->strips, program->items[i]);
   double *breaks = cs_arena_take(composer->context, &row->colours, limit * sizeof *breaks);
   *columns = cs_arena_take(composer->context, &row->colours, limit * sizeof **columns);
   if (!breaks || !*columns)
     return CELSPAN_NO_MEMORY;
-  for (uint32_t i = 0; i < cell->length; i++)
-    count += item_breaks(composer, items[i], y, x0, x1, breaks + count);
+  for (uint32_t i = 0; i < program->length; i++)
+    count += item_breaks(composer, program->strips, program->items[i], y, x0, x1, breaks + count);
   for (size_t i = 0; i < count; i++)
     (*columns)[i] = cs_number_first_centre(breaks[i]);
   qsort(*columns, count, sizeof **columns, compare_columns);
@@ -244,12 +256,12 @@ static celspan_status run_breaks(cs_composer *composer, const cs_cell *cell, int
   return CELSPAN_OK;
 }
 
-static celspan_status run_ramps(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,
-                                double y, cs_row *row) {
+static celspan_status run_ramps(cs_composer *composer, const cs_program *program, int32_t x0,
+                                int32_t x1, double y, cs_row *row) {
   int32_t *columns;
   size_t count;
-  ramp r = {composer, cell, y, row};
-  CS_TRY(run_breaks(composer, cell, x0, x1, y, row, &columns, &count));
+  ramp r = {composer, program, y, row};
+  CS_TRY(run_breaks(composer, program, x0, x1, y, row, &columns, &count));
   int32_t from = x0;
   for (size_t i = 0; i < count; i++) {
     if (columns[i] <= from || columns[i] >= x1)
@@ -260,22 +272,28 @@ static celspan_status run_ramps(cs_composer *composer, const cs_cell *cell, int3
   return ramp_piece(&r, from, x1);
 }
 
-static bool has_picture(const cs_composer *composer, const cs_cell *cell) {
-  for (uint32_t i = 0; i < cell->length; i++)
-    if (composer->stack->leaves[composer->items[cell->program + i].leaf].kind == CS_LEAF_PICTURE)
+static bool has_picture(const cs_composer *composer, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++)
+    if (composer->stack->leaves[program->items[i].leaf].kind == CS_LEAF_PICTURE)
       return true;
   return false;
 }
 
-celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,
-                               double y, cs_row *row) {
+celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
+                                       int32_t x0, int32_t x1, double y, cs_row *row) {
   if (x1 <= x0)
     return CELSPAN_OK;
-  if (cell->length == 0)
-    return cs_row_single(composer->context, row, x0, x1, cell->colour);
-  if (!has_picture(composer, cell))
-    return run_ramps(composer, cell, x0, x1, y, row);
+  if (!has_picture(composer, program))
+    return run_ramps(composer, program, x0, x1, y, row);
   float *colours;
   CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
-  return cs_composer_colours(composer, cell, x0, x1, y, (float(*)[4])colours);
+  return cs_composer_program_colours(composer, program, x0, x1, y, (float(*)[4])colours);
+}
+
+celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,
+                               double y, cs_row *row) {
+  if (cell->length == 0)
+    return cs_row_single(composer->context, row, x0, x1, cell->colour);
+  cs_program program = cs_composer_program(composer, cell);
+  return cs_composer_run_program(composer, &program, x0, x1, y, row);
 }

@@ -31,9 +31,9 @@
 #define MOST_TAPS 16
 
 typedef struct footprint {
-  double u, v;       /* the centre, in picture pixels */
-  double ux, vx;     /* what a pixel to the right adds */
-  double uy, vy;     /* what a pixel down adds */
+  double u, v;   /* the centre, in picture pixels */
+  double ux, vx; /* what a pixel to the right adds */
+  double uy, vy; /* what a pixel down adds */
 } footprint;
 
 typedef struct sampler_run {
@@ -133,27 +133,29 @@ static void cubic_weights(float t, float weights[4]) {
   weights[3] = 0.5f * (t3 - t2);
 }
 
+/* Held to the range of the texels under the kernel: its negative lobes make no light or dark of
+ * their own. */
 static void sample_cubic(sampler_run *run, double u, double v, float rgba[4]) {
   const cs_sampler *s = run->sampler;
   float across, down, wx[4], wy[4];
   int32_t x = split(u, &across), y = split(v, &down);
   cubic_weights(across, wx);
   cubic_weights(down, wy);
-  cs_v4 first = {0}, sum = {0}, low = {0}, high = {0};
+  cs_v4 texels[16], sum = {0};
   for (int i = 0; i < 16; i++) {
-    cs_v4 texel = cs_v4_load(cs_texels_at(&run->texels, 0, wrap(x - 1 + i % 4, s->width, s->wrap),
-                                          wrap(y - 1 + i / 4, s->height, s->wrap)));
-    if (i == 0)
-      first = low = high = texel;
-    sum += wx[i % 4] * wy[i / 4] * (texel - first);
-    for (int c = 0; c < 4; c++) {
-      low[c] = texel[c] < low[c] ? texel[c] : low[c];
-      high[c] = texel[c] > high[c] ? texel[c] : high[c];
-    }
+    texels[i] = cs_v4_load(cs_texels_at(&run->texels, 0, wrap(x - 1 + i % 4, s->width, s->wrap),
+                                        wrap(y - 1 + i / 4, s->height, s->wrap)));
+    sum += wx[i % 4] * wy[i / 4] * (texels[i] - texels[0]);
   }
-  sum += first;
-  for (int c = 0; c < 4; c++)
-    rgba[c] = cs_number_clampf(sum[c], low[c], high[c]);
+  sum += texels[0];
+  for (int c = 0; c < 4; c++) {
+    float low = texels[0][c], high = low;
+    for (int i = 1; i < 16; i++) {
+      low = texels[i][c] < low ? texels[i][c] : low;
+      high = texels[i][c] > high ? texels[i][c] : high;
+    }
+    rgba[c] = cs_number_clampf(sum[c], low, high);
+  }
 }
 
 /* ---------------------------------------------------------------- the box */
@@ -215,9 +217,9 @@ static void sum_anywhere(sampler_run *run, int level, const extent *across, cons
   *box = (box_sum){0};
   for (int32_t j = 0; j < down->count; j++)
     for (int32_t i = 0; i < across->count; i++) {
-      cs_v4 texel = cs_v4_load(cs_texels_at(&run->texels, level,
-                                            wrap(across->first + i, width, s->wrap),
-                                            wrap(down->first + j, height, s->wrap)));
+      cs_v4 texel =
+          cs_v4_load(cs_texels_at(&run->texels, level, wrap(across->first + i, width, s->wrap),
+                                  wrap(down->first + j, height, s->wrap)));
       float weight = across->weights[i] * down->weights[j];
       if (i == 0 && j == 0)
         box->first = texel;
@@ -238,8 +240,10 @@ static void average(sampler_run *run, int level, const extent *across, const ext
   cs_v4_store(rgba, box.first + box.sum / box.total);
 }
 
-/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there. */
-static int choose_level(const sampler_run *run, double shorter, double longer, double texels, double most) {
+/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there.
+ */
+static int choose_level(const sampler_run *run, double shorter, double longer, double texels,
+                        double most) {
   int level = 0;
   while (level + 1 < run->level_count && (shorter >= 2 * texels || longer > most)) {
     level++;
@@ -258,8 +262,8 @@ static void sample_box(sampler_run *run, const footprint *f, float rgba[4]) {
     cs_v4_store(rgba, tap_linear(run, 0, f->u, f->v));
     return;
   }
-  int level = choose_level(run, wide < high ? wide : high, wide < high ? high : wide, BOX_TEXELS,
-                           MOST_BOX);
+  int level =
+      choose_level(run, wide < high ? wide : high, wide < high ? high : wide, BOX_TEXELS, MOST_BOX);
   /* A box far larger than the picture is the picture. */
   bool is_cut = s->wrap != CELSPAN_WRAP_REPEAT;
   double most = (double)((int64_t)MOST_BOX << level);
@@ -309,7 +313,8 @@ static bool map_pixel(const double m[9], double x, double y, footprint *out) {
   out->vx = (m[3] - v * m[6]) / w;
   out->uy = (m[1] - u * m[7]) / w;
   out->vy = (m[4] - v * m[7]) / w;
-  double largest = fabs(u) + fabs(v) + fabs(out->ux) + fabs(out->vx) + fabs(out->uy) + fabs(out->vy);
+  double largest =
+      fabs(u) + fabs(v) + fabs(out->ux) + fabs(out->vx) + fabs(out->uy) + fabs(out->vy);
   return largest < 1e15;
 }
 
@@ -399,8 +404,8 @@ static void sample_affine(sampler_run *run, const double m[9], int32_t x0, int32
   }
 }
 
-static void sample_perspective(sampler_run *run, const double m[9], int32_t x0, int32_t count, double y,
-                               float (*rgba)[4]) {
+static void sample_perspective(sampler_run *run, const double m[9], int32_t x0, int32_t count,
+                               double y, float (*rgba)[4]) {
   for (int32_t i = 0; i < count; i++) {
     footprint f;
     if (map_pixel(m, (double)x0 + i + 0.5, y, &f))

@@ -46,8 +46,7 @@ static inline const float *cs_texels_block(cs_texels *texels, int level, int32_t
 
 /* Texel (x, y) of a level, inside the picture: four floats. */
 static inline const float *cs_texels_at(cs_texels *texels, int level, int32_t x, int32_t y) {
-  const float *block =
-      cs_texels_block(texels, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
+  const float *block = cs_texels_block(texels, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   return block + 4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
 }
 

@@ -7,6 +7,7 @@
 #include "filter/blocks.h"
 #include "filter/strips.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static void *take(cs_blocks *b, size_t count, size_t size) {
@@ -146,7 +147,11 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   if (begin_count > 1)
     qsort(begins, begin_count, sizeof *begins, compare_begins);
   double least = least_x(cluster.members, cluster.count, scan->shot->width);
-  CS_TRY(cs_window_reach(&scan->window, least_x(begins, begin_count, least)));
+  least = least_x(begins, begin_count, least);
+  b->toggle = cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, least);
+  cluster.toggle = b->toggle;
+  cluster.toggle_end = b->toggle_end;
+  CS_TRY(cs_window_reach(&scan->window, least));
   CS_TRY(cs_cluster_replay(&cluster));
   cs_window_pass(&scan->window, &scan->cells.cells[high]);
   return CELSPAN_OK;
@@ -176,6 +181,12 @@ static void cross(cs_scan *scan, size_t low, size_t high) {
   }
 }
 
+/* On to the right end of the row, where nothing is present any more. */
+static void cross_rest(cs_blocks *b, size_t crossed) {
+  cross(b->scan, crossed, b->scan->active.count);
+  cs_cells_toggle(&b->scan->composer, b->toggle, b->toggle_end, INFINITY);
+}
+
 /* Boundaries are crossed on the way, so that each block knows what is present left of it. */
 static celspan_status walk_row(cs_blocks *b) {
   cs_scan *scan = b->scan;
@@ -194,8 +205,8 @@ static celspan_status walk_row(cs_blocks *b) {
     crossed = block->low;
   }
   CS_TRY(walk_alone(&w, scan->active.count, true));
-  if (crossed > 0)
-    cross(scan, crossed, scan->active.count);
+  if (b->count > 0)
+    cross_rest(b, crossed);
   return CELSPAN_OK;
 }
 
@@ -204,47 +215,48 @@ static celspan_status walk_row(cs_blocks *b) {
 /* The edges of one of a row's heights, as members that live for its share of the row. */
 static celspan_status append_edges(cs_blocks *b, const cs_strip_edges *edges, double y0,
                                    double y1) {
-  cs_member *begins = take(b, b->begin_count + edges->count, sizeof *begins);
+  cs_member *strips = take(b, b->strip_count + edges->count, sizeof *strips);
   celspan_point *points = take(b, 2 * edges->count, sizeof *points);
-  if (!begins || !points)
+  if (!strips || !points)
     return CELSPAN_NO_MEMORY;
-  if (b->begin_count > 0)
-    memcpy(begins, b->begins, b->begin_count * sizeof *begins);
+  if (b->strip_count > 0)
+    memcpy(strips, b->strips, b->strip_count * sizeof *strips);
   for (size_t k = 0; k < edges->count; k++, points += 2) {
     const cs_strip_edge *edge = &edges->edges[k];
     points[0] = (celspan_point){edge->x, y0};
     points[1] = (celspan_point){edge->x, y1};
-    begins[b->begin_count + k] =
+    strips[b->strip_count + k] =
         (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = edge->leaf,
                     .strip = edge->strip, .order = 2 * edge->strip + (edge->direction < 0),
                     .direction = edge->direction, .x = edge->x, .y = y0, .foot = edge->x};
+    b->strips_low = edge->x < b->strips_low ? edge->x : b->strips_low;
+    b->strips_high = edge->x > b->strips_high ? edge->x : b->strips_high;
   }
-  b->begins = begins;
-  b->begin_count += edges->count;
+  b->strips = strips;
+  b->strip_count += edges->count;
   return CELSPAN_OK;
 }
 
-/* A row with scan-line primitives is one block: all of it is replayed. */
-static celspan_status walk_strips(cs_blocks *b) {
-  CS_TRY(cs_blocks_begins(b));
+/* Asks every procedure for its spans on all heights of the row. */
+static celspan_status find_strips(cs_blocks *b) {
+  b->strips_low = b->scan->shot->width;
   for (int j = 0; j < CS_STRIPS_ROWS; j++) {
     cs_strip_edges edges = {0};
     double top = b->y0 + (double)j / CS_STRIPS_ROWS, foot = b->y0 + (j + 1.0) / CS_STRIPS_ROWS;
     CS_TRY(cs_strips_collect(b->scan, 0.5 * (top + foot), &edges));
     CS_TRY(append_edges(b, &edges, top, foot));
   }
-  return walk_block(b, 0, b->scan->active.count, b->begins, b->begin_count);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out) {
   cs_blocks blocks = {.scan = scan, .y0 = y, .y1 = y + 1.0};
+  blocks.toggle = cs_active_toggles(&scan->active, &blocks.toggle_end);
   CS_TRY(cs_active_reach(scan->context, &scan->active, blocks.y1));
   cs_window_begin(&scan->window, &scan->composer, &scan->arena, scan->shot->width, y,
                   scan->cells.cells, out);
-  if (cs_strips_meet(scan, y)) {
-    CS_TRY(walk_strips(&blocks));
-    return cs_window_finish(&scan->window);
-  }
+  if (cs_strips_meet(scan, y))
+    CS_TRY(find_strips(&blocks));
   CS_TRY(cs_blocks_find(&blocks));
   CS_TRY(walk_row(&blocks));
   return cs_window_finish(&scan->window);

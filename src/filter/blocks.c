@@ -1,5 +1,6 @@
 #include "filter/blocks.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static void *take(cs_blocks *b, size_t count, size_t size) {
@@ -54,7 +55,10 @@ static range boundary_range(const cs_active *active, size_t i) {
 
 /* ---------------------------------------------------------------- blocks */
 
-static celspan_status add_block(cs_blocks *b, size_t low, size_t high) {
+static const range nothing = {INFINITY, -INFINITY};
+
+/* r: of what begins or ends in the block. */
+static celspan_status add_block(cs_blocks *b, size_t low, size_t high, range r) {
   if (b->count == b->capacity) {
     size_t wanted = b->capacity ? 2 * b->capacity : 64;
     cs_block *grown = take(b, wanted, sizeof *grown);
@@ -65,7 +69,7 @@ static celspan_status add_block(cs_blocks *b, size_t low, size_t high) {
     b->blocks = grown;
     b->capacity = wanted;
   }
-  b->blocks[b->count++] = (cs_block){low, high, low};
+  b->blocks[b->count++] = (cs_block){low, high, low, r.low, r.high};
   return CELSPAN_OK;
 }
 
@@ -92,7 +96,7 @@ static celspan_status add_swaps(cs_blocks *b) {
     while (low > 0 && greatest[low - 1] > foot[i])
       low--;
     if (low < i)
-      CS_TRY(add_block(b, low, i + 1));
+      CS_TRY(add_block(b, low, i + 1, nothing));
   }
   return CELSPAN_OK;
 }
@@ -139,7 +143,7 @@ static celspan_status add_bends_far(cs_blocks *b, const ranges *r) {
     while (high < active->count && r->low_from[high] < r->own[i].high)
       high++;
     if (high - low > 1)
-      CS_TRY(add_block(b, low, high));
+      CS_TRY(add_block(b, low, high, nothing));
   }
   return CELSPAN_OK;
 }
@@ -157,7 +161,7 @@ static celspan_status add_bends_near(cs_blocks *b) {
     while (high < active->count && boundary_range(active, high).low < own.high)
       high++;
     if (high - low > 1)
-      CS_TRY(add_block(b, low, high));
+      CS_TRY(add_block(b, low, high, nothing));
   }
   return CELSPAN_OK;
 }
@@ -185,8 +189,9 @@ static celspan_status add_range(cs_blocks *b, const range *own, double low, doub
     first = i < first ? i : first;
     end = i + 1;
   }
-  *out = first < end ? (cs_block){first, end, first} : (cs_block){place, place, place};
-  return add_block(b, out->low, out->high);
+  *out = first < end ? (cs_block){first, end, first, low, high}
+                     : (cs_block){place, place, place, low, high};
+  return add_block(b, out->low, out->high, (range){low, high});
 }
 
 /* A chain that begins and ends inside the row ties the blocks of both events together. */
@@ -201,7 +206,7 @@ static celspan_status tie_ends(cs_blocks *b, const cs_row_event *events, size_t 
       continue;
     }
     CS_TRY(add_block(b, begin->low < at.low ? begin->low : at.low,
-                     begin->high > at.high ? begin->high : at.high));
+                     begin->high > at.high ? begin->high : at.high, nothing));
   }
   return CELSPAN_OK;
 }
@@ -232,18 +237,25 @@ static int compare_blocks(const void *p, const void *q) {
   return (a->high > b->high) - (a->high < b->high);
 }
 
-/* Joins blocks that share a boundary, and places that touch a block. */
+static bool belong_together(const cs_block *last, const cs_block *next) {
+  if (next->low < last->high || next->low_x <= last->high_x)
+    return true;
+  return next->low == last->high && (next->low == next->high || last->last_low == last->high);
+}
+
+/* Joins blocks that share a boundary or an x at which something begins, and places that touch a
+ * block. */
 static void merge_blocks(cs_blocks *b) {
   size_t kept = 0;
   if (b->count > 1)
     qsort(b->blocks, b->count, sizeof *b->blocks, compare_blocks);
   for (size_t i = 0; i < b->count; i++) {
     cs_block *next = &b->blocks[i], *last = kept > 0 ? &b->blocks[kept - 1] : NULL;
-    bool touches = last && next->low == last->high &&
-                   (next->low == next->high || last->last_low == last->high);
-    if (last && (next->low < last->high || touches)) {
+    if (last && belong_together(last, next)) {
       last->high = next->high > last->high ? next->high : last->high;
       last->last_low = next->low;
+      last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
+      last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
     } else {
       b->blocks[kept++] = *next;
     }
@@ -289,19 +301,22 @@ static size_t count_begins(const cs_active *active, double y1) {
   return end - active->next;
 }
 
-celspan_status cs_blocks_begins(cs_blocks *b) {
+static celspan_status find_begins(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
-  b->begin_count = count_begins(active, b->y1);
+  b->chain_count = count_begins(active, b->y1);
+  b->begin_count = b->chain_count + b->strip_count;
   b->begins = take(b, b->begin_count, sizeof *b->begins);
   b->begin_blocks = take(b, b->begin_count, sizeof *b->begin_blocks);
   if (!b->begins || !b->begin_blocks)
     return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < b->begin_count; k++) {
+  for (size_t k = 0; k < b->chain_count; k++) {
     uint32_t chain = (uint32_t)(active->next + k), count;
     const celspan_point *points;
     CS_TRY(chain_points(b, chain, &points, &count));
     b->begins[k] = cs_blocks_member(active, chain, points, count);
   }
+  if (b->strip_count > 0)
+    memcpy(b->begins + b->chain_count, b->strips, b->strip_count * sizeof *b->strips);
   return CELSPAN_OK;
 }
 
@@ -321,10 +336,10 @@ static range member_range(const cs_member *member) {
 
 static celspan_status find_events(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
-  b->events = take(b, 2 * b->begin_count + active->bend_count, sizeof *b->events);
+  b->events = take(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
   if (!b->events)
     return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < b->begin_count; k++) {
+  for (size_t k = 0; k < b->chain_count; k++) {
     const cs_member *member = &b->begins[k];
     range r = member_range(member);
     double end = member->points[member->point_count - 1].y;
@@ -343,18 +358,30 @@ static celspan_status find_events(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
+/* The block of all strips: their edges begin and end at every height of the row. */
+static celspan_status add_strips(cs_blocks *b, const range *own) {
+  cs_block at;
+  if (b->strip_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(add_range(b, own, b->strips_low, b->strips_high, &at));
+  for (size_t k = b->chain_count; k < b->begin_count; k++)
+    b->begin_blocks[k] = at;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   CS_TRY(add_swaps(b));
-  if (count_begins(active, b->y1) > 0)
-    CS_TRY(cs_blocks_begins(b));
+  if (b->strip_count > 0 || count_begins(active, b->y1) > 0)
+    CS_TRY(find_begins(b));
   if (b->begin_count > 0 || active->bend_count > 0)
     CS_TRY(find_events(b));
-  if (b->event_count > 0 || (b->count > 0 && active->bend_count > 0)) {
+  if (b->event_count > 0 || b->strip_count > 0 || (b->count > 0 && active->bend_count > 0)) {
     ranges r;
     CS_TRY(measure_ranges(b, &r));
     CS_TRY(add_bends_far(b, &r));
     CS_TRY(add_events(b, r.own));
+    CS_TRY(add_strips(b, r.own));
   } else {
     CS_TRY(add_bends_near(b));
   }

@@ -5,7 +5,7 @@
  * at one height in one leaf (its windings balance only together), all between, and all it may meet
  * further down.
  *
- * Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
+ * Blocks in which what begins could meet are one. Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
  * boundaries (low == high) touches no other block.
  */
 #ifndef CS_FILTER_BLOCKS_H
@@ -17,6 +17,7 @@
 typedef struct cs_block {
   size_t low, high;
   size_t last_low; /* the greatest `low` merged into it */
+  double low_x, high_x; /* of what begins or ends in it; low_x > high_x when nothing does */
 } cs_block;
 
 /* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
@@ -30,19 +31,22 @@ typedef struct cs_row_event {
 typedef struct cs_blocks {
   cs_scan *scan;
   double y0, y1;      /* the row */
-  cs_member *begins;  /* chains that begin inside the row */
+  const cs_toggle *toggle, *toggle_end; /* those the walk has not passed */
+  cs_member *strips;  /* edges of scan-line primitives on this row */
+  size_t strip_count;
+  double strips_low, strips_high; /* their x-range */
+  cs_member *begins;  /* chains that begin inside the row, then the strips */
   cs_block *begin_blocks; /* for each: where its begin is replayed */
-  size_t begin_count;
+  size_t begin_count, chain_count;
   cs_row_event *events;
   size_t event_count;
   cs_block *blocks;
   size_t count, capacity;
 } cs_blocks;
 
-/* Finds the blocks of the row the scan's active boundaries have reached through. */
+/* Finds the blocks of the row the scan's active boundaries have reached through; scan, y0, y1 and the
+ * strips are given. */
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
-/* Fills begins alone. */
-CELSPAN_CHECKED celspan_status cs_blocks_begins(cs_blocks *blocks);
 
 /* The bend of active boundary i, or NULL. */
 const cs_bend *cs_blocks_bend(const cs_active *active, size_t i);

@@ -25,7 +25,9 @@ celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
     uint32_t i = scan->cells.visible[v];
     int32_t to = first_column(x[i], width);
     if (to > from) {
-      CS_TRY(cs_composer_run(&scan->composer, cell, from, to, y + 0.5, out));
+      CS_TRY(cell->length == 0
+                 ? cs_row_single(scan->context, out, from, to, cell->colour)
+                 : cs_composer_run(&scan->composer, cell, from, to, y + 0.5, out));
       from = to;
     }
     cell = &scan->cells.cells[i + 1];

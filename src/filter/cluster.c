@@ -36,9 +36,12 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
 static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
   cs_scan *scan = cluster->scan;
   cs_composer *composer = &scan->composer;
+  const cs_toggle *toggle = cluster->toggle;
   for (size_t j = 0; j <= last; j++) {
     cs_member *member = &cluster->members[j];
     cross(composer, member, 1);
+    if (j >= first)
+      toggle = cs_cells_toggle(composer, toggle, cluster->toggle_end, member->x);
     if (j < first || (member->right && cs_set_hash_same(member->right->hash, composer->hash)))
       continue;
     cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
@@ -49,6 +52,8 @@ static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
   }
   for (size_t j = last + 1; j-- > 0;)
     cross(composer, &cluster->members[j], -1);
+  while (toggle-- > cluster->toggle)
+    cs_composer_cross(composer, toggle->leaf, -toggle->direction);
   return composer->failure;
 }
 

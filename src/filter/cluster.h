@@ -38,6 +38,7 @@ typedef struct cs_cluster {
   size_t count;
   cs_member *begins; /* those still to begin, by height, then x, then order */
   size_t begin_count;
+  const cs_toggle *toggle, *toggle_end; /* those right of the cluster's least x */
 } cs_cluster;
 
 /* Replays the cluster into the scan's window. The composer stands left of the cluster, and does so

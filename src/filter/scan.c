@@ -1,11 +1,12 @@
 #include "filter/scan.h"
 
 celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_shot *shot) {
-  *scan = (cs_scan){.context = context, .shot = shot, .row = -1};
-  cs_active_init(&scan->active, &shot->boundaries);
+  *scan = (cs_scan){.context = context, .shot = shot, .row = CS_SCAN_NOWHERE};
+  cs_active_init(&scan->active, &shot->boundaries, &shot->cull);
   cs_cells_init(&scan->cells);
   cs_arena_init(&scan->arena);
-  return cs_composer_init(&scan->composer, context, &shot->stack);
+  CS_TRY(cs_composer_init(&scan->composer, context, &shot->stack));
+  return shot->kernel ? cs_traces_init(scan) : CELSPAN_OK;
 }
 
 void cs_scan_finish(cs_scan *scan) {
@@ -17,6 +18,7 @@ void cs_scan_finish(cs_scan *scan) {
   cs_cells_finish(&scan->cells, memory);
   cs_window_free(&scan->window, memory);
   cs_arena_finish(&scan->arena, memory);
+  cs_traces_finish(scan);
   *scan = (cs_scan){0};
 }
 
@@ -41,7 +43,7 @@ static celspan_status advance(cs_scan *scan, double height, bool *changed) {
 /* Brings boundaries and cells to the row: from the one above when that is where they stand. */
 static celspan_status reach_row(cs_scan *scan, int32_t y) {
   bool changed = true;
-  if (scan->row >= 0 && scan->row < y)
+  if (scan->row != CS_SCAN_NOWHERE && scan->row < y)
     CS_TRY(advance(scan, row_height(scan, y), &changed));
   else
     CS_TRY(cs_active_start(scan->context, &scan->active, row_height(scan, y)));
@@ -54,7 +56,20 @@ static celspan_status reach_row(cs_scan *scan, int32_t y) {
   return scan->composer.failure;
 }
 
+celspan_status cs_scan_trace(cs_scan *scan, int32_t row, cs_trace *trace) {
+  cs_arena_reset(&scan->arena);
+  CS_TRY(reach_row(scan, row));
+  scan->row = row;
+  cs_trace_begin(trace, row, scan->cells.cells[0].colour);
+  scan->window.trace = trace;
+  CS_TRY(cs_area_row(scan, row, NULL));
+  trace->is_sealed = scan->composer.failure == CELSPAN_OK;
+  return scan->composer.failure;
+}
+
 static celspan_status make_row(cs_scan *scan, int32_t y, cs_row *out) {
+  if (scan->shot->kernel)
+    return cs_traces_row(scan, y, out);
   CS_TRY(reach_row(scan, y));
   scan->row = y;
   if (scan->shot->antialias == CELSPAN_ANTIALIAS_NONE)
@@ -68,7 +83,7 @@ celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out) {
   cs_arena_reset(&scan->arena);
   celspan_status status = make_row(scan, y, out);
   if (status != CELSPAN_OK) {
-    scan->row = -1;
+    scan->row = CS_SCAN_NOWHERE;
     cs_cells_forget(&scan->cells);
   }
   return status;

@@ -10,15 +10,21 @@
 #define CS_FILTER_SCAN_H
 
 #include "compose/cells.h"
+#include "filter/convolve.h"
 #include "filter/window.h"
 
 /* A rostrum compiled for a frame of some size: made by render/compile.c, never changed after. */
 typedef struct cs_shot {
   cs_stack stack;
   cs_boundary_set boundaries;
+  cs_cull cull;
   int32_t width, height; /* pixels */
+  int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;
+  cs_kernel *kernel; /* FILTER; owned */
 } cs_shot;
+
+#define CS_SCAN_NOWHERE INT32_MIN
 
 typedef struct cs_scan {
   celspan_context *context; /* the worker's branch */
@@ -28,7 +34,11 @@ typedef struct cs_scan {
   cs_cells cells;
   cs_window window;
   cs_arena arena; /* of the current row */
-  int32_t row;    /* the active boundaries stand at this row's height; -1: nowhere */
+  int32_t row;    /* the active boundaries stand at this row's height, or NOWHERE */
+  cs_trace *traces; /* FILTER: of rows seen, row y in place y modulo the count */
+  const cs_trace **under; /* those under the kernel */
+  size_t trace_count;
+  cs_convolve convolve;
 } cs_scan;
 
 CELSPAN_CHECKED celspan_status cs_scan_init(cs_scan *scan, celspan_context *context,
@@ -38,11 +48,18 @@ void cs_scan_finish(cs_scan *scan);
  * Errors: NO_MEMORY, INPUT, LIMIT, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out);
 
-/* ---- the two ways from cells to pixels */
+/* ---- the three ways from cells to pixels */
 
 /* Pixel centres: the boundaries stand at y + 1/2. */
 CELSPAN_CHECKED celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out);
 /* The exact mean over each pixel: the boundaries stand at y, and at y + 1 when it returns. */
 CELSPAN_CHECKED celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out);
+
+/* Through a kernel: swept are the rows under it that were not kept from the row before. */
+CELSPAN_CHECKED celspan_status cs_traces_row(cs_scan *scan, int32_t y, cs_row *out);
+CELSPAN_CHECKED celspan_status cs_traces_init(cs_scan *scan);
+void cs_traces_finish(cs_scan *scan);
+/* Sweeps any row, those beyond the frame too, into a trace. */
+CELSPAN_CHECKED celspan_status cs_scan_trace(cs_scan *scan, int32_t row, cs_trace *trace);
 
 #endif

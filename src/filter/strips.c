@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "scene/scanline.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* ---------------------------------------------------------------- calling */
@@ -22,11 +23,11 @@ bool cs_strips_meet(const cs_scan *scan, int32_t y) {
   return false;
 }
 
-/* The part of the frame a procedure can be seen in, in its own units. */
-static celspan_scanline_row visible_row(const cs_procedure *procedure, int32_t width) {
+/* The part of the frame, and of its margin, a procedure can be seen in, in its own units. */
+static celspan_scanline_row visible_row(const cs_procedure *procedure, const cs_shot *shot) {
   const celspan_box *box = &procedure->desc->bounds;
-  double a = (0 - procedure->shift_x) / procedure->scale_x;
-  double b = (width - procedure->shift_x) / procedure->scale_x;
+  double a = (-shot->margin - procedure->shift_x) / procedure->scale_x;
+  double b = ((double)shot->width + shot->margin - procedure->shift_x) / procedure->scale_x;
   double low = a < b ? a : b, high = a < b ? b : a;
   double pixel = procedure->scale_x < 0 ? -1 / procedure->scale_x : 1 / procedure->scale_x;
   return (celspan_scanline_row){cs_number_clamp(low, box->x, box->x + box->width),
@@ -53,9 +54,10 @@ static celspan_status add_strip(cs_scan *scan, const cs_procedure *procedure,
                                 const cs_scanline_span *span, const cs_paint *paints,
                                 cs_strip_edges *edges) {
   cs_composer *composer = &scan->composer;
-  double scale = procedure->scale_x, shift = procedure->shift_x, width = scan->shot->width;
-  double a = cs_number_clamp(span->x0 * scale + shift, 0, width);
-  double b = cs_number_clamp(span->x1 * scale + shift, 0, width);
+  double scale = procedure->scale_x, shift = procedure->shift_x;
+  double left = -scan->shot->margin, right = (double)scan->shot->width + scan->shot->margin;
+  double a = cs_number_clamp(span->x0 * scale + shift, left, right);
+  double b = cs_number_clamp(span->x1 * scale + shift, left, right);
   if (a == b)
     return CELSPAN_OK;
   CS_TRY(cs_mem_reserve(scan->context, (void **)&composer->strips, &composer->strip_capacity,
@@ -89,7 +91,7 @@ celspan_status cs_strips_collect(cs_scan *scan, double height, cs_strip_edges *e
   cs_scanline_init(&output);
   for (size_t i = 0; i < stack->procedure_count && status == CELSPAN_OK; i++) {
     const cs_procedure *procedure = &stack->procedures[i];
-    celspan_scanline_row row = visible_row(procedure, scan->shot->width);
+    celspan_scanline_row row = visible_row(procedure, scan->shot);
     if (!procedure_meets(procedure, height, height) || !(row.x0 < row.x1))
       continue;
     double y = (height - procedure->shift_y) / procedure->scale_y;
@@ -113,18 +115,18 @@ static int compare_edges(const void *p, const void *q) {
 }
 
 /* Crosses the next boundary or edge of the merged order. */
-static double cross_next(cs_scan *scan, const cs_strip_edges *edges, size_t *boundary,
-                         size_t *edge) {
+static void cross_next(cs_scan *scan, const cs_strip_edges *edges, size_t *boundary,
+                       size_t *edge) {
   const cs_active *active = &scan->active;
   if (*edge == edges->count ||
       (*boundary < active->count && active->x[*boundary] <= edges->edges[*edge].x)) {
     const cs_boundary_chain *chain = cs_active_chain(active, *boundary);
     cs_composer_cross(&scan->composer, chain->leaf, chain->direction);
-    return active->x[(*boundary)++];
+    ++*boundary;
+    return;
   }
   const cs_strip_edge *e = &edges->edges[(*edge)++];
   cs_composer_cross_strip(&scan->composer, e->leaf, e->strip, e->direction);
-  return e->x;
 }
 
 static double peek_next(const cs_scan *scan, const cs_strip_edges *edges, size_t boundary,
@@ -146,9 +148,12 @@ celspan_status cs_strips_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
   size_t boundary = 0, edge = 0, total = scan->active.count + edges.count;
   int32_t from = 0, at = 0, width = scan->shot->width; /* the run being gathered: [from, at) */
   cs_cell run = {.colour = cs_v4_all(0)};
-  while (at < width || boundary + edge < total) {
+  double at_x = 0; /* where the cell now composed begins */
+  const cs_toggle *toggle_end, *toggle = cs_active_toggles(&scan->active, &toggle_end);
+  for (;;) {
     int32_t to = cs_number_first_centre(peek_next(scan, &edges, boundary, edge));
     to = boundary + edge == total || to > width ? width : to;
+    toggle = cs_cells_toggle(composer, toggle, toggle_end, at_x);
     if (to > at) {
       cs_cell cell;
       cs_composer_cell(composer, &cell);
@@ -160,8 +165,11 @@ celspan_status cs_strips_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
       }
       at = to;
     }
-    if (boundary + edge < total)
-      cross_next(scan, &edges, &boundary, &edge);
+    if (boundary + edge == total)
+      break;
+    at_x = peek_next(scan, &edges, boundary, edge);
+    cross_next(scan, &edges, &boundary, &edge);
   }
+  cs_cells_toggle(composer, toggle, toggle_end, INFINITY);
   return cs_composer_run(composer, &run, from, width, y + 0.5, out);
 }

@@ -144,11 +144,11 @@ static celspan_status close_flat(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* ---- cells that vary: every cell's colour at every pixel's centre, weighted by its area */
+/* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there */
 
 typedef struct seen_cell {
   const cs_cell *cell;
-  float (*rgba)[4];
+  double *weights; /* one a pixel of the tile; exact, so that no area is exactly 0 */
 } seen_cell;
 
 typedef struct tile {
@@ -156,51 +156,74 @@ typedef struct tile {
   int32_t p0, p1;
   seen_cell *seen;
   size_t seen_count;
-  cs_v4 *sum;
 } tile;
 
-/* The colours of a cell over the tile, made when it is first asked for. */
-static celspan_status tile_colours(tile *t, const cs_cell *cell, float (**out)[4]) {
+/* The weights of a cell, or of one that looks like it. */
+static celspan_status tile_weights(tile *t, const cs_cell *cell, double **out) {
+  const cs_window *window = t->window;
   for (size_t i = 0; i < t->seen_count; i++)
-    if (t->seen[i].cell == cell) {
-      *out = t->seen[i].rgba;
+    if (t->seen[i].cell == cell || cs_composer_same(window->composer, t->seen[i].cell, cell)) {
+      *out = t->seen[i].weights;
       return CELSPAN_OK;
     }
-  cs_composer *composer = t->window->composer;
-  *out = cs_arena_take(composer->context, t->window->arena, (size_t)(t->p1 - t->p0) * sizeof **out);
+  size_t size = (size_t)(t->p1 - t->p0) * sizeof **out;
+  *out = cs_arena_take(window->composer->context, window->arena, size);
   if (!*out)
     return CELSPAN_NO_MEMORY;
+  memset(*out, 0, size);
   t->seen[t->seen_count++] = (seen_cell){cell, *out};
-  return cs_composer_colours(composer, cell, t->p0, t->p1, t->window->centre, *out);
+  return CELSPAN_OK;
 }
 
+/* Moves the area right of a fragment from the cell on its left to the one on its right. */
 static celspan_status tile_add(tile *t, const cs_fragment *f) {
-  float(*left)[4], (*right)[4];
+  double *left, *right;
   if (f->first >= t->p1)
     return CELSPAN_OK;
-  CS_TRY(tile_colours(t, f->left, &left));
-  CS_TRY(tile_colours(t, f->right, &right));
+  CS_TRY(tile_weights(t, f->left, &left));
+  CS_TRY(tile_weights(t, f->right, &right));
   for (int32_t p = f->first > t->p0 ? f->first : t->p0; p < t->p1; p++) {
     double area = p < f->end ? cover(f, p) : f->height;
-    int32_t k = p - t->p0;
-    t->sum[k] += (cs_v4_load(right[k]) - cs_v4_load(left[k])) * (float)area;
+    left[p - t->p0] -= area;
+    right[p - t->p0] += area;
   }
+  return CELSPAN_OK;
+}
+
+/* Adds a cell where it has area; only there is it asked for colours. */
+static celspan_status tile_sum(const tile *t, const seen_cell *seen, cs_v4 *sum) {
+  cs_composer *composer = t->window->composer;
+  float rgba[TILE][4];
+  int32_t first = 0, end = t->p1 - t->p0;
+  while (first < end && seen->weights[first] == 0)
+    first++;
+  while (end > first && seen->weights[end - 1] == 0)
+    end--;
+  CS_TRY(cs_composer_colours(composer, seen->cell, t->p0 + first, t->p0 + end, t->window->centre,
+                             rgba));
+  for (int32_t k = first; k < end; k++)
+    sum[k] += cs_v4_load(rgba[k - first]) * (float)seen->weights[k];
   return CELSPAN_OK;
 }
 
 static celspan_status close_tile(cs_window *window, int32_t p0, int32_t p1) {
   celspan_context *context = window->composer->context;
+  tile t = {.window = window, .p0 = p0, .p1 = p1};
+  double *base;
+  float *colours;
   cs_v4 sum[TILE];
-  tile t = {window, p0, p1, NULL, 0, sum};
-  float(*base)[4], *colours;
   t.seen = cs_arena_take(context, window->arena,
                          (2 * window->fragment_count + 1) * sizeof *t.seen);
   if (!t.seen)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(tile_colours(&t, window->base, &base));
-  memcpy(sum, base, (size_t)(p1 - p0) * sizeof *sum);
+  CS_TRY(tile_weights(&t, window->base, &base));
+  for (int32_t k = 0; k < p1 - p0; k++)
+    base[k] = 1;
   for (size_t i = 0; i < window->fragment_count; i++)
     CS_TRY(tile_add(&t, &window->fragments[i]));
+  memset(sum, 0, sizeof sum);
+  for (size_t i = 0; i < t.seen_count; i++)
+    CS_TRY(tile_sum(&t, &t.seen[i], sum));
   CS_TRY(cs_row_array(context, window->out, p0, p1, &colours));
   for (int32_t k = 0; k < p1 - p0; k++)
     cs_v4_store(colours + 4 * k, hold(sum[k]));
@@ -231,6 +254,8 @@ static celspan_status close_window(cs_window *window) {
 /* ---------------------------------------------------------------- items */
 
 celspan_status cs_window_reach(cs_window *window, double x) {
+  if (window->trace)
+    return CELSPAN_OK;
   int32_t first = floor_column(x, window->width);
   if (window->is_open && first < window->end)
     return CELSPAN_OK;
@@ -249,6 +274,8 @@ celspan_status cs_window_reach(cs_window *window, double x) {
 
 celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
                              const cs_cell *left, const cs_cell *right) {
+  if (window->trace)
+    return cs_trace_add(window->trace, window->composer, xa, ya, xb, yb, left, right);
   double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa, top = window->centre - 0.5;
   double height = round_area(yb - top) - round_area(ya - top);
   cs_fragment fragment = {xa, xb, height, left, right, floor_column(low, window->width),
@@ -290,6 +317,8 @@ static celspan_status write_edge(cs_window *window, double low, double high, int
 
 celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_cell *left,
                               const cs_cell *right, double next_x) {
+  if (window->trace)
+    return cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right);
   double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
   int32_t first = floor_column(low, window->width), end = ceil_column(high, window->width);
   if (end - first <= 2 && end <= next_x && left->length == 0 && right->length == 0 &&
@@ -305,6 +334,8 @@ celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_
 }
 
 celspan_status cs_window_finish(cs_window *window) {
+  if (window->trace)
+    return cs_trace_seal(window->trace, window->composer);
   if (window->is_open)
     CS_TRY(close_window(window));
   return cs_composer_run(window->composer, window->cell, window->from, window->width,

@@ -15,7 +15,7 @@
 #ifndef CS_FILTER_WINDOW_H
 #define CS_FILTER_WINDOW_H
 
-#include "compose/composer.h"
+#include "filter/trace.h"
 
 typedef struct cs_fragment {
   double xa, xb; /* at its top and at its bottom */
@@ -37,6 +37,7 @@ typedef struct cs_window {
   cs_fragment *fragments;
   size_t fragment_count, fragment_capacity;
   bool is_open, varies;
+  cs_trace *trace; /* not NULL: fragments are kept there, and no pixels made */
 } cs_window;
 
 /* Begins a row at `leftmost`; the fragments' room is kept from row to row. */

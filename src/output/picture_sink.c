@@ -60,20 +60,20 @@ static const file_format formats[] = {
 typedef struct picture_sink {
   celspan_context *context; /* of the call that is running, for put */
   const file_format *format;
-  celspan_coding coding;  /* of `pixels` */
-  celspan_depth depth;    /* in the file */
-  int bits;               /* kept of each value; 0: all */
+  celspan_coding coding; /* of `pixels` */
+  celspan_depth depth;   /* in the file */
+  int bits;              /* kept of each value; 0: all */
   celspan_status put_status;
   bool is_abandoned;
-  char *path, *title;     /* title: may be NULL */
+  char *path, *title; /* title: may be NULL */
   double frames_second;
   int32_t frame;
   int32_t width, height;
   const cs_picture_module *module;
   cs_picture_writer *writer;
   cs_file *file;
-  unsigned char *pixels;  /* one row of RGBA */
-  unsigned char *batch;   /* rows as the file has them */
+  unsigned char *pixels; /* one row of RGBA */
+  unsigned char *batch;  /* rows as the file has them */
   int32_t batch_rows, batch_first, batch_count;
 } picture_sink;
 
@@ -335,14 +335,14 @@ static char *copy_text(cs_memory *memory, const char *text) {
 celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                const celspan_file_desc *file, celspan_sink *out) {
   const char *name = file->format ? file->format : ending_of(path);
-  picture_sink made = {.format = find_format(name),
-                       .frames_second = file->frames_second,
-                       .frame = file->frame};
+  picture_sink made = {
+      .format = find_format(name), .frames_second = file->frames_second, .frame = file->frame};
   if (!made.format)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: the format \"%s\" is not written; png, exr, tiff, tga, dpx, jpeg, bmp, hdr, "
-                   "ppm, webp, gif and jp2 are",
-                   path, name);
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "%s: the format \"%s\" is not written; png, exr, tiff, tga, dpx, jpeg, bmp, hdr, "
+        "ppm, webp, gif and jp2 are",
+        path, name);
   CS_TRY(choose_coding(context, path, &file->coding, &made));
   made.path = copy_text(context->memory, path);
   made.title = file->title ? copy_text(context->memory, file->title) : NULL;

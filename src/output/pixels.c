@@ -9,10 +9,11 @@
 #include <string.h>
 
 #include "colour/transfer.h"
+#include "output/fill.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
 
-enum { CHUNK = 64, FILL_BYTES = 4096 };
+enum { CHUNK = 64 };
 
 size_t celspan_coding_pixel_size(const celspan_coding *coding) {
   switch (coding->depth) {
@@ -81,22 +82,26 @@ static void to_coded(const celspan_coding *coding, const float rgba[4], float co
 typedef void (*coder)(const celspan_coding *coding, const float *rgba, size_t count,
                       unsigned char *out);
 
+/* As one number, lowest byte first: bytes stored one by one are slow to read back as a pixel. */
+static inline uint32_t pixel_8_srgb_straight(const float rgba[4]) {
+  float r = rgba[0], g = rgba[1], b = rgba[2], alpha = rgba[3];
+  if (!(alpha > 0))
+    return 0;
+  if (alpha != 1) {
+    r /= alpha;
+    g /= alpha;
+    b /= alpha;
+  }
+  return cs_transfer_srgb8(r) | (uint32_t)cs_transfer_srgb8(g) << 8 |
+         (uint32_t)cs_transfer_srgb8(b) << 16 | (uint32_t)to_integer(alpha, 255) << 24;
+}
+
 static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba, size_t count,
                                  unsigned char *out) {
   (void)coding;
   for (; count > 0; count--, rgba += 4, out += 4) {
-    float alpha = rgba[3];
-    if (alpha == 1) {
-      for (int c = 0; c < 3; c++)
-        out[c] = cs_transfer_srgb8(rgba[c]);
-      out[3] = 255;
-    } else if (alpha > 0) {
-      for (int c = 0; c < 3; c++)
-        out[c] = cs_transfer_srgb8(rgba[c] / alpha);
-      out[3] = (unsigned char)to_integer(alpha, 255);
-    } else {
-      memset(out, 0, 4);
-    }
+    uint32_t pixel = pixel_8_srgb_straight(rgba);
+    memcpy(out, &pixel, sizeof pixel);
   }
 }
 
@@ -164,16 +169,18 @@ void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pix
 
 /* ---------------------------------------------------------------- spans */
 
-/* Repeats the first `size` bytes of out until `bytes` are filled: doubling while the block is
- * small enough to stay in the nearest cache, then block by block. */
-static void repeat(unsigned char *out, size_t size, size_t bytes) {
-  size_t done = size;
-  while (done < bytes) {
-    size_t block = done < FILL_BYTES ? done : FILL_BYTES;
-    block = block < bytes - done ? block : bytes - done;
-    memcpy(out + done, out, block);
-    done += block;
-  }
+/* Repeats the first pixel of out until `size` bytes are filled; `room` bytes, no less, may be
+ * written: what is beyond the run belongs to spans that are not written yet. */
+static inline void repeat(unsigned char *out, size_t pixel_size, size_t size, size_t room,
+                          cs_fill fill) {
+  unsigned char block[CS_FILL_BLOCK];
+  memcpy(block, out, pixel_size);
+  for (size_t done = pixel_size; done < sizeof block; done *= 2)
+    memcpy(block + done, block, done);
+  if (size >= sizeof block)
+    fill(out, size, pixel_size, block);
+  else
+    memcpy(out, block, room < sizeof block ? size : sizeof block);
 }
 
 static void gradient_colours(const celspan_span *span, int32_t x, int32_t count, float *rgba) {
@@ -193,20 +200,50 @@ static void code_gradient(const celspan_coding *coding, coder code, const celspa
   }
 }
 
+/* What row_8_srgb_straight does not do faster. */
+static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
+                      size_t pixel_size, size_t room, cs_fill fill, unsigned char *out) {
+  size_t count = (size_t)(span->x1 - span->x0);
+  if (span->kind == CELSPAN_SPAN_ARRAY) {
+    code(coding, span->array, count, out);
+  } else if (span->kind == CELSPAN_SPAN_GRADIENT) {
+    code_gradient(coding, code, span, pixel_size, out);
+  } else {
+    code(coding, span->colour, 1, out);
+    if (count > 1)
+      repeat(out, pixel_size, count * pixel_size, room, fill);
+  }
+}
+
+/* Flat spans of the usual coding, of which a frame may have a thousand million pixels: nothing is
+ * called for a pixel, and a short run is one block over whatever comes next. */
+static inline void put_run_8(const float colour[4], size_t count, size_t room, cs_fill fill,
+                             unsigned char *out) {
+  uint32_t pixel = pixel_8_srgb_straight(colour), block[CS_FILL_BLOCK / 4];
+  if (count == 1) {
+    memcpy(out, &pixel, sizeof pixel);
+    return;
+  }
+  for (size_t i = 0; i < CS_FILL_BLOCK / 4; i++)
+    block[i] = pixel;
+  if (4 * count > CS_FILL_BLOCK)
+    fill(out, 4 * count, 4, (unsigned char *)block);
+  else
+    memcpy(out, block, room < CS_FILL_BLOCK ? 4 * count : CS_FILL_BLOCK);
+}
+
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row) {
   coder code = choose_coder(coding);
+  cs_fill fill = cs_fill_choose();
   size_t pixel_size = celspan_coding_pixel_size(coding);
+  size_t size = span_count > 0 ? (size_t)spans[span_count - 1].x1 * pixel_size : 0;
   for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    unsigned char *out = (unsigned char *)row + (size_t)span->x0 * pixel_size;
-    size_t count = (size_t)(span->x1 - span->x0);
-    if (span->kind == CELSPAN_SPAN_ARRAY) {
-      code(coding, span->array, count, out);
-    } else if (span->kind == CELSPAN_SPAN_GRADIENT) {
-      code_gradient(coding, code, span, pixel_size, out);
-    } else {
-      code(coding, span->colour, 1, out);
-      repeat(out, pixel_size, count * pixel_size);
-    }
+    size_t at = (size_t)span->x0 * pixel_size;
+    unsigned char *out = (unsigned char *)row + at;
+    if (span->kind == CELSPAN_SPAN_SINGLE && code == code_8_srgb_straight)
+      put_run_8(span->colour, (size_t)(span->x1 - span->x0), size - at, fill, out);
+    else
+      code_span(coding, code, span, pixel_size, size - at, fill, out);
   }
 }

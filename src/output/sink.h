@@ -16,6 +16,10 @@ CELSPAN_CHECKED celspan_status cs_sink_png(celspan_context *context, const char 
 /* Any other format through the picture module; checks the format's limits first. */
 CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                                const celspan_file_desc *file, celspan_sink *out);
+/* A span file (docs/spanfile.md): depth 8 in sRGB, straight, or half in linear light,
+ * premultiplied. */
+CELSPAN_CHECKED celspan_status cs_sink_span(celspan_context *context, const char *path,
+                                            const celspan_file_desc *file, celspan_sink *out);
 /* RGBA pixels into the caller's memory. */
 CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
                                               const celspan_coding *coding, void *pixels,
@@ -24,7 +28,7 @@ CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
                                               const celspan_coding *coding, uint64_t digest[2],
                                               celspan_sink *out);
-/* By format or the path's ending: PNG, or the picture module. */
+/* By format or the path's ending: PNG, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
 /* Destroys a sink whose end was not called and keeps the recorded sentence. */

@@ -19,5 +19,13 @@ celspan_status cs_sink_file(celspan_context *context, const char *path,
         "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
   if (strcasecmp(format, "png") == 0)
     return cs_sink_png(context, path, file, out);
+  if (strcasecmp(format, "span") == 0)
+    return cs_sink_span(context, path, file, out);
   return cs_sink_picture(context, path, file, out);
+}
+
+celspan_status celspan_file_sink_create(celspan_context *context, const char *path,
+                                        const celspan_file_desc *file, celspan_sink *out) {
+  celspan_file_desc defaults = CELSPAN_FILE_DESC;
+  return cs_sink_file(context, path, file ? file : &defaults, out);
 }

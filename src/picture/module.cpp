@@ -22,8 +22,13 @@ std::string first_line(const std::string &message) {
 }
 
 const void *celspan_picture_module(void) {
-  static const cs_picture_module table = {
-      CS_PICTURE_MODULE_VERSION, open_reader,  read_reader,  close_reader,
-      open_writer,               write_writer, close_writer, abandon_writer};
+  static const cs_picture_module table = {CS_PICTURE_MODULE_VERSION,
+                                          open_reader,
+                                          read_reader,
+                                          close_reader,
+                                          open_writer,
+                                          write_writer,
+                                          close_writer,
+                                          abandon_writer};
   return &table;
 }

@@ -31,12 +31,12 @@ struct cs_picture_reader {
   Sniffed kind;
   ImageSpec spec;
   int subimage = 0;
-  int channel[4];    /* of the file, for red, green, blue, alpha; alpha -1: none */
-  int first, last;   /* the span of channels that is read */
-  int orientation;   /* TIFF's: 1 upright .. 8 */
-  int data_x, data_y; /* the data window, from the display window's corner */
+  int channel[4];                  /* of the file, for red, green, blue, alpha; alpha -1: none */
+  int first, last;                 /* the span of channels that is read */
+  int orientation;                 /* TIFF's: 1 upright .. 8 */
+  int data_x, data_y;              /* the data window, from the display window's corner */
   int stored_width, stored_height; /* the display window as stored, before turning */
-  int next_row = 0;  /* of the data window, for sequential formats */
+  int next_row = 0;                /* of the data window, for sequential formats */
   OIIO::ColorProcessorHandle processor;
   std::vector<float> batch, line;
 };
@@ -50,8 +50,9 @@ void check_size(uint64_t width, uint64_t height, bool is_whole) {
   if (width > CS_PICTURE_SIDE || height > CS_PICTURE_SIDE)
     throw Failure(CELSPAN_LIMIT, "is " + size + " pixels; at most 1048576 a side are read");
   if (is_whole && width * height > WHOLE)
-    throw Failure(CELSPAN_LIMIT, "is " + size + " pixels in a format that can only be read whole; at "
-                                 "most 268435456 pixels are");
+    throw Failure(CELSPAN_LIMIT, "is " + size +
+                                     " pixels in a format that can only be read whole; at "
+                                     "most 268435456 pixels are");
 }
 
 /* Readers of some formats have races in what they share, so one is opened at a time. */
@@ -180,14 +181,26 @@ void choose_part(cs_picture_reader &reader, const cs_picture_request &request) {
   choose_channels(reader, "");
 }
 
+/* The display window: what the header calls it; of a PSD layer that of the whole picture. The data
+ * window lies in it, over its edges or outside. */
 void choose_window(cs_picture_reader &reader) {
   const ImageSpec &spec = reader.spec;
-  bool has_windows = reader.kind.format == "openexr" || reader.kind.format == "psd";
-  bool is_given = has_windows && spec.full_width > 0 && spec.full_height > 0;
-  reader.stored_width = is_given ? spec.full_width : spec.width;
-  reader.stored_height = is_given ? spec.full_height : spec.height;
-  int64_t left = is_given ? int64_t(spec.x) - spec.full_x : 0;
-  int64_t top = is_given ? int64_t(spec.y) - spec.full_y : 0;
+  const std::string &format = reader.kind.format;
+  int64_t left = 0, top = 0;
+  reader.stored_width = spec.width;
+  reader.stored_height = spec.height;
+  if (format == "openexr" && spec.full_width > 0 && spec.full_height > 0) {
+    reader.stored_width = spec.full_width;
+    reader.stored_height = spec.full_height;
+    left = int64_t(spec.x) - spec.full_x;
+    top = int64_t(spec.y) - spec.full_y;
+  } else if (format == "psd") {
+    ImageSpec whole = reader.input->spec(0);
+    reader.stored_width = whole.width;
+    reader.stored_height = whole.height;
+    left = spec.x;
+    top = spec.y;
+  }
   if (std::max(std::abs(left), std::abs(top)) > (int64_t(1) << 30))
     throw Failure(CELSPAN_INPUT, "has a data window too far from its display window");
   reader.data_x = int(left);
@@ -251,6 +264,7 @@ void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   header->bits = coded_bits(spec);
   header->is_linear = reader.processor != nullptr;
   header->is_turned = reader.orientation != 1;
+  header->is_whole = reader.kind.is_whole;
   header->is_sequential = reader.kind.is_sequential;
   const struct stat &status = reader.source->status();
   header->file_size = int64_t(status.st_size);
@@ -262,10 +276,12 @@ void choose_space(cs_picture_reader &reader, const char *space) {
   if (!space)
     return;
   if (!getenv("OCIO"))
-    throw Failure(CELSPAN_BAD_ARGUMENT,
-                  std::string("colour \"") + space + "\" is not known; \"srgb\", \"linear\", "
-                  "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
-                  "when the environment variable OCIO names one");
+    throw Failure(
+        CELSPAN_BAD_ARGUMENT,
+        std::string("colour \"") + space +
+            "\" is not known; \"srgb\", \"linear\", "
+            "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
+            "when the environment variable OCIO names one");
   static const OIIO::ColorConfig config;
   reader.processor = config.createColorProcessor(space, "scene_linear");
   if (!reader.processor)
@@ -315,10 +331,14 @@ Target make_target(const cs_picture_reader &reader, int32_t x, int32_t y, int32_
   struct {
     int64_t x0, y0, xx, xy, yx, yy; /* display = (x0 + xx sx + xy sy, y0 + yx sx + yy sy) */
   } const maps[8] = {
-      {0, 0, 1, 0, 0, 1},           {right, 0, -1, 0, 0, 1},
-      {right, bottom, -1, 0, 0, -1}, {0, bottom, 1, 0, 0, -1},
-      {0, 0, 0, 1, 1, 0},           {bottom, 0, 0, -1, 1, 0},
-      {bottom, right, 0, -1, -1, 0}, {0, right, 0, 1, -1, 0},
+      {0, 0, 1, 0, 0, 1},
+      {right, 0, -1, 0, 0, 1},
+      {right, bottom, -1, 0, 0, -1},
+      {0, bottom, 1, 0, 0, -1},
+      {0, 0, 0, 1, 1, 0},
+      {bottom, 0, 0, -1, 1, 0},
+      {bottom, right, 0, -1, -1, 0},
+      {0, right, 0, 1, -1, 0},
   };
   auto map = maps[reader.orientation - 1];
   return {rgba, (map.y0 - y) * width + (map.x0 - x), map.yx * width + map.xx,
@@ -362,11 +382,11 @@ void scatter(const cs_picture_reader &reader, const Part &part, const Part &read
   int red = reader.channel[0] - reader.first, green = reader.channel[1] - reader.first,
       blue = reader.channel[2] - reader.first;
   for (int y = std::max(part.y0, read.y0); y < std::min(part.y1, read.y1); y++) {
-    const float *from = reader.batch.data() +
-                        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(part.x0 - read.x0)) *
-                            channels;
-    int64_t at = target.at + (part.x0 + reader.data_x) * target.step_x +
-                 (y + reader.data_y) * target.step_y;
+    const float *from =
+        reader.batch.data() +
+        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(part.x0 - read.x0)) * channels;
+    int64_t at =
+        target.at + (part.x0 + reader.data_x) * target.step_x + (y + reader.data_y) * target.step_y;
     for (int x = part.x0; x < part.x1; x++, from += channels, at += target.step_x) {
       float *to = target.rgba + 4 * at;
       to[0] = from[red];
@@ -410,9 +430,10 @@ void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t wid
     step_multiple = spec.tile_height;
   }
   size_t row_values = size_t(read.x1 - read.x0) * size_t(reader.last - reader.first);
-  size_t wide = spec.tile_width > 0 ? row_values : size_t(spec.width) * size_t(reader.last - reader.first);
-  int64_t step = std::max<int64_t>(1, int64_t(BATCH / (wide * sizeof(float))) / step_multiple) *
-                 step_multiple;
+  size_t wide =
+      spec.tile_width > 0 ? row_values : size_t(spec.width) * size_t(reader.last - reader.first);
+  int64_t step =
+      std::max<int64_t>(1, int64_t(BATCH / (wide * sizeof(float))) / step_multiple) * step_multiple;
   if (reader.kind.is_sequential && read.y0 < reader.next_row)
     open_input(reader);
   int end = read.y1;
@@ -449,13 +470,13 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
   if (spec.depth > 1)
     throw Failure(CELSPAN_INPUT, "is a volume, not a picture");
   if (spec.nchannels < 1 || spec.nchannels > CS_PICTURE_CHANNELS)
-    throw Failure(CELSPAN_LIMIT, "has " + std::to_string(spec.nchannels) +
-                                     " channels; at most 64 are read");
+    throw Failure(CELSPAN_LIMIT,
+                  "has " + std::to_string(spec.nchannels) + " channels; at most 64 are read");
   choose_space(*reader, request.space);
   return reader;
 }
 
-}  // namespace
+} // namespace
 
 celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
                            cs_picture_header *header, cs_picture_failure *failure) {

@@ -65,11 +65,9 @@ const struct {
   size_t length;
   const char *name;
 } refused[] = {
-    {"FOR4", 4, "an IFF picture"},        {"SIMPLE", 6, "a FITS picture"},
-    {"DDS ", 4, "a DDS picture"},         {"\0\0\1\0", 4, "an icon"},
-    {"%PDF", 4, "a PDF document"},        {"<svg", 4, "an SVG drawing"},
-    {"<?xml", 5, "an XML text"},          {"PK\3\4", 4, "a zip archive"},
-    {"#!", 2, "a script"},
+    {"FOR4", 4, "an IFF picture"}, {"SIMPLE", 6, "a FITS picture"}, {"DDS ", 4, "a DDS picture"},
+    {"\0\0\1\0", 4, "an icon"},    {"%PDF", 4, "a PDF document"},   {"<svg", 4, "an SVG drawing"},
+    {"<?xml", 5, "an XML text"},   {"PK\3\4", 4, "a zip archive"},  {"#!", 2, "a script"},
 };
 
 /* Targa has no magic number: the header must make sense field by field (formats, TGA 2.0). */
@@ -77,7 +75,8 @@ bool is_targa(const Head &head) {
   if (head.size < 18)
     return false;
   unsigned map = head.bytes[1], type = head.bytes[2], bits = head.bytes[16];
-  bool has_known_type = type == 1 || type == 2 || type == 3 || type == 9 || type == 10 || type == 11;
+  bool has_known_type =
+      type == 1 || type == 2 || type == 3 || type == 9 || type == 10 || type == 11;
   bool has_map = type == 1 || type == 9;
   bool has_known_bits = bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32;
   return has_known_type && has_known_bits && map <= 1 && (!has_map || map == 1) &&
@@ -107,7 +106,7 @@ void read_size(const Head &head, Sniffed *found) {
   }
 }
 
-}  // namespace
+} // namespace
 
 Sniffed sniff(Source &source) {
   Head head;
@@ -124,9 +123,10 @@ Sniffed sniff(Source &source) {
     if (head.starts(other.bytes, other.length))
       throw Failure(CELSPAN_INPUT, std::string("is ") + other.name + ", which is not read");
   if (!is_targa(head))
-    throw Failure(CELSPAN_INPUT,
-                  "is not a picture of a known format (png, tiff, openexr, jpeg, targa, dpx, cineon, "
-                  "psd, bmp, webp, gif, hdr, pnm, jpeg2000, sgi)");
+    throw Failure(
+        CELSPAN_INPUT,
+        "is not a picture of a known format (png, tiff, openexr, jpeg, targa, dpx, cineon, "
+        "psd, bmp, webp, gif, hdr, pnm, jpeg2000, sgi)");
   Sniffed found = {"targa", false, true, 0, 0};
   read_size(head, &found);
   return found;

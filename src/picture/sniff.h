@@ -11,10 +11,10 @@
 #include "picture/source.h"
 
 struct Sniffed {
-  std::string format;        /* the library's name for it */
-  bool is_sequential;        /* rows can only be decoded from the top */
-  bool is_whole;             /* the reader holds the whole picture in memory */
-  uint64_t width, height;    /* 0 0: ask the reader */
+  std::string format;     /* the library's name for it */
+  bool is_sequential;     /* rows can only be decoded from the top */
+  bool is_whole;          /* the reader holds the whole picture in memory */
+  uint64_t width, height; /* 0 0: ask the reader */
 };
 
 /* Throws Failure, naming what the file is instead, for all others. */

@@ -55,7 +55,7 @@ private:
   size_t size_ = 0;
 };
 
-}  // namespace
+} // namespace
 
 struct cs_picture_writer {
   std::string name;
@@ -73,29 +73,41 @@ namespace {
 
 TypeDesc type_of(celspan_depth depth) {
   switch (depth) {
-  case CELSPAN_DEPTH_16: return TypeDesc::UINT16;
-  case CELSPAN_DEPTH_HALF: return TypeDesc::HALF;
-  case CELSPAN_DEPTH_FLOAT: return TypeDesc::FLOAT;
-  default: return TypeDesc::UINT8;
+  case CELSPAN_DEPTH_16:
+    return TypeDesc::UINT16;
+  case CELSPAN_DEPTH_HALF:
+    return TypeDesc::HALF;
+  case CELSPAN_DEPTH_FLOAT:
+    return TypeDesc::FLOAT;
+  default:
+    return TypeDesc::UINT8;
   }
 }
 
 const char *space_of(celspan_transfer transfer) {
   switch (transfer) {
-  case CELSPAN_TRANSFER_LINEAR: return "Linear";
-  case CELSPAN_TRANSFER_REC709: return "Rec709";
-  case CELSPAN_TRANSFER_CINEON: return "KodakLog";
-  default: return "sRGB";
+  case CELSPAN_TRANSFER_LINEAR:
+    return "Linear";
+  case CELSPAN_TRANSFER_REC709:
+    return "Rec709";
+  case CELSPAN_TRANSFER_CINEON:
+    return "KodakLog";
+  default:
+    return "sRGB";
   }
 }
 
 /* What a film header calls it. */
 const char *film_transfer(celspan_transfer transfer) {
   switch (transfer) {
-  case CELSPAN_TRANSFER_LINEAR: return "Linear";
-  case CELSPAN_TRANSFER_REC709: return "ITU-R 709-4";
-  case CELSPAN_TRANSFER_CINEON: return "Printing density";
-  default: return "Undefined";
+  case CELSPAN_TRANSFER_LINEAR:
+    return "Linear";
+  case CELSPAN_TRANSFER_REC709:
+    return "ITU-R 709-4";
+  case CELSPAN_TRANSFER_CINEON:
+    return "Printing density";
+  default:
+    return "Undefined";
   }
 }
 
@@ -147,7 +159,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   return spec;
 }
 
-}  // namespace
+} // namespace
 
 celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **out,
                            cs_picture_failure *failure) {

@@ -5,13 +5,18 @@
 /* Bands that may be made ahead of delivery, a worker. */
 #define AHEAD 3
 
+/* How many spans there are up to the end of a row, and how many of the row's are not singles. */
+typedef struct row_end {
+  size_t spans, varied;
+} row_end;
+
 typedef struct band {
   int32_t index; /* of the band held, or -1 */
   bool is_done;
   celspan_status status;
   char error[sizeof((celspan_context *)0)->error];
   cs_row spans;       /* all rows' spans, one after the other */
-  size_t *row_ends;   /* after each row, how many spans */
+  row_end *row_ends;  /* after each row */
   size_t row_capacity;
 } band;
 
@@ -39,11 +44,13 @@ typedef struct delivery {
 
 /* ---------------------------------------------------------------- delivery */
 
-static void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count) {
+/* varied: spans that are not singles; where there are none they need not be looked at. */
+static void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count,
+                        size_t varied) {
   statistics->rows++;
   statistics->spans += count;
-  for (size_t i = 0; i < count; i++) {
-    statistics->single += spans[i].kind == CELSPAN_SPAN_SINGLE;
+  statistics->single += count - varied;
+  for (size_t i = 0; varied > 0 && i < count; i++) {
     statistics->gradient += spans[i].kind == CELSPAN_SPAN_GRADIENT;
     if (spans[i].kind == CELSPAN_SPAN_ARRAY) {
       statistics->array++;
@@ -52,8 +59,9 @@ static void count_spans(celspan_statistics *statistics, const celspan_span *span
   }
 }
 
-static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count) {
-  count_spans(d->statistics, spans, count);
+static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count,
+                                  size_t varied) {
+  count_spans(d->statistics, spans, count, varied);
   return d->sink->row(d->sink->user, d->context, d->rows_done++, spans, count);
 }
 
@@ -104,7 +112,7 @@ static celspan_status make_rows(pool *p, cs_lane *lane, band *b) {
     const cs_row *row;
     CS_TRY(cs_lane_row(lane, y, &row));
     CS_TRY(keep_row(&lane->context, b, row));
-    b->row_ends[y - first] = b->spans.count;
+    b->row_ends[y - first] = (row_end){b->spans.count, row->varied};
   }
   return CELSPAN_OK;
 }
@@ -162,8 +170,9 @@ static celspan_status deliver_band(delivery *d, const band *b, int32_t rows) {
     return cs_fail(d->context, b->status, "%s", b->error);
   size_t first = 0;
   for (int32_t k = 0; k < rows; k++) {
-    CS_TRY(deliver_row(d, b->spans.spans + first, b->row_ends[k] - first));
-    first = b->row_ends[k];
+    const row_end *end = &b->row_ends[k];
+    CS_TRY(deliver_row(d, b->spans.spans + first, end->spans - first, end->varied));
+    first = end->spans;
   }
   return report_progress(d);
 }
@@ -277,7 +286,7 @@ static celspan_status deliver_rows(cs_lane *lane, const cs_frame *frame, deliver
     celspan_status status = cs_lane_row(lane, y, &row);
     if (status != CELSPAN_OK)
       return cs_fail(d->context, status, "%s", lane->context.error);
-    CS_TRY(deliver_row(d, row->spans, row->count));
+    CS_TRY(deliver_row(d, row->spans, row->count, row->varied));
     if ((y + 1) % frame->band_rows == 0 || y + 1 == frame->crop_height)
       CS_TRY(report_progress(d));
   }

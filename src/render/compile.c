@@ -11,6 +11,7 @@ typedef struct compiler {
   cs_v4 front;
   uint32_t group; /* the faded group being filled */
   bool records;   /* inside a boolean tree: steps are noted */
+  bool fades_out; /* inside something faded to nothing: there, but clear */
 } compiler;
 
 #define APPEND(compiler, array, count, capacity)                                             \
@@ -83,7 +84,8 @@ static celspan_status append_leaf(compiler *c, double fade, celspan_rule rule, u
   CS_TRY(APPEND(c, leaves, leaf_count, leaf_capacity));
   CS_TRY(APPEND(c, marks, leaf_count, mark_capacity));
   *index = (uint32_t)stack->leaf_count++;
-  stack->leaves[*index] = (cs_leaf){.group = c->group, .front = c->front, .fade = (float)fade};
+  stack->leaves[*index] = (cs_leaf){
+      .group = c->group, .front = c->front, .fade = c->fades_out ? 0 : (float)fade};
   cs_hash key = cs_hash_begin(*index);
   key = cs_hash_end(key);
   stack->marks[*index] = (cs_mark){{key.a, key.b}, rule == CELSPAN_RULE_EVENODD ? 1 : -1};
@@ -101,7 +103,9 @@ static celspan_status compile_outline(compiler *c, const cs_body *body, double f
     fill_flat(leaf, CS_PAINT_CLEAR, 1); /* nowhere */
     return CELSPAN_OK;
   }
-  if (texture->kind == CS_TEXTURE_FLAT)
+  if (leaf->fade == 0)
+    fill_flat(leaf, CS_PAINT_CLEAR, 1);
+  else if (texture->kind == CS_TEXTURE_FLAT)
     fill_flat(leaf, texture->flat, (float)fade);
   else if (texture->kind == CS_TEXTURE_PICTURE)
     CS_TRY(fill_picture(c, leaf, texture, &body->bounds, &inverse));
@@ -217,16 +221,28 @@ static celspan_status compile_root(compiler *c, const cs_body *body, const celsp
   return CELSPAN_OK;
 }
 
-static celspan_status begin_group(compiler *c, double fade, uint32_t *outer) {
+/* Where the compiler stood before a group. */
+typedef struct outside {
+  uint32_t group;
+  bool fades_out;
+} outside;
+
+static celspan_status begin_group(compiler *c, double fade, outside *outer) {
   cs_stack *stack = &c->shot->stack;
-  *outer = c->group;
-  if (fade == 1)
+  *outer = (outside){c->group, c->fades_out};
+  c->fades_out |= fade == 0;
+  if (fade == 1 || c->fades_out)
     return CELSPAN_OK;
   CS_TRY(APPEND(c, groups, group_count, group_capacity));
   stack->groups[stack->group_count] =
       (cs_group){c->group, (uint32_t)stack->leaf_count, (float)fade};
   c->group = (uint32_t)stack->group_count++;
   return CELSPAN_OK;
+}
+
+static void end_group(compiler *c, outside outer) {
+  c->group = outer.group;
+  c->fades_out = outer.fades_out;
 }
 
 static celspan_status compile_object(compiler *c, const celspan_object *object,
@@ -237,10 +253,10 @@ static celspan_status compile_object(compiler *c, const celspan_object *object,
     return compile_outline(c, body, object->fade, &matrix);
   if (body->kind == CS_BODY_SCANLINE)
     return compile_scanline(c, body, object->fade, &matrix);
-  uint32_t outer;
+  outside outer;
   CS_TRY(begin_group(c, object->fade, &outer));
   CS_TRY(compile_root(c, body, &matrix));
-  c->group = outer;
+  end_group(c, outer);
   return CELSPAN_OK;
 }
 
@@ -272,11 +288,11 @@ static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, s
   matrix = celspan_matrix_then(matrix, *to_pixels);
   CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->shot->stack.leaf_count));
   c->front = light_colour(cs_scene_front(rostrum, cel));
-  uint32_t outer;
+  outside outer;
   CS_TRY(begin_group(c, cel->opacity, &outer));
   for (size_t i = 0; i < cel->object_count; i++)
     CS_TRY(compile_object(c, cel->objects[i], &matrix));
-  c->group = outer;
+  end_group(c, outer);
   return CELSPAN_OK;
 }
 
@@ -289,6 +305,38 @@ static void reverse_lights(cs_stack *stack) {
   }
 }
 
+/* ---------------------------------------------------------------- the cull */
+
+/* What a leaf lets through at most. One in a boolean tree may be present and yet not painted, one in
+ * a faded group is weaker than its paint: they are taken to let everything through. */
+static double leaf_through(const cs_leaf *leaf) {
+  if (leaf->group != CS_STACK_NONE)
+    return 1;
+  if (leaf->kind != CS_LEAF_FLAT)
+    return leaf->is_opaque ? 0 : 1;
+  double through = leaf->t[0];
+  for (int c = 1; c < 3; c++)
+    through = leaf->t[c] > through ? leaf->t[c] : through;
+  return through;
+}
+
+static celspan_status cull(compiler *c) {
+  const cs_stack *stack = &c->shot->stack;
+  cs_cull_leaf *leaves = cs_mem_array(c->context->memory, stack->leaf_count, sizeof *leaves);
+  if (stack->leaf_count > 0 && !leaves)
+    return cs_fail_memory(c->context);
+  for (size_t i = 0; i < stack->leaf_count; i++)
+    leaves[i] = (cs_cull_leaf){leaf_through(&stack->leaves[i]), stack->marks[i].winding_mask};
+  for (size_t t = 0; t < stack->tree_count; t++)
+    for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
+      leaves[i].through = 1;
+  celspan_status status =
+      cs_cull_create(c->context, &c->shot->boundaries, leaves, stack->leaf_count, c->shot->width,
+                     c->shot->height, (double)CS_PAINT_OPAQUE * 0.999, &c->shot->cull);
+  cs_mem_free(c->context->memory, leaves, stack->leaf_count * sizeof *leaves);
+  return status;
+}
+
 static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostrum,
                                       double film_width, double film_height) {
   celspan_matrix to_pixels =
@@ -298,16 +346,21 @@ static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostru
     CS_TRY(compile_cel(c, rostrum, i, &to_pixels, film_width, film_height));
   reverse_lights(&c->shot->stack);
   cs_boundary_sort(&c->shot->boundaries);
-  return CELSPAN_OK;
+  return c->shot->kernel ? CELSPAN_OK : cull(c); /* the cull's tiles end with the frame */
 }
 
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
                           double film_width, double film_height, int32_t width, int32_t height,
-                          celspan_antialias_mode antialias, cs_shot *out) {
-  cs_shot shot = {.width = width, .height = height, .antialias = antialias};
+                          const cs_antialias *antialias, cs_shot *out) {
+  cs_shot shot = {.width = width, .height = height, .antialias = antialias->mode};
+  if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
+    CS_TRY(cs_kernel_create(context, antialias, &shot.kernel));
+    shot.margin = cs_kernel_reach(shot.kernel);
+  }
   compiler c = {.context = context,
                 .shot = &shot,
-                .frame = {0, width, 0, height},
+                .frame = {-shot.margin, (double)width + shot.margin, -shot.margin,
+                          (double)height + shot.margin},
                 .group = CS_STACK_NONE};
   cs_boundary_init(&shot.boundaries);
   celspan_status status = compile_rostrum(&c, rostrum, film_width, film_height);
@@ -321,4 +374,6 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
 void cs_compile_free(cs_shot *shot, cs_memory *memory) {
   cs_stack_finish(&shot->stack, memory);
   cs_boundary_finish(&shot->boundaries, memory);
+  cs_cull_free(&shot->cull, memory);
+  cs_kernel_free(shot->kernel, memory);
 }

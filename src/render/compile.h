@@ -16,7 +16,7 @@
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
                                           const celspan_rostrum *rostrum, double film_width,
                                           double film_height, int32_t width, int32_t height,
-                                          celspan_antialias_mode antialias, cs_shot *out);
+                                          const cs_antialias *antialias, cs_shot *out);
 void cs_compile_free(cs_shot *shot, cs_memory *memory);
 
 #endif

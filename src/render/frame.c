@@ -85,18 +85,33 @@ static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->band_rows = desc->strip_rows > 0 ? desc->strip_rows : share < 4 ? 4 : share > 64 ? 64 : share;
 }
 
+/* antialias: of all exposures, or NULL: each its own. */
 static celspan_status compile_exposure(celspan_context *context, const celspan_frame_desc *desc,
+                                       const cs_antialias *antialias,
                                        const celspan_exposure *exposure, cs_frame *frame) {
   if (exposure->weight == 0)
     return CELSPAN_OK;
   bool has_film = desc->film_width != 0;
-  celspan_antialias_mode antialias =
-      desc->antialias ? *desc->antialias : exposure->rostrum->antialias;
   CS_TRY(cs_compile(context, exposure->rostrum, has_film ? desc->film_width : desc->width,
                     has_film ? desc->film_height : desc->height, desc->width, desc->height,
-                    antialias, &frame->shots[frame->count]));
+                    antialias ? antialias : &exposure->rostrum->antialias,
+                    &frame->shots[frame->count]));
   frame->weights[frame->count++] = (float)exposure->weight;
   return CELSPAN_OK;
+}
+
+static celspan_status compile_exposures(celspan_context *context, const celspan_frame_desc *desc,
+                                        cs_frame *frame) {
+  cs_antialias antialias = {0};
+  if (desc->antialias)
+    CS_TRY(cs_antialias_make(context, "frame: antialias", *desc->antialias, &desc->filter,
+                             &antialias));
+  celspan_status status = CELSPAN_OK;
+  for (size_t i = 0; status == CELSPAN_OK && i < desc->exposure_count; i++)
+    status = compile_exposure(context, desc, desc->antialias ? &antialias : NULL,
+                              &desc->exposures[i], frame);
+  cs_antialias_free(&antialias, context->memory);
+  return status;
 }
 
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
@@ -107,8 +122,7 @@ static celspan_status fill_frame(celspan_context *context, const celspan_frame_d
   frame->capacity = count;
   if (count > 0 && (!frame->shots || !frame->weights))
     return cs_fail_memory(context);
-  for (size_t i = 0; i < count; i++)
-    CS_TRY(compile_exposure(context, desc, &desc->exposures[i], frame));
+  CS_TRY(compile_exposures(context, desc, frame));
   choose_workers(frame, desc);
   return CELSPAN_OK;
 }

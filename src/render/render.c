@@ -82,6 +82,12 @@ static celspan_status render_own(celspan_context *context, const celspan_frame_d
   return status;
 }
 
+void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
+                        void *pixels) {
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  cs_pixels_row(&resolved, spans, span_count, pixels);
+}
+
 celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_coding *coding, void *pixels, size_t stride,
                                     celspan_statistics *statistics) {

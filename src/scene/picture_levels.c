@@ -43,9 +43,7 @@ void cs_levels_mean(int32_t width, int32_t height, int level, int32_t x, int32_t
   }
 }
 
-static float clean(float v) {
-  return v != v ? 0.0f : cs_number_clampf(v, -LARGEST, LARGEST);
-}
+static float clean(float v) { return v != v ? 0.0f : cs_number_clampf(v, -LARGEST, LARGEST); }
 
 static float to_light(const cs_levels_decoder *decoder, float coded) {
   if (!decoder->table)
@@ -62,8 +60,8 @@ static float to_light_divided(const cs_levels_decoder *decoder, float coded, flo
   if (alpha <= 0)
     return 0;
   float straight = clean(coded) / alpha;
-  return cs_transfer_decode(decoder->transfer, decoder->table ? cs_number_clampf(straight, 0, 1)
-                                                              : straight);
+  return cs_transfer_decode(decoder->transfer,
+                            decoder->table ? cs_number_clampf(straight, 0, 1) : straight);
 }
 
 static void decode_pixel(const cs_levels_decoder *decoder, float *rgba) {

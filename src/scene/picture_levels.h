@@ -1,8 +1,8 @@
 /* The arithmetic of pictures: from coded pixels to light, and from one mip level to the next.
  *
  * Level k has ceil(size / 2^k) texels a side; texel i of it is the mean, in linear light and
- * premultiplied, of the picture's pixels [i 2^k, (i+1) 2^k) that exist. Every texel is a function of
- * the four below it alone, so the bits do not depend on how a level came to be.
+ * premultiplied, of the picture's pixels [i 2^k, (i+1) 2^k) that exist. Every texel is a function
+ * of the four below it alone, so the bits do not depend on how a level came to be.
  */
 #ifndef CS_SCENE_PICTURE_LEVELS_H
 #define CS_SCENE_PICTURE_LEVELS_H

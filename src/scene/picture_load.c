@@ -43,13 +43,14 @@ static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 /* ---------------------------------------------------------------- what a pass covers */
 
 /* The picture fits: whole rows of blocks. What lies between the last row read and this one has to
- * be decoded anyway in a sequential format; a turned picture is read at once. */
+ * be decoded anyway in a sequential format; a turned picture is read at once, and so is one that
+ * its reader decodes at once. */
 static void cover_fitting(file_pass *pass, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   pass->columns = columns_of(entry, 0);
   pass->row = row;
   pass->rows = 1;
-  if (entry->header.is_turned) {
+  if (entry->header.is_turned || entry->header.is_whole) {
     pass->row = 0;
     pass->rows = rows_of(entry, 0);
   } else if (entry->header.is_sequential) {
@@ -115,12 +116,12 @@ static size_t block_count(const file_pass *pass) {
 }
 
 static celspan_status make_blocks(file_pass *pass) {
-  pass->blocks =
-      cs_mem_array(pass->store->memory, block_count(pass), sizeof(cs_picture_block *));
+  pass->blocks = cs_mem_array(pass->store->memory, block_count(pass), sizeof(cs_picture_block *));
   if (!pass->blocks)
     return cs_fail_memory(pass->context);
   for (size_t i = 0; i < block_count(pass); i++) {
-    int32_t row = (int32_t)(i / (size_t)pass->columns), column = (int32_t)(i % (size_t)pass->columns);
+    int32_t row = (int32_t)(i / (size_t)pass->columns),
+            column = (int32_t)(i % (size_t)pass->columns);
     CS_TRY(cs_store_make(pass->context, pass->store, pass->entry, pass->level,
                          pass->column + column, pass->row + row, &pass->blocks[i]));
   }
@@ -211,6 +212,9 @@ static celspan_status run_pass(celspan_context *context, cs_picture_store *store
   if (status == CELSPAN_OK) {
     *out = hand_over(&pass, column, row);
     entry->next_strip = pass.row + pass.rows;
+    /* Everything is held: the file and what its reader keeps are not needed any more. */
+    if (entry->base == 0 && entry->next_strip == rows_of(entry, 0))
+      cs_store_close(store, entry);
   }
   finish_pass(&pass);
   return status;

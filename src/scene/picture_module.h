@@ -38,12 +38,13 @@ typedef struct cs_picture_request {
 typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
-  int bits;            /* of the coded values when they are integers of at most 16 bits, else 0 */
-  bool is_linear;      /* `space` was given: pixels come in linear light, premultiplied */
-  bool is_turned;      /* the orientation tag moves rows: cheapest read whole */
-  bool is_sequential;  /* reading a row means decoding those above it */
-  int64_t file_size;   /* what tells a changed file */
-  int64_t file_time;   /* nanoseconds */
+  int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
+  bool is_linear;     /* `space` was given: pixels come in linear light, premultiplied */
+  bool is_turned;     /* the orientation tag moves rows: cheapest read whole */
+  bool is_whole;      /* the reader decodes everything at once and keeps it */
+  bool is_sequential; /* reading a row means decoding those above it */
+  int64_t file_size;  /* what tells a changed file */
+  int64_t file_time;  /* nanoseconds */
   uint64_t file_number;
 } cs_picture_header;
 

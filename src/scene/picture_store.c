@@ -129,8 +129,8 @@ static void list_append(cs_picture_store *store, cs_picture_block *block) {
 }
 
 static void bucket_remove(cs_picture_store *store, cs_picture_block *block) {
-  cs_picture_block **link = &store->buckets[bucket_of(store, block->entry, block->level,
-                                                      block->column, block->row)];
+  cs_picture_block **link =
+      &store->buckets[bucket_of(store, block->entry, block->level, block->column, block->row)];
   while (*link != block)
     link = &(*link)->next;
   *link = block->next;
@@ -230,8 +230,7 @@ static bool is_opaque(const cs_picture_block *block) {
 cs_picture_block *cs_store_insert(cs_picture_store *store, cs_picture_block *block, uint32_t pins) {
   block->is_opaque = is_opaque(block);
   pthread_mutex_lock(&store->lock);
-  cs_picture_block *held =
-      find_block(store, block->entry, block->level, block->column, block->row);
+  cs_picture_block *held = find_block(store, block->entry, block->level, block->column, block->row);
   if (held) {
     free_block(store, block);
     if (pins)
@@ -430,4 +429,14 @@ celspan_status cs_store_reader(celspan_context *context, cs_picture_store *store
   store->reader_count++;
   pthread_mutex_unlock(&store->lock);
   return CELSPAN_OK;
+}
+
+void cs_store_close(cs_picture_store *store, cs_picture_entry *entry) {
+  if (!entry->reader)
+    return;
+  store->module->close(entry->reader);
+  entry->reader = NULL;
+  pthread_mutex_lock(&store->lock);
+  store->reader_count--;
+  pthread_mutex_unlock(&store->lock);
 }

@@ -32,7 +32,7 @@ struct cs_picture_block {
   int32_t column, row;
   uint32_t pins;
   bool is_opaque;
-  cs_picture_block *next;         /* in its bucket */
+  cs_picture_block *next;          /* in its bucket */
   cs_picture_block *older, *newer; /* while it has no pins */
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
 };
@@ -93,6 +93,8 @@ void cs_store_unpin(cs_picture_store *store, cs_picture_block *block);
 /* The entry's reader, open. The caller holds `reading`. */
 CELSPAN_CHECKED celspan_status cs_store_reader(celspan_context *context, cs_picture_store *store,
                                                cs_picture_entry *entry);
+/* Closes it until it is wanted again. The caller holds `reading`. */
+void cs_store_close(cs_picture_store *store, cs_picture_entry *entry);
 
 /* picture_load.c: a block that is not held, with a pin. The caller holds `reading`.
  * Errors: INPUT, NO_MEMORY. */

@@ -27,9 +27,7 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
     CS_TRY(cs_door_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
   if (desc->has_camera_width)
     CS_TRY(cs_door_positive(context, "rostrum", "camera.width", desc->camera_width));
-  CS_TRY(cs_door_number(context, "rostrum", "camera.rotate", desc->camera_rotation));
-  return cs_door_choice(context, "rostrum", "antialias", (unsigned)desc->antialias,
-                        CELSPAN_ANTIALIAS_NONE + 1);
+  return cs_door_number(context, "rostrum", "camera.rotate", desc->camera_rotation);
 }
 
 static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
@@ -46,7 +44,7 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   cs_hash_word(&hash, rostrum->has_camera_width);
   cs_hash_number(&hash, rostrum->camera_width);
   cs_hash_number(&hash, rostrum->camera_rotation);
-  cs_hash_word(&hash, rostrum->antialias);
+  cs_antialias_hash(&hash, &rostrum->antialias);
   return cs_hash_end(hash);
 }
 
@@ -64,18 +62,20 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   if (desc->has_camera_width)
     rostrum->camera_width = desc->camera_width;
   rostrum->camera_rotation = desc->camera_rotation;
-  rostrum->antialias = desc->antialias;
 }
 
 celspan_status celspan_rostrum_create(celspan_context *context, const celspan_rostrum_desc *desc,
                                       celspan_rostrum **out) {
+  cs_antialias antialias;
   CS_TRY(check(context, desc));
+  CS_TRY(cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter,
+                           &antialias));
   celspan_cel **cels = cs_mem_array(context->memory, desc->cel_count, sizeof *cels);
-  if (!cels && desc->cel_count > 0)
-    return cs_fail_memory(context);
   celspan_rostrum *rostrum = cs_mem_array(context->memory, 1, sizeof *rostrum);
-  if (!rostrum) {
+  if (!rostrum || (!cels && desc->cel_count > 0)) {
     cs_mem_free(context->memory, cels, desc->cel_count * sizeof *cels);
+    cs_mem_free(context->memory, rostrum, sizeof *rostrum);
+    cs_antialias_free(&antialias, context->memory);
     return cs_fail_memory(context);
   }
   atomic_init(&rostrum->references, 1);
@@ -85,6 +85,7 @@ celspan_status celspan_rostrum_create(celspan_context *context, const celspan_ro
   for (size_t i = 0; i < desc->cel_count; i++)
     cels[i] = celspan_cel_ref(desc->cels[i]);
   fill(rostrum, desc);
+  rostrum->antialias = antialias;
   rostrum->hash = hash_rostrum(rostrum);
   *out = rostrum;
   return CELSPAN_OK;
@@ -102,6 +103,7 @@ void celspan_rostrum_unref(celspan_rostrum *rostrum) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
     celspan_cel_unref(rostrum->cels[i]);
   cs_mem_free(memory, rostrum->cels, rostrum->cel_count * sizeof *rostrum->cels);
+  cs_antialias_free(&rostrum->antialias, memory);
   cs_mem_free(memory, rostrum, sizeof *rostrum);
   cs_memory_unref(memory);
 }

@@ -14,6 +14,7 @@
 #include "base/hash.h"
 #include "colour/paint.h"
 #include "geometry/outline.h"
+#include "scene/antialias.h"
 #include "scene/picture.h"
 
 #define CS_SCENE_DEPTH 128
@@ -109,7 +110,7 @@ struct celspan_rostrum {
   celspan_point camera_centre;
   double camera_width;
   double camera_rotation;
-  celspan_antialias_mode antialias;
+  cs_antialias antialias;
 };
 
 /* The matrix from a cel's units (before its own transform) to film units on the frame: transform,

@@ -14,7 +14,7 @@ void cs_row_finish(cs_row *row, cs_memory *memory) {
 }
 
 void cs_row_clear(cs_row *row) {
-  row->count = 0;
+  row->count = row->varied = 0;
   cs_arena_reset(&row->colours);
 }
 
@@ -23,10 +23,11 @@ celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
                         sizeof *row->spans);
 }
 
-static celspan_status append(celspan_context *context, cs_row *row, celspan_span span) {
+static celspan_status append_varied(celspan_context *context, cs_row *row, celspan_span span) {
   if (row->count == row->capacity)
     CS_TRY(cs_row_grow(context, row));
   row->spans[row->count++] = span;
+  row->varied++;
   return CELSPAN_OK;
 }
 
@@ -37,7 +38,7 @@ celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0
   celspan_span span = {.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_GRADIENT, .origin = x0};
   cs_v4_store(span.colour, colour);
   cs_v4_store(span.slope, slope);
-  return append(context, row, span);
+  return append_varied(context, row, span);
 }
 
 celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
@@ -45,13 +46,14 @@ celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, i
   *colours = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * 4 * sizeof(float));
   if (!*colours)
     return CELSPAN_NO_MEMORY;
-  return append(context, row,
+  return append_varied(context, row,
                 (celspan_span){.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_ARRAY, .origin = x0,
                                .array = *colours});
 }
 
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   size_t kept = 0;
+  row->varied = 0;
   for (size_t i = 0; i < row->count; i++) {
     celspan_span span = row->spans[i];
     int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;
@@ -63,6 +65,7 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
     span.x1 = to - x0;
     span.origin -= x0;
     row->spans[kept++] = span;
+    row->varied += span.kind != CELSPAN_SPAN_SINGLE;
   }
   row->count = kept;
 }

@@ -12,6 +12,7 @@
 typedef struct cs_row {
   celspan_span *spans;
   size_t count, capacity;
+  size_t varied; /* spans that are not singles */
   cs_arena colours;
 } cs_row;
 

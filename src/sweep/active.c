@@ -5,8 +5,8 @@
 /* Bytes of one boundary over all arrays: six doubles, two slots, a walk. */
 #define ITEM_SIZE (6 * sizeof(double) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
-void cs_active_init(cs_active *active, const cs_boundary_set *set) {
-  *active = (cs_active){.set = set};
+void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
+  *active = (cs_active){.set = set, .cull = cull};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
@@ -126,14 +126,20 @@ static bool sort(cs_active *active) {
 
 /* ---------------------------------------------------------------- heights */
 
+static int32_t tile_row_of(const cs_active *active, double y) {
+  return active->cull->tile_rows > 0 ? cs_cull_row(active->cull, y) : 0;
+}
+
 static celspan_status begin_chains(celspan_context *context, cs_active *active, double y,
                                    bool *changed) {
   const cs_boundary_chain *chains = active->set->chains;
-  for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++)
-    if (y < chains[active->next].y1) {
-      CS_TRY(append(context, active, (uint32_t)active->next, y));
+  for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++) {
+    uint32_t chain = (uint32_t)active->next;
+    if (y < chains[chain].y1 && cs_cull_keeps(active->cull, active->set, chain, active->tile_row)) {
+      CS_TRY(append(context, active, chain, y));
       *changed = true;
     }
+  }
   return CELSPAN_OK;
 }
 
@@ -144,6 +150,8 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
   active->count = 0;
   active->next = 0;
   active->y = active->y_next = y;
+  active->bend_count = active->vertex_count = 0;
+  active->tile_row = tile_row_of(active, y);
   CS_TRY(begin_chains(context, active, y, &changed));
   sort(active);
   return CELSPAN_OK;
@@ -217,13 +225,42 @@ static bool drop_ended(cs_active *active) {
   return changed;
 }
 
+/* Takes the chains that the next row of tiles does not keep out of the order, and those that only it
+ * keeps in. */
+static celspan_status change_tile_row(celspan_context *context, cs_active *active) {
+  const cs_cull *cull = active->cull;
+  size_t kept = 0;
+  for (size_t i = 0; i < active->count; i++) {
+    uint32_t chain = active->walks[active->slot[i]].chain;
+    if (!cs_cull_keeps(cull, active->set, chain, active->tile_row))
+      active->free_slots[active->free_count++] = active->slot[i];
+    else
+      move_boundary(active, kept++, i);
+  }
+  active->count = kept;
+  for (uint32_t k = cull->enter_starts[active->tile_row];
+       k < cull->enter_starts[active->tile_row + 1]; k++)
+    if (active->y < active->set->chains[cull->enters[k]].y1)
+      CS_TRY(append(context, active, cull->enters[k], active->y));
+  return CELSPAN_OK;
+}
+
 celspan_status cs_active_settle(celspan_context *context, cs_active *active, bool *changed) {
+  int32_t tile_row = tile_row_of(active, active->y_next);
+  *changed = true;
+  if (tile_row > active->tile_row + 1)
+    return cs_active_start(context, active, active->y_next);
   double *left_behind = active->x;
   active->x = active->x_next;
   active->x_next = left_behind;
   active->y = active->y_next;
   *changed = active->bend_count > 0 && drop_ended(active);
   active->bend_count = active->vertex_count = 0;
+  if (tile_row != active->tile_row) {
+    active->tile_row = tile_row;
+    CS_TRY(change_tile_row(context, active));
+    *changed = true;
+  }
   CS_TRY(begin_chains(context, active, active->y, changed));
   *changed |= sort(active);
   return CELSPAN_OK;

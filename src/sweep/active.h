@@ -4,7 +4,7 @@
  * order checking run at memory speed; the walk of a boundary is found by its slot.
  *
  * Invariants, at height y
- *   - exactly the chains with y0 <= y < y1 are listed;
+ *   - exactly the chains with y0 <= y < y1 are listed that the cull keeps in y's row of tiles;
  *   - they are ordered by x at y, then by slope, then by chain: an order that depends on y and the
  *     set alone, not on the rows swept before (so strips agree to the bit);
  *   - x[i] is cs_boundary_x at y on the segment that holds y.
@@ -12,7 +12,7 @@
 #ifndef CS_SWEEP_ACTIVE_H
 #define CS_SWEEP_ACTIVE_H
 
-#include "geometry/boundary.h"
+#include "sweep/cull.h"
 
 /* What a boundary does between two heights, when that is not one straight piece. */
 typedef struct cs_bend {
@@ -25,6 +25,8 @@ typedef struct cs_bend {
 
 typedef struct cs_active {
   const cs_boundary_set *set;
+  const cs_cull *cull;
+  int32_t tile_row; /* that holds the current height */
   /* arrays of like fields, `count` of each, in order */
   double *x;     /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
@@ -46,7 +48,7 @@ typedef struct cs_active {
   size_t vertex_count, vertex_capacity;
 } cs_active;
 
-void cs_active_init(cs_active *active, const cs_boundary_set *set);
+void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull);
 void cs_active_finish(cs_active *active, cs_memory *memory);
 /* Stands at height y, from nothing. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_active *active,
@@ -55,10 +57,20 @@ CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_acti
  * is at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
                                                double y);
-/* Moves down to the height reached. *changed: boundaries began, ended or changed places.
+/* Moves down to the height reached. *changed: boundaries began, ended or changed places, or another
+ * row of tiles has begun.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
                                                 bool *changed);
+
+/* The toggles that stand for culled chains at the current height, from left to right. */
+static inline const cs_toggle *cs_active_toggles(const cs_active *active, const cs_toggle **end) {
+  const cs_cull *cull = active->cull;
+  if (cull->tile_rows == 0)
+    return *end = NULL;
+  *end = cull->toggles + cull->toggle_starts[active->tile_row + 1];
+  return cull->toggles + cull->toggle_starts[active->tile_row];
+}
 
 static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, size_t i) {
   return &active->set->chains[active->walks[active->slot[i]].chain];

@@ -134,7 +134,7 @@ static celspan_status note_toggle(culler *c, int32_t row, double x,
 typedef struct footprint {
   uint64_t touched;
   reach turning; /* columns between what begins and ends in the row */
-  bool turns;
+  bool turns, keeps;
   int32_t winding[CS_CULL_COLUMNS + 1]; /* differences along the columns at the top of the row */
 } footprint;
 
@@ -156,6 +156,7 @@ static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footpr
   }
   if (turns || (column_mask(r) & c->live[row])) {
     c->cull->kept[bit / 64] |= (uint64_t)1 << (bit % 64);
+    f->keeps = true;
     return CELSPAN_OK;
   }
   return note_toggle(c, row, column_edge(c, r.low), ch);
@@ -187,13 +188,17 @@ static void cover(culler *c, int32_t row, uint64_t inside, double through) {
 
 static celspan_status cull_leaf_row(culler *c, uint32_t leaf, int32_t row) {
   footprint f = {0};
+  size_t toggles = c->toggle_count;
   for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
     int32_t first, last;
     if (chain_rows(c, c->by_leaf[k], &first, &last) && row >= first && row <= last)
       CS_TRY(place_chain(c, c->by_leaf[k], row, &f));
   }
-  if (f.touched && c->leaves[leaf].through < 1)
-    cover(c, row, inside_mask(&f, c->leaves[leaf].winding_mask), c->leaves[leaf].through);
+  uint64_t inside = f.touched ? inside_mask(&f, c->leaves[leaf].winding_mask) : 0;
+  if (!f.keeps && !(inside & c->live[row]))
+    c->toggle_count = toggles; /* it is nowhere to be seen in this row of tiles */
+  if (c->leaves[leaf].through < 1)
+    cover(c, row, inside, c->leaves[leaf].through);
   return CELSPAN_OK;
 }
 

@@ -51,10 +51,10 @@ CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs
                                               cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);
 
-/* The row of tiles that holds a height inside the frame. */
+/* The row of tiles that holds a height; the first or last for heights beyond the frame. */
 static inline int32_t cs_cull_row(const cs_cull *cull, double y) {
-  int32_t row = y <= 0 ? 0 : (int32_t)(y / cull->tile_height);
-  return row < cull->tile_rows ? row : cull->tile_rows - 1;
+  double row = y / cull->tile_height;
+  return row <= 0 ? 0 : row >= cull->tile_rows ? cull->tile_rows - 1 : (int32_t)row;
 }
 
 /* Whether a chain that crosses the row of tiles is kept in it. */

@@ -122,7 +122,8 @@ describe("frames", function()
     local ground = celspan.rect { 0, 0, 30, 20, texture = "#456" }
     return celspan.film { size = { 30, 20 }, frames = 12, frame = function(f)
       local x = f:random("x", 0, 20)
-      return celspan.rostrum { celspan.cel { ground, celspan.circle { centre = { x, f.number }, radius = 5 } } }
+      local ball = celspan.circle { centre = { x, f.number }, radius = 5 }
+      return celspan.rostrum { celspan.cel { ground, ball } }
     end }
   end
 

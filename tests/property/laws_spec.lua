@@ -43,7 +43,8 @@ end
 
 --- Where an object is, in white.
 local function presence(shape)
-  return celspan.rostrum { celspan.cel { celspan.clip(celspan.rect { -9, -9, 99, 99, texture = "#fff" }, shape) } }
+  local white = celspan.rect { -9, -9, 99, 99, texture = "#fff" }
+  return celspan.rostrum { celspan.cel { celspan.clip(white, shape) } }
 end
 
 --- The laws of sets: pairs of objects that are present at the same places.
@@ -93,7 +94,9 @@ describe("a cel that cannot be seen", function()
       local a, traits = object(2 * case, options)
       local b = object(2 * case + 1, options)
       local film = { traits.width, traits.height }
-      for antialias, tolerance in pairs { none = is_flat and 0 or 1e-6, area = AREA } do
+      -- What may differ is where gradients are cut.
+      local tolerances = is_flat and { none = 0, area = AREA } or { none = 1e-6, area = 1 / 1023 }
+      for antialias, tolerance in pairs(tolerances) do
         local with, without = make(celspan.cel { a }, celspan.cel { b })
         assert_alike(shot(with, film, film, antialias), shot(without, film, film, antialias), tolerance,
                      ("CASE=%d under %s"):format(case, antialias))
@@ -164,7 +167,8 @@ describe("a curve moved by whole pixels", function()
     each_case(function(case)
       local random = prng.new(case)
       local function point() return { random:between(-5, 50), random:between(-5, 45) } end
-      local curve = celspan.nurbs { points = { point(), point(), point(), point(), point() }, texture = "#08f" }
+      local points = { point(), point(), point(), point(), point() }
+      local curve = celspan.nurbs { points = points, texture = "#08f" }
       local dx, dy, size = random:whole(-9, 9), random:whole(-9, 9), { 48, 40 }
       assert_alike(shot(celspan.rostrum { celspan.cel { curve } }, size, size, "area"),
                    shot(celspan.rostrum { celspan.cel { curve:translate(dx, dy) } }, size, size, "area"),
@@ -179,8 +183,8 @@ describe("scene and view scaled by two", function()
       local cel, size = celspan.cel(dyadic_objects(case)), { 53, 37 }
       for _, antialias in ipairs { "none", "area" } do
         local function text(rostrum, film)
-          return rows.text(assert(celspan.spans(rostrum, { size = size, film = film, antialias = antialias })),
-                           0, size[2] - 1)
+          local options = { size = size, film = film, antialias = antialias }
+          return rows.text(assert(celspan.spans(rostrum, options)), 0, size[2] - 1)
         end
         local once = text(celspan.rostrum { cel }, size)
         local twice = celspan.rostrum { cel:scale(2) }
@@ -201,10 +205,12 @@ describe("a viewport", function()
       local camera = { centre = { x + 8, y + 6 }, width = 16 }
       for antialias, tolerance in pairs { none = 0, area = AREA } do
         local where = ("CASE=%d under %s"):format(case, antialias)
-        local whole = shot(celspan.rostrum { cel }, { 64, 48 }, { 32, 24 }, antialias, { 2 * x, 2 * y, 32, 24 })
-        assert_alike(shot(celspan.rostrum { cut }, { 32, 24 }, { 32, 24 }, antialias), whole, tolerance, where)
-        assert_alike(shot(celspan.rostrum { cel, camera = camera }, { 32, 24 }, { 32, 24 }, antialias), whole,
-                     tolerance, where .. ", camera")
+        local film, crop = { 32, 24 }, { 2 * x, 2 * y, 32, 24 }
+        local whole = shot(celspan.rostrum { cel }, { 64, 48 }, film, antialias, crop)
+        local panned = shot(celspan.rostrum { cut }, film, film, antialias)
+        local filmed = shot(celspan.rostrum { cel, camera = camera }, film, film, antialias)
+        assert_alike(panned, whole, tolerance, where)
+        assert_alike(filmed, whole, tolerance, where .. ", camera")
       end
     end)
   end)
@@ -220,7 +226,8 @@ describe("a gradient of one colour", function()
     }
     local ground = celspan.rect { 5, 5, 20, 20, texture = "#fa0" }
     local function picture(texture)
-      return celspan.rostrum { celspan.cel { ground, celspan.circle { centre = { 16, 12 }, radius = 11, texture = texture } } }
+      local disc = celspan.circle { centre = { 16, 12 }, radius = 11, texture = texture }
+      return celspan.rostrum { celspan.cel { ground, disc } }
     end
     for antialias in pairs { none = 0, area = 0 } do
       local flat = shot(picture(paint), { 32, 24 }, nil, antialias)

@@ -148,7 +148,7 @@ describe("the command line", function()
 
     it("says what this version does not have", function()
       for _, option in ipairs { "--resume", "--force", "--keep-going", "--memory 100",
-        "--progress json", "--progress=openjd", "--antialias gaussian", "--antialias lanczos:8" } do
+        "--progress json", "--progress=openjd" } do
         usage_error("render x.lua -o y.png " .. option, "is not built into this version")
       end
       usage_error("render x.lua -o film.mp4", "is not built into this version")

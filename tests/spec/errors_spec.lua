@@ -125,8 +125,8 @@ describe("a wrong type", function()
       function() celspan.film { frames = 3, duration = 3, frame = print } end },
     { "pixels: argument 1 must be a rostrum or a list {{rostrum, weight}, ...}, got a cel",
       function() celspan.pixels(celspan.cel {}) end },
-    { 'rostrum: antialias: kernel filters are not built into this version; use "area" or "none"',
-      function() celspan.rostrum { antialias = { kernel = "gaussian" } } end },
+    { "rostrum: antialias: radius is -1; it must be between 0 and 256",
+      function() celspan.rostrum { antialias = { kernel = "gaussian", radius = -1 } } end },
   }
   for _, case in ipairs(cases) do
     it("is told: " .. case[1], function()

@@ -62,8 +62,9 @@ static inline celspan_status picture_texel(celspan_context *context, const cs_pi
   cs_picture_block *block;
   CS_TRY(cs_picture_acquire(context, picture, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK,
                             &block));
-  memcpy(rgba, cs_picture_texels(block) + 4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK +
-                                               x % CS_PICTURE_BLOCK),
+  memcpy(rgba,
+         cs_picture_texels(block) +
+             4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK),
          4 * sizeof(float));
   cs_picture_release(context, block);
   return CELSPAN_OK;

@@ -2,8 +2,8 @@
 --
 --   scenes.script(seed [, options]) -> text of a film script, traits
 --
--- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened), light (the brightest that can leave
--- the frame), has_rows (scan-line primitives: placed upright).
+-- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened),
+-- light (the brightest that can leave the frame), has_rows (scan-line primitives: placed upright).
 local prng = require "tests.support.prng"
 
 local scenes = {}
@@ -258,7 +258,8 @@ function maker:transform()
   if kind <= 2 then return (":translate(%s, %s)"):format(self:number(-12, 12), self:number(-12, 12)) end
   if kind == 3 then return (":scale(%s)"):format(self:number(0.3, 1.8)) end
   if kind == 4 then
-    return (":scale(%s, %s):translate(%s, %s)"):format(self.random:pick { "-", "" } .. self:number(0.3, 1.5), self:number(0.2, 1.5),
+    return (":scale(%s%s, %s):translate(%s, %s)"):format(
+      self.random:pick { "-", "" }, self:number(0.3, 1.5), self:number(0.2, 1.5),
       self:number(0, 20), self:number(0, 10))
   end
   if self.is_upright then return "" end
@@ -280,7 +281,8 @@ end
 
 function maker:object(depth)
   if depth == 0 or self.random:once(3) then return self:dress(self:primitive()) end
-  local kind = self.random:pick { "union", "intersection", "difference", "xor", "clip", "|", "&", "-", "~" }
+  local kind = self.random:pick { "union", "intersection", "difference", "xor", "clip",
+                                  "|", "&", "-", "~" }
   if #kind == 1 then
     return self:dress(("(%s %s %s)"):format(self:object(depth - 1), kind, self:object(depth - 1)))
   end

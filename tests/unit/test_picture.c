@@ -582,10 +582,11 @@ static void test_windows(void) {
 /* The suite's good files are read, those that are corrupt on purpose refused. */
 static void test_png_suite(void) {
   static const char *const good[] = {
-      "basi0g02", "basi2c16", "basi3p01", "basi3p02", "basi3p08", "basi4a08", "basi6a16", "basn0g08",
-      "basn0g16", "basn2c16", "basn4a08", "basn6a08", "bgan6a16", "bgyn6a16", "ch1n3p04", "cs3n3p08",
-      "exif2c08", "f04n2c08", "g03n2c08", "g25n0g16", "oi9n0g16", "pp0n6a08", "ps2n0g08", "s02i3p01",
-      "s40n3p04", "tbbn2c16", "tbgn3p08", "tbrn2c08", "tm3n3p02", "tp0n2c08", "tp1n3p08", "z09n2c08"};
+      "basi0g02", "basi2c16", "basi3p01", "basi3p02", "basi3p08", "basi4a08", "basi6a16",
+      "basn0g08", "basn0g16", "basn2c16", "basn4a08", "basn6a08", "bgan6a16", "bgyn6a16",
+      "ch1n3p04", "cs3n3p08", "exif2c08", "f04n2c08", "g03n2c08", "g25n0g16", "oi9n0g16",
+      "pp0n6a08", "ps2n0g08", "s02i3p01", "s40n3p04", "tbbn2c16", "tbgn3p08", "tbrn2c08",
+      "tm3n3p02", "tp0n2c08", "tp1n3p08", "z09n2c08"};
   static const char *const bad[] = {"xcrn0g04", "xcsn0g01", "xd0n2c08", "xd3n2c08", "xd9n2c08",
                                     "xhdn0g08", "xlfn0g04", "xs2n0g01", "xs4n0g01"};
   for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
@@ -608,6 +609,9 @@ static void test_png_suite(void) {
  * is given the file itself. */
 static void test_psd(void) {
   check_texel("psd/blend-modes/hard-mix.psd", NULL, 64, 64, 0, 0, 0.5, 0.5, 0.5, 0.5, 0.5);
+  /* The layer is 85 x 46 at (8, 4) of the picture's 101 x 55: clear around it. */
+  check_texel("psd/2layers.psd", "\xd0\xa1\xd0\xbb\xd0\xbe\xd0\xb9", 101, 55, 3, 3, 0, 0, 0, 0, 0);
+  check_texel("psd/2layers.psd", NULL, 101, 55, 0, 0, 1, 1, 1, 1, 0);
   const char *path = material_path("psd/group.psd");
   if (path) {
     CHECK(read_file(path) == CELSPAN_OK);

@@ -1,4 +1,5 @@
-/* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere. */
+/* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
+ */
 #include "compose/sampler.h"
 #include "tests/support/picture.h"
 
@@ -51,8 +52,8 @@ static void remove_picture(const char *name, cs_picture *picture) {
 static cs_sampler make_sampler(const cs_picture *picture, int width, int height,
                                celspan_matrix placement, celspan_sampling sampling,
                                celspan_wrap wrap) {
-  cs_sampler sampler = {.picture = picture, .width = width, .height = height, .sampling = sampling,
-                        .wrap = wrap};
+  cs_sampler sampler = {
+      .picture = picture, .width = width, .height = height, .sampling = sampling, .wrap = wrap};
   const double *m = placement.m;
   /* The adjugate over the determinant. */
   double a[9] = {m[4] * m[8] - m[5] * m[7], m[2] * m[7] - m[1] * m[8], m[1] * m[5] - m[2] * m[4],
@@ -128,7 +129,8 @@ static void test_half_pixel(void) {
     float rgba[4];
     sample(&s, x, 50, rgba);
     for (int c = 0; c < 4; c++)
-      CHECK_NEAR((double)rgba[c], ((double)noise[50][x - 1][c] + (double)noise[50][x][c]) / 2, 1e-6);
+      CHECK_NEAR((double)rgba[c], ((double)noise[50][x - 1][c] + (double)noise[50][x][c]) / 2,
+                 1e-6);
   }
 }
 
@@ -144,9 +146,10 @@ static void test_nearest(void) {
 
 /* A run's pixels do not depend on where it begins. */
 static void test_runs(void) {
-  const celspan_matrix placements[] = {
-      affine(1.7, 0, 3.3, 0, 1.7, -2), affine(0.3, 0, 3, 0, 0.4, 1), affine(0.5, 0.6, 9, -0.4, 0.7, 80),
-      {{0.5, 0.1, 10, 0.05, 0.6, 5, 0.001, 0.002, 1}}};
+  const celspan_matrix placements[] = {affine(1.7, 0, 3.3, 0, 1.7, -2),
+                                       affine(0.3, 0, 3, 0, 0.4, 1),
+                                       affine(0.5, 0.6, 9, -0.4, 0.7, 80),
+                                       {{0.5, 0.1, 10, 0.05, 0.6, 5, 0.001, 0.002, 1}}};
   for (int p = 0; p < 4; p++)
     for (int y = 0; y < 100; y += 11) {
       cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, placements[p], CELSPAN_SAMPLING_AUTO,
@@ -258,9 +261,9 @@ static void test_shrink(void) {
 static void test_checker(void) {
   const double factors[] = {8, 16, 3.7, 11.3, 64};
   for (int i = 0; i < 5; i++) {
-    cs_sampler s = make_sampler(check_picture, 256, 256,
-                                affine(1 / factors[i], 0, 0, 0, 1 / factors[i], 0),
-                                CELSPAN_SAMPLING_AUTO, CELSPAN_WRAP_CLEAR);
+    cs_sampler s =
+        make_sampler(check_picture, 256, 256, affine(1 / factors[i], 0, 0, 0, 1 / factors[i], 0),
+                     CELSPAN_SAMPLING_AUTO, CELSPAN_WRAP_CLEAR);
     double tolerance = factors[i] == floor(factors[i]) ? 1e-6 : 0.5 / (factors[i] * factors[i]);
     for (int x = 0; x + 1 < 256 / factors[i]; x++) {
       float rgba[4];
@@ -313,12 +316,14 @@ static void brute_force(const cs_sampler *s, int x, int y, int taps, double out[
   for (int i = 0; i < taps * taps; i++) {
     double px = x + (i % taps + 0.5) / taps, py = y + (i / taps + 0.5) / taps;
     double w = m[6] * px + m[7] * py + m[8];
-    double u = (m[0] * px + m[1] * py + m[2]) / w - 0.5, v = (m[3] * px + m[4] * py + m[5]) / w - 0.5;
+    double u = (m[0] * px + m[1] * py + m[2]) / w - 0.5,
+           v = (m[3] * px + m[4] * py + m[5]) / w - 0.5;
     double fu = u - floor(u), fv = v - floor(v);
     int iu = (int)floor(u), iv = (int)floor(v);
     for (int c = 0; c < 4; c++)
-      out[c] += ((double)noise[iv][iu][c] * (1 - fu) + (double)noise[iv][iu + 1][c] * fu) * (1 - fv) +
-                ((double)noise[iv + 1][iu][c] * (1 - fu) + (double)noise[iv + 1][iu + 1][c] * fu) * fv;
+      out[c] +=
+          ((double)noise[iv][iu][c] * (1 - fu) + (double)noise[iv][iu + 1][c] * fu) * (1 - fv) +
+          ((double)noise[iv + 1][iu][c] * (1 - fu) + (double)noise[iv + 1][iu + 1][c] * fu) * fv;
   }
   for (int c = 0; c < 4; c++)
     out[c] /= taps * taps;
@@ -345,8 +350,8 @@ static void test_perspective(void) {
   double deviation;
   /* Enlarged: one interpolated sample at the centre, so one tap tells. */
   celspan_matrix near = {{3, 0.2, 10, 0.1, 3.5, 20, 0.0004, 0.0006, 1}};
-  cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, near, CELSPAN_SAMPLING_BILINEAR,
-                              CELSPAN_WRAP_CLEAR);
+  cs_sampler s =
+      make_sampler(noise_picture, SIDE, SIDE, near, CELSPAN_SAMPLING_BILINEAR, CELSPAN_WRAP_CLEAR);
   CHECK_NEAR(compare_with_force(&s, 100, 200, 150, 220, 1, &deviation), 0, 1e-5);
   /* Shrunk, and more along one axis than the other. */
   celspan_matrix far = {{0.6, 0.05, 5, 0.02, 0.25, 3, 0.0008, 0.0012, 1}};
@@ -360,7 +365,9 @@ static void test_perspective(void) {
 }
 
 static void test_horizon(void) {
-  cs_sampler s = {.picture = noise_picture, .width = SIDE, .height = SIDE,
+  cs_sampler s = {.picture = noise_picture,
+                  .width = SIDE,
+                  .height = SIDE,
                   .wrap = CELSPAN_WRAP_REPEAT,
                   .inverse = {{1, 0, 0, 0, 0, 100, 0, 0.1, -1}}}; /* w = 0.1 y - 1 */
   float rgba[4];

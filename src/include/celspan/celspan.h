@@ -436,8 +436,36 @@ CELSPAN_API bool celspan_cel_contains(const celspan_cel *cel, celspan_point poin
 
 typedef enum celspan_antialias_mode {
   CELSPAN_ANTIALIAS_AREA = 0, /* the exact mean over each pixel */
-  CELSPAN_ANTIALIAS_NONE      /* pixel centres */
+  CELSPAN_ANTIALIAS_NONE,     /* pixel centres */
+  CELSPAN_ANTIALIAS_FILTER    /* a kernel: see celspan_filter_desc */
 } celspan_antialias_mode;
+
+/* Kernels of antialiasing filters: separable, normalised, cut at the radius. */
+typedef enum celspan_kernel {
+  CELSPAN_KERNEL_BOX = 0,  /* radius 0.5 */
+  CELSPAN_KERNEL_GAUSSIAN, /* radius 1.5; sigma is a third of the radius */
+  CELSPAN_KERNEL_MITCHELL, /* radius 2; stretched with the radius */
+  CELSPAN_KERNEL_LANCZOS,  /* radius 3: the lobes of the window */
+  CELSPAN_KERNEL_FUNCTION  /* the caller's */
+} celspan_kernel;
+
+/* *out: the kernel's value at x pixels from its centre. */
+typedef celspan_status (*celspan_kernel_function)(void *user, celspan_context *context, double x,
+                                                  double *out);
+
+/* The boundaries of a row are filtered as they are, without a raster of samples: exactly in x, and
+ * in y by cutting slanted ones into up to `rows` pieces a pixel. Where a kernel is negative, alpha
+ * is held to 0..1 and each channel to the range of the values under the kernel. */
+typedef struct celspan_filter_desc {
+  celspan_kernel kernel;
+  bool has_radius; /* false: the kernel's own, named above; FUNCTION has none */
+  double radius;   /* pixels, at most 256; 0: no filter, pixel centres */
+  int rows;        /* 1..256; 0: 16 */
+  /* FUNCTION: called 2048 times while the value is made, at places spread evenly over the
+   * diameter, and never again; its values are copied. */
+  celspan_kernel_function function;
+  void *function_user;
+} celspan_filter_desc;
 
 typedef struct celspan_rostrum_desc {
   size_t struct_size;
@@ -452,13 +480,14 @@ typedef struct celspan_rostrum_desc {
   double camera_width;
   double camera_rotation; /* radians; turns the camera, so the picture turns back */
   celspan_antialias_mode antialias;
+  celspan_filter_desc filter; /* where antialias is FILTER */
 } celspan_rostrum_desc;
 
 #define CELSPAN_ROSTRUM_DESC                                                                       \
   ((celspan_rostrum_desc){.struct_size = sizeof(celspan_rostrum_desc), .brightness = 1})
 
 /* desc: borrowed, but for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
- * below 0, a camera without width. */
+ * below 0, a camera without width, a kernel that sums to nothing; what its function returns. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_create(celspan_context *context,
                                                                   const celspan_rostrum_desc *desc,
                                                                   celspan_rostrum **out);
@@ -526,6 +555,7 @@ typedef struct celspan_frame_desc {
   int32_t crop_x, crop_y;
   int32_t crop_width, crop_height;         /* 0 0: the whole frame */
   const celspan_antialias_mode *antialias; /* NULL: each rostrum's own */
+  celspan_filter_desc filter;              /* where *antialias is FILTER */
   int workers;                             /* 0: one a processor; 1: the calling thread alone */
   int strip_rows;                          /* rows handed to a worker at a time; 0: chosen */
   /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
@@ -609,6 +639,11 @@ typedef struct celspan_coding {
 /* Bytes of one RGBA pixel: 4, 8, 8 or 16. */
 CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
 
+/* Codes the spans of one row, which cover [0, width) without gap, as width RGBA pixels: for hosts
+ * that take rows and want pixels. Any thread. */
+CELSPAN_API void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans,
+                                    size_t span_count, void *pixels);
+
 /* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
@@ -618,7 +653,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context 
 
 typedef struct celspan_file_desc {
   size_t struct_size;
-  const char *format; /* NULL: by the ending of the path; "png", "exr", "tiff", "tga", "dpx", ... */
+  const char *format; /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
   celspan_coding coding;
   const char *title;    /* metadata; NULL: none */
   double frames_second; /* metadata; 0: none */
@@ -634,6 +669,17 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *
                                                                const char *path,
                                                                const celspan_file_desc *file,
                                                                celspan_statistics *statistics);
+
+/* The sink that celspan_frame_write renders into, for rows that come from elsewhere: call its begin,
+ * then row for each row from the top, then end, which completes the file when the outcome is OK and
+ * no call failed, else leaves nothing, and in any case destroys the sink. end is to be called once
+ * whatever happened, even when begin failed or was not called.
+ * path, file: copied; file may be NULL      out: new
+ * Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding that is not known. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_file_sink_create(celspan_context *context,
+                                                                    const char *path,
+                                                                    const celspan_file_desc *file,
+                                                                    celspan_sink *out);
 
 /* A digest of a frame's pixels in a coding: 128 bits, for comparing runs and machines. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context *context,

@@ -90,6 +90,9 @@ static inline int64_t sf_unzigzag(uint64_t code) {
   return code & 1 ? -(int64_t)(code >> 1) - 1 : (int64_t)(code >> 1);
 }
 
+/* Whether both ends of a gradient are numbers: between others there is nothing. */
+bool sf_gradient_is_finite(spanfile_format format, const unsigned char *ends);
+
 /* CRC-32C (Castagnoli), continued from `sum`; 0 to begin. */
 uint32_t sf_crc32c(uint32_t sum, const void *bytes, size_t size);
 /* The same on any machine; what the tests hold the other against. */

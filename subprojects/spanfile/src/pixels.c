@@ -39,6 +39,13 @@ static uint16_t to_half(double number) {
 
 /* ---------------------------------------------------------------- gradients */
 
+bool sf_gradient_is_finite(spanfile_format format, const unsigned char *ends) {
+  for (int i = 1; i < 16 && format == SPANFILE_HALF; i += 2)
+    if ((ends[i] & 0x7c) == 0x7c)
+      return false;
+  return true;
+}
+
 static void gradient_8(const unsigned char *ends, uint32_t length, uint32_t first, uint32_t count,
                        unsigned char *out) {
   uint32_t last = length - 1;

@@ -1,0 +1,26 @@
+-- The pictures of the documentation: what each is a frame of. `./run docs` makes them anew.
+--   script   a script of the tree
+--   page     a page whose example of the same name it is
+return {
+  { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
+  { name = "moon", page = "README.md", frame = 24 },
+  { name = "beta", page = "docs/guide.md" },
+  { name = "shapes", page = "docs/guide.md", size = "640x360" },
+  { name = "gel", page = "docs/guide.md" },
+  { name = "dusk", page = "docs/guide.md", frame = 36 },
+  { name = "gradients", page = "docs/guide.md" },
+  { name = "exposures", page = "docs/guide.md" },
+  { name = "easing", page = "docs/guide.md" },
+  { name = "blur", page = "docs/guide.md", frame = 10 },
+  { name = "primitives", script = "scripts/primitives.lua", frame = 9, size = "720x360" },
+  { name = "booleans", script = "scripts/booleans.lua", frame = 24, size = "720x240" },
+  { name = "lights_and_gels", script = "scripts/lights_and_gels.lua", frame = 40, size = "480x270" },
+  { name = "light_table", script = "scripts/light_table.lua", frame = 30, size = "640x360" },
+  { name = "parallax", script = "scripts/parallax.lua", frame = 24, size = "640x360" },
+  { name = "lip_cels", script = "scripts/lip_cels.lua", frame = 24, size = "640x360" },
+  { name = "dissolve", script = "scripts/dissolve.lua", frame = 24, size = "640x360" },
+  { name = "gradient", script = "scripts/gradient.lua", frame = 24, size = "640x360" },
+  { name = "picture", script = "scripts/picture.lua", frame = 40, size = "640x360" },
+  { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
+  { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
+}

@@ -1,0 +1,41 @@
+-- The same edge through every kernel: straight and slanted, a curve, a hairline and a fan.
+-- The frame is small: enlarged, its pixels show what a kernel does.
+local celspan = require "celspan"
+
+local KERNELS = {
+  { name = "none", antialias = "none" },
+  { name = "area", antialias = "area" },
+  { name = "box, radius 1", antialias = { kernel = "box", radius = 1 } },
+  { name = "gaussian", antialias = { kernel = "gaussian" } },
+  { name = "mitchell", antialias = { kernel = "mitchell" } },
+  { name = "lanczos", antialias = { kernel = "lanczos" } },
+  { name = "a tent of one's own", -- any function of the distance from a pixel's centre
+    antialias = { kernel = function(x) return 1 - math.abs(x) end, radius = 1 } },
+}
+
+local ink = celspan.rgb(0.02, 0.03, 0.06)
+local blue = celspan.rgb(0.05, 0.2, 0.6)
+
+local function fan(x, y, length)
+  local rays = {}
+  for i = 0, 11 do
+    local ray = celspan.polygon { { 0, 0 }, { length, -0.6 }, { length, 0.6 }, texture = ink }
+    rays[#rays + 1] = ray:rotate(i * 7.5):translate(x, y)
+  end
+  return celspan.union(rays)
+end
+
+local art = celspan.cel {
+  celspan.rect { 6, -10, 14, 100, texture = blue }:rotate(8, 12, 20),
+  celspan.circle { centre = { 38, 15 }, radius = 9.3, texture = ink },
+  celspan.circle { centre = { 40, 13 }, radius = 4.1, texture = "#ff8030" },
+  fan(52, 4, 34),
+}
+
+-- A still a kernel: --frames picks one.
+return celspan.film {
+  title = "Kernels", size = { 96, 40 }, fps = 1, frames = #KERNELS,
+  frame = function(f)
+    return celspan.rostrum { art, back = "#f4efe4", antialias = KERNELS[f.index + 1].antialias }
+  end,
+}

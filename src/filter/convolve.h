@@ -1,0 +1,78 @@
+/* Rows through a filter kernel: the pieces of the traces around a row, each weighed by the part of
+ * the kernel that it leads.
+ *
+ *   traces of the rows under the kernel --cut, weigh--> changes by column --sum--> spans
+ *
+ * A piece at x with the colour step d adds d times its height's share of the kernel to every pixel
+ * right of it, and to those within the radius the share of that which lies right of x. So the cost
+ * follows the pieces, and stretches that no piece comes near stay one span.
+ *
+ * Layers that vary along a row are not filtered: a program is one more colour that is seen with
+ * some weight, sampled at the centre of the pixel that is made.
+ *
+ * Invariant: a row is a function of the traces around it, added in order of their rows.
+ */
+#ifndef CS_FILTER_CONVOLVE_H
+#define CS_FILTER_CONVOLVE_H
+
+#include "filter/kernel.h"
+#include "filter/trace.h"
+
+#define CS_CONVOLVE_SLABS 16
+
+/* A program among those under the kernel. */
+typedef struct cs_convolve_look {
+  const cs_program *program;
+  double weight; /* at the column that is made */
+} cs_convolve_look;
+
+/* What changes from a column on; lists by column, linked by index + 1. */
+typedef struct cs_convolve_shift { /* of a look's weight */
+  uint32_t next, look;
+  double weight;
+} cs_convolve_shift;
+
+typedef struct cs_convolve_passage { /* the whole kernel is right of a piece now */
+  uint32_t next, row;
+  int slab, slab_end;
+  double step[4];
+  int varies; /* +1: a layer that varies begins, -1: one ends */
+} cs_convolve_passage;
+
+typedef struct cs_convolve_slab { /* what is seen at one height, left of the kernel */
+  double colour[4];
+  int varies;
+} cs_convolve_slab;
+
+typedef struct cs_convolve_range {
+  cs_v4 least, most;
+} cs_convolve_range;
+
+typedef struct cs_convolve {
+  const cs_kernel *kernel;
+  int32_t width;
+  double (*changes)[4]; /* by column */
+  uint64_t *touched;    /* columns at which something changes, one bit each */
+  uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */
+  cs_v4 *least, *most;  /* signed kernels: the range of the looks near a column */
+  cs_convolve_look *looks;
+  cs_convolve_shift *shifts;
+  cs_convolve_passage *passages;
+  cs_convolve_slab *slabs; /* CS_CONVOLVE_SLABS a row */
+  size_t look_count, look_capacity;
+  size_t shift_count, shift_capacity;
+  size_t passage_count, passage_capacity;
+  cs_convolve_range *ranges; /* of the slabs of each row */
+  size_t slab_capacity, range_capacity;
+} cs_convolve;
+
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
+                                                const cs_kernel *kernel, int32_t width);
+void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory);
+/* Row y from the traces of `count` rows, sealed, from the topmost under its kernel to the lowest. */
+CELSPAN_CHECKED celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
+                                               const cs_trace *const *traces, size_t count,
+                                               int32_t y, cs_row *out);
+
+#endif

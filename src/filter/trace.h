@@ -1,0 +1,56 @@
+/* Traces: the visible boundaries of a row, kept after the row is left, for filters that reach from
+ * row to row.
+ *
+ * A piece is straight and lies between two looks: flat colours, or programs copied out of the
+ * composer. At any height of the row the pieces that cross it lead from look to look, from the one
+ * left of the frame (the same on every row) to the rightmost; so what is seen at a point is the sum
+ * of the steps of the pieces left of it, in whatever order they are added.
+ *
+ * Invariant: a trace is a function of the shot and its row's number.
+ */
+#ifndef CS_FILTER_TRACE_H
+#define CS_FILTER_TRACE_H
+
+#include "compose/composer.h"
+
+/* What is seen on one side of a piece. */
+typedef struct cs_trace_look {
+  cs_v4 colour;    /* 0 where it varies */
+  int32_t program; /* index into the trace's programs; -1: flat */
+} cs_trace_look;
+
+typedef struct cs_trace_piece {
+  double xa, ya, xb, yb; /* pixels, ya < yb */
+  cs_trace_look left, right;
+} cs_trace_piece;
+
+typedef struct cs_trace_program {
+  cs_program program; /* valid once the trace is sealed */
+  size_t item;
+  uint32_t length;
+} cs_trace_program;
+
+typedef struct cs_trace {
+  int32_t row;
+  bool is_sealed;
+  cs_v4 base; /* left of everything */
+  cs_trace_piece *pieces;
+  cs_trace_program *programs;
+  cs_item *items;
+  cs_strip *strips;
+  size_t piece_count, piece_capacity;
+  size_t program_count, program_capacity;
+  size_t item_count, item_capacity;
+  size_t strip_capacity;
+  cs_arena paints; /* of the strips */
+} cs_trace;
+
+void cs_trace_finish(cs_trace *trace, cs_memory *memory);
+void cs_trace_begin(cs_trace *trace, int32_t row, cs_v4 base);
+CELSPAN_CHECKED celspan_status cs_trace_add(cs_trace *trace, const cs_composer *composer, double xa,
+                                            double ya, double xb, double yb, const cs_cell *left,
+                                            const cs_cell *right);
+/* The row is done: copies what its programs need of the composer. */
+CELSPAN_CHECKED celspan_status cs_trace_seal(cs_trace *trace, const cs_composer *composer);
+
+#endif

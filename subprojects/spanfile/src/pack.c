@@ -1,0 +1,99 @@
+#include "pack.h"
+
+/* Fewer pixels are not worth a gradient packet and the beginning of another. */
+enum { GRADIENT_LEAST = 6 };
+
+bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
+                 uint32_t count) {
+  return count == 0 ||
+         (sf_bytes_add(memory, &row->values, pixels, (size_t)count * pixel_size) &&
+          sf_row_add(memory, row, count, SPANFILE_RAW, 0));
+}
+
+/* ---------------------------------------------------------------- runs */
+
+static uint32_t run_length(const unsigned char *pixels, uint32_t count, size_t pixel_size) {
+  uint32_t length = 1;
+  while (length < count && memcmp(pixels, pixels + length * pixel_size, pixel_size) == 0)
+    length++;
+  return length;
+}
+
+/* ---------------------------------------------------------------- gradients */
+
+/* Whether the gradient from the first to the last pixel passes through all between. */
+static bool is_gradient(spanfile_format format, const unsigned char *pixels, uint32_t count) {
+  enum { BATCH = 32 };
+  size_t size = spanfile_pixel_size(format);
+  unsigned char ends[16], line[BATCH * 8];
+  memcpy(ends, pixels, size);
+  memcpy(ends + size, pixels + (count - 1) * size, size);
+  if (!sf_gradient_is_finite(format, ends))
+    return false;
+  for (uint32_t i = 1; i < count; i += BATCH) {
+    uint32_t batch = count - i < BATCH ? count - i : BATCH;
+    /* Most that fail do so at once. */
+    spanfile_gradient_pixels(format, ends, count, i, 1, line);
+    if (memcmp(line, pixels + i * size, size) != 0)
+      return false;
+    spanfile_gradient_pixels(format, ends, count, i, batch, line);
+    if (memcmp(line, pixels + i * size, batch * size) != 0)
+      return false;
+  }
+  return true;
+}
+
+/* The length of a gradient at the start of the pixels, or 0: doubled while it holds, then tried
+ * halfway to the first length that did not. */
+static uint32_t gradient_length(spanfile_format format, const unsigned char *pixels,
+                                uint32_t count) {
+  uint32_t most = count < SF_PACKET_MOST ? count : SF_PACKET_MOST, good = 0;
+  uint32_t next = GRADIENT_LEAST;
+  while (next <= most && is_gradient(format, pixels, next)) {
+    good = next;
+    next = next < most && 2 * next > most ? most : 2 * next;
+  }
+  uint32_t bad = next < most + 1 ? next : most + 1;
+  while (good > 0 && bad - good > 1) {
+    uint32_t middle = good + (bad - good) / 2;
+    if (is_gradient(format, pixels, middle))
+      good = middle;
+    else
+      bad = middle;
+  }
+  return good;
+}
+
+static bool add_gradient(const sf_memory *memory, sf_row *row, size_t pixel_size,
+                         const unsigned char *pixels, uint32_t count) {
+  return sf_bytes_add(memory, &row->values, pixels, pixel_size) &&
+         sf_bytes_add(memory, &row->values, pixels + (count - 1) * pixel_size, pixel_size) &&
+         sf_row_add(memory, row, count, SPANFILE_GRADIENT, 0);
+}
+
+/* ---------------------------------------------------------------- */
+
+bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format,
+                    const void *pixels, uint32_t count) {
+  size_t size = spanfile_pixel_size(format);
+  const unsigned char *at = pixels;
+  uint32_t raw = 0; /* pixels seen that are nothing better */
+  for (uint32_t i = 0; i < count;) {
+    const unsigned char *here = at + i * size;
+    uint32_t run = run_length(here, count - i, size);
+    uint32_t gradient = run < SF_RUN_LEAST ? gradient_length(format, here, count - i) : 0;
+    if (run < SF_RUN_LEAST && gradient == 0) {
+      raw++;
+      i++;
+      continue;
+    }
+    if (!sf_pack_raw(memory, row, size, here - raw * size, raw))
+      return false;
+    raw = 0;
+    if (gradient > 0 ? !add_gradient(memory, row, size, here, gradient)
+                     : !sf_row_add(memory, row, run, SPANFILE_RUN, sf_load_pixel(here, size)))
+      return false;
+    i += gradient > 0 ? gradient : run;
+  }
+  return sf_pack_raw(memory, row, size, at + (count - raw) * size, raw);
+}

@@ -1,0 +1,16 @@
+/* Pixels to spans: runs, gradients that decode to these very pixels, and the rest raw. */
+#ifndef SF_PACK_H
+#define SF_PACK_H
+
+#include "store.h"
+
+/* Shorter runs are kept as pixels: a packet of their own and another begun after it cost more. */
+enum { SF_RUN_LEAST = 3 };
+
+/* Both append to the row; false: no memory. */
+bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
+                 uint32_t count);
+bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format,
+                    const void *pixels, uint32_t count);
+
+#endif

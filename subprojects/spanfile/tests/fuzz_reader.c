@@ -1,0 +1,154 @@
+/* Any bytes as a span file: no fault, no memory beyond what the bytes pay for, rows that are rows,
+ * and small pictures the same after they are written again.
+ *
+ * The first byte decides whether the rest is read as it is, or with checksums (1) and ends (2) put
+ * right. With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs the
+ * files of a folder.
+ */
+#include "mend.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+typedef struct meter {
+  size_t bytes, peak;
+} meter;
+
+static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  m->bytes += new_size - old_size;
+  m->peak = m->bytes > m->peak ? m->bytes : m->peak;
+  if (new_size > 0)
+    return realloc(block, new_size);
+  free(block);
+  return NULL;
+}
+
+static void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+static void check_row(const spanfile_row *row, spanfile_info info) {
+  uint32_t start = 0;
+  for (size_t i = 0; i < row->count; start = row->spans[i++].end) {
+    const spanfile_span *span = &row->spans[i], *before = i > 0 ? span - 1 : NULL;
+    demand(span->end > start && span->end <= info.width, "a span is empty or too long");
+    demand(span->kind <= SPANFILE_GRADIENT, "a span is of no kind");
+    if (before && span->kind == before->kind && span->kind != SPANFILE_GRADIENT)
+      demand(span->kind == SPANFILE_RUN && span->pixel != before->pixel, "spans are not joined");
+  }
+  demand(start == info.width, "the row has another width");
+}
+
+/* Two parts of the row are the parts of the whole. */
+static void check_pixels(const spanfile_row *row, spanfile_info info) {
+  unsigned char whole[64 * 8], parts[64 * 8];
+  size_t pixel_size = spanfile_pixel_size(info.format);
+  uint32_t width = info.width < 64 ? info.width : 64, x0 = info.width - width, cut = x0 + width / 3;
+  spanfile_row_pixels(info.format, row, x0, info.width, whole);
+  spanfile_row_pixels(info.format, row, x0, cut, parts);
+  spanfile_row_pixels(info.format, row, cut, info.width, parts + (cut - x0) * pixel_size);
+  demand(memcmp(whole, parts, width * pixel_size) == 0, "parts differ from the whole");
+}
+
+static void read_rows(spanfile_reader *reader, size_t size) {
+  spanfile_info info = spanfile_reader_info(reader);
+  for (uint32_t i = 0; i < 12; i++) {
+    spanfile_row row;
+    spanfile_fault fault = {0};
+    uint32_t y = i < 4 ? i % info.height : (uint32_t)(i * 2654435761u % info.height);
+    if (spanfile_reader_row(reader, y, &row, &fault) == SPANFILE_OK) {
+      check_row(&row, info);
+      check_pixels(&row, info);
+    } else {
+      demand(fault.offset <= size && fault.reason[0] != '\0', "a refusal without a reason");
+    }
+  }
+}
+
+/* What was read, written, read and written again: the same bytes. */
+static void write_again(spanfile_reader *reader) {
+  spanfile_info info = spanfile_reader_info(reader);
+  if ((uint64_t)info.width * info.height > 2048)
+    return;
+  picture p = {info.format, info.width, info.height, spanfile_pixel_size(info.format), NULL};
+  p.pixels = malloc((size_t)p.width * p.height * p.pixel_size);
+  for (uint32_t y = 0; y < p.height; y++) {
+    spanfile_row row;
+    demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK, "a row can be read once only");
+    spanfile_row_pixels(p.format, &row, 0, p.width, picture_row(&p, y));
+  }
+  memory_file file = write_picture(&p, p.width);
+  spanfile_source source = memory_source(&file);
+  spanfile_reader *again = NULL;
+  demand(spanfile_reader_create(&source, &again, NULL) == SPANFILE_OK, "own file refused");
+  unsigned char *pixels = malloc(p.width * p.pixel_size);
+  for (uint32_t y = p.height; y-- > 0;) {
+    spanfile_row row;
+    demand(spanfile_reader_row(again, y, &row, NULL) == SPANFILE_OK, "own row refused");
+    spanfile_row_pixels(p.format, &row, 0, p.width, pixels);
+    demand(memcmp(pixels, picture_row(&p, y), p.width * p.pixel_size) == 0, "other pixels");
+  }
+  free(pixels);
+  spanfile_reader_destroy(again);
+  free(file.bytes);
+  free(p.pixels);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  if (size == 0)
+    return 0;
+  memory_file file = {malloc(size), size - 1, size};
+  memcpy(file.bytes, data + 1, size - 1);
+  if ((data[0] & 2) && file.size >= SF_HEADER_BYTES + SF_END_BYTES)
+    mend_ends(&file);
+  if ((data[0] & 1) && file.size >= SF_HEADER_BYTES + SF_END_BYTES)
+    mend_sums(&file, sf_load_32(file.bytes + 30));
+  meter m = {0, 0};
+  spanfile_source source = memory_source(&file);
+  source.resize = metered;
+  source.resize_user = &m;
+  spanfile_reader *reader = NULL;
+  if (spanfile_reader_create(&source, &reader, NULL) == SPANFILE_OK) {
+    read_rows(reader, file.size);
+    if (spanfile_reader_check(reader, NULL, NULL) == SPANFILE_OK)
+      write_again(reader);
+    spanfile_reader_destroy(reader);
+  }
+  demand(m.bytes == 0 && m.peak <= 128 * 1024 + 16 * file.size, "memory that nothing pays for");
+  demand(check_failures == 0, "a call of the writer failed");
+  free(file.bytes);
+  return 0;
+}
+
+#ifdef REPLAY_MAIN
+
+#include <dirent.h>
+
+static void replay(const char *path) {
+  static unsigned char bytes[1 << 20];
+  FILE *file = fopen(path, "rb");
+  if (!CHECK(file != NULL))
+    return;
+  size_t size = fread(bytes, 1, sizeof bytes, file);
+  fclose(file);
+  CHECK(LLVMFuzzerTestOneInput(bytes, size) == 0);
+}
+
+int main(int count, char **arguments) {
+  DIR *folder = count == 2 ? opendir(arguments[1]) : NULL;
+  if (!CHECK(folder != NULL))
+    return check_done();
+  for (struct dirent *entry; (entry = readdir(folder));) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", arguments[1], entry->d_name);
+    if (entry->d_name[0] != '.')
+      replay(path);
+  }
+  closedir(folder);
+  return check_done();
+}
+
+#endif

@@ -1,0 +1,210 @@
+/* Files in memory, numbered random pictures and checks. */
+#ifndef SPANFILE_TESTS_SUPPORT_H
+#define SPANFILE_TESTS_SUPPORT_H
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "spanfile.h"
+
+static int check_count, check_failures;
+
+static inline bool check(bool holds, const char *file, int line, const char *text) {
+  check_count++;
+  if (!holds && ++check_failures <= 20)
+    fprintf(stderr, "%s:%d: %s\n", file, line, text);
+  return holds;
+}
+#define CHECK(holds) check((holds), __FILE__, __LINE__, #holds)
+
+static inline int check_done(void) {
+  if (check_failures)
+    printf("%d of %d checks failed\n", check_failures, check_count);
+  else
+    printf("%d checks passed\n", check_count);
+  return check_failures != 0;
+}
+
+/* ---------------------------------------------------------------- files in memory */
+
+typedef struct memory_file {
+  unsigned char *bytes;
+  size_t size, capacity;
+} memory_file;
+
+static inline bool memory_write(void *user, const void *bytes, size_t size) {
+  memory_file *file = user;
+  if (file->size + size > file->capacity) {
+    file->capacity = 2 * (file->size + size);
+    file->bytes = realloc(file->bytes, file->capacity);
+  }
+  if (size > 0)
+    memcpy(file->bytes + file->size, bytes, size);
+  file->size += size;
+  return true;
+}
+
+static inline bool memory_read(void *user, uint64_t offset, void *bytes, size_t size) {
+  const memory_file *file = user;
+  if (offset > file->size || size > file->size - offset)
+    return false;
+  memcpy(bytes, file->bytes + offset, size);
+  return true;
+}
+
+static inline spanfile_source memory_source(memory_file *file) {
+  return (spanfile_source){.read = memory_read, .user = file, .size = file->size};
+}
+
+/* ---------------------------------------------------------------- random numbers */
+
+typedef struct random_state {
+  uint64_t state;
+} random_state;
+
+static inline uint32_t random_next(random_state *random) { /* splitmix64 */
+  uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+  return (uint32_t)((z ^ z >> 31) >> 16);
+}
+static inline uint32_t random_below(random_state *random, uint32_t limit) {
+  return (uint32_t)((uint64_t)random_next(random) * limit >> 32);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+typedef struct picture {
+  spanfile_format format;
+  uint32_t width, height;
+  size_t pixel_size;
+  unsigned char *pixels;
+} picture;
+
+static inline unsigned char *picture_row(const picture *p, uint32_t y) {
+  return p->pixels + (size_t)y * p->width * p->pixel_size;
+}
+
+static inline void random_pixel(random_state *random, const picture *p, unsigned char *out) {
+  for (size_t i = 0; i < p->pixel_size; i++)
+    out[i] = (unsigned char)random_next(random);
+  if (p->format == SPANFILE_HALF && random_below(random, 8) > 0) /* mostly in 0..2 */
+    for (size_t c = 1; c < 8; c += 2)
+      out[c] = (unsigned char)(out[c] & 0x3f);
+}
+
+static inline void repeat_pixel(const picture *p, const unsigned char *pixel, uint32_t count,
+                                unsigned char *out) {
+  for (uint32_t i = 0; i < count; i++)
+    memcpy(out + i * p->pixel_size, pixel, p->pixel_size);
+}
+
+/* Spans of a few kinds; one seed makes the same colours at any lengths. */
+static inline void random_spans(random_state *random, const picture *p, const uint32_t *ends,
+                                unsigned char *row) {
+  for (uint32_t x = 0, i = 0; x < p->width; x = ends[i++]) {
+    unsigned char colours[16], *out = row + x * p->pixel_size;
+    uint32_t kind = random_below(random, 4), count = ends[i] - x;
+    random_pixel(random, p, colours);
+    random_pixel(random, p, colours + p->pixel_size);
+    if (kind == 0 && count > 1)
+      spanfile_gradient_pixels(p->format, colours, count, 0, count, out);
+    else if (kind == 1 && count < 64)
+      for (uint32_t k = 0; k < count; k++)
+        random_pixel(random, p, out + k * p->pixel_size);
+    else
+      repeat_pixel(p, colours, count, out);
+  }
+}
+
+static inline void random_ends(random_state *random, uint32_t width, uint32_t *ends) {
+  uint32_t longest = 1 + random_below(random, width < 40 ? width : random_below(random, 2) ? 12 : width);
+  for (uint32_t x = 0, i = 0; x < width; i++) {
+    uint32_t length = 1 + random_below(random, longest);
+    x = length < width - x ? x + length : width;
+    ends[i] = x;
+  }
+}
+
+/* Moves each end a little, but keeps their order. */
+static inline void move_ends(random_state *random, uint32_t width, uint32_t *ends) {
+  uint32_t reach = random_below(random, 4) ? 2 : 20, start = 0;
+  for (uint32_t i = 0; ends[i] < width; i++) {
+    uint32_t to = ends[i] + random_below(random, 2 * reach + 1), least = start + 1 + reach;
+    to = to < least ? least : to;
+    to -= reach;
+    uint32_t most = ends[i + 1] - 1;
+    ends[i] = to < most ? to : most > start ? most : ends[i];
+    start = ends[i];
+  }
+}
+
+/* Rows that are new, repeated, or with their ends moved. */
+static inline picture random_picture(uint64_t seed, uint32_t most_width, uint32_t most_height) {
+  random_state random = {seed};
+  picture p = {.format = seed % 2 ? SPANFILE_SRGB8 : SPANFILE_HALF};
+  p.width = 1 + random_below(&random, most_width);
+  p.height = 1 + random_below(&random, most_height);
+  p.pixel_size = spanfile_pixel_size(p.format);
+  p.pixels = malloc((size_t)p.width * p.height * p.pixel_size);
+  uint32_t *ends = malloc(p.width * sizeof *ends);
+  random_state colours = {seed + 1};
+  random_ends(&random, p.width, ends);
+  for (uint32_t y = 0; y < p.height; y++) {
+    uint32_t what = random_below(&random, 10);
+    if (what == 0) {
+      random_ends(&random, p.width, ends);
+      colours.state = random_next(&random);
+    } else if (what < 7) {
+      move_ends(&random, p.width, ends);
+    }
+    random_state row_colours = colours;
+    random_spans(&row_colours, &p, ends, picture_row(&p, y));
+  }
+  free(ends);
+  return p;
+}
+
+/* ---------------------------------------------------------------- writing them */
+
+static inline spanfile_writer *open_writer(const picture *p, memory_file *file) {
+  spanfile_writer_desc desc = {.width = p->width, .height = p->height, .format = p->format,
+                               .write = memory_write, .user = file};
+  spanfile_writer *writer = NULL;
+  CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
+  return writer;
+}
+
+/* The row in pieces: runs as runs, the rest as arrays cut anywhere. */
+static inline void write_row(random_state *random, spanfile_writer *writer, const picture *p,
+                             uint32_t y) {
+  const unsigned char *row = picture_row(p, y);
+  for (uint32_t x = 0; x < p->width;) {
+    const unsigned char *at = row + x * p->pixel_size;
+    uint32_t run = 1, left = p->width - x, count = 1 + random_below(random, left);
+    uint64_t pixel = 0;
+    while (run < left && memcmp(at, at + run * p->pixel_size, p->pixel_size) == 0)
+      run++;
+    for (size_t i = 0; i < p->pixel_size; i++)
+      pixel |= (uint64_t)at[i] << 8 * i;
+    bool is_run = run > 1 && random_below(random, 4) > 0;
+    CHECK((is_run ? spanfile_writer_run(writer, run, pixel)
+                  : spanfile_writer_pixels(writer, at, count)) == SPANFILE_OK);
+    x += is_run ? run : count;
+  }
+  CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
+}
+
+static inline memory_file write_picture(const picture *p, uint64_t seed) {
+  memory_file file = {0};
+  random_state random = {seed};
+  spanfile_writer *writer = open_writer(p, &file);
+  for (uint32_t y = 0; y < p->height; y++)
+    write_row(&random, writer, p, y);
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+  return file;
+}
+
+#endif

@@ -1,0 +1,169 @@
+-- Pictures in scenes: seen as they are at their own size, never read when hidden, interpolated as
+-- the oracle does when enlarged.
+local celspan = require "celspan"
+local prng = require "tests.support.prng"
+local rows = require "tests.support.rows"
+
+local ONLY = tonumber(os.getenv "CASE")
+local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 10
+local WIDTH, HEIGHT = 24, 18
+
+local folder, file
+
+--- A picture of rectangles, some of them translucent, as a PNG.
+local function draw(path)
+  local random, list = prng.new(5), {}
+  for _ = 1, 40 do
+    list[#list + 1] = celspan.rect {
+      random:whole(-2, WIDTH), random:whole(-2, HEIGHT), random:whole(1, 8), random:whole(1, 8),
+      texture = ("#%06x%02x"):format(random:whole(0, 0xffffff), random:pick { 255, 255, 128 }) }
+  end
+  assert(celspan.render(celspan.rostrum { celspan.cel(list) }, path, { size = { WIDTH, HEIGHT } }))
+end
+
+setup(function()
+  folder = os.tmpname()
+  os.remove(folder)
+  assert(os.execute("mkdir " .. folder))
+  file = folder .. "/picture.png"
+  draw(file)
+end)
+
+teardown(function() os.execute("rm -rf " .. folder) end)
+
+local function pixels(exposures, options) return assert(celspan.pixels(exposures, options)) end
+
+local function show(...) return celspan.rostrum { celspan.cel { ... } } end
+
+describe("a picture at its own size", function()
+  for _, antialias in ipairs { "none", "area" } do
+    it("comes out as it went in, code by code, under " .. antialias, function()
+      local out = folder .. "/again.png"
+      local rostrum = show(celspan.image { file = file }):with { antialias = antialias }
+      assert(celspan.render(rostrum, out, { size = { WIDTH, HEIGHT } }))
+      local options = { size = { WIDTH, HEIGHT } }
+      local before = pixels(show(celspan.image { file = file }), options)
+      local after = pixels(show(celspan.image { file = out }), options)
+      for y = 0, HEIGHT - 1 do
+        for x = 0, WIDTH - 1 do assert.are.same({ before:get(x, y) }, { after:get(x, y) }) end
+      end
+    end)
+
+    it("is moved by whole pixels without change under " .. antialias, function()
+      local options = { size = { WIDTH, HEIGHT }, antialias = antialias }
+      local still = pixels(show(celspan.image { file = file }), options)
+      local moved = pixels(show(celspan.image { file = file, x = 3, y = -2 }), options)
+      for y = 0, HEIGHT - 3 do
+        for x = 3, WIDTH - 1 do
+          assert.are.same({ still:get(x - 3, y + 2) }, { moved:get(x, y) })
+        end
+      end
+    end)
+  end
+end)
+
+describe("a missing picture", function()
+  local function missing() return celspan.image { file = folder .. "/none.png", w = 20, h = 10 } end
+  local options = { size = { WIDTH, HEIGHT } }
+
+  it("that is hidden is never read", function()
+    for _, antialias in ipairs { "none", "area" } do
+      options.antialias = antialias
+      local cover = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#123" } }
+      pixels(celspan.rostrum { celspan.cel { missing() }, cover }, options)
+      pixels(show(missing():translate(2 * WIDTH, 0)), options)
+      pixels(show(missing() - celspan.rect { -1, -1, 99, 99 }), options)
+      pixels(show(celspan.clip(celspan.rect { 0, 0, 9, 9 }, missing())), options)
+      pixels(celspan.rostrum { celspan.cel { missing(), opacity = 0 } }, options)
+    end
+  end)
+
+  it("that can be seen fails, and is named", function()
+    for _, antialias in ipairs { "none", "area" } do
+      options.antialias = antialias
+      local image, message = celspan.pixels(show(missing()), options)
+      assert.is_nil(image)
+      assert.is_truthy(message:find("none.png", 1, true), message)
+      image = celspan.spans(show(missing()), options)
+      assert.is_nil(image)
+      assert.is_nil((celspan.render(show(missing()), folder .. "/out.png", options)))
+      assert.is_nil(io.open(folder .. "/out.png"))
+    end
+  end)
+
+  it("that can be seen through a gel or a hole fails too", function()
+    local gel = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = celspan.gel(1, 0, 0) } }
+    local hole = celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#fff" } - celspan.rect { 4, 4, 1, 1 }
+    assert.is_nil((celspan.pixels(celspan.rostrum { celspan.cel { missing() }, gel }, options)))
+    local behind = celspan.rostrum { celspan.cel { missing() }, celspan.cel { hole } }
+    assert.is_nil((celspan.pixels(behind, options)))
+  end)
+end)
+
+-- ---------------------------------------------------------------- against the oracle
+
+--- A picture placed at random, enlarged, bilinear.
+local function placed(random)
+  local wrap = random:pick { "clear", "clamp", "repeat" }
+  local use = random:pick { "paint", "paint", "gel" }
+  local texture = { file = file, sampling = "bilinear", wrap = wrap, as = use }
+  if random:once(2) then
+    texture.box = { random:whole(-4, 8), random:whole(-4, 8), random:whole(26, 60), random:whole(20, 50) }
+  end
+  local shape = random:once(2)
+    and celspan.rect { 2, 3, random:whole(26, 50), random:whole(20, 40), texture = celspan.picture(texture) }
+    or celspan.polygon { { 1, 2 }, { 50, 8 }, { 40, 44 }, { 5, 30 }, texture = celspan.picture(texture) }
+  if random:once(2) then shape = shape:rotate(random:between(-180, 180), 25, 20) end
+  if random:once(2) then shape = shape:scale(random:between(1, 2.5), random:between(1, 2.5)) end
+  if random:once(4) then -- enlarged in all places: where a picture shrinks it is averaged
+    shape = shape:scale(2.5):quad({ { 0, 0 }, { 125, 0 }, { 125, 100 }, { 0, 100 } },
+                                  { { -4, 2 }, { 130, -6 }, { 134, 110 }, { 3, 104 } })
+  end
+  return shape
+end
+
+describe("an enlarged picture", function()
+  it("is what the oracle samples, at pixel centres", function()
+    for case = ONLY or 1, ONLY or COUNT do
+      local random = prng.new(case)
+      local ground = celspan.rect { 0, 0, 60, 45, texture = "#4080c0" }
+      local picture = celspan.cel { placed(random), opacity = 0.8 }
+      local rostrum = celspan.rostrum { celspan.cel { ground }, picture }
+      local size = { 60, 45 }
+      local list = assert(celspan.spans(rostrum, { size = size, antialias = "none", workers = 1 }))
+      for _ = 1, 200 do
+        local x, y = random:whole(0, 59), random:whole(0, 44)
+        local colour = rows.colour(list[y], x)
+        local truth = { celspan.probe(rostrum, x + 0.5, y + 0.5, { film = size }) }
+        for c = 1, 4 do
+          if math.abs(colour[c] - truth[c]) > 2 / 1023 then
+            error(("CASE=%d: pixel %d, %d is %s, the oracle says %s"):format(
+              case, x, y, table.concat(colour, " "), table.concat(truth, " ")))
+          end
+        end
+      end
+    end
+  end)
+end)
+
+describe("a picture shrunk to a few pixels", function()
+  it("keeps its mean", function()
+    local ground = celspan.rect { 0, 0, WIDTH, HEIGHT, texture = "#000" }
+    local full = pixels(show(ground, celspan.image { file = file }), { size = { WIDTH, HEIGHT } })
+    local small = pixels(show(ground, celspan.image { file = file }),
+                         { size = { WIDTH // 6, HEIGHT // 6 }, film = { WIDTH, HEIGHT } })
+    local function mean(image)
+      local sum = { 0, 0, 0 }
+      for y = 0, image.height - 1 do
+        for x = 0, image.width - 1 do
+          local pixel = { image:get(x, y) }
+          for c = 1, 3 do sum[c] = sum[c] + pixel[c] end
+        end
+      end
+      for c = 1, 3 do sum[c] = sum[c] / (image.width * image.height) end
+      return sum
+    end
+    local a, b = mean(full), mean(small)
+    for c = 1, 3 do assert.is_true(math.abs(a[c] - b[c]) < 0.02, a[c] .. " " .. b[c]) end
+  end)
+end)

@@ -1,0 +1,339 @@
+-- The documentation: its examples run, its commands exist, its names are those of the code.
+--
+--   ```lua   a complete script or program; its first lines may say
+--              -- name.lua          its file name, else example.lua
+--              -- error: TEXT       it must fail, and TEXT must be in the message
+--              --> TEXT             (anywhere) a line that it prints
+--   ```sh    commands: those that begin with `celspan` are run, in a folder that holds the examples
+--   ```c     a part of one of the programs in examples/
+local celspan = require "celspan"
+local markdown = require "tests.support.markdown"
+local pictures = require "docs.pictures.list"
+
+local BINARY = os.getenv "CELSPAN" or "build/celspan"
+
+local function output_of(command)
+  local pipe = assert(io.popen(command))
+  local text = pipe:read "a"
+  pipe:close()
+  return text
+end
+
+local function first_line(text) return text:match "[^\n]*" end
+
+local root = first_line(output_of "pwd")
+local interpreter = first_line(output_of "readlink /proc/$PPID/exe")
+if BINARY:sub(1, 1) ~= "/" then BINARY = root .. "/" .. BINARY end
+
+local pages = { "README.md" }
+for path in output_of("ls docs/*.md"):gmatch "[^\n]+" do pages[#pages + 1] = path end
+
+local folder
+
+setup(function()
+  folder = os.tmpname()
+  os.remove(folder)
+  assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
+  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/demo/line.tsv %s/"):format(root, root,
+    folder)))
+  for _, page in ipairs(pages) do
+    for _, block in ipairs(markdown.blocks(page)) do
+      if block.language == "lua" and block.name then
+        local file = assert(io.open(("%s/%s.lua"):format(folder, block.name), "wb"))
+        file:write(block.text)
+        file:close()
+      end
+    end
+  end
+end)
+
+teardown(function() os.execute("rm -r " .. folder) end)
+
+--- Runs a command in the folder of the examples: exit code, standard output, standard error.
+local function run(command)
+  local _, how, code = os.execute(("cd %s && PATH=$PWD/bin:$PATH && { %s ; } >out.txt 2>err.txt")
+    :format(folder, command))
+  return how == "signal" and 128 + code or code, markdown.read(folder .. "/out.txt"),
+    markdown.read(folder .. "/err.txt")
+end
+
+--- A path that fits into a test's name.
+local function place(page, block) return ("%s:%d %s"):format(page, block.line, block.name or "") end
+
+local function write_example(block)
+  local error_text = block.text:match "^%-%- error: ([^\n]*)"
+  local name = block.name or (error_text and error_text:match "^(%w+)%.lua:") or "example"
+  local path = name .. ".lua"
+  local file = assert(io.open(folder .. "/" .. path, "wb"))
+  file:write(block.text)
+  file:close()
+  return path, error_text
+end
+
+local function render_small(path)
+  return run(("celspan render %s -o pictures_made/%s.####.png --scale 0.1 --progress none")
+    :format(path, path))
+end
+
+--- What the comments --> say that a program prints.
+local function promised(text)
+  local lines = {}
+  for line in text:gmatch "%-%-> ([^\n]*)" do lines[#lines + 1] = line .. "\n" end
+  return table.concat(lines)
+end
+
+describe("the examples of", function()
+  for _, page in ipairs(pages) do
+    for _, block in ipairs(markdown.blocks(page)) do
+      local returns = block.text:find "^return " or block.text:find "\nreturn "
+      if block.language == "lua" and returns then
+        it(place(page, block) .. " render", function()
+          local path, error_text = write_example(block)
+          local code, _, message = render_small(path)
+          if error_text then
+            assert.is_true(code == 3 or code == 4, message)
+            assert.is_truthy(message:find(error_text, 1, true), message)
+          else
+            assert.are.equal(0, code, message)
+          end
+        end)
+      elseif block.language == "lua" then
+        it(place(page, block) .. " run", function()
+          local path = write_example(block)
+          local code, printed, message = run(("LUA_PATH='%s/lua/?.lua;;' LUA_CPATH='%s' %s %s")
+            :format(root, package.cpath, interpreter, path))
+          assert.are.equal(0, code, message)
+          assert.are.equal(promised(block.text), printed)
+        end)
+      end
+    end
+  end
+end)
+
+describe("the commands of", function()
+  local has_ffmpeg = os.execute "command -v ffmpeg >/dev/null"
+  local run_help = output_of "./run help"
+  for _, page in ipairs(pages) do
+    for _, block in ipairs(markdown.blocks(page)) do
+      for line in (block.language == "sh" and block.text or ""):gmatch "[^\n]+" do
+        if line:find "^celspan " and (has_ffmpeg or not line:find "ffmpeg") then
+          it(place(page, block) .. line .. " run", function()
+            local command = line:find "%$first" and "first=1; last=2; " .. line or line
+            local code, _, message = run(command)
+            assert.are.equal(0, code, message)
+          end)
+        elseif line:find "^%./run " then
+          it(place(page, block) .. line .. " exist", function()
+            local verb, option = line:match "^%./run (%l+)%s*(%-*%l*)"
+            assert.is_truthy(run_help:find("\n  " .. verb .. " ", 1, true), verb)
+            assert.is_truthy(option == "" or run_help:find(option, 1, true), option)
+          end)
+        end
+      end
+    end
+  end
+end)
+
+describe("the command line's page", function()
+  local text = markdown.read "docs/command-line.md"
+
+  it("names every verb and option that the program knows, and no other", function()
+    local known = {}
+    for verb in output_of(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z]" do
+      assert.is_truthy(text:find("\n## " .. verb .. "\n", 1, true) or verb == "help", verb)
+      for option in output_of(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
+        known[option] = true
+        assert.is_truthy(text:find("`" .. option .. "[` ]"), verb .. " " .. option)
+      end
+    end
+    for option in text:gmatch "`(%-%-[%w-]+)" do
+      assert.is_truthy(known[option] or option == "--version" or option == "--help", option)
+    end
+  end)
+end)
+
+--- The section of the Lua reference that begins with a heading.
+local reference = markdown.read "docs/lua.md"
+
+local function section(heading)
+  local from = reference:find("\n### " .. heading, 1, true)
+  assert.is_truthy(from, "docs/lua.md has no section " .. heading)
+  local to = reference:find("\n##", from + 4, true)
+  return reference:sub(from, to or -1)
+end
+
+local annotations = markdown.read "lua/celspan.d.lua"
+
+--- The fields that a constructor says it has, when it is given one that cannot be.
+local function fields_of(make)
+  local _, message = pcall(make, { ["@@@@@@@@@@"] = true })
+  local names = {}
+  for name in (tostring(message):match "the fields are (.*)" or ""):gmatch "[%w_]+" do
+    names[#names + 1] = name
+  end
+  return names
+end
+
+describe("the Lua reference", function()
+  it("has a section for every name of the module, and for no other", function()
+    for name in pairs(celspan) do section("celspan." .. name) end
+    for name in reference:gmatch "\n### celspan%.([%w_]+)" do
+      assert.is_not_nil(celspan[name], name)
+    end
+  end)
+
+  it("names every field of every constructor, as the annotations do", function()
+    for _, name in ipairs { "paint", "linear", "radial", "picture", "rect", "triangle", "circle",
+                            "ellipse", "polygon", "nurbs", "path", "image", "scanline", "cel",
+                            "rostrum", "film" } do
+      local fields = fields_of(celspan[name])
+      assert.is_true(#fields > 0, name)
+      local text = section("celspan." .. name)
+      for _, field in ipairs(fields) do
+        assert.is_truthy(text:find("`" .. field .. "`", 1, true), name .. "." .. field)
+        assert.is_truthy(annotations:find("---@field " .. field .. "[? ]"), name .. "." .. field)
+      end
+    end
+  end)
+
+  it("names every option of rendering", function()
+    local nothing = celspan.rostrum {}
+    for name, call in pairs {
+      render = function(o) celspan.render(nothing, "x.png", o) end,
+      pixels = function(o) celspan.pixels(nothing, o) end,
+      spans = function(o) celspan.spans(nothing, o) end,
+    } do
+      local text = section("celspan." .. name) .. section "Options"
+      for _, field in ipairs(fields_of(call)) do
+        assert.is_truthy(text:find("`" .. field .. "`", 1, true), name .. " " .. field)
+        assert.is_truthy(annotations:find("---@field " .. field .. "[? ]"), name .. " " .. field)
+      end
+    end
+  end)
+
+  it("names the methods of objects and cels, and no other", function()
+    local circle = celspan.circle { centre = { 0, 0 }, radius = 1 }
+    local text = section "Methods"
+    for name in annotations:gmatch "\nfunction placed:(%w+)%(" do
+      assert.is_truthy(text:find("`value:" .. name .. "(", 1, true)
+        or text:find("`value:" .. name .. "{", 1, true), name)
+    end
+    for name in text:gmatch "`value:(%w+)[({]" do
+      assert.are.equal("function", type(circle[name]), name)
+    end
+  end)
+
+  it("names the fields of a frame", function()
+    celspan.film { frame = function(f)
+      local text = section "The frame"
+      for name in text:gmatch "\n| `f%.(%w+)`" do assert.are.equal("number", type(f[name]), name) end
+      for name in annotations:match("@class celspan%.frame\n(.-)local frame"):gmatch "@field (%w+)" do
+        assert.is_truthy(text:find("`f." .. name .. "`", 1, true), name)
+      end
+      return celspan.rostrum {}
+    end }:at(1)
+  end)
+
+  it("names the modules of the library and what they hold", function()
+    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "json" } do
+      local text = section("Module celspan." .. name)
+      local module = require("celspan." .. name)
+      for key, value in pairs(module) do
+        if type(value) == "function" then
+          assert.is_truthy(text:find(name .. "." .. key .. "(", 1, true), name .. "." .. key)
+        end
+      end
+    end
+  end)
+end)
+
+describe("the C reference", function()
+  local text = markdown.read "docs/c.md"
+  local header = markdown.read "src/include/celspan/celspan.h"
+    .. markdown.read "src/include/celspan/lua.h"
+
+  it("names every function of the header, and no other", function()
+    for name in header:gmatch "%f[%w_](celspan_%l[%w_]*)%(" do
+      assert.is_truthy(text:find("%f[%w_]" .. name .. "%f[^%w_]"), name)
+    end
+    for name in text:gmatch "%f[%w_](celspan_%l[%w_]*)" do
+      assert.is_truthy(header:find("%f[%w_]" .. name .. "%f[^%w_]"), name)
+    end
+    for name in text:gmatch "%f[%w_](CELSPAN_%u[%u_]*)" do
+      assert.is_truthy(header:find("%f[%w_]" .. name .. "%f[^%w_]"), name)
+    end
+  end)
+
+  it("shows what stands in the example programs", function()
+    local programs = markdown.read "examples/memory.c" .. markdown.read "examples/embed.c"
+    for _, block in ipairs(markdown.blocks "docs/c.md") do
+      if block.language == "c" then
+        assert.is_truthy(programs:find(block.text, 1, true), "docs/c.md:" .. block.line)
+      end
+    end
+  end)
+end)
+
+describe("every page", function()
+  local function exists(path)
+    local file = io.open(path, "rb")
+    if file then file:close() end
+    return file ~= nil
+  end
+
+  --- The anchor of a heading, as forges make it.
+  local function anchors_of(page)
+    local anchors = {}
+    for heading in markdown.prose(page):gmatch "\n#+ ([^\n]+)" do
+      anchors[heading:lower():gsub("[^%w%s_-]", ""):gsub(" ", "-")] = true
+    end
+    return anchors
+  end
+
+  for _, page in ipairs(pages) do
+    it(page .. " links to what is there", function()
+      local here = page:match "^(.*/)" or ""
+      for target in markdown.prose(page):gmatch "%]%(([^)]+)%)" do
+        local path, anchor = target:match "^([^#]*)#?(.*)$"
+        if not target:find "^https?:" then
+          local file = path == "" and page or here .. path
+          assert.is_true(exists(file), target)
+          assert.is_true(anchor == "" or anchors_of(file)[anchor] or false, target)
+        end
+      end
+    end)
+  end
+
+  it("names files of the tree that are there", function()
+    for _, page in ipairs(pages) do
+      for path in markdown.prose(page):gmatch "`(%l+/[%w_./-]+%.%l+)`" do
+        assert.is_true(not path:find "^%l+/[%w_/-]*%.[%w]+$" or path:find "^out/"
+          or exists(path) or exists("src/" .. path), page .. ": " .. path)
+      end
+    end
+  end)
+end)
+
+describe("the pictures", function()
+  it("are all shown, and small", function()
+    local all, text = 0, ""
+    for _, page in ipairs(pages) do text = text .. markdown.prose(page) end
+    for _, picture in ipairs(pictures) do
+      local size = #markdown.read(("docs/pictures/%s.png"):format(picture.name))
+      all = all + size
+      assert.is_true(size < 300000, picture.name)
+      assert.is_truthy(text:find("pictures/" .. picture.name .. ".png", 1, true), picture.name)
+    end
+    assert.is_true(all < 2000000)
+  end)
+
+  it("are what their scripts make (./run docs makes them anew)", function()
+    local made = folder .. "/made"
+    assert.is_true(os.execute(("lua5.4 docs/pictures/make.lua %s %s"):format(BINARY, made)))
+    for _, picture in ipairs(pictures) do
+      local code, printed = run(("celspan compare %s/%s.png %s/docs/pictures/%s.png --fail 0.02")
+        :format(made, picture.name, root, picture.name))
+      assert.are.equal(0, code, picture.name .. ": " .. printed)
+    end
+  end)
+end)

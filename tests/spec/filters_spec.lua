@@ -1,0 +1,105 @@
+-- Filters from Lua: antialiasing kernels.
+local celspan = require "celspan"
+
+local SIZE = { 24, 16 }
+
+local function edge(antialias, x)
+  return celspan.rostrum {
+    celspan.cel { celspan.rect { x or 12, -50, 100, 200, texture = "#ffffff" } },
+    antialias = antialias,
+  }
+end
+
+local function pixels(rostrum, options)
+  options = options or {}
+  options.size = SIZE
+  return assert(celspan.pixels(rostrum, options))
+end
+
+local function rest_of(f)
+  local ok, message = pcall(f)
+  assert.is_false(ok)
+  return (message:gsub("^[^:]+:%d+: ", ""))
+end
+
+describe("antialiasing kernels", function()
+  it("filters with a function of one's own", function()
+    local tent = { kernel = function(x) return 1 - math.abs(x) end, radius = 1 }
+    local image = pixels(edge(tent, 12.25))
+    for p = 0, 23 do
+      local d = p + 0.5 - 12.25 -- the tent's integral: two parabolas
+      local want = d <= -1 and 0 or d >= 1 and 1 or d < 0 and (1 + d) ^ 2 / 2 or 1 - (1 - d) ^ 2 / 2
+      assert.is_near(want, (image:get(p, 7)), 0.002)
+    end
+  end)
+
+  it("are called while the rostrum is made, and never again", function()
+    local calls = 0
+    local rostrum = edge { kernel = function() calls = calls + 1 return 1 end, radius = 1 }
+    local made = calls
+    assert.is_true(made > 0)
+    pixels(rostrum)
+    assert.are.equal(made, calls)
+  end)
+
+  it("take the place of the rostrum's own in a render", function()
+    local image = pixels(edge("none", 12.25), { antialias = { kernel = "box", radius = 1 } })
+    assert.is_near(0.625, (image:get(12, 3)), 0.002)
+    image = pixels(edge({ kernel = "gaussian" }, 12.25), { antialias = "none" })
+    assert.are.equal(1, (image:get(12, 3)))
+  end)
+
+  it("do not filter at radius 0", function()
+    local none, zero = pixels(edge("none", 12.3)), pixels(edge({ kernel = "box", radius = 0 }, 12.3))
+    for p = 0, 23 do assert.are.equal((none:get(p, 5)), (zero:get(p, 5))) end
+  end)
+
+  it("hold a ringing kernel to what is under it", function()
+    local image = pixels(edge { kernel = "lanczos" })
+    for p = 0, 23 do
+      local r, _, _, a = image:get(p, 5)
+      assert.is_true(r >= 0 and r <= 1 and a >= 0 and a <= 1)
+    end
+  end)
+
+  it("make the same rows with any number of workers", function()
+    local rostrum = celspan.rostrum {
+      celspan.cel { celspan.circle { centre = { 11, 8 }, radius = 6, texture = "#ff8040c0" } },
+      antialias = { kernel = "mitchell", radius = 2.5 },
+    }
+    local one, four = pixels(rostrum, { workers = 1 }), pixels(rostrum, { workers = 4 })
+    local part = pixels(rostrum, { crop = { 5, 3, 9, 8 } })
+    for y = 0, 15 do
+      for x = 0, 23 do
+        assert.are.same({ one:get(x, y) }, { four:get(x, y) })
+        if x >= 5 and x < 14 and y >= 3 and y < 11 then
+          assert.are.same({ one:get(x, y) }, { part:get(x - 5, y - 3) })
+        end
+      end
+    end
+  end)
+
+  it("are refused in a sentence", function()
+    local cases = {
+      { "rostrum: antialias: radius is -2; it must be between 0 and 256", { kernel = "box", radius = -2 } },
+      { "rostrum: antialias: radius is not a number", { kernel = "box", radius = 0 / 0 } },
+      { "rostrum: antialias: radius is inf; it must be between 0 and 256",
+        { kernel = function() return 1 end, radius = math.huge } },
+      { "rostrum: antialias: radius is missing; a kernel given as a function needs one",
+        { kernel = function() return 1 end } },
+      { "rostrum: antialias: the kernel sums to nothing within its radius of 2",
+        { kernel = function(x) return x end, radius = 2 } },
+      { "rostrum: antialias: the kernel gives inf at -0.999511719; its values must be finite numbers",
+        { kernel = function() return 1 / 0 end, radius = 1 } },
+      { "antialias: the kernel function must return a number, got nil at x = -0.99951171875",
+        { kernel = function() end, radius = 1 } },
+      { "antialias: rows is 0; it must be between 1 and 256", { kernel = "box", rows = 0 } },
+      { "rostrum: antialias: rows is 1000; it must be between 1 and 256", { kernel = "box", rows = 1000 } },
+    }
+    for _, case in ipairs(cases) do
+      assert.are.equal(case[1], rest_of(function() edge(case[2]) end))
+    end
+    assert.are.equal("out of ink",
+      rest_of(function() edge { kernel = function() error "out of ink" end, radius = 1 } end))
+  end)
+end)

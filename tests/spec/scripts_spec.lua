@@ -1,0 +1,72 @@
+-- The scripts that ship: each makes a picture on its first, middle and last frame, and the same one
+-- again, alone or in company, with one worker or two.
+
+local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local WIDTH, HEIGHT = 96, 54
+
+local function run(arguments)
+  local pipe = assert(io.popen(("%s %s"):format(BINARY, arguments), "r"))
+  local text = pipe:read("a")
+  return pipe:close() and text
+end
+
+--- Frames as bytes, RGBA, 8 bits each; nil when the command failed.
+local function render(script, frames, workers)
+  return run(("render '%s' -o - --frames %s --size %dx%d --workers %d --progress none")
+    :format(script, frames, WIDTH, HEIGHT, workers))
+end
+
+local function colours(frame)
+  local seen, count = {}, 0
+  for i = 1, #frame, 4 do
+    local colour = frame:sub(i, i + 3)
+    if not seen[colour] then seen[colour], count = true, count + 1 end
+  end
+  return count
+end
+
+local function scripts()
+  local paths = {}
+  local list = assert(io.popen("ls scripts/*.lua"))
+  for path in list:lines() do paths[#paths + 1] = path end
+  list:close()
+  return paths
+end
+
+-- Built without OpenImageIO, there are no pictures to read.
+local has_pictures = not run("convert no-such.png no-such-either.png 2>&1; true")
+  :find("celspan-picture.so", 1, true)
+
+local function reads_pictures(path)
+  local file = assert(io.open(path))
+  local text = file:read("a")
+  file:close()
+  return text:find("celspan.image", 1, true) or text:find("celspan.picture", 1, true)
+end
+
+describe("the scripts that ship", function()
+  it("are the demo and one for each feature", function()
+    assert.is_true(#scripts() >= 13)
+  end)
+
+  for _, path in ipairs(scripts()) do
+    local test = (has_pictures or not reads_pictures(path)) and it or pending
+
+    test(path .. " makes pictures, the same whenever it is asked", function()
+      local count = tonumber(assert(run("info '" .. path .. "'")):match("frames%s+(%d+)"))
+      local size = WIDTH * HEIGHT * 4
+      local asked = ("1,%d,%d"):format((count + 1) // 2, count)
+      local bytes = assert(render(path, asked, 1))
+      assert.are.equal(3 * size, #bytes)
+      for n = 0, 2 do
+        assert.is_true(colours(bytes:sub(n * size + 1, (n + 1) * size)) >= 5, "frame is blank")
+      end
+      assert.is_true(bytes == render(path, asked, 2), "another picture with two workers")
+      assert.is_true(bytes:sub(-size) == render(path, count, 1), "another picture when alone")
+    end)
+
+    test(path .. " has a frame function that is pure", function()
+      assert.is_truthy(run("check '" .. path .. "'"))
+    end)
+  end
+end)

@@ -1,0 +1,55 @@
+-- Goldens: small scripts and the text of their spans, which is the truth.
+local golden = {}
+
+local command = os.getenv "CELSPAN" or "build/celspan"
+
+--- Paths of the scripts, without ".lua", in order.
+function golden.cases()
+  local list = {}
+  local pipe = assert(io.popen "ls tests/golden/*/*.lua")
+  for path in pipe:lines() do list[#list + 1] = path:match "^(.*)%.lua$" end
+  pipe:close()
+  table.sort(list)
+  return list
+end
+
+--- What the script gives now; or nil and what went wrong.
+function golden.actual(case)
+  local pipe = assert(io.popen(("%s spans %s.lua 2>&1"):format(command, case)))
+  local text = pipe:read "a"
+  if pipe:close() then return text end
+  return nil, text
+end
+
+--- What was accepted; nil when nothing was.
+function golden.expected(case)
+  local file = io.open(case .. ".spans")
+  if not file then return nil end
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+--- Lines of the two texts that are not in both, "- " the old and "+ " the new.
+function golden.difference(old, new)
+  local function lines_of(text)
+    local list, set = {}, {}
+    for line in text:gmatch "[^\n]+" do
+      list[#list + 1] = line
+      set[line] = true
+    end
+    return list, set
+  end
+  local old_list, old_set = lines_of(old)
+  local new_list, new_set = lines_of(new)
+  local out = {}
+  for _, line in ipairs(old_list) do
+    if not new_set[line] then out[#out + 1] = "- " .. line end
+  end
+  for _, line in ipairs(new_list) do
+    if not old_set[line] then out[#out + 1] = "+ " .. line end
+  end
+  return table.concat(out, "\n")
+end
+
+return golden

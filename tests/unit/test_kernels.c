@@ -1,0 +1,400 @@
+/* Filter kernels on rows of spans: edges against closed forms, light, constants, strips, margins. */
+#include <stdlib.h>
+
+#include "base/elementary.h"
+#include "render/frame.h"
+#include "span/row.h"
+#include "tests/support/scene.h"
+
+#define SIDE 40
+
+typedef struct image {
+  int32_t width, height;
+  float (*rgba)[4];
+  uint64_t kinds[3];
+} image;
+
+static celspan_filter_desc filter(celspan_kernel kernel, double radius) {
+  return (celspan_filter_desc){.kernel = kernel, .has_radius = radius >= 0, .radius = radius};
+}
+
+static void fill(image *out, int32_t y, const cs_row *row) {
+  for (size_t i = 0; i < row->count; i++) {
+    const celspan_span *span = &row->spans[i];
+    out->kinds[span->kind]++;
+    for (int32_t x = span->x0; x < span->x1; x++)
+      celspan_span_colour(span, x, out->rgba[y * out->width + x]);
+  }
+}
+
+/* Rows in the order first, first + step, ...: what a row holds must not depend on it. */
+static image make(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc *kernel,
+                  int32_t width, int32_t height, int32_t x0, int32_t y0, int32_t step) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_antialias_mode mode = CELSPAN_ANTIALIAS_FILTER;
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.film_width = desc.film_height = SIDE;
+  desc.width = desc.height = SIDE;
+  desc.crop_x = x0;
+  desc.crop_y = y0;
+  desc.crop_width = width;
+  desc.crop_height = height;
+  desc.antialias = kernel ? &mode : NULL;
+  if (kernel)
+    desc.filter = *kernel;
+  image out = {width, height, calloc((size_t)(width * height), sizeof *out.rgba), {0, 0, 0}};
+  cs_frame frame;
+  cs_lane lane;
+  studio_check(s, cs_frame_create(s->context, &desc, &frame));
+  studio_check(s, cs_lane_init(&lane, s->context, &frame));
+  for (int32_t first = 0; first < step; first++)
+    for (int32_t y = first; y < height; y += step) {
+      const cs_row *row = NULL;
+      if (CHECK(cs_lane_row(&lane, y, &row) == CELSPAN_OK))
+        fill(&out, y, row);
+      else
+        fprintf(stderr, "  %s\n", celspan_context_error(&lane.context));
+    }
+  cs_lane_finish(&lane);
+  cs_frame_free(&frame, s->context->memory);
+  return out;
+}
+
+static image whole(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc *kernel) {
+  return make(s, rostrum, kernel, SIDE, SIDE, 0, 0, 1);
+}
+
+static const float *at(const image *i, int32_t x, int32_t y) { return i->rgba[y * i->width + x]; }
+
+static celspan_rostrum *show(studio *s, celspan_object *const *objects, size_t count) {
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, count);
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+}
+
+static celspan_texture *white(studio *s) {
+  return studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
+}
+
+static celspan_rostrum *half_plane(studio *s, double x, double y, double degrees) {
+  celspan_object *rect = studio_rect(s, 0, -500, 1000, 1000, white(s)), *turned;
+  celspan_matrix matrix = celspan_matrix_then(
+      celspan_matrix_rotation(degrees * 3.14159265358979 / 180, (celspan_point){0, 0}),
+      celspan_matrix_translation(x, y));
+  turned = studio_transform(s, rect, matrix);
+  return show(s, &turned, 1);
+}
+
+/* ---------------------------------------------------------------- closed forms */
+
+/* The share of a kernel below x, by Simpson's rule over its definition. */
+typedef double (*profile)(double x, double radius);
+
+static double box_profile(double x, double radius) { return fabs(x) < radius ? 0.5 / radius : 0; }
+
+static double gaussian_profile(double x, double radius) {
+  double sigma = radius / 3;
+  return exp(-0.5 * x * x / (sigma * sigma)) / (sigma * 2.506628274631) / erf(3 / sqrt(2));
+}
+
+static double mitchell_profile(double x, double radius) {
+  double a = 2 * fabs(x) / radius, b = 1.0 / 3;
+  double near = (12 - 9 * b - 6 * b) * a * a * a + (-18 + 12 * b + 6 * b) * a * a + (6 - 2 * b);
+  double far = (-b - 6 * b) * a * a * a + (6 * b + 30 * b) * a * a + (-12 * b - 48 * b) * a +
+               (8 * b + 24 * b);
+  return (a < 1 ? near : a < 2 ? far : 0) / 6 * 2 / radius;
+}
+
+static double lanczos_profile(double x, double radius) {
+  double p = 3.14159265358979 * x;
+  return fabs(x) >= radius ? 0
+         : p == 0          ? 1
+                           : radius * sin(p) * sin(p / radius) / (p * p) / 0.9970558;
+}
+
+static double below(profile f, double radius, double x) {
+  double sum = 0, low = -radius, high = x < -radius ? -radius : x > radius ? radius : x;
+  int parts = 4000;
+  for (int i = 0; i < parts; i++)
+    sum += f(low + (high - low) * (i + 0.5) / parts, radius);
+  return sum * (high - low) / parts;
+}
+
+static void check_edges(void) {
+  static const struct {
+    celspan_kernel kernel;
+    double radius;
+    profile f;
+  } kernels[] = {{CELSPAN_KERNEL_BOX, 0.5, box_profile},
+                 {CELSPAN_KERNEL_BOX, 1.7, box_profile},
+                 {CELSPAN_KERNEL_GAUSSIAN, 1.5, gaussian_profile},
+                 {CELSPAN_KERNEL_GAUSSIAN, 6, gaussian_profile},
+                 {CELSPAN_KERNEL_MITCHELL, 2, mitchell_profile},
+                 {CELSPAN_KERNEL_MITCHELL, 3.3, mitchell_profile},
+                 {CELSPAN_KERNEL_LANCZOS, 3, lanczos_profile}};
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++)
+    for (int way = 0; way < 4; way++) {
+      double edge = 20 + 0.137 * (way + 1), radius = kernels[k].radius;
+      celspan_filter_desc f = filter(kernels[k].kernel, radius);
+      image i = whole(&s, half_plane(&s, edge, edge, 90.0 * way), &f);
+      for (int32_t p = 0; p < SIDE; p++) {
+        double d = p + 0.5 - edge, want = below(kernels[k].f, radius, way < 2 ? d : -d);
+        bool is_signed = kernels[k].kernel >= CELSPAN_KERNEL_MITCHELL;
+        if (is_signed)
+          want = want < 0 ? 0 : want > 1 ? 1 : want;
+        const float *got = way % 2 ? at(&i, 13, p) : at(&i, p, 13);
+        CHECK_NEAR((double)got[0], want, 0.002);
+        CHECK_NEAR((double)got[3], want, 0.002);
+      }
+      CHECK(i.kinds[CELSPAN_SPAN_ARRAY] == 0);
+      free(i.rgba);
+      studio_finish(&s);
+    }
+  celspan_context_destroy(s.context);
+}
+
+/* An edge at any angle under a kernel that has no direction: a Gaussian of its sigma. */
+static void check_slanted(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  celspan_filter_desc f = filter(CELSPAN_KERNEL_GAUSSIAN, 3);
+  for (int k = 0; k < 12; k++) {
+    double degrees = 7.5 + 31 * k, turn = degrees * 3.14159265358979 / 180, worst = 0;
+    image i = whole(&s, half_plane(&s, 20, 20, degrees), &f);
+    for (int32_t y = 8; y < 32; y++)
+      for (int32_t x = 8; x < 32; x++) {
+        double d = (x + 0.5 - 20) * cos(turn) + (y + 0.5 - 20) * sin(turn);
+        double error = fabs((double)at(&i, x, y)[0] - 0.5 * (1 + erf(d / sqrt(2))));
+        worst = error > worst ? error : worst;
+      }
+    CHECK_NEAR(worst, 0, 0.002);
+    free(i.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+/* ---------------------------------------------------------------- light and constants */
+
+/* On average over where a shape lies between the pixels, which are the kernel's samples. */
+static void check_light(void) {
+  static const celspan_filter_desc kernels[] = {
+      {.kernel = CELSPAN_KERNEL_BOX},
+      {.kernel = CELSPAN_KERNEL_BOX, .has_radius = true, .radius = 2.3},
+      {.kernel = CELSPAN_KERNEL_GAUSSIAN},
+      {.kernel = CELSPAN_KERNEL_GAUSSIAN, .has_radius = true, .radius = 0.4},
+      {.kernel = CELSPAN_KERNEL_GAUSSIAN, .has_radius = true, .radius = 7},
+      {.kernel = CELSPAN_KERNEL_MITCHELL, .has_radius = true, .radius = 0.6}};
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++) {
+    double sum = 0;
+    for (int place = 0; place < 64; place++) {
+      image i = whole(&s,
+                      studio_show(&s, studio_circle(&s, 20 + 0.125 * (place % 8),
+                                                    19.5 + 0.125 * (place / 8), 9, white(&s))),
+                      &kernels[k]);
+      for (int32_t p = 0; p < SIDE * SIDE; p++)
+        sum += (double)i.rgba[p][0] / 64;
+      free(i.rgba);
+      studio_finish(&s);
+    }
+    CHECK_NEAR(sum / (3.14159265358979 * 81), 1, 0.001);
+  }
+  celspan_context_destroy(s.context);
+}
+
+static void check_constants(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  celspan_object *object =
+      studio_rect(&s, -100, -100, 300, 300,
+                  studio_paint(&s, celspan_paint_rgb(0.1f, 0.7f, 0.3f, 0.6f)));
+  celspan_rostrum *rostrum = show(&s, &object, 1);
+  for (int k = 0; k < 4; k++) {
+    celspan_filter_desc f = filter((celspan_kernel)k, -1);
+    image i = whole(&s, rostrum, &f);
+    for (int32_t p = 0; p < SIDE * SIDE; p++)
+      CHECK_NEAR((double)i.rgba[p][1], 0.7 * 0.6, 1e-6);
+    CHECK(i.kinds[CELSPAN_SPAN_SINGLE] == SIDE && i.kinds[CELSPAN_SPAN_ARRAY] == 0);
+    free(i.rgba);
+  }
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
+/* After negative lobes nothing leaves the range of what was there. */
+static void check_range(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  celspan_object *objects[2] = {
+      studio_rect(&s, -50, -50, 200, 200,
+                  studio_paint(&s, celspan_paint_rgb(0.25f, 0.5f, 0.75f, 1))),
+      studio_rect(&s, 10, 10.3, 12, 15.4,
+                  studio_paint(&s, celspan_paint_rgb(0.75f, 0.25f, 0.5f, 1)))};
+  celspan_rostrum *rostrum = show(&s, objects, 2);
+  celspan_filter_desc f = filter(CELSPAN_KERNEL_LANCZOS, -1);
+  image i = whole(&s, rostrum, &f);
+  for (int32_t p = 0; p < SIDE * SIDE; p++) {
+    CHECK(i.rgba[p][0] >= 0.25f && i.rgba[p][0] <= 0.75f);
+    CHECK(i.rgba[p][1] >= 0.25f && i.rgba[p][1] <= 0.5f);
+    CHECK(i.rgba[p][2] >= 0.5f && i.rgba[p][2] <= 0.75f);
+    CHECK(i.rgba[p][3] == 1);
+  }
+  free(i.rgba);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
+/* ---------------------------------------------------------------- layers that vary */
+
+static celspan_texture *ramp(studio *s) {
+  celspan_stop stops[2] = {{0, celspan_paint_rgb(0, 0, 0, 1)}, {1, celspan_paint_rgb(1, 1, 1, 1)}};
+  return studio_linear(s, (celspan_point){0, 0}, (celspan_point){SIDE, 0}, stops, 2);
+}
+
+static void check_gradients(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  celspan_object *objects[2] = {studio_rect(&s, -50, -50, 200, 200, ramp(&s)),
+                                studio_circle(&s, 20, 20, 8, white(&s))};
+  celspan_rostrum *rostrum = show(&s, objects, 2);
+  for (int k = 0; k < 4; k++) {
+    celspan_filter_desc f = filter((celspan_kernel)k, -1);
+    image i = whole(&s, rostrum, &f);
+    for (int32_t x = 0; x < SIDE; x++)
+      CHECK_NEAR((double)at(&i, x, 2)[0], (x + 0.5) / SIDE, 1.0 / 1023);
+    CHECK(at(&i, 20, 20)[0] == 1);
+    CHECK(at(&i, 20, 12)[0] > 0.5f && at(&i, 20, 12)[0] <= 1);
+    CHECK(i.kinds[CELSPAN_SPAN_GRADIENT] >= SIDE);
+    free(i.rgba);
+  }
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
+/* ---------------------------------------------------------------- rows on their own */
+
+static double random_unit(uint64_t *state) {
+  *state = *state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(*state >> 11) * 0x1p-53;
+}
+
+static celspan_rostrum *random_scene(studio *s, uint64_t seed) {
+  celspan_object *objects[12];
+  uint64_t state = seed;
+  for (int k = 0; k < 12; k++) {
+    float c = (float)random_unit(&state), d = (float)random_unit(&state);
+    celspan_texture *t = k % 4 == 3
+                             ? ramp(s)
+                             : studio_paint(s, celspan_paint_rgb(c, d, 1 - c, 0.3f + 0.7f * d));
+    double x = 44 * random_unit(&state) - 2, y = 44 * random_unit(&state) - 2;
+    double size = 1 + 14 * random_unit(&state);
+    objects[k] = k % 2 ? studio_circle(s, x, y, size, t) : studio_rect(s, x, y, size, size * 0.7, t);
+  }
+  return show(s, objects, 12);
+}
+
+static void check_same(const image *a, const image *b, int32_t x0, int32_t y0) {
+  for (int32_t y = 0; y < b->height; y++)
+    for (int32_t x = 0; x < b->width; x++)
+      CHECK(memcmp(at(a, x0 + x, y0 + y), at(b, x, y), 4 * sizeof(float)) == 0);
+}
+
+static void check_orders(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (uint64_t seed = 1; seed <= 6; seed++) {
+    celspan_rostrum *rostrum = random_scene(&s, seed);
+    celspan_filter_desc f = filter((celspan_kernel)(seed % 4), seed > 4 ? 4.2 : -1);
+    image a = whole(&s, rostrum, &f), b = make(&s, rostrum, &f, SIDE, SIDE, 0, 0, 7);
+    image c = make(&s, rostrum, &f, 17, 9, 11, 23, 1);
+    check_same(&a, &b, 0, 0);
+    check_same(&a, &c, 11, 23);
+    free(a.rgba);
+    free(b.rgba);
+    free(c.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+/* The box of radius 1/2 is what the mode AREA makes, but for where curves are cut into chords. */
+static void check_area(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (uint64_t seed = 1; seed <= 10; seed++) {
+    celspan_rostrum *rostrum = random_scene(&s, seed);
+    celspan_filter_desc f = filter(CELSPAN_KERNEL_BOX, -1);
+    image a = whole(&s, rostrum, &f), b = whole(&s, rostrum, NULL);
+    for (int32_t p = 0; p < SIDE * SIDE; p++)
+      for (int c = 0; c < 4; c++)
+        CHECK_NEAR((double)a.rgba[p][c], (double)b.rgba[p][c], 0.01); /* flattening */
+    free(a.rgba);
+    free(b.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+/* ---------------------------------------------------------------- the door */
+
+static celspan_status one_function(void *user, celspan_context *context, double x, double *out) {
+  (void)context;
+  *out = *(double *)user == 0 ? x : *(double *)user;
+  return CELSPAN_OK;
+}
+
+static celspan_status no_function(void *user, celspan_context *context, double x, double *out) {
+  (void)user, (void)x, (void)out;
+  return celspan_context_fail(context, CELSPAN_CALLBACK, "no kernel today");
+}
+
+static void refuse(celspan_context *context, const celspan_filter_desc *f, celspan_status status,
+                   const char *message) {
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  celspan_rostrum *rostrum = NULL;
+  desc.antialias = CELSPAN_ANTIALIAS_FILTER;
+  desc.filter = *f;
+  CHECK(celspan_rostrum_create(context, &desc, &rostrum) == status && !rostrum);
+  CHECK_TEXT(celspan_context_error(context), message);
+}
+
+static void check_door(void) {
+  celspan_context *context;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  celspan_filter_desc f = filter(CELSPAN_KERNEL_GAUSSIAN, 1);
+  f.radius = -1;
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius is -1; it must be between 0 and 256");
+  f.radius = (double)NAN;
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius is not a number");
+  f = filter(CELSPAN_KERNEL_FUNCTION, 2);
+  double value = 0;
+  f.function_user = &value;
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: kernel has no function");
+  f.function = one_function;
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
+         "rostrum: antialias: the kernel sums to nothing within its radius of 2");
+  value = (double)INFINITY;
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
+         "rostrum: antialias: the kernel gives inf at -1.99902344; its values must be finite numbers");
+  f.function = no_function;
+  refuse(context, &f, CELSPAN_CALLBACK, "no kernel today");
+  celspan_context_destroy(context);
+}
+
+int main(void) {
+  check_edges();
+  check_slanted();
+  check_light();
+  check_constants();
+  check_range();
+  check_gradients();
+  check_orders();
+  check_area();
+  check_door();
+  return check_done();
+}
