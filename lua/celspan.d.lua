@@ -8,7 +8,7 @@
 ---@alias celspan.light number[]|string {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
----@alias celspan.antialias "area"|"none" The exact mean over each pixel, or pixel centres
+---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
 ---@class celspan
@@ -345,6 +345,12 @@ function rostrum:with(changes) end
 ---@field centre? celspan.point
 ---@field width? number Of what is seen
 ---@field rotate? number Degrees; turns the camera, so the picture turns back
+
+--- A separable antialiasing filter, normalised, cut at its radius.
+---@class celspan.filter
+---@field kernel? "box"|"gaussian"|"mitchell"|"lanczos"|fun(x: number): number x: pixels from the centre
+---@field radius? number Pixels, 0..256; default by the kernel; a function needs one
+---@field rows? integer 1..256, pieces of a pixel's height, default 16
 
 ---@class celspan.rostrum.fields
 ---@field [integer] celspan.cel

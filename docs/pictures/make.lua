@@ -1,5 +1,5 @@
--- Makes the pictures of the documentation: lua5.4 docs/pictures/make.lua BINARY FOLDER, from the top
--- of the tree. Examples in pages are put into FOLDER/examples/ first.
+-- Makes the pictures of the documentation: lua5.4 docs/pictures/make.lua BINARY FOLDER, from the
+-- top of the tree. Examples in pages are put into FOLDER/examples/ first.
 package.path = "./?.lua;" .. package.path
 local markdown = require "tests.support.markdown"
 local list = require "docs.pictures.list"

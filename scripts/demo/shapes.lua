@@ -57,13 +57,17 @@ function shapes.ribbon(points, texture)
   return celspan.path { d = d, texture = texture }
 end
 
+-- Steep at the lamp and level at the rim, where the eye would see a ring.
+local falloff = { { 0, 1 }, { 0.15, 0.66 }, { 0.3, 0.4 }, { 0.45, 0.22 }, { 0.6, 0.1 },
+                  { 0.75, 0.032 }, { 0.88, 0.006 }, { 1, 0 } }
+
 --- A glow: paint far too thin to hide anything, which shows only under a strong front light.
 function shapes.glow(x, y, radius, r, g, b, strength)
-  local texture = celspan.radial {
-    centre = { x, y }, radius = radius,
-    { 0, celspan.rgb(r, g, b, strength) }, { 0.3, celspan.rgb(r, g, b, strength * 0.42) },
-    { 0.65, celspan.rgb(r, g, b, strength * 0.1) }, { 1, celspan.rgb(r, g, b, 0) },
-  }
+  local stops = { centre = { x, y }, radius = radius }
+  for i, stop in ipairs(falloff) do
+    stops[i] = { stop[1], celspan.rgb(r, g, b, strength * stop[2]) }
+  end
+  local texture = celspan.radial(stops)
   return celspan.circle { centre = { x, y }, radius = radius, texture = texture }
 end
 

@@ -153,6 +153,7 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
   context->memory = memory;
   context->root = context;
   context->picture_bytes = desc->picture_bytes ? desc->picture_bytes : (size_t)512 << 20;
+  context->defocus_bytes = desc->defocus_bytes ? desc->defocus_bytes : (size_t)256 << 20;
   *out = context;
   return CELSPAN_OK;
 }
@@ -162,6 +163,8 @@ void celspan_context_destroy(celspan_context *context) {
     return;
   if (context->pictures)
     context->pictures->destroy(context->pictures);
+  if (context->soft_bands)
+    context->soft_bands->destroy(context->soft_bands);
   cs_memory *memory = context->memory;
   cs_mem_free(memory, context, sizeof *context);
   cs_memory_unref(memory);
@@ -179,7 +182,8 @@ void celspan_context_memory(const celspan_context *context, size_t *bytes, size_
 
 void cs_context_branch(celspan_context *branch, celspan_context *from) {
   *branch = (celspan_context){
-      .memory = from->memory, .root = from->root, .picture_bytes = from->picture_bytes};
+      .memory = from->memory, .root = from->root, .picture_bytes = from->picture_bytes,
+      .defocus_bytes = from->defocus_bytes};
 }
 
 #define CS_TEXT_(x) #x

@@ -32,7 +32,8 @@ struct celspan_context {
   cs_memory *memory;
   celspan_context *root; /* itself, or the context it was branched from */
   cs_service *pictures;  /* root only; owned; made on first use by scene/picture.c */
-  size_t picture_bytes;
+  cs_service *soft_bands; /* likewise, by filter/soft_bands.c */
+  size_t picture_bytes, defocus_bytes;
   char error[1024];
 };
 

@@ -52,17 +52,17 @@ static void compare_rows(comparison *c, int32_t y, const void *row_a, const void
   }
 }
 
-static celspan_status code_row(celspan_rows *rows, const comparison *c, int32_t y, void *row) {
+static celspan_status code_row(cs_still_rows *rows, const comparison *c, int32_t y, void *row) {
   const celspan_span *spans = NULL;
   size_t count = 0;
-  celspan_status status = celspan_rows_get(rows, y, &spans, &count);
+  celspan_status status = cs_still_rows_get(rows, y, &spans, &count);
   if (status == CELSPAN_OK)
     cs_pixels_row(&c->coding, spans, count, row);
   return status;
 }
 
-static celspan_status compare_all(celspan_context *context, comparison *c, celspan_rows *a,
-                                  celspan_rows *b) {
+static celspan_status compare_all(celspan_context *context, comparison *c, cs_still_rows *a,
+                                  cs_still_rows *b) {
   size_t row_size = (size_t)c->width * celspan_coding_pixel_size(&c->coding);
   void *row_a = cs_mem_resize(context->memory, NULL, 0, row_size);
   void *row_b = cs_mem_resize(context->memory, NULL, 0, row_size);
@@ -85,16 +85,16 @@ static celspan_status compare_all(celspan_context *context, comparison *c, celsp
 }
 
 static celspan_status compare_stills(celspan_context *context, comparison *c,
-                                     const celspan_frame_desc *frame_a,
-                                     const celspan_frame_desc *frame_b) {
-  celspan_rows *a = NULL, *b = NULL;
-  celspan_status status = celspan_rows_create(context, frame_a, &a);
+                                     const cs_still *still_a, const celspan_frame_desc *frame_a,
+                                     const cs_still *still_b, const celspan_frame_desc *frame_b) {
+  cs_still_rows a = {NULL, NULL}, b = a;
+  celspan_status status = cs_still_rows_create(context, still_a, frame_a, &a);
   if (status == CELSPAN_OK)
-    status = celspan_rows_create(context, frame_b, &b);
+    status = cs_still_rows_create(context, still_b, frame_b, &b);
   if (status == CELSPAN_OK)
-    status = compare_all(context, c, a, b);
-  celspan_rows_destroy(a);
-  celspan_rows_destroy(b);
+    status = compare_all(context, c, &a, &b);
+  cs_still_rows_destroy(&a);
+  cs_still_rows_destroy(&b);
   return status;
 }
 
@@ -127,7 +127,7 @@ static cs_exit compare(celspan_context *context, const cs_request *request, cons
     outcome = cs_still_frame(b, request, &frame_b);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  celspan_status status = compare_stills(context, &c, &frame_a, &frame_b);
+  celspan_status status = compare_stills(context, &c, a, &frame_a, b, &frame_b);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   return answer(&c);

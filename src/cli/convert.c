@@ -14,7 +14,7 @@ cs_exit cs_convert_run(celspan_context *context, const cs_request *request) {
     outcome = cs_still_frame(&still, request, &frame);
   if (outcome == CS_EXIT_OK) {
     celspan_file_desc file = cs_target_file(request);
-    celspan_status status = celspan_frame_write(context, &frame, path, &file, NULL);
+    celspan_status status = cs_still_write(context, &still, &frame, path, &file);
     outcome = cs_report_failure(context, status, NULL);
   }
   cs_still_close(&still);

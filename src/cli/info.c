@@ -1,8 +1,10 @@
-/* celspan info SCRIPT: a film in figures, one "name value" a line. */
+/* celspan info SCRIPT|FILE.span: a film, or a span file, in figures, one "name value" a line. */
+#include <inttypes.h>
 #include <stdio.h>
 
 #include "cli/interrupt.h"
 #include "cli/shot.h"
+#include "cli/spanread.h"
 #include "cli/verbs.h"
 
 static void keep_larger(size_t *most, size_t count) {
@@ -41,7 +43,33 @@ static void print_info(const cs_shot *shot, const celspan_rostrum_counts *most) 
   printf("cels %zu\nprimitives %zu\npictures %zu\n", most->cels, most->primitives, most->pictures);
 }
 
+/* What the whole of it is made of: so it is read to its end. */
+static void print_spans(const cs_spanread *file, const spanfile_counts *counts) {
+  spanfile_info info = cs_spanread_info(file);
+  printf("format span\nsize %" PRIu32 "x%" PRIu32 "\ndepth %s\nbytes %" PRIu64 "\n", info.width,
+         info.height, info.format == SPANFILE_HALF ? "half" : "8", cs_spanread_bytes(file));
+  printf("rows_same %" PRIu64 "\nrows_moved %" PRIu64 "\nrows_literal %" PRIu64 "\n",
+         counts->same_rows, counts->moved_rows, counts->literal_rows);
+  printf("runs %" PRIu64 "\nraw_spans %" PRIu64 "\ngradients %" PRIu64 "\n",
+         counts->spans[SPANFILE_RUN], counts->spans[SPANFILE_RAW],
+         counts->spans[SPANFILE_GRADIENT]);
+}
+
+static cs_exit inform_spans(celspan_context *context, const char *path) {
+  cs_spanread *file = NULL;
+  spanfile_counts counts;
+  celspan_status status = cs_spanread_open(context, path, &file);
+  if (status == CELSPAN_OK)
+    status = cs_spanread_check(file, &counts);
+  if (status == CELSPAN_OK)
+    print_spans(file, &counts);
+  cs_spanread_close(file);
+  return cs_report_failure(context, status, NULL);
+}
+
 cs_exit cs_info_run(celspan_context *context, const cs_request *request) {
+  if (cs_spanread_is(request->operands[0]))
+    return inform_spans(context, request->operands[0]);
   cs_shot shot;
   cs_exit outcome = cs_shot_open(context, request, &shot);
   celspan_rostrum_counts most = {0, 0, 0};

@@ -22,8 +22,9 @@ static const cs_verb VERBS[] = {
      "to\n"
      "standard output, top to bottom, little endian.\n",
      cs_render_run},
-    {CS_VERB_INFO, "info", "SCRIPT", 1, 1,
-     "Prints frames, size, cels, primitives and pictures of a film.", NULL, cs_info_run},
+    {CS_VERB_INFO, "info", "SCRIPT|FILE.span", 1, 1,
+     "Prints frames, size, cels, primitives and pictures of a film; or what a span file holds.",
+     "A span file is read to its end and every checksum looked at.\n", cs_info_run},
     {CS_VERB_CHECK, "check", "SCRIPT", 1, 1,
      "Builds every frame without rendering and reports all faults.",
      "Each frame is built twice, the second time in another order in a fresh film: a frame "
@@ -48,6 +49,14 @@ static const cs_verb VERBS[] = {
      "and\n"
      "how many pixels differ by more than --fail.\n",
      cs_compare_run},
+    {CS_VERB_TILES, "tiles", "SCRIPT|FILE -o DIR", 1, 1,
+     "Cuts a frame or a picture into tiles to be explored in a browser.",
+     "Makes a pyramid of tiles straight from the scene, and index.html, which shows it. A FILE is "
+     "any\n"
+     "picture; what ends in .lua is a script. Equal tiles are one file with several names. A run "
+     "that\n"
+     "was stopped goes on where it was.\n",
+     cs_tiles_run},
 };
 
 enum { VERB_COUNT = sizeof VERBS / sizeof VERBS[0] };

@@ -20,7 +20,8 @@ double cs_progress_clock(void) {
 static void clear_bar(void) { fputs("\r\033[K", stderr); }
 
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count) {
-  *progress = (cs_progress){.frame_count = frame_count, .started = cs_progress_clock()};
+  *progress = (cs_progress){
+      .frame_count = frame_count, .noun = "frame", .started = cs_progress_clock()};
   /* Unasked, a log gets a line a second at most; asked for, a line for every frame. */
   progress->pause = style == CS_PROGRESS_LINES ? 0 : 1;
   if (style == CS_PROGRESS_AUTO)
@@ -69,8 +70,8 @@ static void draw_bar(const cs_progress *progress, double fraction, double now) {
   bar[BAR_WIDTH] = '\0';
   format_left(left, sizeof left, progress, fraction, now);
   size_t current = progress->frames_done + (progress->frames_done < progress->frame_count);
-  snprintf(line, sizeof line, "[%s] %3d %%  frame %zu of %zu  %s", bar, percent(fraction), current,
-           progress->frame_count, left);
+  snprintf(line, sizeof line, "[%s] %3d %%  %s %zu of %zu  %s", bar, percent(fraction),
+           progress->noun, current, progress->frame_count, left);
   clear_bar();
   fprintf(stderr, "%.*s", terminal_width() - 1, line);
   fflush(stderr);
@@ -95,7 +96,7 @@ void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what) {
   char left[48];
   double fraction = (double)progress->frames_done / (double)progress->frame_count;
   format_left(left, sizeof left, progress, fraction, now);
-  cs_report_note("frame %lld: %s (%zu of %zu, %d %%%s%s)", (long long)frame, what,
+  cs_report_note("%s %lld: %s (%zu of %zu, %d %%%s%s)", progress->noun, (long long)frame, what,
                  progress->frames_done, progress->frame_count, percent(fraction),
                  left[0] ? ", " : "", left);
   progress->shown = now;
@@ -110,6 +111,6 @@ void cs_progress_end(cs_progress *progress) {
     return;
   char taken[48];
   format_seconds(taken, sizeof taken, cs_progress_clock() - progress->started);
-  cs_report_note("%zu %s in %s (100 %%)", progress->frame_count,
-                 progress->frame_count == 1 ? "frame" : "frames", taken);
+  cs_report_note("%zu %s%s in %s (100 %%)", progress->frame_count, progress->noun,
+                 progress->frame_count == 1 ? "" : "s", taken);
 }

@@ -14,6 +14,7 @@
 typedef struct cs_progress {
   cs_progress_style style; /* never AUTO once started */
   size_t frame_count, frames_done;
+  const char *noun; /* of what is counted: "frame", unless it is changed after the start */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* least seconds between two lines or two states of the bar */
 } cs_progress;

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "celspan/celspan.h"
+#include "cli/pyramid.h"
 #include "cli/report.h"
 #include "cli/values.h"
 
@@ -30,6 +31,11 @@ typedef struct cs_request {
   bool hash, statistics;
   celspan_depth pixels; /* DEFAULT: not given */
   double tolerance;
+  cs_pyramid_layout layout;
+  const char *picture, *viewer, *places; /* NULL: not given */
+  cs_given_integer tile, overlap, tile_limit;
+  int32_t levels[2]; /* first and last, both included; last -1: not given */
+  bool skips_empty, is_fresh;
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -40,8 +46,9 @@ typedef enum cs_verb_set {
   CS_VERB_PROBE = 1 << 4,
   CS_VERB_CONVERT = 1 << 5,
   CS_VERB_COMPARE = 1 << 6,
-  CS_VERBS_WITH_SCRIPT =
-      CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS | CS_VERB_PROBE
+  CS_VERB_TILES = 1 << 7,
+  CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
+                         CS_VERB_PROBE | CS_VERB_TILES
 } cs_verb_set;
 
 typedef struct cs_verb {

@@ -1,6 +1,7 @@
-/* Pictures as scenes. */
+/* Pictures as rows. */
 #include "cli/still.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "cli/view.h"
@@ -37,14 +38,36 @@ static celspan_status make_scene(celspan_context *context, const celspan_picture
   return status;
 }
 
-cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out) {
+static celspan_status open_spans(celspan_context *context, const char *path, cs_still *still) {
+  celspan_status status = cs_spanread_open(context, path, &still->spans);
+  if (status != CELSPAN_OK)
+    return status;
+  spanfile_info info = cs_spanread_info(still->spans);
+  still->info = (celspan_picture_info){.width = (int32_t)info.width,
+                                       .height = (int32_t)info.height,
+                                       .channels = 4,
+                                       .has_alpha = true,
+                                       .is_float = info.format == SPANFILE_HALF,
+                                       .format = "span"};
+  snprintf(still->info.colour, sizeof still->info.colour, "%s",
+           still->info.is_float ? "linear" : "srgb");
+  return CELSPAN_OK;
+}
+
+static celspan_status open_picture(celspan_context *context, const char *path, cs_still *still) {
   celspan_picture_desc picture;
   memset(&picture, 0, sizeof picture);
   picture.file = path;
-  cs_still still = {.exposure.weight = 1};
-  celspan_status status = celspan_picture_inspect(context, &picture, &still.info);
+  celspan_status status = celspan_picture_inspect(context, &picture, &still->info);
   if (status == CELSPAN_OK)
-    status = make_scene(context, &picture, &still.info, &still.exposure.rostrum);
+    status = make_scene(context, &picture, &still->info, &still->exposure.rostrum);
+  return status;
+}
+
+cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out) {
+  cs_still still = {.exposure.weight = 1};
+  celspan_status status = cs_spanread_is(path) ? open_spans(context, path, &still)
+                                               : open_picture(context, path, &still);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   *out = still;
@@ -54,11 +77,101 @@ cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out)
 void cs_still_close(cs_still *still) {
   celspan_rostrum_unref(still->exposure.rostrum);
   still->exposure.rostrum = NULL;
+  cs_spanread_close(still->spans);
+  still->spans = NULL;
 }
 
 cs_exit cs_still_frame(const cs_still *still, const cs_request *request, celspan_frame_desc *out) {
   cs_exit outcome = cs_view_frame(request, still->info.width, still->info.height, out);
   out->exposures = &still->exposure;
-  out->exposure_count = 1;
+  out->exposure_count = still->spans ? 0 : 1;
   return outcome;
+}
+
+/* ---------------------------------------------------------------- rows */
+
+celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,
+                                    const celspan_frame_desc *frame, cs_still_rows *out) {
+  cs_still_rows rows = {NULL, NULL};
+  celspan_status status = still->spans
+                              ? cs_spanview_create(context, still->spans, frame, &rows.view)
+                              : celspan_rows_create(context, frame, &rows.rendered);
+  if (status == CELSPAN_OK)
+    *out = rows;
+  return status;
+}
+
+void cs_still_rows_destroy(cs_still_rows *rows) {
+  celspan_rows_destroy(rows->rendered);
+  cs_spanview_destroy(rows->view);
+  *rows = (cs_still_rows){NULL, NULL};
+}
+
+celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_span **spans,
+                                 size_t *span_count) {
+  return rows->view ? cs_spanview_row(rows->view, y, spans, span_count)
+                    : celspan_rows_get(rows->rendered, y, spans, span_count);
+}
+
+/* ---------------------------------------------------------------- sinks and files */
+
+/* Rows from one progress call to the next. */
+enum { STRIP = 64 };
+
+static celspan_status put_rows(celspan_context *context, cs_spanview *view,
+                               const celspan_frame_desc *frame, const celspan_sink *sink) {
+  int32_t height = frame->crop_height ? frame->crop_height : frame->height;
+  for (int32_t y = 0; y < height; y++) {
+    const celspan_span *spans;
+    size_t count;
+    celspan_status status = cs_spanview_row(view, y, &spans, &count);
+    if (status == CELSPAN_OK)
+      status = sink->row(sink->user, context, y, spans, count);
+    if (status != CELSPAN_OK)
+      return status;
+    if (y % STRIP == 0 && frame->progress && !frame->progress(frame->progress_user, y, height))
+      return CELSPAN_CANCELLED;
+  }
+  return CELSPAN_OK;
+}
+
+/* *is_begun: the sink's end was called. */
+static celspan_status put_view(celspan_context *context, const cs_still *still,
+                               const celspan_frame_desc *frame, const celspan_sink *sink,
+                               bool *is_begun) {
+  cs_spanview *view = NULL;
+  celspan_status status = cs_spanview_create(context, still->spans, frame, &view);
+  if (status == CELSPAN_OK && sink->begin)
+    status = sink->begin(sink->user, context, frame->crop_width ? frame->crop_width : frame->width,
+                         frame->crop_height ? frame->crop_height : frame->height);
+  *is_begun = status == CELSPAN_OK;
+  if (status == CELSPAN_OK)
+    status = put_rows(context, view, frame, sink);
+  if (*is_begun && sink->end)
+    status = sink->end(sink->user, context, status);
+  cs_spanview_destroy(view);
+  return status;
+}
+
+celspan_status cs_still_render(celspan_context *context, const cs_still *still,
+                               const celspan_frame_desc *frame, const celspan_sink *sink) {
+  bool is_begun;
+  return still->spans ? put_view(context, still, frame, sink, &is_begun)
+                      : celspan_frame_render(context, frame, sink, NULL);
+}
+
+celspan_status cs_still_write(celspan_context *context, const cs_still *still,
+                              const celspan_frame_desc *frame, const char *path,
+                              const celspan_file_desc *file) {
+  if (!still->spans)
+    return celspan_frame_write(context, frame, path, file, NULL);
+  celspan_sink sink;
+  bool is_begun = false;
+  celspan_status status = celspan_file_sink_create(context, path, file, &sink);
+  if (status == CELSPAN_OK) {
+    status = put_view(context, still, frame, &sink, &is_begun);
+    if (!is_begun)
+      status = sink.end(sink.user, context, status);
+  }
+  return status;
 }

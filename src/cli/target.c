@@ -4,7 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
-static const char *const ABSENT_FORMATS[] = {"span", "mp4", "mov", "webm", "mkv", "avi"};
+static const char *const ABSENT_FORMATS[] = {"mp4", "mov", "webm", "mkv", "avi"};
 
 static const char *ending(const char *path) {
   const char *name = strrchr(path, '/');

@@ -5,7 +5,7 @@
 #include "bind/sequence.h"
 #include "cli/shot.h"
 
-/* OK for what this version can write; else reported: video and span files are not built in. */
+/* OK for what this version can write; else reported: video is not built in. */
 cs_exit cs_target_refuse(const char *path, const char *format);
 /* The description of a file under the options, without a frame's own metadata. */
 celspan_file_desc cs_target_file(const cs_request *request);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "celspan/celspan.h"
+#include "cli/pyramid.h"
 
 typedef struct choice {
   const char *name;
@@ -67,6 +68,14 @@ cs_value_outcome cs_value_text(const char *text, void *field) {
 cs_value_outcome cs_value_integer(const char *text, void *field) {
   int32_t value = 0;
   if (!read_integers(text, 0, -INT32_MAX, INT32_MAX, &value, 1))
+    return CS_VALUE_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_VALUE_READ;
+}
+
+cs_value_outcome cs_value_count(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, 0, INT32_MAX, &value, 1))
     return CS_VALUE_BAD;
   *(cs_given_integer *)field = (cs_given_integer){true, value};
   return CS_VALUE_READ;
@@ -165,6 +174,11 @@ cs_value_outcome cs_value_colour(const char *text, void *field) {
 cs_value_outcome cs_value_alpha(const char *text, void *field) {
   static const choice choices[] = {{"straight", CELSPAN_ALPHA_STRAIGHT},
                                    {"premultiplied", CELSPAN_ALPHA_PREMULTIPLIED}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_value_outcome cs_value_layout(const char *text, void *field) {
+  static const choice choices[] = {{"dzi", CS_PYRAMID_DZI}, {"iiif", CS_PYRAMID_IIIF}};
   return CHOOSE(text, field, choices);
 }
 

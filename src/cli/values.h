@@ -52,6 +52,8 @@ cs_value_outcome cs_value_antialias(const char *text, void *field); /* cs_given_
 cs_value_outcome cs_value_depth(const char *text, void *field);     /* celspan_depth */
 cs_value_outcome cs_value_colour(const char *text, void *field);    /* celspan_transfer */
 cs_value_outcome cs_value_alpha(const char *text, void *field);     /* celspan_alpha */
+cs_value_outcome cs_value_count(const char *text, void *field);     /* cs_given_integer, 0.. */
+cs_value_outcome cs_value_layout(const char *text, void *field);    /* cs_pyramid_layout */
 cs_value_outcome cs_value_progress(const char *text, void *field);  /* cs_progress_style */
 /* For options that are not built into this version: always ABSENT. */
 cs_value_outcome cs_value_absent(const char *text, void *field);

@@ -13,5 +13,6 @@ cs_exit cs_spans_run(celspan_context *context, const cs_request *request);
 cs_exit cs_probe_run(celspan_context *context, const cs_request *request);
 cs_exit cs_convert_run(celspan_context *context, const cs_request *request);
 cs_exit cs_compare_run(celspan_context *context, const cs_request *request);
+cs_exit cs_tiles_run(celspan_context *context, const cs_request *request);
 
 #endif

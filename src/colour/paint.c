@@ -99,3 +99,12 @@ cs_paint cs_paint_fade(cs_paint paint, float weight) {
   paint.beta *= weight;
   return paint;
 }
+
+cs_paint cs_paint_mix(const cs_paint *p, const cs_paint *q, float u) {
+  cs_paint paint = {.beta = p->beta + u * (q->beta - p->beta)};
+  for (int c = 0; c < 3; c++) {
+    paint.s[c] = p->s[c] + u * (q->s[c] - p->s[c]);
+    paint.t[c] = p->t[c] + u * (q->t[c] - p->t[c]);
+  }
+  return paint;
+}

@@ -24,6 +24,8 @@ cs_paint cs_paint_from_straight(const celspan_paint *paint);
 cs_paint cs_paint_from_picture(const float rgba[4], celspan_picture_use use);
 /* weight * paint + (1 - weight) * clear. */
 cs_paint cs_paint_fade(cs_paint paint, float weight);
+/* (1 - u) * p + u * q. */
+cs_paint cs_paint_mix(const cs_paint *p, const cs_paint *q, float u);
 /* Whether all seven straight values are in 0..1. */
 bool cs_paint_is_valid(const celspan_paint *paint);
 

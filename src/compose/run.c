@@ -53,14 +53,7 @@ static cs_paint strip_paint(const cs_strip *strip, double x) {
   double last = (double)(strip->paint_count - 1);
   double at = cs_number_clamp((x - strip->x0) / (strip->x1 - strip->x0), 0, 1) * last;
   size_t i = (size_t)cs_number_clamp(floor(at), 0, last - 1);
-  const cs_paint *p = &strip->paints[i], *q = p + 1;
-  float k = (float)(at - (double)i);
-  cs_paint paint = {.beta = p->beta + k * (q->beta - p->beta)};
-  for (int c = 0; c < 3; c++) {
-    paint.s[c] = p->s[c] + k * (q->s[c] - p->s[c]);
-    paint.t[c] = p->t[c] + k * (q->t[c] - p->t[c]);
-  }
-  return paint;
+  return cs_paint_mix(&strip->paints[i], &strip->paints[i + 1], (float)(at - (double)i));
 }
 
 /* Fills samples[k * stride], one a pixel from x0 on, with what a leaf paints. */
@@ -85,6 +78,14 @@ static celspan_status sample_leaf(cs_composer *composer, const cs_strip *strips,
     for (int32_t k = 0; k < count; k++)
       samples[(size_t)k * stride] =
           sample_paint(strip_paint(&strips[item.strip], x0 + k + 0.5));
+  } else if (leaf->kind == CS_LEAF_SOFT) {
+    const cs_soft *soft = stack->softs[leaf->detail];
+    cs_seen_soft *seen = &composer->softs[leaf->detail];
+    CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
+    for (int32_t k = 0; k < count; k++) {
+      cs_sample *sample = &samples[(size_t)k * stride];
+      cs_soft_paint(soft, seen, x0 + k + 0.5, &sample->s, &sample->t);
+    }
   }
   return CELSPAN_OK;
 }
@@ -218,21 +219,30 @@ static size_t strip_breaks(const cs_strip *strip, double x0, double x1, double *
 
 static size_t item_break_limit(const cs_composer *composer, const cs_strip *strips,
                                cs_item item) {
-  const cs_leaf *leaf = &composer->stack->leaves[item.leaf];
-  return leaf->kind == CS_LEAF_SHADED
-             ? cs_shade_break_limit(&composer->stack->shades[leaf->detail])
+  const cs_stack *stack = composer->stack;
+  const cs_leaf *leaf = &stack->leaves[item.leaf];
+  return leaf->kind == CS_LEAF_SHADED     ? cs_shade_break_limit(&stack->shades[leaf->detail])
          : leaf->kind == CS_LEAF_SCANLINE ? strip_break_limit(&strips[item.strip])
+         : leaf->kind == CS_LEAF_SOFT     ? cs_soft_break_limit(stack->softs[leaf->detail])
                                           : 0;
 }
 
-static size_t item_breaks(const cs_composer *composer, const cs_strip *strips, cs_item item,
-                          double y, double x0, double x1, double *out) {
-  const cs_leaf *leaf = &composer->stack->leaves[item.leaf];
-  return leaf->kind == CS_LEAF_SHADED
-             ? cs_shade_breaks(&composer->stack->shades[leaf->detail], y, x0, x1, out)
-         : leaf->kind == CS_LEAF_SCANLINE
-             ? strip_breaks(&strips[item.strip], x0, x1, out)
-             : 0;
+static celspan_status item_breaks(cs_composer *composer, const cs_strip *strips, cs_item item,
+                                  double y, double x0, double x1, double *out, size_t *count) {
+  const cs_stack *stack = composer->stack;
+  const cs_leaf *leaf = &stack->leaves[item.leaf];
+  *count = 0;
+  if (leaf->kind == CS_LEAF_SHADED) {
+    *count = cs_shade_breaks(&stack->shades[leaf->detail], y, x0, x1, out);
+  } else if (leaf->kind == CS_LEAF_SCANLINE) {
+    *count = strip_breaks(&strips[item.strip], x0, x1, out);
+  } else if (leaf->kind == CS_LEAF_SOFT) {
+    const cs_soft *soft = stack->softs[leaf->detail];
+    cs_seen_soft *seen = &composer->softs[leaf->detail];
+    CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
+    *count = cs_soft_breaks(soft, seen, x0, x1, out);
+  }
+  return CELSPAN_OK;
 }
 
 /* The columns strictly inside [x0, x1) at which a formula of the program changes, sorted, in room
@@ -247,8 +257,12 @@ static celspan_status run_breaks(cs_composer *composer, const cs_program *progra
   *columns = cs_arena_take(composer->context, &row->colours, limit * sizeof **columns);
   if (!breaks || !*columns)
     return CELSPAN_NO_MEMORY;
-  for (uint32_t i = 0; i < program->length; i++)
-    count += item_breaks(composer, program->strips, program->items[i], y, x0, x1, breaks + count);
+  for (uint32_t i = 0; i < program->length; i++) {
+    size_t more;
+    CS_TRY(item_breaks(composer, program->strips, program->items[i], y, x0, x1, breaks + count,
+                       &more));
+    count += more;
+  }
   for (size_t i = 0; i < count; i++)
     (*columns)[i] = cs_number_first_centre(breaks[i]);
   qsort(*columns, count, sizeof **columns, compare_columns);

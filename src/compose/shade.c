@@ -55,13 +55,8 @@ static cs_paint stop_paint(const celspan_texture *texture, double at) {
   if (next == count)
     return stops[count - 1].paint;
   const cs_paint *p = &stops[next - 1].paint, *q = &stops[next].paint;
-  float k = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
-  cs_paint paint = {.beta = p->beta + k * (q->beta - p->beta)};
-  for (int c = 0; c < 3; c++) {
-    paint.s[c] = p->s[c] + k * (q->s[c] - p->s[c]);
-    paint.t[c] = p->t[c] + k * (q->t[c] - p->t[c]);
-  }
-  return paint;
+  float u = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
+  return cs_paint_mix(p, q, u);
 }
 
 /* Along a linear texture: 0 at `from`, 1 at `to`. */

@@ -16,6 +16,7 @@
 #include "base/vector.h"
 #include "colour/paint.h"
 #include "compose/sampler.h"
+#include "compose/soft.h"
 #include "scene/scene.h"
 
 #define CS_STACK_NONE UINT32_MAX
@@ -25,14 +26,15 @@ typedef enum cs_leaf_kind {
   CS_LEAF_FLAT,
   CS_LEAF_SHADED,  /* triangle, linear or radial: varies along a row, as a formula */
   CS_LEAF_PICTURE, /* varies from pixel to pixel */
-  CS_LEAF_SCANLINE /* paints come with the spans of the row */
+  CS_LEAF_SCANLINE, /* paints come with the spans of the row */
+  CS_LEAF_SOFT      /* a defocused cel */
 } cs_leaf_kind;
 
 typedef struct cs_leaf {
   cs_leaf_kind kind;
   bool is_opaque; /* lets nothing through, wherever it is present */
   uint32_t group;  /* innermost faded group, or CS_STACK_NONE */
-  uint32_t detail; /* SHADED, PICTURE, SCANLINE: index into the array of its kind */
+  uint32_t detail; /* SHADED, PICTURE, SCANLINE, SOFT: index into the array of its kind */
   float fade;      /* of its paint, where that varies */
   cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
   cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
@@ -99,6 +101,7 @@ typedef struct cs_stack {
   cs_shade *shades;
   cs_slide *slides;
   cs_procedure *procedures;
+  const cs_soft **softs; /* the shot's */
   cs_group *groups;
   cs_back_light *lights; /* nearest first */
   cs_step *steps;
@@ -107,6 +110,7 @@ typedef struct cs_stack {
   size_t shade_count, shade_capacity;
   size_t slide_count, slide_capacity;
   size_t procedure_count, procedure_capacity;
+  size_t soft_count, soft_capacity;
   size_t group_count, group_capacity;
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;

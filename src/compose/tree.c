@@ -13,6 +13,7 @@ void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
   cs_mem_free(memory, stack->slides, stack->slide_capacity * sizeof *stack->slides);
   cs_mem_free(memory, stack->procedures,
               stack->procedure_capacity * sizeof *stack->procedures);
+  cs_mem_free(memory, stack->softs, stack->soft_capacity * sizeof *stack->softs);
   cs_mem_free(memory, stack->groups, stack->group_capacity * sizeof *stack->groups);
   cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
   cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);

@@ -243,21 +243,24 @@ static bool belong_together(const cs_block *last, const cs_block *next) {
   return next->low == last->high && (next->low == next->high || last->last_low == last->high);
 }
 
+static void join(cs_block *last, const cs_block *next) {
+  last->high = next->high > last->high ? next->high : last->high;
+  last->last_low = next->last_low;
+  last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
+  last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
+}
+
 /* Joins blocks that share a boundary or an x at which something begins, and places that touch a
- * block. */
+ * block; a block that grew may reach the one before it. */
 static void merge_blocks(cs_blocks *b) {
   size_t kept = 0;
   if (b->count > 1)
     qsort(b->blocks, b->count, sizeof *b->blocks, compare_blocks);
   for (size_t i = 0; i < b->count; i++) {
-    cs_block *next = &b->blocks[i], *last = kept > 0 ? &b->blocks[kept - 1] : NULL;
-    if (last && belong_together(last, next)) {
-      last->high = next->high > last->high ? next->high : last->high;
-      last->last_low = next->low;
-      last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
-      last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
-    } else {
-      b->blocks[kept++] = *next;
+    b->blocks[kept++] = b->blocks[i];
+    while (kept > 1 && belong_together(&b->blocks[kept - 2], &b->blocks[kept - 1])) {
+      join(&b->blocks[kept - 2], &b->blocks[kept - 1]);
+      kept--;
     }
   }
   b->count = kept;

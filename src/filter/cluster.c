@@ -52,8 +52,8 @@ static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
   }
   for (size_t j = last + 1; j-- > 0;)
     cross(composer, &cluster->members[j], -1);
-  while (toggle-- > cluster->toggle)
-    cs_composer_cross(composer, toggle->leaf, -toggle->direction);
+  for (; toggle > cluster->toggle; toggle--)
+    cs_composer_cross(composer, toggle[-1].leaf, -toggle[-1].direction);
   return composer->failure;
 }
 

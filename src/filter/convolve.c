@@ -5,6 +5,7 @@
 #include <math.h>
 
 #define NARROW 1e-4 /* of the radius: pieces that cross less stand upright */
+#define RAMP 8      /* columns; slices that are longer are ramps to pieces that cross little of them */
 #define NOTHING 1e-9 /* weights and colours below this are rounding */
 
 /* ---------------------------------------------------------------- life */
@@ -20,6 +21,10 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
   convolve->touched = cs_mem_array(memory, word_count(width), sizeof *convolve->touched);
   convolve->shifts_at = cs_mem_array(memory, columns, sizeof *convolve->shifts_at);
   bool is_whole = convolve->changes && convolve->touched && convolve->shifts_at;
+  if (kernel->shape != CS_KERNEL_SEPARABLE) {
+    convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
+    is_whole = is_whole && convolve->slopes;
+  }
   if (kernel->is_signed) {
     convolve->passages_at = cs_mem_array(memory, columns, sizeof *convolve->passages_at);
     convolve->least = cs_mem_array(memory, columns, sizeof *convolve->least);
@@ -32,6 +37,7 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
   size_t columns = (size_t)convolve->width;
   cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
+  cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
   cs_mem_free(memory, convolve->touched, word_count(convolve->width) * sizeof(uint64_t));
   cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
   cs_mem_free(memory, convolve->passages_at, columns * sizeof(uint32_t));
@@ -62,6 +68,7 @@ typedef struct gather {
 /* A part of a piece, and the share of the kernel at its heights. */
 typedef struct part {
   double low, high; /* x */
+  double from, to;  /* the kernel at its heights, about the centre of a pixel */
   double weight;
   int32_t first, end; /* columns that it parts; from `end` on it is passed */
   int slab, slab_end;
@@ -73,6 +80,8 @@ static void touch(cs_convolve *convolve, int32_t p) {
     return;
   *word |= bit;
   memset(convolve->changes[p], 0, sizeof convolve->changes[p]);
+  if (convolve->slopes)
+    memset(convolve->slopes[p], 0, sizeof convolve->slopes[p]);
   convolve->shifts_at[p] = 0;
   if (convolve->kernel->is_signed) {
     convolve->passages_at[p] = 0;
@@ -146,12 +155,26 @@ static void see_looks(cs_convolve *convolve, const cs_trace_piece *piece, int32_
     widen(&convolve->least[p], &convolve->most[p], piece->right.colour);
 }
 
+static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
+
+/* The share of an even slice of the kernel about c that lies right of the part. */
+static double even_right(const part *t, double c) {
+  double length = t->to - t->from, across = t->high - t->low;
+  if (across < NARROW * length)
+    return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) / length, 0, 1);
+  return (half_square(c + t->to - t->low) - half_square(c + t->from - t->low) -
+          half_square(c + t->to - t->high) + half_square(c + t->from - t->high)) /
+         (length * across);
+}
+
 /* The share of the kernel at column p that lies right of the part. */
 static double share_right(const cs_kernel *kernel, const part *t, int32_t p) {
   double scale = 1 / kernel->radius_x, centre = p + 0.5;
   double across = (t->high - t->low) * scale;
+  if (kernel->shape != CS_KERNEL_SEPARABLE)
+    return even_right(t, centre);
   if (across < NARROW)
-    return cs_kernel_below(kernel, (centre - 0.5 * (t->low + t->high)) * scale);
+    return cs_kernel_left(kernel, (centre - 0.5 * (t->low + t->high)) * scale);
   return (cs_kernel_sum(kernel, (centre - t->low) * scale) -
           cs_kernel_sum(kernel, (centre - t->high) * scale)) /
          across;
@@ -177,10 +200,59 @@ static celspan_status spread(gather *g, const cs_trace_piece *piece, const part 
   return pass(g, piece, t);
 }
 
-/* In how many parts the kernel is even enough over a piece's heights: upright ones need no cut. */
+static void tilt(gather *g, const cs_trace_piece *piece, int32_t p, double slope) {
+  double *sum = g->convolve->slopes[p];
+  for (int c = 0; c < 4; c++)
+    sum[c] += slope * ((double)piece->right.colour[c] - (double)piece->left.colour[c]);
+}
+
+/* An upright edge under an even slice is a ramp: one change where it begins, one where it ends. */
+static celspan_status spread_ramp(gather *g, const cs_trace_piece *piece, const part *t) {
+  cs_convolve *convolve = g->convolve;
+  double x = 0.5 * (t->low + t->high), slope = 1 / (t->to - t->from);
+  int32_t first = cs_number_first_centre(x - t->to), end = cs_number_first_centre(x - t->from);
+  first = first > 0 ? first : 0;
+  if (first >= convolve->width)
+    return CELSPAN_OK;
+  double now = end > first ? (first + 0.5 + t->to - x) * slope : 1;
+  touch(convolve, first);
+  CS_TRY(change(g, piece, first, t->weight * now));
+  if (end <= first)
+    return CELSPAN_OK;
+  tilt(g, piece, first, t->weight * slope);
+  if (end >= convolve->width)
+    return CELSPAN_OK;
+  touch(convolve, end);
+  tilt(g, piece, end, -t->weight * slope);
+  return change(g, piece, end, t->weight * (1 - (now + (end - first) * slope)));
+}
+
+static celspan_status add_part(gather *g, const cs_trace_piece *piece, part *t) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  if (t->weight == 0 && !kernel->is_signed)
+    return CELSPAN_OK;
+  t->first = cs_number_first_centre(t->low - t->to);
+  t->end = cs_number_first_centre(t->high - t->from);
+  bool is_ramp = kernel->shape != CS_KERNEL_SEPARABLE && t->end - t->first > RAMP &&
+                 t->high - t->low <= (t->to - t->from) / RAMP && piece->left.program < 0 &&
+                 piece->right.program < 0;
+  return is_ramp ? spread_ramp(g, piece, t) : spread(g, piece, t);
+}
+
+/* In how many parts the kernel is even enough over a piece's heights: upright ones need no cut
+ * under a separable kernel, nor slanted ones under an upright box. */
 static int count_parts(const cs_kernel *kernel, const cs_trace_piece *piece) {
-  double height = piece->yb - piece->ya, slope = fabs(piece->xb - piece->xa) / height;
-  double parts = ceil(height * kernel->rows * sqrt(slope < 1 ? slope : 1));
+  double height = piece->yb - piece->ya, across = fabs(piece->xb - piece->xa);
+  double slope = across / height, parts;
+  if (kernel->shape == CS_KERNEL_SEPARABLE) {
+    parts = ceil(height * kernel->rows * sqrt(slope < 1 ? slope : 1));
+  } else {
+    bool is_upright = kernel->shape == CS_KERNEL_PARALLELOGRAM && kernel->edges[0][1] == 0 &&
+                      kernel->edges[1][0] == 0;
+    parts = is_upright ? 1 : ceil(height * kernel->rows / kernel->radius_y);
+    if (2 * kernel->radius_x > RAMP)
+      parts = fmax(parts, ceil(across * RAMP / (2 * kernel->radius_x)));
+  }
   return parts > 1 ? (int)parts : 1;
 }
 
@@ -190,29 +262,52 @@ static int first_slab(const gather *g, double y) {
   return (int)cs_number_clamp(slab, 0, CS_CONVOLVE_SLABS);
 }
 
-static celspan_status add_piece(gather *g, const cs_trace_piece *piece) {
+/* The kernel at a part's heights. */
+static bool slice_kernel(const cs_kernel *kernel, double d, part *t) {
+  t->from = -kernel->radius_x;
+  t->to = kernel->radius_x;
+  if (kernel->shape == CS_KERNEL_SEPARABLE)
+    return true;
+  return cs_kernel_slice(kernel, d, &t->from, &t->to) && t->to - t->from > NOTHING;
+}
+
+/* A piece as a kernel `dx`, `dy` from the pixel's centre sees it, of `share` of the whole. */
+static celspan_status add_piece_at(gather *g, const cs_trace_piece *piece, double dx, double dy,
+                                   double share) {
   const cs_kernel *kernel = g->convolve->kernel;
   int count = count_parts(kernel, piece);
-  double xa = piece->xa, ya = piece->ya;
-  double above = cs_kernel_below(kernel, (ya - g->centre) / kernel->radius_y);
+  double xa = piece->xa, ya = piece->ya, centre = g->centre + dy;
+  double above = cs_kernel_above(kernel, ya - centre);
   for (int k = 1; k <= count; k++) {
     double u = (double)k / count;
     double xb = k == count ? piece->xb : piece->xa + u * (piece->xb - piece->xa);
     double yb = k == count ? piece->yb : piece->ya + u * (piece->yb - piece->ya);
-    double below = cs_kernel_below(kernel, (yb - g->centre) / kernel->radius_y);
-    part t = {.low = xa < xb ? xa : xb,
-              .high = xa < xb ? xb : xa,
-              .weight = below - above,
+    double below = cs_kernel_above(kernel, yb - centre);
+    part t = {.low = (xa < xb ? xa : xb) - dx,
+              .high = (xa < xb ? xb : xa) - dx,
+              .weight = share * (below - above),
               .slab = first_slab(g, ya),
               .slab_end = first_slab(g, yb)};
-    t.first = cs_number_first_centre(t.low - kernel->radius_x);
-    t.end = cs_number_first_centre(t.high + kernel->radius_x);
-    if (t.weight != 0 || kernel->is_signed)
-      CS_TRY(spread(g, piece, &t));
+    double d = cs_number_clamp(0.5 * (ya + yb) - centre, NARROW - kernel->radius_y,
+                               kernel->radius_y - NARROW);
+    if (slice_kernel(kernel, d, &t))
+      CS_TRY(add_part(g, piece, &t));
     xa = xb;
     ya = yb;
     above = below;
   }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_piece(gather *g, const cs_trace_piece *piece) {
+  const cs_kernel *kernel = g->convolve->kernel;
+  int count = kernel->offsets;
+  if (count <= 1)
+    return add_piece_at(g, piece, 0, 0, 1);
+  for (int j = 0; j < count; j++)
+    for (int i = 0; i < count; i++)
+      CS_TRY(add_piece_at(g, piece, ((i + 0.5) / count - 0.5) * kernel->spread,
+                          ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)));
   return CELSPAN_OK;
 }
 
@@ -284,7 +379,9 @@ typedef struct summing {
   cs_row *out;
   double y;         /* centre */
   size_t rows;      /* under the kernel */
-  double sum[4];    /* of the flat colours, weighed */
+  int32_t at;       /* the column that was reached, */
+  double sum[4];    /* the flat colours, weighed, there, */
+  double slope[4];  /* and their change from column to column after it */
   size_t varying;   /* looks whose weight is not nothing */
   cs_convolve_range range; /* of what lies under the kernel, but near pieces */
 } summing;
@@ -341,8 +438,11 @@ static void pass_pieces(summing *s, int32_t p) {
 
 static void reach_column(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
-  for (int c = 0; c < 4; c++)
-    s->sum[c] += convolve->changes[p][c];
+  for (int c = 0; c < 4; c++) {
+    s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
+    s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
+  }
+  s->at = p;
   for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
     const cs_convolve_shift *shift = &convolve->shifts[at - 1];
     double *weight = &convolve->looks[shift->look].weight;
@@ -360,11 +460,18 @@ static cs_v4 hold(cs_v4 colour, cs_v4 least, cs_v4 most) {
   return colour;
 }
 
-static cs_v4 flat_sum(const summing *s) {
+static cs_v4 flat_sum(const summing *s, int32_t x) {
   cs_v4 colour;
   for (int c = 0; c < 4; c++)
-    colour[c] = (float)tidy(s->sum[c]);
+    colour[c] = (float)tidy(s->sum[c] + s->slope[c] * (x - s->at));
   return colour;
+}
+
+static cs_v4 flat_slope(const summing *s) {
+  cs_v4 slope;
+  for (int c = 0; c < 4; c++)
+    slope[c] = (float)tidy(s->slope[c]);
+  return slope;
 }
 
 static cs_v4 hold_alpha(cs_v4 colour) {
@@ -394,9 +501,9 @@ static celspan_status add_look(summing *s, const cs_convolve_look *look, int32_t
 static celspan_status mix_batch(summing *s, int32_t x0, int32_t x1, cs_v4 near_least,
                                 cs_v4 near_most, float *out) {
   cs_convolve *convolve = s->convolve;
-  cs_v4 colours[MIXED], least[MIXED], most[MIXED], flat = flat_sum(s);
+  cs_v4 colours[MIXED], least[MIXED], most[MIXED];
   for (int32_t k = 0; k < x1 - x0; k++) {
-    colours[k] = flat;
+    colours[k] = flat_sum(s, x0 + k);
     least[k] = near_least;
     most[k] = near_most;
   }
@@ -425,7 +532,7 @@ static const cs_program *lone_program(const summing *s) {
   if (s->varying != 1)
     return NULL;
   for (int c = 0; c < 4; c++)
-    if (fabs(s->sum[c]) > NOTHING)
+    if (fabs(s->sum[c]) > NOTHING || fabs(s->slope[c]) > NOTHING)
       return NULL;
   for (size_t i = 0; i < s->convolve->look_count; i++)
     if (fabs(s->convolve->looks[i].weight - 1) <= NOTHING)
@@ -433,7 +540,7 @@ static const cs_program *lone_program(const summing *s) {
   return NULL;
 }
 
-/* The columns [x0, x1), after x0 nothing changes. */
+/* The columns [x0, x1), after x0 nothing changes but by its slope. */
 static celspan_status write(summing *s, int32_t x0, int32_t x1) {
   const cs_convolve *convolve = s->convolve;
   cs_v4 least = cs_v4_all(0), most = least;
@@ -446,10 +553,10 @@ static celspan_status write(summing *s, int32_t x0, int32_t x1) {
     return cs_composer_run_program(s->composer, program, x0, x1, s->y, s->out);
   if (s->varying > 0)
     return mix(s, x0, x1, least, most);
-  cs_v4 colour = flat_sum(s);
+  cs_v4 colour = flat_sum(s, x0);
   if (convolve->kernel->is_signed)
     colour = hold(colour, least, most);
-  return cs_row_single(s->composer->context, s->out, x0, x1, hold_alpha(colour));
+  return cs_row_gradient(s->composer->context, s->out, x0, x1, hold_alpha(colour), flat_slope(s));
 }
 
 static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
@@ -486,7 +593,7 @@ celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
     g.row = (uint32_t)i;
     CS_TRY(add_trace(&g, composer));
   }
-  summing s = {convolve, composer, out, y + 0.5, count, {0}, 0, {cs_v4_all(0), cs_v4_all(0)}};
+  summing s = {.convolve = convolve, .composer = composer, .out = out, .y = y + 0.5, .rows = count};
   for (int c = 0; c < 4; c++)
     s.sum[c] = (double)traces[0]->base[c];
   if (convolve->kernel->is_signed)

@@ -52,6 +52,7 @@ typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
   double (*changes)[4]; /* by column */
+  double (*slopes)[4];  /* even shapes: of the change from column to column */
   uint64_t *touched;    /* columns at which something changes, one bit each */
   uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */
   cs_v4 *least, *most;  /* signed kernels: the range of the looks near a column */

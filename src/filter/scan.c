@@ -5,6 +5,7 @@ celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_sh
   cs_active_init(&scan->active, &shot->boundaries, &shot->cull);
   cs_cells_init(&scan->cells);
   cs_arena_init(&scan->arena);
+  cs_scanline_init(&scan->output);
   CS_TRY(cs_composer_init(&scan->composer, context, &shot->stack));
   return shot->kernel ? cs_traces_init(scan) : CELSPAN_OK;
 }
@@ -18,6 +19,7 @@ void cs_scan_finish(cs_scan *scan) {
   cs_cells_finish(&scan->cells, memory);
   cs_window_free(&scan->window, memory);
   cs_arena_finish(&scan->arena, memory);
+  cs_scanline_finish(&scan->output, memory);
   cs_traces_finish(scan);
   *scan = (cs_scan){0};
 }

@@ -12,6 +12,7 @@
 #include "compose/cells.h"
 #include "filter/convolve.h"
 #include "filter/window.h"
+#include "scene/scanline.h"
 
 /* A rostrum compiled for a frame of some size: made by render/compile.c, never changed after. */
 typedef struct cs_shot {
@@ -34,6 +35,7 @@ typedef struct cs_scan {
   cs_cells cells;
   cs_window window;
   cs_arena arena; /* of the current row */
+  celspan_scanline_output output; /* room for what procedures return */
   int32_t row;    /* the active boundaries stand at this row's height, or NOWHERE */
   cs_trace *traces; /* FILTER: of rows seen, row y in place y modulo the count */
   const cs_trace **under; /* those under the kernel */

@@ -1,7 +1,6 @@
 #include "filter/strips.h"
 
 #include "base/number.h"
-#include "scene/scanline.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,21 +85,16 @@ static celspan_status add_spans(cs_scan *scan, const cs_procedure *procedure,
 
 celspan_status cs_strips_collect(cs_scan *scan, double height, cs_strip_edges *edges) {
   const cs_stack *stack = &scan->shot->stack;
-  celspan_scanline_output output;
-  celspan_status status = CELSPAN_OK;
-  cs_scanline_init(&output);
-  for (size_t i = 0; i < stack->procedure_count && status == CELSPAN_OK; i++) {
+  for (size_t i = 0; i < stack->procedure_count; i++) {
     const cs_procedure *procedure = &stack->procedures[i];
     celspan_scanline_row row = visible_row(procedure, scan->shot);
     if (!procedure_meets(procedure, height, height) || !(row.x0 < row.x1))
       continue;
     double y = (height - procedure->shift_y) / procedure->scale_y;
-    status = cs_scanline_collect(scan->context, procedure->desc, y, &row, &output);
-    if (status == CELSPAN_OK)
-      status = add_spans(scan, procedure, &output, edges);
+    CS_TRY(cs_scanline_collect(scan->context, procedure->desc, y, &row, &scan->output));
+    CS_TRY(add_spans(scan, procedure, &scan->output, edges));
   }
-  cs_scanline_finish(&output, scan->context->memory);
-  return status;
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- pixel centres */

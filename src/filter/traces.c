@@ -30,7 +30,7 @@ static cs_trace *find_trace(cs_scan *scan, int32_t row) {
 }
 
 celspan_status cs_traces_row(cs_scan *scan, int32_t y, cs_row *out) {
-  double radius = scan->shot->kernel->radius_y;
+  double radius = scan->shot->kernel->radius_y + 0.5 * scan->shot->kernel->spread;
   int32_t first = cs_number_floor(y + 0.5 - radius), end = cs_number_ceil(y + 0.5 + radius);
   for (int32_t row = first; row < end; row++) {
     cs_trace *trace = find_trace(scan, row);

@@ -36,11 +36,11 @@ static inline void put_bits(cs_block_writer *writer, uint64_t bits, unsigned cou
   writer->bit_count += count;
 }
 
-void cs_block_put_bytes(cs_block_writer *writer, const void *bytes, size_t size) {
-  put_whole_bytes(writer);
-  writer->bit_count = (writer->bit_count + 7) & ~7u;
-  for (size_t i = 0; i < size; i++)
-    put_bits(writer, ((const unsigned char *)bytes)[i], 8);
+/* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
+void cs_block_align(cs_block_writer *writer) {
+  put_bits(writer, 0, 3);
+  put_bits(writer, 0, (8 - writer->bit_count % 8) % 8);
+  put_bits(writer, 0xffff0000u, 32);
 }
 
 void cs_block_flush(cs_block_writer *writer) {
@@ -95,8 +95,9 @@ static void count_tokens(counts *count, const cs_token *tokens, size_t token_cou
     if (tokens[i] < 256) {
       count->literals[tokens[i]]++;
     } else {
-      lengths[tokens[i] >> 16 & 255]++;
-      count->distances[split_distance(tokens[i] & 0x7fff).symbol]++;
+      uint32_t times = (tokens[i] >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
+      lengths[tokens[i] >> 16 & 255] += times;
+      count->distances[split_distance(tokens[i] & 0x7fff).symbol] += times;
     }
   for (unsigned length = 0; length < 256; length++)
     count->literals[split_length(length).symbol] += lengths[length];
@@ -219,36 +220,67 @@ static void put_header(cs_block_writer *writer, const header *head) {
 
 /* ---------------------------------------------------------------- the tokens of a block */
 
-/* A length's code and extra bits in one. */
-typedef struct length_bits {
+/* A code with its extra bits. */
+typedef struct bit_string {
   uint32_t bits;
   unsigned count;
-} length_bits;
+} bit_string;
 
-static void join_lengths(length_bits joined[256], const codes *code) {
-  for (unsigned length = 0; length < 256; length++) {
-    parts split = split_length(length);
-    unsigned code_bits = code->literal_lengths[split.symbol];
-    joined[length].bits = code->literals[split.symbol] | split.extra << code_bits;
-    joined[length].count = code_bits + (unsigned)split.extra_bits;
+static bit_string join(uint16_t code, uint8_t code_bits, parts split) {
+  return (bit_string){code | split.extra << code_bits, code_bits + (unsigned)split.extra_bits};
+}
+
+enum { NEAR = 16 }; /* distances of runs: no farther than a pixel */
+
+typedef struct code_book {
+  bit_string literals[256], lengths[256], near_distances[NEAR];
+} code_book;
+
+static void make_book(code_book *book, const codes *code) {
+  for (unsigned i = 0; i < 256; i++) {
+    parts length = split_length(i);
+    book->literals[i] = (bit_string){code->literals[i], code->literal_lengths[i]};
+    book->lengths[i] = join(code->literals[length.symbol], code->literal_lengths[length.symbol],
+                            length);
   }
+  for (unsigned i = 0; i < NEAR; i++) {
+    parts distance = split_distance(i);
+    book->near_distances[i] = join(code->distances[distance.symbol],
+                                   code->distance_lengths[distance.symbol], distance);
+  }
+}
+
+static void put_match(cs_block_writer *writer, const codes *code, const code_book *book,
+                      cs_token token) {
+  unsigned less_1 = token & 0x7fff, times = (token >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
+  bit_string length = book->lengths[token >> 16 & 255], distance;
+  if (less_1 < NEAR) {
+    distance = book->near_distances[less_1];
+  } else {
+    parts split = split_distance(less_1);
+    distance = join(code->distances[split.symbol], code->distance_lengths[split.symbol], split);
+  }
+  uint64_t bits = length.bits | (uint64_t)distance.bits << length.count;
+  unsigned count = length.count + distance.count;
+  for (; times > 1 && count <= 24; times /= 2) { /* twice as many bits, half as often */
+    if (times & 1)
+      put_bits(writer, bits, count);
+    bits |= bits << count;
+    count *= 2;
+  }
+  while (times-- > 0)
+    put_bits(writer, bits, count);
 }
 
 static void put_tokens(cs_block_writer *writer, const codes *code, const cs_token *tokens,
                        size_t count) {
-  length_bits lengths[256];
-  join_lengths(lengths, code);
+  code_book book;
+  make_book(&book, code);
   for (const cs_token *token = tokens; token < tokens + count; token++) {
-    if (*token < 256) {
-      put_bits(writer, code->literals[*token], code->literal_lengths[*token]);
-      continue;
-    }
-    length_bits length = lengths[*token >> 16 & 255];
-    parts split = split_distance(*token & 0x7fff);
-    unsigned code_bits = code->distance_lengths[split.symbol];
-    uint64_t distance = code->distances[split.symbol] | (uint64_t)split.extra << code_bits;
-    put_bits(writer, length.bits | distance << length.count,
-             length.count + code_bits + (unsigned)split.extra_bits);
+    if (*token < 256)
+      put_bits(writer, book.literals[*token].bits, book.literals[*token].count);
+    else
+      put_match(writer, code, &book, *token);
   }
   put_bits(writer, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
 }

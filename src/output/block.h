@@ -8,10 +8,15 @@
 typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, const void *bytes,
                                          size_t size);
 
-/* A literal is its byte; a match is made here. length 3..258, distance 1..32768. */
+/* A literal is its byte; a match is made here. length 3..258, distance 1..32768. A match of the
+ * greatest length may stand for up to CS_TOKEN_TIMES equal ones. */
 typedef uint32_t cs_token;
+enum { CS_TOKEN_LONGEST = 258, CS_TOKEN_TIMES = 128 };
 static inline cs_token cs_token_match(size_t length, size_t distance) {
   return 0x80000000u | (cs_token)(length - 3) << 16 | (cs_token)(distance - 1);
+}
+static inline cs_token cs_token_longest(size_t times, size_t distance) {
+  return cs_token_match(CS_TOKEN_LONGEST, distance) | (cs_token)(times - 1) << 24;
 }
 
 enum { CS_BLOCK_BYTES = 1 << 16 };
@@ -30,8 +35,8 @@ typedef struct cs_block_writer {
 
 /* One block, with codes of its own or the fixed ones, whichever is shorter. */
 void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last);
-/* Plain bytes, after filling the byte begun with zeros. */
-void cs_block_put_bytes(cs_block_writer *writer, const void *bytes, size_t size);
+/* An empty block that ends with a whole byte. */
+void cs_block_align(cs_block_writer *writer);
 /* Passes on what is held. */
 void cs_block_flush(cs_block_writer *writer);
 

@@ -7,10 +7,9 @@ enum {
   WINDOW = 32768,
   PENDING = 1 << 16, /* bytes gathered before they are searched */
   SLACK = 16,        /* read or written beyond the end, never used */
-  LONGEST = 258,
+  LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  LONG_RUN = 512,  /* bytes from which a run is not laid out but written as matches at once */
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
   ADLER_BASE = 65521
@@ -23,6 +22,9 @@ struct cs_deflate {
    * the stream, modulo 2^32. */
   uint32_t base;
   size_t start, next, end;
+  uint64_t size;      /* bytes of the part so far */
+  size_t zeros;       /* of a run, not yet tokens: more may follow */
+  bool ends_in_zeros; /* the last token but for them */
   size_t token_count;
   uint32_t latest[1 << HASH_BITS][2]; /* where four bytes of a hash were seen last and before */
   cs_token tokens[BLOCK_TOKENS];
@@ -36,11 +38,8 @@ celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs
   if (!deflate)
     return cs_fail_memory(context);
   deflate->pixel_size = pixel_size;
-  deflate->adler_a = 1;
   deflate->writer.write = write;
   deflate->writer.user = user;
-  static const unsigned char zlib_header[2] = {0x78, 0x9c};
-  cs_block_put_bytes(&deflate->writer, zlib_header, sizeof zlib_header);
   *out = deflate;
   return CELSPAN_OK;
 }
@@ -48,6 +47,29 @@ celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs
 void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
   if (deflate)
     cs_mem_free(context->memory, deflate, sizeof *deflate);
+}
+
+/* History is given up; places remembered from it are told by their distance, as long as the count of
+ * bytes does not come round. */
+static void forget(cs_deflate *deflate) {
+  if (deflate->base > UINT32_MAX / 2) {
+    memset(deflate->latest, 0, sizeof deflate->latest);
+    deflate->base = 0;
+  }
+  deflate->start = deflate->next = deflate->end;
+}
+
+void cs_deflate_begin(cs_deflate *deflate) {
+  cs_block_writer *writer = &deflate->writer;
+  forget(deflate);
+  deflate->adler_a = 1;
+  deflate->adler_b = 0;
+  deflate->size = deflate->zeros = deflate->token_count = 0;
+  deflate->ends_in_zeros = false;
+  writer->status = CELSPAN_OK;
+  writer->bits = 0;
+  writer->bit_count = 0;
+  writer->size = 0;
 }
 
 /* ---------------------------------------------------------------- checksum */
@@ -87,7 +109,7 @@ static void adler_run(cs_deflate *deflate, uint64_t pixel, uint64_t count) {
 
 /* ---------------------------------------------------------------- tokens */
 
-static void put_token(cs_deflate *deflate, cs_token token) {
+static inline void put_token(cs_deflate *deflate, cs_token token) {
   deflate->tokens[deflate->token_count++] = token;
   if (deflate->token_count == BLOCK_TOKENS) {
     cs_block_put(&deflate->writer, deflate->tokens, BLOCK_TOKENS, false);
@@ -213,13 +235,95 @@ static void slide(cs_deflate *deflate) {
 
 static size_t room(const cs_deflate *deflate) { return WINDOW + PENDING - deflate->end; }
 
-/* ---------------------------------------------------------------- input */
+/* ---------------------------------------------------------------- runs */
+
+static void put_matches(cs_deflate *deflate, size_t bytes, size_t distance) {
+  size_t times = bytes >= LONGEST + 3 ? (bytes - 3) / LONGEST : 0;
+  bytes -= times * LONGEST;
+  for (size_t part; times > 0; times -= part) {
+    part = times < CS_TOKEN_TIMES ? times : CS_TOKEN_TIMES;
+    put_token(deflate, cs_token_longest(part, distance));
+  }
+  if (bytes > LONGEST) { /* what is left must not be shorter than a match */
+    put_token(deflate, cs_token_match(bytes - 3, distance));
+    bytes = 3;
+  }
+  put_token(deflate, cs_token_match(bytes, distance));
+}
+
+static void put_zeros(cs_deflate *deflate) {
+  size_t count = deflate->zeros;
+  deflate->zeros = 0;
+  if (count > 0 && !(deflate->ends_in_zeros && count >= 3)) {
+    put_token(deflate, 0);
+    count--;
+  }
+  if (count >= 3)
+    put_matches(deflate, count, 1);
+  else
+    for (; count > 0; count--)
+      put_token(deflate, 0);
+}
+
+static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
+  if (byte == 0) {
+    deflate->zeros++;
+    return;
+  }
+  if (deflate->zeros > 0)
+    put_zeros(deflate);
+  put_token(deflate, byte);
+  deflate->ends_in_zeros = false;
+}
+
+static void put_pixels(cs_deflate *deflate, uint64_t pixel, size_t count) {
+  size_t size = deflate->pixel_size, bytes = (count - 1) * size;
+  for (size_t i = 0; i < size; i++)
+    put_byte(deflate, (unsigned char)(pixel >> 8 * i));
+  if (bytes >= 3) {
+    put_zeros(deflate);
+    put_matches(deflate, bytes, size);
+    deflate->ends_in_zeros = pixel >> 8 * (size - 1) == 0;
+  } else {
+    for (size_t i = 0; i < bytes; i++)
+      put_byte(deflate, (unsigned char)(pixel >> 8 * (i % size)));
+  }
+}
+
+celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context, uint64_t pixel,
+                              size_t count) {
+  deflate->writer.context = context;
+  if (deflate->next < deflate->end)
+    search(deflate);
+  adler_run(deflate, pixel, count);
+  deflate->size += count * deflate->pixel_size;
+  if (pixel == 0)
+    deflate->zeros += count * deflate->pixel_size;
+  else
+    put_pixels(deflate, pixel, count);
+  forget(deflate);
+  return deflate->writer.status;
+}
+
+void cs_deflate_byte(cs_deflate *deflate, unsigned char byte) {
+  if (deflate->next < deflate->end)
+    search(deflate);
+  deflate->adler_a += byte;
+  deflate->adler_b += deflate->adler_a;
+  deflate->size++;
+  put_byte(deflate, byte);
+  forget(deflate);
+}
+
+/* ---------------------------------------------------------------- bytes */
 
 celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_context *context, const void *bytes,
                                 size_t size) {
   const unsigned char *from = bytes;
   deflate->writer.context = context;
+  put_zeros(deflate);
   adler_bytes(deflate, from, size);
+  deflate->size += size;
   while (size > 0) {
     if (room(deflate) == 0)
       slide(deflate);
@@ -229,69 +333,40 @@ celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_context *context, c
     from += part;
     size -= part;
   }
+  deflate->ends_in_zeros = false;
   return deflate->writer.status;
 }
 
-static void lay_out(cs_deflate *deflate, uint64_t pixel, size_t count) {
-  size_t size = deflate->pixel_size;
-  if (room(deflate) < count * size)
-    slide(deflate);
-  unsigned char *at = deflate->buffer + deflate->end;
-  for (size_t i = 0; i < count; i++, at += size)
-    memcpy(at, &pixel, sizeof pixel);
-  deflate->end += count * size;
-}
+/* ---------------------------------------------------------------- parts */
 
-static void put_matches(cs_deflate *deflate, size_t bytes, size_t distance) {
-  while (bytes >= LONGEST + 3) {
-    put_token(deflate, cs_token_match(LONGEST, distance));
-    bytes -= LONGEST;
-  }
-  if (bytes > LONGEST) { /* what is left must not be shorter than a match */
-    put_token(deflate, cs_token_match(bytes - 3, distance));
-    bytes = 3;
-  }
-  put_token(deflate, cs_token_match(bytes, distance));
-}
-
-/* A run whose first pixel has been laid out already goes on for `count` pixels: as matches, with as
- * much of it laid out as anyone can still look back to. */
-static void put_long_run(cs_deflate *deflate, uint64_t pixel, size_t count) {
-  size_t size = deflate->pixel_size, bytes = count * size;
-  search(deflate);
-  put_matches(deflate, bytes, pixel == 0 ? 1 : size);
-  size_t visible = WINDOW / size + 1, laid_out = count < visible ? count : visible;
-  lay_out(deflate, pixel, laid_out);
-  if (laid_out < count) {
-    deflate->base += (uint32_t)(bytes - laid_out * size);
-    deflate->start = deflate->end - laid_out * size;
-  }
-  deflate->next = deflate->end;
-}
-
-celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context, uint64_t pixel,
-                              size_t count) {
-  deflate->writer.context = context;
-  adler_run(deflate, pixel, count);
-  if (count * deflate->pixel_size < LONG_RUN) {
-    lay_out(deflate, pixel, count);
-  } else {
-    lay_out(deflate, pixel, 1);
-    put_long_run(deflate, pixel, count - 1);
-  }
-  return deflate->writer.status;
-}
-
-celspan_status cs_deflate_finish(cs_deflate *deflate, celspan_context *context) {
+celspan_status cs_deflate_end(cs_deflate *deflate, celspan_context *context, cs_deflate_sum *out) {
   cs_block_writer *writer = &deflate->writer;
   writer->context = context;
   search(deflate);
-  cs_block_put(writer, deflate->tokens, deflate->token_count, true);
-  reduce_adler(deflate);
-  uint32_t sum = (uint32_t)(deflate->adler_b << 16 | deflate->adler_a);
-  unsigned char trailer[4] = {(unsigned char)(sum >> 24), (unsigned char)(sum >> 16),
-                              (unsigned char)(sum >> 8), (unsigned char)sum};
-  cs_block_put_bytes(writer, trailer, sizeof trailer);
+  put_zeros(deflate);
+  if (deflate->token_count > 0)
+    cs_block_put(writer, deflate->tokens, deflate->token_count, false);
+  cs_block_align(writer);
   cs_block_flush(writer);
+  reduce_adler(deflate);
+  *out = (cs_deflate_sum){(uint32_t)(deflate->adler_b << 16 | deflate->adler_a), deflate->size};
   return writer->status;
+}
+
+void cs_deflate_header(unsigned char header[CS_DEFLATE_HEADER]) {
+  header[0] = 0x78; /* deflate, 32 KiB */
+  header[1] = 0x9c;
+}
+
+/* An empty last block of the fixed codes, and the checksum. */
+void cs_deflate_trailer(cs_deflate_sum sum, unsigned char trailer[CS_DEFLATE_TRAILER]) {
+  trailer[0] = 3;
+  trailer[1] = 0;
+  for (int i = 0; i < 4; i++)
+    trailer[2 + i] = (unsigned char)(sum.adler >> (24 - 8 * i));
+}
+
+cs_deflate_sum cs_deflate_join(cs_deflate_sum first, cs_deflate_sum second) {
+  uLong adler = adler32_combine(first.adler, second.adler, (z_off_t)second.size);
+  return (cs_deflate_sum){(uint32_t)adler, first.size + second.size};
 }

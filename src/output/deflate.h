@@ -1,8 +1,10 @@
-/* A zlib stream (RFC 1950, 1951) made from runs of equal pixels and from plain bytes.
+/* A zlib stream (RFC 1950, 1951) made in parts, from runs of equal pixels and from plain bytes.
  *
- * Made for filtered rows of pictures: long runs cost a token each 258 bytes and a closed-form step
- * of the checksum; everything else is looked up at its last two occurrences within 32 KiB.
- * The bytes that come out depend on the calls alone. Memory: about 750 KiB, whatever the length.
+ * Parts are made each on its own, side by side if one likes, and joined in order between a header
+ * and a trailer. Runs become literals and matches of the byte or the pixel before; the checksum
+ * follows them in closed form; so their cost does not depend on their length. Plain bytes are looked
+ * up at their last two occurrences within 32 KiB.
+ * The bytes that come out of a part depend on the calls for it alone. Memory: about 750 KiB.
  */
 #ifndef CS_OUTPUT_DEFLATE_H
 #define CS_OUTPUT_DEFLATE_H
@@ -17,12 +19,33 @@ CELSPAN_CHECKED celspan_status cs_deflate_create(celspan_context *context, size_
                                                  cs_deflate **out);
 void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context);
 
-/* Errors of `write` stick, and come back from cs_deflate_finish at the latest. */
+/* What the checksum of a whole is made of. */
+typedef struct cs_deflate_sum {
+  uint32_t adler;
+  uint64_t size;
+} cs_deflate_sum;
+
+/* A part begins, whatever became of the one before. */
+void cs_deflate_begin(cs_deflate *deflate);
+/* Errors of `write` stick, and come back from cs_deflate_end at the latest. */
 CELSPAN_CHECKED celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_context *context,
                                                 const void *bytes, size_t size);
-/* `count` times the first pixel_size bytes of `pixel`, lowest first. */
+/* `count` times the first pixel_size bytes of `pixel`, lowest first, 2^20 times at most; the bytes
+ * above are 0. */
 CELSPAN_CHECKED celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context,
                                               uint64_t pixel, size_t count);
-CELSPAN_CHECKED celspan_status cs_deflate_finish(cs_deflate *deflate, celspan_context *context);
+/* One byte among runs. */
+void cs_deflate_byte(cs_deflate *deflate, unsigned char byte);
+/* Fills the last byte and passes on what is held. */
+CELSPAN_CHECKED celspan_status cs_deflate_end(cs_deflate *deflate, celspan_context *context,
+                                              cs_deflate_sum *out);
+
+enum { CS_DEFLATE_HEADER = 2, CS_DEFLATE_TRAILER = 6 };
+void cs_deflate_header(unsigned char header[CS_DEFLATE_HEADER]);
+/* sum: of all parts. */
+void cs_deflate_trailer(cs_deflate_sum sum, unsigned char trailer[CS_DEFLATE_TRAILER]);
+cs_deflate_sum cs_deflate_join(cs_deflate_sum first, cs_deflate_sum second);
+/* Of nothing. */
+#define CS_DEFLATE_SUM ((cs_deflate_sum){.adler = 1})
 
 #endif

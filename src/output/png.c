@@ -1,19 +1,20 @@
-/* Chunks of a PNG file (PNG 3rd edition, 5 and 11) around the rows of png_rows.c. */
+/* Chunks of a PNG file (PNG 3rd edition, 5 and 11) around the parts of png_strips.c. */
 #include <string.h>
 #include <zlib.h>
 
 #include "output/file.h"
 #include "output/pixels.h"
-#include "output/png_rows.h"
+#include "output/png_strips.h"
 #include "output/sink.h"
 
 typedef struct png_sink {
   size_t allocated;
   const char *path;
-  cs_file *file;       /* from begin to end */
-  cs_deflate *deflate; /* likewise */
-  cs_png_rows rows;
+  cs_file *file;         /* from begin to end */
+  cs_png_strips *strips; /* likewise */
   celspan_coding coding;
+  bool is_opaque;
+  int workers;
   size_t title_size;
   unsigned char title[]; /* the bytes of its chunk */
 } png_sink;
@@ -61,7 +62,7 @@ static celspan_status put_start(png_sink *sink, celspan_context *context, int32_
   store_32(header, (uint32_t)width);
   store_32(header + 4, (uint32_t)height);
   header[8] = sink->coding.depth == CELSPAN_DEPTH_16 ? 16 : 8;
-  header[9] = 6; /* RGBA */
+  header[9] = sink->is_opaque ? 2 : 6; /* RGB or RGBA */
   CS_TRY(cs_file_write(sink->file, context, signature, sizeof signature));
   CS_TRY(put_chunk(sink, context, "IHDR", header, sizeof header));
   CS_TRY(put_colour_space(sink, context));
@@ -74,15 +75,14 @@ static celspan_status put_start(png_sink *sink, celspan_context *context, int32_
 
 static void destroy(png_sink *sink, celspan_context *context) {
   cs_file_discard(sink->file, context);
-  cs_deflate_destroy(sink->deflate, context);
-  cs_png_rows_end(&sink->rows, context);
+  cs_png_strips_destroy(sink->strips, context);
   cs_mem_free(context->memory, sink, sink->allocated);
 }
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   png_sink *sink = user;
-  cs_png_rows_begin(&sink->rows, sink->coding, width);
-  CS_TRY(cs_deflate_create(context, sink->rows.pixel_size, put_image_data, sink, &sink->deflate));
+  cs_png_picture picture = {sink->coding, sink->is_opaque, width, height, sink->workers};
+  CS_TRY(cs_png_strips_create(context, &picture, put_image_data, sink, &sink->strips));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return put_start(sink, context, width, height);
 }
@@ -91,11 +91,11 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   png_sink *sink = user;
   (void)y;
-  return cs_png_rows_put(&sink->rows, context, spans, span_count, sink->deflate);
+  return cs_png_strips_row(sink->strips, context, spans, span_count);
 }
 
 static celspan_status finish(png_sink *sink, celspan_context *context) {
-  CS_TRY(cs_deflate_finish(sink->deflate, context));
+  CS_TRY(cs_png_strips_finish(sink->strips, context));
   CS_TRY(put_chunk(sink, context, "IEND", "", 0));
   cs_file *file = sink->file;
   sink->file = NULL;
@@ -136,6 +136,8 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   sink->allocated = size;
   sink->coding = coding;
+  sink->is_opaque = file->is_opaque;
+  sink->workers = file->workers;
   sink->title_size = title_size;
   if (title > 0) {
     memcpy(sink->title, title_head, sizeof title_head);

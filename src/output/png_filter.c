@@ -12,56 +12,71 @@ static uint64_t subtract_bytes(uint64_t x, uint64_t y) {
   return ((x | high) - (y & ~high)) ^ ((x ^ ~y) & high);
 }
 
-/* Whether the pixel was met lately under this filter; from now on it was. */
-static bool recall(cs_png_seen *seen, filter kind, uint64_t pixel) {
-  uint64_t mixed = pixel * 0x9e3779b97f4a7c15u;
-  uint32_t *tag = &seen->tags[kind][mixed >> (64 - CS_PNG_SEEN_BITS)];
-  bool is_known = *tag == (uint32_t)mixed;
-  *tag = (uint32_t)mixed;
-  return is_known;
+/* About the bits a run costs, in eighths: a literal of a difference by its size, one of a colour
+ * always the same; and a match when it goes on. */
+enum { COLOUR_BITS = 56, MORE_BITS = 80 };
+
+void cs_png_costs_fill(cs_png_costs *costs) {
+  for (int byte = 0; byte < 256; byte++) {
+    unsigned size = (unsigned)(byte < 128 ? byte : 256 - byte) + 1;
+    unsigned octave = 31u - (unsigned)__builtin_clz(size);
+    costs->literal[byte] = (uint8_t)(20 + 10 * octave + 10 * (size - (1u << octave)) / (1u << octave));
+  }
 }
 
-/* About the bits a run costs: a match for what was met before, or else a pixel of literals; one
- * more match when it goes on. An unchanged stretch is that last match alone. */
-enum { KNOWN_BITS = 18, NEW_BITS = 36, MORE_BITS = 24 };
-
-static unsigned run_cost(cs_png_seen *seen, filter kind, uint64_t pixel, int32_t count) {
-  unsigned first = recall(seen, kind, pixel) ? KNOWN_BITS : NEW_BITS;
-  return first + (count > 1 ? MORE_BITS : 0);
+static inline unsigned pixel_cost(const cs_png_costs *costs, uint64_t pixel, size_t pixel_size) {
+  unsigned cost = 0;
+  for (size_t i = 0; i < pixel_size; i++)
+    cost += costs->literal[pixel >> 8 * i & 255];
+  return cost;
 }
 
-static uint64_t cost_within(cs_png_seen *seen, filter kind, const cs_png_row *row) {
-  uint64_t bits = 0, left = 0;
+static uint64_t cost_none(const cs_png_row *row, size_t pixel_size) {
+  uint64_t cost = 0;
   int32_t x = 0;
-  for (size_t i = 0; i < row->run_count; i++) {
-    const cs_png_run *run = &row->runs[i];
-    bits += run_cost(seen, kind, subtract_bytes(run->pixel, left), run->end - x);
-    left = kind == FILTER_SUB ? run->pixel : 0;
+  for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
+    cost += COLOUR_BITS * pixel_size + (run->end - x > 1 ? MORE_BITS : 0);
     x = run->end;
   }
-  return bits;
+  return cost;
 }
 
-static uint64_t cost_up(cs_png_seen *seen, const cs_png_row *row, const cs_png_row *above) {
+static uint64_t cost_sub(const cs_png_costs *costs, const cs_png_row *row, size_t pixel_size) {
+  uint64_t cost = 0, left = 0;
+  int32_t x = 0;
+  for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
+    cost += pixel_cost(costs, subtract_bytes(run->pixel, left), pixel_size);
+    cost += run->end - x > 1 ? MORE_BITS : 0;
+    left = run->pixel;
+    x = run->end;
+  }
+  return cost;
+}
+
+static uint64_t cost_up(const cs_png_costs *costs, const cs_png_row *row, const cs_png_row *above,
+                        size_t pixel_size) {
   const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
-  uint64_t bits = MORE_BITS;
+  uint64_t cost = 0, held = 1;
   int32_t x = 0;
   while (run < last) {
+    uint64_t difference = subtract_bytes(run->pixel, upper->pixel);
     int32_t end = upper->end < run->end ? upper->end : run->end;
-    if (upper->pixel != run->pixel)
-      bits +=
-          MORE_BITS + run_cost(seen, FILTER_UP, subtract_bytes(run->pixel, upper->pixel), end - x);
+    if (difference != held) {
+      cost += difference ? pixel_cost(costs, difference, pixel_size) : 0;
+      cost += end - x > 1 ? MORE_BITS : 0;
+      held = difference;
+    }
     x = end;
     upper += upper->end == x;
     run += run->end == x;
   }
-  return bits;
+  return cost;
 }
 
-static filter choose_for_runs(cs_png_seen *seen, const cs_png_row *row, const cs_png_row *above) {
-  uint64_t none = cost_within(seen, FILTER_NONE, row);
-  uint64_t sub = cost_within(seen, FILTER_SUB, row);
-  uint64_t up = above->run_count > 0 ? cost_up(seen, row, above) : UINT64_MAX;
+static filter choose_for_runs(const cs_png_costs *costs, const cs_png_row *row,
+                              const cs_png_row *above, size_t pixel_size) {
+  uint64_t none = cost_none(row, pixel_size), sub = cost_sub(costs, row, pixel_size);
+  uint64_t up = above->run_count > 0 ? cost_up(costs, row, above, pixel_size) : UINT64_MAX;
   return up <= none && up <= sub ? FILTER_UP : none <= sub ? FILTER_NONE : FILTER_SUB;
 }
 
@@ -109,15 +124,11 @@ static celspan_status put_up(cs_deflate *deflate, celspan_context *context, cons
   return cs_deflate_run(deflate, context, held, (size_t)(x - held_from));
 }
 
-static celspan_status put_filter(cs_deflate *deflate, celspan_context *context, filter chosen) {
-  unsigned char byte = (unsigned char)chosen;
-  return cs_deflate_bytes(deflate, context, &byte, 1);
-}
-
-celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context, cs_png_seen *seen,
+celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
+                                  const cs_png_costs *costs, size_t pixel_size,
                                   const cs_png_row *row, const cs_png_row *above) {
-  filter chosen = choose_for_runs(seen, row, above);
-  CS_TRY(put_filter(deflate, context, chosen));
+  filter chosen = choose_for_runs(costs, row, above, pixel_size);
+  cs_deflate_byte(deflate, (unsigned char)chosen);
   switch (chosen) {
   case FILTER_NONE:
     return put_none(deflate, context, row);
@@ -250,7 +261,8 @@ celspan_status cs_png_filter_bytes(cs_deflate *deflate, celspan_context *context
                                    const unsigned char *above) {
   unsigned char scratch[SCRATCH];
   filter chosen = choose_for_bytes(pixel_size, size, row, above);
-  CS_TRY(put_filter(deflate, context, chosen));
+  unsigned char byte = (unsigned char)chosen;
+  CS_TRY(cs_deflate_bytes(deflate, context, &byte, 1));
   for (size_t at = 0; at < size; at += SCRATCH) {
     size_t part = size - at < SCRATCH ? size - at : SCRATCH;
     filter_part(chosen, row + at, above + at, pixel_size, part, scratch);

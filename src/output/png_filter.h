@@ -4,10 +4,11 @@
 
 #include "output/png_rows.h"
 
+void cs_png_costs_fill(cs_png_costs *costs);
 /* above: may be bytes or empty, then only filters within the row are considered. */
 CELSPAN_CHECKED celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
-                                                  cs_png_seen *seen, const cs_png_row *row,
-                                                  const cs_png_row *above);
+                                                  const cs_png_costs *costs, size_t pixel_size,
+                                                  const cs_png_row *row, const cs_png_row *above);
 /* Both rows have a pixel of zeros before their first and CS_PNG_BLOCK zeros after their last. size:
  * bytes of a row. */
 CELSPAN_CHECKED celspan_status cs_png_filter_bytes(cs_deflate *deflate, celspan_context *context,

@@ -7,13 +7,18 @@
 
 enum { CHUNK = 64, LONG_SPAN = 16, DENSE_PART = 8 };
 
-void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width) {
-  *rows = (cs_png_rows){
-      .coding = coding, .width = width, .pixel_size = celspan_coding_pixel_size(&coding)};
+void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque) {
+  size_t coded_size = celspan_coding_pixel_size(&coding);
+  *rows = (cs_png_rows){.coding = coding,
+                        .width = width,
+                        .coded_size = coded_size,
+                        .pixel_size = is_opaque ? coded_size / 4 * 3 : coded_size};
+  cs_png_costs_fill(&rows->costs);
+  rows->kept = UINT64_MAX >> (64 - 8 * rows->pixel_size);
 }
 
 static size_t bytes_allocated(const cs_png_rows *rows) {
-  return rows->pixel_size * ((size_t)rows->width + 1) + CS_PNG_BLOCK;
+  return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
 }
 
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context) {
@@ -35,12 +40,15 @@ static uint64_t swap_samples(uint64_t pixel) {
 static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *bytes) {
   uint64_t eight;
   uint32_t four;
-  if (rows->pixel_size == 4)
+  if (rows->coded_size == 4)
     return memcpy(&four, bytes, sizeof four), four;
   return memcpy(&eight, bytes, sizeof eight), swap_samples(eight);
 }
 
-static void add_run(cs_png_row *row, int32_t end, uint64_t pixel) {
+static void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, const unsigned char *coded) {
+  uint64_t pixel = load_pixel(rows, coded);
+  rows->common &= pixel;
+  pixel &= rows->kept;
   if (row->run_count > 0 && row->runs[row->run_count - 1].pixel == pixel)
     row->runs[row->run_count - 1].end = end;
   else
@@ -57,24 +65,24 @@ static celspan_span part_of_span(const celspan_span *span, int32_t x, int32_t co
   return part;
 }
 
-static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
+static void varying_to_runs(cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
   unsigned char coded[8 * CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
     celspan_span part = part_of_span(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
-      add_run(row, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->pixel_size));
+      add_pixel(rows, row, x + i + 1, coded + (size_t)i * rows->coded_size);
   }
 }
 
-static void spans_to_runs(const cs_png_rows *rows, const celspan_span *spans, size_t span_count,
+static void spans_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t span_count,
                           cs_png_row *row) {
   for (const celspan_span *span = spans; span < spans + span_count; span++) {
     if (span->kind == CELSPAN_SPAN_SINGLE) {
       unsigned char coded[8] = {0};
       cs_pixels_code(&rows->coding, span->colour, coded);
-      add_run(row, span->x1, load_pixel(rows, coded));
+      add_pixel(rows, row, span->x1, coded);
     } else {
       varying_to_runs(rows, span, row);
     }
@@ -92,16 +100,24 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-static celspan_status spans_to_bytes(const cs_png_rows *rows, celspan_context *context,
+/* Coded pixels to those of the file, in place. */
+static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+  unsigned char *to = bytes;
+  for (int32_t x = 0; x < rows->width; x++, to += rows->pixel_size) {
+    uint64_t pixel = load_pixel(rows, bytes + (size_t)x * rows->coded_size);
+    rows->common &= pixel;
+    memcpy(to, &pixel, rows->pixel_size);
+  }
+  memset(to, 0, CS_PNG_BLOCK);
+}
+
+static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context,
                                      const celspan_span *spans, size_t span_count,
                                      cs_png_row *row) {
   CS_TRY(reserve_bytes(rows, context, row));
   cs_pixels_row(&rows->coding, spans, span_count, row->bytes);
-  if (rows->pixel_size == 8)
-    for (int32_t x = 0; x < rows->width; x++) {
-      uint64_t pixel = load_pixel(rows, row->bytes + 8 * (size_t)x);
-      memcpy(row->bytes + 8 * (size_t)x, &pixel, sizeof pixel);
-    }
+  if (rows->coded_size == 8 || rows->pixel_size != rows->coded_size)
+    pack_bytes(rows, row->bytes);
   return CELSPAN_OK;
 }
 
@@ -132,24 +148,42 @@ static size_t measure(const celspan_span *spans, size_t span_count, int32_t widt
   return runs;
 }
 
-static celspan_status take_row(const cs_png_rows *rows, celspan_context *context,
+static celspan_status check_opaque(const cs_png_rows *rows, celspan_context *context) {
+  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->kept;
+  if ((rows->common & alpha) == alpha)
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "PNG: a row has pixels that are not opaque, in a picture that was begun as opaque");
+}
+
+static celspan_status take_row(cs_png_rows *rows, celspan_context *context,
                                const celspan_span *spans, size_t span_count, cs_png_row *row) {
   size_t runs = measure(spans, span_count, rows->width, &row->is_bytes);
   row->run_count = 0;
-  if (row->is_bytes)
-    return spans_to_bytes(rows, context, spans, span_count, row);
-  CS_TRY(cs_mem_reserve(context, (void **)&row->runs, &row->run_capacity, runs, sizeof *row->runs));
-  spans_to_runs(rows, spans, span_count, row);
+  rows->common = UINT64_MAX;
+  if (row->is_bytes) {
+    CS_TRY(spans_to_bytes(rows, context, spans, span_count, row));
+  } else {
+    CS_TRY(
+        cs_mem_reserve(context, (void **)&row->runs, &row->run_capacity, runs, sizeof *row->runs));
+    spans_to_runs(rows, spans, span_count, row);
+  }
+  return check_opaque(rows, context);
+}
+
+celspan_status cs_png_rows_pass(cs_png_rows *rows, celspan_context *context,
+                                const celspan_span *spans, size_t span_count) {
+  CS_TRY(take_row(rows, context, spans, span_count, &rows->rows[rows->current]));
+  rows->current = !rows->current;
   return CELSPAN_OK;
 }
 
 celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                const celspan_span *spans, size_t span_count, cs_deflate *deflate) {
-  cs_png_row *row = &rows->rows[rows->current], *above = &rows->rows[!rows->current];
-  CS_TRY(take_row(rows, context, spans, span_count, row));
-  rows->current = !rows->current;
+  CS_TRY(cs_png_rows_pass(rows, context, spans, span_count));
+  cs_png_row *row = &rows->rows[!rows->current], *above = &rows->rows[rows->current];
   if (!row->is_bytes)
-    return cs_png_filter_runs(deflate, context, &rows->seen, row, above);
+    return cs_png_filter_runs(deflate, context, &rows->costs, rows->pixel_size, row, above);
   if (!above->is_bytes)
     CS_TRY(runs_to_bytes(rows, context, above));
   return cs_png_filter_bytes(deflate, context, rows->pixel_size,

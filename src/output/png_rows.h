@@ -23,25 +23,30 @@ typedef struct cs_png_row {
   unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_filter.h */
 } cs_png_row;
 
-/* Pixels met lately as None, Sub and Up would write them: what they will cost to write again. */
-enum { CS_PNG_SEEN_BITS = 10 };
-typedef struct cs_png_seen {
-  uint32_t tags[3][1 << CS_PNG_SEEN_BITS];
-} cs_png_seen;
+/* What a byte of a difference costs as a literal, about, in eighths of a bit. */
+typedef struct cs_png_costs {
+  uint8_t literal[256];
+} cs_png_costs;
 
 typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
-  size_t pixel_size;
+  size_t coded_size, pixel_size; /* bytes of a pixel, RGBA as coded and as in the file */
+  uint64_t kept;                 /* the bits of a coded pixel that are in the file */
+  uint64_t common;               /* the bits that all coded pixels of the row in hand have */
   cs_png_row rows[2]; /* the one in hand and the one before, in turn */
   int current;
-  cs_png_seen seen;
+  cs_png_costs costs;
 } cs_png_rows;
 
-void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width);
+/* is_opaque: alpha is left out; a pixel that is not opaque is then refused. */
+void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque);
 CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                                const celspan_span *spans, size_t span_count,
                                                cs_deflate *deflate);
+/* The row is only what the next one stands under. */
+CELSPAN_CHECKED celspan_status cs_png_rows_pass(cs_png_rows *rows, celspan_context *context,
+                                                const celspan_span *spans, size_t span_count);
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context);
 
 #endif

@@ -11,7 +11,8 @@
 enum {
   PIECE = 4096,
   COLOUR_BITS = 10,
-  SHORT = 4 /* pixels; on an edge, whose colour is not met again */
+  SHORT = 4,  /* pixels; on an edge, whose colours are not met again */
+  EDGE = 64   /* pixels coded together */
 };
 
 typedef struct coded_colour {
@@ -27,6 +28,8 @@ typedef struct span_sink {
   spanfile_writer *writer; /* likewise */
   coded_colour colours[1 << COLOUR_BITS]; /* an empty one says that zeros are coded as zeros */
   unsigned char piece[PIECE * 8];
+  int32_t edge_length; /* pixels of the row that are waiting in edge */
+  float edge[4 * EDGE];
   char path[];
 } span_sink;
 
@@ -77,6 +80,21 @@ static uint64_t find_coded(span_sink *sink, const float colour[4]) {
   return found->pixel;
 }
 
+static spanfile_status put_edge(span_sink *sink) {
+  int32_t length = sink->edge_length;
+  if (length == 0)
+    return SPANFILE_OK;
+  celspan_span span = {.x1 = length, .kind = CELSPAN_SPAN_ARRAY, .array = sink->edge};
+  cs_pixels_row(&sink->coding, &span, 1, sink->piece);
+  sink->edge_length = 0;
+  return spanfile_writer_pixels(sink->writer, sink->piece, (uint32_t)length);
+}
+
+static void add_to_edge(span_sink *sink, const celspan_span *span) {
+  for (int32_t x = span->x0; x < span->x1; x++)
+    memcpy(sink->edge + 4 * sink->edge_length++, span->colour, sizeof span->colour);
+}
+
 static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   spanfile_status status = SPANFILE_OK;
   for (int32_t x = span->x0; x < span->x1 && status == SPANFILE_OK; x += PIECE) {
@@ -93,19 +111,26 @@ static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   return status;
 }
 
+static spanfile_status put_span(span_sink *sink, const celspan_span *span) {
+  spanfile_status status = put_edge(sink);
+  if (status != SPANFILE_OK || span->kind != CELSPAN_SPAN_SINGLE)
+    return status == SPANFILE_OK ? put_pieces(sink, span) : status;
+  return spanfile_writer_run(sink->writer, (uint32_t)(span->x1 - span->x0),
+                             find_coded(sink, span->colour));
+}
+
 static spanfile_status put_spans(span_sink *sink, const celspan_span *spans, size_t count) {
   spanfile_status status = SPANFILE_OK;
   for (size_t i = 0; i < count && status == SPANFILE_OK; i++) {
     const celspan_span *span = &spans[i];
-    int32_t length = span->x1 - span->x0;
-    if (span->kind == CELSPAN_SPAN_SINGLE)
-      status = spanfile_writer_run(sink->writer, (uint32_t)length,
-                                   length < SHORT ? code(sink, span->colour)
-                                                  : find_coded(sink, span->colour));
+    bool is_edge = span->kind == CELSPAN_SPAN_SINGLE && span->x1 - span->x0 < SHORT &&
+                   sink->edge_length <= EDGE - SHORT;
+    if (is_edge)
+      add_to_edge(sink, span);
     else
-      status = put_pieces(sink, span);
+      status = put_span(sink, span);
   }
-  return status;
+  return status == SPANFILE_OK ? put_edge(sink) : status;
 }
 
 /* ---------------------------------------------------------------- the sink */

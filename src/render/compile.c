@@ -2,6 +2,7 @@
 
 #include "base/number.h"
 #include "compose/shade.h"
+#include "render/soft_layer.h"
 
 typedef struct compiler {
   celspan_context *context;
@@ -275,19 +276,46 @@ static celspan_status append_light(compiler *c, celspan_light light, uint32_t be
   return CELSPAN_OK;
 }
 
+/* A defocused cel: one layer, present in the box that its art reaches. */
+static celspan_status compile_soft(compiler *c, const cs_soft_place *place) {
+  cs_stack *stack = &c->shot->stack;
+  cs_soften *soften = NULL;
+  cs_outline box;
+  uint32_t index;
+  CS_TRY(APPEND(c, softs, soft_count, soft_capacity));
+  cs_outline_init(&box);
+  celspan_status status = cs_soft_layer_create(c->context, place, &box, &soften);
+  if (status == CELSPAN_OK && soften) {
+    stack->softs[stack->soft_count] = &soften->soft;
+    uint32_t detail = (uint32_t)stack->soft_count++;
+    celspan_matrix identity = celspan_matrix_identity();
+    status = append_leaf(c, place->rostrum->cels[place->index]->opacity, CELSPAN_RULE_NONZERO,
+                         &index);
+    if (status == CELSPAN_OK) {
+      stack->leaves[index].kind = CS_LEAF_SOFT;
+      stack->leaves[index].detail = detail;
+      status = cs_boundary_add(c->context, &c->shot->boundaries, &box, &identity, &c->frame, index);
+    }
+  }
+  cs_outline_finish(&box, c->context->memory);
+  return status;
+}
+
 static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, size_t index,
                                   const celspan_matrix *to_pixels, double film_width,
                                   double film_height) {
   const celspan_cel *cel = rostrum->cels[index];
   celspan_matrix matrix;
   c->cel = index + 1;
-  if (cel->defocus_radius > 0)
-    return cs_fail(c->context, CELSPAN_BAD_ARGUMENT,
-                   "cel %zu: defocus is not built into this version; leave it out", c->cel);
   CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film_width, film_height, &matrix));
   matrix = celspan_matrix_then(matrix, *to_pixels);
   CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->shot->stack.leaf_count));
   c->front = light_colour(cs_scene_front(rostrum, cel));
+  const cs_soft_place place = {rostrum,     index,  *to_pixels,     film_width,
+                               film_height, matrix, c->frame, c->shot->width, c->shot->height,
+                               c->shot->antialias != CELSPAN_ANTIALIAS_NONE};
+  if (cs_soft_layer_is_soft(&place))
+    return compile_soft(c, &place);
   outside outer;
   CS_TRY(begin_group(c, cel->opacity, &outer));
   for (size_t i = 0; i < cel->object_count; i++)
@@ -332,7 +360,8 @@ static celspan_status cull(compiler *c) {
       leaves[i].through = 1;
   celspan_status status =
       cs_cull_create(c->context, &c->shot->boundaries, leaves, stack->leaf_count, c->shot->width,
-                     c->shot->height, (double)CS_PAINT_OPAQUE * 0.999, &c->shot->cull);
+                     c->shot->height, c->shot->margin, (double)CS_PAINT_OPAQUE * 0.999,
+                     &c->shot->cull);
   cs_mem_free(c->context->memory, leaves, stack->leaf_count * sizeof *leaves);
   return status;
 }
@@ -349,6 +378,15 @@ static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostru
   return c->shot->kernel ? CELSPAN_OK : cull(c); /* the cull's tiles end with the frame */
 }
 
+static void begin(compiler *c, celspan_context *context, cs_shot *shot) {
+  double margin = shot->margin;
+  *c = (compiler){.context = context,
+                  .shot = shot,
+                  .frame = {-margin, shot->width + margin, -margin, shot->height + margin},
+                  .group = CS_STACK_NONE};
+  cs_boundary_init(&shot->boundaries);
+}
+
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
                           double film_width, double film_height, int32_t width, int32_t height,
                           const cs_antialias *antialias, cs_shot *out) {
@@ -357,12 +395,8 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
     CS_TRY(cs_kernel_create(context, antialias, &shot.kernel));
     shot.margin = cs_kernel_reach(shot.kernel);
   }
-  compiler c = {.context = context,
-                .shot = &shot,
-                .frame = {-shot.margin, (double)width + shot.margin, -shot.margin,
-                          (double)height + shot.margin},
-                .group = CS_STACK_NONE};
-  cs_boundary_init(&shot.boundaries);
+  compiler c;
+  begin(&c, context, &shot);
   celspan_status status = compile_rostrum(&c, rostrum, film_width, film_height);
   if (status == CELSPAN_OK)
     *out = shot;
@@ -371,7 +405,39 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   return status;
 }
 
+static celspan_status compile_alone(compiler *c, const celspan_cel *cel,
+                                    const celspan_matrix *matrix, bool is_through) {
+  const celspan_light white = {1, 1, 1, 0};
+  c->front = is_through ? cs_v4_all(0) : light_colour(white);
+  if (is_through)
+    CS_TRY(append_light(c, white, 0));
+  for (size_t i = 0; i < cel->object_count; i++)
+    CS_TRY(compile_object(c, cel->objects[i], matrix));
+  cs_boundary_sort(&c->shot->boundaries);
+  return c->shot->kernel ? CELSPAN_OK : cull(c);
+}
+
+celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, size_t cel_index,
+                              const celspan_matrix *matrix, int32_t width, int32_t height,
+                              bool is_through, cs_kernel *kernel, cs_shot *out) {
+  cs_shot shot = {.width = width,
+                  .height = height,
+                  .margin = kernel ? cs_kernel_reach(kernel) : 0,
+                  .kernel = kernel};
+  compiler c;
+  begin(&c, context, &shot);
+  c.cel = cel_index + 1;
+  celspan_status status = compile_alone(&c, cel, matrix, is_through);
+  if (status == CELSPAN_OK)
+    *out = shot;
+  else
+    cs_compile_free(&shot, context->memory);
+  return status;
+}
+
 void cs_compile_free(cs_shot *shot, cs_memory *memory) {
+  for (size_t i = 0; i < shot->stack.soft_count; i++)
+    cs_soft_layer_free((cs_soften *)shot->stack.softs[i], memory);
   cs_stack_finish(&shot->stack, memory);
   cs_boundary_finish(&shot->boundaries, memory);
   cs_cull_free(&shot->cull, memory);

@@ -1,6 +1,7 @@
 #include "render/frame.h"
 
 #include "base/number.h"
+#include "filter/soften.h"
 #include "render/compile.h"
 
 #include <unistd.h>
@@ -65,12 +66,21 @@ static void take_crop(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->crop_height = is_whole ? desc->height : desc->crop_height;
 }
 
+static bool stays_on_thread(const cs_stack *stack) {
+  for (size_t k = 0; k < stack->procedure_count; k++)
+    if (!stack->procedures[k].desc->any_thread)
+      return true;
+  for (size_t k = 0; k < stack->soft_count; k++)
+    if (stays_on_thread(&((const cs_soften *)stack->softs[k])->shots[0].stack))
+      return true;
+  return false;
+}
+
 /* Procedures that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    for (size_t k = 0; k < frame->shots[i].stack.procedure_count; k++)
-      if (!frame->shots[i].stack.procedures[k].desc->any_thread)
-        return true;
+    if (stays_on_thread(&frame->shots[i].stack))
+      return true;
   return false;
 }
 

@@ -97,12 +97,32 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
   return render_own(context, desc, &sink, statistics);
 }
 
+static bool is_backed(const celspan_rostrum *rostrum) {
+  if (rostrum->back.a == 1)
+    return true;
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    if (rostrum->cels[i]->back.a == 1)
+      return true;
+  return false;
+}
+
+/* Alpha adds; shutters of many exposures have weights that sum to 1 but for rounding. */
+bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
+  double alpha = 0;
+  for (size_t i = 0; i < desc->exposure_count; i++)
+    if (desc->exposures[i].rostrum && is_backed(desc->exposures[i].rostrum))
+      alpha += desc->exposures[i].weight;
+  return alpha > 1 - 1e-9;
+}
+
 celspan_status celspan_frame_write(celspan_context *context, const celspan_frame_desc *desc,
                                    const char *path, const celspan_file_desc *file,
                                    celspan_statistics *statistics) {
   celspan_sink sink;
-  celspan_file_desc defaults = CELSPAN_FILE_DESC;
-  CS_TRY(cs_sink_file(context, path, file ? file : &defaults, &sink));
+  celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
+  known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
+  known.workers = known.workers ? known.workers : desc->workers;
+  CS_TRY(cs_sink_file(context, path, &known, &sink));
   return render_own(context, desc, &sink, statistics);
 }
 

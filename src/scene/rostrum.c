@@ -140,15 +140,27 @@ static bool has_camera(const celspan_rostrum *rostrum) {
   return rostrum->has_camera_centre || rostrum->has_camera_width || rostrum->camera_rotation != 0;
 }
 
+celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
+                               double film_height) {
+  return has_camera(rostrum) ? camera_matrix(rostrum, film_width, film_height)
+                             : celspan_matrix_identity();
+}
+
+celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
+                             double film_width, double film_height) {
+  celspan_matrix view = celspan_matrix_identity();
+  if (cel->has_viewport)
+    view = viewport_matrix(&cel->viewport, film_width, film_height);
+  return has_camera(rostrum)
+             ? celspan_matrix_then(view, camera_matrix(rostrum, film_width, film_height))
+             : view;
+}
+
 celspan_status cs_scene_cel_matrix(celspan_context *context, const celspan_rostrum *rostrum,
                                    size_t cel_index, double film_width, double film_height,
                                    celspan_matrix *out) {
   const celspan_cel *cel = rostrum->cels[cel_index];
-  celspan_matrix view = celspan_matrix_identity(), inverse;
-  if (cel->has_viewport)
-    view = viewport_matrix(&cel->viewport, film_width, film_height);
-  if (has_camera(rostrum))
-    view = celspan_matrix_then(view, camera_matrix(rostrum, film_width, film_height));
+  celspan_matrix view = cs_scene_view(rostrum, cel, film_width, film_height), inverse;
   celspan_matrix whole = celspan_matrix_then(cel->matrix, view);
   if (!cs_matrix_is_sane(&view) || !cs_matrix_is_sane(&whole) ||
       !celspan_matrix_inverse(view, &inverse))

@@ -120,6 +120,12 @@ CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
                                                    const celspan_rostrum *rostrum,
                                                    size_t cel_index, double film_width,
                                                    double film_height, celspan_matrix *out);
+/* Its parts after the cel's own transform: viewport, then camera; and the camera alone, the identity
+ * where there is none. Not checked. */
+celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
+                             double film_width, double film_height);
+celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
+                               double film_height);
 /* The front light of a cel: its own, the rostrum's, or white; brightness included. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A back light times the rostrum's brightness; its matte as it is. */

@@ -1,5 +1,7 @@
 #include "sweep/cull.h"
 
+#include "base/number.h"
+
 #include <string.h>
 
 #define LEAVES_LEAST 8 /* with fewer there is nothing to gain */
@@ -16,7 +18,7 @@ typedef struct culler {
   const cs_boundary_set *set;
   const cs_cull_leaf *leaves;
   size_t leaf_count;
-  double width, height, opaque;
+  double width, height, margin, opaque;
   cs_cull *cull;
   reach *reaches;        /* one a kept bit */
   size_t reach_count;
@@ -40,10 +42,19 @@ static int32_t choose_rows(size_t leaves, int32_t height) {
   return rows;
 }
 
-/* Rows of tiles that a chain crosses inside the frame; false when it does not. */
+static double row_top(const culler *c, int32_t row) {
+  return row == 0 ? -c->margin : (double)row * c->cull->tile_height;
+}
+
+static double row_foot(const culler *c, int32_t row) {
+  return row == c->cull->tile_rows - 1 ? c->height + c->margin
+                                       : (double)(row + 1) * c->cull->tile_height;
+}
+
+/* Rows of tiles that a chain crosses; false when it is nowhere near the frame. */
 static bool chain_rows(const culler *c, uint32_t chain, int32_t *first, int32_t *last) {
   const cs_boundary_chain *ch = &c->set->chains[chain];
-  if (ch->y1 <= 0 || ch->y0 >= c->height)
+  if (ch->y1 <= -c->margin || ch->y0 >= c->height + c->margin)
     return false;
   *first = cs_cull_row(c->cull, ch->y0);
   *last = cs_cull_row(c->cull, ch->y1);
@@ -76,11 +87,12 @@ static void widen(reach *r, uint8_t at) {
 static void trace_chain(const culler *c, uint32_t chain, int32_t first, int32_t last,
                         reach *reaches) {
   const cs_boundary_chain *ch = &c->set->chains[chain];
-  double y = ch->y0 > 0 ? ch->y0 : 0, foot = ch->y1 < c->height ? ch->y1 : c->height;
+  double y = cs_number_clamp(ch->y0, -c->margin, ch->y1);
+  double foot = cs_number_clamp(ch->y1, y, c->height + c->margin);
   cs_boundary_walk walk;
   cs_boundary_start(c->set, chain, y, &walk);
   for (int32_t row = first; row <= last; row++) {
-    double end = (double)(row + 1) * c->cull->tile_height;
+    double end = row_foot(c, row);
     reach *r = &reaches[row - first];
     end = end < foot ? end : foot;
     *r = (reach){column(c, cs_boundary_x(&walk, y)), column(c, cs_boundary_x(&walk, y))};
@@ -140,7 +152,7 @@ typedef struct footprint {
 
 static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footprint *f) {
   const cs_boundary_chain *ch = &c->set->chains[chain];
-  double top = (double)row * c->cull->tile_height, foot = top + c->cull->tile_height;
+  double top = row_top(c, row), foot = row_foot(c, row);
   int32_t first = cs_cull_row(c->cull, ch->y0);
   size_t bit = c->cull->bits[chain] + (size_t)(row - first);
   reach r = c->reaches[bit];
@@ -334,7 +346,7 @@ static celspan_status cull_all(culler *c) {
 
 celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
                               const cs_cull_leaf *leaves, size_t leaf_count, int32_t width,
-                              int32_t height, double opaque, cs_cull *out) {
+                              int32_t height, int32_t margin, double opaque, cs_cull *out) {
   *out = (cs_cull){.chain_count = set->chain_count};
   if (leaf_count < LEAVES_LEAST || set->chain_count == 0)
     return CELSPAN_OK;
@@ -343,7 +355,7 @@ celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *s
   cull.tile_height = (int32_t)(((int64_t)height + rows - 1) / rows);
   cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
   culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
-              .width = width, .height = height, .opaque = opaque, .cull = &cull};
+              .width = width, .height = height, .margin = margin, .opaque = opaque, .cull = &cull};
   celspan_status status = cull_all(&c);
   give_room_back(&c);
   if (status == CELSPAN_OK)

@@ -43,12 +43,12 @@ typedef struct cs_cull {
   size_t toggle_count, enter_count, kept_words, chain_count;
 } cs_cull;
 
-/* Culls a set in its final order. opaque: what counts as nothing shining through.
- * Errors: NO_MEMORY. */
+/* Culls a set in its final order, for heights from -margin to height + margin; the outermost tiles
+ * reach into the margin. opaque: what counts as nothing shining through. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
                                               const cs_cull_leaf *leaves, size_t leaf_count,
-                                              int32_t width, int32_t height, double opaque,
-                                              cs_cull *out);
+                                              int32_t width, int32_t height, int32_t margin,
+                                              double opaque, cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);
 
 /* The row of tiles that holds a height; the first or last for heights beyond the frame. */

@@ -95,7 +95,7 @@ describe("a cel that cannot be seen", function()
       local b = object(2 * case + 1, options)
       local film = { traits.width, traits.height }
       -- What may differ is where gradients are cut.
-      local tolerances = is_flat and { none = 0, area = AREA } or { none = 1e-6, area = 1 / 1023 }
+      local tolerances = is_flat and { none = 0, area = AREA } or { none = 1 / 1023, area = 1 / 1023 }
       for antialias, tolerance in pairs(tolerances) do
         local with, without = make(celspan.cel { a }, celspan.cel { b })
         assert_alike(shot(with, film, film, antialias), shot(without, film, film, antialias), tolerance,

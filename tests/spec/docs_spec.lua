@@ -164,6 +164,18 @@ end
 
 local annotations = markdown.read "lua/celspan.d.lua"
 
+--- The named fields of an annotated class.
+local function annotated(class)
+  local _, at = annotations:find("@class celspan%." .. class:gsub("%.", "%%.") .. "[:\n][^@]*")
+  assert(at, class)
+  local names = {}
+  for line in annotations:sub(at + 1):gmatch "@([^\n]*)" do
+    if not line:find "^field " then break end
+    names[#names + 1] = line:match "^field (%l[%w_]*)"
+  end
+  return names
+end
+
 --- The fields that a constructor says it has, when it is given one that cannot be.
 local function fields_of(make)
   local _, message = pcall(make, { ["@@@@@@@@@@"] = true })
@@ -192,6 +204,20 @@ describe("the Lua reference", function()
       for _, field in ipairs(fields) do
         assert.is_truthy(text:find("`" .. field .. "`", 1, true), name .. "." .. field)
         assert.is_truthy(annotations:find("---@field " .. field .. "[? ]"), name .. "." .. field)
+      end
+    end
+  end)
+
+  it("and the annotations name no field that is not there", function()
+    local classes = { picture = { "picture.common", "picture.fields" },
+                      image = { "picture.common", "image.fields" } }
+    for name in annotations:gmatch "@class celspan%.(%l+)%.fields" do
+      local known = {}
+      for _, field in ipairs(fields_of(celspan[name])) do known[field] = true end
+      for _, class in ipairs(classes[name] or { name .. ".fields" }) do
+        for _, field in ipairs(annotated(class)) do
+          assert.is_truthy(known[field], class .. " " .. field)
+        end
       end
     end
   end)
@@ -226,8 +252,10 @@ describe("the Lua reference", function()
   it("names the fields of a frame", function()
     celspan.film { frame = function(f)
       local text = section "The frame"
-      for name in text:gmatch "\n| `f%.(%w+)`" do assert.are.equal("number", type(f[name]), name) end
-      for name in annotations:match("@class celspan%.frame\n(.-)local frame"):gmatch "@field (%w+)" do
+      for name in text:gmatch "\n| `f%.(%w+)`" do
+        assert.are.equal("number", type(f[name]), name)
+      end
+      for _, name in ipairs(annotated "frame") do
         assert.is_truthy(text:find("`f." .. name .. "`", 1, true), name)
       end
       return celspan.rostrum {}
@@ -259,7 +287,7 @@ describe("the C reference", function()
     for name in text:gmatch "%f[%w_](celspan_%l[%w_]*)" do
       assert.is_truthy(header:find("%f[%w_]" .. name .. "%f[^%w_]"), name)
     end
-    for name in text:gmatch "%f[%w_](CELSPAN_%u[%u_]*)" do
+    for name in text:gmatch "%f[%w_](CELSPAN_%u[%u%d_]*)" do
       assert.is_truthy(header:find("%f[%w_]" .. name .. "%f[^%w_]"), name)
     end
   end)

@@ -13,12 +13,12 @@ function golden.cases()
   return list
 end
 
---- What the script gives now; or nil and what went wrong.
+--- What the script gives now; or nil and a message (celspan's own goes to standard error).
 function golden.actual(case)
-  local pipe = assert(io.popen(("%s spans %s.lua 2>&1"):format(command, case)))
+  local pipe = assert(io.popen(("%s spans %s.lua"):format(command, case)))
   local text = pipe:read "a"
   if pipe:close() then return text end
-  return nil, text
+  return nil, "celspan spans " .. case .. ".lua failed"
 end
 
 --- What was accepted; nil when nothing was.

@@ -80,6 +80,7 @@ typedef struct celspan_context_desc {
   celspan_resize resize; /* NULL: the C library's */
   void *resize_user;
   size_t picture_bytes; /* decoded picture tiles kept in memory; 0: 512 MiB */
+  size_t defocus_bytes; /* defocused cels kept from frame to frame; 0: 256 MiB */
 } celspan_context_desc;
 
 /* desc  borrowed, NULL for the defaults      out  new
@@ -658,11 +659,17 @@ typedef struct celspan_file_desc {
   const char *title;    /* metadata; NULL: none */
   double frames_second; /* metadata; 0: none */
   int32_t frame;        /* metadata: the frame's number */
+  bool is_opaque;       /* every pixel's alpha is 1: formats that can leave it out */
+  int workers;          /* threads that compress; 0: one a processor; the bytes do not change */
 } celspan_file_desc;
 
 #define CELSPAN_FILE_DESC ((celspan_file_desc){.struct_size = sizeof(celspan_file_desc)})
 
-/* Renders into a file. The file appears under its name whole or not at all; one that is there is
+/* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1 stands
+ * behind everything. Shared read. */
+CELSPAN_API bool celspan_frame_is_opaque(const celspan_frame_desc *desc);
+
+/* Renders into a file; the file's is_opaque is found from the frame. The file appears under its name whole or not at all; one that is there is
  * replaced; missing folders are made. Errors: any; OUTPUT, LIMIT for sizes the format lacks. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *context,
                                                                const celspan_frame_desc *desc,

@@ -2,15 +2,21 @@
 
 #include "pack.h"
 
-/* Pixels of a run or gradient that are rather taken as raw than begin a row of packets. */
-enum { SHORT = 32 };
+enum {
+  SHORT = 32, /* pixels of a run or gradient that are rather taken as raw than begin a row anew */
+  SIGHT = 8   /* spans looked ahead for a run that the row above has too */
+};
 
 typedef struct fitting {
   const sf_memory *memory;
   spanfile_format format;
   size_t pixel_size;
   sf_row *out;
-  const unsigned char *values; /* of what follows in the row */
+  const unsigned char *values;        /* of what follows in the row */
+  const spanfile_span *now, *end;     /* of the row, what is still to be kept */
+  const spanfile_span *model, *model_end; /* of the row above, what is still to be matched */
+  uint32_t model_start;               /* column */
+  bool is_changed, has_memory;
 } fitting;
 
 static bool is_alike(const spanfile_span *a, const spanfile_span *b) {
@@ -26,54 +32,150 @@ bool sf_fit_is_alike(const sf_row *row, const sf_row *above) {
   return true;
 }
 
-/* The rest of a span of the row, up to its end, as it is. */
-static bool keep(fitting *f, const spanfile_span *span) {
-  uint32_t length = span->end - sf_row_end(f->out);
-  size_t size = f->pixel_size * (span->kind == SPANFILE_RAW ? length : span->kind);
-  if (span->kind != SPANFILE_RUN) {
-    if (!sf_bytes_add(f->memory, &f->out->values, f->values, size))
-      return false;
-    f->values += size;
-  }
-  return sf_row_add(f->memory, f->out, length, span->kind, span->pixel);
+/* ---------------------------------------------------------------- keeping spans */
+
+static bool is_after_raw(const fitting *f) {
+  return f->out->count > 0 && f->out->spans[f->out->count - 1].kind == SPANFILE_RAW;
 }
 
-/* The rest of a run or gradient, or its first `count` pixels, as raw pixels. */
-static bool keep_raw(fitting *f, const spanfile_span *span, uint32_t count) {
+static uint32_t length_left(const fitting *f) { return f->now->end - sf_row_end(f->out); }
+
+/* The rest of the span, up to its end, as it is. */
+static void keep(fitting *f) {
+  const spanfile_span *span = f->now;
+  uint32_t length = length_left(f);
+  size_t size = f->pixel_size * (span->kind == SPANFILE_RAW ? length : 2);
+  if (span->kind != SPANFILE_RUN) {
+    f->has_memory &= sf_bytes_add(f->memory, &f->out->values, f->values, size);
+    f->values += size;
+  }
+  f->has_memory &= sf_row_add(f->memory, f->out, length, span->kind, span->pixel);
+  f->now++;
+}
+
+/* The first `count` pixels that are left of a run, or all of a gradient, as raw pixels. */
+static void keep_raw(fitting *f, uint32_t count) {
   unsigned char pixels[SHORT * 8];
-  spanfile_row row = {&(spanfile_span){count, span->kind, span->pixel}, 1, f->values};
+  spanfile_span span = {count, f->now->kind, f->now->pixel};
+  spanfile_row row = {&span, 1, f->values};
   spanfile_row_pixels(f->format, &row, 0, count, pixels);
-  f->values = span->kind == SPANFILE_GRADIENT ? f->values + 2 * f->pixel_size : f->values;
-  return sf_pack_raw(f->memory, f->out, f->pixel_size, pixels, count);
+  f->has_memory &= sf_pack_raw(f->memory, f->out, f->pixel_size, pixels, count);
+  f->values = span.kind == SPANFILE_GRADIENT ? f->values + 2 * f->pixel_size : f->values;
+  f->now += sf_row_end(f->out) == f->now->end;
+}
+
+static void pass_model(fitting *f, ptrdiff_t count) {
+  f->model += count;
+  f->model_start = f->model[-1].end;
+}
+
+/* ---------------------------------------------------------------- what can be done */
+
+/* The row above has raw pixels within this run: an edge between equals, just now not to be seen. */
+static bool is_split_above(const fitting *f) {
+  const spanfile_span *now = f->now, *model = f->model;
+  if (now->kind != SPANFILE_RUN || f->model_end - model < 3 || model[1].kind != SPANFILE_RAW ||
+      !is_alike(&model[0], &model[2]) || length_left(f) < 3)
+    return false;
+  return f->end - now < 3 || now[1].kind != SPANFILE_RAW || !is_alike(now, &now[2]);
+}
+
+/* Cuts the run where the row above has it cut, or as near as it can be. */
+static void split(fitting *f) {
+  uint32_t left = length_left(f), length = f->model->end - f->model_start;
+  length = length < left - 2 ? length : left - 2;
+  f->has_memory &= sf_row_add(f->memory, f->out, length, SPANFILE_RUN, f->now->pixel);
+  keep_raw(f, 1);
+  pass_model(f, 2);
+}
+
+/* Other spans: kept as they are, up to a run that the row above has too, or all. */
+static void resume(fitting *f) {
+  f->is_changed = true;
+  for (ptrdiff_t sum = 1; sum <= SIGHT; sum++)
+    for (ptrdiff_t ahead = 0; ahead <= sum; ahead++) {
+      const spanfile_span *now = f->now + ahead, *model = f->model + (sum - ahead);
+      if (now >= f->end || model >= f->model_end || now->kind != SPANFILE_RUN ||
+          !is_alike(now, model))
+        continue;
+      while (f->now < now)
+        keep(f);
+      if (sum > ahead)
+        pass_model(f, sum - ahead);
+      return;
+    }
+  while (f->now < f->end)
+    keep(f);
+}
+
+static void take_span(fitting *f) {
+  const spanfile_span *now = f->now, *model = f->model < f->model_end ? f->model : NULL;
+  if (model && is_alike(now, model) && is_split_above(f)) {
+    split(f);
+  } else if (model && is_alike(now, model)) {
+    keep(f);
+    pass_model(f, 1);
+  } else if (now->kind == SPANFILE_RAW && is_after_raw(f)) {
+    keep(f);
+  } else if (model && model->kind == SPANFILE_RAW && now->kind == SPANFILE_RUN &&
+             length_left(f) > 1) {
+    keep_raw(f, 1);
+    pass_model(f, 1);
+  } else if (now->kind != SPANFILE_RAW && length_left(f) <= SHORT && is_after_raw(f)) {
+    keep_raw(f, length_left(f));
+  } else {
+    resume(f);
+  }
+}
+
+/* What is alike from the start, and not cut above, goes over at once. */
+static void keep_start(fitting *f, const sf_row *row) {
+  size_t pixels = 0;
+  uint32_t start = 0;
+  for (; f->now < f->end && f->model < f->model_end && is_alike(f->now, f->model); f->now++) {
+    if (is_split_above(f))
+      break;
+    pixels += f->now->kind == SPANFILE_RAW ? f->now->end - start : f->now->kind == SPANFILE_RUN ? 0 : 2;
+    start = f->now->end;
+    pass_model(f, 1);
+  }
+  size_t count = (size_t)(f->now - row->spans), size = pixels * f->pixel_size;
+  f->has_memory &= sf_bytes_add(f->memory, &f->out->values, f->values, size);
+  while (f->out->capacity < count && f->has_memory)
+    f->has_memory &= sf_row_grow(f->memory, f->out);
+  if (!f->has_memory || count == 0)
+    return;
+  memcpy(f->out->spans, row->spans, count * sizeof *row->spans);
+  f->out->count = count;
+  f->values = size > 0 ? f->values + size : f->values;
+}
+
+/* ---------------------------------------------------------------- */
+
+/* About the bytes of its packets. */
+static size_t cost(const fitting *f, const sf_row *row) {
+  return row->count * (3 + f->pixel_size) + row->values.size;
 }
 
 sf_fitted sf_fit(const sf_memory *memory, spanfile_format format, const sf_row *row,
                  const sf_row *above, sf_row *out) {
-  fitting f = {memory, format, spanfile_pixel_size(format), out, row->values.at};
-  const spanfile_span *now = row->spans, *end = now + row->count;
-  const spanfile_span *model = above->spans, *model_end = model + above->count;
-  bool is_widened = false;
+  fitting f = {.memory = memory,
+               .format = format,
+               .pixel_size = spanfile_pixel_size(format),
+               .out = out,
+               .values = row->values.at,
+               .now = row->spans,
+               .end = row->spans + row->count,
+               .model = above->spans,
+               .model_end = above->spans + above->count,
+               .has_memory = true};
   sf_row_clear(out);
-  while (now < end) {
-    uint32_t length = now->end - sf_row_end(out);
-    bool is_kept, has_model = model < model_end;
-    bool after_raw = out->count > 0 && out->spans[out->count - 1].kind == SPANFILE_RAW;
-    if (has_model && is_alike(now, model)) {
-      is_kept = keep(&f, now++);
-      model++;
-    } else if (now->kind == SPANFILE_RAW && (after_raw || (now + 1 < end && has_model))) {
-      is_widened |= !after_raw;
-      is_kept = keep(&f, now++);
-    } else if (now->kind == SPANFILE_RUN && length > 1 && has_model && model->kind == SPANFILE_RAW) {
-      is_kept = keep_raw(&f, now, 1);
-      model++;
-    } else if (now->kind != SPANFILE_RAW && length <= SHORT && after_raw) {
-      is_kept = keep_raw(&f, now++, length);
-    } else {
-      return SF_FIT_NONE;
-    }
-    if (!is_kept)
-      return SF_FIT_NO_MEMORY;
-  }
-  return model < model_end ? SF_FIT_NONE : is_widened ? SF_FIT_WIDENED : SF_FIT_ALIKE;
+  keep_start(&f, row);
+  while (f.now < f.end && f.has_memory)
+    take_span(&f);
+  if (!f.has_memory)
+    return SF_FIT_NO_MEMORY;
+  if (!f.is_changed && f.model == f.model_end)
+    return SF_FIT_ALIKE;
+  return cost(&f, out) <= cost(&f, row) / 4 * 5 ? SF_FIT_NEAR : SF_FIT_NONE;
 }

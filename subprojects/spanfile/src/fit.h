@@ -2,7 +2,8 @@
  *
  * On the edge between two runs there are a few raw pixels, now one more, now none; or a few of them
  * happen to be equal. Such a row has other spans than the one above, though it could have the same:
- * with a pixel of a run counted as raw, with short runs and gradients taken as raw pixels.
+ * with a pixel of a run counted as raw, with short runs and gradients taken as raw pixels, with a
+ * run cut in two.
  */
 #ifndef SF_FIT_H
 #define SF_FIT_H
@@ -10,9 +11,9 @@
 #include "store.h"
 
 typedef enum sf_fitted {
-  SF_FIT_NONE,    /* other spans: *out is nothing */
-  SF_FIT_WIDENED, /* the spans of `above`, and raw ones between some of its runs */
-  SF_FIT_ALIKE,   /* the spans of `above`, with other ends */
+  SF_FIT_NONE,  /* other spans: *out is of no use */
+  SF_FIT_NEAR,  /* the spans of `above` as far as they go together: the next row may fit better */
+  SF_FIT_ALIKE, /* the spans of `above`, with other ends */
   SF_FIT_NO_MEMORY
 } sf_fitted;
 

@@ -1,7 +1,7 @@
 #include "pack.h"
 
 /* Fewer pixels are not worth a gradient packet and the beginning of another. */
-enum { GRADIENT_LEAST = 6 };
+enum { GRADIENT_LEAST = 12 };
 
 bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
                  uint32_t count) {
@@ -13,10 +13,20 @@ bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const 
 /* ---------------------------------------------------------------- runs */
 
 static uint32_t run_length(const unsigned char *pixels, uint32_t count, size_t pixel_size) {
+  uint64_t first = sf_load_pixel(pixels, pixel_size);
   uint32_t length = 1;
-  while (length < count && memcmp(pixels, pixels + length * pixel_size, pixel_size) == 0)
+  while (length < count && sf_load_pixel(pixels + length * pixel_size, pixel_size) == first)
     length++;
   return length;
+}
+
+/* How many of the first pixels go on with the run that the row ends in. */
+static uint32_t continued_length(const sf_row *row, const unsigned char *pixels, uint32_t count,
+                                 size_t pixel_size) {
+  const spanfile_span *last = row->count > 0 ? &row->spans[row->count - 1] : NULL;
+  bool is_continued = last && count > 0 && last->kind == SPANFILE_RUN &&
+                      last->pixel == sf_load_pixel(pixels, pixel_size);
+  return is_continued ? run_length(pixels, count, pixel_size) : 0;
 }
 
 /* ---------------------------------------------------------------- gradients */
@@ -78,10 +88,14 @@ bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format
   size_t size = spanfile_pixel_size(format);
   const unsigned char *at = pixels;
   uint32_t raw = 0; /* pixels seen that are nothing better */
-  for (uint32_t i = 0; i < count;) {
+  uint32_t continued = continued_length(row, at, count, size);
+  if (continued > 0)
+    row->spans[row->count - 1].end += continued;
+  for (uint32_t i = continued; i < count;) {
     const unsigned char *here = at + i * size;
     uint32_t run = run_length(here, count - i, size);
-    uint32_t gradient = run < SF_RUN_LEAST ? gradient_length(format, here, count - i) : 0;
+    uint32_t gradient =
+        run < SF_RUN_LEAST && count - i >= GRADIENT_LEAST ? gradient_length(format, here, count - i) : 0;
     if (run < SF_RUN_LEAST && gradient == 0) {
       raw++;
       i++;

@@ -289,7 +289,7 @@ static spanfile_status see_row(spanfile_reader *reader, uint64_t offset, file_re
 }
 
 static spanfile_status enter(spanfile_reader *reader, uint32_t y, uint64_t offset, bool is_first) {
-  file_record record;
+  file_record record = {0};
   reader->y = y;
   reader->has_row = false;
   TRY(see_row(reader, offset, &record));
@@ -329,7 +329,7 @@ static spanfile_status find_key(spanfile_reader *reader, uint32_t y, uint32_t *k
                                 uint64_t *offset) {
   *offset = reader->root;
   for (uint32_t level = reader->levels; level-- > 0;) {
-    file_record node;
+    file_record node = {0};
     TRY(see_node(reader, *offset, level, &node));
     const unsigned char *entry = find_entry(&node, y);
     *key = sf_load_32(entry);
@@ -373,7 +373,7 @@ spanfile_status spanfile_reader_row(spanfile_reader *reader, uint32_t y, spanfil
 static spanfile_status check_end(spanfile_reader *reader) {
   uint64_t offset = reader->next, last = 0;
   while (offset < reader->end) {
-    file_record record;
+    file_record record = {0};
     TRY(see_record(reader, offset, SF_INDEX_ROW, &record));
     if (record.kind != SF_INDEX)
       return REFUSE(reader, offset, "more rows than the picture has");

@@ -48,15 +48,6 @@ bool sf_bytes_grow(const sf_memory *memory, sf_bytes *bytes, size_t more) {
   return grown != NULL;
 }
 
-bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const void *more, size_t size) {
-  if (!sf_bytes_room(memory, bytes, size))
-    return false;
-  if (size > 0)
-    memcpy(bytes->at + bytes->size, more, size);
-  bytes->size += size;
-  return true;
-}
-
 void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes) {
   sf_give(memory, bytes->at, bytes->capacity);
   *bytes = (sf_bytes){0};

@@ -27,7 +27,15 @@ bool sf_bytes_grow(const sf_memory *memory, sf_bytes *bytes, size_t more);
 static inline bool sf_bytes_room(const sf_memory *memory, sf_bytes *bytes, size_t more) {
   return more <= bytes->capacity - bytes->size || sf_bytes_grow(memory, bytes, more);
 }
-bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const void *more, size_t size);
+static inline bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const void *more,
+                                size_t size) {
+  if (!sf_bytes_room(memory, bytes, size))
+    return false;
+  if (size > 0)
+    memcpy(bytes->at + bytes->size, more, size);
+  bytes->size += size;
+  return true;
+}
 void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes);
 
 typedef struct sf_row {

@@ -10,7 +10,11 @@
 #include "pack.h"
 #include "store.h"
 
-enum { BUFFER_BYTES = 256 * 1024, HEAD_BYTES = 1 + SF_LENGTH_BYTES };
+enum {
+  BUFFER_BYTES = 256 * 1024,
+  HEAD_BYTES = 1 + SF_LENGTH_BYTES,
+  MOVE_CODES = 0xd2 /* of one less, none, one more, any other: two bits each, the first lowest */
+};
 
 typedef struct index_node {
   uint32_t count;
@@ -229,7 +233,8 @@ static bool add_moves(spanfile_writer *writer) {
   unsigned byte = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t move = (int64_t)now[i].end - (int64_t)before[i].end, rest = move - writer->moves[i];
-    unsigned code = rest == 0 ? 0 : rest == 1 ? 1 : rest == -1 ? 2 : 3;
+    uint64_t step = (uint64_t)(rest + 1);
+    unsigned code = MOVE_CODES >> 2 * (step < 3 ? step : 3) & 3;
     writer->moves[i] = move;
     moved |= (uint64_t)move;
     if (code == 3)
@@ -291,7 +296,7 @@ static bool fit_above(spanfile_writer *writer) {
                             &writer->fitted);
   if (fitted == SF_FIT_NO_MEMORY)
     fail(writer, SPANFILE_NO_MEMORY);
-  if (fitted == SF_FIT_ALIKE || fitted == SF_FIT_WIDENED) {
+  if (fitted == SF_FIT_ALIKE || fitted == SF_FIT_NEAR) {
     sf_row row = writer->row;
     writer->row = writer->fitted;
     writer->fitted = row;
@@ -300,13 +305,11 @@ static bool fit_above(spanfile_writer *writer) {
 }
 
 static bool put_row(spanfile_writer *writer) {
-  bool is_alike = writer->y > 0 && fit_above(writer);
-  if (writer->status != SPANFILE_OK)
-    return false;
-  bool is_key = is_key_due(writer);
-  if (is_alike && !is_key)
+  if (is_key_due(writer)) /* the row as it is: what was fitted to rows long gone is forgotten */
+    return note_key(writer) && put_packets(writer) && stand_still(writer);
+  if (fit_above(writer))
     return put_moves(writer);
-  return (!is_key || note_key(writer)) && put_packets(writer) && stand_still(writer);
+  return writer->status == SPANFILE_OK && put_packets(writer) && stand_still(writer);
 }
 
 static bool has_room(const spanfile_writer *writer, uint32_t count) {

@@ -1,0 +1,14 @@
+/* What tiles were made of, in 128 bits: equal for a run that would make the same tiles. */
+#ifndef CS_CLI_TILEDIGEST_H
+#define CS_CLI_TILEDIGEST_H
+
+#include "base/hash.h"
+#include "cli/pyramid.h"
+#include "cli/request.h"
+
+/* Scenes count by their structure, pictures by name, size and time. A procedure has no structure:
+ * where a scene holds one, the bytes of `source` and the arguments count too. */
+cs_hash cs_tiledigest(const cs_request *request, const cs_pyramid *pyramid,
+                      const celspan_frame_desc *frame);
+
+#endif

@@ -1,0 +1,45 @@
+/* The record of a pyramid: which rows of tiles are finished, and what they were made of.
+ *
+ *   celspan tiles 1 DIGEST
+ *   row LEVEL ROW FIRST END      columns of tiles, half-open
+ *
+ * INVARIANT  A line is added when all its tiles are on the disk. A line that was cut off by a crash
+ * is no line, so its tiles are made again.
+ */
+#ifndef CS_CLI_TILELOG_H
+#define CS_CLI_TILELOG_H
+
+#include "base/hash.h"
+#include "cli/tilerows.h"
+
+typedef struct cs_tilelog {
+  char path[4096];
+  cs_hash digest;
+  cs_tile_row *rows;
+  size_t count, capacity;
+  int descriptor; /* -1: closed */
+} cs_tilelog;
+
+typedef enum cs_tilelog_state {
+  CS_TILELOG_NEW = 0, /* nothing is there */
+  CS_TILELOG_SAME,
+  CS_TILELOG_OTHER,  /* of another scene or other options */
+  CS_TILELOG_FOREIGN /* a folder where the tiles would go, without a record */
+} cs_tilelog_state;
+
+/* Reads the record of a pyramid, when there is one. log: zeroed; new, to be closed. */
+CELSPAN_CHECKED celspan_status cs_tilelog_read(celspan_context *context, const cs_pyramid *pyramid,
+                                               cs_hash digest, cs_tilelog *log,
+                                               cs_tilelog_state *state);
+/* Removes record and tiles. */
+CELSPAN_CHECKED celspan_status cs_tilelog_clear(celspan_context *context,
+                                                const cs_pyramid *pyramid, cs_tilelog *log);
+/* Opens it for more lines; a new one gets its first. Its folder is made. */
+CELSPAN_CHECKED celspan_status cs_tilelog_open(celspan_context *context, cs_tilelog *log);
+bool cs_tilelog_has(const cs_tilelog *log, cs_tile_row row);
+/* Waits until all that was written before is on the disk, then adds the line. */
+CELSPAN_CHECKED celspan_status cs_tilelog_add(celspan_context *context, cs_tilelog *log,
+                                              cs_tile_row row);
+void cs_tilelog_close(celspan_context *context, cs_tilelog *log);
+
+#endif

@@ -1,0 +1,36 @@
+/* Softening: a cel, compiled alone onto a grid, filtered into bands of nodes.
+ *
+ *   cel --two shots: lit from the front (S), lit from behind (T)--> rows of spans on the grid
+ *       --the kernel over their boundaries (traces.c), or a Gaussian over their cells--> bands
+ *
+ * The grid's pitch follows the radius, from one pixel up, so the work falls as the radius grows; a
+ * Gaussian of two cells or more is applied to the cells' means, its variance lessened by theirs.
+ * Stretches in which the rows are one colour are not summed.
+ */
+#ifndef CS_FILTER_SOFTEN_H
+#define CS_FILTER_SOFTEN_H
+
+#include "filter/scan.h"
+#include "filter/soft_bands.h"
+
+typedef struct cs_soften {
+  cs_soft soft;     /* first: what composing sees */
+  cs_softness softness; /* in cells */
+  bool is_summed;   /* a Gaussian over cells; else through the shots' kernel */
+  int32_t reach_x, reach_y; /* is_summed: cells, and the shots' frames are wider by as many */
+  float *weights[2];        /* is_summed: by distance, reach_x + 1 and reach_y + 1 of them */
+  cs_shot shots[2];         /* one a plane; made by render/compile.c */
+  cs_hash key;
+} cs_soften;
+
+/* The grid for a softness in pixels over a frame: everything but planes, shots and key.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_soften_create(celspan_context *context,
+                                                const cs_softness *softness, int32_t width,
+                                                int32_t height, cs_soften **out);
+/* Frame pixels to the pixels of the shots. */
+celspan_matrix cs_soften_matrix(const cs_soften *soften);
+/* Frees everything but the shots. */
+void cs_soften_free(cs_soften *soften, cs_memory *memory);
+
+#endif

@@ -1,0 +1,388 @@
+#include "output/png_strips.h"
+
+#include <pthread.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "span/row.h"
+
+enum {
+  STRIP_PIXELS = 1 << 18,     /* enough to be worth a thread's while */
+  STRIP_ROWS = 64,            /* flat rows are short: take so many where that is not too much */
+  STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures are 16 bytes a pixel */
+  WORKERS_MOST = 64,
+  AHEAD = 2 /* strips in hand, a lane */
+};
+
+/* A part of the stream, as it grows. */
+typedef struct part {
+  unsigned char *bytes;
+  size_t size, capacity;
+} part;
+
+typedef struct strip {
+  cs_row spans;     /* of all rows, one after the other */
+  size_t *row_ends; /* after each row, how many spans */
+  size_t row_capacity;
+  int32_t row_count; /* with the one above, unless it is the first strip */
+  bool is_done;
+  celspan_status status;
+  char error[sizeof((celspan_context *)0)->error];
+  part packed;
+  cs_deflate_sum sum;
+} strip;
+
+typedef struct lane {
+  celspan_context context; /* a branch */
+  cs_png_strips *strips;
+  cs_png_rows rows;
+  cs_deflate *deflate;
+  part *packed; /* of the strip in hand */
+  pthread_t thread;
+} lane;
+
+struct cs_png_strips {
+  cs_png_picture picture;
+  cs_block_write write;
+  void *user;
+  int32_t strip_rows, total;
+  int32_t row; /* the next one */
+  cs_deflate_sum sum;
+  lane *lanes; /* the first is the caller's, the others have threads */
+  int lane_count, started;
+  strip *ring; /* strip i lies at i % ring_size */
+  int32_t ring_size;
+  pthread_mutex_t mutex;
+  pthread_cond_t filled_some, done_some;
+  int32_t filled, claimed, written; /* strips, in this order */
+  bool is_stopped;
+};
+
+/* ---------------------------------------------------------------- one strip */
+
+static celspan_status append(void *user, celspan_context *context, const void *bytes, size_t size) {
+  part *packed = *(part **)user;
+  CS_TRY(cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size,
+                        1));
+  memcpy(packed->bytes + packed->size, bytes, size);
+  packed->size += size;
+  return CELSPAN_OK;
+}
+
+static celspan_status begin_strip(lane *l, int32_t index, strip *s) {
+  unsigned char header[CS_DEFLATE_HEADER];
+  l->packed = &s->packed;
+  s->packed.size = 0;
+  cs_deflate_begin(l->deflate);
+  if (index > 0)
+    return CELSPAN_OK;
+  cs_deflate_header(header);
+  return append(&l->packed, &l->context, header, sizeof header);
+}
+
+static celspan_status put_rows(lane *l, int32_t index, strip *s) {
+  const celspan_span *spans = s->spans.spans;
+  size_t first = 0;
+  CS_TRY(begin_strip(l, index, s));
+  for (int32_t i = 0; i < s->row_count; i++) {
+    size_t count = s->row_ends[i] - first;
+    if (i == 0 && index > 0)
+      CS_TRY(cs_png_rows_pass(&l->rows, &l->context, spans + first, count));
+    else
+      CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans + first, count, l->deflate));
+    first = s->row_ends[i];
+  }
+  return cs_deflate_end(l->deflate, &l->context, &s->sum);
+}
+
+static void pack_strip(lane *l, int32_t index, strip *s) {
+  s->status = put_rows(l, index, s);
+  if (s->status != CELSPAN_OK)
+    memcpy(s->error, l->context.error, sizeof s->error);
+}
+
+/* The last part ends the stream. */
+static celspan_status write_strip(cs_png_strips *strips, celspan_context *context, int32_t index,
+                                  strip *s) {
+  unsigned char trailer[CS_DEFLATE_TRAILER];
+  part *packed = &s->packed;
+  strips->sum = cs_deflate_join(strips->sum, s->sum);
+  if (index == strips->total - 1) {
+    cs_deflate_trailer(strips->sum, trailer);
+    CS_TRY(append(&packed, context, trailer, sizeof trailer));
+  }
+  return strips->write(strips->user, context, packed->bytes, packed->size);
+}
+
+/* ---------------------------------------------------------------- one thread */
+
+static int32_t row_of_strip(const cs_png_strips *strips) { return strips->row % strips->strip_rows; }
+
+static bool ends_strip(const cs_png_strips *strips) {
+  return row_of_strip(strips) == strips->strip_rows - 1 ||
+         strips->row == strips->picture.height - 1;
+}
+
+static celspan_status report(celspan_context *context, celspan_status status, const char *error) {
+  return status == CELSPAN_OK ? status : cs_fail(context, status, "%s", error);
+}
+
+static celspan_status pack_row(cs_png_strips *strips, const celspan_span *spans,
+                               size_t span_count) {
+  lane *l = strips->lanes;
+  strip *s = strips->ring;
+  if (row_of_strip(strips) == 0)
+    CS_TRY(begin_strip(l, strips->row / strips->strip_rows, s));
+  CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
+  return ends_strip(strips) ? cs_deflate_end(l->deflate, &l->context, &s->sum) : CELSPAN_OK;
+}
+
+static celspan_status put_row_alone(cs_png_strips *strips, celspan_context *context,
+                                    const celspan_span *spans, size_t span_count) {
+  CS_TRY(report(context, pack_row(strips, spans, span_count), strips->lanes->context.error));
+  if (!ends_strip(strips))
+    return CELSPAN_OK;
+  return write_strip(strips, context, strips->row / strips->strip_rows, strips->ring);
+}
+
+/* ---------------------------------------------------------------- several threads */
+
+/* The next strip to be packed, or -1; the mutex is held. */
+static int32_t claim(cs_png_strips *strips) {
+  return strips->is_stopped || strips->claimed == strips->filled ? -1 : strips->claimed++;
+}
+
+/* Packs a claimed strip with the mutex let go. */
+static void work(lane *l, int32_t index) {
+  cs_png_strips *strips = l->strips;
+  strip *s = &strips->ring[index % strips->ring_size];
+  pthread_mutex_unlock(&strips->mutex);
+  pack_strip(l, index, s);
+  pthread_mutex_lock(&strips->mutex);
+  s->is_done = true;
+  pthread_cond_signal(&strips->done_some);
+}
+
+static void *lane_main(void *argument) {
+  lane *l = argument;
+  cs_png_strips *strips = l->strips;
+  pthread_mutex_lock(&strips->mutex);
+  while (!strips->is_stopped) {
+    int32_t index = claim(strips);
+    if (index >= 0)
+      work(l, index);
+    else
+      pthread_cond_wait(&strips->filled_some, &strips->mutex);
+  }
+  pthread_mutex_unlock(&strips->mutex);
+  return NULL;
+}
+
+static void start_threads(cs_png_strips *strips) {
+  for (strips->started = 1; strips->started < strips->lane_count; strips->started++) {
+    lane *l = &strips->lanes[strips->started];
+    if (pthread_create(&l->thread, NULL, lane_main, l) != 0)
+      break; /* fewer threads make the same bytes */
+  }
+}
+
+static void stop_threads(cs_png_strips *strips) {
+  pthread_mutex_lock(&strips->mutex);
+  strips->is_stopped = true;
+  pthread_cond_broadcast(&strips->filled_some);
+  pthread_mutex_unlock(&strips->mutex);
+  for (; strips->started > 1; strips->started--)
+    pthread_join(strips->lanes[strips->started - 1].thread, NULL);
+}
+
+/* Writes strips in order until no more than `left` wait, packing one itself where the next is not
+ * done; the mutex is held, and let go while it writes. */
+static celspan_status write_until(cs_png_strips *strips, celspan_context *context, int32_t left) {
+  while (strips->filled - strips->written > left) {
+    int32_t index = strips->written;
+    strip *s = &strips->ring[index % strips->ring_size];
+    if (s->is_done) {
+      pthread_mutex_unlock(&strips->mutex);
+      celspan_status status = report(context, s->status, s->error);
+      if (status == CELSPAN_OK)
+        status = write_strip(strips, context, index, s);
+      pthread_mutex_lock(&strips->mutex);
+      CS_TRY(status);
+      strips->written++;
+      continue;
+    }
+    int32_t own = claim(strips);
+    if (own >= 0)
+      work(strips->lanes, own);
+    else
+      pthread_cond_wait(&strips->done_some, &strips->mutex);
+  }
+  return CELSPAN_OK;
+}
+
+/* Hands the strip that is full to the threads and makes room for another. */
+static celspan_status hand_over(cs_png_strips *strips, celspan_context *context) {
+  pthread_mutex_lock(&strips->mutex);
+  strips->filled++;
+  pthread_cond_signal(&strips->filled_some);
+  celspan_status status = write_until(strips, context, strips->ring_size - 1);
+  pthread_mutex_unlock(&strips->mutex);
+  return status;
+}
+
+static celspan_status keep_arrays(celspan_context *context, cs_row *kept, size_t first) {
+  for (celspan_span *span = kept->spans + first; span < kept->spans + kept->count; span++) {
+    if (span->kind != CELSPAN_SPAN_ARRAY)
+      continue;
+    size_t size = (size_t)(span->x1 - span->x0) * 4 * sizeof(float);
+    float *colours = cs_arena_take(context, &kept->colours, size);
+    if (!colours)
+      return CELSPAN_NO_MEMORY;
+    span->array = memcpy(colours, span->array, size);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status keep_row(celspan_context *context, strip *s, const celspan_span *spans,
+                               size_t span_count) {
+  cs_row *kept = &s->spans;
+  size_t first = kept->count;
+  CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, first + span_count,
+                        sizeof *spans));
+  CS_TRY(cs_mem_reserve(context, (void **)&s->row_ends, &s->row_capacity,
+                        (size_t)s->row_count + 1, sizeof *s->row_ends));
+  memcpy(kept->spans + first, spans, span_count * sizeof *spans);
+  kept->count += span_count;
+  CS_TRY(keep_arrays(context, kept, first));
+  s->row_ends[s->row_count++] = kept->count;
+  return CELSPAN_OK;
+}
+
+/* With the last row of the strip before, which nobody overwrites until the ring comes round. */
+static celspan_status begin_keeping(cs_png_strips *strips, celspan_context *context, strip *s) {
+  cs_row_clear(&s->spans);
+  s->row_count = 0;
+  s->is_done = false;
+  if (strips->filled == 0)
+    return CELSPAN_OK;
+  const strip *before = &strips->ring[(strips->filled - 1) % strips->ring_size];
+  size_t first = before->row_count > 1 ? before->row_ends[before->row_count - 2] : 0;
+  return keep_row(context, s, before->spans.spans + first,
+                  before->row_ends[before->row_count - 1] - first);
+}
+
+static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *context,
+                                     const celspan_span *spans, size_t span_count) {
+  strip *s = &strips->ring[strips->filled % strips->ring_size];
+  if (row_of_strip(strips) == 0)
+    CS_TRY(begin_keeping(strips, context, s));
+  CS_TRY(keep_row(context, s, spans, span_count));
+  return ends_strip(strips) ? hand_over(strips, context) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- all strips */
+
+celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
+                                 const celspan_span *spans, size_t span_count) {
+  CS_TRY(strips->lane_count > 1 ? put_row_shared(strips, context, spans, span_count)
+                                : put_row_alone(strips, context, spans, span_count));
+  strips->row++;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_png_strips_finish(cs_png_strips *strips, celspan_context *context) {
+  pthread_mutex_lock(&strips->mutex);
+  celspan_status status = write_until(strips, context, 0);
+  pthread_mutex_unlock(&strips->mutex);
+  return status;
+}
+
+static int32_t choose_strip_rows(int32_t width) {
+  int32_t least = STRIP_PIXELS / width, most = STRIP_PIXELS_MOST / width;
+  int32_t rows = most < STRIP_ROWS ? most : STRIP_ROWS;
+  return least > rows ? least : rows > 1 ? rows : 1;
+}
+
+static int choose_lanes(const cs_png_strips *strips) {
+  int64_t lanes = strips->picture.workers;
+  if (lanes <= 0)
+    lanes = sysconf(_SC_NPROCESSORS_ONLN);
+  lanes = lanes > WORKERS_MOST ? WORKERS_MOST : lanes < 1 ? 1 : lanes;
+  return lanes < strips->total ? (int)lanes : (int)strips->total;
+}
+
+static celspan_status init_lane(cs_png_strips *strips, celspan_context *context, lane *l) {
+  cs_context_branch(&l->context, context);
+  l->strips = strips;
+  cs_png_rows_begin(&l->rows, strips->picture.coding, strips->picture.width,
+                    strips->picture.is_opaque);
+  return report(context,
+                cs_deflate_create(&l->context, l->rows.pixel_size, append, &l->packed, &l->deflate),
+                l->context.error);
+}
+
+static celspan_status init_strips(cs_png_strips *strips, celspan_context *context) {
+  strips->lanes =
+      cs_mem_array(context->memory, (size_t)strips->lane_count, sizeof *strips->lanes);
+  strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
+  if (!strips->lanes || !strips->ring)
+    return cs_fail_memory(context);
+  for (int32_t i = 0; i < strips->ring_size; i++)
+    cs_row_init(&strips->ring[i].spans);
+  for (int i = 0; i < strips->lane_count; i++)
+    CS_TRY(init_lane(strips, context, &strips->lanes[i]));
+  start_threads(strips);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_png_strips_create(celspan_context *context, const cs_png_picture *picture,
+                                    cs_block_write write, void *user, cs_png_strips **out) {
+  cs_png_strips *strips = cs_mem_array(context->memory, 1, sizeof *strips);
+  if (!strips)
+    return cs_fail_memory(context);
+  strips->picture = *picture;
+  strips->write = write;
+  strips->user = user;
+  strips->strip_rows = choose_strip_rows(picture->width);
+  strips->total = (picture->height - 1) / strips->strip_rows + 1;
+  strips->lane_count = choose_lanes(strips);
+  strips->ring_size = strips->lane_count > 1 ? AHEAD * strips->lane_count : 1;
+  strips->sum = CS_DEFLATE_SUM;
+  pthread_mutex_init(&strips->mutex, NULL);
+  pthread_cond_init(&strips->filled_some, NULL);
+  pthread_cond_init(&strips->done_some, NULL);
+  celspan_status status = init_strips(strips, context);
+  if (status == CELSPAN_OK)
+    *out = strips;
+  else
+    cs_png_strips_destroy(strips, context);
+  return status;
+}
+
+static void free_strip(strip *s, cs_memory *memory) {
+  cs_row_finish(&s->spans, memory);
+  cs_mem_free(memory, s->row_ends, s->row_capacity * sizeof *s->row_ends);
+  cs_mem_free(memory, s->packed.bytes, s->packed.capacity);
+}
+
+static void free_lane(lane *l, celspan_context *context) {
+  cs_png_rows_end(&l->rows, context);
+  cs_deflate_destroy(l->deflate, context);
+}
+
+void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context) {
+  if (!strips)
+    return;
+  cs_memory *memory = context->memory;
+  stop_threads(strips);
+  for (int i = 0; strips->lanes && i < strips->lane_count; i++)
+    free_lane(&strips->lanes[i], context);
+  for (int32_t i = 0; strips->lanes && strips->ring && i < strips->ring_size; i++)
+    free_strip(&strips->ring[i], memory);
+  cs_mem_free(memory, strips->lanes, (size_t)strips->lane_count * sizeof *strips->lanes);
+  cs_mem_free(memory, strips->ring, (size_t)strips->ring_size * sizeof *strips->ring);
+  pthread_cond_destroy(&strips->done_some);
+  pthread_cond_destroy(&strips->filled_some);
+  pthread_mutex_destroy(&strips->mutex);
+  cs_mem_free(memory, strips, sizeof *strips);
+}

@@ -1,0 +1,150 @@
+/* The active boundaries: what is listed at a height, and in which order, depends on the height
+ * alone; and the cull leaves out only what cannot be seen. */
+#include "base/number.h"
+#include "geometry/matrix.h"
+#include "sweep/active.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+#define WIDTH 120
+#define HEIGHT 90
+#define LEAVES 24
+
+static celspan_context *context;
+
+static void add_blob(cs_boundary_set *set, test_random *random, uint32_t leaf) {
+  cs_outline outline;
+  celspan_point points[6];
+  celspan_matrix identity = celspan_matrix_identity();
+  cs_boundary_frame frame = {0, WIDTH, 0, HEIGHT};
+  cs_outline_init(&outline);
+  for (int i = 0; i < 6; i++)
+    points[i] = (celspan_point){random_between(random, -30, WIDTH + 30),
+                                random_between(random, -30, HEIGHT + 30)};
+  celspan_nurbs_desc desc = {.points = points, .point_count = 6, .degree = 3};
+  celspan_status status = leaf % 3 == 0 ? cs_outline_polygon(context, &outline, points, 6)
+                                        : cs_outline_nurbs(context, &outline, &desc);
+  CHECK(status == CELSPAN_OK);
+  CHECK(cs_boundary_add(context, set, &outline, &identity, &frame, leaf) == CELSPAN_OK);
+  cs_outline_finish(&outline, context->memory);
+}
+
+static void make_set(cs_boundary_set *set, uint64_t seed) {
+  test_random random = {seed};
+  cs_boundary_init(set);
+  for (uint32_t leaf = 0; leaf < LEAVES; leaf++)
+    add_blob(set, &random, leaf);
+  cs_boundary_sort(set);
+}
+
+static bool same_order(const cs_active *a, const cs_active *b) {
+  if (a->count != b->count)
+    return false;
+  for (size_t i = 0; i < a->count; i++)
+    if (a->walks[a->slot[i]].chain != b->walks[b->slot[i]].chain || a->x[i] != b->x[i] ||
+        a->slope[i] != b->slope[i])
+      return false;
+  return true;
+}
+
+static bool is_ordered(const cs_active *active) {
+  for (size_t i = 1; i < active->count; i++)
+    if (active->x[i - 1] > active->x[i])
+      return false;
+  return true;
+}
+
+/* Walks down in steps and, at each, stands there anew: both must list the same. */
+static void check_walk(const cs_boundary_set *set, const cs_cull *cull, double step) {
+  cs_active walked, fresh;
+  bool changed;
+  cs_active_init(&walked, set, cull);
+  cs_active_init(&fresh, set, cull);
+  CHECK(cs_active_start(context, &walked, 0) == CELSPAN_OK);
+  for (double y = step; y < HEIGHT; y += step) {
+    CHECK(cs_active_reach(context, &walked, y) == CELSPAN_OK);
+    CHECK(cs_active_settle(context, &walked, &changed) == CELSPAN_OK);
+    CHECK(cs_active_start(context, &fresh, y) == CELSPAN_OK);
+    CHECK(same_order(&walked, &fresh));
+    CHECK(is_ordered(&walked));
+  }
+  cs_active_finish(&walked, context->memory);
+  cs_active_finish(&fresh, context->memory);
+}
+
+static int64_t winding_of(const cs_active *active, uint32_t leaf, double x) {
+  int64_t winding = 0;
+  for (size_t i = 0; i < active->count; i++)
+    if (cs_active_chain(active, i)->leaf == leaf && active->x[i] <= x)
+      winding += cs_active_chain(active, i)->direction;
+  const cs_toggle *end, *toggle = cs_active_toggles(active, &end);
+  for (; toggle < end; toggle++)
+    if (toggle->leaf == leaf && toggle->x <= x)
+      winding += toggle->direction;
+  return winding;
+}
+
+/* From the camera backwards until nothing shines through, culled and unculled agree on presence. */
+static void check_presence(const cs_active *all, const cs_active *culled,
+                           const cs_cull_leaf *leaves, double x) {
+  double through = 1;
+  for (uint32_t leaf = LEAVES; leaf-- > 0 && through > 0x1p-16;) {
+    bool present = winding_of(all, leaf, x) != 0;
+    CHECK(present == (winding_of(culled, leaf, x) != 0));
+    through *= present ? leaves[leaf].through : 1;
+  }
+}
+
+static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
+                       const cs_cull_leaf *leaves) {
+  static const cs_cull nothing;
+  cs_active all, culled;
+  test_random random = {7};
+  cs_active_init(&all, set, &nothing);
+  cs_active_init(&culled, set, cull);
+  for (int trial = 0; trial < 200; trial++) {
+    double y = random_between(&random, 0, HEIGHT);
+    CHECK(cs_active_start(context, &all, y) == CELSPAN_OK);
+    CHECK(cs_active_start(context, &culled, y) == CELSPAN_OK);
+    CHECK(culled.count <= all.count);
+    for (int k = 0; k < 10; k++)
+      check_presence(&all, &culled, leaves, random_between(&random, 0, WIDTH));
+  }
+  cs_active_finish(&all, context->memory);
+  cs_active_finish(&culled, context->memory);
+}
+
+static void check_case(uint64_t seed) {
+  cs_boundary_set set;
+  cs_cull none = {0}, cull;
+  cs_cull_leaf leaves[LEAVES];
+  test_random random = {seed + 1000};
+  for (int leaf = 0; leaf < LEAVES; leaf++)
+    leaves[leaf] = (cs_cull_leaf){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
+  make_set(&set, seed);
+  CHECK(cs_cull_create(context, &set, leaves, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, &cull) == CELSPAN_OK);
+  CHECK(cull.tile_rows > 0);
+  check_walk(&set, &none, 1);
+  check_walk(&set, &none, 0.37);
+  check_walk(&set, &cull, 1);
+  check_walk(&set, &cull, 0.37);
+  check_walk(&set, &cull, 7.5);
+  check_cull(&set, &cull, leaves);
+  cs_cull_free(&cull, context->memory);
+  cs_boundary_finish(&set, context->memory);
+}
+
+int main(void) {
+  size_t bytes, peak;
+  uint64_t allocations;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  size_t before = bytes;
+  for (uint64_t seed = 1; seed <= 30; seed++)
+    check_case(seed);
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  CHECK(bytes == before);
+  celspan_context_destroy(context);
+  return check_done();
+}

@@ -1,0 +1,232 @@
+/* Defocused cels against a brute-force convolution of probe samples, and what must hold besides. */
+#include <stdlib.h>
+
+#include "filter/soft_bands.h"
+#include "render/frame.h"
+#include "tests/support/scene.h"
+
+#define SIDE 48
+#define CELLS 220 /* probe samples across a kernel */
+
+typedef struct view {
+  int32_t width, height;
+  double film_width, film_height;
+  celspan_antialias_mode antialias;
+} view;
+
+static uint64_t random_state;
+
+static double random_unit(void) {
+  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+  return (double)(random_state >> 11) * 0x1p-53;
+}
+
+static double between(double low, double high) { return low + (high - low) * random_unit(); }
+
+/* ---------------------------------------------------------------- pictures */
+
+typedef struct image {
+  int32_t width, height;
+  float (*rgba)[4];
+  uint64_t kinds[3];
+} image;
+
+static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t step) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.film_width = v->film_width;
+  desc.film_height = v->film_height;
+  desc.width = v->width;
+  desc.height = v->height;
+  desc.antialias = &v->antialias;
+  image out = {v->width, v->height, calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
+               {0, 0, 0}};
+  cs_frame frame = {0};
+  cs_lane lane = {0};
+  studio_check(s, cs_frame_create(s->context, &desc, &frame));
+  studio_check(s, cs_lane_init(&lane, s->context, &frame));
+  for (int32_t first = 0; first < step; first++)
+    for (int32_t y = first; y < v->height; y += step) {
+      const cs_row *row = NULL;
+      if (!CHECK(cs_lane_row(&lane, y, &row) == CELSPAN_OK)) {
+        fprintf(stderr, "  %s\n", celspan_context_error(&lane.context));
+        continue;
+      }
+      for (size_t i = 0; i < row->count; i++) {
+        out.kinds[row->spans[i].kind]++;
+        for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
+          celspan_span_colour(&row->spans[i], x, out.rgba[y * v->width + x]);
+      }
+    }
+  cs_lane_finish(&lane);
+  cs_frame_free(&frame, s->context->memory);
+  return out;
+}
+
+/* ---------------------------------------------------------------- scenes */
+
+typedef struct stage { /* one cel, sharp and soft, seen alike */
+  celspan_rostrum *sharp, *soft;
+  double camera_scale, camera_turn;
+} stage;
+
+static celspan_object *random_object(studio *s, bool has_gels) {
+  float r = (float)random_unit(), g = (float)random_unit(), b = (float)random_unit();
+  float alpha = (float)between(0.3, 1);
+  bool is_gel = has_gels && random_unit() < 0.4;
+  celspan_texture *t =
+      studio_paint(s, is_gel ? celspan_paint_gel(r, g, b) : celspan_paint_rgb(r, g, b, alpha));
+  double x = between(-8, 56), y = between(-8, 56), size = between(2, 18);
+  if (random_unit() < 0.5)
+    return studio_circle(s, x, y, size, t);
+  celspan_object *rect = studio_rect(s, x - size, y - size / 2, 2 * size, size, t);
+  return studio_transform(s, rect, celspan_matrix_rotation(between(0, 3), (celspan_point){x, y}));
+}
+
+static celspan_matrix random_placement(int kind) {
+  const celspan_point from[4] = {{0, 0}, {48, 0}, {48, 48}, {0, 48}};
+  const celspan_point to[4] = {{4, 2}, {45, 7}, {41, 40}, {-3, 50}};
+  celspan_matrix matrix = celspan_matrix_identity();
+  if (kind == 1)
+    matrix = celspan_matrix_rotation(between(-2, 2), (celspan_point){24, 24});
+  if (kind == 2)
+    matrix = celspan_matrix_scaling(between(0.6, 1.5), between(0.6, 1.5));
+  if (kind == 3)
+    CHECK(celspan_matrix_quad(from, to, &matrix));
+  return matrix;
+}
+
+static celspan_rostrum *show(studio *s, celspan_cel *cel, const stage *camera) {
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.back = (celspan_light){0.9f, 0.8f, 1, 0.7f};
+  desc.has_camera_width = camera->camera_scale != 1;
+  desc.camera_width = SIDE / camera->camera_scale;
+  desc.camera_rotation = camera->camera_turn;
+  return studio_rostrum(s, desc, &cel, 1);
+}
+
+static stage random_stage(studio *s, int kind, double radius, celspan_defocus_kernel kernel,
+                          double turn) {
+  stage out = {.camera_scale = kind == 2 ? 1.3 : 1, .camera_turn = turn};
+  celspan_object *objects[10];
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  celspan_cel *cels[2];
+  celspan_matrix placement = random_placement(kind);
+  for (int i = 0; i < 10; i++)
+    objects[i] = random_object(s, kind == 1);
+  desc.has_front = true;
+  desc.front = (celspan_light){1, 0.8f, 0.9f, 1};
+  desc.opacity = kind == 2 ? 0.8 : 1;
+  for (int i = 0; i < 2; i++) {
+    desc.defocus_radius = i == 0 ? 0 : radius;
+    desc.defocus_kernel = kernel;
+    celspan_cel *cel = studio_cel(s, desc, objects, 10);
+    studio_check(s, celspan_cel_transform(s->context, cel, &placement, &cels[i]));
+    s->cels[s->cel_count++] = cels[i];
+  }
+  out.sharp = show(s, cels[0], &out);
+  out.soft = show(s, cels[1], &out);
+  return out;
+}
+
+/* ---------------------------------------------------------------- brute force */
+
+/* The kernel's weight at an offset in film units before the camera. */
+static double weight_at(celspan_defocus_kernel kernel, double radius, double x, double y) {
+  if (kernel == CELSPAN_DEFOCUS_BOX)
+    return fabs(x) <= radius && fabs(y) <= radius;
+  if (kernel == CELSPAN_DEFOCUS_DISC)
+    return x * x + y * y <= radius * radius;
+  return x * x + y * y <= 4 * radius * radius ? exp(-2 * (x * x + y * y) / (radius * radius)) : 0;
+}
+
+/* The mean of probes under the kernel about a point of the film; stratified. */
+static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
+                     celspan_point at, double out[4]) {
+  double reach = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius, total = 0;
+  double c = cos(-set->camera_turn), d = sin(-set->camera_turn);
+  celspan_exposure exposure = {set->sharp, 1};
+  memset(out, 0, 4 * sizeof *out);
+  for (int j = 0; j < CELLS; j++)
+    for (int i = 0; i < CELLS; i++) {
+      double u = ((i + random_unit()) * 2 / CELLS - 1) * reach;
+      double v = ((j + random_unit()) * 2 / CELLS - 1) * reach;
+      double weight = weight_at(kernel, radius, u, v), rgba[4] = {0, 0, 0, 0};
+      if (weight == 0)
+        continue;
+      celspan_point point = {at.x + (u * c - v * d) * set->camera_scale,
+                             at.y + (u * d + v * c) * set->camera_scale};
+      studio_check(s, celspan_probe(s->context, &exposure, 1, SIDE, SIDE, point, rgba));
+      total += weight;
+      for (int k = 0; k < 4; k++)
+        out[k] += weight * rgba[k];
+    }
+  for (int k = 0; k < 4; k++)
+    out[k] /= total;
+}
+
+static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
+                    const view *v, int points, const char *what) {
+  image soft = make(s, set->soft, v, 1);
+  double worst = 0;
+  for (int k = 0; k < points; k++) {
+    /* the film's edges are looked at first */
+    int32_t x = k == 0 ? 0 : k == 1 ? v->width - 1 : (int32_t)between(0, v->width);
+    int32_t y = k == 2 ? 0 : k == 3 ? v->height - 1 : (int32_t)between(0, v->height);
+    celspan_point at = {(x + 0.5) * SIDE / v->width, (y + 0.5) * SIDE / v->height};
+    double want[4];
+    convolve(s, set, kernel, radius, at, want);
+    for (int c = 0; c < 4; c++)
+      worst = fmax(worst, fabs(want[c] - (double)soft.rgba[y * v->width + x][c]));
+  }
+  if (!CHECK_NEAR(worst, 0, 0.004))
+    fprintf(stderr, "  %s: radius %g, kernel %d\n", what, radius, (int)kernel);
+  free(soft.rgba);
+}
+
+static void check_brute_force(void) {
+  static const double radii[] = {0.8, 2, 3.3, 5, 7.5, 11, 16};
+  static const char *const kinds[] = {"plain", "rotated, gels", "scaled", "perspective"};
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 42; k++) {
+    double radius = radii[k % 7];
+    celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k / 7 % 3);
+    int kind = (k + k / 7) % 4;
+    random_state = 77 + (uint64_t)k;
+    stage set = random_stage(&s, kind, radius, kernel, k % 2 ? 0.4 : 0);
+    view v = {SIDE, SIDE, SIDE, SIDE,
+              radius < 3 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA};
+    compare(&s, &set, kernel, radius, &v, 12, kinds[kind]);
+    v.width = 2 * SIDE + 10; /* the kernel scales with the frame, each axis on its own */
+    v.height = 30;
+    if (k % 3 == 0)
+      compare(&s, &set, kernel, radius, &v, 12, kinds[kind]);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+/* Frames large enough for the grid to be coarser than the pixels. */
+static void check_coarse(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 9; k++) {
+    double radius = k < 6 ? 6 : 16;
+    celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k % 3);
+    random_state = 990 + (uint64_t)k;
+    stage set = random_stage(&s, k % 4, radius, kernel, k % 2 ? 0.7 : 0);
+    view v = {1000, 1000, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
+    compare(&s, &set, kernel, radius, &v, 24, "coarse");
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+int main(void) {
+  check_brute_force();
+  check_coarse();
+  return check_done();
+}

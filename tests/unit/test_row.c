@@ -1,0 +1,92 @@
+/* Rows of spans: merging, cropping, and the exposures of one frame. */
+#include "span/row.h"
+#include "tests/support/check.h"
+
+static celspan_context *context;
+
+static cs_v4 grey(float value, float alpha) { return (cs_v4){value, value, value, alpha}; }
+
+static float red_at(const cs_row *row, int32_t x) {
+  float rgba[4] = {-1, -1, -1, -1};
+  for (size_t i = 0; i < row->count; i++)
+    if (row->spans[i].x0 <= x && x < row->spans[i].x1)
+      celspan_span_colour(&row->spans[i], x, rgba);
+  return rgba[0];
+}
+
+static void test_merging(void) {
+  cs_row row;
+  cs_row_init(&row);
+  CHECK(cs_row_single(context, &row, 0, 3, grey(0.5f, 1)) == CELSPAN_OK);
+  CHECK(cs_row_single(context, &row, 3, 3, grey(0.1f, 1)) == CELSPAN_OK);
+  CHECK(cs_row_single(context, &row, 3, 7, grey(0.5f, 1)) == CELSPAN_OK);
+  CHECK(row.count == 1 && row.spans[0].x1 == 7);
+  CHECK(cs_row_single(context, &row, 7, 8, grey(0.5f, 0.5f)) == CELSPAN_OK);
+  CHECK(cs_row_gradient(context, &row, 8, 12, grey(0, 1), grey(0, 0)) == CELSPAN_OK);
+  CHECK(row.count == 3 && row.spans[2].kind == CELSPAN_SPAN_SINGLE && row.varied == 0);
+  CHECK(cs_row_gradient(context, &row, 12, 16, grey(0, 1), grey(0.25f, 0)) == CELSPAN_OK);
+  CHECK(row.count == 4 && row.varied == 1);
+  cs_row_finish(&row, context->memory);
+}
+
+/* Cropping moves no colour: every column shows what it showed. */
+static void test_cropping(void) {
+  for (int32_t from = 0; from < 20; from++) {
+    cs_row row, whole;
+    for (cs_row *r = &row;; r = &whole) {
+      float *array;
+      cs_row_init(r);
+      CHECK(cs_row_single(context, r, 0, 6, grey(0.25f, 1)) == CELSPAN_OK);
+      CHECK(cs_row_gradient(context, r, 6, 13, grey(0.1f, 1), grey(0.07f, 0)) == CELSPAN_OK);
+      CHECK(cs_row_array(context, r, 13, 20, &array) == CELSPAN_OK);
+      for (int i = 0; i < 28; i++)
+        array[i] = (float)i;
+      if (r == &whole)
+        break;
+    }
+    int32_t to = from + 5 < 20 ? from + 5 : 20;
+    cs_row_crop(&row, from, to);
+    CHECK(row.spans[0].x0 == 0 && row.spans[row.count - 1].x1 == to - from);
+    for (int32_t x = from; x < to; x++)
+      CHECK(red_at(&row, x - from) == red_at(&whole, x));
+    cs_row_finish(&row, context->memory);
+    cs_row_finish(&whole, context->memory);
+  }
+}
+
+/* Light adds, weighted; alpha likewise, held to 1 from the column where it passes it. */
+static void test_exposing(void) {
+  cs_row rows[2], sum;
+  float weights[2] = {0.5f, 2};
+  cs_row_init(&rows[0]);
+  cs_row_init(&rows[1]);
+  cs_row_init(&sum);
+  CHECK(cs_row_single(context, &rows[0], 0, 10, grey(0.5f, 0.25f)) == CELSPAN_OK);
+  CHECK(cs_row_gradient(context, &rows[1], 0, 8, (cs_v4){0.125f, 0, 0, 0},
+                        (cs_v4){0.0625f, 0, 0, 0.125f}) == CELSPAN_OK);
+  CHECK(cs_row_single(context, &rows[1], 8, 10, grey(3, 0.75f)) == CELSPAN_OK);
+  CHECK(cs_row_expose(context, &sum, rows, weights, 2) == CELSPAN_OK);
+  CHECK(sum.spans[0].x0 == 0 && sum.spans[sum.count - 1].x1 == 10);
+  for (size_t i = 0; i < sum.count; i++) {
+    CHECK(sum.spans[i].kind != CELSPAN_SPAN_ARRAY);
+    for (int32_t x = sum.spans[i].x0; x < sum.spans[i].x1; x++) {
+      float rgba[4], alpha = 0.5f * 0.25f + 2 * (x < 8 ? 0.125f * (float)x : 0.75f);
+      celspan_span_colour(&sum.spans[i], x, rgba);
+      CHECK_NEAR(rgba[0], 0.25f + 2 * (x < 8 ? 0.125f + 0.0625f * (float)x : 3), 1e-6);
+      CHECK_NEAR(rgba[3], alpha > 1 ? 1 : alpha, 1e-6);
+    }
+  }
+  for (int i = 0; i < 2; i++)
+    cs_row_finish(&rows[i], context->memory);
+  cs_row_finish(&sum, context->memory);
+}
+
+int main(void) {
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  test_merging();
+  test_cropping();
+  test_exposing();
+  celspan_context_destroy(context);
+  return check_done();
+}
