@@ -21,11 +21,15 @@ local function walls(dice)
   local stripes, sprigs = {}, {}
   for i = 0, 9 do
     stripes[i + 1] = { i * 60 + 20, 0, 12, 470 }
-    for k = 0, 6 do sprigs[#sprigs + 1] = { i * 60 + 48, 30 + k * 64 + i % 2 * 32, 6, 6 } end
+    for k = 0, 6 do
+      local x, y = i * 60 + 51, 30 + k * 64 + i % 2 * 32
+      sprigs[#sprigs + 1] = ("M%g %gq5 3 0 9q-5 -6 0 -9m0 9q4 0 6 -5q-5 0 -6 5q-4 0 -6 -5q5 0 6 5l1 6h-2Z")
+        :format(x, y)
+    end
   end
   return celspan.union {
     draw.rect(0, 0, 600, 590, shapes.down(0, 590, { paper[1], paper[2] })),
-    draw.rects(celspan.rgb(1, 1, 1, 0.16), stripes), draw.rects("#c9743f", sprigs),
+    draw.rects(celspan.rgb(1, 1, 1, 0.16), stripes), draw.path("#c9743f", table.concat(sprigs)),
     draw.rect(0, 470, 600, 120, "#a5683f"), draw.rect(0, 466, 600, 8, "#d09a62"),
     draw.rect(0, 590, 600, 110, "#6d4030"),
     draw.rects("#5a3328", { { 0, 612, 600, 3 }, { 0, 640, 600, 4 }, { 0, 674, 600, 5 } }),
@@ -144,11 +148,11 @@ end
 --- The room with the film on its wall: at the last level the canvas is 1920 by 1080 pixels.
 function room.gallery(dice)
   return celspan.union {
-    walls(dice), bookcase(28, dice), clock(510, 230),
-    canvas.frame(canvas.large, 192, 108):translate(262, 262),
-    note(470, 300, { "THE LAMPLIGHTER,", "FRAME 54, HUNG AT", "ONE PIXEL A PIXEL.", "",
+    walls(dice), bookcase(28, dice), clock(250, 150),
+    canvas.frame(canvas.large, 192, 108):translate(324, 268),
+    note(326, 396, { "THE LAMPLIGHTER,", "FRAME 54, HUNG AT", "ONE PIXEL A PIXEL.", "",
                      "AROUND IT A MILLION", "BY A MILLION OTHERS." }),
-    table_set(270, dice), lamp(358), cat(236, 628, "#b5672d"), curtains(dice),
+    table_set(300, dice), lamp(420), cat(236, 628, "#b5672d"), curtains(dice),
   }, bars "#2b1b2c"
 end
 

@@ -18,6 +18,19 @@ static inline cs_v4 cs_v4_load(const float *from) {
 static inline void cs_v4_store(float *to, cs_v4 v) { memcpy(to, &v, sizeof v); }
 
 /* Whether all 128 bits agree: minus zero differs from zero. */
+/* Lane by lane the greater, the lesser; b where a is not a number. */
+static inline cs_v4 cs_v4_max(cs_v4 a, cs_v4 b) {
+  typedef int lanes __attribute__((vector_size(16)));
+  lanes use_a = a > b;
+  return (cs_v4)(((lanes)a & use_a) | ((lanes)b & ~use_a));
+}
+
+static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
+  typedef int lanes __attribute__((vector_size(16)));
+  lanes use_a = a < b;
+  return (cs_v4)(((lanes)a & use_a) | ((lanes)b & ~use_a));
+}
+
 static inline int cs_v4_same(cs_v4 a, cs_v4 b) {
   typedef long long words __attribute__((vector_size(16)));
   words differ = (words)a ^ (words)b;

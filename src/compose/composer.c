@@ -232,9 +232,11 @@ static celspan_status gather(cs_composer *composer, const uint64_t *set, fold *f
 }
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
-  size_t count = composer->gathered_count;
+  size_t count = composer->gathered_count, needed = composer->item_count + count;
+  if (needed < ITEM_LIMIT) /* all that is kept from row to row, at once */
+    needed = ITEM_LIMIT;
   CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->items, &composer->item_capacity,
-                        composer->item_count + count, sizeof(cs_item)));
+                        needed, sizeof(cs_item)));
   memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
   cell->program = (uint32_t)composer->item_count;
   cell->length = (uint32_t)count;

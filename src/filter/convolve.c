@@ -288,9 +288,7 @@ static celspan_status add_piece_at(gather *g, const cs_trace_piece *piece, doubl
               .weight = share * (below - above),
               .slab = first_slab(g, ya),
               .slab_end = first_slab(g, yb)};
-    double d = cs_number_clamp(0.5 * (ya + yb) - centre, NARROW - kernel->radius_y,
-                               kernel->radius_y - NARROW);
-    if (slice_kernel(kernel, d, &t))
+    if (slice_kernel(kernel, 0.5 * (ya + yb) - centre, &t))
       CS_TRY(add_part(g, piece, &t));
     xa = xb;
     ya = yb;
@@ -299,15 +297,41 @@ static celspan_status add_piece_at(gather *g, const cs_trace_piece *piece, doubl
   return CELSPAN_OK;
 }
 
+/* What of a piece lies at the heights of the kernel; false: nothing. */
+static bool cut_piece(const cs_trace_piece *piece, double top, double foot, cs_trace_piece *out) {
+  double slope = (piece->xb - piece->xa) / (piece->yb - piece->ya);
+  *out = *piece;
+  if (piece->yb <= top || piece->ya >= foot)
+    return false;
+  if (piece->ya < top) {
+    out->ya = top;
+    out->xa = piece->xa + (top - piece->ya) * slope;
+  }
+  if (piece->yb > foot) {
+    out->yb = foot;
+    out->xb = piece->xa + (foot - piece->ya) * slope;
+  }
+  return true;
+}
+
+static celspan_status add_piece_seen(gather *g, const cs_trace_piece *piece, double dx, double dy,
+                                     double share) {
+  double radius = g->convolve->kernel->radius_y, centre = g->centre + dy;
+  cs_trace_piece cut;
+  return cut_piece(piece, centre - radius, centre + radius, &cut)
+             ? add_piece_at(g, &cut, dx, dy, share)
+             : CELSPAN_OK;
+}
+
 static celspan_status add_piece(gather *g, const cs_trace_piece *piece) {
   const cs_kernel *kernel = g->convolve->kernel;
   int count = kernel->offsets;
   if (count <= 1)
-    return add_piece_at(g, piece, 0, 0, 1);
+    return add_piece_seen(g, piece, 0, 0, 1);
   for (int j = 0; j < count; j++)
     for (int i = 0; i < count; i++)
-      CS_TRY(add_piece_at(g, piece, ((i + 0.5) / count - 0.5) * kernel->spread,
-                          ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)));
+      CS_TRY(add_piece_seen(g, piece, ((i + 0.5) / count - 0.5) * kernel->spread,
+                            ((j + 0.5) / count - 0.5) * kernel->spread, 1.0 / (count * count)));
   return CELSPAN_OK;
 }
 
@@ -354,8 +378,9 @@ static celspan_status add_trace(gather *g, cs_composer *composer) {
   return CELSPAN_OK;
 }
 
+/* Slabs beyond the kernel are left out as those that vary are. */
 static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *context,
-                                  const cs_trace *const *traces, size_t rows) {
+                                  const cs_trace *const *traces, size_t rows, int32_t y) {
   size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SLABS : 0;
   CS_TRY(cs_mem_reserve(context, (void **)&convolve->slabs, &convolve->slab_capacity, count,
                         sizeof *convolve->slabs));
@@ -364,9 +389,12 @@ static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *contex
   for (size_t i = 0; i < count / CS_CONVOLVE_SLABS; i++)
     convolve->ranges[i] = (cs_convolve_range){traces[0]->base, traces[0]->base};
   for (size_t i = 0; i < count; i++) {
-    convolve->slabs[i] = (cs_convolve_slab){.varies = 0};
+    double height = traces[i / CS_CONVOLVE_SLABS]->row +
+                    ((double)(i % CS_CONVOLVE_SLABS) + 0.5) / CS_CONVOLVE_SLABS;
+    cs_convolve_slab *slab = &convolve->slabs[i];
+    slab->varies = fabs(height - (y + 0.5)) >= convolve->kernel->radius_y;
     for (int c = 0; c < 4; c++)
-      convolve->slabs[i].colour[c] = (double)traces[0]->base[c];
+      slab->colour[c] = (double)traces[0]->base[c];
   }
   return CELSPAN_OK;
 }
@@ -587,7 +615,7 @@ celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
   convolve->look_count = convolve->shift_count = convolve->passage_count = 0;
   memset(convolve->touched, 0, word_count(convolve->width) * sizeof *convolve->touched);
   touch(convolve, 0);
-  CS_TRY(begin_slabs(convolve, g.context, traces, count));
+  CS_TRY(begin_slabs(convolve, g.context, traces, count, y));
   for (size_t i = 0; i < count; i++) {
     g.trace = traces[i];
     g.row = (uint32_t)i;

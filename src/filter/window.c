@@ -2,6 +2,8 @@
 
 #include "base/number.h"
 
+#include <math.h>
+
 #define TILE 256 /* pixels summed at a time */
 
 void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
@@ -60,10 +62,8 @@ static inline double cover(const cs_fragment *f, int32_t p) {
 
 /* Light is never negative and alpha at most 1: sums may miss that by a last bit. */
 static inline cs_v4 hold(cs_v4 colour) {
-  for (int c = 0; c < 4; c++)
-    colour[c] = colour[c] < 0 ? 0 : colour[c];
-  colour[3] = colour[3] > 1 ? 1 : colour[3];
-  return colour;
+  const cs_v4 most = {INFINITY, INFINITY, INFINITY, 1};
+  return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
 static inline celspan_status put_pixel(cs_window *window, int32_t p, cs_v4 colour) {

@@ -10,6 +10,8 @@ enum {
   LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
+  CHAIN = 64, /* earlier places looked at */
+  LAZY = 258,
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
   ADLER_BASE = 65521
@@ -26,7 +28,8 @@ struct cs_deflate {
   size_t zeros;       /* of a run, not yet tokens: more may follow */
   bool ends_in_zeros; /* the last token but for them */
   size_t token_count;
-  uint32_t latest[1 << HASH_BITS][2]; /* where four bytes of a hash were seen last and before */
+  uint32_t latest[1 << HASH_BITS]; /* where four bytes of a hash were seen last */
+  uint32_t before[WINDOW];         /* and where before this place, modulo the window */
   cs_token tokens[BLOCK_TOKENS];
   unsigned char buffer[WINDOW + PENDING + SLACK];
   cs_block_writer writer;
@@ -157,8 +160,8 @@ static inline match find_run(const cs_deflate *deflate, const unsigned char *at,
   return (match){0, 0};
 }
 
-static inline uint32_t *places_of(cs_deflate *deflate, uint32_t word) {
-  return deflate->latest[word * 2654435761u >> (32 - HASH_BITS)];
+static inline uint32_t *latest_of(cs_deflate *deflate, uint32_t word) {
+  return &deflate->latest[word * 2654435761u >> (32 - HASH_BITS)];
 }
 
 static inline uint32_t position_of(const cs_deflate *deflate, const unsigned char *at) {
@@ -166,35 +169,74 @@ static inline uint32_t position_of(const cs_deflate *deflate, const unsigned cha
 }
 
 static inline void remember(cs_deflate *deflate, const unsigned char *at) {
-  uint32_t *places = places_of(deflate, load_4(at));
-  places[1] = places[0];
-  places[0] = position_of(deflate, at);
+  uint32_t *latest = latest_of(deflate, load_4(at)), position = position_of(deflate, at);
+  deflate->before[position % WINDOW] = *latest;
+  *latest = position;
 }
 
-/* The longer of the last two occurrences of the next four bytes. */
-static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, size_t history,
-                                 size_t most) {
-  uint32_t word = load_4(at), position = position_of(deflate, at);
-  const uint32_t *places = places_of(deflate, word);
+/* About the bits that a match costs beyond its length's, and those of literals of residues: small
+ * ones are common. */
+static inline int distance_bits(size_t distance) {
+  return distance <= 8 ? 2 : 3 + (31 - __builtin_clz((unsigned)distance));
+}
+
+static inline int literal_bits(unsigned char byte) {
+  unsigned size = (unsigned)(byte < 128 ? byte : 256 - byte) + 1;
+  return 2 + (31 - __builtin_clz(size)) * 5 / 4;
+}
+
+enum { LENGTH_BITS = 7, SURE = 12 };
+
+/* Bits won over literals; a match longer than SURE always wins. */
+static inline int gain(const unsigned char *at, match found) {
+  int bits = -LENGTH_BITS - distance_bits(found.distance);
+  size_t counted = found.length < SURE ? found.length : SURE;
+  for (size_t i = 0; i < counted; i++)
+    bits += literal_bits(at[i]);
+  return bits + 3 * (int)(found.length - counted);
+}
+
+/* The last occurrences of the next four bytes, against a run. */
+static inline match find(cs_deflate *deflate, size_t next) {
+  const unsigned char *at = deflate->buffer + next;
+  size_t end = deflate->end, history = next - deflate->start;
+  size_t most = end - next < LONGEST ? end - next : LONGEST;
   match best = {0, 0};
-  for (int i = 0; i < 2; i++) {
-    size_t distance = position - places[i];
-    if (distance - 1 >= WINDOW || distance > history || load_4(at - distance) != word)
+  if (most < SHORTEST)
+    return best;
+  best = find_run(deflate, at, history, most);
+  int best_score = best.length ? 4 * (int)best.length - distance_bits(best.distance) : 0;
+  uint32_t word = load_4(at), position = position_of(deflate, at);
+  uint32_t place = *latest_of(deflate, word);
+  size_t last_distance = 0;
+  for (int i = 0; i < CHAIN && best.length < most; i++, place = deflate->before[place % WINDOW]) {
+    size_t distance = position - place;
+    if (distance <= last_distance || distance >= WINDOW || distance > history)
+      break;
+    last_distance = distance;
+    if (load_4(at - distance) != word || at[best.length] != at[best.length - distance])
       continue;
     size_t length = match_length(at, distance, most);
-    if (length > best.length)
+    int score = 4 * (int)length - distance_bits(distance);
+    if (score > best_score) {
       best = (match){length, distance};
+      best_score = score;
+    }
   }
+  if (best.length > 0 && best.length <= SURE && gain(at, best) <= 0)
+    best.length = 0;
+  remember(deflate, at);
   return best;
 }
 
 /* The places inside short matches are worth remembering in photographs; those inside long ones only
  * push out the starts of flat runs. */
-static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t most,
+static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t done,
                              match found) {
+  const unsigned char *end = deflate->buffer + deflate->end;
   put_token(deflate, cs_token_match(found.length, found.distance));
   if (found.length <= REMEMBERED && found.distance > deflate->pixel_size)
-    for (size_t i = 1; i < found.length && i + SHORTEST <= most; i++)
+    for (size_t i = done; i < found.length && at + i + SHORTEST <= end; i++)
       remember(deflate, at + i);
 }
 
@@ -202,20 +244,21 @@ static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_
 static void search(cs_deflate *deflate) {
   size_t next = deflate->next, end = deflate->end;
   while (next < end) {
-    const unsigned char *at = deflate->buffer + next;
-    size_t most = end - next < LONGEST ? end - next : LONGEST, history = next - deflate->start;
-    match best = {0, 0};
-    if (most >= SHORTEST) {
-      best = find_run(deflate, at, history, most);
-      match earlier = find_earlier(deflate, at, history, most);
-      if (earlier.length > best.length)
-        best = earlier;
-      remember(deflate, at);
+    match best = find(deflate, next);
+    size_t done = 1;
+    while (best.length > 0 && best.length < LAZY && next + 1 < end) {
+      match later = find(deflate, next + 1);
+      done = 2;
+      if (later.length <= best.length)
+        break;
+      put_token(deflate, deflate->buffer[next++]);
+      best = later;
+      done = 1;
     }
     if (best.length == 0)
-      put_token(deflate, *at);
+      put_token(deflate, deflate->buffer[next]);
     else
-      put_match(deflate, at, most, best);
+      put_match(deflate, deflate->buffer + next, done, best);
     next += best.length == 0 ? 1 : best.length;
   }
   deflate->next = next;

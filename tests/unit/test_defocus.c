@@ -6,7 +6,7 @@
 #include "tests/support/scene.h"
 
 #define SIDE 48
-#define CELLS 220 /* probe samples across a kernel */
+#define CELLS 120 /* probe samples across a kernel */
 
 typedef struct view {
   int32_t width, height;

@@ -196,13 +196,15 @@ int main(void) {
   if (!CHECK(descriptor >= 0) || !CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
     return check_done();
   close(descriptor);
+  size_t before, after, peak;
+  uint64_t allocations;
+  celspan_context_memory(context, &before, &peak, &allocations);
   for (uint64_t seed = 0; seed < 500; seed++)
     check_case(context, seed);
   test_codings(context);
   test_unfinished(context);
-  size_t bytes;
-  celspan_context_memory(context, &bytes, NULL, NULL);
-  CHECK(bytes == 0);
+  celspan_context_memory(context, &after, &peak, &allocations);
+  CHECK(after == before);
   celspan_context_destroy(context);
   unlink(path);
   return check_done();

@@ -1,24 +1,20 @@
--- A decoder of span files, written from docs/spanfile.md alone: `lua decode.lua FILE OUT` writes all
--- pixels; `lua decode.lua FOLDER COUNT` holds FOLDER/i.span against FOLDER/i.pixels.
+-- A decoder of span files, written from docs/spanfile.md alone: all bytes in, all pixels out.
 
 local function crc32c(bytes)
   local sum = 0xffffffff
   for i = 1, #bytes do
     sum = sum ~ bytes:byte(i)
-    for _ = 1, 8 do
-      sum = (sum & 1) ~= 0 and sum >> 1 ~ 0x82f63b78 or sum >> 1
-    end
+    for _ = 1, 8 do sum = sum & 1 == 1 and sum >> 1 ~ 0x82f63b78 or sum >> 1 end
   end
   return sum ~ 0xffffffff
 end
 
 local function varint(bytes, at)
   local number, shift = 0, 0
-  repeat
-    local byte = bytes:byte(at)
-    number, shift, at = number | (byte & 127) << shift, shift + 7, at + 1
-  until byte < 128
-  return number, at
+  while bytes:byte(at) >= 128 do
+    number, shift, at = number | (bytes:byte(at) & 127) << shift, shift + 7, at + 1
+  end
+  return number | bytes:byte(at) << shift, at + 1
 end
 
 local function from_half(half)
@@ -30,133 +26,91 @@ end
 local function to_half(number)
   local sign = (number < 0 or 1 / number < 0) and 0x8000 or 0
   local size, exponent = math.abs(number), 1
-  while size >= 2.0 ^ (exponent - 14) do
-    exponent = exponent + 1
-  end
-  local steps = size / 2.0 ^ (exponent - 25) -- 1024 to 2048, or less with exponent 1
-  local whole = math.floor(steps)
-  local rest = steps - whole
-  whole = (rest > 0.5 or rest == 0.5 and whole % 2 == 1) and whole + 1 or whole
+  while size >= 2.0 ^ (exponent - 14) do exponent = exponent + 1 end
+  local steps = size / 2.0 ^ (exponent - 25)
+  local whole, rest = math.floor(steps), steps - math.floor(steps)
+  if rest > 0.5 or rest == 0.5 and whole % 2 == 1 then whole = whole + 1 end
   return sign | ((exponent - 1) << 10) + whole
 end
 
-local function gradient(layout, first, last, count)
-  local a, b, pixels = {layout:unpack(first)}, {layout:unpack(last)}, {}
-  for i = 0, count - 1 do
-    local v, n = {}, count - 1
+local function gradient(layout, ends, count)
+  local a, b, n = {layout.form:unpack(ends)}, {layout.form:unpack(ends, layout.size + 1)}, count - 1
+  local pixels, v = {}, {}
+  for i = 0, n do
     for c = 1, 4 do
-      if layout.is_half then
-        v[c] = to_half((from_half(a[c]) * (n - i) + from_half(b[c]) * i) / n)
-      else
-        v[c] = (a[c] * (n - i) + b[c] * i + n // 2) // n
-      end
+      v[c] = not layout.is_half and (a[c] * (n - i) + b[c] * i + n // 2) // n
+        or to_half((from_half(a[c]) * (n - i) + from_half(b[c]) * i) / n)
     end
-    pixels[#pixels + 1] = layout.format:pack(table.unpack(v))
+    pixels[i + 1] = layout.form:pack(table.unpack(v, 1, 4))
   end
   return table.concat(pixels)
 end
 
--- The spans of a row from its packets: {kind, length, pixel of a run}, and the values of the others.
-local function packets(payload, pixel_size)
+-- The spans of a row from its packets, and the pixels of those that are no runs.
+local function read_packets(payload, size)
   local spans, values, at = {}, {}, 1
   while at <= #payload do
     local kind, count = ("<BI2"):unpack(payload, at)
-    count = count + 1
-    local size = (kind == 0 and count or kind) * pixel_size
-    local data, last = payload:sub(at + 3, at + 2 + size), spans[#spans]
-    local pixel = kind == 1 and data or ""
+    local data = payload:sub(at + 3, at + 2 + (kind == 0 and count + 1 or kind) * size)
+    local last, pixel = spans[#spans], kind == 1 and data or ""
     if last and kind ~= 2 and last.kind == kind and last.pixel == pixel then
-      last.length = last.length + count
+      last.length = last.length + count + 1
     else
-      spans[#spans + 1] = {kind = kind, length = count, pixel = pixel}
+      spans[#spans + 1] = {kind = kind, length = count + 1, pixel = pixel, move = 0}
     end
     values[#values + 1] = kind == 1 and "" or data
-    at = at + 3 + size
+    at = at + 3 + #data
   end
   return spans, table.concat(values)
 end
 
-local function move(spans, moves, payload)
-  local at, shift = (#spans - 1 + 3) // 4 + 1, 0
-  for i = 1, #spans - 1 do
-    local code = payload:byte((i - 1) // 4 + 1) >> (i - 1) % 4 * 2 & 3
-    local rest = code == 2 and -1 or code
-    if code == 3 then
-      rest, at = varint(payload, at)
-      rest = rest & 1 ~= 0 and -(rest >> 1) - 1 or rest >> 1
+local function read_moves(spans, payload)
+  local at, before = (#spans - 1 + 3) // 4 + 1, 0
+  for i, span in ipairs(spans) do
+    if i < #spans then
+      local code = payload:byte((i - 1) // 4 + 1) >> 2 * ((i - 1) % 4) & 3
+      local more = code == 2 and -1 or code
+      if code == 3 then
+        more, at = varint(payload, at)
+        more = more % 2 == 0 and more // 2 or -(more + 1) // 2
+      end
+      span.move = span.move + more
     end
-    moves[i] = (moves[i] or 0) + rest
-    spans[i].length, shift = spans[i].length + moves[i] - shift, moves[i]
+    span.length, before = span.length + span.move - before, span.move
   end
-  spans[#spans].length = spans[#spans].length - shift
   return payload:sub(at)
 end
 
 local function pixels_of(spans, values, layout)
   local row, at = {}, 1
   for i, span in ipairs(spans) do
-    local size = (span.kind == 0 and span.length or span.kind == 2 and 2 or 0) * layout.pixel_size
-    local data = values:sub(at, at + size - 1)
+    local count = span.kind == 0 and span.length or span.kind == 2 and 2 or 0
+    local data = values:sub(at, at + count * layout.size - 1)
+    at = at + #data
     row[i] = span.kind == 0 and data or span.kind == 1 and span.pixel:rep(span.length)
-      or gradient(layout, data:sub(1, size // 2), data:sub(size // 2 + 1), span.length)
-    at = at + size
+      or gradient(layout, data, span.length)
   end
   return table.concat(row)
 end
 
 local function decode(bytes)
-  local width, height, format = ("<I4I4I4"):unpack(bytes, 27)
-  assert(bytes:sub(19, 26) == "celspan\1" and crc32c(bytes:sub(1, 42)) == ("<I4"):unpack(bytes, 43))
-  local layout = {is_half = format == 2, pixel_size = format * 4, format = format == 2 and "<I2I2I2I2" or "BBBB"}
-  function layout:unpack(pixel) return self.format:unpack(pixel) end
-  local rows, at, spans, values, moves = {}, 47, nil, nil, nil
+  local magic, width, height, format = ("<c8I4I4I4"):unpack(bytes, 19)
+  assert(magic == "celspan\1" and crc32c(bytes:sub(1, 42)) == ("<I4"):unpack(bytes, 43))
+  local is_half = format == 2
+  local layout = {is_half = is_half, size = 4 * format, form = is_half and "<I2I2I2I2" or "BBBB"}
+  local rows, at, spans, values = {}, 47, nil, nil
   while #rows < height do
-    local kind, size = bytes:sub(at, at), nil
-    local payload_at
-    size, payload_at = varint(bytes, at + 1)
-    local payload, sum_at = bytes:sub(payload_at, payload_at + size - 1), payload_at + size
-    local number = kind == "I" and 0xffffffff or #rows
-    assert(crc32c(("<I4"):pack(number) .. bytes:sub(at, sum_at - 1)) == ("<I4"):unpack(bytes, sum_at))
-    at = sum_at + 4
-    if kind == "P" then
-      spans, values = packets(payload, layout.pixel_size)
-      moves = {}
-    elseif kind == "M" then
-      values = move(spans, moves, payload)
-    elseif kind == "S" then
-      moves = {}
-    end
-    if kind ~= "I" then
-      rows[#rows + 1] = pixels_of(spans, values, layout)
-      assert(#rows[#rows] == width * layout.pixel_size)
-    end
+    local kind, size, start = bytes:sub(at, at), varint(bytes, at + 1)
+    local payload = bytes:sub(start, start + size - 1)
+    local number = ("<I4"):pack(kind == "I" and 0xffffffff or #rows)
+    assert(crc32c(number .. bytes:sub(at, start + size - 1)) == ("<I4"):unpack(bytes, start + size))
+    at = start + size + 4
+    if kind == "P" then spans, values = read_packets(payload, layout.size) end
+    if kind == "M" then values = read_moves(spans, payload) end
+    for i = 1, kind == "S" and #spans or 0 do spans[i].move = 0 end
+    if kind ~= "I" then rows[#rows + 1] = pixels_of(spans, values, layout) end
   end
-  return table.concat(rows)
+  return table.concat(rows), width, height
 end
 
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local bytes = file:read("a")
-  file:close()
-  return bytes
-end
-
-local count = tonumber(arg[2])
-if not count then
-  local file = assert(io.open(arg[2], "wb"))
-  file:write(decode(read(arg[1])))
-  file:close()
-  return
-end
-local good = 0
-for i = 0, count - 1 do
-  local path = arg[1] .. "/" .. i
-  if decode(read(path .. ".span")) == read(path .. ".pixels") then
-    good = good + 1
-  else
-    io.stderr:write(path, ".span: other pixels\n")
-  end
-end
-print(good == count and ("%d checks passed"):format(count)
-  or ("%d of %d checks failed"):format(count - good, count))
-os.exit(good == count)
+return decode

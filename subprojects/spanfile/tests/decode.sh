@@ -1,5 +1,5 @@
 #!/bin/sh
-# decode.sh MAKE_RANDOM LUA DECODER: random files, decoded by the decoder that shares no code.
+# decode.sh MAKE_RANDOM LUA CHECK DECODER: random files, read by the decoder that shares no code.
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
-"$1" "$folder" 200 >/dev/null && "$2" "$3" "$folder" 200
+"$1" "$folder" 200 >/dev/null && "$2" "$3" "$4" "$folder" 200

@@ -1,0 +1,67 @@
+-- Scene to span file to pixels equals scene to pixels, byte for byte: random scenes, every fourth with
+-- a picture, in both depths; read back by the decoder that was written from docs/spanfile.md alone.
+--
+-- A failure prints the number of its scene. CELSPAN_SCENES=n sets how many are tried.
+local decode = dofile "subprojects/spanfile/tests/decode.lua"
+
+local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 500
+local BINARY = os.getenv "CELSPAN" or "build/celspan"
+local WIDTH, HEIGHT = 61, 47
+
+-- One film, a scene a frame. Arguments: a picture, or nothing when none can be read.
+local SCRIPT = [[
+local celspan = require "celspan"
+local scenes = require "tests.support.scenes"
+local picture = ...
+return celspan.film{ size = {%d, %d}, frames = %d, frame = function(f)
+  local exposures = scenes.load(scenes.script(f.number)):at(1)
+  if not picture or f.number %% 4 > 0 then return exposures end
+  local image = celspan.image{ file = picture, x = -3, y = 5, w = 50, h = 33 }
+  if type(exposures) ~= "table" then exposures = { { exposures, 1 } } end
+  return { { celspan.rostrum{ celspan.cel{ image:rotate(f.number) } }, 0.7 },
+           table.unpack(exposures) }
+end }
+]]
+
+local function run(command)
+  local stream = assert(io.popen(command, "r"))
+  local output = stream:read("a")
+  assert(stream:close(), command)
+  return output
+end
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local bytes = file:read("a")
+  file:close()
+  return bytes
+end
+
+local function compare(folder, picture, depth, pixel_size)
+  local command = ("%s render %s/film.lua --progress none --depth %s -o %%s -- %s"):format(
+    BINARY, folder, depth, picture)
+  run(command:format(folder .. "/####.span"))
+  local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}
+  assert.equal(COUNT * size, #raw)
+  for frame = 1, COUNT do
+    local pixels = decode(read(("%s/%04d.span"):format(folder, frame)))
+    if pixels ~= raw:sub((frame - 1) * size + 1, frame * size) then wrong[#wrong + 1] = frame end
+  end
+  assert.equal("", table.concat(wrong, " "), depth)
+end
+
+describe("a span file", function()
+  it("has the very pixels of the scene", function()
+    local folder = run("mktemp -d"):gsub("\n", "")
+    local film = assert(io.open(folder .. "/film.lua", "w"))
+    film:write(SCRIPT:format(WIDTH, HEIGHT, COUNT))
+    film:close()
+    local pwd = os.getenv "PWD"
+    local picture = pwd .. "/scripts/pictures/village.png"
+    local answer = run(BINARY .. " convert " .. picture .. " " .. folder .. "/x.png 2>&1 || true")
+    picture = answer:find("celspan-picture.so", 1, true) and "" or picture
+    compare(folder, picture, "8", 4)
+    compare(folder, picture, "half", 8)
+    run("rm -rf " .. folder)
+  end)
+end)

@@ -1,0 +1,212 @@
+-- Span files at the command line, and in programs built on OpenImageIO.
+
+local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local BUILD = os.getenv("CELSPAN_BUILD") or "build"
+
+local folder
+
+local function write(name, text)
+  local file = assert(io.open(folder .. "/" .. name, "wb"))
+  file:write(text)
+  file:close()
+end
+
+local function read(name)
+  local file = io.open(folder .. "/" .. name, "rb")
+  local text = file and file:read("a")
+  if file then file:close() end
+  return text
+end
+
+--- Runs a command in the folder of this spec: its exit code, standard output and error.
+local function shell(command)
+  local _, how, code = os.execute(("cd '%s' && ( %s ) >stdout 2>stderr"):format(folder, command))
+  return how == "signal" and 128 + code or code, read "stdout", read "stderr"
+end
+
+local binary = BINARY:sub(1, 1) == "/" and BINARY or os.getenv("PWD") .. "/" .. BINARY
+
+local function celspan(arguments) return shell(binary .. " " .. arguments) end
+
+local function done(arguments)
+  local code, out, err = celspan(arguments)
+  assert.equal(0, code, err)
+  return out
+end
+
+--- Pictures that are not PNG or span files need the picture module.
+local function has_pictures()
+  local answer = assert(io.popen(BINARY .. " convert no-such.png no-such-either.png 2>&1"))
+  local text = answer:read("a")
+  answer:close()
+  return not text:find("celspan-picture.so", 1, true)
+end
+local it_reads_pictures = has_pictures() and it or pending
+
+--- A plug-in built with a sanitizer cannot be loaded by programs built without.
+local plugin = (BUILD:sub(1, 1) == "/" and BUILD or os.getenv("PWD") .. "/" .. BUILD)
+  .. "/src/picture/plugin"
+local function has_oiiotool()
+  return not BUILD:find("san", 1, true) and has_pictures()
+    and os.execute("command -v oiiotool >/dev/null 2>&1")
+end
+local it_opens = has_oiiotool() and it or pending
+
+local function oiiotool(arguments)
+  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s"):format(plugin, arguments))
+end
+
+local SCENE = [[
+local celspan = require "celspan"
+return celspan.film{ size = {300, 200}, frames = 1, frame = function(f)
+  return celspan.rostrum{ celspan.cel{
+    celspan.rect{ 20, 20, 200, 120, texture = celspan.rgb(0, 0, 1, 0.25) },
+    celspan.rect{ 0, 160, 300, 40, texture = celspan.linear{ from = {0, 160}, to = {300, 160},
+      {0, celspan.rgb(0, 0, 0)}, {1, celspan.rgb(1, 0.5, 0.2)} } },
+    celspan.circle{ centre = {150, 90}, radius = 70.3, texture = celspan.rgb(1, 0, 0) } } }
+end }
+]]
+
+local OPAQUE = [[
+local celspan = require "celspan"
+return celspan.film{ size = {120, 90}, frames = 1, frame = function(f)
+  return celspan.rostrum{ back = "#fff", celspan.cel{
+    celspan.circle{ centre = {60, 45}, radius = 40.3, texture = celspan.rgb(1, 0, 0, 0.5) } } }
+end }
+]]
+
+setup(function()
+  local answer = assert(io.popen("mktemp -d"))
+  folder = answer:read("l")
+  answer:close()
+  write("scene.lua", SCENE)
+  write("opaque.lua", OPAQUE)
+  done("render scene.lua -o scene.span --progress none")
+  done("render scene.lua -o half.span --depth half --progress none")
+  done("render scene.lua -o scene.png --progress none")
+end)
+
+teardown(function() os.execute("rm -rf '" .. folder .. "'") end)
+
+describe("a span file", function()
+  it("holds the same pixels after it is converted to another", function()
+    for _, name in ipairs { "scene", "half" } do
+      done(("convert %s.span again.span%s"):format(name, name == "half" and " --depth half" or ""))
+      done(("compare %s.span again.span"):format(name))
+    end
+  end)
+
+  it_reads_pictures("equals the same frame as PNG and as EXR", function()
+    done("compare scene.span scene.png")
+    done("render scene.lua -o scene.exr --progress none")
+    done("compare half.span scene.exr")
+    done("convert scene.png from-png.span")
+    assert.equal(0, (celspan("compare from-png.span scene.span")))
+  end)
+
+  it("is told about by info", function()
+    local out = done("info scene.span")
+    assert.truthy(out:find("format span\nsize 300x200\ndepth 8\n", 1, true), out)
+    local rows = 0
+    for count in out:gmatch("rows_%a+ (%d+)") do rows = rows + tonumber(count) end
+    assert.equal(200, rows)
+    assert.truthy(done("info half.span"):find("depth half", 1, true))
+  end)
+
+  it("is recognised by what it holds, not by its name", function()
+    write("named.png", read "scene.span")
+    done("compare named.png scene.span")
+  end)
+
+  it("is told apart from another by compare", function()
+    done("render opaque.lua -o opaque.span --progress none")
+    assert.equal(1, (celspan("compare scene.span opaque.span")))
+    done("render opaque.lua -o opaque-half.span --depth half --progress none")
+    done("compare opaque.span opaque-half.span --fail 0.002")
+    assert.equal(1, (celspan("compare opaque.span opaque-half.span")))
+  end)
+
+  it("gives any part of itself", function()
+    done("render scene.lua -o part.span --crop 100,30,90,140 --progress none")
+    done("convert scene.span cropped.span --crop 100,30,90,140")
+    done("compare part.span cropped.span")
+  end)
+
+  it_reads_pictures("is scaled as other pictures are", function()
+    done("render opaque.lua -o opaque.span --progress none")
+    done("render opaque.lua -o opaque.png --progress none")
+    for _, size in ipairs { "60x45", "53x41", "240x180", "50x300", "300x50", "120x50", "1x1" } do
+      done("convert opaque.span a.span --size " .. size)
+      done("convert opaque.png b.png --size " .. size)
+      local code, out = celspan("compare a.span b.png --fail 0.005")
+      assert.equal(0, code, size .. ": " .. out)
+    end
+  end)
+
+  it("is refused when it is cut or altered, with the byte and the reason", function()
+    local whole = read "scene.span"
+    write("cut.span", whole:sub(1, -2))
+    local middle = #whole // 2
+    write("altered.span", whole:sub(1, middle) .. string.char(whole:byte(middle + 1) ~ 1)
+      .. whole:sub(middle + 2))
+    for name, pattern in pairs { cut = "cut.span: byte %d+: cut", altered = "altered.span: byte %d+: row %d+: " } do
+      for _, verb in ipairs { "info %s.span", "convert %s.span out.span", "compare %s.span scene.span" } do
+        local code, _, err = celspan(verb:format(name))
+        assert.equal(4, code, err)
+        assert.truthy(err:match("^celspan: error: " .. pattern), err)
+        assert.is_nil(read "out.span")
+      end
+    end
+  end)
+
+  it("holds two depths", function()
+    local code, _, err = celspan("render scene.lua -o deep.span --depth 16 --progress none")
+    assert.equal(3, code)
+    assert.truthy(err:find("span files hold depth 8", 1, true), err)
+    assert.is_nil(read "deep.span")
+  end)
+
+  it("may be a million pixels wide or high", function()
+    for _, size in ipairs { "1000000x1", "1x1000000" } do
+      done("render opaque.lua -o long.span --progress none --size " .. size)
+      assert.truthy(done("info long.span"):find("size " .. size, 1, true))
+    end
+  end)
+end)
+
+describe("the plug-in for OpenImageIO", function()
+  it_opens("shows the pixels of the file", function()
+    done("render opaque.lua -o opaque.span --progress none")
+    done("render opaque.lua -o opaque.tif --progress none")
+    done("render scene.lua -o scene.exr --progress none")
+    for _, pair in ipairs { "opaque.span opaque.tif", "half.span scene.exr" } do
+      local code, out, err = oiiotool(pair .. " --diff")
+      assert.equal(0, code, out .. err)
+    end
+    local code, out, err = oiiotool("--iconfig oiio:UnassociatedAlpha 1 scene.span "
+      .. "--iconfig oiio:UnassociatedAlpha 1 scene.png --diff")
+    assert.equal(0, code, out .. err)
+  end)
+
+  it_opens("says what the file is", function()
+    local code, out, err = oiiotool("--info -v scene.span half.span")
+    assert.equal(0, code, err)
+    assert.truthy(out:find("300 x  200, 4 channel, uint8 span", 1, true), out)
+    assert.truthy(out:find("300 x  200, 4 channel, half span", 1, true), out)
+    assert.truthy(out:find('oiio:ColorSpace: "sRGB"', 1, true), out)
+  end)
+
+  it_opens("reads rows in any order", function()
+    local code, out, err = oiiotool("half.span --cut 300x1+0+150 -o row.exr half.span --flip --flop "
+      .. "-o turned.exr row.exr half.span --cut 300x1+0+150 --diff")
+    assert.equal(0, code, out .. err)
+  end)
+
+  it_opens("refuses what is cut or altered", function()
+    local whole = read "scene.span"
+    write("cut.span", whole:sub(1, -2))
+    local code, out, err = oiiotool("cut.span -o never.png")
+    assert.not_equal(0, code)
+    assert.truthy((out .. err):find("cut: there is no trailer at the end", 1, true), out .. err)
+  end)
+end)

@@ -1,0 +1,124 @@
+/* A frame under a memory that fails: whatever allocation fails, the status says so, nothing is lost,
+ * and the same context then makes the same frame. And one that has been seen: it allocates no more. */
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+#include "tests/support/scene.h"
+
+#define WIDTH 61
+#define HEIGHT 47
+
+static celspan_status stripes(void *user, celspan_context *context, double y,
+                              const celspan_scanline_row *row, celspan_scanline_output *output) {
+  celspan_paint paints[2] = {celspan_paint_rgb(1, 0, 0, 1), celspan_paint_gel(0, 1, 0.5f)};
+  (void)user, (void)context, (void)row;
+  for (int i = 0; i < 3; i++) {
+    celspan_status status =
+        celspan_scanline_emit(output, 10 * i + 0.1 * y, 10 * i + 6, paints, i == 1 ? 2 : 1);
+    if (status != CELSPAN_OK)
+      return status;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_object *random_blob(studio *s, test_random *random) {
+  celspan_point points[5];
+  celspan_stop stops[3] = {{0, celspan_paint_rgb(1, 0.5f, 0, 0.75f)},
+                           {0.5, celspan_paint_gel(0.5f, 1, 0.5f)},
+                           {1, celspan_paint_rgb(0, 0, 1, 1)}};
+  for (int i = 0; i < 5; i++)
+    points[i] = (celspan_point){random_between(random, -10, WIDTH + 10),
+                                random_between(random, -10, HEIGHT + 10)};
+  celspan_texture *texture =
+      random_below(random, 2) ? studio_paint(s, stops[0].paint)
+                              : studio_radial(s, (celspan_point){30, 20}, 25, stops, 3);
+  return studio_polygon(s, points, 5, CELSPAN_RULE_NONZERO, texture);
+}
+
+/* Twelve shapes, two of them in a faded difference, and a scan-line primitive. */
+static celspan_rostrum *make_scene(studio *s) {
+  test_random random = {4};
+  celspan_object *objects[12];
+  for (int i = 0; i < 12; i++)
+    objects[i] = random_blob(s, &random);
+  objects[3] = studio_pair(s, CELSPAN_DIFFERENCE, objects[3], random_blob(s, &random));
+  celspan_scanline_desc desc = {.bounds = {5, 5, 40, 30}, .spans = stripes, .any_thread = true};
+  celspan_object *lines = NULL;
+  studio_check(s, celspan_object_create_scanline(s->context, &desc, &lines));
+  if (lines)
+    s->objects[s->object_count++] = objects[7] = lines;
+  celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;
+  cel_desc.opacity = 0.9;
+  celspan_cel *cel = studio_cel(s, cel_desc, objects, 12);
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+}
+
+static celspan_frame_desc frame_of(const celspan_exposure *exposures,
+                                   const celspan_antialias_mode *mode) {
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = exposures;
+  desc.exposure_count = 2;
+  desc.width = WIDTH;
+  desc.height = HEIGHT;
+  desc.antialias = mode;
+  desc.workers = 1;
+  return desc;
+}
+
+static void check_failures_of(studio *s, memory_watch *watch, const celspan_frame_desc *desc) {
+  uint64_t expected[2], digest[2];
+  studio_check(s, celspan_frame_digest(s->context, desc, NULL, expected));
+  size_t bytes = watch->bytes, failures = 0;
+  for (celspan_status status = CELSPAN_NO_MEMORY; status != CELSPAN_OK; failures++) {
+    watch->fail_at = watch->allocations + failures + 1;
+    status = celspan_frame_digest(s->context, desc, NULL, digest);
+    watch->fail_at = 0;
+    if (!CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY) ||
+        !CHECK(watch->bytes == bytes))
+      break;
+    studio_check(s, celspan_frame_digest(s->context, desc, NULL, digest));
+    CHECK(digest[0] == expected[0] && digest[1] == expected[1]);
+  }
+  CHECK(failures > 30);
+  CHECK(watch->size_errors == 0);
+}
+
+/* Every row once, from top to bottom; returns the allocations that took. */
+static size_t visit_rows(studio *s, const memory_watch *watch, celspan_rows *rows) {
+  size_t before = watch->allocations;
+  for (int32_t y = 0; y < HEIGHT; y++) {
+    const celspan_span *spans;
+    size_t count;
+    studio_check(s, celspan_rows_get(rows, y, &spans, &count));
+  }
+  return watch->allocations - before;
+}
+
+static void check_settled(studio *s, const memory_watch *watch, const celspan_frame_desc *desc) {
+  celspan_rows *rows = NULL;
+  studio_check(s, celspan_rows_create(s->context, desc, &rows));
+  if (!rows)
+    return;
+  CHECK(visit_rows(s, watch, rows) > 0);
+  CHECK(visit_rows(s, watch, rows) == 0);
+  celspan_rows_destroy(rows);
+}
+
+int main(void) {
+  static const celspan_antialias_mode modes[] = {CELSPAN_ANTIALIAS_NONE, CELSPAN_ANTIALIAS_AREA};
+  memory_watch watch = {0};
+  studio s = {.context = memory_watch_context(&watch)};
+  if (!s.context)
+    return 1;
+  celspan_exposure exposures[2];
+  exposures[0] = (celspan_exposure){make_scene(&s), 0.75};
+  exposures[1] = (celspan_exposure){exposures[0].rostrum, 0.5};
+  for (int m = 0; m < 2; m++) {
+    celspan_frame_desc desc = frame_of(exposures, &modes[m]);
+    check_failures_of(&s, &watch, &desc);
+    check_settled(&s, &watch, &desc);
+  }
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0);
+  return check_done();
+}
