@@ -119,9 +119,11 @@ static bool swing_reaches(swing *line, const cs_soft *soft, const cs_seen_soft *
   for (int plane = 0; plane < soft->planes; plane++) {
     cs_v4 slope = (node(soft, seen, plane, i) - line->start[plane]) * across;
     for (int c = 0; c < 4; c++) {
-      reaches = reaches && slope[c] >= line->least[plane][c] && slope[c] <= line->most[plane][c];
-      line->least[plane][c] = fmaxf(line->least[plane][c], slope[c] - slack);
-      line->most[plane][c] = fminf(line->most[plane][c], slope[c] + slack);
+      float low = slope[c] - slack, high = slope[c] + slack;
+      float least = line->least[plane][c], most = line->most[plane][c];
+      reaches &= slope[c] >= least && slope[c] <= most;
+      line->least[plane][c] = low > least ? low : least;
+      line->most[plane][c] = high < most ? high : most;
     }
   }
   return reaches;

@@ -109,15 +109,15 @@ static bool slice_parallelogram(const cs_kernel *kernel, double d, double *from,
   double low = -1, high = 1, steep = e[1][1];
   if (e[0][1] != 0) { /* d = s e0.y + t e1.y, |t| <= 1 */
     double a = (d - steep) / e[0][1], b = (d + steep) / e[0][1];
-    low = fmax(low, fmin(a, b));
-    high = fmin(high, fmax(a, b));
+    low = cs_number_clamp(a < b ? a : b, -1, 1);
+    high = cs_number_clamp(a < b ? b : a, -1, 1);
   }
   if (!(low <= high) || !(fabs(d) <= fabs(e[0][1]) + fabs(steep)))
     return false;
   double a = low * e[0][0] + (d - low * e[0][1]) / steep * e[1][0];
   double b = high * e[0][0] + (d - high * e[0][1]) / steep * e[1][0];
-  *from = fmin(a, b);
-  *to = fmax(a, b);
+  *from = a < b ? a : b;
+  *to = a < b ? b : a;
   return true;
 }
 

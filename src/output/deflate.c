@@ -10,8 +10,8 @@ enum {
   LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  CHAIN = 64, /* earlier places looked at */
-  LAZY = 258,
+  CHAIN = 16, /* earlier places looked at */
+  LAZY = 100,
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
   ADLER_BASE = 65521
@@ -41,6 +41,7 @@ celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs
   if (!deflate)
     return cs_fail_memory(context);
   deflate->pixel_size = pixel_size;
+  deflate->base = 1;
   deflate->writer.write = write;
   deflate->writer.user = user;
   *out = deflate;
@@ -57,7 +58,7 @@ void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
 static void forget(cs_deflate *deflate) {
   if (deflate->base > UINT32_MAX / 2) {
     memset(deflate->latest, 0, sizeof deflate->latest);
-    deflate->base = 0;
+    deflate->base = 1; /* 0 is where nothing was */
   }
   deflate->start = deflate->next = deflate->end;
 }

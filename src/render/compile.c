@@ -2,12 +2,15 @@
 
 #include "base/number.h"
 #include "compose/shade.h"
+
+#include <math.h>
 #include "render/soft_layer.h"
 
 typedef struct compiler {
   celspan_context *context;
   cs_shot *shot;
   cs_boundary_frame frame;
+  double first_height, end_height; /* of the rows that will be asked for, margin included */
   size_t cel; /* from 1: for messages */
   cs_v4 front;
   uint32_t group; /* the faded group being filled */
@@ -93,6 +96,22 @@ static celspan_status append_leaf(compiler *c, double fade, celspan_rule rule, u
   return CELSPAN_OK;
 }
 
+/* Whether a box may show on the rows asked for: where its corners are all in front of the horizon,
+ * what is inside lies between them. */
+static bool meets_rows(const compiler *c, const celspan_box *box, const celspan_matrix *matrix) {
+  double low = INFINITY, high = -INFINITY;
+  for (int corner = 0; corner < 4; corner++) {
+    cs_hpoint own = {box->x + (corner & 1 ? box->width : 0),
+                     box->y + (corner & 2 ? box->height : 0), 1};
+    cs_hpoint at = cs_matrix_apply(matrix, own);
+    if (!(at.w > 0))
+      return true;
+    low = at.y / at.w < low ? at.y / at.w : low;
+    high = at.y / at.w > high ? at.y / at.w : high;
+  }
+  return high >= c->first_height && low <= c->end_height;
+}
+
 static celspan_status compile_outline(compiler *c, const cs_body *body, double fade,
                                       const celspan_matrix *matrix) {
   uint32_t index;
@@ -112,6 +131,9 @@ static celspan_status compile_outline(compiler *c, const cs_body *body, double f
     CS_TRY(fill_picture(c, leaf, texture, &body->bounds, &inverse));
   else
     CS_TRY(fill_shaded(c, leaf, texture, &inverse));
+  celspan_matrix facing = cs_matrix_facing(matrix);
+  if (!meets_rows(c, &body->bounds, &facing))
+    return CELSPAN_OK;
   return cs_boundary_add(c->context, &c->shot->boundaries, &body->outline, matrix, &c->frame,
                          index);
 }
@@ -375,29 +397,31 @@ static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostru
     CS_TRY(compile_cel(c, rostrum, i, &to_pixels, film_width, film_height));
   reverse_lights(&c->shot->stack);
   cs_boundary_sort(&c->shot->boundaries);
-  return c->shot->kernel ? CELSPAN_OK : cull(c); /* the cull's tiles end with the frame */
+  return cull(c);
 }
 
-static void begin(compiler *c, celspan_context *context, cs_shot *shot) {
+static void begin(compiler *c, celspan_context *context, cs_shot *shot, int32_t first_row,
+                  int32_t end_row) {
   double margin = shot->margin;
   *c = (compiler){.context = context,
                   .shot = shot,
                   .frame = {-margin, shot->width + margin, -margin, shot->height + margin},
+                  .first_height = first_row - margin - 1, /* a pixel more, against rounding */
+                  .end_height = end_row + margin + 1,
                   .group = CS_STACK_NONE};
   cs_boundary_init(&shot->boundaries);
 }
 
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
-                          double film_width, double film_height, int32_t width, int32_t height,
-                          const cs_antialias *antialias, cs_shot *out) {
-  cs_shot shot = {.width = width, .height = height, .antialias = antialias->mode};
+                          const cs_view *view, const cs_antialias *antialias, cs_shot *out) {
+  cs_shot shot = {.width = view->width, .height = view->height, .antialias = antialias->mode};
   if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
     CS_TRY(cs_kernel_create(context, antialias, &shot.kernel));
     shot.margin = cs_kernel_reach(shot.kernel);
   }
   compiler c;
-  begin(&c, context, &shot);
-  celspan_status status = compile_rostrum(&c, rostrum, film_width, film_height);
+  begin(&c, context, &shot, view->first_row, view->end_row);
+  celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
   if (status == CELSPAN_OK)
     *out = shot;
   else
@@ -414,7 +438,7 @@ static celspan_status compile_alone(compiler *c, const celspan_cel *cel,
   for (size_t i = 0; i < cel->object_count; i++)
     CS_TRY(compile_object(c, cel->objects[i], matrix));
   cs_boundary_sort(&c->shot->boundaries);
-  return c->shot->kernel ? CELSPAN_OK : cull(c);
+  return cull(c);
 }
 
 celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, size_t cel_index,
@@ -425,7 +449,7 @@ celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, 
                   .margin = kernel ? cs_kernel_reach(kernel) : 0,
                   .kernel = kernel};
   compiler c;
-  begin(&c, context, &shot);
+  begin(&c, context, &shot, 0, height);
   c.cel = cel_index + 1;
   celspan_status status = compile_alone(&c, cel, matrix, is_through);
   if (status == CELSPAN_OK)

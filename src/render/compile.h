@@ -10,12 +10,18 @@
 
 #include "filter/scan.h"
 
-/* film_width, film_height: the film's size in its units; width, height: the frame's in pixels.
- * Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera, for a rotated scan-line
+/* What of a film is looked at: its size in units, the frame's in pixels, and the rows that will be
+ * asked for. Outlines wholly above or below those are left out, which changes no bit of them. */
+typedef struct cs_view {
+  double film_width, film_height;
+  int32_t width, height;
+  int32_t first_row, end_row;
+} cs_view;
+
+/* Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera, for a rotated scan-line
  * primitive and for what is not built in, naming the cel. */
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
-                                          const celspan_rostrum *rostrum, double film_width,
-                                          double film_height, int32_t width, int32_t height,
+                                          const celspan_rostrum *rostrum, const cs_view *view,
                                           const cs_antialias *antialias, cs_shot *out);
 /* One cel alone, without opacity, onto a raster of its own: `matrix` takes its units there. Lit from
  * the front alone, or (is_through) from behind alone, by white light. kernel: taken over; NULL: the

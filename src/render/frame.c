@@ -102,8 +102,13 @@ static celspan_status compile_exposure(celspan_context *context, const celspan_f
   if (exposure->weight == 0)
     return CELSPAN_OK;
   bool has_film = desc->film_width != 0;
-  CS_TRY(cs_compile(context, exposure->rostrum, has_film ? desc->film_width : desc->width,
-                    has_film ? desc->film_height : desc->height, desc->width, desc->height,
+  cs_view view = {.film_width = has_film ? desc->film_width : desc->width,
+                  .film_height = has_film ? desc->film_height : desc->height,
+                  .width = desc->width,
+                  .height = desc->height,
+                  .first_row = frame->crop_y,
+                  .end_row = frame->crop_y + frame->crop_height};
+  CS_TRY(cs_compile(context, exposure->rostrum, &view,
                     antialias ? antialias : &exposure->rostrum->antialias,
                     &frame->shots[frame->count]));
   frame->weights[frame->count++] = (float)exposure->weight;

@@ -152,8 +152,8 @@ describe("the command line", function()
         usage_error("render x.lua -o y.png " .. option, "is not built into this version")
       end
       usage_error("render x.lua -o film.mp4", "is not built into this version")
-      usage_error("render x.lua -o shot.####.span", "is not built into this version")
-      usage_error("convert in.png out.span", "is not built into this version")
+      usage_error("render x.lua -o shot.mp4", "is not built into this version")
+      usage_error("convert in.png out.webm", "is not built into this version")
     end)
 
     it("counts operands", function()

@@ -108,13 +108,37 @@ static void resume(fitting *f) {
     keep(f);
 }
 
+/* Spans from here on that the row above has too: the first with what was kept before, the rest at
+ * once. */
+static void keep_alike(fitting *f) {
+  keep(f);
+  pass_model(f, 1);
+  const spanfile_span *first = f->now;
+  size_t pixels = 0;
+  while (f->now < f->end && f->model < f->model_end && is_alike(f->now, f->model) &&
+         !is_split_above(f)) {
+    if (f->now->kind != SPANFILE_RUN)
+      pixels += f->now->kind == SPANFILE_RAW ? f->now->end - f->now[-1].end : 2;
+    f->now++;
+    pass_model(f, 1);
+  }
+  size_t count = (size_t)(f->now - first), size = pixels * f->pixel_size;
+  while (f->out->capacity - f->out->count < count && f->has_memory)
+    f->has_memory &= sf_row_grow(f->memory, f->out);
+  f->has_memory &= sf_bytes_add(f->memory, &f->out->values, f->values, size);
+  if (!f->has_memory || count == 0)
+    return;
+  memcpy(f->out->spans + f->out->count, first, count * sizeof *first);
+  f->out->count += count;
+  f->values = size > 0 ? f->values + size : f->values;
+}
+
 static void take_span(fitting *f) {
   const spanfile_span *now = f->now, *model = f->model < f->model_end ? f->model : NULL;
   if (model && is_alike(now, model) && is_split_above(f)) {
     split(f);
   } else if (model && is_alike(now, model)) {
-    keep(f);
-    pass_model(f, 1);
+    keep_alike(f);
   } else if (now->kind == SPANFILE_RAW && is_after_raw(f)) {
     keep(f);
   } else if (model && model->kind == SPANFILE_RAW && now->kind == SPANFILE_RUN &&
@@ -126,28 +150,6 @@ static void take_span(fitting *f) {
   } else {
     resume(f);
   }
-}
-
-/* What is alike from the start, and not cut above, goes over at once. */
-static void keep_start(fitting *f, const sf_row *row) {
-  size_t pixels = 0;
-  uint32_t start = 0;
-  for (; f->now < f->end && f->model < f->model_end && is_alike(f->now, f->model); f->now++) {
-    if (is_split_above(f))
-      break;
-    pixels += f->now->kind == SPANFILE_RAW ? f->now->end - start : f->now->kind == SPANFILE_RUN ? 0 : 2;
-    start = f->now->end;
-    pass_model(f, 1);
-  }
-  size_t count = (size_t)(f->now - row->spans), size = pixels * f->pixel_size;
-  f->has_memory &= sf_bytes_add(f->memory, &f->out->values, f->values, size);
-  while (f->out->capacity < count && f->has_memory)
-    f->has_memory &= sf_row_grow(f->memory, f->out);
-  if (!f->has_memory || count == 0)
-    return;
-  memcpy(f->out->spans, row->spans, count * sizeof *row->spans);
-  f->out->count = count;
-  f->values = size > 0 ? f->values + size : f->values;
 }
 
 /* ---------------------------------------------------------------- */
@@ -170,7 +172,6 @@ sf_fitted sf_fit(const sf_memory *memory, spanfile_format format, const sf_row *
                .model_end = above->spans + above->count,
                .has_memory = true};
   sf_row_clear(out);
-  keep_start(&f, row);
   while (f.now < f.end && f.has_memory)
     take_span(&f);
   if (!f.has_memory)

@@ -91,6 +91,8 @@ bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format
   uint32_t continued = continued_length(row, at, count, size);
   if (continued > 0)
     row->spans[row->count - 1].end += continued;
+  if (count - continued < SF_RUN_LEAST)
+    return sf_pack_raw(memory, row, size, at + continued * size, count - continued);
   for (uint32_t i = continued; i < count;) {
     const unsigned char *here = at + i * size;
     uint32_t run = run_length(here, count - i, size);
