@@ -8,6 +8,7 @@ return {
   { name = "shapes", page = "docs/guide.md", size = "640x360" },
   { name = "gel", page = "docs/guide.md" },
   { name = "dusk", page = "docs/guide.md", frame = 36 },
+  { name = "soft", page = "docs/guide.md", frame = 12 },
   { name = "gradients", page = "docs/guide.md" },
   { name = "exposures", page = "docs/guide.md" },
   { name = "easing", page = "docs/guide.md" },

@@ -5,8 +5,9 @@
 #ifndef CS_CLI_SPANREAD_H
 #define CS_CLI_SPANREAD_H
 
+#include <spanfile.h>
+
 #include "celspan/celspan.h"
-#include "spanfile.h"
 
 typedef struct cs_spanread cs_spanread;
 

@@ -41,7 +41,6 @@ celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs
   if (!deflate)
     return cs_fail_memory(context);
   deflate->pixel_size = pixel_size;
-  deflate->base = 1;
   deflate->writer.write = write;
   deflate->writer.user = user;
   *out = deflate;
@@ -53,19 +52,20 @@ void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
     cs_mem_free(context->memory, deflate, sizeof *deflate);
 }
 
-/* History is given up; places remembered from it are told by their distance, as long as the count of
- * bytes does not come round. */
-static void forget(cs_deflate *deflate) {
-  if (deflate->base > UINT32_MAX / 2) {
-    memset(deflate->latest, 0, sizeof deflate->latest);
-    deflate->base = 1; /* 0 is where nothing was */
-  }
-  deflate->start = deflate->next = deflate->end;
-}
+/* History is given up; places remembered from it are told by their distance. */
+static void forget(cs_deflate *deflate) { deflate->start = deflate->next = deflate->end; }
 
+/* The buffer is filled from its start again, so that it is searched in the same pieces. What is
+ * remembered is cleared before the count of bytes comes round; 0 is where nothing was. */
 void cs_deflate_begin(cs_deflate *deflate) {
   cs_block_writer *writer = &deflate->writer;
+  deflate->base += (uint32_t)deflate->end;
+  deflate->end = 0;
   forget(deflate);
+  if (deflate->base == 0 || deflate->base > UINT32_MAX / 2) {
+    memset(deflate->latest, 0, sizeof deflate->latest);
+    deflate->base = 1;
+  }
   deflate->adler_a = 1;
   deflate->adler_b = 0;
   deflate->size = deflate->zeros = deflate->token_count = 0;

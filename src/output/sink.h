@@ -13,6 +13,9 @@
 /* PNG, 8 or 16 bit, straight from spans. coding: resolved, integer. */
 CELSPAN_CHECKED celspan_status cs_sink_png(celspan_context *context, const char *path,
                                            const celspan_file_desc *file, celspan_sink *out);
+/* Targa, 8 bit, straight from spans. LIMIT beyond 65,535 pixels a side. */
+CELSPAN_CHECKED celspan_status cs_sink_tga(celspan_context *context, const char *path,
+                                           const celspan_file_desc *file, celspan_sink *out);
 /* Any other format through the picture module; checks the format's limits first. */
 CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                                const celspan_file_desc *file, celspan_sink *out);
@@ -28,7 +31,7 @@ CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
                                               const celspan_coding *coding, uint64_t digest[2],
                                               celspan_sink *out);
-/* By format or the path's ending: PNG, a span file, or the picture module. */
+/* By format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
 /* Destroys a sink whose end was not called and keeps the recorded sentence. */

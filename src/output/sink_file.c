@@ -19,6 +19,8 @@ celspan_status cs_sink_file(celspan_context *context, const char *path,
         "%s: the format is unknown: give the file an ending such as .png, or name a format", path);
   if (strcasecmp(format, "png") == 0)
     return cs_sink_png(context, path, file, out);
+  if (strcasecmp(format, "tga") == 0 || strcasecmp(format, "targa") == 0)
+    return cs_sink_tga(context, path, file, out);
   if (strcasecmp(format, "span") == 0)
     return cs_sink_span(context, path, file, out);
   return cs_sink_picture(context, path, file, out);

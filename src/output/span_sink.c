@@ -1,18 +1,18 @@
 /* Span files: spans stay spans. A colour is coded once and then found again by its bits; gradients
  * and arrays are coded in pieces, and the library finds in them what is even.
  */
+#include <spanfile.h>
 #include <string.h>
 
 #include "output/file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
-#include "spanfile.h"
 
 enum {
   PIECE = 4096,
   COLOUR_BITS = 10,
   SHORT = 4,  /* pixels; on an edge, whose colours are not met again */
-  EDGE = 64   /* pixels coded together */
+  EDGE = 1024 /* pixels coded together */
 };
 
 typedef struct coded_colour {
@@ -28,8 +28,8 @@ typedef struct span_sink {
   spanfile_writer *writer; /* likewise */
   coded_colour colours[1 << COLOUR_BITS]; /* an empty one says that zeros are coded as zeros */
   unsigned char piece[PIECE * 8];
-  int32_t edge_length; /* pixels of the row that are waiting in edge */
-  float edge[4 * EDGE];
+  float edge[4 * EDGE]; /* colours of short spans, and what they are coded as */
+  unsigned char coded_edge[EDGE * 8];
   char path[];
 } span_sink;
 
@@ -80,21 +80,6 @@ static uint64_t find_coded(span_sink *sink, const float colour[4]) {
   return found->pixel;
 }
 
-static spanfile_status put_edge(span_sink *sink) {
-  int32_t length = sink->edge_length;
-  if (length == 0)
-    return SPANFILE_OK;
-  celspan_span span = {.x1 = length, .kind = CELSPAN_SPAN_ARRAY, .array = sink->edge};
-  cs_pixels_row(&sink->coding, &span, 1, sink->piece);
-  sink->edge_length = 0;
-  return spanfile_writer_pixels(sink->writer, sink->piece, (uint32_t)length);
-}
-
-static void add_to_edge(span_sink *sink, const celspan_span *span) {
-  for (int32_t x = span->x0; x < span->x1; x++)
-    memcpy(sink->edge + 4 * sink->edge_length++, span->colour, sizeof span->colour);
-}
-
 static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   spanfile_status status = SPANFILE_OK;
   for (int32_t x = span->x0; x < span->x1 && status == SPANFILE_OK; x += PIECE) {
@@ -111,26 +96,62 @@ static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   return status;
 }
 
-static spanfile_status put_span(span_sink *sink, const celspan_span *span) {
-  spanfile_status status = put_edge(sink);
-  if (status != SPANFILE_OK || span->kind != CELSPAN_SPAN_SINGLE)
-    return status == SPANFILE_OK ? put_pieces(sink, span) : status;
-  return spanfile_writer_run(sink->writer, (uint32_t)(span->x1 - span->x0),
-                             find_coded(sink, span->colour));
+static bool is_short(const celspan_span *span) {
+  return span->kind == CELSPAN_SPAN_SINGLE && span->x1 - span->x0 < SHORT;
+}
+
+/* Codes the short ones among the spans, as many as fit; the first span that was not looked at. */
+static const celspan_span *code_edges(span_sink *sink, const celspan_span *span,
+                                      const celspan_span *end) {
+  int32_t length = 0;
+  for (; span < end && length <= EDGE - SHORT; span++) {
+    /* Copied whether it counts or not: which ones do cannot be foreseen. */
+    float *edge = sink->edge + 4 * length;
+    memcpy(edge, span->colour, sizeof span->colour);
+    int32_t count = is_short(span) ? span->x1 - span->x0 : 0;
+    for (int32_t i = 1; i < count; i++)
+      memcpy(edge + 4 * i, edge, sizeof span->colour);
+    length += count;
+  }
+  celspan_span edge = {.x1 = length, .kind = CELSPAN_SPAN_ARRAY, .array = sink->edge};
+  cs_pixels_row(&sink->coding, &edge, 1, sink->coded_edge);
+  return span;
+}
+
+/* The spans whose short ones are coded. */
+static spanfile_status put_group(span_sink *sink, const celspan_span *span,
+                                 const celspan_span *end) {
+  const unsigned char *coded = sink->coded_edge;
+  size_t pixel_size = celspan_coding_pixel_size(&sink->coding);
+  spanfile_status status = SPANFILE_OK;
+  while (span < end && status == SPANFILE_OK) {
+    int32_t x0 = span->x0;
+    uint32_t length = (uint32_t)(span->x1 - x0);
+    if (is_short(span)) {
+      for (span++; span < end && is_short(span);)
+        span++;
+      length = (uint32_t)(span[-1].x1 - x0);
+      status = spanfile_writer_pixels(sink->writer, coded, length);
+      coded += length * pixel_size;
+    } else if (span->kind == CELSPAN_SPAN_SINGLE) {
+      status = spanfile_writer_run(sink->writer, length, find_coded(sink, span->colour));
+      span++;
+    } else {
+      status = put_pieces(sink, span++);
+    }
+  }
+  return status;
 }
 
 static spanfile_status put_spans(span_sink *sink, const celspan_span *spans, size_t count) {
+  const celspan_span *end = spans + count;
   spanfile_status status = SPANFILE_OK;
-  for (size_t i = 0; i < count && status == SPANFILE_OK; i++) {
-    const celspan_span *span = &spans[i];
-    bool is_edge = span->kind == CELSPAN_SPAN_SINGLE && span->x1 - span->x0 < SHORT &&
-                   sink->edge_length <= EDGE - SHORT;
-    if (is_edge)
-      add_to_edge(sink, span);
-    else
-      status = put_span(sink, span);
+  while (spans < end && status == SPANFILE_OK) {
+    const celspan_span *next = code_edges(sink, spans, end);
+    status = put_group(sink, spans, next);
+    spans = next;
   }
-  return status == SPANFILE_OK ? put_edge(sink) : status;
+  return status;
 }
 
 /* ---------------------------------------------------------------- the sink */

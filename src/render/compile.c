@@ -2,9 +2,9 @@
 
 #include "base/number.h"
 #include "compose/shade.h"
+#include "render/soft_layer.h"
 
 #include <math.h>
-#include "render/soft_layer.h"
 
 typedef struct compiler {
   celspan_context *context;

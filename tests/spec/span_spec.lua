@@ -75,6 +75,19 @@ return celspan.film{ size = {120, 90}, frames = 1, frame = function(f)
 end }
 ]]
 
+-- Too much to be done in half a second.
+local MANY = [[
+local celspan = require "celspan"
+local discs = {}
+for i = 1, 400 do
+  discs[i] = celspan.circle{ centre = {i * 37 % 100, i * 61 % 100}, radius = 3 + i % 17,
+                             texture = celspan.rgb(i % 7 / 7, i % 5 / 5, i % 3 / 3, 0.5) }
+end
+return celspan.film{ size = {100, 100}, frames = 1, frame = function(f)
+  return celspan.rostrum{ celspan.cel(discs) }
+end }
+]]
+
 setup(function()
   local answer = assert(io.popen("mktemp -d"))
   folder = answer:read("l")
@@ -166,6 +179,25 @@ describe("a span file", function()
     assert.is_nil(read "deep.span")
   end)
 
+  it("leaves nothing under its name when it cannot be finished", function()
+    local function leaves_nothing()
+      local list = assert(io.popen("ls -A '" .. folder .. "/out'"))
+      local names = list:read("a")
+      list:close()
+      return names == ""
+    end
+    write("many.lua", MANY)
+    assert(os.execute("mkdir '" .. folder .. "/out'"))
+    local arguments = " render many.lua -o out/x.span --size 1000000x1000000 --progress none"
+    local code, _, err = shell("ulimit -f 4; " .. binary .. arguments .. " --crop 0,0,1000000,9000")
+    assert.equal(5, code, err)
+    assert.truthy(err:find("out/x.span: cannot write", 1, true), err)
+    assert.is_true(leaves_nothing())
+    code = shell("timeout -s INT 0.5 " .. binary .. arguments)
+    assert.equal(124, code)
+    assert.is_true(leaves_nothing())
+  end)
+
   it("may be a million pixels wide or high", function()
     for _, size in ipairs { "1000000x1", "1x1000000" } do
       done("render opaque.lua -o long.span --progress none --size " .. size)
@@ -200,6 +232,14 @@ describe("the plug-in for OpenImageIO", function()
     local code, out, err = oiiotool("half.span --cut 300x1+0+150 -o row.exr half.span --flip --flop "
       .. "-o turned.exr row.exr half.span --cut 300x1+0+150 --diff")
     assert.equal(0, code, out .. err)
+  end)
+
+  it_opens("reads only a part of what is too large to be held", function()
+    done("render opaque.lua -o large.span --size 1000000x1000000 --progress none")
+    done("convert large.span part.span --crop 166700,499900,300,200")
+    local code, out, err = oiiotool("large.span --cut 300x200+166700+499900 -o part.tif")
+    assert.equal(0, code, out .. err)
+    done("compare part.span part.tif")
   end)
 
   it_opens("refuses what is cut or altered", function()

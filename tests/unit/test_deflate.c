@@ -77,51 +77,123 @@ static void add_run(store *plain, cs_deflate *deflate, celspan_context *context,
   CHECK(cs_deflate_run(deflate, context, pixel, count) == CELSPAN_OK);
 }
 
-static void check_stream(celspan_context *context, int style, size_t pixel_size, int pieces) {
-  store plain = {0}, packed = {0};
-  cs_deflate *deflate;
-  CHECK(cs_deflate_create(context, pixel_size, write_store, &packed, &deflate) == CELSPAN_OK);
+typedef struct stream {
+  store packed;
+  cs_deflate_sum sum;
+} stream;
+
+static void begin_stream(stream *made) {
+  unsigned char header[CS_DEFLATE_HEADER];
+  *made = (stream){.sum = CS_DEFLATE_SUM};
+  cs_deflate_header(header);
+  append(&made->packed, header, sizeof header);
+}
+
+/* `pieces` bytes and runs, as one part. */
+static void add_part(stream *made, store *plain, celspan_context *context, cs_deflate *deflate,
+                     int style, size_t pixel_size, int pieces) {
+  cs_deflate_sum sum;
+  cs_deflate_begin(deflate);
   for (int i = 0; i < pieces; i++)
-    if (random_below(3) == 0)
-      add_bytes(&plain, deflate, context, style);
-    else
-      add_run(&plain, deflate, context, style, pixel_size);
-  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OK);
+    switch (random_below(4)) {
+    case 0:
+      add_bytes(plain, deflate, context, style);
+      break;
+    case 1:
+      append(plain, &(unsigned char){(unsigned char)(i % 3)}, 1);
+      cs_deflate_byte(deflate, (unsigned char)(i % 3));
+      break;
+    default:
+      add_run(plain, deflate, context, style, pixel_size);
+    }
+  CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
+  made->sum = cs_deflate_join(made->sum, sum);
+}
+
+static void end_stream(stream *made, const store *plain) {
+  unsigned char trailer[CS_DEFLATE_TRAILER];
+  cs_deflate_trailer(made->sum, trailer);
+  append(&made->packed, trailer, sizeof trailer);
+  CHECK(made->sum.size == plain->size);
+  check_inflates(plain, &made->packed);
+  free(made->packed.bytes);
+}
+
+static void check_stream(celspan_context *context, int style, size_t pixel_size, int pieces) {
+  store plain = {0};
+  stream made;
+  cs_deflate *deflate;
+  begin_stream(&made);
+  CHECK(cs_deflate_create(context, pixel_size, write_store, &made.packed, &deflate) == CELSPAN_OK);
+  for (uint32_t parts = random_below(4); parts < 4; parts++)
+    add_part(&made, &plain, context, deflate, style, pixel_size, pieces);
   cs_deflate_destroy(deflate, context);
   append(&plain, "", 0);
-  check_inflates(&plain, &packed);
+  end_stream(&made, &plain);
   free(plain.bytes);
-  free(packed.bytes);
+}
+
+/* A part's bytes do not tell what its compressor did before. */
+static void check_parts_are_alone(celspan_context *context) {
+  uint64_t begun = random_state;
+  store plain = {0};
+  stream made[2] = {{.sum = CS_DEFLATE_SUM}, {.sum = CS_DEFLATE_SUM}};
+  for (int i = 0; i < 2; i++) {
+    cs_deflate *deflate;
+    CHECK(cs_deflate_create(context, 3, write_store, &made[i].packed, &deflate) == CELSPAN_OK);
+    random_state = 17;
+    for (int other = 0; other < 3 * i; other++)
+      add_part(&made[i], &plain, context, deflate, other, 3, 100);
+    size_t start = made[i].packed.size;
+    random_state = begun;
+    add_part(&made[i], &plain, context, deflate, 3, 3, 400);
+    made[i].packed.size -= start;
+    memmove(made[i].packed.bytes, made[i].packed.bytes + start, made[i].packed.size);
+    cs_deflate_destroy(deflate, context);
+  }
+  CHECK(made[0].packed.size == made[1].packed.size &&
+        memcmp(made[0].packed.bytes, made[1].packed.bytes, made[0].packed.size) == 0);
+  free(made[0].packed.bytes);
+  free(made[1].packed.bytes);
+  free(plain.bytes);
 }
 
 /* 2^20 pixels of 255 over and over: the checksum's closed form at its largest. */
 static void check_long_white(celspan_context *context) {
-  store plain = {0}, packed = {0};
+  store plain = {0};
+  stream made;
   cs_deflate *deflate;
-  CHECK(cs_deflate_create(context, 8, write_store, &packed, &deflate) == CELSPAN_OK);
+  cs_deflate_sum sum;
+  begin_stream(&made);
+  CHECK(cs_deflate_create(context, 8, write_store, &made.packed, &deflate) == CELSPAN_OK);
   plain.bytes = malloc(plain.size = plain.capacity = (size_t)16 << 20);
   memset(plain.bytes, 255, plain.size);
+  cs_deflate_begin(deflate);
   for (int i = 0; i < 2; i++)
     CHECK(cs_deflate_run(deflate, context, UINT64_MAX, 1 << 20) == CELSPAN_OK);
-  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OK);
+  CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
+  made.sum = cs_deflate_join(made.sum, sum);
   cs_deflate_destroy(deflate, context);
-  check_inflates(&plain, &packed);
-  CHECK(packed.size < plain.size / 600);
+  CHECK(made.packed.size < plain.size / 600);
+  end_stream(&made, &plain);
   free(plain.bytes);
-  free(packed.bytes);
 }
 
 static void check_errors_stick(celspan_context *context) {
   store packed = {.limit = 100000};
   cs_deflate *deflate;
+  cs_deflate_sum sum;
   CHECK(cs_deflate_create(context, 4, write_store, &packed, &deflate) == CELSPAN_OK);
   celspan_status status = CELSPAN_OK;
+  cs_deflate_begin(deflate);
   for (int i = 0; i < 300000; i++)
     status = cs_deflate_run(deflate, context, random_below(0xffffffffu), 1);
   CHECK(status == CELSPAN_OUTPUT);
-  CHECK(cs_deflate_finish(deflate, context) == CELSPAN_OUTPUT);
+  CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OUTPUT);
   CHECK(packed.size <= packed.limit);
   CHECK_TEXT(celspan_context_error(context), "full");
+  cs_deflate_begin(deflate);
+  CHECK(cs_deflate_run(deflate, context, 1, 1) == CELSPAN_OK);
   cs_deflate_destroy(deflate, context);
   cs_deflate_destroy(NULL, context);
   free(packed.bytes);
@@ -203,6 +275,7 @@ int main(void) {
         check_stream(context, style, pixel_size, pieces);
   for (int style = 0; style < 6; style++)
     check_stream(context, style, style % 2 ? 8 : 4, 4000);
+  check_parts_are_alone(context);
   check_long_white(context);
   check_errors_stick(context);
   size_t bytes, peak;

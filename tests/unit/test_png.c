@@ -1,6 +1,7 @@
 /* output/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c makes of
  * them. */
 #include <png.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -22,16 +23,17 @@ static float random_unit(void) { return (float)random_below(1001) / 1000; }
 typedef struct frame {
   int32_t width, height;
   int style;     /* 0 any mixture, 1 long flat, 2 pictures, 3 nothing but one colour */
+  bool is_opaque;
   float *arrays; /* width pixels */
   celspan_span *spans;
 } frame;
 
-static void random_colour(float colour[4]) {
+static void random_colour(const frame *made, float colour[4]) {
   static const float palette[6] = {0, 1, 0.5f, 0.25f, 0.1f, 0.9f};
   bool clear = random_below(8) == 0, flat = random_below(2) == 0;
   for (int c = 0; c < 4; c++)
     colour[c] = clear ? 0 : flat ? palette[random_below(6)] : random_unit();
-  if (random_below(2))
+  if (random_below(2) || made->is_opaque)
     colour[3] = 1;
 }
 
@@ -41,7 +43,7 @@ static void fill_array(frame *made, celspan_span *span, int32_t y) {
   for (int32_t x = span->x0; x < span->x1; x++)
     for (int c = 0; c < 4; c++)
       array[4 * (x - span->x0) + c] =
-          noise ? random_unit() : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
+          c == 3 && made->is_opaque ? 1 : noise ? random_unit() : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
   span->array = array;
 }
 
@@ -70,9 +72,9 @@ static size_t make_row(frame *made, int32_t y) {
     int32_t length = span_length(made);
     span->x1 = length < made->width - x ? x + length : made->width;
     span->kind = (celspan_span_kind)span_kind(made);
-    random_colour(span->colour);
+    random_colour(made, span->colour);
     for (int c = 0; c < 4; c++)
-      span->slope[c] = (random_unit() - 0.5f) / 50;
+      span->slope[c] = c == 3 && made->is_opaque ? 0 : (random_unit() - 0.5f) / 50;
     if (span->kind == CELSPAN_SPAN_ARRAY)
       fill_array(made, span, y);
     x = span->x1;
@@ -123,7 +125,8 @@ static void check_file(frame *made, const char *path, const celspan_coding *codi
     png_read_info(reader, info);
     CHECK((int32_t)png_get_image_width(reader, info) == made->width);
     CHECK((int32_t)png_get_image_height(reader, info) == made->height);
-    CHECK(png_get_color_type(reader, info) == PNG_COLOR_TYPE_RGB_ALPHA);
+    CHECK(png_get_color_type(reader, info) ==
+          (made->is_opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA));
     CHECK(png_get_bit_depth(reader, info) == (pixel_size == 8 ? 16 : 8));
     CHECK(!!png_get_valid(reader, info, PNG_INFO_sRGB) ==
           (coding->transfer == CELSPAN_TRANSFER_SRGB));
@@ -131,6 +134,8 @@ static void check_file(frame *made, const char *path, const celspan_coding *codi
           (coding->transfer != CELSPAN_TRANSFER_REC709));
     if (pixel_size == 8)
       png_set_swap(reader);
+    if (made->is_opaque)
+      png_set_add_alpha(reader, 0xffff, PNG_FILLER_AFTER);
     int differing = 0;
     for (int32_t y = 0; y < made->height; y++) {
       png_read_row(reader, found, NULL);
@@ -155,22 +160,62 @@ static void check_file(frame *made, const char *path, const celspan_coding *codi
   free(found);
 }
 
+static bool same_files(const char *path, const char *other) {
+  FILE *first = fopen(path, "rb"), *second = fopen(other, "rb");
+  int a = first ? getc(first) : -2, b = second ? getc(second) : -3;
+  while (a == b && a != EOF) {
+    a = getc(first);
+    b = getc(second);
+  }
+  if (first)
+    fclose(first);
+  if (second)
+    fclose(second);
+  return a == EOF && b == EOF;
+}
+
+/* Writes a frame with 1, 2 and 5 threads: the same bytes, and libpng reads the pixels. */
 static void check_frame(celspan_context *context, int32_t width, int32_t height, int style,
                         celspan_coding asked, const char *title) {
-  frame made = {.width = width, .height = height, .style = style};
+  static const int workers[] = {1, 2, 5};
+  frame made = {.width = width, .height = height, .style = style, .is_opaque = random_below(2)};
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  char path[] = "/tmp/celspan-test-png-XXXXXX";
-  close(mkstemp(path));
+  char paths[3][40];
   made.arrays = calloc((size_t)width, 4 * sizeof(float));
   made.spans = calloc((size_t)width, sizeof *made.spans);
   file.coding = asked;
   file.title = title;
-  celspan_status status = write_frame(context, &made, path, &file);
-  if (!CHECK(status == CELSPAN_OK))
-    fprintf(stderr, "%s\n", celspan_context_error(context));
+  file.is_opaque = made.is_opaque;
+  for (int i = 0; i < 3; i++) {
+    strcpy(paths[i], "/tmp/celspan-test-png-XXXXXX");
+    close(mkstemp(paths[i]));
+    file.workers = workers[i];
+    celspan_status status = write_frame(context, &made, paths[i], &file);
+    if (!CHECK(status == CELSPAN_OK))
+      fprintf(stderr, "%s\n", celspan_context_error(context));
+  }
   celspan_coding coding = cs_pixels_resolve(&asked, CELSPAN_DEPTH_8);
-  check_file(&made, path, &coding, title);
-  unlink(path);
+  check_file(&made, paths[0], &coding, title);
+  CHECK(same_files(paths[0], paths[1]) && same_files(paths[0], paths[2]));
+  for (int i = 0; i < 3; i++)
+    unlink(paths[i]);
+  free(made.arrays);
+  free(made.spans);
+}
+
+/* What was said to be opaque and is not. */
+static void check_clear_refused(celspan_context *context, int style, int workers) {
+  frame made = {.width = 300, .height = 2000, .style = style};
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  made.arrays = calloc(300, 4 * sizeof(float));
+  made.spans = calloc(300, sizeof *made.spans);
+  file.is_opaque = true;
+  file.workers = workers;
+  CHECK(write_frame(context, &made, "/tmp/celspan-test-clear.png", &file) ==
+        CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(context),
+             "PNG: a row has pixels that are not opaque, in a picture that was begun as opaque");
+  CHECK(access("/tmp/celspan-test-clear.png", F_OK) != 0);
   free(made.arrays);
   free(made.spans);
 }
@@ -192,7 +237,7 @@ static void check_refusals(celspan_context *context) {
 
 /* ---------------------------------------------------------------- no memory */
 
-static int allocations_left;
+static atomic_int allocations_left;
 
 static void *failing_resize(void *user, void *block, size_t old_size, size_t new_size) {
   (void)user, (void)old_size;
@@ -204,11 +249,13 @@ static void *failing_resize(void *user, void *block, size_t old_size, size_t new
 }
 
 /* With the n-th allocation failing, for every n: the status says so, nothing leaks, and no file. */
-static void check_without_memory(void) {
+static void check_without_memory(int style, int workers, int32_t height) {
   static float arrays[4 * 500];
   static celspan_span spans[500];
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  frame made = {.width = 500, .height = 20, .style = 0, .arrays = arrays, .spans = spans};
+  frame made = {.width = 500, .height = height, .style = style, .arrays = arrays,
+                .spans = spans};
+  file.workers = workers;
   celspan_context_desc desc = {.struct_size = sizeof desc, .resize = failing_resize};
   celspan_context *context;
   char path[] = "/tmp/celspan-test-png-XXXXXX";
@@ -216,7 +263,7 @@ static void check_without_memory(void) {
   close(mkstemp(path));
   CHECK(celspan_context_create(&desc, &context) == CELSPAN_OK);
   celspan_status status = CELSPAN_NO_MEMORY;
-  for (int n = 1; n < 50 && status != CELSPAN_OK; n++) {
+  for (int n = 1; n < 200 && status != CELSPAN_OK; n++) {
     size_t before, after, peak;
     uint64_t allocations;
     unlink(path);
@@ -253,15 +300,22 @@ int main(void) {
       check_frame(context, 2, 2, style, codings[i], NULL);
       check_frame(context, 333, 200, style, codings[i], NULL);
       check_frame(context, 3001, 120, style, codings[i], NULL);
+      check_frame(context, 700, 1300, style, codings[i], NULL);
     }
   for (int i = 0; i < 2; i++) {
     check_frame(context, 1000000, 12, 1, codings[i], NULL);
     check_frame(context, 1000000, 6, 3, codings[i], NULL);
+    check_frame(context, 1000000, 1, 0, codings[i], NULL);
+    check_frame(context, 1, 1000000, 0, codings[i], NULL);
   }
   for (int32_t width = 1; width < 300; width++)
     check_frame(context, width, 9, width % 4, codings[width % 2], NULL);
   check_refusals(context);
-  check_without_memory();
+  check_clear_refused(context, 0, 1);
+  check_clear_refused(context, 2, 3);
+  check_without_memory(0, 1, 20);
+  check_without_memory(0, 3, 1500);
+  check_without_memory(2, 2, 1100);
   celspan_context_memory(context, &after, &peak, &allocations);
   CHECK(after == before);
   celspan_context_destroy(context);

@@ -1,5 +1,6 @@
 /* Span files hold the very pixels that other sinks get, whatever the spans were. */
 #include <fcntl.h>
+#include <spanfile.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -7,7 +8,6 @@
 
 #include "output/pixels.h"
 #include "output/sink.h"
-#include "spanfile.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 

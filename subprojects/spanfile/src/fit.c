@@ -60,7 +60,7 @@ static void keep_raw(fitting *f, uint32_t count) {
   spanfile_row row = {&span, 1, f->values};
   spanfile_row_pixels(f->format, &row, 0, count, pixels);
   f->has_memory &= sf_pack_raw(f->memory, f->out, f->pixel_size, pixels, count);
-  f->values = span.kind == SPANFILE_GRADIENT ? f->values + 2 * f->pixel_size : f->values;
+  f->values += span.kind == SPANFILE_GRADIENT ? 2 * f->pixel_size : 0;
   f->now += sf_row_end(f->out) == f->now->end;
 }
 
@@ -130,7 +130,7 @@ static void keep_alike(fitting *f) {
     return;
   memcpy(f->out->spans + f->out->count, first, count * sizeof *first);
   f->out->count += count;
-  f->values = size > 0 ? f->values + size : f->values;
+  f->values += size;
 }
 
 static void take_span(fitting *f) {
@@ -165,7 +165,7 @@ sf_fitted sf_fit(const sf_memory *memory, spanfile_format format, const sf_row *
                .format = format,
                .pixel_size = spanfile_pixel_size(format),
                .out = out,
-               .values = row->values.at,
+               .values = sf_bytes_start(&row->values),
                .now = row->spans,
                .end = row->spans + row->count,
                .model = above->spans,

@@ -164,7 +164,7 @@ static spanfile_status read_packet(spanfile_reader *reader, const file_record *r
 /* Of the row as it stands now: lengths, and numbers between which there is something. */
 static spanfile_status check_gradients(spanfile_reader *reader, const file_record *record) {
   const sf_row *row = &reader->row;
-  const unsigned char *values = row->values.at;
+  const unsigned char *values = sf_bytes_start(&row->values);
   uint32_t start = 0;
   for (size_t i = 0; i < row->count; start = row->spans[i++].end) {
     uint32_t kind = row->spans[i].kind, length = row->spans[i].end - start;
@@ -173,7 +173,7 @@ static spanfile_status check_gradients(spanfile_reader *reader, const file_recor
                     reader->y, length);
     if (kind == SPANFILE_GRADIENT && !sf_gradient_is_finite(reader->info.format, values))
       return REFUSE(reader, record->offset, "row %" PRIu32 ": a gradient to infinity", reader->y);
-    values = values ? values + values_of(kind, length) * reader->pixel_size : NULL;
+    values += values_of(kind, length) * reader->pixel_size;
   }
   return SPANFILE_OK;
 }
@@ -365,7 +365,8 @@ spanfile_status spanfile_reader_row(spanfile_reader *reader, uint32_t y, spanfil
                 reader->info.height - 1);
   reader->fault = fault;
   TRY(go_to(reader, y));
-  *out = (spanfile_row){reader->row.spans, reader->row.count, reader->row.values.at};
+  *out = (spanfile_row){reader->row.spans, reader->row.count,
+                         sf_bytes_start(&reader->row.values)};
   return SPANFILE_OK;
 }
 

@@ -36,6 +36,10 @@ static inline bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const 
   bytes->size += size;
   return true;
 }
+/* Where they begin; not NULL, so that nothing can be added to it when there are none. */
+static inline const unsigned char *sf_bytes_start(const sf_bytes *bytes) {
+  return bytes->at ? bytes->at : (const unsigned char *)"";
+}
 void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes);
 
 typedef struct sf_row {

@@ -205,12 +205,11 @@ static bool put_packets(spanfile_writer *writer) {
   size_t packets = row->count + writer->width / SF_PACKET_MOST;
   if (!begin_record(writer, packets * (3 + writer->pixel_size) + row->values.size))
     return false;
-  const unsigned char *values = row->values.at;
+  const unsigned char *values = sf_bytes_start(&row->values);
   uint32_t start = 0;
   for (size_t i = 0; i < row->count; i++) {
     const spanfile_span *span = &row->spans[i];
-    size_t taken = add_span(writer, span, span->end - start, values);
-    values = taken > 0 ? values + taken : values;
+    values += add_span(writer, span, span->end - start, values);
     start = span->end;
   }
   return put_record(writer, SF_PACKETS, (uint32_t)writer->y);
