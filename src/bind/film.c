@@ -29,15 +29,15 @@ static void check_size(const cs_form *form) {
     return;
   for (int i = 0; i < 2; i++)
     if (!(size[i] >= 1 && size[i] <= MOST_SIDE) || size[i] != floor(size[i]))
-      cs_form_fail(form, "field 'size' must hold whole numbers from 1 to %d, got %f", MOST_SIDE,
-                   size[i]);
+      cs_form_fail(form, "field 'size' must hold whole numbers from 1 to %d, got %s", MOST_SIDE,
+                   cs_form_digits(form->L, size[i]));
 }
 
 static void check_whole(const cs_form *form, const char *name, double least) {
   double number = cs_form_number_or(form, name, least);
   if (!(number >= least && number <= MOST_FRAMES) || number != floor(number))
-    cs_form_fail(form, "field '%s' must be a whole number from %f to %d, got %f", name, least,
-                 MOST_FRAMES, number);
+    cs_form_fail(form, "field '%s' must be a whole number from %s to %d, got %s", name,
+                 cs_form_digits(form->L, least), MOST_FRAMES, cs_form_digits(form->L, number));
 }
 
 static void check_film(const cs_form *form, cs_value *value) {
@@ -46,11 +46,12 @@ static void check_film(const cs_form *form, cs_value *value) {
   check_size(form);
   double fps = cs_form_number_or(form, "fps", 24);
   if (!(fps > 0 && fps <= 1e6))
-    cs_form_fail(form, "field 'fps' must be above 0 and at most 1000000, got %f", fps);
+    cs_form_fail(form, "field 'fps' must be above 0 and at most 1000000, got %s",
+                 cs_form_digits(form->L, fps));
   double duration = cs_form_number_or(form, "duration", 1);
   if (!(duration > 0 && duration * fps <= MOST_FRAMES))
-    cs_form_fail(form, "field 'duration' must be above 0 seconds and at most %d frames, got %f",
-                 MOST_FRAMES, duration);
+    cs_form_fail(form, "field 'duration' must be above 0 seconds and at most %d frames, got %s",
+                 MOST_FRAMES, cs_form_digits(form->L, duration));
   check_whole(form, "frames", 1);
   check_whole(form, "first", -MOST_FRAMES);
   check_text(form, "title");
@@ -215,14 +216,26 @@ static int handle_error(lua_State *L) {
   return 1;
 }
 
-/* frame function, f -> exposures; the film's frame number in upvalue 1 for the check's message. */
+/* Pushes "script.lua:12: the frame function's result": where the function at index begins, because
+ * what it returns has no line of its own. */
+static const char *push_result_name(lua_State *L, int function) {
+  lua_Debug info;
+  lua_pushvalue(L, function);
+  lua_getinfo(L, ">S", &info);
+  return info.linedefined > 0 ? lua_pushfstring(L, "%s:%d: the frame function's result",
+                                                info.short_src, info.linedefined)
+                              : lua_pushliteral(L, "the frame function's result");
+}
+
+/* frame function, f -> exposures */
 static int call_frame(lua_State *L) {
+  const char *name = push_result_name(L, 1);
   lua_pushvalue(L, 1);
   lua_pushvalue(L, 2);
   lua_call(L, 1, 1);
   int result = lua_gettop(L);
   celspan_frame_desc desc;
-  cs_options_exposures(L, result, "the frame function's result", &desc);
+  cs_options_exposures(L, result, name, &desc);
   lua_settop(L, result);
   return 1;
 }

@@ -1,9 +1,11 @@
 #include "bind/form.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "bind/host.h"
 #include "bind/value.h"
 
@@ -17,6 +19,12 @@ _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
   luaL_error(form->L, "%s: %s", form->noun->name, text);
   for (;;) /* luaL_error does not return, though its declaration does not say so */
     ;
+}
+
+const char *cs_form_digits(lua_State *L, double number) {
+  bool is_whole = fabs(number) < 1e15 && number == floor(number);
+  return is_whole ? lua_pushfstring(L, "%I", (LUAI_UACINT)number)
+                  : lua_pushfstring(L, "%f", number);
 }
 
 void cs_form_try(const cs_form *form, celspan_status status) {
@@ -45,6 +53,8 @@ static _Noreturn void fail_unknown(const cs_form *form, const char *name) {
   const char *nearest = cs_form_nearest(name, names, count);
   if (nearest)
     cs_form_fail(form, "unknown field '%s'; did you mean '%s'?", name, nearest);
+  if (count == 0)
+    cs_form_fail(form, "unknown field '%s'; there are no named fields", name);
   luaL_Buffer list;
   luaL_buffinit(form->L, &list);
   for (size_t i = 0; i < count; i++) {
@@ -135,7 +145,8 @@ int cs_form_integer_or(const cs_form *form, const char *name, int fallback) {
     return fallback;
   double number = cs_form_number(form, name);
   if (!(number >= INT_MIN && number <= INT_MAX) || number != (int)number)
-    cs_form_fail(form, "field '%s' must be a whole number, got %f", name, number);
+    cs_form_fail(form, "field '%s' must be a whole number, got %s", name,
+                 cs_form_digits(form->L, number));
   return (int)number;
 }
 
@@ -322,7 +333,7 @@ celspan_point *cs_form_points(const cs_form *form, int index, int count, const d
     if (!is_array(L, place, 2, weights ? 3 : 2))
       cs_form_fail(form, "point %d must be %s, got %s", i + 1,
                    weights ? "{x, y} or {x, y, weight}" : "{x, y}",
-                   lua_istable(L, place) ? "another table" : cs_value_type(L, place));
+                   lua_istable(L, place) ? "a table of other values" : cs_value_type(L, place));
     points[i] = (celspan_point){number_at(L, place, 1), number_at(L, place, 2)};
     if (weights) {
       bool has_weight = lua_rawlen(L, place) == 3;
@@ -377,5 +388,9 @@ celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const
 double cs_form_argument(lua_State *L, int index, const char *function, const char *name) {
   if (lua_type(L, index) != LUA_TNUMBER)
     luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_value_type(L, index));
-  return lua_tonumber(L, index);
+  double number = lua_tonumber(L, index);
+  if (!(fabs(number) <= CS_NUMBER_LIMIT))
+    luaL_error(L, "%s: %s must be a number from -1e12 to 1e12, got %s", function, name,
+               cs_form_digits(L, number));
+  return number;
 }

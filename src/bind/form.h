@@ -50,6 +50,8 @@ typedef struct cs_form {
 cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index);
 /* Raises "noun: ..." with the formats of lua_pushfstring. */
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...);
+/* Pushes a number as messages show it: whole ones without a point. */
+const char *cs_form_digits(lua_State *L, double number);
 /* Raises the core's refusal unless OK. */
 void cs_form_try(const cs_form *form, celspan_status status);
 
@@ -88,8 +90,8 @@ double cs_form_part_number(const cs_form *form, int index, int part, const char 
 celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const char *what,
                                  int item);
 
-/* A plain argument of a function or method that must be a number. Raises "function: name must be a
- * number, got ...". */
+/* A plain argument of a function or method that must be a number within 1e12. Raises "function: name
+ * must be a number, got ...". */
 double cs_form_argument(lua_State *L, int index, const char *function, const char *name);
 
 /* count items of `size` bytes, owned by Lua, pushed. */

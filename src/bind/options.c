@@ -97,7 +97,8 @@ static void read_integers(const cs_form *form, const char *name, int count, int3
     return;
   for (int i = 0; i < count; i++) {
     if (!(numbers[i] >= INT_MIN && numbers[i] <= INT_MAX) || numbers[i] != (int)numbers[i])
-      cs_form_fail(form, "field '%s' must hold whole numbers of pixels, got %f", name, numbers[i]);
+      cs_form_fail(form, "field '%s' must hold whole numbers of pixels, got %s", name,
+                   cs_form_digits(form->L, numbers[i]));
     out[i] = (int32_t)numbers[i];
   }
 }
@@ -119,6 +120,8 @@ void cs_options_read(const cs_form *form, cs_options_frame *out) {
   desc->crop_width = crop[2];
   desc->crop_height = crop[3];
   desc->workers = cs_form_integer_or(form, "workers", 0);
+  if (desc->workers < 0)
+    cs_form_fail(form, "field 'workers' must be 0 or more, got %d", desc->workers);
   if (cs_options_antialias(form, &out->antialias, &desc->filter))
     desc->antialias = &out->antialias;
 }

@@ -33,10 +33,6 @@ static void create_paint(const cs_form *form, cs_value *value) {
   fill(form->L, form->noun->name, value, from_doubles(pigment, medium, beta));
 }
 
-static const cs_field paint_fields[] = {{"pigment", NULL}, {"medium", NULL}, {"beta", "1"}, {0}};
-const cs_noun cs_noun_paint = {
-    .name = "paint", .kind = &cs_kind_paint, .fields = paint_fields, .create = create_paint};
-
 static void set_triple(lua_State *L, const char *name, const double triple[3]) {
   lua_createtable(L, 3, 0);
   for (int i = 0; i < 3; i++) {
@@ -45,6 +41,27 @@ static void set_triple(lua_State *L, const char *name, const double triple[3]) {
   }
   lua_setfield(L, -2, name);
 }
+
+/* What was left out, so that it can be read. */
+static void complete_paint(lua_State *L, int fields) {
+  if (lua_getfield(L, fields, "pigment") == LUA_TNIL) {
+    lua_settop(L, fields);
+    set_triple(L, "pigment", (const double[]){0, 0, 0});
+  }
+  lua_settop(L, fields);
+  if (lua_getfield(L, fields, "medium") == LUA_TNIL) {
+    lua_settop(L, fields);
+    set_triple(L, "medium", (const double[]){1, 1, 1});
+  }
+  lua_settop(L, fields);
+}
+
+static const cs_field paint_fields[] = {{"pigment", NULL}, {"medium", NULL}, {"beta", "1"}, {0}};
+const cs_noun cs_noun_paint = {.name = "paint",
+                               .kind = &cs_kind_paint,
+                               .fields = paint_fields,
+                               .create = create_paint,
+                               .complete = complete_paint};
 
 static int push_paint(lua_State *L, const char *noun, const double pigment[3],
                       const double medium[3], double beta) {
@@ -93,7 +110,8 @@ static int mix(lua_State *L) {
   celspan_paint p = mix_argument(L, 1), q = mix_argument(L, 2);
   double u = cs_form_argument(L, 3, "mix", "the share of the second paint");
   if (!(u >= 0 && u <= 1))
-    return luaL_error(L, "mix: the share of the second paint must be 0..1, got %f", u);
+    return luaL_error(L, "mix: the share of the second paint must be 0..1, got %s",
+                      cs_form_digits(L, u));
   celspan_paint paint = celspan_paint_mix(p, q, (float)u);
   double pigment[3], medium[3];
   for (int i = 0; i < 3; i++) {

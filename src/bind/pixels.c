@@ -57,8 +57,9 @@ static int describe(lua_State *L) {
 static image *push_image(const cs_form *form, const celspan_frame_desc *desc) {
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
   int32_t height = desc->crop_height ? desc->crop_height : desc->height;
-  bool is_good = width > 0 && height > 0 && (int64_t)width * height <= INT64_C(1) << 32;
-  if (!is_good)
+  if (width <= 0 || height <= 0)
+    cs_form_fail(form, "%d x %d pixels are asked for; each side must be at least 1", width, height);
+  if ((int64_t)width * height > INT64_C(1) << 32)
     cs_form_fail(form, "%d x %d pixels cannot be held in memory; render a crop, or into a file",
                  width, height);
   size_t count = 4 * (size_t)width * (size_t)height;

@@ -138,7 +138,7 @@ static void create_image(const cs_form *form, cs_value *value) {
 }
 
 #define TEXTURE                                                                                    \
-  { "texture", NULL }
+  { "texture", "#000000" }
 #define RULE                                                                                       \
   { "rule", "nonzero" }
 static const cs_field rect_fields[] = {{"radius", "0"}, TEXTURE, {0}};

@@ -53,7 +53,8 @@ static void read_coding(const cs_form *form, celspan_coding *out) {
   if (lua_rawget(form->L, form->table) == LUA_TNUMBER)
     depth = lua_tonumber(form->L, -1);
   if (depth != 0 && depth != 8 && depth != 16)
-    cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %f", depth);
+    cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %s",
+                 cs_form_digits(form->L, depth));
   out->depth = depth == 8    ? CELSPAN_DEPTH_8
                : depth == 16 ? CELSPAN_DEPTH_16
                              : (celspan_depth)cs_form_choice(form, "depth", depths);

@@ -61,8 +61,8 @@ static void read_row_range(const cs_form *form, int32_t height, int32_t range[2]
   if (!(numbers[0] >= 0 && numbers[0] < height && numbers[1] >= numbers[0]))
     cs_form_fail(form,
                  "field 'rows' must be {first, last} with 0 <= first <= last, first below "
-                 "%d, got {%f, %f}",
-                 height, numbers[0], numbers[1]);
+                 "%d, got {%s, %s}",
+                 height, cs_form_digits(form->L, numbers[0]), cs_form_digits(form->L, numbers[1]));
   range[0] = (int32_t)numbers[0];
   range[1] = numbers[1] < height - 1 ? (int32_t)numbers[1] : height - 1;
 }

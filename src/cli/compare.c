@@ -1,4 +1,4 @@
-/* celspan compare A B: whether two pictures show the same, row by row, in memory of two rows.
+/* celspan compare A B: whether two pictures show the same, row by row, span by span.
  *
  * Coded values are compared: sRGB, straight, at 16 bits when both pictures hold integers and as
  * floats when one of them does not.
@@ -6,8 +6,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-#include "base/context.h"
 #include "cli/interrupt.h"
 #include "cli/still.h"
 #include "cli/verbs.h"
@@ -34,53 +34,75 @@ static double difference(double a, double b) {
   return a == b ? 0 : fabs(a - b); /* equal infinities are equal */
 }
 
-static void compare_rows(comparison *c, int32_t y, const void *row_a, const void *row_b) {
-  for (int32_t x = 0; x < c->width; x++) {
+/* Coded pixels from column x0 on; each stands for `times` columns. */
+static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, int32_t times,
+                           const void *pixels_a, const void *pixels_b) {
+  for (int32_t x = 0; x < count; x++) {
     bool differs = false;
     for (int channel = 0; channel < 4; channel++) {
       size_t i = 4 * (size_t)x + (size_t)channel;
-      double d = difference(value(c, row_a, i), value(c, row_b, i));
+      double d = difference(value(c, pixels_a, i), value(c, pixels_b, i));
       differs |= d > c->tolerance;
       if (d > c->largest) {
         c->largest = d;
-        c->x = x;
+        c->x = x0 + x;
         c->y = y;
         c->channel = channel;
       }
     }
-    c->differing += differs;
+    c->differing += differs ? (uint64_t)times : 0;
   }
 }
 
-static celspan_status code_row(cs_still_rows *rows, const comparison *c, int32_t y, void *row) {
-  const celspan_span *spans = NULL;
-  size_t count = 0;
-  celspan_status status = cs_still_rows_get(rows, y, &spans, &count);
+/* Columns of a span from x on, coded. */
+static void code_part(const comparison *c, const celspan_span *span, int32_t x, int32_t count,
+                      void *pixels) {
+  celspan_span part = *span;
+  part.x0 = 0;
+  part.x1 = count;
+  part.origin = span->origin - x;
+  if (span->kind == CELSPAN_SPAN_ARRAY)
+    part.array = span->array + 4 * (size_t)(x - span->x0);
+  cs_pixels_row(&c->coding, &part, 1, pixels);
+}
+
+/* Columns [x0, x1), in one span of each: where both are of one colour, one pixel tells. */
+static void compare_part(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
+                         int32_t x0, int32_t x1) {
+  enum { PIECE = 1024 };
+  float pixels_a[4 * PIECE], pixels_b[4 * PIECE];
+  bool is_even = a->kind == CELSPAN_SPAN_SINGLE && b->kind == CELSPAN_SPAN_SINGLE;
+  if (is_even && memcmp(a->colour, b->colour, sizeof a->colour) == 0)
+    return;
+  for (int32_t x = x0, next; x < x1; x = next) {
+    next = is_even || x1 - x < PIECE ? x1 : x + PIECE;
+    int32_t count = is_even ? 1 : next - x;
+    code_part(c, a, x, count, pixels_a);
+    code_part(c, b, x, count, pixels_b);
+    compare_pixels(c, x, y, count, is_even ? next - x : 1, pixels_a, pixels_b);
+  }
+}
+
+static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_a,
+                                  cs_still_rows *rows_b) {
+  const celspan_span *a = NULL, *b = NULL;
+  size_t count_a = 0, count_b = 0;
+  celspan_status status = cs_still_rows_get(rows_a, y, &a, &count_a);
   if (status == CELSPAN_OK)
-    cs_pixels_row(&c->coding, spans, count, row);
+    status = cs_still_rows_get(rows_b, y, &b, &count_b);
+  for (int32_t x = 0, next; x < c->width && status == CELSPAN_OK; x = next) {
+    next = a->x1 < b->x1 ? a->x1 : b->x1;
+    compare_part(c, y, a, b, x, next);
+    a += a->x1 == next;
+    b += b->x1 == next;
+  }
   return status;
 }
 
-static celspan_status compare_all(celspan_context *context, comparison *c, cs_still_rows *a,
-                                  cs_still_rows *b) {
-  size_t row_size = (size_t)c->width * celspan_coding_pixel_size(&c->coding);
-  void *row_a = cs_mem_resize(context->memory, NULL, 0, row_size);
-  void *row_b = cs_mem_resize(context->memory, NULL, 0, row_size);
+static celspan_status compare_all(comparison *c, cs_still_rows *a, cs_still_rows *b) {
   celspan_status status = CELSPAN_OK;
-  if (!row_a || !row_b)
-    status = cs_fail_memory(context);
-  for (int32_t y = 0; y < c->height && status == CELSPAN_OK; y++) {
-    if (cs_interrupt_signal())
-      status = CELSPAN_CANCELLED;
-    if (status == CELSPAN_OK)
-      status = code_row(a, c, y, row_a);
-    if (status == CELSPAN_OK)
-      status = code_row(b, c, y, row_b);
-    if (status == CELSPAN_OK)
-      compare_rows(c, y, row_a, row_b);
-  }
-  cs_mem_free(context->memory, row_a, row_size);
-  cs_mem_free(context->memory, row_b, row_size);
+  for (int32_t y = 0; y < c->height && status == CELSPAN_OK; y++)
+    status = cs_interrupt_signal() ? CELSPAN_CANCELLED : compare_row(c, y, a, b);
   return status;
 }
 
@@ -92,7 +114,7 @@ static celspan_status compare_stills(celspan_context *context, comparison *c,
   if (status == CELSPAN_OK)
     status = cs_still_rows_create(context, still_b, frame_b, &b);
   if (status == CELSPAN_OK)
-    status = compare_all(context, c, &a, &b);
+    status = compare_all(c, &a, &b);
   cs_still_rows_destroy(&a);
   cs_still_rows_destroy(&b);
   return status;

@@ -5,7 +5,7 @@
 
 cs_exit cs_convert_run(celspan_context *context, const cs_request *request) {
   const char *path = request->operands[1];
-  cs_exit outcome = cs_target_refuse(path, request->format);
+  cs_exit outcome = cs_target_refuse(context, path, request);
   cs_still still = {.exposure.rostrum = NULL};
   if (outcome == CS_EXIT_OK)
     outcome = cs_still_open(context, request->operands[0], &still);

@@ -84,8 +84,8 @@ static void help_overview(FILE *stream) {
           "celspan VERB ...\n",
           celspan_version());
   for (size_t i = 0; i < VERB_COUNT; i++)
-    fprintf(stream, "  %-8s %-14s %s\n", VERBS[i].name, VERBS[i].operands, VERBS[i].summary);
-  fprintf(stream, "  %-8s %-14s %s\n\n", "help", "VERB", "Says more about a verb.");
+    fprintf(stream, "  %-8s %-19s %s\n", VERBS[i].name, VERBS[i].operands, VERBS[i].summary);
+  fprintf(stream, "  %-8s %-19s %s\n\n", "help", "VERB", "Says more about a verb.");
   fputs("celspan --version prints the version.\n\n"
         "Exit codes\n"
         "  0   every frame asked for exists      5      an output cannot be written\n"
@@ -117,7 +117,10 @@ static cs_exit run_verb(const cs_verb *verb, size_t count, char **arguments) {
   if (outcome != CS_EXIT_OK)
     return outcome;
   celspan_context *context = NULL;
-  if (celspan_context_create(NULL, &context) != CELSPAN_OK) {
+  celspan_context_desc desc = {.struct_size = sizeof desc};
+  desc.defocus_bytes = (size_t)request.memory * 1048576 / 3; /* as the defaults are divided */
+  desc.picture_bytes = 2 * desc.defocus_bytes;
+  if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
     cs_report_error("no memory to begin");
     return CS_EXIT_MEMORY;
   }

@@ -108,15 +108,23 @@ static cs_exit render_all(render_job *job) {
   return outcome;
 }
 
+static cs_exit refuse_stream(const cs_request *request) {
+  if (request->hash)
+    return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
+                           "of them");
+  if (request->format)
+    return cs_report_usage("--format %s goes into files: with -o - frames are raw RGBA rows",
+                           request->format);
+  return CS_EXIT_OK;
+}
+
 /* What can be refused without running the script. */
-static cs_exit refuse_early(const cs_request *request) {
+static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   if (!request->output && !request->hash)
     return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");
   if (request->output && cs_target_is_stream(request->output))
-    return request->hash ? cs_report_usage("--hash prints to standard output, where -o - puts the "
-                                           "frames: give one of them")
-                         : CS_EXIT_OK;
-  return request->output ? cs_target_refuse(request->output, request->format) : CS_EXIT_OK;
+    return refuse_stream(request);
+  return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
 }
 
 static cs_exit run(cs_shot *shot, const cs_request *request) {
@@ -131,7 +139,7 @@ static cs_exit run(cs_shot *shot, const cs_request *request) {
 }
 
 cs_exit cs_render_run(celspan_context *context, const cs_request *request) {
-  cs_exit outcome = refuse_early(request);
+  cs_exit outcome = refuse_early(context, request);
   if (outcome != CS_EXIT_OK)
     return outcome;
   cs_shot shot;

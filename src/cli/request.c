@@ -91,7 +91,9 @@ static const option OPTIONS[] = {
     {"--resume", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
     {"--force", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
     {"--keep-going", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
-    {"--memory", "MiB", NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
+    {"--memory", "MiB", "a whole number of MiB from 1 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
+     FIELD(memory), cs_value_memory,
+     "pictures and defocused cels kept in memory; default: 768"},
 };
 
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0], NAME_SIZE = 32 };

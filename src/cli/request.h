@@ -27,6 +27,7 @@ typedef struct cs_request {
   cs_given_antialias antialias;
   celspan_coding coding;
   int32_t workers; /* 0: one a processor */
+  int32_t memory;  /* MiB; 0: not given */
   cs_progress_style progress;
   bool hash, statistics;
   celspan_depth pixels; /* DEFAULT: not given */

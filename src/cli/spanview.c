@@ -238,8 +238,8 @@ celspan_status cs_spanview_row(cs_spanview *view, int32_t y, const celspan_span 
     return cs_spanread_row(view->file, row, columns->first, columns->first + columns->count, spans,
                            span_count);
   CS_TRY(scale_row(view, row));
-  view->span = (celspan_span){
-      .x1 = columns->count, .kind = CELSPAN_SPAN_ARRAY, .array = view->colours};
+  view->span =
+      (celspan_span){.x1 = columns->count, .kind = CELSPAN_SPAN_ARRAY, .array = view->colours};
   *spans = &view->span;
   *span_count = 1;
   return CELSPAN_OK;

@@ -1,9 +1,9 @@
 /* A span file seen at a size and through a crop, row by row.
  *
  * At its own size rows come as they are. Each axis else by itself: where the picture shrinks, the
- * mean over what a pixel covers, taken from the spans, in time that follows them and not the pixels;
- * where it grows, linear between the nearest two, in linear light. Only the rows that the crop
- * covers are read. Memory: a few rows.
+ * mean over what a pixel covers, taken from the spans, in time that follows them and not the
+ * pixels; where it grows, linear between the nearest two, in linear light. Only the rows that the
+ * crop covers are read. Memory: a few rows.
  */
 #ifndef CS_CLI_SPANVIEW_H
 #define CS_CLI_SPANVIEW_H

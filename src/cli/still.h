@@ -1,6 +1,6 @@
-/* A picture as rows of a frame. A span file gives its own spans; any other picture is a scene of its
- * own: one image rectangle at the picture's size, lit white, sampled at pixel centres, so that every
- * pixel comes out as it went in.
+/* A picture as rows of a frame. A span file gives its own spans; any other picture is a scene of
+ * its own: one image rectangle at the picture's size, lit white, sampled at pixel centres, so that
+ * every pixel comes out as it went in.
  */
 #ifndef CS_CLI_STILL_H
 #define CS_CLI_STILL_H
@@ -37,8 +37,7 @@ typedef struct cs_still_rows {
   cs_spanview *view;
 } cs_still_rows;
 /* still: borrowed as long as the rows are. out: new. */
-CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context,
-                                                    const cs_still *still,
+CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,
                                                     const celspan_frame_desc *frame,
                                                     cs_still_rows *out);
 /* One that is zeroed may be destroyed too. */

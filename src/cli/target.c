@@ -4,6 +4,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "output/sink.h"
+
 static const char *const ABSENT_FORMATS[] = {"mp4", "mov", "webm", "mkv", "avi"};
 
 static const char *ending(const char *path) {
@@ -12,21 +14,33 @@ static const char *ending(const char *path) {
   return dot ? dot + 1 : "";
 }
 
-cs_exit cs_target_refuse(const char *path, const char *format) {
-  const char *wanted = format ? format : ending(path);
-  for (size_t i = 0; i < sizeof ABSENT_FORMATS / sizeof ABSENT_FORMATS[0]; i++)
-    if (strcasecmp(wanted, ABSENT_FORMATS[i]) == 0)
-      return cs_report_usage("%s: writing %s files is not built into this version; write numbered "
-                             "pictures such as shot.####.png",
-                             path, ABSENT_FORMATS[i]);
-  return CS_EXIT_OK;
-}
-
 celspan_file_desc cs_target_file(const cs_request *request) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = request->format;
   file.coding = request->coding;
   return file;
+}
+
+/* A sink is made and dropped: it opens no file before its first row. */
+static cs_exit refuse_file(celspan_context *context, const char *path, const cs_request *request) {
+  celspan_file_desc file = cs_target_file(request);
+  celspan_sink sink;
+  celspan_status status = celspan_file_sink_create(context, path, &file, &sink);
+  if (status == CELSPAN_BAD_ARGUMENT)
+    return cs_report_usage("%s", celspan_context_error(context));
+  if (status == CELSPAN_OK)
+    cs_sink_discard(context, &sink);
+  return cs_report_failure(context, status, NULL);
+}
+
+cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
+  const char *wanted = request->format ? request->format : ending(path);
+  for (size_t i = 0; i < sizeof ABSENT_FORMATS / sizeof ABSENT_FORMATS[0]; i++)
+    if (strcasecmp(wanted, ABSENT_FORMATS[i]) == 0)
+      return cs_report_usage("%s: writing %s files is not built into this version; write numbered "
+                             "pictures such as shot.####.png",
+                             path, ABSENT_FORMATS[i]);
+  return refuse_file(context, path, request);
 }
 
 bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }

@@ -19,7 +19,7 @@
 #include "cli/still.h"
 #include "cli/tiledigest.h"
 #include "cli/tilepage.h"
-#include "cli/tilerows.h"
+#include "cli/tilesmall.h"
 #include "cli/verbs.h"
 #include "output/pixels.h"
 #include "scene/scene.h"
@@ -40,6 +40,7 @@ typedef struct tiles_job {
   cs_tileplan plan;
   cs_tilelog log;
   cs_tilefile files;
+  cs_tilesmall small;
   cs_progress progress;
   int workers;
 } tiles_job;
@@ -191,16 +192,28 @@ static bool go_on(void *user, int32_t rows_done, int32_t rows_total) {
   return cs_progress_rows(&job->progress, 0, 0);
 }
 
-static celspan_status render_run(tiles_job *job, int32_t level, cs_area tiles) {
+/* The whole of a level, to be cut to what is wanted. */
+static celspan_frame_desc level_frame(tiles_job *job, int32_t level) {
   celspan_frame_desc frame = job->frame;
-  cs_area pixels = cs_pyramid_pixels(&job->pyramid, level, &tiles);
   cs_pyramid_size(&job->pyramid, level, &frame.width, &frame.height);
-  frame.crop_x = pixels.x0;
-  frame.crop_y = pixels.y0;
-  frame.crop_width = pixels.x1 - pixels.x0;
-  frame.crop_height = pixels.y1 - pixels.y0;
+  frame.crop_x = frame.crop_y = frame.crop_width = frame.crop_height = 0;
   frame.progress = go_on;
   frame.progress_user = job;
+  return frame;
+}
+
+static celspan_status render_small(tiles_job *job, int32_t single, const celspan_frame_desc *frame,
+                                   const celspan_sink *sink) {
+  celspan_frame_desc base = level_frame(job, single);
+  if (!job->small.pixels)
+    CS_TRY(cs_tilesmall_make(job->context, &base, &job->small));
+  return cs_tilesmall_render(job->context, &job->small, frame->width, frame->height, sink);
+}
+
+static celspan_status render_run(tiles_job *job, int32_t level, cs_area tiles) {
+  celspan_frame_desc frame = level_frame(job, level);
+  cs_area pixels = cs_pyramid_pixels(&job->pyramid, level, &tiles);
+  int32_t single = cs_pyramid_single(&job->pyramid);
   cs_tilerows rows = {.files = &job->files,
                       .level = level,
                       .tiles = tiles,
@@ -210,6 +223,12 @@ static celspan_status render_run(tiles_job *job, int32_t level, cs_area tiles) {
                       .finished = finished,
                       .user = job};
   celspan_sink sink = cs_tilerows_sink(&rows);
+  if (level < single)
+    return render_small(job, single, &frame, &sink);
+  frame.crop_x = pixels.x0;
+  frame.crop_y = pixels.y0;
+  frame.crop_width = pixels.x1 - pixels.x0;
+  frame.crop_height = pixels.y1 - pixels.y0;
   return celspan_frame_render(job->context, &frame, &sink, NULL);
 }
 
@@ -262,6 +281,7 @@ static celspan_status render_all(tiles_job *job) {
     status = render_part(job, &job->plan.jobs[i]);
   cs_progress_end(&job->progress);
   cs_tilefile_finish(&job->files);
+  cs_tilesmall_free(job->context, &job->small);
   return status;
 }
 

@@ -85,6 +85,10 @@ cs_value_outcome cs_value_workers(const char *text, void *field) {
   return read_integers(text, 0, 1, 1024, field, 1) ? CS_VALUE_READ : CS_VALUE_BAD;
 }
 
+cs_value_outcome cs_value_memory(const char *text, void *field) {
+  return read_integers(text, 0, 1, 1048576, field, 1) ? CS_VALUE_READ : CS_VALUE_BAD;
+}
+
 cs_value_outcome cs_value_number(const char *text, void *field) {
   return read_number(text, field) ? CS_VALUE_READ : CS_VALUE_BAD;
 }

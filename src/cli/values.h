@@ -42,6 +42,7 @@ typedef struct cs_given_integer {
 cs_value_outcome cs_value_text(const char *text, void *field);      /* const char * */
 cs_value_outcome cs_value_integer(const char *text, void *field);   /* cs_given_integer */
 cs_value_outcome cs_value_workers(const char *text, void *field);   /* int32_t, 1..1024 */
+cs_value_outcome cs_value_memory(const char *text, void *field);    /* int32_t, 1..1048576 */
 cs_value_outcome cs_value_number(const char *text, void *field);    /* double, finite */
 cs_value_outcome cs_value_scale(const char *text, void *field);     /* double, above 0 */
 cs_value_outcome cs_value_tolerance(const char *text, void *field); /* double, 0 or more */

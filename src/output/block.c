@@ -13,40 +13,61 @@ enum {
 
 /* ---------------------------------------------------------------- bits */
 
+/* The writer's bits while a block is put: no byte that is stored can alias them. */
+typedef struct bit_stream {
+  uint64_t bits;
+  unsigned count;
+  unsigned char *at;
+  cs_block_writer *writer;
+} bit_stream;
+
+static bit_stream open_stream(cs_block_writer *writer) {
+  return (bit_stream){writer->bits, writer->bit_count, writer->bytes + writer->size, writer};
+}
+
 static void drain(cs_block_writer *writer, size_t size) {
   if (writer->status == CELSPAN_OK && size > 0)
     writer->status = writer->write(writer->user, writer->context, writer->bytes, size);
   writer->size = 0;
 }
 
-static void put_whole_bytes(cs_block_writer *writer) {
-  if (writer->size + 8 > CS_BLOCK_BYTES)
-    drain(writer, writer->size);
-  memcpy(writer->bytes + writer->size, &writer->bits, 8);
-  writer->size += writer->bit_count / 8;
-  writer->bits >>= writer->bit_count & ~7u;
-  writer->bit_count &= 7;
+static inline void put_whole_bytes(bit_stream *stream) {
+  cs_block_writer *writer = stream->writer;
+  if (stream->at > writer->bytes + CS_BLOCK_BYTES - 8) {
+    drain(writer, (size_t)(stream->at - writer->bytes));
+    stream->at = writer->bytes;
+  }
+  memcpy(stream->at, &stream->bits, 8);
+  stream->at += stream->count / 8;
+  stream->bits >>= stream->count & ~7u;
+  stream->count &= 7;
 }
 
 /* count <= 48. */
-static inline void put_bits(cs_block_writer *writer, uint64_t bits, unsigned count) {
-  if (writer->bit_count + count > 63)
-    put_whole_bytes(writer);
-  writer->bits |= bits << writer->bit_count;
-  writer->bit_count += count;
+static inline void put_bits(bit_stream *stream, uint64_t bits, unsigned count) {
+  if (stream->count + count > 63)
+    put_whole_bytes(stream);
+  stream->bits |= bits << stream->count;
+  stream->count += count;
+}
+
+static void close_stream(bit_stream *stream) {
+  put_whole_bytes(stream);
+  stream->writer->bits = stream->bits;
+  stream->writer->bit_count = stream->count;
+  stream->writer->size = (size_t)(stream->at - stream->writer->bytes);
 }
 
 /* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
 void cs_block_align(cs_block_writer *writer) {
-  put_bits(writer, 0, 3);
-  put_bits(writer, 0, (8 - writer->bit_count % 8) % 8);
-  put_bits(writer, 0xffff0000u, 32);
+  bit_stream stream = open_stream(writer);
+  put_bits(&stream, 0, 3);
+  put_bits(&stream, 0, (8 - stream.count % 8) % 8);
+  put_bits(&stream, 0xffff0000u, 32);
+  close_stream(&stream);
 }
 
-void cs_block_flush(cs_block_writer *writer) {
-  put_whole_bytes(writer);
-  drain(writer, writer->size);
-}
+void cs_block_flush(cs_block_writer *writer) { drain(writer, writer->size); }
 
 /* ---------------------------------------------------------------- symbols */
 
@@ -92,7 +113,10 @@ static void count_tokens(counts *count, const cs_token *tokens, size_t token_cou
   uint32_t lengths[256] = {0};
   memset(count, 0, sizeof *count);
   for (size_t i = 0; i < token_count; i++)
-    if (tokens[i] < 256) {
+    if (cs_token_is_triple(tokens[i])) {
+      for (int k = 0; k < 3; k++)
+        count->literals[tokens[i] >> 8 * k & 255]++;
+    } else if (tokens[i] < 256) {
       count->literals[tokens[i]]++;
     } else {
       uint32_t times = (tokens[i] >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
@@ -205,16 +229,16 @@ static void make_header(header *head, const codes *code) {
     head->size += count[i] * (uint64_t)(head->lengths[i] + length_extra_bits[i]);
 }
 
-static void put_header(cs_block_writer *writer, const header *head) {
-  put_bits(writer, (unsigned)(head->literal_count - 257), 5);
-  put_bits(writer, (unsigned)(head->distance_count - 1), 5);
-  put_bits(writer, (unsigned)(head->code_count - 4), 4);
+static void put_header(bit_stream *stream, const header *head) {
+  put_bits(stream, (unsigned)(head->literal_count - 257), 5);
+  put_bits(stream, (unsigned)(head->distance_count - 1), 5);
+  put_bits(stream, (unsigned)(head->code_count - 4), 4);
   for (int i = 0; i < head->code_count; i++)
-    put_bits(writer, head->lengths[length_order[i]], 3);
+    put_bits(stream, head->lengths[length_order[i]], 3);
   for (int i = 0; i < head->item_count; i++) {
     int symbol = head->symbol[i];
-    put_bits(writer, head->codes[symbol], head->lengths[symbol]);
-    put_bits(writer, head->extra[i], length_extra_bits[symbol]);
+    put_bits(stream, head->codes[symbol], head->lengths[symbol]);
+    put_bits(stream, head->extra[i], length_extra_bits[symbol]);
   }
 }
 
@@ -250,7 +274,7 @@ static void make_book(code_book *book, const codes *code) {
   }
 }
 
-static void put_match(cs_block_writer *writer, const codes *code, const code_book *book,
+static inline void put_match(bit_stream *stream, const codes *code, const code_book *book,
                       cs_token token) {
   unsigned less_1 = token & 0x7fff, times = (token >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
   bit_string length = book->lengths[token >> 16 & 255], distance;
@@ -264,28 +288,38 @@ static void put_match(cs_block_writer *writer, const codes *code, const code_boo
   unsigned count = length.count + distance.count;
   for (; times > 1 && count <= 24; times /= 2) { /* twice as many bits, half as often */
     if (times & 1)
-      put_bits(writer, bits, count);
+      put_bits(stream, bits, count);
     bits |= bits << count;
     count *= 2;
   }
   while (times-- > 0)
-    put_bits(writer, bits, count);
+    put_bits(stream, bits, count);
 }
 
-static void put_tokens(cs_block_writer *writer, const codes *code, const cs_token *tokens,
+static inline void put_triple(bit_stream *stream, const code_book *book, cs_token token) {
+  bit_string a = book->literals[token & 255], b = book->literals[token >> 8 & 255];
+  bit_string c = book->literals[token >> 16 & 255];
+  uint64_t bits = a.bits | (uint64_t)b.bits << a.count | (uint64_t)c.bits << (a.count + b.count);
+  put_bits(stream, bits, a.count + b.count + c.count);
+}
+
+static void put_tokens(bit_stream *stream, const codes *code, const cs_token *tokens,
                        size_t count) {
   code_book book;
   make_book(&book, code);
   for (const cs_token *token = tokens; token < tokens + count; token++) {
-    if (*token < 256)
-      put_bits(writer, book.literals[*token].bits, book.literals[*token].count);
+    if (cs_token_is_triple(*token))
+      put_triple(stream, &book, *token);
+    else if (*token < 256)
+      put_bits(stream, book.literals[*token].bits, book.literals[*token].count);
     else
-      put_match(writer, code, &book, *token);
+      put_match(stream, code, &book, *token);
   }
-  put_bits(writer, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
+  put_bits(stream, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
 }
 
 void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last) {
+  bit_stream stream = open_stream(writer);
   counts frequency;
   codes own, fixed;
   header head;
@@ -294,10 +328,11 @@ void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count,
   fixed_lengths(&fixed);
   make_header(&head, &own);
   bool own_is_shorter = coded_size(&own, &frequency) + head.size < coded_size(&fixed, &frequency);
-  put_bits(writer, (own_is_shorter ? 4u : 2u) | is_last, 3);
+  put_bits(&stream, (own_is_shorter ? 4u : 2u) | is_last, 3);
   if (own_is_shorter)
-    put_header(writer, &head);
+    put_header(&stream, &head);
   codes *chosen = own_is_shorter ? &own : &fixed;
   assign_codes(chosen);
-  put_tokens(writer, chosen, tokens, count);
+  put_tokens(&stream, chosen, tokens, count);
+  close_stream(&stream);
 }

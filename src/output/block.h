@@ -8,10 +8,12 @@
 typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, const void *bytes,
                                          size_t size);
 
-/* A literal is its byte; a match is made here. length 3..258, distance 1..32768. A match of the
+/* A literal is its byte; three of them in one, the first lowest, and matches are made here. length 3..258, distance 1..32768. A match of the
  * greatest length may stand for up to CS_TOKEN_TIMES equal ones. */
 typedef uint32_t cs_token;
 enum { CS_TOKEN_LONGEST = 258, CS_TOKEN_TIMES = 128 };
+static inline cs_token cs_token_triple(uint32_t bytes) { return 0x40000000u | bytes; }
+static inline bool cs_token_is_triple(cs_token token) { return token >> 30 == 1; }
 static inline cs_token cs_token_match(size_t length, size_t distance) {
   return 0x80000000u | (cs_token)(length - 3) << 16 | (cs_token)(distance - 1);
 }

@@ -320,10 +320,23 @@ static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
   deflate->ends_in_zeros = false;
 }
 
+/* The usual pixel begins with three bytes that are not 0. */
+static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
+  size_t i = 0;
+  if (size >= 3 && pixel & 0xff && pixel & 0xff00 && pixel & 0xff0000) {
+    if (deflate->zeros > 0)
+      put_zeros(deflate);
+    put_token(deflate, cs_token_triple((uint32_t)pixel & 0xffffff));
+    deflate->ends_in_zeros = false;
+    i = 3;
+  }
+  for (; i < size; i++)
+    put_byte(deflate, (unsigned char)(pixel >> 8 * i));
+}
+
 static void put_pixels(cs_deflate *deflate, uint64_t pixel, size_t count) {
   size_t size = deflate->pixel_size, bytes = (count - 1) * size;
-  for (size_t i = 0; i < size; i++)
-    put_byte(deflate, (unsigned char)(pixel >> 8 * i));
+  put_pixel(deflate, pixel, size);
   if (bytes >= 3) {
     put_zeros(deflate);
     put_matches(deflate, bytes, size);

@@ -254,6 +254,13 @@ static celspan_status finish(cs_file *file, celspan_context *context) {
   return sync_folder(file) == 0 ? CELSPAN_OK : fail(file, context, "cannot sync its folder");
 }
 
+celspan_status cs_file_temporary(cs_file *file, celspan_context *context, const char **name) {
+  CS_TRY(check_usable(file, context));
+  CS_TRY(flush(file, context));
+  *name = file->temporary;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_file_commit(cs_file *file, celspan_context *context) {
   celspan_status status = finish(file, context);
   if (status == CELSPAN_OK)

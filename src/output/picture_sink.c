@@ -291,7 +291,8 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 
 /* Some writers call a file complete that nobody can read. */
 static celspan_status check_file(const picture_sink *sink, celspan_context *context) {
-  cs_picture_request request = {.file = sink->path};
+  cs_picture_request request = {0};
+  CS_TRY(cs_file_temporary(sink->file, context, &request.file));
   cs_picture_header header;
   cs_picture_failure failure;
   cs_picture_reader *reader;
@@ -301,9 +302,8 @@ static celspan_status check_file(const picture_sink *sink, celspan_context *cont
     if (header.info.width == sink->width && header.info.height == sink->height)
       return CELSPAN_OK;
   }
-  unlink(sink->path);
   return cs_fail(context, CELSPAN_OUTPUT,
-                 "%s: what was written as %s cannot be read back, so it was removed (%s)",
+                 "%s: what was written as %s cannot be read back, so it is not kept (%s)",
                  sink->path, sink->format->name,
                  status == CELSPAN_OK ? "its size is wrong" : failure.text);
 }
@@ -315,10 +315,10 @@ static celspan_status finish(picture_sink *sink, celspan_context *context) {
   cs_picture_writer *writer = sink->writer;
   sink->writer = NULL;
   CS_TRY(report(sink, context, sink->module->write_close(writer, &failure), &failure));
+  CS_TRY(check_file(sink, context));
   cs_file *file = sink->file;
   sink->file = NULL;
-  CS_TRY(cs_file_commit(file, context));
-  return check_file(sink, context);
+  return cs_file_commit(file, context);
 }
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {

@@ -24,6 +24,7 @@ void cs_png_costs_fill(cs_png_costs *costs) {
   }
 }
 
+/* pixel_size: known to the compiler wherever this is used. */
 static inline unsigned pixel_cost(const cs_png_costs *costs, uint64_t pixel, size_t pixel_size) {
   unsigned cost = 0;
   for (size_t i = 0; i < pixel_size; i++)
@@ -31,30 +32,23 @@ static inline unsigned pixel_cost(const cs_png_costs *costs, uint64_t pixel, siz
   return cost;
 }
 
-static uint64_t cost_none(const cs_png_row *row, size_t pixel_size) {
-  uint64_t cost = 0;
-  int32_t x = 0;
-  for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
-    cost += COLOUR_BITS * pixel_size + (run->end - x > 1 ? MORE_BITS : 0);
-    x = run->end;
-  }
-  return cost;
-}
-
-static uint64_t cost_sub(const cs_png_costs *costs, const cs_png_row *row, size_t pixel_size) {
-  uint64_t cost = 0, left = 0;
+/* As None and as Sub, whose runs are the row's own. */
+static inline void cost_within(const cs_png_costs *costs, const cs_png_row *row, size_t pixel_size,
+                               uint64_t *none, uint64_t *sub) {
+  uint64_t cost = 0, left = 0, more = 0;
   int32_t x = 0;
   for (const cs_png_run *run = row->runs; run < row->runs + row->run_count; run++) {
     cost += pixel_cost(costs, subtract_bytes(run->pixel, left), pixel_size);
-    cost += run->end - x > 1 ? MORE_BITS : 0;
+    more += run->end - x > 1;
     left = run->pixel;
     x = run->end;
   }
-  return cost;
+  *none = row->run_count * COLOUR_BITS * pixel_size + more * MORE_BITS;
+  *sub = cost + more * MORE_BITS;
 }
 
-static uint64_t cost_up(const cs_png_costs *costs, const cs_png_row *row, const cs_png_row *above,
-                        size_t pixel_size) {
+static inline uint64_t cost_up(const cs_png_costs *costs, const cs_png_row *row,
+                               const cs_png_row *above, size_t pixel_size) {
   const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
   uint64_t cost = 0, held = 1;
   int32_t x = 0;
@@ -73,11 +67,27 @@ static uint64_t cost_up(const cs_png_costs *costs, const cs_png_row *row, const 
   return cost;
 }
 
+static inline filter choose_of_size(const cs_png_costs *costs, const cs_png_row *row,
+                                    const cs_png_row *above, size_t pixel_size) {
+  uint64_t none, sub, up = UINT64_MAX;
+  cost_within(costs, row, pixel_size, &none, &sub);
+  if (above->run_count > 0)
+    up = cost_up(costs, row, above, pixel_size);
+  return up <= none && up <= sub ? FILTER_UP : none <= sub ? FILTER_NONE : FILTER_SUB;
+}
+
 static filter choose_for_runs(const cs_png_costs *costs, const cs_png_row *row,
                               const cs_png_row *above, size_t pixel_size) {
-  uint64_t none = cost_none(row, pixel_size), sub = cost_sub(costs, row, pixel_size);
-  uint64_t up = above->run_count > 0 ? cost_up(costs, row, above, pixel_size) : UINT64_MAX;
-  return up <= none && up <= sub ? FILTER_UP : none <= sub ? FILTER_NONE : FILTER_SUB;
+  switch (pixel_size) {
+  case 3:
+    return choose_of_size(costs, row, above, 3);
+  case 4:
+    return choose_of_size(costs, row, above, 4);
+  case 6:
+    return choose_of_size(costs, row, above, 6);
+  default:
+    return choose_of_size(costs, row, above, 8);
+  }
 }
 
 static celspan_status put_none(cs_deflate *deflate, celspan_context *context,

@@ -24,8 +24,8 @@ typedef struct span_sink {
   size_t allocated;
   celspan_context *context; /* of the call that is running, for put_bytes */
   celspan_coding coding;
-  cs_file *file;           /* from begin to end */
-  spanfile_writer *writer; /* likewise */
+  cs_file *file;                          /* from begin to end */
+  spanfile_writer *writer;                /* likewise */
   coded_colour colours[1 << COLOUR_BITS]; /* an empty one says that zeros are coded as zeros */
   unsigned char piece[PIECE * 8];
   float edge[4 * EDGE]; /* colours of short spans, and what they are coded as */
@@ -159,14 +159,14 @@ static spanfile_status put_spans(span_sink *sink, const celspan_span *spans, siz
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   span_sink *sink = user;
   sink->context = context;
-  spanfile_writer_desc desc = {
-      .width = (uint32_t)width,
-      .height = (uint32_t)height,
-      .format = sink->coding.depth == CELSPAN_DEPTH_HALF ? SPANFILE_HALF : SPANFILE_SRGB8,
-      .write = put_bytes,
-      .user = sink,
-      .resize = resize,
-      .resize_user = context->memory};
+  spanfile_writer_desc desc = {.width = (uint32_t)width,
+                               .height = (uint32_t)height,
+                               .format = sink->coding.depth == CELSPAN_DEPTH_HALF ? SPANFILE_HALF
+                                                                                  : SPANFILE_SRGB8,
+                               .write = put_bytes,
+                               .user = sink,
+                               .resize = resize,
+                               .resize_user = context->memory};
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return report(sink, spanfile_writer_create(&desc, &sink->writer));
 }

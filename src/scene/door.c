@@ -7,9 +7,10 @@
 
 #define NAME_SIZE 96
 
+/* Paints and lights are floats, which seven digits name as they were given; geometry takes more. */
 cs_door_text cs_door_number_text(double value) {
   cs_door_text number;
-  snprintf(number.text, sizeof number.text, "%.9g", value);
+  snprintf(number.text, sizeof number.text, value == (float)value ? "%.7g" : "%.9g", value);
   char *comma = strchr(number.text, ',');
   if (comma)
     *comma = '.';

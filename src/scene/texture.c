@@ -125,8 +125,12 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
                    noun);
   for (size_t i = 0; i < count; i++) {
-    double least = i > 0 ? stops[i - 1].at : 0;
-    CS_TRY(cs_door_item(context, noun, "stops", i + 1, "at", stops[i].at, least, 1));
+    CS_TRY(cs_door_item(context, noun, "stops", i + 1, "at", stops[i].at, 0, 1));
+    if (i > 0 && stops[i].at < stops[i - 1].at)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                     "%s: stops[%zu].at is %s, less than %s of the stop before; stops must ascend",
+                     noun, i + 1, cs_door_number_text(stops[i].at).text,
+                     cs_door_number_text(stops[i - 1].at).text);
     CS_TRY(cs_door_paint(context, noun, "stops", i + 1, &stops[i].paint));
   }
   return CELSPAN_OK;

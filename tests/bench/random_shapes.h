@@ -1,6 +1,6 @@
 /* The scene of the random-shape benchmarks: each shape is a closed uniform cubic B-spline on four
- * random points of the unit square, filled even-odd, painted over white: the scenes of the material's
- * bench-scenes when CELSPAN_MATERIAL names it, else shapes made by the same rule.
+ * random points of the unit square, filled even-odd, painted over white: the scenes of the
+ * material's bench-scenes when CELSPAN_MATERIAL names it, else shapes made by the same rule.
  */
 #ifndef CELSPAN_TESTS_RANDOM_SHAPES_H
 #define CELSPAN_TESTS_RANDOM_SHAPES_H
@@ -77,8 +77,11 @@ static celspan_rostrum *make_scene(celspan_context *context, int count) {
     else
       make_shape(&s);
     check(context, celspan_texture_create_paint(context, &s.paint, &texture));
-    celspan_nurbs_desc desc = {.points = s.points, .point_count = 4, .degree = 3,
-                               .rule = CELSPAN_RULE_EVENODD, .texture = texture};
+    celspan_nurbs_desc desc = {.points = s.points,
+                               .point_count = 4,
+                               .degree = 3,
+                               .rule = CELSPAN_RULE_EVENODD,
+                               .texture = texture};
     check(context, celspan_object_create_nurbs(context, &desc, &objects[i]));
     celspan_texture_unref(texture);
   }

@@ -1,7 +1,7 @@
 /* The random-shape scenes, timed inside one process: `shapes COUNT SIDE [RUNS]`.
  *
- * Prints the least and the median time of interleaved runs, to spans and to 8-bit pixels in a reused
- * row, without and with antialiasing.
+ * Prints the least and the median time of interleaved runs, to spans and to 8-bit pixels in a
+ * reused row, without and with antialiasing.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -143,7 +143,8 @@ describe("the command line's page", function()
       assert.is_truthy(text:find("\n## " .. verb .. "\n", 1, true) or verb == "help", verb)
       for option in output_of(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
         known[option] = true
-        assert.is_truthy(text:find("`" .. option .. "[` ]"), verb .. " " .. option)
+        local named = "`" .. option:gsub("%-", "%%-") .. "[` ]"
+        assert.is_truthy(text:find(named), verb .. " " .. option)
       end
     end
     for option in text:gmatch "`(%-%-[%w-]+)" do

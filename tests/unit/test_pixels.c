@@ -129,6 +129,32 @@ static void check_row(celspan_coding coding, const celspan_span *spans, size_t c
   free(row);
 }
 
+/* Flat spans of every length at every place of the cache's lines, with bytes around that are not the
+ * row's. */
+static void check_lengths(celspan_coding coding) {
+  enum { MOST = 150, AROUND = 80 };
+  size_t size = celspan_coding_pixel_size(&coding);
+  static _Alignas(64) unsigned char room[(MOST + 2) * 16 + 2 * AROUND];
+  unsigned char left[16], right[16];
+  int wrong = 0;
+  for (size_t at = 0; at < 64; at++)
+    for (int32_t length = 1; length <= MOST; length++) {
+      celspan_span spans[2] = {{.x0 = 0, .x1 = length, .colour = {1, 0.5f, 0.25f, 1}},
+                               {.x0 = length, .x1 = length + 1, .colour = {0, 0.1f, 0.2f, 0.5f}}};
+      size_t end = at + (size_t)(length + 1) * size;
+      memset(room, 77, sizeof room);
+      cs_pixels_row(&coding, spans, 2, room + at);
+      cs_pixels_code(&coding, spans[0].colour, left);
+      cs_pixels_code(&coding, spans[1].colour, right);
+      for (int32_t x = 0; x < length; x++)
+        wrong += memcmp(room + at + (size_t)x * size, left, size) != 0;
+      wrong += memcmp(room + end - size, right, size) != 0;
+      for (size_t i = 0; i < AROUND; i++)
+        wrong += room[end + i] != 77 || (i < at && room[i] != 77);
+    }
+  CHECK(wrong == 0);
+}
+
 static void check_rows(void) {
   static celspan_span spans[WIDTH];
   for (int i = 0; i < 4 * WIDTH; i++)
@@ -203,6 +229,11 @@ int main(void) {
   check_straight();
   check_16();
   check_rows();
+  check_lengths((celspan_coding){CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT});
+  check_lengths(
+      (celspan_coding){CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT});
+  check_lengths(
+      (celspan_coding){CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_PREMULTIPLIED});
   check_memory_sink(context, same);
   check_digest_sink(context, same);
   check_digest_sink(context, different);

@@ -42,10 +42,10 @@ static void test_gradient_doors(studio *s) {
   celspan_stop stops[3] = {{0, red}, {0.5, red}, {0.25, red}};
   celspan_point from = {0, 0}, to = {1, 1};
   REFUSED(s, celspan_texture_create_linear(s->context, from, to, stops, 3, &out),
-          "linear: stops[3].at is 0.25; it must be between 0.5 and 1");
+          "linear: stops[3].at is 0.25, less than 0.5 of the stop before; stops must ascend");
   stops[2].at = 1.25;
   REFUSED(s, celspan_texture_create_linear(s->context, from, to, stops, 3, &out),
-          "linear: stops[3].at is 1.25; it must be between 0.5 and 1");
+          "linear: stops[3].at is 1.25; it must be between 0 and 1");
   REFUSED(s, celspan_texture_create_linear(s->context, from, to, stops, 0, &out),
           "linear: there is no stop; it needs one or more");
   REFUSED(s, celspan_texture_create_radial(s->context, from, -1, stops, 2, &out),

@@ -2,8 +2,9 @@
  *
  * Scan lines are read as they are asked for, in any order; memory is one row. The library's cache
  * would take a picture of scan lines as a single tile, so what is too large for that is offered in
- * tiles, which cost no more than the rows they cover. Eight-bit files are sRGB and come premultiplied, as the library wants them, unless "oiio:UnassociatedAlpha" asks for
- * the straight values of the file; half files are linear and premultiplied as they are.
+ * tiles, which cost no more than the rows they cover. Eight-bit files are sRGB and come
+ * premultiplied, as the library wants them, unless "oiio:UnassociatedAlpha" asks for the straight
+ * values of the file; half files are linear and premultiplied as they are.
  */
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -82,8 +83,8 @@ bool SpanInput::create_reader() {
 
 void SpanInput::describe() {
   bool is_half = info_.format == SPANFILE_HALF;
-  m_spec = ImageSpec(int(info_.width), int(info_.height), 4,
-                     is_half ? TypeDesc::HALF : TypeDesc::UINT8);
+  m_spec =
+      ImageSpec(int(info_.width), int(info_.height), 4, is_half ? TypeDesc::HALF : TypeDesc::UINT8);
   if (uint64_t(info_.width) * info_.height > LARGE)
     m_spec.tile_width = m_spec.tile_height = TILE;
   m_spec.attribute("oiio:ColorSpace", is_half ? "Linear" : "sRGB");
@@ -121,8 +122,8 @@ bool SpanInput::read_pixels(int y, int x0, int x1, void *data) {
     return refuse(fault);
   spanfile_row_pixels(info_.format, &row, uint32_t(x0), uint32_t(x1), data);
   if (info_.format == SPANFILE_SRGB8 && !is_straight_)
-    OIIO::premult(4, x1 - x0, 1, 1, 0, 4, TypeDesc::UINT8, data, OIIO::AutoStride,
-                  OIIO::AutoStride, OIIO::AutoStride, 3, -1);
+    OIIO::premult(4, x1 - x0, 1, 1, 0, 4, TypeDesc::UINT8, data, OIIO::AutoStride, OIIO::AutoStride,
+                  OIIO::AutoStride, 3, -1);
   return true;
 }
 
@@ -154,7 +155,7 @@ bool SpanInput::read_native_tile(int subimage, int miplevel, int x, int y, int, 
   return true;
 }
 
-}  // namespace
+} // namespace
 
 /* What the library looks for in a plug-in of this name. */
 OIIO_PLUGIN_EXPORTS_BEGIN

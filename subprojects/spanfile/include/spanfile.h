@@ -62,7 +62,8 @@ typedef struct spanfile_row {
   const unsigned char *values; /* of raw and gradient spans, in order */
 } spanfile_row;
 
-/* One hook for all memory: block NULL allocates, new_size 0 frees and returns NULL, else resizes. */
+/* One hook for all memory: block NULL allocates, new_size 0 frees and returns NULL, else resizes.
+ */
 typedef void *(*spanfile_resize)(void *user, void *block, size_t old_size, size_t new_size);
 
 /* ---------------------------------------------------------------- writing */
@@ -108,7 +109,7 @@ typedef struct spanfile_source {
   /* All bytes of [offset, offset + size), which lies within the file; false: failed. */
   bool (*read)(void *user, uint64_t offset, void *bytes, size_t size);
   void *user;
-  uint64_t size; /* of the file */
+  uint64_t size;          /* of the file */
   spanfile_resize resize; /* NULL: the C library's */
   void *resize_user;
 } spanfile_source;
@@ -135,8 +136,8 @@ spanfile_info spanfile_reader_info(const spanfile_reader *reader);
  * bytes in the file, and at most twice its spans and values. */
 spanfile_status spanfile_reader_row(spanfile_reader *reader, uint32_t y, spanfile_row *out,
                                     spanfile_fault *fault);
-/* Reads every byte: OK when the file is whole and every checksum right. counts: NULL, or rows by how
- * they are stored and spans by kind. */
+/* Reads every byte: OK when the file is whole and every checksum right. counts: NULL, or rows by
+ * how they are stored and spans by kind. */
 typedef struct spanfile_counts {
   uint64_t literal_rows, moved_rows, same_rows;
   uint64_t spans[3]; /* by spanfile_kind */

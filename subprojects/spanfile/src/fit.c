@@ -12,10 +12,10 @@ typedef struct fitting {
   spanfile_format format;
   size_t pixel_size;
   sf_row *out;
-  const unsigned char *values;        /* of what follows in the row */
-  const spanfile_span *now, *end;     /* of the row, what is still to be kept */
+  const unsigned char *values;            /* of what follows in the row */
+  const spanfile_span *now, *end;         /* of the row, what is still to be kept */
   const spanfile_span *model, *model_end; /* of the row above, what is still to be matched */
-  uint32_t model_start;               /* column */
+  uint32_t model_start;                   /* column */
   bool is_changed, has_memory;
 } fitting;
 

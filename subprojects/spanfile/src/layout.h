@@ -21,10 +21,10 @@ enum {
   SF_PACKET_MOST = 32768, /* pixels */
   SF_NODE_ENTRIES = 512,
   SF_ENTRY_BYTES = 12,
-  SF_LEVELS = 4,          /* 512^4 is more than there can be rows */
-  SF_LENGTH_BYTES = 9,    /* of a varint that stands for a size */
+  SF_LEVELS = 4,       /* 512^4 is more than there can be rows */
+  SF_LENGTH_BYTES = 9, /* of a varint that stands for a size */
   SF_CHECK_BYTES = 4,
-  SF_KEY_ROWS = 256,      /* at most from key row to key row */
+  SF_KEY_ROWS = 256, /* at most from key row to key row */
   SF_KEY_BYTES = 64 * 1024
 };
 

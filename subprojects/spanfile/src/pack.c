@@ -5,9 +5,8 @@ enum { GRADIENT_LEAST = 12 };
 
 bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
                  uint32_t count) {
-  return count == 0 ||
-         (sf_bytes_add(memory, &row->values, pixels, (size_t)count * pixel_size) &&
-          sf_row_add(memory, row, count, SPANFILE_RAW, 0));
+  return count == 0 || (sf_bytes_add(memory, &row->values, pixels, (size_t)count * pixel_size) &&
+                        sf_row_add(memory, row, count, SPANFILE_RAW, 0));
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -96,8 +95,9 @@ bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format
   for (uint32_t i = continued; i < count;) {
     const unsigned char *here = at + i * size;
     uint32_t run = run_length(here, count - i, size);
-    uint32_t gradient =
-        run < SF_RUN_LEAST && count - i >= GRADIENT_LEAST ? gradient_length(format, here, count - i) : 0;
+    uint32_t gradient = run < SF_RUN_LEAST && count - i >= GRADIENT_LEAST
+                            ? gradient_length(format, here, count - i)
+                            : 0;
     if (run < SF_RUN_LEAST && gradient == 0) {
       raw++;
       i++;

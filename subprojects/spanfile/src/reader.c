@@ -225,7 +225,8 @@ static spanfile_status read_moves(spanfile_reader *reader, const file_record *re
     }
     int64_t move = reader->moves[i] + rest, end = (int64_t)reader->row.spans[i].end + move;
     if (end <= (int64_t)start || end >= (int64_t)width)
-      return REFUSE(reader, offset, "row %" PRIu32 ": span %zu ends out of order", reader->y, i + 1);
+      return REFUSE(reader, offset, "row %" PRIu32 ": span %zu ends out of order", reader->y,
+                    i + 1);
     reader->moves[i] = move;
     start = reader->row.spans[i].end = (uint32_t)end;
   }
@@ -365,8 +366,7 @@ spanfile_status spanfile_reader_row(spanfile_reader *reader, uint32_t y, spanfil
                 reader->info.height - 1);
   reader->fault = fault;
   TRY(go_to(reader, y));
-  *out = (spanfile_row){reader->row.spans, reader->row.count,
-                         sf_bytes_start(&reader->row.values)};
+  *out = (spanfile_row){reader->row.spans, reader->row.count, sf_bytes_start(&reader->row.values)};
   return SPANFILE_OK;
 }
 

@@ -32,8 +32,7 @@ static void *grow(const sf_memory *memory, void *items, size_t *capacity, size_t
   wanted = wanted * item_size < 256 ? 256 / item_size : wanted;
   if (wanted > SIZE_MAX / 2 / item_size)
     return NULL;
-  void *grown =
-      memory->resize(memory->user, items, *capacity * item_size, wanted * item_size);
+  void *grown = memory->resize(memory->user, items, *capacity * item_size, wanted * item_size);
   if (grown)
     *capacity = wanted;
   return grown;
@@ -54,8 +53,7 @@ void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes) {
 }
 
 bool sf_row_grow(const sf_memory *memory, sf_row *row) {
-  void *grown =
-      grow(memory, row->spans, &row->capacity, row->count + 1, sizeof *row->spans);
+  void *grown = grow(memory, row->spans, &row->capacity, row->count + 1, sizeof *row->spans);
   if (grown)
     row->spans = grown;
   return grown != NULL;

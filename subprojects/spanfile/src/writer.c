@@ -32,9 +32,9 @@ struct spanfile_writer {
   uint64_t y;        /* rows that are complete; more than height: finished */
   sf_row row, above; /* in hand, and the last complete one */
   sf_row fitted;
-  int64_t *moves;    /* of the ends of `above`, from the row above it */
+  int64_t *moves; /* of the ends of `above`, from the row above it */
   size_t move_capacity;
-  sf_bytes record;   /* HEAD_BYTES, payload */
+  sf_bytes record; /* HEAD_BYTES, payload */
   uint32_t key_row;
   uint64_t key_offset;
   uint64_t flushed; /* bytes handed to `write` */
@@ -291,8 +291,8 @@ static bool stand_still(spanfile_writer *writer) {
 static bool fit_above(spanfile_writer *writer) {
   if (sf_fit_is_alike(&writer->row, &writer->above))
     return true;
-  sf_fitted fitted = sf_fit(&writer->memory, writer->format, &writer->row, &writer->above,
-                            &writer->fitted);
+  sf_fitted fitted =
+      sf_fit(&writer->memory, writer->format, &writer->row, &writer->above, &writer->fitted);
   if (fitted == SF_FIT_NO_MEMORY)
     fail(writer, SPANFILE_NO_MEMORY);
   if (fitted == SF_FIT_ALIKE || fitted == SF_FIT_NEAR) {

@@ -2,8 +2,8 @@
  * and small pictures the same after they are written again.
  *
  * The first byte decides whether the rest is read as it is, or with checksums (1) and ends (2) put
- * right. With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs the
- * files of a folder.
+ * right. With clang's -fsanitize=fuzzer this is a fuzz target; with REPLAY_MAIN its own main runs
+ * the files of a folder.
  */
 #include "mend.h"
 
@@ -77,7 +77,8 @@ static void write_again(spanfile_reader *reader) {
   p.pixels = malloc((size_t)p.width * p.height * p.pixel_size);
   for (uint32_t y = 0; y < p.height; y++) {
     spanfile_row row;
-    demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK, "a row can be read once only");
+    demand(spanfile_reader_row(reader, y, &row, NULL) == SPANFILE_OK,
+           "a row can be read once only");
     spanfile_row_pixels(p.format, &row, 0, p.width, picture_row(&p, y));
   }
   memory_file file = write_picture(&p, p.width);

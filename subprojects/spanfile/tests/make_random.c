@@ -1,6 +1,6 @@
-/* Writes random pictures: `make_random FOLDER COUNT` makes 0.span, 0.pixels, ... there; for decoders
- * to be held against. With a third argument the span files begin with a byte of 0 to 3, as the
- * fuzzer's inputs do. */
+/* Writes random pictures: `make_random FOLDER COUNT` makes 0.span, 0.pixels, ... there; for
+ * decoders to be held against. With a third argument the span files begin with a byte of 0 to 3, as
+ * the fuzzer's inputs do. */
 #include "support.h"
 
 static void put_file(const char *folder, int number, const char *ending, int first,
@@ -22,7 +22,10 @@ int main(int count, char **arguments) {
   bool is_corpus = count > 3;
   for (int i = 0; i < atoi(arguments[2]); i++) {
     bool is_wide = i % 50 == 49 && !is_corpus;
-    picture p = random_picture((uint64_t)i, is_wide ? 100000 : 60, is_wide ? 5 : i % 50 == 48 ? 700 : 20);
+    picture p = random_picture((uint64_t)i, is_wide ? 100000 : 60,
+                               is_wide        ? 5
+                               : i % 50 == 48 ? 700
+                                              : 20);
     memory_file file = write_picture(&p, (uint64_t)i);
     put_file(arguments[1], i, "span", is_corpus ? i % 4 : -1, file.bytes, file.size);
     if (!is_corpus)

@@ -1,4 +1,5 @@
-/* Checksums put right in a file whose bytes were changed, so that what lies behind them is tested. */
+/* Checksums put right in a file whose bytes were changed, so that what lies behind them is tested.
+ */
 #ifndef SPANFILE_TESTS_MEND_H
 #define SPANFILE_TESTS_MEND_H
 
@@ -25,7 +26,8 @@ static inline void mend_sums(memory_file *file, uint32_t height) {
   }
 }
 
-/* Header and trailer made to agree with each other and the size: what a fuzzer would have to guess. */
+/* Header and trailer made to agree with each other and the size: what a fuzzer would have to guess.
+ */
 static inline void mend_ends(memory_file *file) {
   unsigned char *header = file->bytes, *trailer = file->bytes + file->size - SF_END_BYTES;
   header[0] = SF_ID_BYTES;

@@ -119,7 +119,9 @@ static inline void random_spans(random_state *random, const picture *p, const ui
 }
 
 static inline void random_ends(random_state *random, uint32_t width, uint32_t *ends) {
-  uint32_t longest = 1 + random_below(random, width < 40 ? width : random_below(random, 2) ? 12 : width);
+  uint32_t longest = 1 + random_below(random, width < 40                ? width
+                                              : random_below(random, 2) ? 12
+                                                                        : width);
   for (uint32_t x = 0, i = 0; x < width; i++) {
     uint32_t length = 1 + random_below(random, longest);
     x = length < width - x ? x + length : width;
@@ -169,8 +171,11 @@ static inline picture random_picture(uint64_t seed, uint32_t most_width, uint32_
 /* ---------------------------------------------------------------- writing them */
 
 static inline spanfile_writer *open_writer(const picture *p, memory_file *file) {
-  spanfile_writer_desc desc = {.width = p->width, .height = p->height, .format = p->format,
-                               .write = memory_write, .user = file};
+  spanfile_writer_desc desc = {.width = p->width,
+                               .height = p->height,
+                               .format = p->format,
+                               .write = memory_write,
+                               .user = file};
   spanfile_writer *writer = NULL;
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
   return writer;

@@ -56,7 +56,8 @@ static void test_round_trips(void) {
 
 /* Counts about the limits of a packet, in each kind of packet. */
 static void test_counts(void) {
-  static const uint32_t counts[] = {1, 2, 3, 127, 128, 129, 32767, 32768, 32769, 65536, 65537, 1000000};
+  static const uint32_t counts[] = {1,     2,     3,     127,   128,   129,
+                                    32767, 32768, 32769, 65536, 65537, 1000000};
   for (int format = SPANFILE_SRGB8; format <= SPANFILE_HALF; format++)
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
       picture p = {.format = (spanfile_format)format, .width = counts[i], .height = 3};
@@ -309,8 +310,12 @@ static void *metered(void *user, void *block, size_t old_size, size_t new_size) 
 }
 
 static spanfile_status write_metered(const picture *p, memory_file *file, meter *m) {
-  spanfile_writer_desc desc = {.width = p->width, .height = p->height, .format = p->format,
-                               .write = memory_write, .user = file, .resize = metered,
+  spanfile_writer_desc desc = {.width = p->width,
+                               .height = p->height,
+                               .format = p->format,
+                               .write = memory_write,
+                               .user = file,
+                               .resize = metered,
                                .resize_user = m};
   spanfile_writer *writer = NULL;
   spanfile_status status = spanfile_writer_create(&desc, &writer);
@@ -413,16 +418,16 @@ static void test_misuse(void) {
   writer = open_writer(&p, &file);
   CHECK(spanfile_writer_finish(writer) == SPANFILE_BAD_ARGUMENT);
   spanfile_writer_destroy(writer);
-  spanfile_writer_desc desc = {.width = 0, .height = 1, .format = SPANFILE_HALF,
-                               .write = memory_write, .user = &file};
+  spanfile_writer_desc desc = {
+      .width = 0, .height = 1, .format = SPANFILE_HALF, .write = memory_write, .user = &file};
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_BAD_ARGUMENT);
   free(file.bytes);
 }
 
 static void test_failing_calls(void) {
   size_t left = 100;
-  spanfile_writer_desc desc = {.width = 5, .height = 1, .format = SPANFILE_SRGB8,
-                               .write = refuse_write, .user = &left};
+  spanfile_writer_desc desc = {
+      .width = 5, .height = 1, .format = SPANFILE_SRGB8, .write = refuse_write, .user = &left};
   spanfile_writer *writer = NULL;
   CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
   CHECK(spanfile_writer_run(writer, 5, 1) == SPANFILE_OK);
