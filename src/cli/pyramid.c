@@ -24,17 +24,18 @@ void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, i
   *height = halved(pyramid->height, times);
 }
 
-static bool is_single(const cs_pyramid *pyramid, int32_t level) {
-  int32_t width, height;
-  cs_pyramid_size(pyramid, level, &width, &height);
-  return width <= pyramid->tile && height <= pyramid->tile;
+int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side) {
+  int32_t level = cs_pyramid_top(pyramid), width, height;
+  for (; level > 0; level--) {
+    cs_pyramid_size(pyramid, level, &width, &height);
+    if (width <= side && height <= side)
+      break;
+  }
+  return level;
 }
 
 int32_t cs_pyramid_single(const cs_pyramid *pyramid) {
-  int32_t level = cs_pyramid_top(pyramid);
-  while (level > 0 && !is_single(pyramid, level))
-    level--;
-  return level;
+  return cs_pyramid_within(pyramid, pyramid->tile);
 }
 
 /* ---------------------------------------------------------------- tiles */
@@ -100,7 +101,7 @@ static bool iiif_path(const cs_pyramid *pyramid, int32_t level, int32_t column, 
 
 bool cs_pyramid_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
                      bool is_alias, char *path, size_t size) {
-  if (is_alias && (pyramid->layout == CS_PYRAMID_DZI || !is_single(pyramid, level)))
+  if (is_alias && (pyramid->layout == CS_PYRAMID_DZI || level > cs_pyramid_single(pyramid)))
     return false;
   if (pyramid->layout == CS_PYRAMID_IIIF)
     return iiif_path(pyramid, level, column, row, is_alias, path, size);

@@ -32,6 +32,8 @@ typedef struct cs_area {
 } cs_area;
 
 int32_t cs_pyramid_top(const cs_pyramid *pyramid);
+/* The highest level with no more than this many pixels a side. */
+int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side);
 /* The highest level that is a single tile. */
 int32_t cs_pyramid_single(const cs_pyramid *pyramid);
 void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, int32_t *height);

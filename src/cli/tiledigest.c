@@ -77,8 +77,8 @@ static void add_shape(cs_hash *hash, const cs_pyramid *pyramid) {
 }
 
 cs_hash cs_tiledigest(const cs_request *request, const cs_pyramid *pyramid,
-                      const celspan_frame_desc *frame) {
-  cs_hash hash = cs_hash_begin(1);
+                      const celspan_frame_desc *frame, bool is_script) {
+  cs_hash hash = cs_hash_begin(is_script);
   cs_hash_text(&hash, celspan_version());
   add_shape(&hash, pyramid);
   cs_hash_number(&hash, frame->film_width);
@@ -87,6 +87,9 @@ cs_hash cs_tiledigest(const cs_request *request, const cs_pyramid *pyramid,
   cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
   cs_hash_word(&hash, (uint64_t)frame->filter.rows);
   cs_hash_word(&hash, request->skips_empty);
-  add_scene(&hash, request, frame);
+  if (is_script)
+    add_scene(&hash, request, frame);
+  else
+    add_file_state(&hash, request->operands[0]);
   return cs_hash_end(hash);
 }

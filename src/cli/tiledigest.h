@@ -7,8 +7,9 @@
 #include "cli/request.h"
 
 /* Scenes count by their structure, pictures by name, size and time. A procedure has no structure:
- * where a scene holds one, the bytes of `source` and the arguments count too. */
+ * where a scene holds one, the bytes of the script and its arguments count instead. is_script: else
+ * the operand of the request is a picture. */
 cs_hash cs_tiledigest(const cs_request *request, const cs_pyramid *pyramid,
-                      const celspan_frame_desc *frame);
+                      const celspan_frame_desc *frame, bool is_script);
 
 #endif

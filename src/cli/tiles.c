@@ -149,7 +149,7 @@ static cs_exit refuse_state(const tiles_job *job, cs_tilelog_state state) {
 
 static cs_exit open_log(tiles_job *job) {
   celspan_context *context = job->context;
-  cs_hash digest = cs_tiledigest(job->request, &job->pyramid, &job->frame);
+  cs_hash digest = cs_tiledigest(job->request, &job->pyramid, &job->frame, job->is_script);
   cs_tilelog_state state;
   celspan_status status = cs_tilelog_read(context, &job->pyramid, digest, &job->log, &state);
   bool is_known = state == CS_TILELOG_SAME || state == CS_TILELOG_OTHER;
@@ -202,18 +202,34 @@ static celspan_frame_desc level_frame(tiles_job *job, int32_t level) {
   return frame;
 }
 
-static celspan_status render_small(tiles_job *job, int32_t single, const celspan_frame_desc *frame,
+static celspan_status render_frame(tiles_job *job, const celspan_frame_desc *frame,
                                    const celspan_sink *sink) {
-  celspan_frame_desc base = level_frame(job, single);
-  if (!job->small.pixels)
-    CS_TRY(cs_tilesmall_make(job->context, &base, &job->small));
-  return cs_tilesmall_render(job->context, &job->small, frame->width, frame->height, sink);
+  return job->is_script ? celspan_frame_render(job->context, frame, sink, NULL)
+                        : cs_still_render(job->context, &job->still, frame, sink);
+}
+
+/* A small frame is its own base: it is rendered as it is. */
+static bool is_mean(const cs_pyramid *pyramid, int32_t level) {
+  return level <= cs_pyramid_within(pyramid, CS_TILESMALL_SIDE) &&
+         level < cs_pyramid_within(pyramid, CS_TILESMALL_BASE);
+}
+
+static celspan_status render_base(tiles_job *job) {
+  celspan_frame_desc base = level_frame(job, cs_pyramid_within(&job->pyramid, CS_TILESMALL_BASE));
+  celspan_sink sink;
+  CS_TRY(cs_tilesmall_begin(job->context, base.width, base.height, &job->small, &sink));
+  celspan_status status = render_frame(job, &base, &sink);
+  if (status != CELSPAN_OK)
+    cs_tilesmall_free(job->context, &job->small);
+  return status;
 }
 
 static celspan_status render_run(tiles_job *job, int32_t level, cs_area tiles) {
   celspan_frame_desc frame = level_frame(job, level);
   cs_area pixels = cs_pyramid_pixels(&job->pyramid, level, &tiles);
-  int32_t single = cs_pyramid_single(&job->pyramid);
+  bool is_small = is_mean(&job->pyramid, level);
+  if (is_small && !job->small.pixels)
+    CS_TRY(render_base(job));
   cs_tilerows rows = {.files = &job->files,
                       .level = level,
                       .tiles = tiles,
@@ -223,13 +239,13 @@ static celspan_status render_run(tiles_job *job, int32_t level, cs_area tiles) {
                       .finished = finished,
                       .user = job};
   celspan_sink sink = cs_tilerows_sink(&rows);
-  if (level < single)
-    return render_small(job, single, &frame, &sink);
+  if (is_small)
+    return cs_tilesmall_render(job->context, &job->small, frame.width, frame.height, &sink);
   frame.crop_x = pixels.x0;
   frame.crop_y = pixels.y0;
   frame.crop_width = pixels.x1 - pixels.x0;
   frame.crop_height = pixels.y1 - pixels.y0;
-  return celspan_frame_render(job->context, &frame, &sink, NULL);
+  return render_frame(job, &frame, &sink);
 }
 
 static celspan_status render_part(tiles_job *job, const cs_tile_job *part) {
@@ -336,7 +352,8 @@ static cs_exit run(tiles_job *job) {
     outcome = cs_tileplan_make(job->context, job->request, &job->pyramid, &job->frame, &job->plan);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  take_background(job);
+  if (job->is_script)
+    take_background(job);
   outcome = open_log(job);
   return outcome == CS_EXIT_OK ? make_pyramid(job) : outcome;
 }

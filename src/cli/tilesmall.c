@@ -1,24 +1,25 @@
-/* Means of the smallest rendered level. */
+/* Means of a rendered level. */
 #include "cli/tilesmall.h"
 
 
 #include "base/context.h"
 #include "cli/interrupt.h"
+#include "output/sink.h"
 
 static size_t pixels_size(const cs_tilesmall *small) {
   return (size_t)small->width * (size_t)small->height * 4 * sizeof(float);
 }
 
-celspan_status cs_tilesmall_make(celspan_context *context, const celspan_frame_desc *frame,
-                                 cs_tilesmall *out) {
+celspan_status cs_tilesmall_begin(celspan_context *context, int32_t width, int32_t height,
+                                  cs_tilesmall *out, celspan_sink *sink) {
   const celspan_coding coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
                                  CELSPAN_ALPHA_PREMULTIPLIED};
-  cs_tilesmall made = {.width = frame->width, .height = frame->height};
+  cs_tilesmall made = {.width = width, .height = height};
   made.pixels = cs_mem_array(context->memory, 1, pixels_size(&made));
   if (!made.pixels)
     return cs_fail_memory(context);
-  celspan_status status = celspan_frame_pixels(context, frame, &coding, made.pixels,
-                                               (size_t)made.width * 4 * sizeof(float), NULL);
+  celspan_status status = cs_sink_memory(context, &coding, made.pixels,
+                                         (size_t)width * 4 * sizeof(float), sink);
   if (status == CELSPAN_OK)
     *out = made;
   else

@@ -1,23 +1,28 @@
-/* The levels below the one that fits into a single tile, down to one pixel.
+/* Levels of a few hundred pixels and less, down to one.
  *
- * They are means of that level's pixels, in linear light and premultiplied, over exactly the part of
- * it that a pixel covers. Rendered from the scene, a handful of pixels would each hold every
- * boundary of it.
+ * They are means of the pixels of a larger level, in linear light and premultiplied, over exactly
+ * the part of it that a pixel covers. Rendered from the scene, a handful of pixels would each hold
+ * every boundary of it.
  */
 #ifndef CS_CLI_TILESMALL_H
 #define CS_CLI_TILESMALL_H
 
 #include "cli/tilerows.h"
 
+enum {
+  CS_TILESMALL_BASE = 1024, /* pixels a side, at most, of the level that is rendered for them */
+  CS_TILESMALL_SIDE = 255   /* of a level that is a mean */
+};
+
 typedef struct cs_tilesmall {
   int32_t width, height;
-  float *pixels; /* RGBA; NULL: not made yet */
+  float *pixels; /* RGBA; NULL: not begun */
 } cs_tilesmall;
 
-/* frame: of the level that fits into a single tile. */
-CELSPAN_CHECKED celspan_status cs_tilesmall_make(celspan_context *context,
-                                                 const celspan_frame_desc *frame,
-                                                 cs_tilesmall *out);
+/* Room for the level that the others are means of, and the sink that fills it. */
+CELSPAN_CHECKED celspan_status cs_tilesmall_begin(celspan_context *context, int32_t width,
+                                                  int32_t height, cs_tilesmall *out,
+                                                  celspan_sink *sink);
 /* Feeds a level of width x height pixels to a sink. */
 CELSPAN_CHECKED celspan_status cs_tilesmall_render(celspan_context *context,
                                                    const cs_tilesmall *small, int32_t width,

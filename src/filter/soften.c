@@ -10,7 +10,7 @@
  * is at most 0.242/sigma^2), and the kinks that even shapes leave by less than that of an edge. */
 #define FINE_GAUSSIAN 16
 #define FINE_EVEN 64
-#define SUMMED 2           /* cells; a Gaussian of a radius from here on is summed over cells */
+#define SUMMED 3 /* cells; a Gaussian of a radius from here on is summed over cells */
 #define BAND_BYTES (16 << 20)
 #define BAND_ROWS 64
 #define BAND_ROWS_LEAST 8
@@ -39,10 +39,10 @@ static void scale_softness(cs_softness *softness, double pitch_x, double pitch_y
   }
 }
 
-/* Weights by distance of a Gaussian over cells that are means already. */
+/* Weights by distance of a Gaussian over cells that are spread by `spread` (a variance) already. */
 static celspan_status fill_weights(celspan_context *context, double radius, double blur,
-                                   int32_t *reach, float **out) {
-  double variance = 0.25 * radius * radius + (blur * blur - 1) / 12, sum = 0;
+                                   double spread, int32_t *reach, float **out) {
+  double variance = 0.25 * radius * radius + blur * blur / 12 - spread, sum = 0;
   *reach = cs_number_ceil(2 * radius);
   float *weights = cs_mem_array(context->memory, (size_t)*reach + 1, sizeof *weights);
   if (!weights)
@@ -83,10 +83,14 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   soften->is_summed = s->kind == CELSPAN_DEFOCUS_GAUSSIAN && s->radius_x >= SUMMED &&
                       s->radius_y >= SUMMED;
   celspan_status status = CELSPAN_OK;
+  soften->has_tents = soften->is_summed && (soft->pitch_x == 1 || soft->pitch_y == 1);
+  double spread = soften->has_tents ? 1.0 / 6 : 1.0 / 12;
   if (soften->is_summed)
-    status = fill_weights(context, s->radius_x, s->blur, &soften->reach_x, &soften->weights[0]);
+    status = fill_weights(context, s->radius_x, s->blur, spread, &soften->reach_x,
+                          &soften->weights[0]);
   if (soften->is_summed && status == CELSPAN_OK)
-    status = fill_weights(context, s->radius_y, s->blur, &soften->reach_y, &soften->weights[1]);
+    status = fill_weights(context, s->radius_y, s->blur, spread, &soften->reach_y,
+                          &soften->weights[1]);
   if (status == CELSPAN_OK)
     *out = soften;
   else
@@ -98,6 +102,16 @@ celspan_matrix cs_soften_matrix(const cs_soften *soften) {
   return celspan_matrix_then(
       celspan_matrix_scaling(1 / soften->soft.pitch_x, 1 / soften->soft.pitch_y),
       celspan_matrix_translation(1 + soften->reach_x, 1 + soften->reach_y));
+}
+
+celspan_status cs_soften_kernel(celspan_context *context, const cs_soften *soften,
+                                cs_kernel **out) {
+  static const cs_softness tent = {
+      CELSPAN_DEFOCUS_BOX, 0.5, 0.5, {{0.5, 0}, {0, 0.5}}, 1}; /* a cell over a cell */
+  *out = NULL;
+  if (soften->is_summed && !soften->has_tents)
+    return CELSPAN_OK;
+  return cs_kernel_create_soft(context, soften->is_summed ? &tent : &soften->softness, out);
 }
 
 void cs_soften_free(cs_soften *soften, cs_memory *memory) {

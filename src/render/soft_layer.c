@@ -125,9 +125,8 @@ static celspan_status compile_plane(celspan_context *context, const cs_soft_plac
                                     cs_soften *soften, int plane) {
   const cs_soft *soft = &soften->soft;
   celspan_matrix matrix = celspan_matrix_then(place->matrix, cs_soften_matrix(soften));
-  cs_kernel *kernel = NULL;
-  if (!soften->is_summed)
-    CS_TRY(cs_kernel_create_soft(context, &soften->softness, &kernel));
+  cs_kernel *kernel;
+  CS_TRY(cs_soften_kernel(context, soften, &kernel));
   return cs_compile_cel(context, cel_of(place), place->index, &matrix,
                         soft->columns + 2 * soften->reach_x, soft->rows + 2 * soften->reach_y,
                         plane == 1, kernel, &soften->shots[plane]);

@@ -147,7 +147,7 @@ describe("the command line", function()
     end)
 
     it("says what this version does not have", function()
-      for _, option in ipairs { "--resume", "--force", "--keep-going", "--memory 100",
+      for _, option in ipairs { "--resume", "--force", "--keep-going",
         "--progress json", "--progress=openjd" } do
         usage_error("render x.lua -o y.png " .. option, "is not built into this version")
       end

@@ -89,7 +89,7 @@ describe("antialiasing kernels", function()
         { kernel = function() return 1 end } },
       { "rostrum: antialias: the kernel sums to nothing within its radius of 2",
         { kernel = function(x) return x end, radius = 2 } },
-      { "rostrum: antialias: the kernel gives inf at -0.999511719; its values must be finite numbers",
+      { "rostrum: antialias: the kernel gives inf at -0.9995117; its values must be finite numbers",
         { kernel = function() return 1 / 0 end, radius = 1 } },
       { "antialias: the kernel function must return a number, got nil at x = -0.99951171875",
         { kernel = function() end, radius = 1 } },
@@ -101,5 +101,91 @@ describe("antialiasing kernels", function()
     end
     assert.are.equal("out of ink",
       rest_of(function() edge { kernel = function() error "out of ink" end, radius = 1 } end))
+  end)
+end)
+
+describe("defocus", function()
+  local function frame(defocus, options)
+    options = options or {}
+    options.size, options.film = options.size or { 48, 32 }, { 24, 16 }
+    return assert(celspan.pixels(celspan.rostrum {
+      celspan.cel { celspan.rect { 10, -50, 4, 200, texture = "#ffffff" }, defocus = defocus },
+    }, options))
+  end
+
+  it("spreads a bar by the kernel, in film units", function()
+    local image = frame { radius = 2, kernel = "box" } -- four pixels on either side
+    for p = 0, 47 do
+      local d = math.abs((p + 0.5) / 2 - 12) -- a tent: a bar of 4 under a box of 4
+      assert.is_near(math.max(0, 1 - d / 4), (image:get(p, 9)), 0.002)
+    end
+    local large = frame({ radius = 2, kernel = "box" }, { size = { 480, 320 } })
+    for p = 0, 47 do
+      assert.is_near((image:get(p, 9)), (large:get(p * 10 + 5, 99)), 0.02)
+    end
+  end)
+
+  it("is a Gaussian of half its radius where only a radius is given", function()
+    local image = frame(3)
+    local function below(x) -- of a Gaussian with sigma 1.5, by Simpson's rule
+      local sum, n = 0, 2000
+      for i = 0, n - 1 do
+        local t = -9 + (x + 9) * (i + 0.5) / n
+        sum = sum + math.exp(-t * t / 4.5) * (x + 9) / n
+      end
+      return sum / math.sqrt(4.5 * math.pi)
+    end
+    for p = 0, 47 do
+      local x = (p + 0.5) / 2
+      assert.is_near(below(x - 10) - below(x - 14), (image:get(p, 9)), 0.002)
+    end
+  end)
+
+  it("leaves what is beyond its reach alone, and is none at radius 0", function()
+    local sharp, none = frame(nil), frame(0)
+    for p = 0, 47 do assert.are.equal((sharp:get(p, 3)), (none:get(p, 3))) end
+    local image = frame { radius = 1, kernel = "disc" }
+    assert.are.equal(1, (image:get(24, 3)))
+    assert.are.equal(0, (image:get(40, 3)))
+  end)
+
+  it("filters a procedure, pictures of gels, and what lies beyond the film", function()
+    local bars = celspan.scanline { bounds = { -20, -20, 80, 80 },
+      spans = function() return { { -20, 12, "#ffffff" } } end }
+    local image = assert(celspan.pixels(celspan.rostrum {
+      celspan.cel { bars, defocus = { radius = 4, kernel = "box" } } }, { size = { 24, 16 } }))
+    assert.is_near(0.5 - 0.5 / 8, (image:get(12, 0)), 0.004)
+    assert.is_near(1, (image:get(0, 15)), 1e-6)
+    local gel = celspan.rect { -50, -50, 62, 200, texture = celspan.gel(1, 0, 0) }
+    image = assert(celspan.pixels(celspan.rostrum {
+      celspan.cel { gel, defocus = { radius = 4, kernel = "box" } }, back = "#fff" },
+      { size = { 24, 16 } }))
+    local r, g = image:get(12, 5)
+    assert.is_near(1, r, 1e-6)
+    assert.is_near(0.5 + 0.5 / 8, g, 0.004)
+  end)
+
+  it("makes the same rows with any number of workers and in a crop", function()
+    for _, kernel in ipairs { "gaussian", "box", "disc" } do
+      local defocus = { radius = 1.3, kernel = kernel }
+      local one = frame(defocus, { workers = 1 })
+      local four = frame(defocus, { workers = 4 })
+      local part = frame(defocus, { crop = { 11, 5, 30, 20 } })
+      for y = 0, 31 do
+        for x = 0, 47 do
+          assert.are.same({ one:get(x, y) }, { four:get(x, y) })
+          if x >= 11 and x < 41 and y >= 5 and y < 25 then
+            assert.are.same({ one:get(x, y) }, { part:get(x - 11, y - 5) })
+          end
+        end
+      end
+    end
+  end)
+
+  it("is refused in a sentence", function()
+    for _, radius in ipairs { -1, 0 / 0, math.huge } do
+      assert.truthy(rest_of(function() celspan.cel { defocus = radius } end)
+        :find("cel: defocus.radius is", 1, true))
+    end
   end)
 end)

@@ -320,7 +320,32 @@ static void check_tiny(void) {
   celspan_context_destroy(s.context);
 }
 
+/* A bar through a Gaussian of any width, its edges anywhere in their pixels, against erf. */
+static void check_bars(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 36; k++) {
+    double radius = 0.7 * pow(1.21, k % 18), low = 16 + 0.17 * k, sigma = radius / 2;
+    celspan_object *bar =
+        studio_rect(&s, low, -100, 8, 300, studio_paint(&s, celspan_paint_rgb(1, 1, 1, 1)));
+    celspan_cel_desc desc = CELSPAN_CEL_DESC;
+    desc.defocus_radius = radius;
+    celspan_cel *cel = studio_cel(&s, desc, &bar, 1);
+    view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_NONE};
+    image i = make(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &v, 1);
+    for (int32_t x = 0; x < SIDE; x++) {
+      double a = (x + 0.5 - low) / sigma, b = a - 8 / sigma;
+      CHECK_NEAR((double)i.rgba[20 * SIDE + x][0], 0.5 * (erf(a / sqrt(2)) - erf(b / sqrt(2))),
+                 0.002);
+    }
+    free(i.rgba);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
 int main(void) {
+  check_bars();
   check_orders();
   check_kept();
   check_light();
