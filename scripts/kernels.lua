@@ -29,6 +29,7 @@ local art = celspan.cel {
   celspan.rect { 6, -10, 14, 100, texture = blue }:rotate(8, 12, 20),
   celspan.circle { centre = { 38, 15 }, radius = 9.3, texture = ink },
   celspan.circle { centre = { 40, 13 }, radius = 4.1, texture = "#ff8030" },
+  celspan.triangle { { 30, 39 }, { 47, 37 }, { 40, 27 }, texture = "#2f8f6b" },
   fan(52, 4, 34),
 }
 

@@ -14,6 +14,16 @@ local function unknown_in(given, known)
   return least
 end
 
+--- Whether it is a number that is neither NaN nor infinite.
+function fields.is_finite(value)
+  return type(value) == "number" and value == value and value ~= math.huge and value ~= -math.huge
+end
+
+--- What a message says was given: the value of a number, else the type.
+function fields.shown(value)
+  return type(value) == "number" and ("%.14g"):format(value) or type(value)
+end
+
 --- Raises at the line of the caller's caller. known: name -> what type() must give.
 function fields.check(noun, given, known)
   if type(given) ~= "table" then
@@ -33,6 +43,10 @@ function fields.check(noun, given, known)
     local value = given[name]
     if value ~= nil and known[name] ~= "any" and type(value) ~= known[name] then
       error(("%s: field '%s' must be a %s, got %s"):format(noun, name, known[name], type(value)), 3)
+    end
+    if known[name] == "number" and value ~= nil and not fields.is_finite(value) then
+      error(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
+        fields.shown(value)), 3)
     end
   end
 end

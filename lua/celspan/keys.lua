@@ -24,12 +24,12 @@ end
 --- "number", "array", "paint" or "held"; nil for what cannot be a value.
 local function kind_of(value)
   local type_of = type(value)
-  if type_of == "number" then return "number" end
+  if type_of == "number" then return fields.is_finite(value) and "number" or nil end
   if type_of == "string" or type_of == "boolean" then return "held" end
   if is_paint(value) then return "paint" end
   if type_of ~= "table" then return nil end
   for i = 1, #value do
-    if type(value[i]) ~= "number" then return nil end
+    if not fields.is_finite(value[i]) then return nil end
   end
   return #value > 0 and "array" or nil
 end
@@ -63,13 +63,15 @@ end
 --- What is wrong with a key by itself, or nil.
 local function problem_of(key)
   if type(key) ~= "table" then return "must be {time, value}, got " .. type(key) end
-  if type(key[1]) ~= "number" or key[1] ~= key[1] then
-    return "must begin with a time, a number, got " .. type(key[1])
+  if not fields.is_finite(key[1]) then
+    return "must begin with a time, a finite number, got " .. fields.shown(key[1])
   end
   if not kind_of(key[2]) then
-    return "must have a number, an array of numbers, a paint, a string or a boolean as value, got "
-      .. type(key[2])
+    return "must have a finite number, an array of them, a paint, a string or a boolean as value, "
+      .. "got " .. fields.shown(key[2])
   end
+  local good, curve = pcall(ease, key[3] or "linear")
+  if not good then return curve end
 end
 
 local function copy(value)
@@ -135,8 +137,8 @@ end
 ---@param time number
 ---@return any
 function Track:at(time)
-  if type(time) ~= "number" then
-    error("keys: at takes a time, a number, got " .. type(time), 2)
+  if not fields.is_finite(time) then
+    error("keys: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end
   time = fold(self, time)
   local i = place(self.keys, time)

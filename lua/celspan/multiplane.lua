@@ -14,6 +14,7 @@ local fields = require "celspan.fields"
 local known = { film = "table", camera = "table", focal = "number", focus = "number",
                 aperture = "number", front = "any", back = "any", brightness = "number",
                 antialias = "any" }
+local known_plane = { z = "number" }
 local known_camera = { x = "number", y = "number", z = "number" }
 
 --- The cel of a plane as the camera sees it.
@@ -40,8 +41,9 @@ local function check(scene)
   end
   for i = 1, #scene do
     local plane = scene[i]
+    if type(plane) == "table" then fields.check("multiplane: plane " .. i, plane, known_plane, 4) end
     if type(plane) ~= "table" or type(plane[1]) ~= "userdata"
-      or type(plane.z or 0) ~= "number" then
+      then
       error(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
         type(plane) == "table" and "another table" or type(plane)), 3)
     end

@@ -197,8 +197,22 @@ static void push_traceback(lua_State *L) {
   lua_remove(L, -2);
 }
 
-/* Message handler: puts "frame 37: " (upvalue 1, may be "") after the position of the message, and
- * keeps the traceback. A frame built inside a frame has its name already. */
+/* Pushes "script.lua:12: ", where the innermost function that has lines is; "" when none has. */
+static void push_position(lua_State *L) {
+  lua_Debug info;
+  for (int level = 1; lua_getstack(L, level, &info); level++) {
+    lua_getinfo(L, "Sl", &info);
+    if (info.currentline > 0) {
+      lua_pushfstring(L, "%s:%d: ", info.short_src, info.currentline);
+      return;
+    }
+  }
+  lua_pushliteral(L, "");
+}
+
+/* Message handler: puts "frame 37: " (upvalue 1, may be "") after the position of the message, which
+ * it finds out for a message without one, and keeps the traceback. A frame built inside a frame has
+ * its name already. */
 static int handle_error(lua_State *L) {
   lua_settop(L, 1);
   const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
@@ -210,7 +224,10 @@ static int handle_error(lua_State *L) {
   if (strstr(message, label))
     label = "";
   size_t position = position_length(message);
-  lua_pushlstring(L, message, position);
+  if (position)
+    lua_pushlstring(L, message, position);
+  else
+    push_position(L);
   lua_pushfstring(L, "%s%s", label, message + position);
   lua_concat(L, 2);
   return 1;

@@ -22,6 +22,8 @@ _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
 }
 
 const char *cs_form_digits(lua_State *L, double number) {
+  if (isnan(number)) /* whose sign means nothing */
+    return lua_pushliteral(L, "nan");
   bool is_whole = fabs(number) < 1e15 && number == floor(number);
   return is_whole ? lua_pushfstring(L, "%I", (LUAI_UACINT)number)
                   : lua_pushfstring(L, "%f", number);

@@ -145,8 +145,9 @@ static void second_pass(checkup *check, cs_shot *shot) {
 
 static void summarise(const checkup *check, const cs_shot *shot) {
   if (check->fault_count)
-    cs_report_note("%zu %s, met %zu times in %lld frames", check->fault_count,
+    cs_report_note("%zu %s, met %zu %s in %lld frames", check->fault_count,
                    check->fault_count == 1 ? "fault" : "faults", check->frames_at_fault,
+                   check->frames_at_fault == 1 ? "time" : "times",
                    (long long)shot->film.count);
   else
     cs_report_note("%lld %s checked: no faults", (long long)shot->film.count,

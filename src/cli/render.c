@@ -57,6 +57,7 @@ static celspan_status render_file(const render_job *job, const char *path, uint6
   file.title = job->shot->film.title;
   file.frames_second = job->shot->film.frames_second;
   file.frame = (int32_t)job->shot->number;
+  file.is_opaque = celspan_frame_is_opaque(&job->frame);
   if (digest)
     return render_hashed(job, path, &file, digest);
   return celspan_frame_write(job->shot->context, &job->frame, path, &file, NULL);

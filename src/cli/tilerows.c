@@ -21,9 +21,32 @@ static const celspan_span *kept_row(const void *user, int32_t y, size_t *count) 
   return kept->spans;
 }
 
+/* Spans of two or three pixels take more room than their pixels. */
+static bool is_dense(const celspan_span *spans, size_t count) {
+  return count * sizeof *spans > (size_t)spans[count - 1].x1 * 4 * sizeof(float);
+}
+
+static celspan_status keep_colours(celspan_context *context, cs_kept_row *kept,
+                                   const celspan_span *spans, size_t count) {
+  int32_t width = spans[count - 1].x1;
+  float *colours = cs_arena_take(context, &kept->colours, (size_t)width * 4 * sizeof(float));
+  if (!colours)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < count; i++)
+    for (int32_t x = spans[i].x0; x < spans[i].x1; x++)
+      celspan_span_colour(&spans[i], x, colours + 4 * (size_t)x);
+  CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, 1, sizeof *kept->spans));
+  kept->spans[0] =
+      (celspan_span){.x0 = 0, .x1 = width, .kind = CELSPAN_SPAN_ARRAY, .array = colours};
+  kept->count = 1;
+  return CELSPAN_OK;
+}
+
 static celspan_status keep(celspan_context *context, cs_kept_row *kept, const celspan_span *spans,
                            size_t count) {
   cs_arena_reset(&kept->colours);
+  if (is_dense(spans, count))
+    return keep_colours(context, kept, spans, count);
   CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, count,
                         sizeof *kept->spans));
   kept->count = count;

@@ -1,7 +1,8 @@
 /* A sink that cuts the rows of one level into tiles.
  *
- * Rows are kept as spans until a row of tiles is whole, never as pixels, so that memory follows the
- * spans of that many rows. A finished row of tiles is written by several threads side by side.
+ * Rows are kept as spans until a row of tiles is whole, so that memory follows the spans of that
+ * many rows; a row that its colours describe in less room is kept as those. A finished row of tiles
+ * is written by several threads side by side.
  */
 #ifndef CS_CLI_TILEROWS_H
 #define CS_CLI_TILEROWS_H

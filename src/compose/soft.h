@@ -5,7 +5,8 @@
  *
  * Node (i, j) stands at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels: in the middles of the grid's
  * cells, the first of which lies before the frame. A plane holds four values a node: the paint's S
- * and its matte (1 - the mean of T); where T differs from channel to channel a second plane holds T.
+ * and its matte (1 - the mean of T); where T differs from channel to channel a second plane holds
+ * T.
  *
  * Invariant: what a node holds is a function of the cel, its placement and the frame's size.
  */

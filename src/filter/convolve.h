@@ -18,6 +18,8 @@
 #include "filter/kernel.h"
 #include "filter/trace.h"
 
+#include <math.h>
+
 #define CS_CONVOLVE_SLABS 16
 
 /* A program among those under the kernel. */
@@ -51,11 +53,11 @@ typedef struct cs_convolve_range {
 typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
-  double (*changes)[4]; /* by column */
-  double (*slopes)[4];  /* even shapes: of the change from column to column */
-  uint64_t *touched;    /* columns at which something changes, one bit each */
+  double (*changes)[4];              /* by column */
+  double (*slopes)[4];               /* even shapes: of the change from column to column */
+  uint64_t *touched;                 /* columns at which something changes, one bit each */
   uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */
-  cs_v4 *least, *most;  /* signed kernels: the range of the looks near a column */
+  cs_convolve_range *near;           /* signed kernels: of the looks near a column */
   cs_convolve_look *looks;
   cs_convolve_shift *shifts;
   cs_convolve_passage *passages;
@@ -67,13 +69,36 @@ typedef struct cs_convolve {
   size_t slab_capacity, range_capacity;
 } cs_convolve;
 
+static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }
+
+static inline cs_convolve_range cs_convolve_both(cs_convolve_range a, cs_convolve_range b) {
+  for (int c = 0; c < 4; c++) {
+    a.least[c] = b.least[c] < a.least[c] ? b.least[c] : a.least[c];
+    a.most[c] = b.most[c] > a.most[c] ? b.most[c] : a.most[c];
+  }
+  return a;
+}
+
+static inline void cs_convolve_widen(cs_convolve_range *range, cs_v4 colour) {
+  *range = cs_convolve_both(*range, (cs_convolve_range){colour, colour});
+}
+
+static inline cs_convolve_range cs_convolve_nothing(void) {
+  return (cs_convolve_range){cs_v4_all(INFINITY), cs_v4_all(-INFINITY)};
+}
+
 /* Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
                                                 const cs_kernel *kernel, int32_t width);
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory);
-/* Row y from the traces of `count` rows, sealed, from the topmost under its kernel to the lowest. */
+/* Row y from the traces of `count` rows, sealed, from the topmost under its kernel to the lowest.
+ */
 CELSPAN_CHECKED celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
                                                const cs_trace *const *traces, size_t count,
                                                int32_t y, cs_row *out);
+/* gather.c: its first half: fills changes, slopes, shifts and passages. */
+CELSPAN_CHECKED celspan_status cs_convolve_gather(cs_convolve *convolve, cs_composer *composer,
+                                                  const cs_trace *const *traces, size_t count,
+                                                  int32_t y);
 
 #endif

@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define SAMPLES CS_ANTIALIAS_SAMPLES
-/* Even shapes smaller than this, averaged over a pixel, are taken to be separable: no edge tells. */
+/* Even shapes smaller than this, averaged over a pixel, are taken to be separable: no edge tells.
+ */
 #define SMALL 0.4
 #define OFFSETS 4
 
@@ -30,8 +31,7 @@ static void integrate(const double *samples, double *first) {
 static void integrate_again(cs_kernel *kernel) {
   kernel->second[0] = 0;
   for (int i = 0; i < SAMPLES; i++)
-    kernel->second[i + 1] =
-        kernel->second[i] + (kernel->first[i] + kernel->first[i + 1]) / SAMPLES;
+    kernel->second[i + 1] = kernel->second[i] + (kernel->first[i] + kernel->first[i + 1]) / SAMPLES;
 }
 
 static celspan_status make(celspan_context *context, cs_kernel **out) {

@@ -1,9 +1,10 @@
 /* A filter kernel as rows use it: its antiderivatives, tabulated, or an even shape.
  *
- * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts; its integral H
- * is then piecewise linear and the integral of that piecewise quadratic, both exact, so a filtered
- * edge has neither gap nor overlap: the weights that H gives to parts of a whole sum to 1. An even shape (a disc, a turned box) is cut at a height
- * into one interval, in which the kernel is constant.
+ * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts; its
+ * integral H is then piecewise linear and the integral of that piecewise quadratic, both exact, so
+ * a filtered edge has neither gap nor overlap: the weights that H gives to parts of a whole sum
+ * to 1. An even shape (a disc, a turned box) is cut at a height into one interval, in which the
+ * kernel is constant.
  */
 #ifndef CS_FILTER_KERNEL_H
 #define CS_FILTER_KERNEL_H
@@ -30,8 +31,8 @@ typedef struct cs_kernel {
   int rows;                  /* pieces a slanted boundary is cut into, a row */
   bool is_signed;            /* negative somewhere */
   double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
-  int offsets;   /* even shapes: the mean of so many by so many of them, */
-  double spread; /* evenly over a square of this width */
+  int offsets;               /* even shapes: the mean of so many by so many of them, */
+  double spread;             /* evenly over a square of this width */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
   double above[CS_ANTIALIAS_SAMPLES + 1];  /* over a height */
   double first[CS_ANTIALIAS_SAMPLES + 1];  /* SEPARABLE: left of an x: H */
@@ -79,8 +80,7 @@ static inline double cs_kernel_sum(const cs_kernel *kernel, double u) {
     return kernel->second[CS_ANTIALIAS_SAMPLES] + (u - 1);
   int i = (int)at;
   double t = at - i, low = kernel->first[i], high = kernel->first[i + 1];
-  return kernel->second[i] +
-         (2.0 / CS_ANTIALIAS_SAMPLES) * t * (low + 0.5 * t * (high - low));
+  return kernel->second[i] + (2.0 / CS_ANTIALIAS_SAMPLES) * t * (low + 0.5 * t * (high - low));
 }
 
 #endif

@@ -17,8 +17,8 @@ typedef struct cs_band_key {
 } cs_band_key;
 
 /* Fills `size` bytes of nodes, zeroed. */
-typedef celspan_status (*cs_band_maker)(const void *layer, celspan_context *context,
-                                        int32_t number, float (*nodes)[4]);
+typedef celspan_status (*cs_band_maker)(const void *layer, celspan_context *context, int32_t number,
+                                        float (*nodes)[4]);
 
 typedef struct cs_band_counts { /* since the context was made; now */
   uint64_t made, found;

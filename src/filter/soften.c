@@ -80,17 +80,17 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   soften->softness = *softness;
   cs_softness *s = &soften->softness;
   scale_softness(s, soft->pitch_x, soft->pitch_y);
-  soften->is_summed = s->kind == CELSPAN_DEFOCUS_GAUSSIAN && s->radius_x >= SUMMED &&
-                      s->radius_y >= SUMMED;
+  soften->is_summed =
+      s->kind == CELSPAN_DEFOCUS_GAUSSIAN && s->radius_x >= SUMMED && s->radius_y >= SUMMED;
   celspan_status status = CELSPAN_OK;
   soften->has_tents = soften->is_summed && (soft->pitch_x == 1 || soft->pitch_y == 1);
   double spread = soften->has_tents ? 1.0 / 6 : 1.0 / 12;
   if (soften->is_summed)
-    status = fill_weights(context, s->radius_x, s->blur, spread, &soften->reach_x,
-                          &soften->weights[0]);
+    status =
+        fill_weights(context, s->radius_x, s->blur, spread, &soften->reach_x, &soften->weights[0]);
   if (soften->is_summed && status == CELSPAN_OK)
-    status = fill_weights(context, s->radius_y, s->blur, spread, &soften->reach_y,
-                          &soften->weights[1]);
+    status =
+        fill_weights(context, s->radius_y, s->blur, spread, &soften->reach_y, &soften->weights[1]);
   if (status == CELSPAN_OK)
     *out = soften;
   else
@@ -229,8 +229,7 @@ static void sum_tile(summing *s, float (*nodes)[4]) {
   for (int32_t y = 0; y < s->band_rows; y++)
     for (int32_t x = s->x0; x < s->x1; x++) {
       const cs_v4 *centre = s->across + (size_t)(y + soften->reach_y) * TILE + (x - s->x0);
-      cs_v4 value = plain ? colour
-                          : sum_about(centre, TILE, soften->weights[1], soften->reach_y);
+      cs_v4 value = plain ? colour : sum_about(centre, TILE, soften->weights[1], soften->reach_y);
       cs_v4_store(nodes[(size_t)y * columns + (size_t)x], value);
     }
 }
@@ -256,9 +255,8 @@ static celspan_status fill_summed(const cs_soften *soften, cs_scan *scan, int32_
   s.from = cs_mem_array(memory, rows, sizeof *s.from);
   s.cells = cs_mem_array(memory, cells, sizeof *s.cells);
   s.across = cs_mem_array(memory, rows * TILE, sizeof *s.across);
-  celspan_status status = s.rows && s.from && s.cells && s.across
-                              ? sum_rows(&s, scan, first, nodes)
-                              : cs_fail_memory(scan->context);
+  celspan_status status = s.rows && s.from && s.cells && s.across ? sum_rows(&s, scan, first, nodes)
+                                                                  : cs_fail_memory(scan->context);
   for (size_t k = 0; s.rows && k < rows; k++)
     cs_row_finish(&s.rows[k], memory);
   cs_mem_free(memory, s.rows, rows * sizeof *s.rows);
@@ -297,7 +295,7 @@ static celspan_status acquire(const cs_soft *soft, celspan_context *context, int
                               cs_soft_band **out) {
   const cs_soften *soften = (const cs_soften *)soft;
   cs_band_key key = {soften->key, number};
-  size_t size = (size_t)soft->planes * (size_t)soft->band_rows * (size_t)soft->columns * 4 *
-                sizeof(float);
+  size_t size =
+      (size_t)soft->planes * (size_t)soft->band_rows * (size_t)soft->columns * 4 * sizeof(float);
   return cs_soft_bands_acquire(context, &key, size, make_band, soften, out);
 }

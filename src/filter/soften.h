@@ -4,9 +4,9 @@
  *       --the kernel over their boundaries (traces.c), or a Gaussian over their cells--> bands
  *
  * The grid's pitch follows the radius, from one pixel up, so the work falls as the radius grows; a
- * Gaussian of some cells is applied to the cells, its variance lessened by theirs. Where it is but a
- * few cells wide, means would show where in its cell an edge lies (an error of 0.02/sigma^2); tents
- * do not (below 0.001 from sigma 1.5 on).
+ * Gaussian of some cells is applied to the cells, its variance lessened by theirs. Where it is but
+ * a few cells wide, means would show where in its cell an edge lies (an error of 0.02/sigma^2);
+ * tents do not (below 0.001 from sigma 1.5 on).
  *
  * Stretches in which the rows are one colour are not summed.
  */
@@ -17,10 +17,10 @@
 #include "filter/soft_bands.h"
 
 typedef struct cs_soften {
-  cs_soft soft;     /* first: what composing sees */
+  cs_soft soft;         /* first: what composing sees */
   cs_softness softness; /* in cells */
-  bool is_summed;   /* a Gaussian over cells; else through the shots' kernel */
-  bool has_tents;   /* is_summed: the cells are not means, but seen through tents two cells wide */
+  bool is_summed;       /* a Gaussian over cells; else through the shots' kernel */
+  bool has_tents; /* is_summed: the cells are not means, but seen through tents two cells wide */
   int32_t reach_x, reach_y; /* is_summed: cells, and the shots' frames are wider by as many */
   float *weights[2];        /* is_summed: by distance, reach_x + 1 and reach_y + 1 of them */
   cs_shot shots[2];         /* one a plane; made by render/compile.c */

@@ -19,9 +19,8 @@ void cs_trace_begin(cs_trace *trace, int32_t row, cs_v4 base) {
 
 static bool is_program(const cs_trace *trace, const cs_trace_program *known,
                        const cs_program *program) {
-  return known->length == program->length &&
-         memcmp(&trace->items[known->item], program->items,
-                program->length * sizeof *program->items) == 0;
+  return known->length == program->length && memcmp(&trace->items[known->item], program->items,
+                                                    program->length * sizeof *program->items) == 0;
 }
 
 /* A copy of a cell's program; neighbours share theirs. */
@@ -96,8 +95,7 @@ celspan_status cs_trace_seal(cs_trace *trace, const cs_composer *composer) {
     CS_TRY(copy_strips(trace, composer));
   for (size_t i = 0; i < trace->program_count; i++) {
     cs_trace_program *program = &trace->programs[i];
-    program->program =
-        (cs_program){&trace->items[program->item], trace->strips, program->length};
+    program->program = (cs_program){&trace->items[program->item], trace->strips, program->length};
   }
   trace->is_sealed = true;
   return CELSPAN_OK;

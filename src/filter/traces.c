@@ -1,5 +1,5 @@
-/* Filtered rows of a scan: the traces of the rows under a row's kernel, kept in a ring so that going
- * down each row is swept once, and summed by the kernel. */
+/* Filtered rows of a scan: the traces of the rows under a row's kernel, kept in a ring so that
+ * going down each row is swept once, and summed by the kernel. */
 #include "base/number.h"
 #include "filter/scan.h"
 

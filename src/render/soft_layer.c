@@ -23,10 +23,11 @@ static cs_softness find_softness(const cs_soft_place *place) {
   celspan_matrix map = celspan_matrix_then(camera, place->to_pixels);
   const double *m = map.m;
   double radius = cel_of(place)->defocus_radius;
-  cs_softness softness = {.kind = cel_of(place)->defocus_kernel,
-                          .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
-                          .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
-                          .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
+  cs_softness softness = {
+      .kind = cel_of(place)->defocus_kernel,
+      .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
+      .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
+      .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
   double least = fmin(softness.radius_x, softness.radius_y);
   if (place->is_antialiased)
     softness.blur = cs_number_clamp((SMOOTH - least) / (SMOOTH - SHARP), 0, 1);
@@ -60,9 +61,8 @@ static bool find_art(const cs_soft_place *place, cs_boundary_frame *out) {
       cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
   *out = (cs_boundary_frame){INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (int corner = 0; corner < 4; corner++) {
-    cs_hpoint p = cs_matrix_apply(
-        &view, (cs_hpoint){box.x + (corner & 1 ? box.width : 0),
-                           box.y + (corner & 2 ? box.height : 0), 1});
+    cs_hpoint p = cs_matrix_apply(&view, (cs_hpoint){box.x + (corner & 1 ? box.width : 0),
+                                                     box.y + (corner & 2 ? box.height : 0), 1});
     out->left = fmin(out->left, p.x / p.w);
     out->right = fmax(out->right, p.x / p.w);
     out->top = fmin(out->top, p.y / p.w);
@@ -71,10 +71,10 @@ static bool find_art(const cs_soft_place *place, cs_boundary_frame *out) {
   return true;
 }
 
-/* The art's box grown by the kernel and by what lies between nodes, in whole pixels, cut to what can
- * be seen. */
-static bool find_box(const cs_soft_place *place, const cs_softness *softness,
-                     const cs_soft *soft, cs_boundary_frame *out) {
+/* The art's box grown by the kernel and by what lies between nodes, in whole pixels, cut to what
+ * can be seen. */
+static bool find_box(const cs_soft_place *place, const cs_softness *softness, const cs_soft *soft,
+                     cs_boundary_frame *out) {
   cs_boundary_frame art;
   if (!find_art(place, &art))
     return false;
@@ -109,11 +109,10 @@ static bool stack_is_grey(const cs_stack *stack) {
     return false;
   for (size_t i = 0; i < stack->leaf_count; i++) {
     const cs_leaf *leaf = &stack->leaves[i];
-    const celspan_texture *texture = leaf->kind == CS_LEAF_SHADED
-                                         ? stack->shades[leaf->detail].texture
-                                     : leaf->kind == CS_LEAF_PICTURE
-                                         ? stack->slides[leaf->detail].texture
-                                         : NULL;
+    const celspan_texture *texture =
+        leaf->kind == CS_LEAF_SHADED    ? stack->shades[leaf->detail].texture
+        : leaf->kind == CS_LEAF_PICTURE ? stack->slides[leaf->detail].texture
+                                        : NULL;
     const float t[3] = {leaf->t[0], leaf->t[1], leaf->t[2]};
     if (texture ? !texture_is_grey(texture) : !is_grey(t))
       return false;

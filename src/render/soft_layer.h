@@ -1,8 +1,8 @@
 /* Soft layers: a defocused cel of a frame, its kernel brought to pixels, compiled alone.
  *
- * The kernel lies in film units on the frame after the cel's viewport; the camera enlarges and turns
- * it with the picture, and the frame's size scales each axis. A key of all that counts names the
- * layer's bands, so that a cel that did not change is not filtered again.
+ * The kernel lies in film units on the frame after the cel's viewport; the camera enlarges and
+ * turns it with the picture, and the frame's size scales each axis. A key of all that counts names
+ * the layer's bands, so that a cel that did not change is not filtered again.
  */
 #ifndef CS_RENDER_SOFT_LAYER_H
 #define CS_RENDER_SOFT_LAYER_H
@@ -12,12 +12,12 @@
 /* Where a cel stands in a frame. */
 typedef struct cs_soft_place {
   const celspan_rostrum *rostrum;
-  size_t index;              /* of the cel */
-  celspan_matrix to_pixels;  /* film units to pixels */
+  size_t index;             /* of the cel */
+  celspan_matrix to_pixels; /* film units to pixels */
   double film_width, film_height;
-  celspan_matrix matrix;     /* the cel's units to pixels */
-  cs_boundary_frame frame;   /* what can be seen, with its margin */
-  int32_t width, height;     /* pixels of the frame */
+  celspan_matrix matrix;   /* the cel's units to pixels */
+  cs_boundary_frame frame; /* what can be seen, with its margin */
+  int32_t width, height;   /* pixels of the frame */
   bool is_antialiased;
 } cs_soft_place;
 

@@ -75,8 +75,8 @@ static celspan_status sample(celspan_context *context, const char *noun,
 static celspan_status check(celspan_context *context, const char *noun,
                             const celspan_filter_desc *desc) {
   bool is_function = desc->kernel == CELSPAN_KERNEL_FUNCTION;
-  CS_TRY(cs_door_choice(context, noun, "kernel", (unsigned)desc->kernel,
-                        CELSPAN_KERNEL_FUNCTION + 1));
+  CS_TRY(
+      cs_door_choice(context, noun, "kernel", (unsigned)desc->kernel, CELSPAN_KERNEL_FUNCTION + 1));
   if (is_function && !desc->function)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: kernel has no function", noun);
   if (is_function && !desc->has_radius)
@@ -84,9 +84,8 @@ static celspan_status check(celspan_context *context, const char *noun,
                    "%s: radius is missing; a kernel given as a function needs one", noun);
   if (desc->has_radius)
     CS_TRY(cs_door_range(context, noun, "radius", desc->radius, 0, RADIUS_LIMIT));
-  return desc->rows == 0
-             ? CELSPAN_OK
-             : cs_door_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
+  return desc->rows == 0 ? CELSPAN_OK
+                         : cs_door_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
 }
 
 celspan_status cs_antialias_make(celspan_context *context, const char *noun,

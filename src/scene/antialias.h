@@ -1,8 +1,8 @@
 /* How the pixels of a rostrum are made of what lies under them: the exact mean, the centre, or a
  * filter kernel.
  *
- * Invariants: a kernel's values are sampled when this is made, never later, so rows need no function
- * of the caller's; they sum to more than nothing. A filter of radius 0 is the mode NONE.
+ * Invariants: a kernel's values are sampled when this is made, never later, so rows need no
+ * function of the caller's; they sum to more than nothing. A filter of radius 0 is the mode NONE.
  */
 #ifndef CS_SCENE_ANTIALIAS_H
 #define CS_SCENE_ANTIALIAS_H

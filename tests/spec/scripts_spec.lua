@@ -55,10 +55,10 @@ describe("the scripts that ship", function()
     test(path .. " makes pictures, the same whenever it is asked", function()
       local count = tonumber(assert(run("info '" .. path .. "'")):match("frames%s+(%d+)"))
       local size = WIDTH * HEIGHT * 4
-      local asked = ("1,%d,%d"):format((count + 1) // 2, count)
+      local asked = count < 3 and ("1-%d"):format(count) or ("1,%d,%d"):format((count + 1) // 2, count)
       local bytes = assert(render(path, asked, 1))
-      assert.are.equal(3 * size, #bytes)
-      for n = 0, 2 do
+      assert.are.equal(math.min(count, 3) * size, #bytes)
+      for n = 0, #bytes // size - 1 do
         assert.is_true(colours(bytes:sub(n * size + 1, (n + 1) * size)) >= 5, "frame is blank")
       end
       assert.is_true(bytes == render(path, asked, 2), "another picture with two workers")

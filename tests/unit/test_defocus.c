@@ -41,7 +41,9 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
   desc.width = v->width;
   desc.height = v->height;
   desc.antialias = &v->antialias;
-  image out = {v->width, v->height, calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
+  image out = {v->width,
+               v->height,
+               calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
                {0, 0, 0}};
   cs_frame frame = {0};
   cs_lane lane = {0};
@@ -197,8 +199,7 @@ static void check_brute_force(void) {
     int kind = (k + k / 7) % 4;
     random_state = 77 + (uint64_t)k;
     stage set = random_stage(&s, kind, radius, kernel, k % 2 ? 0.4 : 0);
-    view v = {SIDE, SIDE, SIDE, SIDE,
-              radius < 3 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA};
+    view v = {SIDE, SIDE, SIDE, SIDE, radius < 3 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA};
     compare(&s, &set, kernel, radius, &v, 8, kinds[kind]);
     v.width = 2 * SIDE + 10; /* the kernel scales with the frame, each axis on its own */
     v.height = 30;
@@ -255,7 +256,8 @@ static void check_orders(void) {
 
 static celspan_rostrum *soft_disc(studio *s, double x, double size, double radius,
                                   celspan_defocus_kernel kernel, double opacity) {
-  celspan_object *disc = studio_circle(s, x, 24, size, studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)));
+  celspan_object *disc =
+      studio_circle(s, x, 24, size, studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)));
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   desc.defocus_radius = radius;
   desc.defocus_kernel = kernel;
@@ -272,7 +274,8 @@ static void check_kept(void) {
   const double places[] = {20, 20, 20, 21}, opacities[] = {1, 1, 0.5, 1};
   uint64_t made = 0;
   for (int k = 0; k < 4; k++) {
-    image i = make(&s, soft_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]), &v, 1);
+    image i =
+        make(&s, soft_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]), &v, 1);
     cs_band_counts counts = cs_soft_bands_count(s.context);
     CHECK(counts.bytes > 0 && (k == 0 || k == 3 ? counts.made > made : counts.made == made));
     made = counts.made;
@@ -282,7 +285,8 @@ static void check_kept(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Light is kept, what the kernel does not reach is one span and exact, from a tenth of a pixel up. */
+/* Light is kept, what the kernel does not reach is one span and exact, from a tenth of a pixel up.
+ */
 static void check_light(void) {
   static const double radii[] = {0.1, 0.3, 0.45, 1, 1.9, 2.1, 4, 7};
   static studio s;
@@ -309,8 +313,7 @@ static void check_tiny(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 3; k++) {
     image sharp = make(&s, soft_disc(&s, 24.2, 9, 0, CELSPAN_DEFOCUS_GAUSSIAN, 1), &v, 1);
-    image soft =
-        make(&s, soft_disc(&s, 24.2, 9, 0.03, (celspan_defocus_kernel)k, 1), &v, 1);
+    image soft = make(&s, soft_disc(&s, 24.2, 9, 0.03, (celspan_defocus_kernel)k, 1), &v, 1);
     for (int32_t p = 0; p < SIDE * SIDE; p++)
       CHECK_NEAR((double)sharp.rgba[p][0], (double)soft.rgba[p][0], 0.02);
     free(sharp.rgba);

@@ -1,4 +1,5 @@
-/* Filter kernels on rows of spans: edges against closed forms, light, constants, strips, margins. */
+/* Filter kernels on rows of spans: edges against closed forms, light, constants, strips, margins.
+ */
 #include <stdlib.h>
 
 #include "base/elementary.h"
@@ -73,9 +74,7 @@ static celspan_rostrum *show(studio *s, celspan_object *const *objects, size_t c
   return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
 }
 
-static celspan_texture *white(studio *s) {
-  return studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
-}
+static celspan_texture *white(studio *s) { return studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)); }
 
 static celspan_rostrum *half_plane(studio *s, double x, double y, double degrees) {
   celspan_object *rect = studio_rect(s, 0, -500, 1000, 1000, white(s)), *turned;
@@ -210,9 +209,8 @@ static void check_light(void) {
 static void check_constants(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
-  celspan_object *object =
-      studio_rect(&s, -100, -100, 300, 300,
-                  studio_paint(&s, celspan_paint_rgb(0.1f, 0.7f, 0.3f, 0.6f)));
+  celspan_object *object = studio_rect(&s, -100, -100, 300, 300,
+                                       studio_paint(&s, celspan_paint_rgb(0.1f, 0.7f, 0.3f, 0.6f)));
   celspan_rostrum *rostrum = show(&s, &object, 1);
   for (int k = 0; k < 4; k++) {
     celspan_filter_desc f = filter((celspan_kernel)k, -1);
@@ -288,12 +286,12 @@ static celspan_rostrum *random_scene(studio *s, uint64_t seed) {
   uint64_t state = seed;
   for (int k = 0; k < 12; k++) {
     float c = (float)random_unit(&state), d = (float)random_unit(&state);
-    celspan_texture *t = k % 4 == 3
-                             ? ramp(s)
-                             : studio_paint(s, celspan_paint_rgb(c, d, 1 - c, 0.3f + 0.7f * d));
+    celspan_texture *t =
+        k % 4 == 3 ? ramp(s) : studio_paint(s, celspan_paint_rgb(c, d, 1 - c, 0.3f + 0.7f * d));
     double x = 44 * random_unit(&state) - 2, y = 44 * random_unit(&state) - 2;
     double size = 1 + 14 * random_unit(&state);
-    objects[k] = k % 2 ? studio_circle(s, x, y, size, t) : studio_rect(s, x, y, size, size * 0.7, t);
+    objects[k] =
+        k % 2 ? studio_circle(s, x, y, size, t) : studio_rect(s, x, y, size, size * 0.7, t);
   }
   return show(s, objects, 12);
 }
@@ -368,7 +366,8 @@ static void check_door(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   celspan_filter_desc f = filter(CELSPAN_KERNEL_GAUSSIAN, 1);
   f.radius = -1;
-  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius is -1; it must be between 0 and 256");
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
+         "rostrum: antialias: radius is -1; it must be between 0 and 256");
   f.radius = (double)NAN;
   refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius is not a number");
   f = filter(CELSPAN_KERNEL_FUNCTION, 2);
@@ -379,8 +378,9 @@ static void check_door(void) {
   refuse(context, &f, CELSPAN_BAD_ARGUMENT,
          "rostrum: antialias: the kernel sums to nothing within its radius of 2");
   value = (double)INFINITY;
-  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
-         "rostrum: antialias: the kernel gives inf at -1.99902344; its values must be finite numbers");
+  refuse(
+      context, &f, CELSPAN_BAD_ARGUMENT,
+      "rostrum: antialias: the kernel gives inf at -1.999023; its values must be finite numbers");
   f.function = no_function;
   refuse(context, &f, CELSPAN_CALLBACK, "no kernel today");
   celspan_context_destroy(context);

@@ -1,0 +1,339 @@
+-- celspan tiles: the pyramid's shape, that its tiles are the frame's pixels, what is linked, left out
+-- and kept, and the page in a browser.
+
+local BINARY = os.getenv("CELSPAN") or "build/celspan"
+
+local folder
+
+local function read(path)
+  local file = io.open(path, "rb")
+  if not file then return nil end
+  local text = file:read("a")
+  file:close()
+  return text
+end
+
+local function write(name, text)
+  local path = folder .. "/" .. name
+  local file = assert(io.open(path, "wb"))
+  file:write(text)
+  file:close()
+  return path
+end
+
+--- Runs a shell command; answers its exit code (128 + n for signal n), standard output and error.
+local function shell(command)
+  local out, err = folder .. "/stdout", folder .. "/stderr"
+  local _, how, code = os.execute(("( %s ) >'%s' 2>'%s'"):format(command, out, err))
+  return how == "signal" and 128 + code or code, read(out), read(err)
+end
+
+local function celspan(arguments, ...) return shell(BINARY .. " " .. arguments:format(...)) end
+
+local function lines_of(command)
+  local lines, list = {}, assert(io.popen(command))
+  for line in list:lines() do lines[#lines + 1] = line end
+  list:close()
+  return lines
+end
+
+local function count_files(path, name)
+  return #lines_of(("find '%s' -type f -name '%s'"):format(path, name or "*.png"))
+end
+
+--- Device and number of a file: equal for two names of one file.
+local function identity(path) return lines_of(("stat -c %%d:%%i '%s'"):format(path))[1] end
+
+--- How much two pictures differ, 0 to 1; nil when they have not the same size.
+local function difference(a, b)
+  local _, text = celspan("compare '%s' '%s' --fail 1", a, b)
+  return tonumber(text:match("largest_difference ([%d.e+-]+)"))
+end
+
+local function assert_success(arguments, ...)
+  local code, out, err = celspan(arguments, ...)
+  assert.are.equal(0, code, err)
+  return out, err
+end
+
+-- 700 x 500, a plain ground with something round in the middle, and its left edge clear.
+local PLAIN = [[
+local celspan = require "celspan"
+return celspan.film{ size = {700, 500}, frames = 2, title = "a <plain> one", frame = function(f)
+  return celspan.rostrum{ celspan.cel{
+    celspan.rect{ 200, 0, 500, 500, texture = "#336699" },
+    celspan.circle{ centre = {450, 250}, radius = 60 + f.index, texture = celspan.radial{
+      centre = {450, 250}, radius = 60, {0, "#ffffff"}, {1, "#aa3311"} } } } }
+end }
+]]
+
+local script
+
+before_each(function()
+  folder = os.tmpname()
+  os.remove(folder)
+  assert(os.execute("mkdir " .. folder))
+  script = write("plain.lua", PLAIN)
+end)
+
+after_each(function() os.execute("rm -rf " .. folder) end)
+
+describe("a Deep Zoom pyramid", function()
+  it("has a level for every halving, down to one pixel", function()
+    assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
+    local dzi = read(folder .. "/p/plain.dzi")
+    assert.is_truthy(dzi:find('Format="png" Overlap="1" TileSize="64"', 1, true))
+    assert.is_truthy(dzi:find('<Size Width="700" Height="500"/>', 1, true))
+    local counts = {}
+    for level = 0, 10 do
+      local factor = 2 ^ (10 - level)
+      counts[level] = math.ceil(math.ceil(700 / factor) / 64) * math.ceil(math.ceil(500 / factor) / 64)
+    end
+    assert.are.equal(88, counts[10])
+    for level = 0, 10 do
+      assert.are.equal(counts[level], count_files(folder .. "/p/plain_files/" .. level), level)
+    end
+  end)
+
+  it("holds the pixels of the frame at each level's size, with the overlap", function()
+    assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
+    for _, case in ipairs {
+      { 10, "0_0", "0,0,65,65" }, { 10, "7_3", "447,191,66,66" }, { 10, "10_7", "639,447,61,53" },
+      { 9, "3_1", "191,63,66,66" },
+    } do
+      local level, tile, crop = table.unpack(case)
+      local w, h = 700 // 2 ^ (10 - level), 500 // 2 ^ (10 - level)
+      assert_success("render %s --frames 1 --size %dx%d --crop %s -o %s/crop.png --progress none",
+        script, w, h, crop, folder)
+      local path = ("%s/p/plain_files/%d/%s.png"):format(folder, level, tile)
+      assert.are.equal(0, difference(folder .. "/crop.png", path), path)
+    end
+  end)
+
+  it("comes close to the frame where it is the mean of a larger level", function()
+    assert_success("tiles %s -o %s/p --progress none", script, folder)
+    assert_success("render %s --frames 1 --size 175x125 -o %s/whole.png --progress none", script,
+      folder)
+    assert.is_true(difference(folder .. "/whole.png", folder .. "/p/plain_files/8/0_0.png") < 0.03)
+    assert.is_not_nil(read(folder .. "/p/plain_files/0/0_0.png"))
+  end)
+
+  it("shows the frame that is asked for", function()
+    assert_success("tiles %s --frame 2 -o %s/p --progress none", script, folder)
+    assert_success("render %s --frames 2 --crop 253,0,256,255 -o %s/x.png --progress none", script,
+      folder)
+    assert.are.equal(0, difference(folder .. "/x.png", folder .. "/p/plain_files/10/1_0.png"))
+  end)
+
+  it("is the same with any number of workers", function()
+    assert_success("tiles %s -o %s/one --tile 32 --workers 1 --progress none", script, folder)
+    assert_success("tiles %s -o %s/four --tile 32 --workers 4 --progress none", script, folder)
+    assert.are.equal(0, (shell(("diff -r %s/one/plain_files %s/four/plain_files"):format(folder,
+      folder))))
+  end)
+
+  it("is made of a picture as of a script", function()
+    assert_success("render %s --frames 1 -o %s/still.png --progress none", script, folder)
+    assert_success("tiles %s/still.png -o %s/p --tile 64 --progress none", folder, folder)
+    assert_success("tiles %s -o %s/q --tile 64 --progress none", script, folder)
+    assert.are.equal(0, difference(folder .. "/p/still_files/10/7_3.png",
+      folder .. "/q/plain_files/10/7_3.png"))
+  end)
+
+  it("is made of a span file as of a script", function()
+    assert_success("render %s --frames 1 -o %s/still.span --progress none", script, folder)
+    assert_success("tiles %s/still.span -o %s/p --tile 64 --progress none", folder, folder)
+    assert_success("tiles %s -o %s/q --tile 64 --progress none", script, folder)
+    assert.are.equal(0, difference(folder .. "/p/still_files/10/7_3.png",
+      folder .. "/q/plain_files/10/7_3.png"))
+  end)
+end)
+
+describe("equal tiles", function()
+  it("are one file with several names", function()
+    assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
+    local tiles = folder .. "/p/plain_files/10/"
+    assert.are.equal(identity(tiles .. "1_1.png"), identity(tiles .. "1_2.png"))
+    assert.are.equal(identity(tiles .. "9_1.png"), identity(tiles .. "9_5.png"))
+    assert.are_not.equal(identity(tiles .. "1_1.png"), identity(tiles .. "9_1.png"))
+  end)
+
+  it("are left out when they are empty and that is asked for", function()
+    local _, err = assert_success("tiles %s -o %s/p --tile 64 --skip-empty --progress lines",
+      script, folder)
+    assert.is_nil(read(folder .. "/p/plain_files/10/1_1.png"))
+    assert.is_not_nil(read(folder .. "/p/plain_files/10/3_1.png"))
+    assert.is_truthy(err:match("(%d+) left out") ~= "0", err)
+  end)
+end)
+
+describe("a IIIF image", function()
+  it("has the tiles that its information names", function()
+    assert_success("tiles %s -o %s/p --format iiif --tile 128 --progress none", script, folder)
+    local info = read(folder .. "/p/plain/info.json")
+    for _, part in ipairs {
+      '"@context": "http://iiif.io/api/image/3/context.json"', '"type": "ImageService3"',
+      '"protocol": "http://iiif.io/api/image"', '"profile": "level0"', '"width": 700',
+      '"height": 500', '"scaleFactors": [1, 2, 4, 8]', '"extraFormats": ["png"]',
+    } do
+      assert.is_truthy(info:find(part, 1, true), part)
+    end
+    for _, name in ipairs {
+      "0,0,128,128/128,128", "640,384,60,116/60,116", "512,256,188,244/94,122",
+      "0,0,700,500/88,63", "full/88,63",
+    } do
+      local path = ("%s/p/plain/%s/0/default.png"):format(folder, name)
+      assert.is_not_nil(read(path), path)
+    end
+    assert_success("render %s --frames 1 --size 350x250 --crop 256,128,94,122 -o %s/x.png",
+      script, folder)
+    assert.are.equal(0, difference(folder .. "/x.png",
+      folder .. "/p/plain/512,256,188,244/94,122/0/default.png"))
+  end)
+end)
+
+describe("a large frame", function()
+  it("is refused with the levels that are within the limit", function()
+    local code, _, err = celspan("tiles %s --size 1000000x700000 -o %s/p", script, folder)
+    assert.are.equal(6, code)
+    assert.is_truthy(err:find("levels 0 to 20 have", 1, true), err)
+    assert.is_truthy(err:find("--levels 0-16", 1, true), err)
+    assert.is_nil(read(folder .. "/p/plain.tiles"))
+  end)
+
+  it("is made where it is asked for, and the deep levels around places", function()
+    write("places.txt", "# a comment\n\n450 250 2 the middle\n")
+    assert_success("tiles %s --size 1000000x700000 -o %s/p --levels 0-3 --places %s/places.txt "
+      .. "--progress none", script, folder, folder)
+    local page = read(folder .. "/p/index.html")
+    assert.is_truthy(page:find('"the middle"', 1, true))
+    assert.is_not_nil(read(folder .. "/p/plain_files/20/2530_1377.png"))
+    assert.are.equal(nil, read(folder .. "/p/plain_files/20/0_0.png"))
+  end)
+
+  it("takes only the tiles that touch a crop", function()
+    assert_success("tiles %s -o %s/p --tile 64 --levels 10-10 --crop 100,100,60,60 --progress none",
+      script, folder)
+    assert.are.equal(4, count_files(folder .. "/p/plain_files"))
+  end)
+end)
+
+describe("a run that goes on", function()
+  it("keeps what is finished and makes the rest", function()
+    assert_success("tiles %s -o %s/whole --tile 64 --progress none", script, folder)
+    assert_success("tiles %s -o %s/p --tile 64 --levels 0-9 --progress none", script, folder)
+    local before = identity(folder .. "/p/plain_files/9/0_0.png")
+    local log = read(folder .. "/p/plain.tiles")
+    write("p/plain.tiles", log .. "row 10 0 0 1")
+    assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
+    assert.are.equal(before, identity(folder .. "/p/plain_files/9/0_0.png"))
+    assert.are.equal(0, (shell(("diff -r %s/whole/plain_files %s/p/plain_files"):format(folder,
+      folder))))
+    local _, err = assert_success("tiles %s -o %s/p --tile 64 --progress lines", script, folder)
+    assert.is_truthy(err:find("0 tiles written, 0 linked", 1, true), err)
+  end)
+
+  it("does not mix two scenes, and starts over when it is told to", function()
+    assert_success("tiles %s -o %s/p --progress none", script, folder)
+    local code, _, err = celspan("tiles %s --frame 2 -o %s/p --progress none", script, folder)
+    assert.are.equal(2, code)
+    assert.is_truthy(err:find("--fresh", 1, true), err)
+    assert_success("tiles %s --frame 2 -o %s/p --levels 0-8 --fresh --progress none", script, folder)
+    assert.is_nil(read(folder .. "/p/plain_files/10/0_0.png"))
+  end)
+
+  it("leaves a folder alone that it did not make", function()
+    os.execute(("mkdir -p %s/p/plain_files && echo mine >%s/p/plain_files/mine"):format(folder, folder))
+    local code, _, err = celspan("tiles %s -o %s/p --fresh --progress none", script, folder)
+    assert.are.equal(2, code, err)
+    assert.are.equal("mine\n", read(folder .. "/p/plain_files/mine"))
+  end)
+
+  it("ends by its signal and leaves nothing half-written", function()
+    local code = shell(("timeout -s INT 0.5 %s tiles %s --size 20000x20000 --tile 32 --overlap 0 "
+      .. "--tiles-limit 1000000 -o %s/p --progress none"):format(BINARY, script, folder))
+    assert.is_true(code == 124 or code == 130, tostring(code))
+    assert.are.equal(0, count_files(folder .. "/p", "*.part"))
+    assert.is_nil(read(folder .. "/p/index.html"))
+  end)
+end)
+
+describe("wrong usage", function()
+  for arguments, message in pairs {
+    ["tiles %s"] = "give -o DIR",
+    ["tiles %s -o p --tile 3"] = "16 to 8192",
+    ["tiles %s -o p --tile 64 --overlap 40"] = "half",
+    ["tiles %s -o p --format iiif --overlap 1"] = "share no pixels",
+    ["tiles %s -o p --levels 3-99"] = "levels 0 to 10",
+    ["tiles %s -o p --picture webp"] = "not png or jpg",
+    ["tiles %s -o p --format zip"] = "dzi or iiif",
+  } do
+    it("of " .. arguments:gsub("%%s", "SCRIPT") .. " is refused", function()
+      local code, _, err = celspan(arguments, script)
+      assert.are.equal(2, code)
+      assert.is_truthy(err:find(message, 1, true), err)
+    end)
+  end
+
+  it("is a places file that is none", function()
+    write("places.txt", "somewhere\n")
+    local code, _, err = celspan("tiles %s -o %s/p --places %s/places.txt", script, folder, folder)
+    assert.are.equal(2, code)
+    assert.is_truthy(err:find("places.txt:1: a place is X Y WIDTH NAME", 1, true), err)
+  end)
+
+  it("is a file that is not there, or a folder that cannot be made", function()
+    assert.are.equal(4, (celspan("tiles %s/none.png -o %s/p", folder, folder)))
+    assert.are.equal(4, (celspan("tiles %s -o %s/p --places %s/none", script, folder, folder)))
+    assert.are.equal(4, (celspan("tiles %s -o %s/p --viewer %s --progress none", script, folder,
+      folder)))
+    assert.are.equal(5, (celspan("tiles %s -o %s/p --progress none", script, "/dev/null")))
+  end)
+end)
+
+describe("the page", function()
+  it("holds its data safely and asks nothing of the network", function()
+    assert_success("tiles %s -o %s/p --progress none", script, folder)
+    local page = read(folder .. "/p/index.html")
+    assert.is_truthy(page:find([["title": "a \u003cplain\u003e one"]], 1, true))
+    assert.is_nil(page:find("https?://"))
+    assert.is_nil(page:find("@PYRAMID@", 1, true))
+  end)
+
+  local viewer = "out/openseadragon"
+  local has_browser = read(viewer .. "/openseadragon.min.js")
+    and os.execute("command -v chromium >/dev/null && command -v python3 >/dev/null")
+  local it_in_a_browser = has_browser and it or pending
+
+  it_in_a_browser("shows the tiles at four depths", function()
+    assert_success("tiles scripts/terapixel.lua --size 100000x100000 --levels 8-10 "
+      .. "--places scripts/terapixel/places.txt --viewer %s -o %s/p --progress none", viewer, folder)
+    local port = lines_of("python3 -c 'import socket; s = socket.socket(); "
+      .. "s.bind((\"127.0.0.1\", 0)); print(s.getsockname()[1])'")[1]
+    local server = lines_of(("python3 -m http.server %s --bind 127.0.0.1 --directory '%s/p' "
+      .. ">/dev/null 2>&1 & echo $!"):format(port, folder))[1]
+    for i, place in ipairs { "50000,50000,100000", "44100,69800,5000", "43210,69320,960",
+                             "43320,69270,260" } do
+      shell(("for i in 1 2 3 4 5 6 7 8 9 10; do python3 -c 'import urllib.request; "
+        .. "urllib.request.urlopen(\"http://127.0.0.1:%s/\")' && break; sleep 0.2; done; "
+        .. "timeout 90 chromium --headless=new --no-sandbox --disable-gpu --hide-scrollbars "
+        .. "--user-data-dir=%s/browser --window-size=600,600 --virtual-time-budget=8000 "
+        .. "--screenshot=%s/shot%d.png 'http://127.0.0.1:%s/index.html#%s'")
+        :format(port, folder, folder, i, port, place))
+    end
+    os.execute("kill " .. server)
+    -- Beside the page's buttons it shows what is rendered, but for how a browser scales pictures.
+    for i, crop in ipairs { "100000,0,0", "5000,41600,67300", "960,42730,68840", "260,43190,69140" } do
+      local width, x, y = crop:match("(%d+),(%d+),(%d+)")
+      local side, scale = math.floor(60000000 / width), 600 / width
+      assert_success("render scripts/terapixel.lua --size %dx%d --crop %d,%d,290,500 -o %s/x%d.png "
+        .. "--progress none", side, side, math.floor(x * scale) + 305, math.floor(y * scale), folder, i)
+      local code, _, err = celspan("convert %s/shot%d.png %s/y%d.png --crop 305,0,290,500", folder, i,
+        folder, i)
+      assert.are.equal(0, code, err)
+      local _, text = celspan("compare %s/x%d.png %s/y%d.png --fail 0.15", folder, i, folder, i)
+      local differing = tonumber(text:match("pixels_differing (%d+)"))
+      assert.is_true(differing and differing < 290 * 500 * 0.1, i .. " " .. text)
+    end
+  end)
+end)
