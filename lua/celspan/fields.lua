@@ -24,10 +24,11 @@ function fields.shown(value)
   return type(value) == "number" and ("%.14g"):format(value) or type(value)
 end
 
---- Raises at the line of the caller's caller. known: name -> what type() must give.
-function fields.check(noun, given, known)
+--- Raises at the line of the caller's caller, or at `level`. known: name -> what type() must give.
+function fields.check(noun, given, known, level)
+  level = level or 3
   if type(given) ~= "table" then
-    error(("%s: takes a table, got %s"):format(noun, type(given)), 3)
+    error(("%s: takes a table, got %s"):format(noun, type(given)), level)
   end
   local names = {}
   for name in pairs(known) do names[#names + 1] = name end
@@ -37,16 +38,16 @@ function fields.check(noun, given, known)
     local hint = core.nearest(unknown, names)
     error(("%s: unknown field '%s'%s"):format(noun, unknown,
       hint and ("; did you mean '%s'?"):format(hint)
-        or "; the fields are " .. table.concat(names, ", ")), 3)
+        or "; the fields are " .. table.concat(names, ", ")), level)
   end
   for _, name in ipairs(names) do
     local value = given[name]
     if value ~= nil and known[name] ~= "any" and type(value) ~= known[name] then
-      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, known[name], type(value)), 3)
+      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, known[name], type(value)), level)
     end
     if known[name] == "number" and value ~= nil and not fields.is_finite(value) then
       error(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
-        fields.shown(value)), 3)
+        fields.shown(value)), level)
     end
   end
 end

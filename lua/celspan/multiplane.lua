@@ -41,12 +41,11 @@ local function check(scene)
   end
   for i = 1, #scene do
     local plane = scene[i]
-    if type(plane) == "table" then fields.check("multiplane: plane " .. i, plane, known_plane, 4) end
-    if type(plane) ~= "table" or type(plane[1]) ~= "userdata"
-      then
+    if type(plane) ~= "table" or type(plane[1]) ~= "userdata" then
       error(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
         type(plane) == "table" and "another table" or type(plane)), 3)
     end
+    fields.check("multiplane: plane " .. i, plane, known_plane, 4)
   end
 end
 

@@ -254,8 +254,8 @@ static celspan_status open_writer(picture_sink *sink, celspan_context *context) 
   return report(sink, context, status, &failure);
 }
 
-static celspan_status start(picture_sink *sink, celspan_context *context, int32_t width,
-                            int32_t height) {
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  picture_sink *sink = user;
   CS_TRY(check_size(context, sink, width, height));
   CS_TRY(cs_store_module(context, CELSPAN_OUTPUT, &sink->module));
   sink->context = context;
@@ -269,13 +269,6 @@ static celspan_status start(picture_sink *sink, celspan_context *context, int32_
   if (!sink->pixels || !sink->batch)
     return cs_fail_memory(context);
   return open_writer(sink, context);
-}
-
-static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
-  celspan_status status = start(user, context, width, height);
-  if (status != CELSPAN_OK)
-    destroy(user, context);
-  return status;
 }
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,

@@ -31,9 +31,12 @@ static inline celspan_status picture_write(celspan_context *context, const char 
   if (coding)
     file.coding = *coding;
   CS_TRY(cs_sink_file(context, path, &file, &sink));
-  CS_TRY(sink.begin(sink.user, context, width, height));
+  celspan_status status = sink.begin(sink.user, context, width, height);
+  if (status != CELSPAN_OK) {
+    cs_sink_discard(context, &sink);
+    return status;
+  }
   float *row = malloc((size_t)width * 4 * sizeof(float));
-  celspan_status status = CELSPAN_OK;
   for (int y = 0; y < height && status == CELSPAN_OK; y++) {
     for (int x = 0; x < width; x++)
       paint(x, y, row + 4 * x);

@@ -122,6 +122,23 @@ static void test_full_disk(void) {
   signal(SIGXFSZ, SIG_DFL);
 }
 
+/* A file where a folder should be: nothing can be begun, and all is let go once. */
+static void test_no_folder(void) {
+  char path[512], below[600];
+  snprintf(path, sizeof path, "%s", picture_path("taken"));
+  CHECK(fclose(fopen(path, "w")) == 0);
+  for (int format = 0; format < 2; format++) {
+    snprintf(below, sizeof below, "%s/%s", path, format ? "a.exr" : "a.tif");
+    memory_watch watch = {0};
+    celspan_context *own = memory_watch_context(&watch);
+    CHECK(picture_write(own, below, NULL, 10, 10, paint) == CELSPAN_OUTPUT);
+    CHECK(strstr(celspan_context_error(own), below));
+    celspan_context_destroy(own);
+    CHECK(watch.blocks == 0);
+  }
+  unlink(path);
+}
+
 static void test_ten_bits(void) {
   static unsigned char bytes[1 << 16];
   const char *path = picture_path("film.dpx");
@@ -158,6 +175,7 @@ int main(void) {
     test_same_bytes();
     test_full_disk();
     test_ten_bits();
+    test_no_folder();
     test_memory();
   }
   celspan_context_destroy(context);
