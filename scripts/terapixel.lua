@@ -2,9 +2,9 @@
 --
 --   celspan render scripts/terapixel.lua --size 1000000x1000000 --crop X,Y,W,H -o part.png
 --
--- From afar it is a hill with houses. At a hundredth of the way in, every house has windows; at a
--- thousandth, every lit window a room, and every room a picture on its wall; and one of the pictures,
--- where nothing is left to magnify, is a film. Everything comes from the same dice: nothing is stored.
+-- From afar it is a hill with houses. Ten times nearer every house has windows, a hundred times
+-- nearer every lit window a room and every room a picture on its wall; and one of the pictures,
+-- where nothing is left to magnify, is a frame of scripts/demo.lua.
 local celspan = require "celspan"
 local landscape = require "demo.landscape"
 local palette = require "demo.palette"
@@ -61,7 +61,8 @@ local function church(x, y)
   return celspan.union {
     draw.rect(x, y - 92, 34, 110, palette.walls[2]),
     draw.rect(x + 22, y - 92, 12, 110, "#00000028"),
-    draw.path(palette.roofs[2], "M%g %gL%g %gL%g %gZ", x - 5, y - 90, x + 17, y - 168, x + 39, y - 90),
+    draw.path(palette.roofs[2], "M%g %gL%g %gL%g %gZ", x - 5, y - 90, x + 17, y - 168,
+      x + 39, y - 90),
     draw.disc(x + 17, y - 70, 9, "#f6e3b8"), draw.disc(x + 17, y - 70, 0.8, palette.ink),
     draw.path(palette.ink, "M%g %gl0.6 -7l0.6 7l5 3l-0.6 1Z", x + 16.4, y - 70),
     draw.rects(palette.ink, { { x + 16.6, y - 78, 0.8, 2 }, { x + 16.6, y - 64, 0.8, 2 },
@@ -89,10 +90,11 @@ local function picture()
     table.move({ terrace(row, at[1], at[2]) }, 1, 3, #cels + 1, cels)
   end
   cels[#cels + 1] = celspan.cel { land.ground, front = light.near:at(time) }
-  cels[#cels + 1] = celspan.cel { landscape.meadow:scale(0.42):translate(0, 545),
-                                  landscape.branch:scale(0.5):translate(-130, 0), front = { 0, 0, 0 } }
+  cels[#cels + 1] = celspan.cel {
+    landscape.meadow:scale(0.42):translate(0, 545), landscape.branch:scale(0.5):translate(-130, 0),
+    front = { 0, 0, 0 } }
   return celspan.rostrum(cels)
 end
 
-return celspan.film { title = "A town of a million million pixels", size = { 1000, 1000 }, frames = 1,
-                      frame = picture }
+return celspan.film {
+  title = "A town of a million million pixels", size = { 1000, 1000 }, frames = 1, frame = picture }

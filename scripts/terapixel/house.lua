@@ -1,5 +1,5 @@
--- Houses: each a wall with a gable, a door, a chimney, and windows with rooms in them. Units are those
--- of the frame, of which a thousand make its side; y is where the house stands.
+-- Houses: each a wall with a gable, a door, a chimney, and windows with rooms in them. Units are
+-- those of the frame, of which a thousand make its side; y is where the house stands.
 local celspan = require "celspan"
 local palette = require "demo.palette"
 local shapes = require "demo.shapes"
@@ -11,29 +11,27 @@ local house = {}
 
 --- Two dozen rooms, each of which lies behind many windows.
 local rooms = {}
-for i = 1, 24 do
-  local inside, bars = room.any(Dice.new("room " .. i))
-  rooms[i] = celspan.union { inside, bars }
-end
+for i = 1, 24 do rooms[i] = room.any(Dice.new("room " .. i)) end
 
 local dark_pane = celspan.union {
   draw.rect(0, 0, 600, 700, shapes.down(0, 700, { "#4a5a78", "#2b3350" })),
   draw.path("#ffffff18", "M60 700L330 0H470L200 700Z"),
   draw.rects("#c9b79a40", { { 0, 0, 90, 700 }, { 510, 0, 90, 700 } }),
-  draw.rects("#1c1526", { { -18, -18, 636, 18 }, { -18, 0, 18, 700 }, { 600, 0, 18, 700 },
-                          { 294, 0, 12, 700 }, { 0, 228, 600, 12 }, { -40, 700, 680, 34 } }),
+  room.bars,
 }
 
 --- A box of flowers under a window, with a bee now and then: as wide as the window, 640.
 local function flower_box(dice)
-  local leaves, parts = {}, { draw.rect(-10, 742, 620, 96, "#7a4b2a", 10),
-                              draw.rects("#54301f", { { -10, 770, 620, 8 }, { -10, 806, 620, 6 } }) }
-  local stems, blossoms = {}, {}
+  local parts = { draw.rect(-10, 742, 620, 96, "#7a4b2a", 10),
+                  draw.rects("#54301f", { { -10, 770, 620, 8 }, { -10, 806, 620, 6 } }) }
+  local leaves, stems, blossoms = {}, {}, {}
+  local colours = { "#e9573f", "#e8a33d", "#fbdcae", "#c0527a" }
   for i = 0, 11 do
     local x, tall = 24 + i * 50, dice:between(40, 110)
     stems[#stems + 1] = { x - 2, 742 - tall, 4, tall }
-    leaves[#leaves + 1] = ("M%g 742q-22 -12 -26 -34q20 4 26 34q2 -30 24 -40q0 26 -24 40Z"):format(x)
-    blossoms[#blossoms + 1] = { x, 742 - tall, dice:one { "#e9573f", "#e8a33d", "#fbdcae", "#c0527a" } }
+    leaves[#leaves + 1] = ("M%g 742q-22 -12 -26 -34q20 4 26 34q2 -30 24 -40q0 26 -24 40Z")
+      :format(x)
+    blossoms[#blossoms + 1] = { x, 742 - tall, dice:one(colours) }
   end
   parts[#parts + 1] = draw.rects("#55683f", stems)
   parts[#parts + 1] = draw.path("#6d7f4a", table.concat(leaves))
@@ -103,54 +101,55 @@ end
 --- Rounded to a thousandth, which is a pixel of the largest frame.
 local function on_grid(v) return math.floor(v * 1000 + 0.5) / 1000 end
 
---- shell, rooms and halos of a house. gallery: its first window is the one with the film.
-function house.draw(x, y, w, dice, gallery)
-  local h = w * dice:between(0.95, 1.35)
-  local peak = w * dice:between(0.5, 0.66)
-  local roof = dice:one(palette.roofs)
+--- Wall, gable and chimney.
+local function shell(x, y, w, h, peak, dice)
   local wall = shapes.across(x, x + w, { dice:one(palette.walls), palette.wall_shade })
-  local shell = {
+  return {
     draw.rect(x + w * 0.68, y - h - peak * 0.95, w * 0.11, peak * 0.8, palette.roofs[2]),
     draw.rect(x + w * 0.66, y - h - peak * 0.99, w * 0.15, w * 0.03, "#6b3a3c"),
     draw.rect(x, y - h, w, h, wall), bricks(x, y, w, h, dice),
     draw.rect(x, y - w * 0.08, w, w * 0.08, "#8d7b78"),
-    draw.path(roof, "M%g %gL%g %gL%g %gZ", x - w * 0.1, y - h + w * 0.04, x + w / 2, y - h - peak,
-      x + w * 1.1, y - h + w * 0.04),
+    draw.path(dice:one(palette.roofs), "M%g %gL%g %gL%g %gZ", x - w * 0.1, y - h + w * 0.04,
+      x + w / 2, y - h - peak, x + w * 1.1, y - h + w * 0.04),
     tiles(x, y - h + w * 0.03, w, peak * 0.96, "#00000030"),
     draw.rect(x - w * 0.1, y - h + w * 0.02, w * 1.2, w * 0.035, "#6b3a3c"),
     draw.disc(x + w / 2, y - h - peak * 0.38, w * 0.055, "#2b2440"),
   }
-  local inside, halos = {}, {}
+end
+
+local gallery = room.gallery(Dice.new "gallery")
+
+--- Shell, rooms and halos of a house. has_gallery: its first window is the one with the film.
+function house.draw(x, y, w, dice, has_gallery)
+  local h, peak = w * dice:between(0.95, 1.35), w * dice:between(0.5, 0.66)
+  local front, inside, halos = shell(x, y, w, h, peak, dice), {}, {}
   local columns = w > 40 and 3 or 2
-  local side = on_grid(gallery and 6 or w * 0.5 / columns)
-  local scale = side / 600
-  for row = 0, 1 do
-    for column = 0, columns - 1 do
-      local wx = on_grid(x + w * (column + 0.5) / columns - side / 2)
-      local wy = on_grid(y - h * (0.9 - row * 0.46))
-      local first = row == 0 and column == 0
-      if row == 1 and column == columns - 1 then
-        shell[#shell + 1] = door(wx + side * 0.1, y - w * 0.01, side * 0.85, dice)
-      else
-        local is_lit = (gallery and first) or not dice:once(3)
-        local view = dark_pane
-        if gallery and first then
-          local art, bars = room.gallery(dice)
-          view = celspan.union { art, bars }
-        elseif is_lit then
-          view = dice:one(rooms)
-        end
-        inside[#inside + 1] = view:scale(scale):translate(wx, wy)
-        if dice:once(2) then
-          inside[#inside + 1] = dice:one(boxes):scale(scale):translate(wx, wy)
-        end
-        if is_lit then
-          halos[#halos + 1] = draw.halo(wx + side / 2, wy + side * 0.6, side * 2, 1, 0.5, 0.16, 0.009)
-        end
-      end
+  local side = on_grid(has_gallery and 6 or w * 0.5 / columns)
+
+  local function window(wx, wy, view, is_lit)
+    local function place(art) return art:scale(side / 600):translate(wx, wy) end
+    inside[#inside + 1] = place(view)
+    if dice:once(2) then inside[#inside + 1] = place(dice:one(boxes)) end
+    if is_lit then
+      halos[#halos + 1] = draw.halo(wx + side / 2, wy + side * 0.6, side * 2, 1, 0.5, 0.16, 0.009)
     end
   end
-  return shell, inside, halos
+
+  for i = 0, 2 * columns - 1 do
+    local row, column = i // columns, i % columns
+    local wx = on_grid(x + w * (column + 0.5) / columns - side / 2)
+    local wy = on_grid(y - h * (0.9 - row * 0.46))
+    if i == 2 * columns - 1 then
+      front[#front + 1] = door(wx + side * 0.1, y - w * 0.01, side * 0.85, dice)
+    elseif i == 0 and has_gallery then
+      window(wx, wy, gallery, true)
+    elseif dice:once(3) then
+      window(wx, wy, dark_pane, false)
+    else
+      window(wx, wy, dice:one(rooms), true)
+    end
+  end
+  return front, inside, halos
 end
 
 return house

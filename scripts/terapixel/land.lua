@@ -94,8 +94,8 @@ end
 land.hill = shapes.ridge(crest_points, 1010, shapes.down(440, 900, palette.village))
 
 --- The lane from the church down to the meadow: {x, y, width}.
-local lane = { { 612, 450, 3 }, { 640, 494, 5 }, { 590, 552, 8 }, { 668, 632, 11 }, { 690, 716, 15 },
-               { 612, 806, 20 }, { 660, 892, 28 }, { 560, 1020, 60 } }
+local lane = { { 612, 450, 3 }, { 640, 494, 5 }, { 590, 552, 8 }, { 668, 632, 11 },
+               { 690, 716, 15 }, { 612, 806, 20 }, { 660, 892, 28 }, { 560, 1020, 60 } }
 
 --- The middle of the lane and half its width at a height.
 function land.lane(y)

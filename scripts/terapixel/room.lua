@@ -13,6 +13,7 @@ local papers = { { "#ffd58f", "#f2b866" }, { "#ffc47d", "#ef9f5c" }, { "#f6dca6"
                  { "#ffb98a", "#e88f68" }, { "#e9d9a8", "#cdb67c" } }
 local spines = { "#b1543f", "#2f7f86", "#e8a33d", "#8e4a48", "#17404f", "#7d8248", "#d99f7d",
                  "#4c3569", "#e9573f", "#35492f" }
+local furs = { "#2b1b2c", "#b5672d", "#efd7b4" }
 local wood = "#7a4b2a"
 
 --- Wallpaper: stripes, and a sprig between them.
@@ -23,8 +24,8 @@ local function walls(dice)
     stripes[i + 1] = { i * 60 + 20, 0, 12, 470 }
     for k = 0, 6 do
       local x, y = i * 60 + 51, 30 + k * 64 + i % 2 * 32
-      sprigs[#sprigs + 1] = ("M%g %gq5 3 0 9q-5 -6 0 -9m0 9q4 0 6 -5q-5 0 -6 5q-4 0 -6 -5q5 0 6 5l1 6h-2Z")
-        :format(x, y)
+      sprigs[#sprigs + 1] = ("M%g %gq5 3 0 9q-5 -6 0 -9m0 9q4 0 6 -5q-5 0 -6 5q-4 0 -6 -5q5 0 6 5"
+        .. "l1 6h-2Z"):format(x, y)
     end
   end
   return celspan.union {
@@ -72,7 +73,8 @@ local function curtains(dice)
   local left = "M0 0H118C112 150 96 330 30 420C20 520 24 620 30 700H0Z"
   local folds = { draw.path(cloth, left) }
   for i = 1, 3 do
-    folds[#folds + 1] = draw.path("#00000030", "M%g 0h6C%g 150 %g 330 %g 420l-4 0C%g 330 %g 150 %g 0Z",
+    folds[#folds + 1] = draw.path("#00000030",
+      "M%g 0h6C%g 150 %g 330 %g 420l-4 0C%g 330 %g 150 %g 0Z",
       i * 28, i * 27 + 6, i * 20 + 4, i * 8 + 4, i * 20, i * 27, i * 28)
   end
   local side = celspan.union(folds)
@@ -84,9 +86,10 @@ end
 local function table_set(x, dice)
   local parts = {
     draw.rects("#54301f", { { x + 16, 500, 10, 92 }, { x + 184, 500, 10, 92 } }),
-    draw.path(dice:one { "#fbe9c6", "#d9e0d2", "#f6c9a8" }, "M%g 486h210l8 44q-26 12 -52 0t-58 0t-58 0t-58 0Z", x, 0),
-    draw.path("#2f7f86", "M%g 486v-26h34v26Z", x + 30, 0), draw.oval(x + 47, 460, 17, 4, "#17404f"),
-    draw.path("#e8a33d", "M%g 486q-2 -28 6 -34h18q8 6 6 34Z", x + 140, 0),
+    draw.path(dice:one { "#fbe9c6", "#d9e0d2", "#f6c9a8" },
+      "M%g 486h210l8 44q-26 12 -52 0t-58 0t-58 0t-58 0Z", x),
+    draw.path("#2f7f86", "M%g 486v-26h34v26Z", x + 30), draw.oval(x + 47, 460, 17, 4, "#17404f"),
+    draw.path("#e8a33d", "M%g 486q-2 -28 6 -34h18q8 6 6 34Z", x + 140),
   }
   for i = -2, 2 do
     parts[#parts + 1] = draw.path("#55683f", "M%g 452q%g -20 %g -38q4 20 %g 38Z", x + 154, i * 5,
@@ -99,7 +102,8 @@ end
 
 local function cat(x, y, fur)
   return celspan.union {
-    draw.path(fur, "M%g %gc-34 0 -40 -40 -16 -66c-4 -20 -2 -34 2 -42l14 12h14l14 -12c4 10 6 24 2 42c24 26 16 66 -16 66Z", x, y),
+    draw.path(fur, "M%g %gc-34 0 -40 -40 -16 -66c-4 -20 -2 -34 2 -42l14 12h14l14 -12"
+      .. "c4 10 6 24 2 42c24 26 16 66 -16 66Z", x, y),
     shapes.ribbon({ { x + 20, y - 8, 9 }, { x + 52, y - 10, 9 }, { x + 64, y - 34, 7 },
                     { x + 54, y - 48, 4 } }, fur),
     draw.rects("#ffe6b3", { { x - 9, y - 84, 5, 6 }, { x + 4, y - 84, 5, 6 } }),
@@ -110,17 +114,16 @@ end
 local function clock(x, y)
   return celspan.union {
     draw.disc(x, y, 30, wood), draw.disc(x, y, 25, "#fff6e0"),
-    draw.rects(palette.ink, { { x - 1, y - 23, 2, 6 }, { x - 1, y + 17, 2, 6 }, { x - 23, y - 1, 6, 2 },
-                              { x + 17, y - 1, 6, 2 } }),
+    draw.rects(palette.ink, { { x - 1, y - 23, 2, 6 }, { x - 1, y + 17, 2, 6 },
+                              { x - 23, y - 1, 6, 2 }, { x + 17, y - 1, 6, 2 } }),
     draw.path(palette.ink, "M%g %gl2 -18l2 18l12 6l-2 3Z", x - 2, y),
   }
 end
 
 --- The bars of the window, and its sill, as seen from outside.
-local function bars(colour)
-  return draw.rects(colour, { { -18, -18, 636, 18 }, { -18, 0, 18, 700 }, { 600, 0, 18, 700 },
-                              { 294, 0, 12, 700 }, { 0, 228, 600, 12 }, { -40, 700, 680, 34 } })
-end
+room.bars = draw.rects(palette.ink, {
+  { -18, -18, 636, 18 }, { -18, 0, 18, 700 }, { 600, 0, 18, 700 }, { 294, 0, 12, 700 },
+  { 0, 228, 600, 12 }, { -40, 700, 680, 34 } })
 
 --- A room like many: what is in it, and where, is up to chance.
 function room.any(dice)
@@ -131,10 +134,11 @@ function room.any(dice)
   parts[#parts + 1] = canvas.frame(canvas.small(dice), 96, 64):scale(1.5):translate(x - 60, 270)
   parts[#parts + 1] = table_set(is_left and 290 or 110, dice)
   parts[#parts + 1] = lamp(x)
-  if dice:once(3) then parts[#parts + 1] = cat(is_left and 250 or 360, 622, dice:one { "#2b1b2c", "#b5672d", "#efd7b4" }) end
+  if dice:once(3) then parts[#parts + 1] = cat(is_left and 250 or 360, 622, dice:one(furs)) end
   if dice:once(2) then parts[#parts + 1] = clock(x + 96, 200) end
   parts[#parts + 1] = curtains(dice)
-  return celspan.union(parts), bars "#2b1b2c"
+  parts[#parts + 1] = room.bars
+  return celspan.union(parts)
 end
 
 --- What a note says that is nailed to a wall, one square a pixel.
@@ -152,8 +156,8 @@ function room.gallery(dice)
     canvas.frame(canvas.large, 192, 108):translate(324, 268),
     note(326, 396, { "THE LAMPLIGHTER,", "FRAME 54, HUNG AT", "ONE PIXEL A PIXEL.", "",
                      "AROUND IT A MILLION", "BY A MILLION OTHERS." }),
-    table_set(300, dice), lamp(420), cat(236, 628, "#b5672d"), curtains(dice),
-  }, bars "#2b1b2c"
+    table_set(300, dice), lamp(420), cat(236, 628, "#b5672d"), curtains(dice), room.bars,
+  }
 end
 
 return room

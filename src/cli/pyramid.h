@@ -3,8 +3,8 @@
  *   Deep Zoom   NAME.dzi        NAME_files/LEVEL/COLUMN_ROW.png
  *   IIIF        NAME/info.json  NAME/X,Y,W,H/W,H/0/default.png   (Image API 3.0, level 0)
  *
- * INVARIANT  The top level is the frame itself and each level below is half as large, rounded up, as
- * in Deep Zoom: level i of a frame of top level L is ceil(size / 2^(L - i)), and level 0 is one
+ * INVARIANT  The top level is the frame itself and each level below is half as large, rounded up,
+ * as in Deep Zoom: level i of a frame of top level L is ceil(size / 2^(L - i)), and level 0 is one
  * pixel. IIIF counts scale factors instead: level i has 2^(L - i).
  */
 #ifndef CS_CLI_PYRAMID_H

@@ -181,7 +181,8 @@ typedef struct tile_look {
 
 static bool is_all(const unsigned char *row, size_t size, const unsigned char *pixel,
                    size_t pixel_size) {
-  return memcmp(row, pixel, pixel_size) == 0 && memcmp(row, row + pixel_size, size - pixel_size) == 0;
+  return memcmp(row, pixel, pixel_size) == 0 &&
+         memcmp(row, row + pixel_size, size - pixel_size) == 0;
 }
 
 static celspan_status look_at(cs_tile_writer *writer, const cs_area *area, tile_look *out) {
@@ -189,8 +190,8 @@ static celspan_status look_at(cs_tile_writer *writer, const cs_area *area, tile_
   const celspan_coding *coding = &files->file.coding;
   size_t pixel_size = celspan_coding_pixel_size(coding);
   size_t size = (size_t)(area->x1 - area->x0) * pixel_size, count;
-  CS_TRY(cs_mem_reserve(&writer->context, (void **)&writer->pixels, &writer->pixel_capacity, size,
-                        1));
+  CS_TRY(
+      cs_mem_reserve(&writer->context, (void **)&writer->pixels, &writer->pixel_capacity, size, 1));
   cs_hash hash = cs_hash_begin((uint64_t)(area->x1 - area->x0));
   out->is_empty = files->skips_empty;
   for (int32_t y = area->y0; y < area->y1; y++) {

@@ -32,8 +32,8 @@ CELSPAN_CHECKED celspan_status cs_tilelog_read(celspan_context *context, const c
                                                cs_hash digest, cs_tilelog *log,
                                                cs_tilelog_state *state);
 /* Removes record and tiles. */
-CELSPAN_CHECKED celspan_status cs_tilelog_clear(celspan_context *context,
-                                                const cs_pyramid *pyramid, cs_tilelog *log);
+CELSPAN_CHECKED celspan_status cs_tilelog_clear(celspan_context *context, const cs_pyramid *pyramid,
+                                                cs_tilelog *log);
 /* Opens it for more lines; a new one gets its first. Its folder is made. */
 CELSPAN_CHECKED celspan_status cs_tilelog_open(celspan_context *context, cs_tilelog *log);
 bool cs_tilelog_has(const cs_tilelog *log, cs_tile_row row);

@@ -191,8 +191,8 @@ static celspan_status copy_all(text_file *out, FILE *in, const char *path) {
   while ((size = fread(bytes, 1, sizeof bytes, in)) > 0)
     put_bytes(out, bytes, size);
   if (ferror(in) && out->status == CELSPAN_OK)
-    out->status = cs_fail(out->context, CELSPAN_INPUT, "%s: cannot be read: %s", path,
-                          strerror(errno));
+    out->status =
+        cs_fail(out->context, CELSPAN_INPUT, "%s: cannot be read: %s", path, strerror(errno));
   return close_text(out);
 }
 

@@ -1,4 +1,5 @@
-/* What is written beside the tiles: the description that viewers read, and the page that shows them.
+/* What is written beside the tiles: the description that viewers read, and the page that shows
+ * them.
  */
 #ifndef CS_CLI_TILEPAGE_H
 #define CS_CLI_TILEPAGE_H
@@ -16,12 +17,10 @@ typedef struct cs_tilepage {
 } cs_tilepage;
 
 /* NAME.dzi or NAME/info.json, and index.html. */
-CELSPAN_CHECKED celspan_status cs_tilepage_write(celspan_context *context,
-                                                 const cs_tilepage *page);
+CELSPAN_CHECKED celspan_status cs_tilepage_write(celspan_context *context, const cs_tilepage *page);
 /* Copies OpenSeadragon to FOLDER/openseadragon/. from: its folder or its script. Errors: INPUT,
  * OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_tilepage_copy_viewer(celspan_context *context,
-                                                       const cs_pyramid *pyramid,
-                                                       const char *from);
+                                                       const cs_pyramid *pyramid, const char *from);
 
 #endif

@@ -157,11 +157,11 @@ static cs_exit choose_levels(const cs_request *request, const cs_pyramid *pyrami
     return CS_EXIT_OK;
   levels[0] = request->levels[0];
   levels[1] = request->levels[1];
-  return levels[1] <= top ? CS_EXIT_OK
-                          : cs_report_usage("--levels %d-%d: a frame of %d x %d pixels has levels "
-                                            "0 to %d",
-                                            levels[0], levels[1], pyramid->width, pyramid->height,
-                                            top);
+  return levels[1] <= top
+             ? CS_EXIT_OK
+             : cs_report_usage("--levels %d-%d: a frame of %d x %d pixels has levels "
+                               "0 to %d",
+                               levels[0], levels[1], pyramid->width, pyramid->height, top);
 }
 
 cs_exit cs_tileplan_make(celspan_context *context, const cs_request *request,

@@ -47,8 +47,8 @@ static celspan_status keep(celspan_context *context, cs_kept_row *kept, const ce
   cs_arena_reset(&kept->colours);
   if (is_dense(spans, count))
     return keep_colours(context, kept, spans, count);
-  CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, count,
-                        sizeof *kept->spans));
+  CS_TRY(
+      cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, count, sizeof *kept->spans));
   kept->count = count;
   memcpy(kept->spans, spans, count * sizeof *spans);
   for (size_t i = 0; i < count; i++) {

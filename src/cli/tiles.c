@@ -165,8 +165,7 @@ static cs_exit open_log(tiles_job *job) {
 /* ---------------------------------------------------------------- rendering */
 
 static bool is_done(const tiles_job *job, const cs_tile_job *part, int32_t row) {
-  return cs_tilelog_has(&job->log,
-                        (cs_tile_row){part->level, row, part->tiles.x0, part->tiles.x1});
+  return cs_tilelog_has(&job->log, (cs_tile_row){part->level, row, part->tiles.x0, part->tiles.x1});
 }
 
 /* Rows of tiles from `row` on that are all to be made. */
@@ -253,8 +252,7 @@ static celspan_status render_part(tiles_job *job, const cs_tile_job *part) {
   for (int32_t row = part->tiles.y0; row < part->tiles.y1 && status == CELSPAN_OK;) {
     int32_t end = end_of_run(job, part, row);
     if (end > row)
-      status = render_run(job, part->level,
-                          (cs_area){part->tiles.x0, row, part->tiles.x1, end});
+      status = render_run(job, part->level, (cs_area){part->tiles.x0, row, part->tiles.x1, end});
     row = end > row ? end : row + 1;
   }
   return status;
@@ -321,9 +319,9 @@ static celspan_status write_page(tiles_job *job) {
                       .title = job->title};
   code_background(job, page.background);
   CS_TRY(cs_tilepage_write(job->context, &page));
-  return job->request->viewer ? cs_tilepage_copy_viewer(job->context, &job->pyramid,
-                                                        job->request->viewer)
-                              : CELSPAN_OK;
+  return job->request->viewer
+             ? cs_tilepage_copy_viewer(job->context, &job->pyramid, job->request->viewer)
+             : CELSPAN_OK;
 }
 
 static void summarise(const tiles_job *job) {

@@ -1,7 +1,6 @@
 /* Means of a rendered level. */
 #include "cli/tilesmall.h"
 
-
 #include "base/context.h"
 #include "cli/interrupt.h"
 #include "output/sink.h"
@@ -18,8 +17,8 @@ celspan_status cs_tilesmall_begin(celspan_context *context, int32_t width, int32
   made.pixels = cs_mem_array(context->memory, 1, pixels_size(&made));
   if (!made.pixels)
     return cs_fail_memory(context);
-  celspan_status status = cs_sink_memory(context, &coding, made.pixels,
-                                         (size_t)width * 4 * sizeof(float), sink);
+  celspan_status status =
+      cs_sink_memory(context, &coding, made.pixels, (size_t)width * 4 * sizeof(float), sink);
   if (status == CELSPAN_OK)
     *out = made;
   else
@@ -64,8 +63,7 @@ static celspan_status put_rows(celspan_context *context, const cs_tilesmall *sma
     if (cs_interrupt_signal())
       return CELSPAN_CANCELLED;
     for (int32_t x = 0; x < width; x++)
-      take_mean(small, x * across, (x + 1) * across, y * down, (y + 1) * down,
-                row + 4 * (size_t)x);
+      take_mean(small, x * across, (x + 1) * across, y * down, (y + 1) * down, row + 4 * (size_t)x);
     CS_TRY(sink->row(sink->user, context, y, &span, 1));
   }
   return CELSPAN_OK;
@@ -75,8 +73,8 @@ celspan_status cs_tilesmall_render(celspan_context *context, const cs_tilesmall 
                                    int32_t width, int32_t height, const celspan_sink *sink) {
   size_t size = (size_t)width * 4 * sizeof(float);
   float *row = cs_mem_array(context->memory, 1, size);
-  celspan_status status = row ? put_rows(context, small, width, height, row, sink)
-                              : cs_fail_memory(context);
+  celspan_status status =
+      row ? put_rows(context, small, width, height, row, sink) : cs_fail_memory(context);
   status = sink->end(sink->user, context, status);
   cs_mem_free(context->memory, row, size);
   return status;

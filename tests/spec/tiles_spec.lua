@@ -1,5 +1,5 @@
--- celspan tiles: the pyramid's shape, that its tiles are the frame's pixels, what is linked, left out
--- and kept, and the page in a browser.
+-- celspan tiles: the pyramid's shape, that its tiles are the frame's pixels, what is linked, left
+-- out and kept, and the page in a browser.
 
 local BINARY = os.getenv("CELSPAN") or "build/celspan"
 
@@ -87,7 +87,8 @@ describe("a Deep Zoom pyramid", function()
     local counts = {}
     for level = 0, 10 do
       local factor = 2 ^ (10 - level)
-      counts[level] = math.ceil(math.ceil(700 / factor) / 64) * math.ceil(math.ceil(500 / factor) / 64)
+      local function tiles(side) return math.ceil(math.ceil(side / factor) / 64) end
+      counts[level] = tiles(700) * tiles(500)
     end
     assert.are.equal(88, counts[10])
     for level = 0, 10 do
@@ -238,12 +239,13 @@ describe("a run that goes on", function()
     local code, _, err = celspan("tiles %s --frame 2 -o %s/p --progress none", script, folder)
     assert.are.equal(2, code)
     assert.is_truthy(err:find("--fresh", 1, true), err)
-    assert_success("tiles %s --frame 2 -o %s/p --levels 0-8 --fresh --progress none", script, folder)
+    assert_success("tiles %s --frame 2 -o %s/p --levels 0-8 --fresh --progress none", script,
+      folder)
     assert.is_nil(read(folder .. "/p/plain_files/10/0_0.png"))
   end)
 
   it("leaves a folder alone that it did not make", function()
-    os.execute(("mkdir -p %s/p/plain_files && echo mine >%s/p/plain_files/mine"):format(folder, folder))
+    shell(("mkdir -p %s/p/plain_files && echo mine >%s/p/plain_files/mine"):format(folder, folder))
     local code, _, err = celspan("tiles %s -o %s/p --fresh --progress none", script, folder)
     assert.are.equal(2, code, err)
     assert.are.equal("mine\n", read(folder .. "/p/plain_files/mine"))
@@ -307,8 +309,8 @@ describe("the page", function()
 
   --- What the page draws at a place, as a PNG file: its canvas, without the buttons over it.
   local function draw_in_browser(port, place, path)
-    shell(("timeout 90 chromium --headless=new --no-sandbox --disable-gpu --user-data-dir=%s/browser "
-      .. "--window-size=600,600 --virtual-time-budget=9000 --dump-dom "
+    shell(("timeout 90 chromium --headless=new --no-sandbox --disable-gpu "
+      .. "--user-data-dir=%s/browser --window-size=600,600 --virtual-time-budget=9000 --dump-dom "
       .. "'http://127.0.0.1:%s/probe.html#%s' >%s/dom.html"):format(folder, port, place, folder))
     shell(([[python3 -c 'import base64, re, sys
 dom = open("%s/dom.html").read()
@@ -325,21 +327,24 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
     local server = lines_of(("python3 -m http.server %s --bind 127.0.0.1 --directory '%s' "
       .. ">/dev/null 2>&1 & echo $!"):format(port, path))[1]
     shell(("for i in 1 2 3 4 5 6 7 8 9 10; do python3 -c 'import urllib.request; "
-      .. "urllib.request.urlopen(\"http://127.0.0.1:%s/\")' && break; sleep 0.2; done"):format(port))
+      .. "urllib.request.urlopen(\"http://127.0.0.1:%s/\")' && break; sleep 0.2; done")
+      :format(port))
     return port, server
   end
 
   it_in_a_browser("shows at four depths what is rendered there", function()
     assert_success("tiles scripts/terapixel.lua --size 100000x100000 --levels 8-10 "
-      .. "--places scripts/terapixel/places.txt --viewer %s -o %s/p --progress none", viewer, folder)
+      .. "--places scripts/terapixel/places.txt --viewer %s -o %s/p --progress none", viewer,
+      folder)
     write("p/probe.html", (read(folder .. "/p/index.html"):gsub("window%.viewer = viewer;", [[%0
-      setTimeout(() => { document.title = viewer.drawer.canvas.toDataURL("image/png"); }, 6000);]])))
+      setTimeout(() => { document.title = viewer.drawer.canvas.toDataURL(); }, 6000);]])))
     local port, server = serve(folder .. "/p")
     local views = { { 50000, 50000, 100000 }, { 44100, 69800, 5000 }, { 43210, 69320, 960 },
                     { 43320, 69270, 300 } }
     local sizes = {}
     for i, v in ipairs(views) do
-      sizes[i] = { pcall(draw_in_browser, port, table.concat(v, ","), ("%s/shot%d.png"):format(folder, i)) }
+      local path = ("%s/shot%d.png"):format(folder, i)
+      sizes[i] = { pcall(draw_in_browser, port, table.concat(v, ","), path) }
     end
     os.execute("kill " .. server)
     for i, v in ipairs(views) do
