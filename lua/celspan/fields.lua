@@ -42,10 +42,11 @@ function fields.check(noun, given, known, level)
   end
   for _, name in ipairs(names) do
     local value = given[name]
-    if value ~= nil and known[name] ~= "any" and type(value) ~= known[name] then
-      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, known[name], type(value)), level)
+    local wanted = known[name]
+    if value ~= nil and wanted ~= "any" and type(value) ~= wanted then
+      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted, type(value)), level)
     end
-    if known[name] == "number" and value ~= nil and not fields.is_finite(value) then
+    if wanted == "number" and value ~= nil and not fields.is_finite(value) then
       error(("%s: field '%s' must be a finite number, got %s"):format(noun, name,
         fields.shown(value)), level)
     end

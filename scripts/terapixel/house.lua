@@ -47,6 +47,9 @@ local function flower_box(dice)
     draw.oval(-3, -6, 5, 3, "#ffffffa0"), draw.oval(4, -6, 5, 3, "#ffffffa0"),
     draw.oval(0, 0, 8, 5, "#e8a33d"),
     draw.rects("#2b1b2c", { { -4, -4.4, 2, 8.8 }, { 0, -5, 2, 10 }, { 4, -4, 1.6, 8 } }),
+    draw.disc(-6, -1.4, 1.1, "#2b1b2c"), draw.disc(-6.3, -1.7, 0.35, "#fff4dc"),
+    draw.path("#2b1b2c", "M-6 -4q-1 -4 -4 -4.6l0 0.6q2 1 3 4.4Z"
+      .. "M-4.4 -4.6q0 -4 -2 -5.6l-0.4 0.5q1.4 2 1.4 5.3Z"),
   }
   parts[#parts + 1] = bee:translate(b[1] + 6, b[2] - 16)
   return celspan.union(parts)
@@ -129,7 +132,11 @@ function house.draw(x, y, w, dice, has_gallery)
   local function window(wx, wy, view, is_lit)
     local function place(art) return art:scale(side / 600):translate(wx, wy) end
     inside[#inside + 1] = place(view)
-    if dice:once(2) then inside[#inside + 1] = place(dice:one(boxes)) end
+    if view == gallery then
+      inside[#inside + 1] = place(boxes[1])
+    elseif dice:once(2) then
+      inside[#inside + 1] = place(dice:one(boxes))
+    end
     if is_lit then
       halos[#halos + 1] = draw.halo(wx + side / 2, wy + side * 0.6, side * 2, 1, 0.5, 0.16, 0.009)
     end

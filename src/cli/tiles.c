@@ -150,7 +150,7 @@ static cs_exit refuse_state(const tiles_job *job, cs_tilelog_state state) {
 static cs_exit open_log(tiles_job *job) {
   celspan_context *context = job->context;
   cs_hash digest = cs_tiledigest(job->request, &job->pyramid, &job->frame, job->is_script);
-  cs_tilelog_state state;
+  cs_tilelog_state state = CS_TILELOG_NEW;
   celspan_status status = cs_tilelog_read(context, &job->pyramid, digest, &job->log, &state);
   bool is_known = state == CS_TILELOG_SAME || state == CS_TILELOG_OTHER;
   if (status == CELSPAN_OK && job->request->is_fresh && is_known)

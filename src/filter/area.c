@@ -157,19 +157,26 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   return CELSPAN_OK;
 }
 
+static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
+  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
+}
+
 /* The begins that belong to a block, in room of their own. */
 static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
                                   size_t *count) {
-  *count = 0;
+  size_t picked = 0;
+  for (size_t k = 0; k < b->begin_count; k++)
+    picked += begins_in(b, k, block);
+  *count = picked;
   *begins = NULL;
-  if (b->begin_count == 0)
+  if (picked == 0)
     return CELSPAN_OK;
-  *begins = take(b, b->begin_count, sizeof **begins);
-  if (!*begins)
+  cs_member *next = *begins = take(b, picked, sizeof *next);
+  if (!next)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++)
-    if (b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low)
-      (*begins)[(*count)++] = b->begins[k];
+    if (begins_in(b, k, block))
+      *next++ = b->begins[k];
   return CELSPAN_OK;
 }
 

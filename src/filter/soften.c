@@ -11,6 +11,9 @@
 #define FINE_GAUSSIAN 16
 #define FINE_EVEN 64
 #define SUMMED 3 /* cells; a Gaussian of a radius from here on is summed over cells */
+/* The same, where layers vary: boundaries know nothing of what lies between them. */
+#define SUMMED_VARYING 1.5
+#define SLICED 0.4 /* cells; likewise for even kernels */
 #define BAND_BYTES (16 << 20)
 #define BAND_ROWS 64
 #define BAND_ROWS_LEAST 8
@@ -62,7 +65,7 @@ static void release(const cs_soft *soft, celspan_context *context, cs_soft_band 
   cs_soft_bands_release(context, band);
 }
 
-celspan_status cs_soften_create(celspan_context *context, const cs_softness *softness,
+celspan_status cs_soften_create(celspan_context *context, const cs_softness *softness, bool varies,
                                 int32_t width, int32_t height, cs_soften **out) {
   CS_TRY(cs_soft_bands_ready(context));
   cs_soften *soften = cs_mem_array(context->memory, 1, sizeof *soften);
@@ -91,6 +94,8 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   if (soften->is_summed && status == CELSPAN_OK)
     status =
         fill_weights(context, s->radius_y, s->blur, spread, &soften->reach_y, &soften->weights[1]);
+  if (soften->is_sliced && status == CELSPAN_OK)
+    status = cs_soft_slices_init(context, s, &soften->slices);
   if (status == CELSPAN_OK)
     *out = soften;
   else
@@ -98,10 +103,18 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   return status;
 }
 
+void cs_soften_raster(const cs_soften *soften, int32_t *width, int32_t *height) {
+  int32_t factor = soften->is_sliced ? soften->slices.factor : 1;
+  *width = factor * soften->soft.columns + 2 * (soften->reach_x + soften->slices.reach_x);
+  *height = factor * soften->soft.rows + 2 * (soften->reach_y + soften->slices.reach_y);
+}
+
 celspan_matrix cs_soften_matrix(const cs_soften *soften) {
+  double factor = soften->is_sliced ? soften->slices.factor : 1;
   return celspan_matrix_then(
-      celspan_matrix_scaling(1 / soften->soft.pitch_x, 1 / soften->soft.pitch_y),
-      celspan_matrix_translation(1 + soften->reach_x, 1 + soften->reach_y));
+      celspan_matrix_scaling(factor / soften->soft.pitch_x, factor / soften->soft.pitch_y),
+      celspan_matrix_translation(factor + soften->reach_x + soften->slices.reach_x,
+                                 factor + soften->reach_y + soften->slices.reach_y));
 }
 
 celspan_status cs_soften_kernel(celspan_context *context, const cs_soften *soften,
@@ -109,7 +122,7 @@ celspan_status cs_soften_kernel(celspan_context *context, const cs_soften *softe
   static const cs_softness tent = {
       CELSPAN_DEFOCUS_BOX, 0.5, 0.5, {{0.5, 0}, {0, 0.5}}, 1}; /* a cell over a cell */
   *out = NULL;
-  if (soften->is_summed && !soften->has_tents)
+  if (soften->is_sliced || (soften->is_summed && !soften->has_tents))
     return CELSPAN_OK;
   return cs_kernel_create_soft(context, soften->is_summed ? &tent : &soften->softness, out);
 }
@@ -119,6 +132,7 @@ void cs_soften_free(cs_soften *soften, cs_memory *memory) {
     size_t reach = (size_t)(axis == 0 ? soften->reach_x : soften->reach_y);
     cs_mem_free(memory, soften->weights[axis], (reach + 1) * sizeof(float));
   }
+  cs_soft_slices_finish(&soften->slices, memory);
   cs_mem_free(memory, soften, sizeof *soften);
 }
 
@@ -272,7 +286,9 @@ static celspan_status fill_plane(const cs_soften *soften, celspan_context *conte
                                  int32_t first, int32_t end, float (*nodes)[4]) {
   cs_scan scan;
   celspan_status status = cs_scan_init(&scan, context, &soften->shots[plane]);
-  if (status == CELSPAN_OK)
+  if (status == CELSPAN_OK && soften->is_sliced)
+    status = cs_soft_slices_fill(&soften->slices, &scan, soften->soft.columns, first, end, nodes);
+  else if (status == CELSPAN_OK)
     status = soften->is_summed ? fill_summed(soften, &scan, first, end, nodes)
                                : fill_filtered(soften, &scan, first, end, nodes);
   cs_scan_finish(&scan);

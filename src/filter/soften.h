@@ -15,6 +15,7 @@
 
 #include "filter/scan.h"
 #include "filter/soft_bands.h"
+#include "filter/soft_slices.h"
 
 typedef struct cs_soften {
   cs_soft soft;         /* first: what composing sees */
@@ -23,16 +24,20 @@ typedef struct cs_soften {
   bool has_tents; /* is_summed: the cells are not means, but seen through tents two cells wide */
   int32_t reach_x, reach_y; /* is_summed: cells, and the shots' frames are wider by as many */
   float *weights[2];        /* is_summed: by distance, reach_x + 1 and reach_y + 1 of them */
+  bool is_sliced;           /* an even kernel over cells */
+  cs_soft_slices slices;    /* is_sliced */
   cs_shot shots[2];         /* one a plane; made by render/compile.c */
   cs_hash key;
 } cs_soften;
 
-/* The grid for a softness in pixels over a frame: everything but planes, shots and key.
+/* The grid for a softness in pixels over a frame: everything but planes, shots and key. varies: the
+ * cel holds layers that vary between their boundaries.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_soften_create(celspan_context *context,
-                                                const cs_softness *softness, int32_t width,
-                                                int32_t height, cs_soften **out);
-/* Frame pixels to the pixels of the shots. */
+                                                const cs_softness *softness, bool varies,
+                                                int32_t width, int32_t height, cs_soften **out);
+/* Frame pixels to the pixels of the shots, and their size. */
+void cs_soften_raster(const cs_soften *soften, int32_t *width, int32_t *height);
 celspan_matrix cs_soften_matrix(const cs_soften *soften);
 /* The kernel of the shots; NULL: means. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_soften_kernel(celspan_context *context, const cs_soften *soften,

@@ -3,6 +3,7 @@
 #include "base/number.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define TILE 256 /* pixels summed at a time */
 
@@ -21,6 +22,7 @@ void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, 
 
 void cs_window_free(cs_window *window, cs_memory *memory) {
   cs_mem_free(memory, window->fragments, window->fragment_capacity * sizeof *window->fragments);
+  cs_arena_finish(&window->tiles, memory);
   *window = (cs_window){0};
 }
 
@@ -144,95 +146,149 @@ static celspan_status close_flat(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there */
+/* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
+ *
+ * The window is worked off in tiles from left to right. A fragment takes area from the cell on its
+ * left and gives it to the one on its right: pixel by pixel while it is crossed, and as a whole (the
+ * cell's carry) for all tiles after. Areas add exactly, so a cell that is not there weighs 0. */
 
 typedef struct seen_cell {
   const cs_cell *cell;
-  double *weights; /* one a pixel of the tile; exact, so that no area is exactly 0 */
+  double carry;    /* its weight in pixels that no fragment crosses */
+  double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
 } seen_cell;
 
-typedef struct tile {
+typedef struct crossing {
+  const cs_fragment *fragment;
+  uint32_t left, right; /* into seen */
+} crossing;
+
+typedef struct blend {
   cs_window *window;
-  int32_t p0, p1;
   seen_cell *seen;
   size_t seen_count;
-} tile;
+  crossing *crossings; /* by first column */
+  size_t crossing_count;
+  size_t begun, ended; /* crossings [ended, begun) may cross the tile */
+} blend;
 
-/* The weights of a cell, or of one that looks like it. */
-static celspan_status tile_weights(tile *t, const cs_cell *cell, double **out) {
-  const cs_window *window = t->window;
-  for (size_t i = 0; i < t->seen_count; i++)
-    if (t->seen[i].cell == cell || cs_composer_same(window->composer, t->seen[i].cell, cell)) {
-      *out = t->seen[i].weights;
-      return CELSPAN_OK;
-    }
-  size_t size = (size_t)(t->p1 - t->p0) * sizeof **out;
-  *out = cs_arena_take(window->composer->context, window->arena, size);
-  if (!*out)
+/* The place of a cell, or of one that looks like it. */
+static uint32_t place_cell(blend *b, const cs_cell *cell) {
+  for (size_t i = 0; i < b->seen_count; i++)
+    if (b->seen[i].cell == cell || cs_composer_same(b->window->composer, b->seen[i].cell, cell))
+      return (uint32_t)i;
+  b->seen[b->seen_count] = (seen_cell){.cell = cell};
+  return (uint32_t)b->seen_count++;
+}
+
+static int compare_crossings(const void *p, const void *q) {
+  const cs_fragment *a = ((const crossing *)p)->fragment, *b = ((const crossing *)q)->fragment;
+  if (a->first != b->first)
+    return a->first < b->first ? -1 : 1;
+  return (a > b) - (a < b);
+}
+
+static celspan_status begin_blend(cs_window *window, blend *b) {
+  celspan_context *context = window->composer->context;
+  size_t count = window->fragment_count;
+  *b = (blend){.window = window, .crossing_count = count};
+  b->seen = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *b->seen);
+  b->crossings = cs_arena_take(context, window->arena, count * sizeof *b->crossings);
+  if (!b->seen || !b->crossings)
     return CELSPAN_NO_MEMORY;
-  memset(*out, 0, size);
-  t->seen[t->seen_count++] = (seen_cell){cell, *out};
+  b->seen[place_cell(b, window->base)].carry = 1;
+  for (size_t i = 0; i < count; i++) {
+    const cs_fragment *f = &window->fragments[i];
+    uint32_t left = place_cell(b, f->left);
+    b->crossings[i] = (crossing){f, left, place_cell(b, f->right)};
+  }
+  if (count > 1)
+    qsort(b->crossings, count, sizeof *b->crossings, compare_crossings);
   return CELSPAN_OK;
 }
 
-/* Moves the area right of a fragment from the cell on its left to the one on its right. */
-static celspan_status tile_add(tile *t, const cs_fragment *f) {
-  double *left, *right;
-  if (f->first >= t->p1)
+static celspan_status open_weights(blend *b, seen_cell *seen, int32_t count) {
+  if (seen->weights)
     return CELSPAN_OK;
-  CS_TRY(tile_weights(t, f->left, &left));
-  CS_TRY(tile_weights(t, f->right, &right));
-  for (int32_t p = f->first > t->p0 ? f->first : t->p0; p < t->p1; p++) {
+  seen->weights = cs_arena_take(b->window->composer->context, &b->window->tiles,
+                                (size_t)count * sizeof *seen->weights);
+  for (int32_t k = 0; seen->weights && k < count; k++)
+    seen->weights[k] = seen->carry;
+  return seen->weights ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+/* What a crossing does to the pixels of the tile. */
+static celspan_status cross_tile(blend *b, const crossing *c, int32_t p0, int32_t p1) {
+  const cs_fragment *f = c->fragment;
+  seen_cell *left = &b->seen[c->left], *right = &b->seen[c->right];
+  CS_TRY(open_weights(b, left, p1 - p0));
+  CS_TRY(open_weights(b, right, p1 - p0));
+  for (int32_t p = f->first > p0 ? f->first : p0; p < p1; p++) {
     double area = p < f->end ? cover(f, p) : f->height;
-    left[p - t->p0] -= area;
-    right[p - t->p0] += area;
+    left->weights[p - p0] -= area;
+    right->weights[p - p0] += area;
   }
   return CELSPAN_OK;
 }
 
+/* Turns the crossings that end in the tile into carries; the others stay in line. */
+static void retire_crossings(blend *b, int32_t p1) {
+  size_t kept = b->begun;
+  for (size_t i = b->begun; i-- > b->ended;) {
+    const crossing c = b->crossings[i];
+    if (c.fragment->end > p1) {
+      b->crossings[--kept] = c;
+      continue;
+    }
+    b->seen[c.left].carry -= c.fragment->height;
+    b->seen[c.right].carry += c.fragment->height;
+  }
+  b->ended = kept;
+}
+
 /* Adds a cell where it has area; only there is it asked for colours. */
-static celspan_status tile_sum(const tile *t, const seen_cell *seen, cs_v4 *sum) {
-  cs_composer *composer = t->window->composer;
+static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0, int32_t p1,
+                               cs_v4 *sum) {
   float rgba[TILE][4];
-  int32_t first = 0, end = t->p1 - t->p0;
-  while (first < end && seen->weights[first] == 0)
+  int32_t first = 0, end = p1 - p0;
+  while (first < end && (seen->weights ? seen->weights[first] : seen->carry) == 0)
     first++;
-  while (end > first && seen->weights[end - 1] == 0)
+  while (end > first && (seen->weights ? seen->weights[end - 1] : seen->carry) == 0)
     end--;
-  CS_TRY(cs_composer_colours(composer, seen->cell, t->p0 + first, t->p0 + end, t->window->centre,
-                             rgba));
+  CS_TRY(cs_composer_colours(b->window->composer, seen->cell, p0 + first, p0 + end,
+                             b->window->centre, rgba));
   for (int32_t k = first; k < end; k++)
-    sum[k] += cs_v4_load(rgba[k - first]) * (float)seen->weights[k];
+    sum[k] += cs_v4_load(rgba[k - first]) * (float)(seen->weights ? seen->weights[k] : seen->carry);
   return CELSPAN_OK;
 }
 
-static celspan_status close_tile(cs_window *window, int32_t p0, int32_t p1) {
-  celspan_context *context = window->composer->context;
-  tile t = {.window = window, .p0 = p0, .p1 = p1};
-  double *base;
-  float *colours;
+static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
+  cs_window *window = b->window;
   cs_v4 sum[TILE];
-  t.seen = cs_arena_take(context, window->arena,
-                         (2 * window->fragment_count + 1) * sizeof *t.seen);
-  if (!t.seen)
-    return CELSPAN_NO_MEMORY;
-  CS_TRY(tile_weights(&t, window->base, &base));
-  for (int32_t k = 0; k < p1 - p0; k++)
-    base[k] = 1;
-  for (size_t i = 0; i < window->fragment_count; i++)
-    CS_TRY(tile_add(&t, &window->fragments[i]));
+  float *colours;
+  cs_arena_reset(&window->tiles);
+  for (size_t i = 0; i < b->seen_count; i++)
+    b->seen[i].weights = NULL;
+  while (b->begun < b->crossing_count && b->crossings[b->begun].fragment->first < p1)
+    b->begun++;
+  for (size_t i = b->ended; i < b->begun; i++)
+    CS_TRY(cross_tile(b, &b->crossings[i], p0, p1));
   memset(sum, 0, sizeof sum);
-  for (size_t i = 0; i < t.seen_count; i++)
-    CS_TRY(tile_sum(&t, &t.seen[i], sum));
-  CS_TRY(cs_row_array(context, window->out, p0, p1, &colours));
+  for (size_t i = 0; i < b->seen_count; i++)
+    if (b->seen[i].weights || b->seen[i].carry != 0)
+      CS_TRY(add_cell(b, &b->seen[i], p0, p1, sum));
+  retire_crossings(b, p1);
+  CS_TRY(cs_row_array(window->composer->context, window->out, p0, p1, &colours));
   for (int32_t k = 0; k < p1 - p0; k++)
     cs_v4_store(colours + 4 * k, hold(sum[k]));
   return CELSPAN_OK;
 }
 
 static celspan_status close_varying(cs_window *window) {
+  blend b;
+  CS_TRY(begin_blend(window, &b));
   for (int32_t p = window->from; p < window->end; p += TILE)
-    CS_TRY(close_tile(window, p, window->end - p < TILE ? window->end : p + TILE));
+    CS_TRY(close_tile(&b, p, window->end - p < TILE ? window->end : p + TILE));
   return CELSPAN_OK;
 }
 

@@ -37,6 +37,7 @@ typedef struct cs_window {
   cs_fragment *fragments;
   size_t fragment_count, fragment_capacity;
   bool is_open, varies;
+  cs_arena tiles; /* of one tile's weights; the window's own */
   cs_trace *trace; /* not NULL: fragments are kept there, and no pixels made */
 } cs_window;
 

@@ -264,18 +264,18 @@ static void make_book(code_book *book, const codes *code) {
   for (unsigned i = 0; i < 256; i++) {
     parts length = split_length(i);
     book->literals[i] = (bit_string){code->literals[i], code->literal_lengths[i]};
-    book->lengths[i] = join(code->literals[length.symbol], code->literal_lengths[length.symbol],
-                            length);
+    book->lengths[i] =
+        join(code->literals[length.symbol], code->literal_lengths[length.symbol], length);
   }
   for (unsigned i = 0; i < NEAR; i++) {
     parts distance = split_distance(i);
-    book->near_distances[i] = join(code->distances[distance.symbol],
-                                   code->distance_lengths[distance.symbol], distance);
+    book->near_distances[i] =
+        join(code->distances[distance.symbol], code->distance_lengths[distance.symbol], distance);
   }
 }
 
 static inline void put_match(bit_stream *stream, const codes *code, const code_book *book,
-                      cs_token token) {
+                             cs_token token) {
   unsigned less_1 = token & 0x7fff, times = (token >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
   bit_string length = book->lengths[token >> 16 & 255], distance;
   if (less_1 < NEAR) {

@@ -8,8 +8,9 @@
 typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, const void *bytes,
                                          size_t size);
 
-/* A literal is its byte; three of them in one, the first lowest, and matches are made here. length 3..258, distance 1..32768. A match of the
- * greatest length may stand for up to CS_TOKEN_TIMES equal ones. */
+/* A literal is its byte; three of them in one, the first lowest, and matches are made here. length
+ * 3..258, distance 1..32768. A match of the greatest length may stand for up to CS_TOKEN_TIMES
+ * equal ones. */
 typedef uint32_t cs_token;
 enum { CS_TOKEN_LONGEST = 258, CS_TOKEN_TIMES = 128 };
 static inline cs_token cs_token_triple(uint32_t bytes) { return 0x40000000u | bytes; }

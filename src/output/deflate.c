@@ -10,7 +10,7 @@ enum {
   LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  CHAIN = 16, /* earlier places looked at */
+  CHAIN = 16,      /* earlier places looked at */
   LAZY = 100,
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
@@ -188,25 +188,24 @@ static inline int literal_bits(unsigned char byte) {
 
 enum { LENGTH_BITS = 7, SURE = 12 };
 
-/* Bits won over literals; a match longer than SURE always wins. */
+/* Bits won over literals by a match that is not longer than SURE; longer ones always win. */
 static inline int gain(const unsigned char *at, match found) {
   int bits = -LENGTH_BITS - distance_bits(found.distance);
-  size_t counted = found.length < SURE ? found.length : SURE;
-  for (size_t i = 0; i < counted; i++)
+  for (size_t i = 0; i < found.length; i++)
     bits += literal_bits(at[i]);
-  return bits + 3 * (int)(found.length - counted);
+  return bits;
 }
 
-/* The last occurrences of the next four bytes, against a run. */
-static inline match find(cs_deflate *deflate, size_t next) {
-  const unsigned char *at = deflate->buffer + next;
-  size_t end = deflate->end, history = next - deflate->start;
-  size_t most = end - next < LONGEST ? end - next : LONGEST;
-  match best = {0, 0};
-  if (most < SHORTEST)
-    return best;
-  best = find_run(deflate, at, history, most);
-  int best_score = best.length ? 4 * (int)best.length - distance_bits(best.distance) : 0;
+/* What decides between matches of a place: bits of the literals spared, less those of the distance.
+ */
+static inline int score(match found) {
+  return found.length ? 4 * (int)found.length - distance_bits(found.distance) : 0;
+}
+
+/* The best of `run` and of the latest places where the next four bytes stood. */
+static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, size_t history,
+                                 size_t most, match run) {
+  match best = run;
   uint32_t word = load_4(at), position = position_of(deflate, at);
   uint32_t place = *latest_of(deflate, word);
   size_t last_distance = 0;
@@ -217,49 +216,57 @@ static inline match find(cs_deflate *deflate, size_t next) {
     last_distance = distance;
     if (load_4(at - distance) != word || at[best.length] != at[best.length - distance])
       continue;
-    size_t length = match_length(at, distance, most);
-    int score = 4 * (int)length - distance_bits(distance);
-    if (score > best_score) {
-      best = (match){length, distance};
-      best_score = score;
-    }
+    match found = {match_length(at, distance, most), distance};
+    if (score(found) > score(best))
+      best = found;
   }
-  if (best.length > 0 && best.length <= SURE && gain(at, best) <= 0)
-    best.length = 0;
+  return best;
+}
+
+/* A match for what follows, or one of length 0; the place is remembered. */
+static match find(cs_deflate *deflate, size_t next) {
+  const unsigned char *at = deflate->buffer + next;
+  size_t left = deflate->end - next, most = left < LONGEST ? left : LONGEST;
+  size_t history = next - deflate->start;
+  if (most < SHORTEST)
+    return (match){0, 0};
+  match best = find_earlier(deflate, at, history, most, find_run(deflate, at, history, most));
   remember(deflate, at);
+  if (best.length > 0 && best.length <= SURE && gain(at, best) <= 0)
+    return (match){0, 0};
   return best;
 }
 
 /* The places inside short matches are worth remembering in photographs; those inside long ones only
- * push out the starts of flat runs. */
-static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t done,
+ * push out the starts of flat runs. remembered: how many of its places are already. */
+static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_t remembered,
                              match found) {
   const unsigned char *end = deflate->buffer + deflate->end;
   put_token(deflate, cs_token_match(found.length, found.distance));
   if (found.length <= REMEMBERED && found.distance > deflate->pixel_size)
-    for (size_t i = done; i < found.length && at + i + SHORTEST <= end; i++)
+    for (size_t i = remembered; i < found.length && at + i + SHORTEST <= end; i++)
       remember(deflate, at + i);
 }
 
-/* Makes tokens of all that waits. */
+/* Makes tokens of all that waits; a short match gives way to a longer one a byte later. */
 static void search(cs_deflate *deflate) {
   size_t next = deflate->next, end = deflate->end;
   while (next < end) {
     match best = find(deflate, next);
-    size_t done = 1;
+    size_t remembered = 1;
     while (best.length > 0 && best.length < LAZY && next + 1 < end) {
       match later = find(deflate, next + 1);
-      done = 2;
+      remembered = 2;
       if (later.length <= best.length)
         break;
       put_token(deflate, deflate->buffer[next++]);
       best = later;
-      done = 1;
+      remembered = 1;
     }
     if (best.length == 0)
       put_token(deflate, deflate->buffer[next]);
     else
-      put_match(deflate, deflate->buffer + next, done, best);
+      put_match(deflate, deflate->buffer + next, remembered, best);
     next += best.length == 0 ? 1 : best.length;
   }
   deflate->next = next;

@@ -7,9 +7,8 @@ typedef uint64_t wide __attribute__((vector_size(CS_FILL_BLOCK)));
 
 /* The first and the last block lie where the run begins and ends, those between on the lines of the
  * cache, which halves their cost; they may overlap. */
-static inline __attribute__((always_inline)) void fill_blocks(unsigned char *out, size_t size,
-                                                              size_t pixel_size,
-                                                              const unsigned char *block) {
+static inline __attribute__((always_inline)) void
+fill_blocks(unsigned char *out, size_t size, size_t pixel_size, const unsigned char *block) {
   wide pattern;
   memcpy(&pattern, block, sizeof pattern);
   unsigned char *last = out + size - CS_FILL_BLOCK;
@@ -28,15 +27,13 @@ static void fill_anywhere(unsigned char *out, size_t size, size_t pixel_size,
 
 #ifdef __x86_64__
 
-__attribute__((target("avx2"))) static void fill_avx2(unsigned char *out, size_t size,
-                                                      size_t pixel_size,
-                                                      const unsigned char *block) {
+__attribute__((target("avx2"))) static void
+fill_avx2(unsigned char *out, size_t size, size_t pixel_size, const unsigned char *block) {
   fill_blocks(out, size, pixel_size, block);
 }
 
-__attribute__((target("avx512f"))) static void fill_avx512(unsigned char *out, size_t size,
-                                                           size_t pixel_size,
-                                                           const unsigned char *block) {
+__attribute__((target("avx512f"))) static void
+fill_avx512(unsigned char *out, size_t size, size_t pixel_size, const unsigned char *block) {
   fill_blocks(out, size, pixel_size, block);
 }
 

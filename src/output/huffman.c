@@ -1,7 +1,7 @@
 /* Huffman's construction over sorted leaves; where it goes too deep, package-merge (Larmore and
  * Hirschberg 1990): level by level, packages of two items of the level before are merged with the
- * leaves; the cheapest 2n - 2 items of the last level say how often each leaf was used, which is its
- * length.
+ * leaves; the cheapest 2n - 2 items of the last level say how often each leaf was used, which is
+ * its length.
  */
 #include "output/huffman.h"
 
@@ -18,8 +18,8 @@ typedef struct leaves {
 static void merge_keys(const uint64_t *keys, int from, int middle, int end, uint64_t *out) {
   int left = from, right = middle;
   for (int i = from; i < end; i++)
-    out[i] = left < middle && (right >= end || keys[left] <= keys[right]) ? keys[left++]
-                                                                          : keys[right++];
+    out[i] =
+        left < middle && (right >= end || keys[left] <= keys[right]) ? keys[left++] : keys[right++];
 }
 
 /* Ascending; among equals in the order of the symbols. */

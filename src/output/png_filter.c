@@ -20,7 +20,8 @@ void cs_png_costs_fill(cs_png_costs *costs) {
   for (int byte = 0; byte < 256; byte++) {
     unsigned size = (unsigned)(byte < 128 ? byte : 256 - byte) + 1;
     unsigned octave = 31u - (unsigned)__builtin_clz(size);
-    costs->literal[byte] = (uint8_t)(20 + 10 * octave + 10 * (size - (1u << octave)) / (1u << octave));
+    costs->literal[byte] =
+        (uint8_t)(20 + 10 * octave + 10 * (size - (1u << octave)) / (1u << octave));
   }
 }
 

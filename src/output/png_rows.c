@@ -152,8 +152,9 @@ static celspan_status check_opaque(const cs_png_rows *rows, celspan_context *con
   uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->kept;
   if ((rows->common & alpha) == alpha)
     return CELSPAN_OK;
-  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "PNG: a row has pixels that are not opaque, in a picture that was begun as opaque");
+  return cs_fail(
+      context, CELSPAN_BAD_ARGUMENT,
+      "PNG: a row has pixels that are not opaque, in a picture that was begun as opaque");
 }
 
 static celspan_status take_row(cs_png_rows *rows, celspan_context *context,

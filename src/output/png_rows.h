@@ -34,7 +34,7 @@ typedef struct cs_png_rows {
   size_t coded_size, pixel_size; /* bytes of a pixel, RGBA as coded and as in the file */
   uint64_t kept;                 /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that all coded pixels of the row in hand have */
-  cs_png_row rows[2]; /* the one in hand and the one before, in turn */
+  cs_png_row rows[2];            /* the one in hand and the one before, in turn */
   int current;
   cs_png_costs costs;
 } cs_png_rows;

@@ -7,8 +7,8 @@
 #include "base/arena.h"
 
 enum {
-  STRIP_PIXELS = 1 << 18,     /* enough to be worth a thread's while */
-  STRIP_ROWS = 64,            /* flat rows are short: take so many where that is not too much */
+  STRIP_PIXELS = 1 << 18,      /* enough to be worth a thread's while */
+  STRIP_ROWS = 64,             /* flat rows are short: take so many where that is not too much */
   STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures are 16 bytes a pixel */
   WORKERS_MOST = 64,
   AHEAD = 2 /* strips in hand, a lane */
@@ -64,8 +64,8 @@ struct cs_png_strips {
 
 static celspan_status append(void *user, celspan_context *context, const void *bytes, size_t size) {
   part *packed = *(part **)user;
-  CS_TRY(cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size,
-                        1));
+  CS_TRY(
+      cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size, 1));
   memcpy(packed->bytes + packed->size, bytes, size);
   packed->size += size;
   return CELSPAN_OK;
@@ -118,7 +118,9 @@ static celspan_status write_strip(cs_png_strips *strips, celspan_context *contex
 
 /* ---------------------------------------------------------------- one thread */
 
-static int32_t row_of_strip(const cs_png_strips *strips) { return strips->row % strips->strip_rows; }
+static int32_t row_of_strip(const cs_png_strips *strips) {
+  return strips->row % strips->strip_rows;
+}
 
 static bool ends_strip(const cs_png_strips *strips) {
   return row_of_strip(strips) == strips->strip_rows - 1 ||
@@ -245,8 +247,8 @@ static celspan_status keep_row(celspan_context *context, strip *s, const celspan
                                size_t span_count) {
   CS_TRY(cs_mem_reserve(context, (void **)&s->spans, &s->span_capacity, s->span_count + span_count,
                         sizeof *spans));
-  CS_TRY(cs_mem_reserve(context, (void **)&s->row_ends, &s->row_capacity,
-                        (size_t)s->row_count + 1, sizeof *s->row_ends));
+  CS_TRY(cs_mem_reserve(context, (void **)&s->row_ends, &s->row_capacity, (size_t)s->row_count + 1,
+                        sizeof *s->row_ends));
   celspan_span *kept = s->spans + s->span_count;
   memcpy(kept, spans, span_count * sizeof *spans);
   for (size_t i = 0; i < span_count; i++)
@@ -322,8 +324,7 @@ static celspan_status init_lane(cs_png_strips *strips, celspan_context *context,
 }
 
 static celspan_status init_strips(cs_png_strips *strips, celspan_context *context) {
-  strips->lanes =
-      cs_mem_array(context->memory, (size_t)strips->lane_count, sizeof *strips->lanes);
+  strips->lanes = cs_mem_array(context->memory, (size_t)strips->lane_count, sizeof *strips->lanes);
   strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
   if (!strips->lanes || !strips->ring)
     return cs_fail_memory(context);

@@ -25,7 +25,8 @@ CELSPAN_CHECKED celspan_status cs_png_strips_create(celspan_context *context,
                                                     const cs_png_picture *picture,
                                                     cs_block_write write, void *user,
                                                     cs_png_strips **out);
-/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque as was said; those of write. */
+/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque as was said; those of write.
+ */
 CELSPAN_CHECKED celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
                                                  const celspan_span *spans, size_t span_count);
 /* After the last row: writes what is left. */

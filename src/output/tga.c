@@ -142,7 +142,7 @@ static celspan_status put_footer(tga_sink *sink, celspan_context *context) {
   store_text(tail + 379, 41, sink->title); /* the job's name */
   store_text(tail + 426, 41, "celspan");
   store_16(tail + 467, 100 * CELSPAN_VERSION_MAJOR + 10 * CELSPAN_VERSION_MINOR);
-  tail[469] = ' '; /* no letter to the version */
+  tail[469] = ' ';                                        /* no letter to the version */
   if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR) { /* gamma, as a fraction */
     store_16(tail + 478, 1);
     store_16(tail + 480, 1);
@@ -178,9 +178,10 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   sink->raw_count = 0;
   add_spans(sink, spans, span_count);
   if (sink->is_clear && sink->pixel_size == 3)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: row %d has pixels that are not opaque, in a picture that was begun as opaque",
-                   sink->path, (int)y);
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "%s: row %d has pixels that are not opaque, in a picture that was begun as opaque",
+        sink->path, (int)y);
   return cs_file_write(sink->file, context, sink->row, sink->size);
 }
 

@@ -120,15 +120,32 @@ static bool stack_is_grey(const cs_stack *stack) {
   return true;
 }
 
+static bool object_varies(const celspan_object *object) {
+  const cs_body *body = object->body;
+  if (body->kind == CS_BODY_OUTLINE)
+    return body->texture->kind != CS_TEXTURE_FLAT;
+  for (size_t i = 0; i < body->operand_count; i++)
+    if (object_varies(body->operands[i]))
+      return true;
+  return body->kind == CS_BODY_SCANLINE;
+}
+
+static bool cel_varies(const celspan_cel *cel) {
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (object_varies(cel->objects[i]))
+      return true;
+  return false;
+}
+
 static celspan_status compile_plane(celspan_context *context, const cs_soft_place *place,
                                     cs_soften *soften, int plane) {
-  const cs_soft *soft = &soften->soft;
   celspan_matrix matrix = celspan_matrix_then(place->matrix, cs_soften_matrix(soften));
   cs_kernel *kernel;
+  int32_t width, height;
   CS_TRY(cs_soften_kernel(context, soften, &kernel));
-  return cs_compile_cel(context, cel_of(place), place->index, &matrix,
-                        soft->columns + 2 * soften->reach_x, soft->rows + 2 * soften->reach_y,
-                        plane == 1, kernel, &soften->shots[plane]);
+  cs_soften_raster(soften, &width, &height);
+  return cs_compile_cel(context, cel_of(place), place->index, &matrix, width, height, plane == 1,
+                        kernel, &soften->shots[plane]);
 }
 
 static celspan_status compile_planes(celspan_context *context, const cs_soft_place *place,
@@ -172,7 +189,8 @@ celspan_status cs_soft_layer_create(celspan_context *context, const cs_soft_plac
   cs_boundary_frame seen;
   cs_soften *soften;
   *out = NULL;
-  CS_TRY(cs_soften_create(context, &softness, place->width, place->height, &soften));
+  CS_TRY(cs_soften_create(context, &softness, cel_varies(cel_of(place)), place->width,
+                          place->height, &soften));
   if (!find_box(place, &softness, &soften->soft, &seen)) {
     cs_soften_free(soften, context->memory);
     return CELSPAN_OK;

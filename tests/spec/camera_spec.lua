@@ -53,6 +53,14 @@ describe("multiplane", function()
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: unknown field 'focl'"), message)
     _, message = pcall(function() local _ = multiplane { film = film, { 3 } } end)
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 must be"), message)
+    _, message = pcall(function()
+      local _ = multiplane { film = film, { celspan.cel {}, Z = 3 } }
+    end)
+    assert.is_truthy(message:find(
+      "camera_spec.lua:%d+: multiplane: plane 1: unknown field 'Z'; did you mean 'z'"), message)
+    _, message = pcall(function() local _ = multiplane { film = film, focal = 0 / 0 } end)
+    assert.is_truthy(message:find(
+      "camera_spec.lua:%d+: multiplane: field 'focal' must be a finite number"), message)
     assert.is_false(pcall(function() multiplane { { cel() } } end))
   end)
 end)

@@ -156,6 +156,15 @@ describe("the command line", function()
       usage_error("convert in.png out.webm", "is not built into this version")
     end)
 
+    it("refuses what no file can hold before it runs the script", function()
+      usage_error("render x.lua -o y.xyz", 'the format "xyz" is not written')
+      usage_error("render x.lua -o y", "the format is unknown")
+      usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" is not written')
+      usage_error("render x.lua -o y.png --depth half", "PNG holds 8 or 16 bits")
+      usage_error("convert x.png -", "the format is unknown")
+      usage_error("render x.lua -o - --format png", "--format png")
+    end)
+
     it("counts operands", function()
       usage_error("probe x.lua 1", "usage: celspan probe SCRIPT X Y")
       usage_error("info x.lua y.lua", "'y.lua' is one too many")
@@ -226,11 +235,44 @@ describe("the command line", function()
       end
     end)
 
+    it_reads_pictures("to begin a file of any format end with 5 or 6, and no other way", function()
+      write("file", "")
+      for _, format in ipairs { "png", "exr", "tif", "tga", "dpx", "jpg", "span" } do
+        failure(5, ("render %s --progress none --frames 1 -o %s/file/f.%s"):format(plain, folder,
+          format), "frame 1: ")
+      end
+      failure(6, "render " .. plain .. " --size 100000x1 --progress none --frames 1 -o " .. folder
+        .. "/f.jpg", "at most 65500")
+    end)
+
     it("of a closed pipe end with 5, not with a signal", function()
       local code = shell("{ " .. BINARY .. " spans " .. plain
         .. " --size 8x200000; echo $? > " .. folder .. "/code; } | head -n 1")
       assert.equal(0, code)
       assert.equal("5\n", read(folder .. "/code"))
+    end)
+  end)
+
+  -- The libraries that a run opens, as the dynamic linker tells it.
+  local function libraries(arguments)
+    local code, _, err = shell("LD_DEBUG=files " .. BINARY .. " " .. arguments)
+    assert.equal(0, code)
+    assert.truthy(err:find("libc.so", 1, true), "the dynamic linker tells nothing")
+    return err
+  end
+
+  describe("OpenImageIO", function()
+    it("stays out of a film without pictures", function()
+      for _, arguments in ipairs { "--hash --frames 1", "--frames 1-2 -o " .. folder .. "/f.#.png" } do
+        local opened = libraries("render " .. plain .. " --progress none " .. arguments)
+        assert.falsy(opened:find "OpenImageIO" or opened:find "celspan%-picture")
+      end
+    end)
+
+    it_reads_pictures("comes with the first file that needs it", function()
+      local opened = libraries("render " .. plain .. " --progress none --frames 1 -o " .. folder
+        .. "/f.exr")
+      assert.truthy(opened:find "OpenImageIO" and opened:find "celspan%-picture")
     end)
   end)
 

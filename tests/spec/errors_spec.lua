@@ -43,6 +43,11 @@ describe("a mistyped name", function()
       rest_of(function() celspan.rect { 0, 0, 1, 1, sparkle = true } end))
   end)
 
+  it("is told where there are no names at all", function()
+    assert.are.equal("union: unknown field 'sparkle'; there are no named fields",
+      rest_of(function() celspan.union { sparkle = true } end))
+  end)
+
   it("is found in tables inside", function()
     assert.are.equal("rostrum: camera: unknown field 'widht'; did you mean 'width'?",
       rest_of(function() celspan.rostrum { camera = { widht = 3 } } end))
@@ -143,7 +148,18 @@ describe("a number that is refused", function()
     { "rgb: pigment[1] is 2; ", function() celspan.rgb(2, 0, 0) end },
     { "fade: ", function() celspan.union {}:fade(2) end },
     { "rect: ", function() celspan.rect { math.huge, 0, 1, 1 } end },
-    { "translate: ", function() celspan.union {}:translate(2e12, 0) end },
+    { "translate: dx must be a number from -1e12 to 1e12, got 2000000000000",
+      function() celspan.union {}:translate(2e12, 0) end },
+    { "translate: dy must be a number from -1e12 to 1e12, got nan",
+      function() celspan.union {}:translate(0, 0 / 0) end },
+    { "rotate: the angle in degrees must be a number from -1e12 to 1e12, got inf",
+      function() celspan.union {}:rotate(math.huge) end },
+    { "film: field 'frames' must be a whole number from 1 to 1000000000, got 0",
+      function() celspan.film { frames = 0, frame = print } end },
+    { "pixels: field 'workers' must be 0 or more, got -1",
+      function() celspan.pixels(celspan.rostrum {}, { size = { 1, 1 }, workers = -1 }) end },
+    { "pixels: 0 x 1 pixels are asked for; each side must be at least 1",
+      function() celspan.pixels(celspan.rostrum {}, { size = { 0, 1 } }) end },
   }
   for _, case in ipairs(cases) do
     it("is told by the name of the script's word: " .. case[1], function()

@@ -53,9 +53,18 @@ describe("a film", function()
 
   it("says what a frame function must return", function()
     local film = celspan.film { frame = function() return celspan.cel {} end }
+    local line = debug.getinfo(1, "l").currentline - 1
     local _, message = pcall(film.at, film, 1)
-    assert.is_truthy(message:find(
-      "frame 1: the frame function's result must be a rostrum or a list", 1, true), message)
+    assert.is_truthy(message:find(("film_spec.lua:%d: frame 1: the frame function's result "
+      .. "must be a rostrum or a list"):format(line), 1, true), message)
+  end)
+
+  it("finds a line for an error that has none", function()
+    local film = celspan.film { frame = function() error({}) end }
+    local line = debug.getinfo(1, "l").currentline - 1
+    local _, message = pcall(film.at, film, 1)
+    assert.is_truthy(message:find(("film_spec.lua:%d: frame 1: the error is not a message"):format(
+      line), 1, true), message)
   end)
 
   it("takes several exposures", function()

@@ -113,10 +113,22 @@ describe("keys", function()
       { "keys: needs at least one key {time, value}", {} },
       { "keys: unknown field 'lop'; did you mean 'loop'?", { { 0, 1 }, lop = "repeat" } },
       { 'keys: loop must be "repeat" or "mirror", got no', { { 0, 1 }, loop = "no" } },
+      { 'keys: key 2 ease: there is no curve "outQuat"; did you mean "outquad"?',
+        { { 0, 1 }, { 1, 2, "outQuat" } } },
+      { "keys: key 1 must begin with a time, a finite number, got inf", { { math.huge, 1 } } },
+      { "keys: key 1 must have a finite number, an array of them, a paint, a string or a boolean "
+        .. "as value, got inf", { { 0, math.huge } } },
     }
     for _, case in ipairs(cases) do
       local _, message = pcall(function() local _ = keys(case[2]) end)
       assert.are.equal(case[1], message:match "timing_spec%.lua:%d+: (.*)$")
+    end
+  end)
+
+  it("refuse a time that is no number", function()
+    local track = keys { { 0, 1 }, { 1, 2 } }
+    for _, time in ipairs { 0 / 0, math.huge, "1" } do
+      assert.is_false(pcall(track.at, track, time))
     end
   end)
 end)

@@ -166,6 +166,13 @@ describe("paints", function()
     assert.are.equal(0, celspan.clear.beta)
   end)
 
+  it("tell what was left out", function()
+    local paint = celspan.paint {}
+    assert.are.same({ { 0, 0, 0 }, { 1, 1, 1 }, 1 }, { paint.pigment, paint.medium, paint.beta })
+    assert.are.same({ 1, 1, 1 }, paint:with { pigment = { 0, 1, 0 } }.medium)
+    assert.are.equal("#000000", celspan.circle { centre = { 0, 0 }, radius = 1 }.texture)
+  end)
+
   it("mix premultiplied", function()
     local half = celspan.mix(celspan.rgb(1, 0, 0), celspan.clear, 0.5)
     assert.are.same({ 1, 0, 0 }, half.pigment)

@@ -18,7 +18,7 @@ static float random_unit(void) { return (float)random_below(1001) / 1000; }
 
 typedef struct frame {
   int32_t width, height;
-  int style;     /* 0 any mixture, 1 long flat, 2 pictures, 3 nothing but one colour */
+  int style; /* 0 any mixture, 1 long flat, 2 pictures, 3 nothing but one colour */
   bool is_opaque;
   float *arrays; /* width pixels */
   celspan_span *spans;
@@ -38,8 +38,9 @@ static void fill_array(frame *made, celspan_span *span, int32_t y) {
   bool noise = random_below(3) == 0;
   for (int32_t x = span->x0; x < span->x1; x++)
     for (int c = 0; c < 4; c++)
-      array[4 * (x - span->x0) + c] =
-          c == 3 && made->is_opaque ? 1 : noise ? random_unit() : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
+      array[4 * (x - span->x0) + c] = c == 3 && made->is_opaque ? 1
+                                      : noise                   ? random_unit()
+                                              : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
   span->array = array;
 }
 

@@ -74,12 +74,23 @@ typedef struct stage { /* one cel, sharp and soft, seen alike */
   double camera_scale, camera_turn;
 } stage;
 
-static celspan_object *random_object(studio *s, bool has_gels) {
+static celspan_texture *random_ramp(studio *s) {
+  celspan_stop stops[3];
+  for (int i = 0; i < 3; i++)
+    stops[i] = (celspan_stop){i / 2.0, celspan_paint_rgb((float)random_unit(), (float)random_unit(),
+                                                         (float)random_unit(), 1)};
+  return studio_linear(s, (celspan_point){between(0, 20), between(0, 20)},
+                       (celspan_point){between(28, 48), between(28, 48)}, stops, 3);
+}
+
+static celspan_object *random_object(studio *s, bool has_gels, bool has_ramps) {
   float r = (float)random_unit(), g = (float)random_unit(), b = (float)random_unit();
   float alpha = (float)between(0.3, 1);
   bool is_gel = has_gels && random_unit() < 0.4;
   celspan_texture *t =
       studio_paint(s, is_gel ? celspan_paint_gel(r, g, b) : celspan_paint_rgb(r, g, b, alpha));
+  if (has_ramps && random_unit() < 0.3)
+    t = random_ramp(s);
   double x = between(-8, 56), y = between(-8, 56), size = between(2, 18);
   if (random_unit() < 0.5)
     return studio_circle(s, x, y, size, t);
@@ -111,16 +122,16 @@ static celspan_rostrum *show(studio *s, celspan_cel *cel, const stage *camera) {
 
 static stage random_stage(studio *s, int kind, double radius, celspan_defocus_kernel kernel,
                           double turn) {
-  stage out = {.camera_scale = kind == 2 ? 1.3 : 1, .camera_turn = turn};
+  stage out = {.camera_scale = kind % 4 == 2 ? 1.3 : 1, .camera_turn = turn};
   celspan_object *objects[10];
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   celspan_cel *cels[2];
-  celspan_matrix placement = random_placement(kind);
+  celspan_matrix placement = random_placement(kind % 4);
   for (int i = 0; i < 10; i++)
-    objects[i] = random_object(s, kind == 1);
+    objects[i] = random_object(s, kind % 4 == 1, kind >= 4);
   desc.has_front = true;
   desc.front = (celspan_light){1, 0.8f, 0.9f, 1};
-  desc.opacity = kind == 2 ? 0.8 : 1;
+  desc.opacity = kind % 4 == 2 ? 0.8 : 1;
   for (int i = 0; i < 2; i++) {
     desc.defocus_radius = i == 0 ? 0 : radius;
     desc.defocus_kernel = kernel;
@@ -221,6 +232,22 @@ static void check_coarse(void) {
     stage set = random_stage(&s, k % 4, radius, kernel, k % 2 ? 0.7 : 0);
     view v = {1000, 1000, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
     compare(&s, &set, kernel, radius, &v, 24, "coarse");
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+}
+
+/* Layers that vary are filtered with all else. */
+static void check_ramps(void) {
+  static studio s;
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 12; k++) {
+    double radius = 4 + k % 4 * 3;
+    celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k % 3);
+    random_state = 4000 + (uint64_t)k;
+    stage set = random_stage(&s, 4 + k % 4, radius, kernel, k % 2 ? 0.5 : 0);
+    view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
+    compare(&s, &set, kernel, radius, &v, 8, "ramps");
     studio_finish(&s);
   }
   celspan_context_destroy(s.context);
@@ -354,6 +381,7 @@ int main(void) {
   check_light();
   check_tiny();
   check_brute_force();
+  check_ramps();
   check_coarse();
   return check_done();
 }

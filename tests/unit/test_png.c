@@ -1,8 +1,8 @@
 /* output/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c makes of
  * them. */
 #include <png.h>
-#include <stdatomic.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -120,8 +120,7 @@ static void check_clear_refused(celspan_context *context, int style, int workers
   made.spans = calloc(300, sizeof *made.spans);
   file.is_opaque = true;
   file.workers = workers;
-  CHECK(write_frame(context, &made, "/tmp/celspan-test-clear.png", &file) ==
-        CELSPAN_BAD_ARGUMENT);
+  CHECK(write_frame(context, &made, "/tmp/celspan-test-clear.png", &file) == CELSPAN_BAD_ARGUMENT);
   CHECK_TEXT(celspan_context_error(context),
              "PNG: a row has pixels that are not opaque, in a picture that was begun as opaque");
   CHECK(access("/tmp/celspan-test-clear.png", F_OK) != 0);
@@ -164,8 +163,7 @@ static void check_without_memory(int style, int workers, int32_t height) {
   static celspan_span spans[500];
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = "png";
-  frame made = {.width = 500, .height = height, .style = style, .arrays = arrays,
-                .spans = spans};
+  frame made = {.width = 500, .height = height, .style = style, .arrays = arrays, .spans = spans};
   file.workers = workers;
   celspan_context_desc desc = {.struct_size = sizeof desc, .resize = failing_resize};
   celspan_context *context;

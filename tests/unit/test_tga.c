@@ -64,8 +64,7 @@ static void check_ends(const contents *file, size_t at, size_t pixel_size,
   CHECK(load_16(extension) == 495);
   CHECK_TEXT((const char *)extension + 379, title);
   CHECK_TEXT((const char *)extension + 426, "celspan");
-  CHECK(extension[494] ==
-        (pixel_size == 3 ? 0 : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? 3 : 4));
+  CHECK(extension[494] == (pixel_size == 3 ? 0 : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? 3 : 4));
 }
 
 static void check_file(frame *made, const char *path, const celspan_coding *coding,
@@ -164,8 +163,7 @@ static void check_refusals(celspan_context *context) {
 
 int main(void) {
   static const celspan_coding codings[] = {
-      {0},
-      {.transfer = CELSPAN_TRANSFER_LINEAR, .alpha = CELSPAN_ALPHA_PREMULTIPLIED}};
+      {0}, {.transfer = CELSPAN_TRANSFER_LINEAR, .alpha = CELSPAN_ALPHA_PREMULTIPLIED}};
   celspan_context *context;
   size_t before, after, peak;
   uint64_t allocations;
