@@ -1,6 +1,6 @@
 /* A host with a Lua state of its own: opens celspan in it and runs a script that draws.
  *
- *   cc embed.c $(pkg-config --cflags --libs celspan lua5.4) -o embed
+ *   cc embed.c $(pkg-config --cflags --libs celspan-lua) -o embed
  *   ./embed script.lua arguments...      (without a script: a built-in one)
  *
  * The script is an ordinary Lua program; `require "celspan"` finds the module without any path.

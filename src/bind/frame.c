@@ -55,16 +55,19 @@ static uint64_t below(uint64_t hash, uint64_t span) {
   return hash % span;
 }
 
+/* Whether the value is a whole number: 2, and 2.0 too. */
+static bool is_whole(lua_State *L, int index, lua_Integer *out) {
+  int good = 0;
+  if (lua_type(L, index) == LUA_TNUMBER)
+    *out = lua_tointegerx(L, index, &good);
+  return good;
+}
+
 static lua_Integer whole(lua_State *L, int index, const char *name) {
-  if (!lua_isinteger(L, index) && lua_type(L, index) == LUA_TNUMBER) {
-    lua_Integer number;
-    if (lua_numbertointeger(lua_tonumber(L, index), &number) &&
-        (lua_Number)number == lua_tonumber(L, index))
-      return number;
-  }
-  if (!lua_isinteger(L, index))
+  lua_Integer number = 0;
+  if (!is_whole(L, index, &number))
     luaL_error(L, "random: %s must be a whole number, got %s", name, cs_value_type(L, index));
-  return lua_tointeger(L, index);
+  return number;
 }
 
 /* f:random(label) 0 <= x < 1; f:random(label, m) 1..m; f:random(label, m, n) m..n. */
@@ -97,9 +100,9 @@ static int random_number(lua_State *L) {
 /* f:on(n): the index held for n frames. */
 static int on(lua_State *L) {
   cs_value_self(L, &cs_kind_frame, "on");
-  if (!lua_isinteger(L, 2) || lua_tointeger(L, 2) < 1)
+  lua_Integer step = 0;
+  if (!is_whole(L, 2, &step) || step < 1)
     return luaL_error(L, "on: takes a whole number of frames, 1 or more, f:on(2)");
-  lua_Integer step = lua_tointeger(L, 2);
   lua_getiuservalue(L, 1, 1);
   lua_getfield(L, -1, "index");
   lua_Integer index = lua_tointeger(L, -1);

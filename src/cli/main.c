@@ -150,8 +150,8 @@ int main(int count, char **arguments) {
   uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
   cs_interrupt_install();
   cs_exit outcome = dispatch(count, arguments);
-  cs_exit closed = cs_report_close_output();
+  outcome = cs_report_close_output(outcome);
   if (cs_interrupt_signal())
     cs_interrupt_die();
-  return (int)(outcome == CS_EXIT_OK ? closed : outcome);
+  return (int)outcome;
 }

@@ -82,11 +82,11 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
 
 void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
 
-cs_exit cs_report_close_output(void) {
+cs_exit cs_report_close_output(cs_exit outcome) {
   errno = 0;
   bool had_error = ferror(stdout) != 0;
-  if (fclose(stdout) == 0 && !had_error)
-    return CS_EXIT_OK;
+  if ((fclose(stdout) == 0 && !had_error) || outcome != CS_EXIT_OK)
+    return outcome; /* a run that failed has said why */
   cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
   return CS_EXIT_OUTPUT;
 }

@@ -38,7 +38,8 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
 /* Called before each line on standard error, to clear what stands there; NULL: nothing stands. */
 void cs_report_before_line(void (*clear)(void));
 
-/* Ends standard output: OK, or reported and CS_EXIT_OUTPUT when not all of it could be written. */
-cs_exit cs_report_close_output(void);
+/* Ends standard output. The outcome, or reported and CS_EXIT_OUTPUT where that was OK but not all of it
+ * could be written. */
+cs_exit cs_report_close_output(cs_exit outcome);
 
 #endif

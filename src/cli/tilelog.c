@@ -7,12 +7,18 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/context.h"
+#include "cli/progress.h"
 
-enum { LINE_SIZE = 128, OPEN_FOLDERS = 16 };
+enum {
+  LINE_SIZE = 128,
+  OPEN_FOLDERS = 16,
+  PAUSE = 2 /* seconds between two waits for the disk */
+};
 
 static celspan_status fail(celspan_context *context, const char *path, const char *what) {
   return cs_fail(context, CELSPAN_OUTPUT, "%s: %s: %s", path, what, strerror(errno));
@@ -70,6 +76,7 @@ celspan_status cs_tilelog_read(celspan_context *context, const cs_pyramid *pyram
   if (fgets(line, sizeof line, file) && strcmp(line, head) == 0) {
     *state = CS_TILELOG_SAME;
     status = read_rows(context, log, file);
+    log->written = log->count;
   }
   fclose(file);
   return status;
@@ -96,7 +103,7 @@ static int remove_one(const char *path, const struct stat *found, int kind, stru
 celspan_status cs_tilelog_clear(celspan_context *context, const cs_pyramid *pyramid,
                                 cs_tilelog *log) {
   char folder[4096];
-  log->count = 0;
+  log->count = log->written = 0;
   if (cs_pyramid_tiles_folder(pyramid, folder, sizeof folder) && is_there(folder) &&
       nftw(folder, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS) != 0)
     return fail(context, folder, "cannot remove the tiles there");
@@ -132,6 +139,9 @@ celspan_status cs_tilelog_open(celspan_context *context, cs_tilelog *log) {
   log->descriptor = open(log->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (log->descriptor < 0)
     return fail(context, log->path, "cannot write");
+  if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan is at work on these tiles",
+                   log->path);
   off_t size = lseek(log->descriptor, 0, SEEK_END);
   write_head(log, head);
   if (size <= 0)
@@ -139,13 +149,24 @@ celspan_status cs_tilelog_open(celspan_context *context, cs_tilelog *log) {
   return ends_a_line(log->descriptor, size) ? CELSPAN_OK : append(context, log, "\n");
 }
 
-celspan_status cs_tilelog_add(celspan_context *context, cs_tilelog *log, cs_tile_row row) {
+celspan_status cs_tilelog_flush(celspan_context *context, cs_tilelog *log) {
   char line[LINE_SIZE];
+  if (log->written == log->count)
+    return CELSPAN_OK;
   if (syncfs(log->descriptor) != 0)
     return fail(context, log->path, "cannot sync the tiles");
-  snprintf(line, sizeof line, "row %d %d %d %d\n", row.level, row.row, row.first, row.end);
-  CS_TRY(append(context, log, line));
-  return keep_row(context, log, row);
+  for (; log->written < log->count; log->written++) {
+    const cs_tile_row *row = &log->rows[log->written];
+    snprintf(line, sizeof line, "row %d %d %d %d\n", row->level, row->row, row->first, row->end);
+    CS_TRY(append(context, log, line));
+  }
+  log->synced = cs_progress_clock();
+  return CELSPAN_OK;
+}
+
+celspan_status cs_tilelog_add(celspan_context *context, cs_tilelog *log, cs_tile_row row) {
+  CS_TRY(keep_row(context, log, row));
+  return cs_progress_clock() - log->synced < PAUSE ? CELSPAN_OK : cs_tilelog_flush(context, log);
 }
 
 void cs_tilelog_close(celspan_context *context, cs_tilelog *log) {
@@ -154,5 +175,5 @@ void cs_tilelog_close(celspan_context *context, cs_tilelog *log) {
   log->descriptor = -1;
   cs_mem_free(context->memory, log->rows, log->capacity * sizeof *log->rows);
   log->rows = NULL;
-  log->count = log->capacity = 0;
+  log->count = log->written = log->capacity = 0;
 }

@@ -17,6 +17,8 @@ typedef struct cs_tilelog {
   cs_hash digest;
   cs_tile_row *rows;
   size_t count, capacity;
+  size_t written; /* rows that have their line */
+  double synced;  /* seconds of cs_progress_clock */
   int descriptor; /* -1: closed */
 } cs_tilelog;
 
@@ -34,12 +36,15 @@ CELSPAN_CHECKED celspan_status cs_tilelog_read(celspan_context *context, const c
 /* Removes record and tiles. */
 CELSPAN_CHECKED celspan_status cs_tilelog_clear(celspan_context *context, const cs_pyramid *pyramid,
                                                 cs_tilelog *log);
-/* Opens it for more lines; a new one gets its first. Its folder is made. */
+/* Opens it for more lines, for one process at a time; a new one gets its first. Its folder is made.
+ */
 CELSPAN_CHECKED celspan_status cs_tilelog_open(celspan_context *context, cs_tilelog *log);
 bool cs_tilelog_has(const cs_tilelog *log, cs_tile_row row);
-/* Waits until all that was written before is on the disk, then adds the line. */
+/* A row is finished; it gets its line with the next ones that are waited for. */
 CELSPAN_CHECKED celspan_status cs_tilelog_add(celspan_context *context, cs_tilelog *log,
                                               cs_tile_row row);
+/* Waits until all tiles are on the disk, then adds the lines of all finished rows. */
+CELSPAN_CHECKED celspan_status cs_tilelog_flush(celspan_context *context, cs_tilelog *log);
 void cs_tilelog_close(celspan_context *context, cs_tilelog *log);
 
 #endif

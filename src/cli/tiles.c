@@ -281,6 +281,15 @@ static int choose_workers(const tiles_job *job) {
   return asked == 0 ? processors() : asked < WORKERS_MOST ? asked : WORKERS_MOST;
 }
 
+/* What is finished stays finished, and the first failure is the one that is told. */
+static celspan_status keep_finished(tiles_job *job, celspan_status status) {
+  if (status == CELSPAN_OK)
+    return cs_tilelog_flush(job->context, &job->log);
+  if (status == CELSPAN_CANCELLED && cs_tilelog_flush(job->context, &job->log) != CELSPAN_OK)
+    return CELSPAN_OUTPUT;
+  return status;
+}
+
 static celspan_status render_all(tiles_job *job) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = job->pyramid.ending;
@@ -296,7 +305,7 @@ static celspan_status render_all(tiles_job *job) {
   cs_progress_end(&job->progress);
   cs_tilefile_finish(&job->files);
   cs_tilesmall_free(job->context, &job->small);
-  return status;
+  return keep_finished(job, status);
 }
 
 /* ---------------------------------------------------------------- the page */

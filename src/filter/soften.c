@@ -83,8 +83,10 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   soften->softness = *softness;
   cs_softness *s = &soften->softness;
   scale_softness(s, soft->pitch_x, soft->pitch_y);
-  soften->is_summed =
-      s->kind == CELSPAN_DEFOCUS_GAUSSIAN && s->radius_x >= SUMMED && s->radius_y >= SUMMED;
+  double least = fmin(s->radius_x, s->radius_y);
+  bool is_gaussian = s->kind == CELSPAN_DEFOCUS_GAUSSIAN;
+  soften->is_summed = is_gaussian && least >= (varies ? SUMMED_VARYING : SUMMED);
+  soften->is_sliced = !is_gaussian && varies && least >= SLICED;
   celspan_status status = CELSPAN_OK;
   soften->has_tents = soften->is_summed && (soft->pitch_x == 1 || soft->pitch_y == 1);
   double spread = soften->has_tents ? 1.0 / 6 : 1.0 / 12;

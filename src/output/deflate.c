@@ -10,8 +10,9 @@ enum {
   LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  CHAIN = 16,      /* earlier places looked at */
-  LAZY = 100,
+  CHAIN = 40,      /* earlier places looked at */
+  GOOD = 16,       /* a match that is hardly bettered a byte later */
+  LAZY = 200,      /* one that is not tried to be */
   HASH_BITS = 15,
   BLOCK_TOKENS = 1 << 16,
   ADLER_BASE = 65521
@@ -204,12 +205,12 @@ static inline int score(match found) {
 
 /* The best of `run` and of the latest places where the next four bytes stood. */
 static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, size_t history,
-                                 size_t most, match run) {
+                                 size_t most, int chain, match run) {
   match best = run;
   uint32_t word = load_4(at), position = position_of(deflate, at);
   uint32_t place = *latest_of(deflate, word);
   size_t last_distance = 0;
-  for (int i = 0; i < CHAIN && best.length < most; i++, place = deflate->before[place % WINDOW]) {
+  for (int i = 0; i < chain && best.length < most; i++, place = deflate->before[place % WINDOW]) {
     size_t distance = position - place;
     if (distance <= last_distance || distance >= WINDOW || distance > history)
       break;
@@ -223,14 +224,16 @@ static inline match find_earlier(cs_deflate *deflate, const unsigned char *at, s
   return best;
 }
 
-/* A match for what follows, or one of length 0; the place is remembered. */
-static match find(cs_deflate *deflate, size_t next) {
+/* A match for what follows, or one of length 0, out of `chain` earlier places; the place is
+ * remembered. */
+static match find(cs_deflate *deflate, size_t next, int chain) {
   const unsigned char *at = deflate->buffer + next;
   size_t left = deflate->end - next, most = left < LONGEST ? left : LONGEST;
   size_t history = next - deflate->start;
   if (most < SHORTEST)
     return (match){0, 0};
-  match best = find_earlier(deflate, at, history, most, find_run(deflate, at, history, most));
+  match run = find_run(deflate, at, history, most);
+  match best = find_earlier(deflate, at, history, most, chain, run);
   remember(deflate, at);
   if (best.length > 0 && best.length <= SURE && gain(at, best) <= 0)
     return (match){0, 0};
@@ -252,10 +255,10 @@ static inline void put_match(cs_deflate *deflate, const unsigned char *at, size_
 static void search(cs_deflate *deflate) {
   size_t next = deflate->next, end = deflate->end;
   while (next < end) {
-    match best = find(deflate, next);
+    match best = find(deflate, next, CHAIN);
     size_t remembered = 1;
     while (best.length > 0 && best.length < LAZY && next + 1 < end) {
-      match later = find(deflate, next + 1);
+      match later = find(deflate, next + 1, best.length < GOOD ? CHAIN : CHAIN / 8);
       remembered = 2;
       if (later.length <= best.length)
         break;

@@ -68,13 +68,64 @@ static inline uint64_t cost_up(const cs_png_costs *costs, const cs_png_row *row,
   return cost;
 }
 
+/* The one of three neighbours nearest to left + above - corner, byte by byte. */
+static inline uint64_t paeth_pixel(uint64_t left, uint64_t above, uint64_t corner, size_t size) {
+  uint64_t nearest = 0;
+  if (above == corner)
+    return left;
+  if (left == corner)
+    return above;
+  for (size_t i = 0; i < 8 * size; i += 8) {
+    int a = left >> i & 255, b = above >> i & 255, c = corner >> i & 255;
+    int from_a = b > c ? b - c : c - b, from_b = a > c ? a - c : c - a;
+    int sum = a + b - 2 * c, from_c = sum < 0 ? -sum : sum;
+    int chosen = from_a <= from_b && from_a <= from_c ? a : from_b <= from_c ? b : c;
+    nearest |= (uint64_t)chosen << i;
+  }
+  return nearest;
+}
+
+/* Where neither row changes, the pixel to the left is the guess and it is right: only the first
+ * pixel of a piece is left over. */
+static inline uint64_t cost_paeth(const cs_png_costs *costs, const cs_png_row *row,
+                                  const cs_png_row *above, size_t pixel_size) {
+  const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
+  uint64_t cost = 0, left = 0, corner = 0;
+  int32_t x = 0;
+  bool in_zeros = false;
+  while (run < last) {
+    uint64_t guess = paeth_pixel(left, upper->pixel, corner, pixel_size);
+    if (guess != run->pixel) {
+      cost += pixel_cost(costs, subtract_bytes(run->pixel, guess), pixel_size);
+      in_zeros = false;
+    }
+    left = run->pixel;
+    corner = upper->pixel;
+    int32_t end = upper->end < run->end ? upper->end : run->end;
+    cost += !in_zeros && end - x > 1 ? MORE_BITS : 0;
+    in_zeros = in_zeros || end - x > 1;
+    x = end;
+    upper += upper->end == x;
+    run += run->end == x;
+  }
+  return cost;
+}
+
 static inline filter choose_of_size(const cs_png_costs *costs, const cs_png_row *row,
                                     const cs_png_row *above, size_t pixel_size) {
-  uint64_t none, sub, up = UINT64_MAX;
+  uint64_t none, sub;
   cost_within(costs, row, pixel_size, &none, &sub);
-  if (above->run_count > 0)
-    up = cost_up(costs, row, above, pixel_size);
-  return up <= none && up <= sub ? FILTER_UP : none <= sub ? FILTER_NONE : FILTER_SUB;
+  filter best = none <= sub ? FILTER_NONE : FILTER_SUB;
+  uint64_t least = none <= sub ? none : sub;
+  if (above->run_count == 0)
+    return best;
+  uint64_t up = cost_up(costs, row, above, pixel_size);
+  uint64_t paeth = cost_paeth(costs, row, above, pixel_size);
+  if (up <= least) {
+    best = FILTER_UP;
+    least = up;
+  }
+  return paeth < least ? FILTER_PAETH : best;
 }
 
 static filter choose_for_runs(const cs_png_costs *costs, const cs_png_row *row,
@@ -135,6 +186,26 @@ static celspan_status put_up(cs_deflate *deflate, celspan_context *context, cons
   return cs_deflate_run(deflate, context, held, (size_t)(x - held_from));
 }
 
+static celspan_status put_paeth(cs_deflate *deflate, celspan_context *context,
+                                const cs_png_row *row, const cs_png_row *above, size_t pixel_size) {
+  const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->run_count;
+  uint64_t left = 0, corner = 0;
+  int32_t x = 0;
+  while (run < last) {
+    uint64_t guess = paeth_pixel(left, upper->pixel, corner, pixel_size);
+    CS_TRY(cs_deflate_run(deflate, context, subtract_bytes(run->pixel, guess), 1));
+    left = run->pixel;
+    corner = upper->pixel;
+    int32_t end = upper->end < run->end ? upper->end : run->end;
+    if (end - x > 1)
+      CS_TRY(cs_deflate_run(deflate, context, 0, (size_t)(end - x - 1)));
+    x = end;
+    upper += upper->end == x;
+    run += run->end == x;
+  }
+  return CELSPAN_OK;
+}
+
 celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
                                   const cs_png_costs *costs, size_t pixel_size,
                                   const cs_png_row *row, const cs_png_row *above) {
@@ -145,6 +216,8 @@ celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
     return put_none(deflate, context, row);
   case FILTER_SUB:
     return put_sub(deflate, context, row);
+  case FILTER_PAETH:
+    return put_paeth(deflate, context, row, above, pixel_size);
   default:
     return put_up(deflate, context, row, above);
   }

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/arena.h"
+#include "span/roll.h"
 
 enum {
   STRIP_PIXELS = 1 << 18,      /* enough to be worth a thread's while */
@@ -21,12 +21,7 @@ typedef struct part {
 } part;
 
 typedef struct strip {
-  celspan_span *spans; /* of all rows, one after the other */
-  size_t span_count, span_capacity;
-  cs_arena arrays;  /* of the spans */
-  size_t *row_ends; /* after each row, how many spans */
-  size_t row_capacity;
-  int32_t row_count; /* with the one above, unless it is the first strip */
+  cs_roll rows; /* with the one above, unless it is the first strip */
   bool is_done;
   celspan_status status;
   char error[sizeof((celspan_context *)0)->error];
@@ -83,16 +78,13 @@ static celspan_status begin_strip(lane *l, int32_t index, strip *s) {
 }
 
 static celspan_status put_rows(lane *l, int32_t index, strip *s) {
-  const celspan_span *spans = s->spans;
-  size_t first = 0;
   CS_TRY(begin_strip(l, index, s));
-  for (int32_t i = 0; i < s->row_count; i++) {
-    size_t count = s->row_ends[i] - first;
+  for (size_t i = 0; i < s->rows.count; i++) {
+    cs_roll_row row = cs_roll_get(&s->rows, i);
     if (i == 0 && index > 0)
-      CS_TRY(cs_png_rows_pass(&l->rows, &l->context, spans + first, count));
+      CS_TRY(cs_png_rows_pass(&l->rows, &l->context, row.spans, row.count));
     else
-      CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans + first, count, l->deflate));
-    first = s->row_ends[i];
+      CS_TRY(cs_png_rows_put(&l->rows, &l->context, row.spans, row.count, l->deflate));
   }
   return cs_deflate_end(l->deflate, &l->context, &s->sum);
 }
@@ -234,43 +226,15 @@ static celspan_status hand_over(cs_png_strips *strips, celspan_context *context)
   return status;
 }
 
-static celspan_status keep_array(celspan_context *context, strip *s, celspan_span *span) {
-  size_t size = (size_t)(span->x1 - span->x0) * 4 * sizeof(float);
-  float *colours = cs_arena_take(context, &s->arrays, size);
-  if (!colours)
-    return CELSPAN_NO_MEMORY;
-  span->array = memcpy(colours, span->array, size);
-  return CELSPAN_OK;
-}
-
-static celspan_status keep_row(celspan_context *context, strip *s, const celspan_span *spans,
-                               size_t span_count) {
-  CS_TRY(cs_mem_reserve(context, (void **)&s->spans, &s->span_capacity, s->span_count + span_count,
-                        sizeof *spans));
-  CS_TRY(cs_mem_reserve(context, (void **)&s->row_ends, &s->row_capacity, (size_t)s->row_count + 1,
-                        sizeof *s->row_ends));
-  celspan_span *kept = s->spans + s->span_count;
-  memcpy(kept, spans, span_count * sizeof *spans);
-  for (size_t i = 0; i < span_count; i++)
-    if (kept[i].kind == CELSPAN_SPAN_ARRAY)
-      CS_TRY(keep_array(context, s, &kept[i]));
-  s->span_count += span_count;
-  s->row_ends[s->row_count++] = s->span_count;
-  return CELSPAN_OK;
-}
-
 /* With the last row of the strip before, which nobody overwrites until the ring comes round. */
 static celspan_status begin_keeping(cs_png_strips *strips, celspan_context *context, strip *s) {
-  cs_arena_reset(&s->arrays);
-  s->span_count = 0;
-  s->row_count = 0;
+  cs_roll_clear(&s->rows);
   s->is_done = false;
   if (strips->filled == 0)
     return CELSPAN_OK;
-  const strip *before = &strips->ring[(strips->filled - 1) % strips->ring_size];
-  size_t first = before->row_count > 1 ? before->row_ends[before->row_count - 2] : 0;
-  return keep_row(context, s, before->spans + first,
-                  before->row_ends[before->row_count - 1] - first);
+  const cs_roll *before = &strips->ring[(strips->filled - 1) % strips->ring_size].rows;
+  cs_roll_row above = cs_roll_get(before, before->count - 1);
+  return cs_roll_add(context, &s->rows, above.spans, above.count);
 }
 
 static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *context,
@@ -278,7 +242,7 @@ static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *con
   strip *s = &strips->ring[strips->filled % strips->ring_size];
   if (row_of_strip(strips) == 0)
     CS_TRY(begin_keeping(strips, context, s));
-  CS_TRY(keep_row(context, s, spans, span_count));
+  CS_TRY(cs_roll_add(context, &s->rows, spans, span_count));
   return ends_strip(strips) ? hand_over(strips, context) : CELSPAN_OK;
 }
 
@@ -328,8 +292,6 @@ static celspan_status init_strips(cs_png_strips *strips, celspan_context *contex
   strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
   if (!strips->lanes || !strips->ring)
     return cs_fail_memory(context);
-  for (int32_t i = 0; i < strips->ring_size; i++)
-    cs_arena_init(&strips->ring[i].arrays);
   for (int i = 0; i < strips->lane_count; i++)
     CS_TRY(init_lane(strips, context, &strips->lanes[i]));
   start_threads(strips);
@@ -361,9 +323,7 @@ celspan_status cs_png_strips_create(celspan_context *context, const cs_png_pictu
 }
 
 static void free_strip(strip *s, cs_memory *memory) {
-  cs_arena_finish(&s->arrays, memory);
-  cs_mem_free(memory, s->spans, s->span_capacity * sizeof *s->spans);
-  cs_mem_free(memory, s->row_ends, s->row_capacity * sizeof *s->row_ends);
+  cs_roll_finish(&s->rows, memory);
   cs_mem_free(memory, s->packed.bytes, s->packed.capacity);
 }
 

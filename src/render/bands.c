@@ -1,23 +1,18 @@
 #include "render/bands.h"
 
+#include "span/roll.h"
+
 #include <pthread.h>
 
 /* Bands that may be made ahead of delivery, a worker. */
 #define AHEAD 3
-
-/* How many spans there are up to the end of a row, and how many of the row's are not singles. */
-typedef struct row_end {
-  size_t spans, varied;
-} row_end;
 
 typedef struct band {
   int32_t index; /* of the band held, or -1 */
   bool is_done;
   celspan_status status;
   char error[sizeof((celspan_context *)0)->error];
-  cs_row spans;       /* all rows' spans, one after the other */
-  row_end *row_ends;  /* after each row */
-  size_t row_capacity;
+  cs_roll rows;
 } band;
 
 typedef struct pool {
@@ -84,35 +79,13 @@ static int32_t band_end(const cs_frame *frame, int32_t index) {
   return end < frame->crop_height ? (int32_t)end : frame->crop_height;
 }
 
-/* Copies a row's spans, and the arrays they point to, to the end of the band's. */
-static celspan_status keep_row(celspan_context *context, band *b, const cs_row *row) {
-  cs_row *kept = &b->spans;
-  CS_TRY(cs_mem_reserve(context, (void **)&kept->spans, &kept->capacity, kept->count + row->count,
-                        sizeof *kept->spans));
-  for (size_t i = 0; i < row->count; i++) {
-    celspan_span span = row->spans[i];
-    if (span.kind == CELSPAN_SPAN_ARRAY) {
-      size_t size = (size_t)(span.x1 - span.x0) * 4 * sizeof(float);
-      float *colours = cs_arena_take(context, &kept->colours, size);
-      if (!colours)
-        return CELSPAN_NO_MEMORY;
-      span.array = memcpy(colours, span.array, size);
-    }
-    kept->spans[kept->count++] = span;
-  }
-  return CELSPAN_OK;
-}
-
 static celspan_status make_rows(pool *p, cs_lane *lane, band *b) {
-  int32_t first = band_first(p->frame, b->index), end = band_end(p->frame, b->index);
-  cs_row_clear(&b->spans);
-  CS_TRY(cs_mem_reserve(&lane->context, (void **)&b->row_ends, &b->row_capacity,
-                        (size_t)(end - first), sizeof *b->row_ends));
-  for (int32_t y = first; y < end; y++) {
+  int32_t end = band_end(p->frame, b->index);
+  cs_roll_clear(&b->rows);
+  for (int32_t y = band_first(p->frame, b->index); y < end; y++) {
     const cs_row *row;
     CS_TRY(cs_lane_row(lane, y, &row));
-    CS_TRY(keep_row(&lane->context, b, row));
-    b->row_ends[y - first] = (row_end){b->spans.count, row->varied};
+    CS_TRY(cs_roll_add(&lane->context, &b->rows, row->spans, row->count));
   }
   return CELSPAN_OK;
 }
@@ -165,14 +138,12 @@ static void *worker_main(void *argument) {
 
 /* ---------------------------------------------------------------- the pool */
 
-static celspan_status deliver_band(delivery *d, const band *b, int32_t rows) {
+static celspan_status deliver_band(delivery *d, const band *b) {
   if (b->status != CELSPAN_OK)
     return cs_fail(d->context, b->status, "%s", b->error);
-  size_t first = 0;
-  for (int32_t k = 0; k < rows; k++) {
-    const row_end *end = &b->row_ends[k];
-    CS_TRY(deliver_row(d, b->spans.spans + first, end->spans - first, end->varied));
-    first = end->spans;
+  for (size_t k = 0; k < b->rows.count; k++) {
+    cs_roll_row row = cs_roll_get(&b->rows, k);
+    CS_TRY(deliver_row(d, row.spans, row.count, row.varied));
   }
   return report_progress(d);
 }
@@ -184,8 +155,7 @@ static celspan_status deliver_all(pool *p, delivery *d) {
     band *next = &p->bands[p->delivered % p->band_count];
     if (next->index == p->delivered && next->is_done) {
       pthread_mutex_unlock(&p->mutex);
-      int32_t rows = band_end(p->frame, next->index) - band_first(p->frame, next->index);
-      celspan_status status = deliver_band(d, next, rows);
+      celspan_status status = deliver_band(d, next);
       pthread_mutex_lock(&p->mutex);
       CS_TRY(status);
       p->delivered++;
@@ -222,11 +192,8 @@ static void free_pool(pool *p, worker *workers) {
   cs_memory *memory = p->context->memory;
   for (int i = 0; p->lanes && i < p->lane_count; i++)
     cs_lane_finish(&p->lanes[i]);
-  for (int i = 0; p->bands && i < p->band_count; i++) {
-    cs_row_finish(&p->bands[i].spans, memory);
-    cs_mem_free(memory, p->bands[i].row_ends,
-                p->bands[i].row_capacity * sizeof *p->bands[i].row_ends);
-  }
+  for (int i = 0; p->bands && i < p->band_count; i++)
+    cs_roll_finish(&p->bands[i].rows, memory);
   cs_mem_free(memory, p->lanes, (size_t)p->lane_count * sizeof *p->lanes);
   cs_mem_free(memory, p->bands, (size_t)p->band_count * sizeof *p->bands);
   cs_mem_free(memory, workers, (size_t)p->lane_count * sizeof *workers);

@@ -96,6 +96,8 @@ describe("f", function()
     local held = {}
     for number = 1, 7 do held[number] = frame_of(number, { frames = 7 }):on(3) end
     assert.are.same({ 0, 0, 0, 3, 3, 3, 6 }, held)
+    assert.are.equal(2, frame_of(4, { frames = 7 }):on(4 / 2))
+    assert.is_false(pcall(frame_of(4, { frames = 7 }).on, frame_of(4, { frames = 7 }), 1.5))
   end)
 
   it("cannot be changed", function()

@@ -224,3 +224,37 @@ describe("render", function()
     assert.is_truthy(message:find "enough")
   end)
 end)
+
+describe("a picture's words", function()
+  local file = os.tmpname() .. ".png"
+  -- Red, then blue; the paint of columns 0..5 of a row whose columns 2 and 3 it lies on.
+  local function row(fields)
+    local pair = celspan.rect { 0, 0, 1, 1, texture = "#f00" }
+      | celspan.rect { 1, 0, 1, 1, texture = "#00f" }
+    assert(celspan.render(celspan.rostrum { celspan.cel { pair } }, file, { size = { 2, 1 } }))
+    fields.file, fields.box, fields.sampling = file, { 2, 0, 2, 1 }, "nearest"
+    local strip = celspan.rect { 0, 0, 6, 1, texture = celspan.picture(fields) }
+    local image, message = celspan.pixels(celspan.rostrum { celspan.cel { strip }, back = "#fff" },
+      { size = { 6, 1 } })
+    os.remove(file)
+    if not image and message:find("celspan-picture.so", 1, true) then
+      return nil -- built without OpenImageIO
+    end
+    assert(image, message)
+    local seen = {}
+    for x = 0, 5 do
+      local r, g, b = image:get(x, 0)
+      seen[#seen + 1] = g > 0.5 and "." or r > 0.5 and "r" or b > 0.5 and "b" or "?"
+    end
+    return table.concat(seen)
+  end
+
+  it("say what is outside its box", function()
+    local found = row {}
+    if not found then return pending("no pictures") end
+    assert.are.equal("..rb..", found)
+    assert.are.equal("..rb..", row { wrap = "clear" })
+    assert.are.equal("rrrbbb", row { wrap = "clamp" })
+    assert.are.equal("rbrbrb", row { wrap = "repeat" })
+  end)
+end)
