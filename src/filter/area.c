@@ -2,6 +2,9 @@
  *
  *   alone   a visible boundary that nothing happens to gives its fragments: one, or one a piece
  *   block   boundaries that swap, begin or end inside the row are replayed (cluster.c)
+ *
+ * A replay costs events times members, so a row in which very much begins and ends is cut into slices
+ * of its height, each walked by itself into one window that is summed when all are done.
  */
 #include "base/number.h"
 #include "filter/blocks.h"
@@ -17,9 +20,10 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
 /* ---------------------------------------------------------------- alone */
 
 /* The fragments of a visible boundary that nothing happens to but bends. */
-static celspan_status walk_bent(cs_scan *scan, size_t i, const cs_bend *bend) {
+static celspan_status walk_bent(cs_scan *scan, const cs_cell *cells, size_t i,
+                                const cs_bend *bend) {
   const cs_active *active = &scan->active;
-  const cs_cell *left = &scan->cells.cells[i], *right = left + 1;
+  const cs_cell *left = &cells[i], *right = left + 1;
   const celspan_point *vertex = &active->vertices[bend->vertex];
   celspan_point at = {active->x[i], active->y};
   double least = at.x < active->x_next[i] ? at.x : active->x_next[i];
@@ -37,6 +41,7 @@ static celspan_status walk_bent(cs_scan *scan, size_t i, const cs_bend *bend) {
 /* The walk over the visible boundaries of a row, from left to right. */
 typedef struct walk {
   cs_scan *scan;
+  const cs_cell *cells;
   size_t v;    /* the next visible boundary */
   size_t bend; /* the first bend at or right of it */
 } walk;
@@ -62,6 +67,14 @@ static inline double walk_peek(walk *w, size_t v) {
   return active->x[i] < active->x_next[i] ? active->x[i] : active->x_next[i];
 }
 
+/* A straight boundary in a slice of a row. */
+static celspan_status walk_slice(walk *w, size_t i) {
+  const cs_active *active = &w->scan->active;
+  cs_window_pass(&w->scan->window, &w->cells[i + 1]);
+  return cs_window_add(&w->scan->window, active->x[i], active->y, active->x_next[i],
+                       active->y_next, &w->cells[i], &w->cells[i + 1]);
+}
+
 /* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends. Only when
  * no block follows is it known what comes after the last of them. */
 static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
@@ -71,14 +84,18 @@ static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
     size_t i = cells->visible[w->v];
     const cs_bend *bend = walk_bend(w, i);
     if (bend && bend->vertex_count > 0) {
-      CS_TRY(walk_bent(w->scan, i, bend));
+      CS_TRY(walk_bent(w->scan, w->cells, i, bend));
+      continue;
+    }
+    if (w->scan->window.is_held) {
+      CS_TRY(walk_slice(w, i));
       continue;
     }
     double next = is_last || (w->v + 1 < cells->visible_count && cells->visible[w->v + 1] < end)
                       ? walk_peek(w, w->v + 1)
                       : -1;
-    CS_TRY(cs_window_edge(&w->scan->window, active->x[i], active->x_next[i], &cells->cells[i],
-                          &cells->cells[i + 1], next));
+    CS_TRY(cs_window_edge(&w->scan->window, active->x[i], active->x_next[i], &w->cells[i],
+                          &w->cells[i + 1], next));
   }
   return CELSPAN_OK;
 }
@@ -129,7 +146,7 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   cs_cluster cluster = {.scan = scan,
                         .y0 = b->y0,
                         .y1 = b->y1,
-                        .left = &scan->cells.cells[low],
+                        .left = &b->cells[low],
                         .count = high - low,
                         .begins = begins,
                         .begin_count = begin_count};
@@ -142,7 +159,7 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
     CS_TRY(active_points(b, i, &points, &count));
     cs_member *member = &cluster.members[i - low];
     *member = cs_blocks_member(active, active->walks[active->slot[i]].chain, points, count);
-    member->right = &scan->cells.cells[i + 1];
+    member->right = &b->cells[i + 1];
   }
   if (begin_count > 1)
     qsort(begins, begin_count, sizeof *begins, compare_begins);
@@ -153,7 +170,7 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   cluster.toggle_end = b->toggle_end;
   CS_TRY(cs_window_reach(&scan->window, least));
   CS_TRY(cs_cluster_replay(&cluster));
-  cs_window_pass(&scan->window, &scan->cells.cells[high]);
+  cs_window_pass(&scan->window, &b->cells[high]);
   return CELSPAN_OK;
 }
 
@@ -197,7 +214,7 @@ static void cross_rest(cs_blocks *b, size_t crossed) {
 /* Boundaries are crossed on the way, so that each block knows what is present left of it. */
 static celspan_status walk_row(cs_blocks *b) {
   cs_scan *scan = b->scan;
-  walk w = {.scan = scan};
+  walk w = {.scan = scan, .cells = b->cells};
   size_t crossed = 0;
   for (size_t k = 0; k < b->count; k++) {
     const cs_block *block = &b->blocks[k];
@@ -256,15 +273,79 @@ static celspan_status find_strips(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out) {
-  cs_blocks blocks = {.scan = scan, .y0 = y, .y1 = y + 1.0};
+/* ---------------------------------------------------------------- slices */
+
+#define ROW_EVENTS 2048  /* what may begin and end in a row that is not cut */
+#define SLICE_EVENTS 128 /* and in a slice of one that is */
+#define SLICES_MOST 256
+
+/* Slices of a row: a power of two, so that their heights are exact. */
+static int count_slices(const cs_scan *scan, int32_t y) {
+  const cs_active *active = &scan->active;
+  size_t events = cs_blocks_count_begins(active, y + 1.0);
+  int slices = 1;
+  if (scan->window.trace || cs_strips_meet(scan, y))
+    return 1;
+  for (size_t i = 0; i < active->count; i++)
+    events += cs_active_chain(active, i)->y1 < y + 1.0;
+  while (slices < SLICES_MOST && events > ROW_EVENTS && (size_t)slices * SLICE_EVENTS < events)
+    slices *= 2;
+  return slices;
+}
+
+/* The cells in room that lasts as long as the row: fragments point to them. */
+static celspan_status keep_cells(cs_scan *scan, const cs_cell **out) {
+  size_t size = scan->cells.known * sizeof **out;
+  cs_cell *kept = cs_arena_take(scan->context, &scan->arena, size);
+  if (!kept)
+    return CELSPAN_NO_MEMORY;
+  *out = memcpy(kept, scan->cells.cells, size);
+  return CELSPAN_OK;
+}
+
+/* Moves the boundaries down to the slice that begins where the last one ended. */
+static celspan_status next_slice(cs_scan *scan) {
+  bool changed;
+  CS_TRY(cs_active_settle(scan->context, &scan->active, &changed));
+  if (changed)
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  return scan->composer.failure;
+}
+
+/* The row between two heights; the boundaries stand at the upper. */
+static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y0, double y1) {
+  cs_blocks blocks = {.scan = scan, .cells = cells, .y0 = y0, .y1 = y1};
   blocks.toggle = cs_active_toggles(&scan->active, &blocks.toggle_end);
-  CS_TRY(cs_active_reach(scan->context, &scan->active, blocks.y1));
-  cs_window_begin(&scan->window, &scan->composer, &scan->arena, scan->shot->width, y,
-                  scan->cells.cells, out);
-  if (cs_strips_meet(scan, y))
+  CS_TRY(cs_active_reach(scan->context, &scan->active, y1));
+  if (!scan->window.is_held && cs_strips_meet(scan, (int32_t)y0))
     CS_TRY(find_strips(&blocks));
   CS_TRY(cs_blocks_find(&blocks));
-  CS_TRY(walk_row(&blocks));
+  return walk_row(&blocks);
+}
+
+static celspan_status walk_slices(cs_scan *scan, int32_t y, int slices, cs_row *out) {
+  const cs_cell *cells;
+  for (int k = 0; k < slices; k++) {
+    if (k > 0)
+      CS_TRY(next_slice(scan));
+    CS_TRY(keep_cells(scan, &cells));
+    if (k == 0) {
+      cs_window_begin(&scan->window, &scan->composer, &scan->arena, scan->shot->width, y, cells,
+                      out);
+      cs_window_hold(&scan->window);
+    }
+    cs_window_pass(&scan->window, &cells[0]);
+    CS_TRY(walk_heights(scan, cells, y + (double)k / slices, y + (k + 1.0) / slices));
+  }
+  return cs_window_finish(&scan->window);
+}
+
+celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out) {
+  int slices = count_slices(scan, y);
+  if (slices > 1)
+    return walk_slices(scan, y, slices, out);
+  cs_window_begin(&scan->window, &scan->composer, &scan->arena, scan->shot->width, y,
+                  scan->cells.cells, out);
+  CS_TRY(walk_heights(scan, scan->cells.cells, y, y + 1.0));
   return cs_window_finish(&scan->window);
 }

@@ -297,7 +297,7 @@ static celspan_status chain_points(cs_blocks *b, uint32_t chain, const celspan_p
   return CELSPAN_OK;
 }
 
-static size_t count_begins(const cs_active *active, double y1) {
+size_t cs_blocks_count_begins(const cs_active *active, double y1) {
   size_t end = active->next;
   while (end < active->set->chain_count && active->set->chains[end].y0 < y1)
     end++;
@@ -306,7 +306,7 @@ static size_t count_begins(const cs_active *active, double y1) {
 
 static celspan_status find_begins(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
-  b->chain_count = count_begins(active, b->y1);
+  b->chain_count = cs_blocks_count_begins(active, b->y1);
   b->begin_count = b->chain_count + b->strip_count;
   b->begins = take(b, b->begin_count, sizeof *b->begins);
   b->begin_blocks = take(b, b->begin_count, sizeof *b->begin_blocks);
@@ -375,7 +375,7 @@ static celspan_status add_strips(cs_blocks *b, const range *own) {
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   CS_TRY(add_swaps(b));
-  if (b->strip_count > 0 || count_begins(active, b->y1) > 0)
+  if (b->strip_count > 0 || cs_blocks_count_begins(active, b->y1) > 0)
     CS_TRY(find_begins(b));
   if (b->begin_count > 0 || active->bend_count > 0)
     CS_TRY(find_events(b));

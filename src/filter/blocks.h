@@ -30,7 +30,8 @@ typedef struct cs_row_event {
 
 typedef struct cs_blocks {
   cs_scan *scan;
-  double y0, y1;      /* the row */
+  const cs_cell *cells; /* as in cs_cells; they stay as they are until the row is done */
+  double y0, y1;        /* the row, or a slice of it */
   const cs_toggle *toggle, *toggle_end; /* those the walk has not passed */
   cs_member *strips;  /* edges of scan-line primitives on this row */
   size_t strip_count;
@@ -44,6 +45,8 @@ typedef struct cs_blocks {
   size_t count, capacity;
 } cs_blocks;
 
+/* How many chains begin between the active boundaries' height and y1. */
+size_t cs_blocks_count_begins(const cs_active *active, double y1);
 /* Finds the blocks of the row the scan's active boundaries have reached through; scan, y0, y1 and the
  * strips are given. */
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);

@@ -1,5 +1,7 @@
 #include "filter/cluster.h"
 
+#include <math.h>
+
 /* ---------------------------------------------------------------- fragments */
 
 static const cs_cell *left_of(const cs_cluster *cluster, size_t j) {
@@ -55,10 +57,6 @@ static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
   for (; toggle > cluster->toggle; toggle--)
     cs_composer_cross(composer, toggle[-1].leaf, -toggle[-1].direction);
   return composer->failure;
-}
-
-static celspan_status refresh_all(cs_cluster *cluster) {
-  return cluster->count > 0 ? refresh(cluster, 0, cluster->count - 1) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- bands */
@@ -141,9 +139,21 @@ static bool is_right(const cs_member *a, const cs_member *b) {
   return slope_a != slope_b ? slope_a > slope_b : a->order > b->order;
 }
 
-/* Moves members that bend or end at y on; true when one ends. */
-static celspan_status step_members(cs_cluster *cluster, double y, bool *ends) {
-  *ends = false;
+/* Where a height changes what is present: between these two x. Outside, windings balance, so the
+ * cells stay as they are. */
+typedef struct turning {
+  double low, high; /* low > high: nowhere */
+} turning;
+
+static void widen(turning *t, double x) {
+  t->low = x < t->low ? x : t->low;
+  t->high = x > t->high ? x : t->high;
+}
+
+static bool has_ended(const cs_member *member) { return member->at == member->point_count; }
+
+/* Moves members that bend or end at y on. */
+static celspan_status step_members(cs_cluster *cluster, double y, turning *t) {
   for (size_t j = 0; j < cluster->count; j++) {
     cs_member *member = &cluster->members[j];
     if (member->points[member->at].y > y)
@@ -151,7 +161,8 @@ static celspan_status step_members(cs_cluster *cluster, double y, bool *ends) {
     CS_TRY(flush(cluster, j, member->foot, y));
     while (member->at < member->point_count && member->points[member->at].y <= y)
       member->at++;
-    *ends |= member->at == member->point_count;
+    if (has_ended(member))
+      widen(t, member->foot);
   }
   return CELSPAN_OK;
 }
@@ -159,7 +170,7 @@ static celspan_status step_members(cs_cluster *cluster, double y, bool *ends) {
 static void drop_ended(cs_cluster *cluster) {
   size_t kept = 0;
   for (size_t j = 0; j < cluster->count; j++)
-    if (cluster->members[j].at < cluster->members[j].point_count)
+    if (!has_ended(&cluster->members[j]))
       cluster->members[kept++] = cluster->members[j];
   cluster->count = kept;
 }
@@ -179,11 +190,24 @@ static void begin_members(cs_cluster *cluster, double y) {
   cluster->begin_count -= begun;
 }
 
-static bool is_sorted(const cs_cluster *cluster) {
-  for (size_t j = 1; j < cluster->count; j++)
-    if (is_right(&cluster->members[j - 1], &cluster->members[j]))
-      return false;
-  return true;
+/* Members that meet in a point and part in another order. */
+static void note_disorder(const cs_cluster *cluster, turning *t) {
+  const cs_member *last = NULL;
+  for (size_t j = 0; j < cluster->count; j++) {
+    const cs_member *member = &cluster->members[j];
+    if (has_ended(member))
+      continue;
+    if (last && is_right(last, member)) {
+      widen(t, last->foot);
+      widen(t, member->foot);
+    }
+    last = member;
+  }
+}
+
+static void note_begins(const cs_cluster *cluster, double y, turning *t) {
+  for (size_t k = 0; k < cluster->begin_count && cluster->begins[k].points[0].y <= y; k++)
+    widen(t, cluster->begins[k].points[0].x);
 }
 
 static void sort(cs_cluster *cluster) {
@@ -195,18 +219,39 @@ static void sort(cs_cluster *cluster) {
     }
 }
 
+static bool is_inside(const turning *t, const cs_member *member) {
+  return member->foot >= t->low && member->foot <= t->high;
+}
+
+static celspan_status flush_inside(cs_cluster *cluster, const turning *t, double y) {
+  for (size_t j = 0; j < cluster->count; j++)
+    if (is_inside(t, &cluster->members[j]))
+      CS_TRY(flush(cluster, j, cluster->members[j].foot, y));
+  return CELSPAN_OK;
+}
+
+static celspan_status refresh_inside(cs_cluster *cluster, const turning *t) {
+  size_t first = 0, end = cluster->count;
+  while (first < end && !is_inside(t, &cluster->members[first]))
+    first++;
+  while (end > first && !is_inside(t, &cluster->members[end - 1]))
+    end--;
+  return first < end ? refresh(cluster, first, end - 1) : CELSPAN_OK;
+}
+
 /* The events at height y, at the foot of the band just run. */
 static celspan_status turn(cs_cluster *cluster, double y) {
-  bool ends;
-  CS_TRY(step_members(cluster, y, &ends));
-  bool begins = cluster->begin_count > 0 && cluster->begins[0].points[0].y <= y;
-  if (!ends && !begins && is_sorted(cluster))
+  turning t = {INFINITY, -INFINITY};
+  CS_TRY(step_members(cluster, y, &t));
+  note_begins(cluster, y, &t);
+  note_disorder(cluster, &t);
+  if (t.low > t.high)
     return CELSPAN_OK;
-  CS_TRY(flush_all(cluster, y));
+  CS_TRY(flush_inside(cluster, &t, y));
   drop_ended(cluster);
   begin_members(cluster, y);
   sort(cluster);
-  return refresh_all(cluster);
+  return refresh_inside(cluster, &t);
 }
 
 celspan_status cs_cluster_replay(cs_cluster *cluster) {

@@ -17,7 +17,12 @@ void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, 
   window->from = window->end = 0;
   window->base = window->cell = leftmost;
   window->fragment_count = 0;
-  window->is_open = window->varies = false;
+  window->is_open = window->varies = window->is_held = false;
+}
+
+void cs_window_hold(cs_window *window) {
+  window->is_open = window->is_held = true;
+  window->varies = window->base->length > 0;
 }
 
 void cs_window_free(cs_window *window, cs_memory *memory) {
@@ -313,7 +318,7 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   if (window->trace)
     return CELSPAN_OK;
   int32_t first = floor_column(x, window->width);
-  if (window->is_open && first < window->end)
+  if (window->is_held || (window->is_open && first < window->end))
     return CELSPAN_OK;
   if (window->is_open)
     CS_TRY(close_window(window));

@@ -37,6 +37,7 @@ typedef struct cs_window {
   cs_fragment *fragments;
   size_t fragment_count, fragment_capacity;
   bool is_open, varies;
+  bool is_held; /* the whole row is one window: items may come in any order */
   cs_arena tiles; /* of one tile's weights; the window's own */
   cs_trace *trace; /* not NULL: fragments are kept there, and no pixels made */
 } cs_window;
@@ -46,6 +47,8 @@ void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, 
                      int32_t y, const cs_cell *leftmost, cs_row *out);
 void cs_window_free(cs_window *window, cs_memory *memory);
 
+/* Makes one window of the whole row. */
+void cs_window_hold(cs_window *window);
 /* An item begins whose least x is `x`: closes the window when it ends before. */
 CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
 /* A fragment of the current item, from (xa, ya) to (xb, yb). */
