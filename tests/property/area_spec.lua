@@ -298,4 +298,26 @@ describe("area antialiasing", function()
     star.rule = "evenodd"
     assert_alphas({ 0.5 }, celspan.polygon(star), 1, 1)
   end)
+
+  it("is the mean of a larger frame where thousands of shapes crowd a row", function()
+    local random, shapes = prng.new(31), {}
+    for i = 1, 3000 do
+      local x, y = random:between(0, 4), random:between(0, 4)
+      local function near(at) return at + random:between(-0.3, 0.3) end
+      shapes[i] = celspan.triangle { { near(x), near(y) }, { near(x), near(y) }, { near(x), near(y) },
+                                     texture = celspan.rgb(random:between(0, 1), 0.5, 0.2, 0.4) }
+    end
+    local rostrum, k = celspan.rostrum { celspan.cel(shapes), back = "#fff" }, 32
+    local small = area(rostrum, { 4, 4 }, { 4, 4 })
+    local large = area(rostrum, { 4 * k, 4 * k }, { 4, 4 })
+    for y = 0, 3 do
+      for x = 0, 3 do
+        local sum = 0
+        for j = 0, k - 1 do
+          for i = 0, k - 1 do sum = sum + large:get(x * k + i, y * k + j) end
+        end
+        assert.is_near(sum / (k * k), small:get(x, y), 1e-4)
+      end
+    end
+  end)
 end)
