@@ -91,7 +91,8 @@ void cs_host_leave(lua_State *L, lua_State *before) { cs_host_get(L)->state = be
 static const char *sentence_of(const cs_host *host) {
   const char *sentence = celspan_context_error(host->context);
   size_t word = strspn(sentence, "abcdefghijklmnopqrstuvwxyz");
-  bool has_noun = host->failure == CELSPAN_BAD_ARGUMENT && strncmp(sentence + word, ": ", 2) == 0;
+  bool has_noun = (host->failure == CELSPAN_BAD_ARGUMENT || host->failure == CELSPAN_LIMIT) &&
+                  strncmp(sentence + word, ": ", 2) == 0;
   return has_noun ? sentence + word + 2 : sentence;
 }
 

@@ -4,19 +4,40 @@
 #include <signal.h>
 #include <stddef.h>
 #include <string.h>
+#include <time.h>
 
 static volatile sig_atomic_t asked_by;
 
 static void (*volatile also)(void);
 
-static void ask_to_stop(int number) {
-  asked_by = number;
-  if (also)
-    also();
+/* Seconds after the first signal within which another is taken for the same wish: timeout(1) and
+ * shells send a signal to the program and then to its whole group. */
+#define SAME_WISH 0.5
+
+static struct timespec asked_at;
+
+static double seconds_since_asked(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - asked_at.tv_sec) + 1e-9 * (double)(now.tv_nsec - asked_at.tv_nsec);
 }
 
-/* SA_RESETHAND makes the second signal end the program. A signal ignored by the caller (nohup, a
- * shell's background job) stays ignored. */
+/* The first signal asks; a later one ends the program at once. Only calls that signal handlers may
+ * make. */
+static void ask_to_stop(int number) {
+  if (asked_by == 0) {
+    clock_gettime(CLOCK_MONOTONIC, &asked_at);
+    asked_by = number;
+    if (also)
+      also();
+  } else if (seconds_since_asked() > SAME_WISH) {
+    signal(number, SIG_DFL);
+    raise(number);
+  }
+}
+
+/* A signal ignored by the caller (nohup, a shell's background job) stays ignored; while one is
+ * handled the others wait. */
 static void handle(int number) {
   struct sigaction before;
   if (sigaction(number, NULL, &before) == 0 && before.sa_handler == SIG_IGN)
@@ -24,8 +45,8 @@ static void handle(int number) {
   struct sigaction action;
   memset(&action, 0, sizeof action);
   action.sa_handler = ask_to_stop;
-  action.sa_flags = (int)SA_RESETHAND | SA_RESTART;
-  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
   sigaction(number, &action, NULL);
 }
 

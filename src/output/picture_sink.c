@@ -37,7 +37,6 @@ static const file_format formats[] = {
      HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true},
     {" tif tiff ", "tiff", 1048576, 0, 4, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false},
-    {" tga targa ", "targa", 65535, 0, 4, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, false},
     /* Its writer holds the whole picture in memory. */
     {" dpx ", "dpx", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true},
@@ -333,8 +332,8 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
   if (!made.format)
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
-        "%s: the format \"%s\" is not written; png, exr, tiff, tga, dpx, jpeg, bmp, hdr, "
-        "ppm, webp, gif and jp2 are",
+        "%s: the format \"%s\" is not written; png, tga, span, exr, tiff, dpx, jpeg, bmp, "
+        "hdr, ppm, webp, gif and jp2 are",
         path, name);
   CS_TRY(choose_coding(context, path, &file->coding, &made));
   made.path = copy_text(context->memory, path);

@@ -146,8 +146,6 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("oiio:UnassociatedAlpha", 1);
   if (format == "openexr" || format == "tiff")
     spec.attribute("compression", "zip");
-  if (format == "targa")
-    spec.attribute("compression", "rle");
   if (format == "jpeg") {
     spec.attribute("CompressionQuality", 95);
     spec.attribute("jpeg:subsampling", "4:4:4");
