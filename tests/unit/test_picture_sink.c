@@ -25,10 +25,13 @@ static celspan_status begin(const char *name, int32_t width, int32_t height) {
   const char *path = picture_path(name);
   celspan_file_desc file = CELSPAN_FILE_DESC;
   celspan_sink sink;
-  CHECK(cs_sink_picture(context, path, &file, &sink) == CELSPAN_OK);
+  if (!CHECK(cs_sink_file(context, path, &file, &sink) == CELSPAN_OK))
+    return CELSPAN_INTERNAL;
   celspan_status status = sink.begin(sink.user, context, width, height);
   if (status == CELSPAN_OK)
     CHECK(sink.end(sink.user, context, CELSPAN_CANCELLED) == CELSPAN_CANCELLED);
+  else
+    cs_sink_discard(context, &sink);
   CHECK(access(path, F_OK) != 0);
   return status;
 }
