@@ -1,4 +1,4 @@
-/* Paints as affine maps on light, the Beta colour model premultiplied (colour-and-spans 1).
+/* Paints as affine maps on light, the Beta colour model premultiplied.
  *
  * Light F from the front and I from behind leave a paint as S*F + T*I with S = beta * pigment and
  * T = (1 - beta) * medium. Invariant: 0 <= S <= beta, 0 <= T <= 1 - beta (pictures may exceed in S).
@@ -16,7 +16,7 @@ typedef struct cs_paint {
 
 #define CS_PAINT_CLEAR ((cs_paint){{0, 0, 0}, {1, 1, 1}, 0})
 
-/* Composition stops when every channel of T is at most this (api.md 1). */
+/* Composition stops when every channel of T is at most this. */
 #define CS_PAINT_OPAQUE 0x1p-16f
 
 cs_paint cs_paint_from_straight(const celspan_paint *paint);

@@ -1,4 +1,4 @@
-/* Transfer curves between linear light and coded values in 0..1 (formats.md b10 for Cineon).
+/* Transfer curves between linear light and coded values in 0..1.
  *
  * Decode maps coded to linear, encode linear to coded. Deterministic: same bits on every machine.
  * Values beyond 0..1 are continued (negative ones by odd symmetry for sRGB and Rec.709).

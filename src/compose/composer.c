@@ -134,7 +134,7 @@ static bool fold_is_opaque(const fold *f) {
   return f->t[0] <= CS_PAINT_OPAQUE && f->t[1] <= CS_PAINT_OPAQUE && f->t[2] <= CS_PAINT_OPAQUE;
 }
 
-/* Premultiplied RGBA; alpha is the mean of the three mattes (colour-and-spans 2.3b). */
+/* Premultiplied RGBA; alpha is the mean of the three mattes. */
 static cs_v4 fold_end(fold *f) {
   while (f->group != CS_STACK_NONE)
     fold_leave_group(f);

@@ -6,7 +6,7 @@
  * Invariants
  *   - A chain runs from its top y0 to its bottom y1 > y0 and is hit by row height y iff
  *     y0 <= y < y1. Pieces inside it share their ends bitwise, so the windings of a contour sum to
- *     0 at every y whatever the rounding (colour-and-spans 4.2).
+ *     0 at every y whatever the rounding.
  *   - x at a height is a function of that height, the chain and the frame alone: not of the row the
  *     walk began at, nor of strips or crops. Two chains over the same control points, in either
  *     direction, give the same bits.

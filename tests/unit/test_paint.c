@@ -28,7 +28,7 @@ static void check_same(cs_paint a, cs_paint b, double tolerance) {
   }
 }
 
-/* Light leaving a paint (colour-and-spans 1.2), as two affine terms. */
+/* Light leaving a paint, as two affine terms. */
 static void test_premultiplied(void) {
   celspan_paint straight = {{0.5f, 1, 0}, {1, 0.25f, 0.5f}, 0.25f};
   cs_paint paint = cs_paint_from_straight(&straight);
