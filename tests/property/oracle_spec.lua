@@ -2,13 +2,13 @@
 -- equals the direct evaluation of the tree at the centres of its pixels.
 --
 -- A failure prints the number of its case; CASE=n runs that one alone and prints it as a script.
--- CELSPAN_SCENES=n sets how many are tried.
+-- CELSPAN_SCENES=n sets how many are tried instead of 2,000.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
-local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 300
+local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 2000
 local ONLY = tonumber(os.getenv "CASE")
 local POINTS = 240 -- of a scene
 local EDGE = 1e-6 -- pixels: so near a straight edge either side may be seen
