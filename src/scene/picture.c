@@ -134,8 +134,6 @@ celspan_status cs_picture_acquire(celspan_context *context, const cs_picture *pi
 
 const float *cs_picture_texels(const cs_picture_block *block) { return block->texels; }
 
-bool cs_picture_block_is_opaque(const cs_picture_block *block) { return block->is_opaque; }
-
 void cs_picture_release(celspan_context *context, cs_picture_block *block) {
   cs_store_unpin((cs_picture_store *)context->root->pictures, block);
 }

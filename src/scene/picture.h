@@ -37,7 +37,6 @@ CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,
                                                   int32_t column, int32_t row,
                                                   cs_picture_block **out);
 const float *cs_picture_texels(const cs_picture_block *block);
-bool cs_picture_block_is_opaque(const cs_picture_block *block);
 void cs_picture_release(celspan_context *context, cs_picture_block *block);
 
 #endif

@@ -215,20 +215,7 @@ celspan_status cs_store_make(celspan_context *context, cs_picture_store *store,
   return CELSPAN_OK;
 }
 
-/* Over the texels that exist: what lies beyond the picture is clear and does not count. */
-static bool is_opaque(const cs_picture_block *block) {
-  const celspan_picture_info *info = &block->entry->header.info;
-  int32_t width = cs_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
-  int32_t height = cs_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
-  for (int32_t y = 0; y < height && y < CS_PICTURE_BLOCK; y++)
-    for (int32_t x = 0; x < width && x < CS_PICTURE_BLOCK; x++)
-      if (block->texels[4 * (y * CS_PICTURE_BLOCK + x) + 3] < 1)
-        return false;
-  return true;
-}
-
 cs_picture_block *cs_store_insert(cs_picture_store *store, cs_picture_block *block, uint32_t pins) {
-  block->is_opaque = is_opaque(block);
   pthread_mutex_lock(&store->lock);
   cs_picture_block *held = find_block(store, block->entry, block->level, block->column, block->row);
   if (held) {

@@ -31,7 +31,6 @@ struct cs_picture_block {
   int level;
   int32_t column, row;
   uint32_t pins;
-  bool is_opaque;
   cs_picture_block *next;          /* in its bucket */
   cs_picture_block *older, *newer; /* while it has no pins */
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];

@@ -1,8 +1,8 @@
-/* A picture of the random shapes into a file: `png COUNT SIDE FILE [RUNS] [WORKERS]`.
+/* A picture of the random shapes into a file: `file COUNT SIDE FILE [RUNS] [WORKERS]`.
  *
  * The format is the one of the file's ending. Prints, without and with antialiasing, the least time
  * of the runs by the wall's clock (the wait for the disk included) and by the processor's, the
- * bytes of the file and the peak of memory.
+ * bytes of the file, the spans (also in a second of the processor) and the peak of memory.
  */
 #include <sys/stat.h>
 #include <time.h>
@@ -48,9 +48,10 @@ int main(int argc, char **argv) {
     if (stat(argv[3], &there) != 0)
       return 1;
     printf("%d shapes, %d x %d, %s to %s  wall %.1f ms  processor %.1f ms  bytes %lld  "
-           "spans %llu  peak %.1f MiB\n",
+           "spans %llu, %.1f million a second  peak %.1f MiB\n",
            count, side, side, names[way], argv[3], 1e3 * wall, 1e3 * processor,
            (long long)there.st_size, (unsigned long long)statistics.spans,
+           (double)statistics.spans / processor / 1e6,
            (double)statistics.peak_bytes / 1048576);
   }
   celspan_rostrum_unref(rostrum);
