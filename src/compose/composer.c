@@ -22,7 +22,9 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->windings, stack->leaf_count, sizeof(int32_t)));
+  CS_TRY(take(composer, &composer->presences, stack->leaf_count, sizeof(cs_presence)));
+  for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
+    composer->presences[leaf].mark = stack->marks[leaf];
   if (stack->procedure_count > 0)
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
@@ -39,7 +41,7 @@ void cs_composer_finish(cs_composer *composer) {
   size_t words = cs_stack_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->windings, stack->leaf_count * sizeof(int32_t));
+  cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));

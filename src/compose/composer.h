@@ -56,6 +56,12 @@ typedef struct cs_seen_slide {
   cs_sampler sampler;
 } cs_seen_slide;
 
+/* A leaf at the walk's place. */
+typedef struct cs_presence {
+  cs_mark mark;
+  int32_t winding;
+} cs_presence;
+
 typedef struct cs_memo {
   cs_cell cell;
   bool is_used;
@@ -66,7 +72,7 @@ typedef struct cs_composer {
   const cs_stack *stack;
   uint64_t *set;          /* leaves present at the walk's place */
   uint64_t *contributing; /* scratch */
-  int32_t *windings;
+  cs_presence *presences; /* one a leaf */
   uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
   cs_set_hash hash;
   cs_tree_result *results;
@@ -93,9 +99,10 @@ bool cs_composer_begin_row(cs_composer *composer);
 
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  const cs_mark *mark = &composer->stack->marks[leaf];
-  int32_t before = composer->windings[leaf], after = before + direction;
-  composer->windings[leaf] = after;
+  cs_presence *presence = &composer->presences[leaf];
+  const cs_mark *mark = &presence->mark;
+  int32_t before = presence->winding, after = before + direction;
+  presence->winding = after;
   if (((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0)) {
     composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
     composer->hash.a ^= mark->key[0];

@@ -19,25 +19,6 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
 
 /* ---------------------------------------------------------------- alone */
 
-/* The fragments of a visible boundary that nothing happens to but bends. */
-static celspan_status walk_bent(cs_scan *scan, const cs_cell *cells, size_t i,
-                                const cs_bend *bend) {
-  const cs_active *active = &scan->active;
-  const cs_cell *left = &cells[i], *right = left + 1;
-  const celspan_point *vertex = &active->vertices[bend->vertex];
-  celspan_point at = {active->x[i], active->y};
-  double least = at.x < active->x_next[i] ? at.x : active->x_next[i];
-  for (uint32_t k = 0; k < bend->vertex_count; k++)
-    least = vertex[k].x < least ? vertex[k].x : least;
-  CS_TRY(cs_window_reach(&scan->window, least));
-  for (uint32_t k = 0; k < bend->vertex_count; at = vertex[k++])
-    CS_TRY(cs_window_add(&scan->window, at.x, at.y, vertex[k].x, vertex[k].y, left, right));
-  CS_TRY(
-      cs_window_add(&scan->window, at.x, at.y, active->x_next[i], active->y_next, left, right));
-  cs_window_pass(&scan->window, right);
-  return CELSPAN_OK;
-}
-
 /* The walk over the visible boundaries of a row, from left to right. */
 typedef struct walk {
   cs_scan *scan;
@@ -46,58 +27,60 @@ typedef struct walk {
   size_t bend; /* the first bend at or right of it */
 } walk;
 
-/* The bend of boundary i, at or right of the walk's place, or NULL. */
-static inline const cs_bend *walk_bend(walk *w, size_t i) {
+/* A visible boundary that nothing happens to but bends. */
+typedef struct edge {
+  size_t boundary;
+  double low;          /* its least x */
+  const cs_bend *bend; /* NULL: straight */
+} edge;
+
+/* The visible boundary v, at or right of the walk's place. */
+static inline edge read_edge(walk *w, size_t v) {
   const cs_active *active = &w->scan->active;
+  size_t i = w->scan->cells.visible[v];
   while (w->bend < active->bend_count && active->bends[w->bend].boundary < i)
     w->bend++;
-  return w->bend < active->bend_count && active->bends[w->bend].boundary == i
-             ? &active->bends[w->bend]
-             : NULL;
+  if (w->bend < active->bend_count && active->bends[w->bend].boundary == i)
+    return (edge){i, active->bends[w->bend].low, &active->bends[w->bend]};
+  return (edge){i, active->x[i] < active->x_next[i] ? active->x[i] : active->x_next[i], NULL};
 }
 
-/* The least x of visible boundary v if it is straight, else less than that. */
-static inline double walk_peek(walk *w, size_t v) {
+/* next_x: nothing that comes later lies left of it; any lesser value when that is not known. */
+static celspan_status write_edge(const walk *w, const edge *e, double next_x) {
   const cs_active *active = &w->scan->active;
-  if (v >= w->scan->cells.visible_count)
-    return w->scan->shot->width;
-  size_t i = w->scan->cells.visible[v];
-  if (walk_bend(w, i))
-    return -1;
-  return active->x[i] < active->x_next[i] ? active->x[i] : active->x_next[i];
-}
-
-/* A straight boundary in a slice of a row. */
-static celspan_status walk_slice(walk *w, size_t i) {
-  const cs_active *active = &w->scan->active;
-  cs_window_pass(&w->scan->window, &w->cells[i + 1]);
-  return cs_window_add(&w->scan->window, active->x[i], active->y, active->x_next[i],
-                       active->y_next, &w->cells[i], &w->cells[i + 1]);
+  size_t i = e->boundary;
+  cs_window_edge out = {.xa = active->x[i],
+                        .xb = active->x_next[i],
+                        .ya = active->y,
+                        .yb = active->y_next,
+                        .left = &w->cells[i],
+                        .right = &w->cells[i + 1],
+                        .next_x = next_x};
+  if (!e->bend || e->bend->vertex_count == 0)
+    return cs_window_straight(&w->scan->window, &out);
+  out.low = e->bend->low;
+  out.high = e->bend->high;
+  out.vertices = &active->vertices[e->bend->vertex];
+  out.vertex_count = e->bend->vertex_count;
+  return cs_window_bent(&w->scan->window, &out);
 }
 
 /* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends. Only when
  * no block follows is it known what comes after the last of them. */
 static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
-  const cs_active *active = &w->scan->active;
   const cs_cells *cells = &w->scan->cells;
-  for (; w->v < cells->visible_count && cells->visible[w->v] < end; w->v++) {
-    size_t i = cells->visible[w->v];
-    const cs_bend *bend = walk_bend(w, i);
-    if (bend && bend->vertex_count > 0) {
-      CS_TRY(walk_bent(w->scan, w->cells, i, bend));
-      continue;
-    }
-    if (w->scan->window.is_held) {
-      CS_TRY(walk_slice(w, i));
-      continue;
-    }
-    double next = is_last || (w->v + 1 < cells->visible_count && cells->visible[w->v + 1] < end)
-                      ? walk_peek(w, w->v + 1)
-                      : -1;
-    CS_TRY(cs_window_edge(&w->scan->window, active->x[i], active->x_next[i], &w->cells[i],
-                          &w->cells[i + 1], next));
+  if (w->v == cells->visible_count || cells->visible[w->v] >= end)
+    return CELSPAN_OK;
+  for (edge e = read_edge(w, w->v);;) {
+    bool has_next = ++w->v < cells->visible_count && cells->visible[w->v] < end;
+    edge next = {.low = is_last ? w->scan->shot->width : -INFINITY};
+    if (has_next)
+      next = read_edge(w, w->v);
+    CS_TRY(write_edge(w, &e, next.low));
+    if (!has_next)
+      return CELSPAN_OK;
+    e = next;
   }
-  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- blocks */
@@ -199,10 +182,9 @@ static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member
 
 /* Crosses the boundaries [low, high). */
 static void cross(cs_scan *scan, size_t low, size_t high) {
-  for (size_t i = low; i < high; i++) {
-    const cs_boundary_chain *chain = cs_active_chain(&scan->active, i);
-    cs_composer_cross(&scan->composer, chain->leaf, chain->direction);
-  }
+  const cs_crossing *crossing = scan->active.crossing;
+  for (size_t i = low; i < high; i++)
+    cs_composer_cross(&scan->composer, crossing[i].leaf, crossing[i].direction);
 }
 
 /* On to the right end of the row, where nothing is present any more. */
@@ -246,15 +228,15 @@ static celspan_status append_edges(cs_blocks *b, const cs_strip_edges *edges, do
   if (b->strip_count > 0)
     memcpy(strips, b->strips, b->strip_count * sizeof *strips);
   for (size_t k = 0; k < edges->count; k++, points += 2) {
-    const cs_strip_edge *edge = &edges->edges[k];
-    points[0] = (celspan_point){edge->x, y0};
-    points[1] = (celspan_point){edge->x, y1};
+    const cs_strip_edge *e = &edges->edges[k];
+    points[0] = (celspan_point){e->x, y0};
+    points[1] = (celspan_point){e->x, y1};
     strips[b->strip_count + k] =
-        (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = edge->leaf,
-                    .strip = edge->strip, .order = 2 * edge->strip + (edge->direction < 0),
-                    .direction = edge->direction, .x = edge->x, .y = y0, .foot = edge->x};
-    b->strips_low = edge->x < b->strips_low ? edge->x : b->strips_low;
-    b->strips_high = edge->x > b->strips_high ? edge->x : b->strips_high;
+        (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = e->leaf,
+                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0),
+                    .direction = e->direction, .x = e->x, .y = y0, .foot = e->x};
+    b->strips_low = e->x < b->strips_low ? e->x : b->strips_low;
+    b->strips_high = e->x > b->strips_high ? e->x : b->strips_high;
   }
   b->strips = strips;
   b->strip_count += edges->count;
@@ -284,7 +266,7 @@ static int count_slices(const cs_scan *scan, int32_t y) {
   const cs_active *active = &scan->active;
   size_t events = cs_blocks_count_begins(active, y + 1.0);
   int slices = 1;
-  if (scan->window.trace || cs_strips_meet(scan, y))
+  if (events + active->count <= ROW_EVENTS || scan->window.trace || cs_strips_meet(scan, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;
@@ -305,10 +287,10 @@ static celspan_status keep_cells(cs_scan *scan, const cs_cell **out) {
 
 /* Moves the boundaries down to the slice that begins where the last one ended. */
 static celspan_status next_slice(cs_scan *scan) {
-  bool changed;
-  CS_TRY(cs_active_settle(scan->context, &scan->active, &changed));
-  if (changed)
-    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  cs_change change;
+  CS_TRY(cs_active_settle(scan->context, &scan->active, &change));
+  if (!cs_change_is_none(change))
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
   return scan->composer.failure;
 }
 

@@ -1,11 +1,13 @@
 /* Blocks: which boundaries of a row must be replayed together.
  *
- * A block is the smallest run of neighbours that holds all of: the boundaries that the order at the
- * foot of the row permutes; a bent boundary and those whose x-range it meets; what begins and ends
- * at one height in one leaf (its windings balance only together), all between, and all it may meet
- * further down.
+ *   knot    neighbours that cross, with all that they may cross on the way
+ *   range   what begins and ends at one height in one leaf (its windings balance only together), all
+ *           between, and all it may meet further down
  *
- * Blocks in which what begins could meet are one. Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
+ * A block is a knot or a range, or several that touch; blocks in which what begins could meet are
+ * one. Work is done where something happens, not over the whole row.
+ *
+ * Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
  * boundaries (low == high) touches no other block.
  */
 #ifndef CS_FILTER_BLOCKS_H
@@ -18,6 +20,7 @@ typedef struct cs_block {
   size_t low, high;
   size_t last_low; /* the greatest `low` merged into it */
   double low_x, high_x; /* of what begins or ends in it; low_x > high_x when nothing does */
+  double reach_low, reach_high; /* of a knot: where its boundaries are in the row */
 } cs_block;
 
 /* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
@@ -33,6 +36,8 @@ typedef struct cs_blocks {
   const cs_cell *cells; /* as in cs_cells; they stay as they are until the row is done */
   double y0, y1;        /* the row, or a slice of it */
   const cs_toggle *toggle, *toggle_end; /* those the walk has not passed */
+  double *low, *high; /* of each boundary: its least and greatest x in the row */
+  bool *is_bent;      /* of each boundary: whether it has vertices there */
   cs_member *strips;  /* edges of scan-line primitives on this row */
   size_t strip_count;
   double strips_low, strips_high; /* their x-range */
@@ -41,8 +46,8 @@ typedef struct cs_blocks {
   size_t begin_count, chain_count;
   cs_row_event *events;
   size_t event_count;
-  cs_block *blocks;
-  size_t count, capacity;
+  cs_block *blocks; /* while they are sought, knots first */
+  size_t count, capacity, knot_count;
 } cs_blocks;
 
 /* How many chains begin between the active boundaries' height and y1. */

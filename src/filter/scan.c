@@ -29,32 +29,32 @@ static double row_height(const cs_scan *scan, int32_t y) {
   return scan->shot->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
 }
 
-static celspan_status advance(cs_scan *scan, double height, bool *changed) {
+static celspan_status advance(cs_scan *scan, double height, cs_change *change) {
   cs_active *active = &scan->active;
-  bool settled = false, moved = false;
+  cs_change settled = cs_change_none, moved = cs_change_none;
   if (active->y_next > active->y)
     CS_TRY(cs_active_settle(scan->context, active, &settled));
   if (active->y < height) {
     CS_TRY(cs_active_reach(scan->context, active, height));
     CS_TRY(cs_active_settle(scan->context, active, &moved));
   }
-  *changed = settled || moved;
+  *change = cs_change_join(settled, moved);
   return CELSPAN_OK;
 }
 
 /* Brings boundaries and cells to the row: from the one above when that is where they stand. */
 static celspan_status reach_row(cs_scan *scan, int32_t y) {
-  bool changed = true;
+  cs_change change = cs_change_all;
   if (scan->row != CS_SCAN_NOWHERE && scan->row < y)
-    CS_TRY(advance(scan, row_height(scan, y), &changed));
+    CS_TRY(advance(scan, row_height(scan, y), &change));
   else
     CS_TRY(cs_active_start(scan->context, &scan->active, row_height(scan, y)));
   if (cs_composer_begin_row(&scan->composer)) {
     cs_cells_forget(&scan->cells);
-    changed = true;
+    change = cs_change_all;
   }
-  if (changed)
-    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  if (!cs_change_is_none(change))
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
   return scan->composer.failure;
 }
 

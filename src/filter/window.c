@@ -113,19 +113,16 @@ static int32_t next_change(const cs_window *window, int32_t p) {
 /* Four doubles: the sums of colour steps. */
 typedef double sum4 __attribute__((vector_size(32)));
 
-static inline void add_step(sum4 *sum, const cs_fragment *f, double area) {
-  cs_v4 left = f->left->colour, right = f->right->colour;
-  for (int c = 0; c < 4; c++)
-    (*sum)[c] += ((double)right[c] - (double)left[c]) * area;
-}
+#define WIDEN(v) __builtin_convertvector(v, sum4) /* a function would return it by the AVX rules */
 
 /* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
 static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *change) {
+  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
   double before = p > f->first ? cover(f, p - 1) : 0;
   for (; p <= end; p++) {
     double now = p < f->end ? cover(f, p) : f->height;
-    add_step(&change[p - p0], f, now - before);
+    change[p - p0] += step * (now - before);
     before = now;
   }
 }
@@ -134,7 +131,7 @@ static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *chan
 static celspan_status close_flat(cs_window *window) {
   celspan_context *context = window->composer->context;
   cs_v4 base = window->base->colour, colour = base;
-  sum4 change[TILE], sum = {base[0], base[1], base[2], base[3]};
+  sum4 change[TILE], sum = WIDEN(base);
   for (int32_t p = window->from; p < window->end;) {
     int32_t next = next_change(window, p);
     CS_TRY(cs_row_single(context, window->out, p, next, colour));
@@ -144,7 +141,7 @@ static celspan_status close_flat(cs_window *window) {
       add_changes(&window->fragments[i], next, stop, change);
     for (p = next; p < stop; p++) {
       sum += change[p - next];
-      colour = hold((cs_v4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]});
+      colour = hold(__builtin_convertvector(sum, cs_v4));
       CS_TRY(put_pixel(window, p, colour));
     }
   }
@@ -353,44 +350,85 @@ celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
   return CELSPAN_OK;
 }
 
-/* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
- * most rows. The same sums as close_lone, in closed form. */
-static celspan_status write_edge(cs_window *window, double low, double high, int32_t first,
-                                 int32_t end, const cs_cell *left, const cs_cell *right) {
-  celspan_context *context = window->composer->context;
-  cs_row *out = window->out;
-  cs_v4 base = left->colour, step = right->colour - base;
-  CS_TRY(cs_row_single(context, out, window->from, first, base));
-  if (end - first == 1) {
-    float area = (float)(first + 1 - 0.5 * (low + high));
-    CS_TRY(put_pixel(window, first, base + step * area));
-  } else if (end - first == 2) {
-    double split = first + 1, twice = 2 * (high - low);
-    float area = (float)((split - low) * (split - low) / twice);
-    float rest = (float)(1 - (high - split) * (high - split) / twice);
-    CS_TRY(put_pixel(window, first, base + step * area));
-    CS_TRY(put_pixel(window, first + 1, base + step * rest));
+/* Adds to two pixels, of which the first begins at `first`, the area right of a straight piece that
+ * crosses no others. */
+static inline void add_areas(double xa, double xb, double height, int32_t first, double areas[2]) {
+  double split = first + 1.0, low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  if (high <= split) {
+    areas[0] += height * (split - 0.5 * (low + high));
+    areas[1] += height;
+  } else if (low >= split) {
+    areas[1] += height * (split + 1 - 0.5 * (low + high));
+  } else {
+    double share = height / (2 * (high - low));
+    areas[0] += (split - low) * (split - low) * share;
+    areas[1] += height - (high - split) * (high - split) * share;
   }
+}
+
+/* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
+ * most rows. areas: right of it in each of them. */
+static inline celspan_status write_areas(cs_window *window, const cs_window_edge *edge,
+                                         int32_t first, int32_t end, const double areas[2]) {
+  cs_v4 base = edge->left->colour, step = edge->right->colour - base;
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  CS_TRY(cs_row_single(window->composer->context, window->out, window->from, first, base));
+  if (end > first)
+    CS_TRY(put_pixel(window, first, base + step * (float)areas[0]));
+  if (end - first == 2)
+    CS_TRY(put_pixel(window, first + 1, base + step * (float)areas[1]));
   window->from = window->end = end;
-  window->cell = right;
+  window->cell = edge->right;
   return CELSPAN_OK;
 }
 
-celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_cell *left,
-                              const cs_cell *right, double next_x) {
-  if (window->trace)
-    return cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right);
-  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+/* Whether an edge over these columns can be written at once. */
+static inline bool stands_alone(const cs_window *window, const cs_window_edge *edge, int32_t first,
+                                int32_t end) {
+  return end - first <= 2 && end <= edge->next_x && edge->left->length == 0 &&
+         edge->right->length == 0 && first >= window->end && !window->is_held && !window->trace;
+}
+
+celspan_status cs_window_straight(cs_window *window, const cs_window_edge *edge) {
+  double low = edge->xa < edge->xb ? edge->xa : edge->xb;
+  double high = edge->xa < edge->xb ? edge->xb : edge->xa;
   int32_t first = floor_column(low, window->width), end = ceil_column(high, window->width);
-  if (end - first <= 2 && end <= next_x && left->length == 0 && right->length == 0 &&
-      first >= window->end) {
-    if (window->is_open)
-      CS_TRY(close_window(window));
-    return write_edge(window, low, high, first, end, left, right);
+  if (stands_alone(window, edge, first, end)) {
+    double areas[2] = {0, 0};
+    add_areas(low, high, 1, first, areas);
+    return write_areas(window, edge, first, end, areas);
   }
   CS_TRY(cs_window_reach(window, low));
-  CS_TRY(cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right));
-  cs_window_pass(window, right);
+  CS_TRY(cs_window_add(window, edge->xa, edge->ya, edge->xb, edge->yb, edge->left, edge->right));
+  cs_window_pass(window, edge->right);
+  return CELSPAN_OK;
+}
+
+static inline celspan_point edge_point(const cs_window_edge *edge, uint32_t k) {
+  return k == 0                    ? (celspan_point){edge->xa, edge->ya}
+         : k > edge->vertex_count ? (celspan_point){edge->xb, edge->yb}
+                                   : edge->vertices[k - 1];
+}
+
+celspan_status cs_window_bent(cs_window *window, const cs_window_edge *edge) {
+  int32_t first = floor_column(edge->low, window->width);
+  int32_t end = ceil_column(edge->high, window->width);
+  celspan_point above = edge_point(edge, 0), below;
+  if (stands_alone(window, edge, first, end)) {
+    double areas[2] = {0, 0};
+    for (uint32_t k = 0; k <= edge->vertex_count; k++, above = below) {
+      below = edge_point(edge, k + 1);
+      add_areas(above.x, below.x, below.y - above.y, first, areas);
+    }
+    return write_areas(window, edge, first, end, areas);
+  }
+  CS_TRY(cs_window_reach(window, edge->low));
+  for (uint32_t k = 0; k <= edge->vertex_count; k++, above = below) {
+    below = edge_point(edge, k + 1);
+    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, edge->left, edge->right));
+  }
+  cs_window_pass(window, edge->right);
   return CELSPAN_OK;
 }
 

@@ -55,11 +55,19 @@ CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
                                              double yb, const cs_cell *left,
                                              const cs_cell *right);
-/* A whole item: one straight edge through the whole row. next_x: nothing that comes later lies left
- * of it; any lesser value when that is not known. */
-CELSPAN_CHECKED celspan_status cs_window_edge(cs_window *window, double xa, double xb,
-                                              const cs_cell *left, const cs_cell *right,
-                                              double next_x);
+/* A whole item: one boundary through the row, or through a slice of it, to which nothing else
+ * happens. */
+typedef struct cs_window_edge {
+  double xa, ya, xb, yb; /* its top and its foot */
+  double next_x; /* nothing that comes later lies left of it; any lesser value when not known */
+  const cs_cell *left, *right;
+  /* of a bent one: its vertices between, and its least and greatest x */
+  const celspan_point *vertices;
+  uint32_t vertex_count;
+  double low, high;
+} cs_window_edge;
+CELSPAN_CHECKED celspan_status cs_window_straight(cs_window *window, const cs_window_edge *edge);
+CELSPAN_CHECKED celspan_status cs_window_bent(cs_window *window, const cs_window_edge *edge);
 /* The current item is done; right of it lies `cell`. */
 static inline void cs_window_pass(cs_window *window, const cs_cell *cell) { window->cell = cell; }
 /* Closes the last window and writes the rest of the row. */
