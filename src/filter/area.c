@@ -23,64 +23,32 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
 typedef struct walk {
   cs_scan *scan;
   const cs_cell *cells;
-  size_t v;    /* the next visible boundary */
-  size_t bend; /* the first bend at or right of it */
+  size_t v; /* the next visible boundary */
 } walk;
 
-/* A visible boundary that nothing happens to but bends. */
-typedef struct edge {
-  size_t boundary;
-  double low;          /* its least x */
-  const cs_bend *bend; /* NULL: straight */
-} edge;
-
-/* The visible boundary v, at or right of the walk's place. */
-static inline edge read_edge(walk *w, size_t v) {
-  const cs_active *active = &w->scan->active;
-  size_t i = w->scan->cells.visible[v];
-  while (w->bend < active->bend_count && active->bends[w->bend].boundary < i)
-    w->bend++;
-  if (w->bend < active->bend_count && active->bends[w->bend].boundary == i)
-    return (edge){i, active->bends[w->bend].low, &active->bends[w->bend]};
-  return (edge){i, active->x[i] < active->x_next[i] ? active->x[i] : active->x_next[i], NULL};
-}
-
-/* next_x: nothing that comes later lies left of it; any lesser value when that is not known. */
-static celspan_status write_edge(const walk *w, const edge *e, double next_x) {
-  const cs_active *active = &w->scan->active;
-  size_t i = e->boundary;
-  cs_window_edge out = {.xa = active->x[i],
-                        .xb = active->x_next[i],
-                        .ya = active->y,
-                        .yb = active->y_next,
-                        .left = &w->cells[i],
-                        .right = &w->cells[i + 1],
-                        .next_x = next_x};
-  if (!e->bend || e->bend->vertex_count == 0)
-    return cs_window_straight(&w->scan->window, &out);
-  out.low = e->bend->low;
-  out.high = e->bend->high;
-  out.vertices = &active->vertices[e->bend->vertex];
-  out.vertex_count = e->bend->vertex_count;
-  return cs_window_bent(&w->scan->window, &out);
-}
-
-/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends. Only when
- * no block follows is it known what comes after the last of them. */
-static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
-  const cs_cells *cells = &w->scan->cells;
-  if (w->v == cells->visible_count || cells->visible[w->v] >= end)
-    return CELSPAN_OK;
-  for (edge e = read_edge(w, w->v);;) {
-    bool has_next = ++w->v < cells->visible_count && cells->visible[w->v] < end;
-    edge next = {.low = is_last ? w->scan->shot->width : -INFINITY};
-    if (has_next)
-      next = read_edge(w, w->v);
-    CS_TRY(write_edge(w, &e, next.low));
-    if (!has_next)
-      return CELSPAN_OK;
-    e = next;
+/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what comes
+ * then lies at or right of column `next`. */
+static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
+  cs_scan *scan = w->scan;
+  const uint32_t *visible = scan->cells.visible;
+  const size_t count = scan->cells.visible_count;
+  for (; w->v < count && visible[w->v] < end; w->v++) {
+    size_t i = visible[w->v];
+    bool is_last = w->v + 1 == count || visible[w->v + 1] >= end;
+    CS_TRY(cs_window_edge(&scan->window, &scan->active, &scan->edges, i, &w->cells[i],
+                          is_last ? next : scan->edges.first[visible[w->v + 1]]));
   }
+  return CELSPAN_OK;
+}
+
+/* The same in a slice of a row. */
+static celspan_status walk_slice(walk *w, size_t end) {
+  cs_scan *scan = w->scan;
+  for (; w->v < scan->cells.visible_count && scan->cells.visible[w->v] < end; w->v++) {
+    size_t i = scan->cells.visible[w->v];
+    CS_TRY(cs_window_slice(&scan->window, &scan->active, &scan->edges, i, &w->cells[i]));
+  }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- blocks */
@@ -89,7 +57,7 @@ static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
 static celspan_status active_points(cs_blocks *b, size_t i, const celspan_point **points,
                                     uint32_t *count) {
   const cs_active *active = &b->scan->active;
-  const cs_bend *bend = cs_blocks_bend(active, i);
+  const cs_bend *bend = cs_active_bend(active, i);
   uint32_t inner = bend ? bend->vertex_count : 0;
   celspan_point *p = take(b, inner + 2, sizeof *p);
   if (!p)
@@ -193,6 +161,10 @@ static void cross_rest(cs_blocks *b, size_t crossed) {
   cs_cells_toggle(&b->scan->composer, b->toggle, b->toggle_end, INFINITY);
 }
 
+static celspan_status walk_to(walk *w, size_t end, int32_t next) {
+  return w->scan->window.is_held ? walk_slice(w, end) : walk_alone(w, end, next);
+}
+
 /* Boundaries are crossed on the way, so that each block knows what is present left of it. */
 static celspan_status walk_row(cs_blocks *b) {
   cs_scan *scan = b->scan;
@@ -202,7 +174,7 @@ static celspan_status walk_row(cs_blocks *b) {
     const cs_block *block = &b->blocks[k];
     cs_member *begins;
     size_t begin_count;
-    CS_TRY(walk_alone(&w, block->low, false));
+    CS_TRY(walk_to(&w, block->low, cs_edges_floor(block->reach_low, scan->shot->width)));
     while (w.v < scan->cells.visible_count && scan->cells.visible[w.v] < block->high)
       w.v++;
     CS_TRY(pick_begins(b, block, &begins, &begin_count));
@@ -210,7 +182,7 @@ static celspan_status walk_row(cs_blocks *b) {
     CS_TRY(walk_block(b, block->low, block->high, begins, begin_count));
     crossed = block->low;
   }
-  CS_TRY(walk_alone(&w, scan->active.count, true));
+  CS_TRY(walk_to(&w, scan->active.count, scan->shot->width));
   if (b->count > 0)
     cross_rest(b, crossed);
   return CELSPAN_OK;
@@ -301,6 +273,7 @@ static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y
   CS_TRY(cs_active_reach(scan->context, &scan->active, y1));
   if (!scan->window.is_held && cs_strips_meet(scan, (int32_t)y0))
     CS_TRY(find_strips(&blocks));
+  CS_TRY(cs_edges_measure(scan->context, &scan->edges, &scan->active, scan->shot->width));
   CS_TRY(cs_blocks_find(&blocks));
   return walk_row(&blocks);
 }

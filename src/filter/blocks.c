@@ -7,18 +7,6 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
   return cs_arena_take(b->scan->context, &b->scan->arena, count * size);
 }
 
-const cs_bend *cs_blocks_bend(const cs_active *active, size_t i) {
-  size_t low = 0, high = active->bend_count;
-  while (low < high) {
-    size_t middle = (low + high) / 2;
-    if (active->bends[middle].boundary < i)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
-}
-
 cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
                            uint32_t count) {
   const cs_boundary_chain *c = &active->set->chains[chain];
@@ -40,33 +28,10 @@ typedef struct range {
   double low, high;
 } range;
 
-/* Where all boundaries are inside the row, and which of them bend there. */
-static celspan_status measure(cs_blocks *b) {
-  const cs_active *active = &b->scan->active;
-  size_t count = active->count;
-  b->low = take(b, count, sizeof *b->low);
-  b->high = take(b, count, sizeof *b->high);
-  b->is_bent = take(b, count, sizeof *b->is_bent);
-  if (!b->low || !b->high || !b->is_bent)
-    return CELSPAN_NO_MEMORY;
-  memset(b->is_bent, 0, count * sizeof *b->is_bent);
-  const double *restrict top = active->x, *restrict foot = active->x_next;
-  double *restrict low = b->low, *restrict high = b->high;
-  for (size_t i = 0; i < count; i++) {
-    low[i] = top[i] < foot[i] ? top[i] : foot[i];
-    high[i] = top[i] < foot[i] ? foot[i] : top[i];
-  }
-  for (size_t k = 0; k < active->bend_count; k++) {
-    const cs_bend *bend = &active->bends[k];
-    low[bend->boundary] = bend->low;
-    high[bend->boundary] = bend->high;
-    b->is_bent[bend->boundary] = bend->vertex_count > 0;
-  }
-  return CELSPAN_OK;
-}
-
+/* Where boundary i is inside the row. */
 static inline range boundary_range(const cs_blocks *b, size_t i) {
-  return (range){b->low[i], b->high[i]};
+  const cs_edges *edges = &b->scan->edges;
+  return (range){edges->low[i], edges->high[i]};
 }
 
 static range join_ranges(range a, range b) {
@@ -105,7 +70,7 @@ static bool is_sorted(const double *x, size_t count) {
 /* x of boundary i at a height of the row; one that has ended goes on straight down. */
 static double boundary_x(const cs_blocks *b, size_t i, double y) {
   const cs_active *active = &b->scan->active;
-  const cs_bend *bend = cs_blocks_bend(active, i);
+  const cs_bend *bend = cs_active_bend(active, i);
   celspan_point above = {active->x[i], b->y0}, below = {active->x_next[i], b->y1};
   for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
     celspan_point vertex = active->vertices[bend->vertex + k];
@@ -124,7 +89,8 @@ static double boundary_x(const cs_blocks *b, size_t i, double y) {
  * its right (+1). */
 static bool passes(const cs_blocks *b, const cs_bend *bend, size_t neighbour, int side) {
   const cs_active *active = &b->scan->active;
-  if (side > 0 ? bend->high <= b->low[neighbour] : bend->low >= b->high[neighbour])
+  range r = boundary_range(b, neighbour);
+  if (side > 0 ? bend->high <= r.low : bend->low >= r.high)
     return false;
   for (uint32_t k = 0; k < bend->vertex_count; k++) {
     celspan_point vertex = active->vertices[bend->vertex + k];
@@ -144,7 +110,7 @@ typedef struct knot {
 
 static inline knot knot_of(const cs_blocks *b, size_t i) {
   double foot = b->scan->active.x_next[i];
-  return (knot){i, i + 1, boundary_range(b, i), {foot, foot}, b->is_bent[i]};
+  return (knot){i, i + 1, boundary_range(b, i), {foot, foot}, b->scan->edges.is_bent[i]};
 }
 
 static void join_knots(knot *k, const knot *other) {
@@ -283,16 +249,21 @@ static unit unit_at(const cs_blocks *b, size_t i) {
                : (unit){i, i + 1, boundary_range(b, i)};
 }
 
-/* The block of the boundaries whose x-range meets [low, high], or the place between two. Units do not
- * cross, so their ranges rise with their places. */
-static celspan_status add_range(cs_blocks *b, double low, double high, cs_block *out) {
+/* The block of the boundaries whose x-range meets that of something, or the place between two. Units
+ * do not cross, so their ranges rise with their places. */
+static celspan_status add_range(cs_blocks *b, range r, cs_block *out) {
   const cs_active *active = &b->scan->active;
-  size_t place = find_place(active, low), first = place, end = place;
-  for (unit u; first > 0 && (u = unit_at(b, first - 1), u.reach.high >= low); first = u.low)
+  size_t place = find_place(active, r.low), first = place, end = place;
+  range reach = r;
+  for (unit u; first > 0 && (u = unit_at(b, first - 1), u.reach.high >= r.low); first = u.low) {
     end = u.high > end ? u.high : end;
-  for (unit u; end < active->count && (u = unit_at(b, end), u.reach.low <= high); end = u.high)
+    reach = join_ranges(reach, u.reach);
+  }
+  for (unit u; end < active->count && (u = unit_at(b, end), u.reach.low <= r.high); end = u.high) {
     first = u.low < first ? u.low : first;
-  *out = (cs_block){first, end, first, low, high, 0, 0};
+    reach = join_ranges(reach, u.reach);
+  }
+  *out = (cs_block){first, end, first, r.low, r.high, reach.low, reach.high};
   return add_block(b, *out);
 }
 
@@ -309,7 +280,10 @@ static celspan_status tie_ends(cs_blocks *b, const cs_row_event *events, size_t 
     }
     size_t low = begin->low < at.low ? begin->low : at.low;
     size_t high = begin->high > at.high ? begin->high : at.high;
-    CS_TRY(add_block(b, (cs_block){low, high, low, INFINITY, -INFINITY, 0, 0}));
+    range reach = join_ranges((range){begin->reach_low, begin->reach_high},
+                              (range){at.reach_low, at.reach_high});
+    CS_TRY(add_block(
+        b, (cs_block){low, high, low, INFINITY, -INFINITY, reach.low, reach.high}));
   }
   return CELSPAN_OK;
 }
@@ -327,7 +301,7 @@ static celspan_status add_events(cs_blocks *b) {
       r.high = b->events[end].high > r.high ? b->events[end].high : r.high;
     }
     cs_block at;
-    CS_TRY(add_range(b, r.low, r.high, &at));
+    CS_TRY(add_range(b, r, &at));
     CS_TRY(tie_ends(b, e, end - first, at));
   }
   return CELSPAN_OK;
@@ -351,6 +325,8 @@ static void join(cs_block *last, const cs_block *next) {
   last->last_low = next->last_low;
   last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
   last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
+  last->reach_low = next->reach_low < last->reach_low ? next->reach_low : last->reach_low;
+  last->reach_high = next->reach_high > last->reach_high ? next->reach_high : last->reach_high;
 }
 
 /* Joins blocks that share a boundary or an x at which something begins, and places that touch a
@@ -469,7 +445,7 @@ static celspan_status add_strips(cs_blocks *b) {
   cs_block at;
   if (b->strip_count == 0)
     return CELSPAN_OK;
-  CS_TRY(add_range(b, b->strips_low, b->strips_high, &at));
+  CS_TRY(add_range(b, (range){b->strips_low, b->strips_high}, &at));
   for (size_t k = b->chain_count; k < b->begin_count; k++)
     b->begin_blocks[k] = at;
   return CELSPAN_OK;
@@ -480,7 +456,6 @@ celspan_status cs_blocks_find(cs_blocks *b) {
   size_t begins = cs_blocks_count_begins(active, b->y1) + b->strip_count;
   if (begins + active->bend_count == 0 && is_sorted(active->x_next, active->count))
     return CELSPAN_OK;
-  CS_TRY(measure(b));
   CS_TRY(add_knots(b));
   if (begins > 0)
     CS_TRY(find_begins(b));

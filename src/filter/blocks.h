@@ -20,7 +20,7 @@ typedef struct cs_block {
   size_t low, high;
   size_t last_low; /* the greatest `low` merged into it */
   double low_x, high_x; /* of what begins or ends in it; low_x > high_x when nothing does */
-  double reach_low, reach_high; /* of a knot: where its boundaries are in the row */
+  double reach_low, reach_high; /* where its boundaries, and what begins, are in the row */
 } cs_block;
 
 /* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
@@ -36,8 +36,6 @@ typedef struct cs_blocks {
   const cs_cell *cells; /* as in cs_cells; they stay as they are until the row is done */
   double y0, y1;        /* the row, or a slice of it */
   const cs_toggle *toggle, *toggle_end; /* those the walk has not passed */
-  double *low, *high; /* of each boundary: its least and greatest x in the row */
-  bool *is_bent;      /* of each boundary: whether it has vertices there */
   cs_member *strips;  /* edges of scan-line primitives on this row */
   size_t strip_count;
   double strips_low, strips_high; /* their x-range */
@@ -56,8 +54,6 @@ size_t cs_blocks_count_begins(const cs_active *active, double y1);
  * strips are given. */
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
 
-/* The bend of active boundary i, or NULL. */
-const cs_bend *cs_blocks_bend(const cs_active *active, size_t i);
 /* A chain as a member that stands at the top of its points. */
 cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
                            uint32_t count);

@@ -17,6 +17,7 @@ void cs_scan_finish(cs_scan *scan) {
   cs_composer_finish(&scan->composer);
   cs_active_finish(&scan->active, memory);
   cs_cells_finish(&scan->cells, memory);
+  cs_edges_finish(&scan->edges, memory);
   cs_window_free(&scan->window, memory);
   cs_arena_finish(&scan->arena, memory);
   cs_scanline_finish(&scan->output, memory);

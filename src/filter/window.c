@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TILE 256 /* pixels summed at a time */
+#define TILE 256  /* pixels summed at a time */
+#define NARROW 32 /* and where a window is not wider */
 
 void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
                      int32_t y, const cs_cell *leftmost, cs_row *out) {
@@ -33,23 +34,6 @@ void cs_window_free(cs_window *window, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- coverage */
 
-/* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
-static inline int32_t floor_column(double x, int32_t width) {
-  int32_t column = x <= 0 ? 0 : x >= width ? width : (int32_t)x;
-  return column;
-}
-
-static inline int32_t ceil_column(double x, int32_t width) {
-  int32_t column = floor_column(x, width);
-  return column + (column < x && column < width);
-}
-
-/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
-static inline double round_area(double x) {
-  const double bias = 0x1.8p24;
-  return (x + bias) - bias;
-}
-
 /* The integral, up to x, of the share of the fragment's height at which the boundary lies left. */
 static inline double passed(double low, double high, double x) {
   return x <= low    ? 0
@@ -61,8 +45,8 @@ static inline double passed(double low, double high, double x) {
 static inline double cover(const cs_fragment *f, int32_t p) {
   double low = f->xa < f->xb ? f->xa : f->xb, high = f->xa < f->xb ? f->xb : f->xa;
   if (low == high)
-    return round_area(f->height * cs_number_clamp(p + 1 - low, 0, 1));
-  return round_area(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
+    return cs_edges_round(f->height * cs_number_clamp(p + 1 - low, 0, 1));
+  return cs_edges_round(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
 }
 
 /* ---------------------------------------------------------------- closing */
@@ -127,25 +111,58 @@ static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *chan
   }
 }
 
+/* As add_changes for a fragment over at most two columns, all from p0 on. */
+static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
+  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
+  change += f->first - p0;
+  change[0] += step * f->area;
+  change[1] += step * (f->rest - f->area);
+  change[2] += step * (f->height - f->rest);
+}
+
+/* Writes the pixels [p0, p1) and leaves the sum as it is in the last of them. */
+static inline celspan_status put_sums(cs_window *window, int32_t p0, int32_t p1,
+                                      const sum4 *change, sum4 *sum) {
+  for (int32_t p = p0; p < p1; p++) {
+    *sum += change[p - p0];
+    CS_TRY(put_pixel(window, p, __builtin_convertvector(*sum, cs_v4)));
+  }
+  return CELSPAN_OK;
+}
+
 /* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
-static celspan_status close_flat(cs_window *window) {
+static celspan_status close_wide(cs_window *window) {
   celspan_context *context = window->composer->context;
-  cs_v4 base = window->base->colour, colour = base;
+  cs_v4 base = window->base->colour;
   sum4 change[TILE], sum = WIDEN(base);
   for (int32_t p = window->from; p < window->end;) {
     int32_t next = next_change(window, p);
-    CS_TRY(cs_row_single(context, window->out, p, next, colour));
+    CS_TRY(cs_row_single(context, window->out, p, next,
+                         hold(__builtin_convertvector(sum, cs_v4))));
     int32_t stop = window->end - next < TILE ? window->end : next + TILE;
     memset(change, 0, (size_t)(stop - next) * sizeof *change);
     for (size_t i = 0; i < window->fragment_count; i++)
       add_changes(&window->fragments[i], next, stop, change);
-    for (p = next; p < stop; p++) {
-      sum += change[p - next];
-      colour = hold(__builtin_convertvector(sum, cs_v4));
-      CS_TRY(put_pixel(window, p, colour));
-    }
+    CS_TRY(put_sums(window, next, stop, change, &sum));
+    p = stop;
   }
   return CELSPAN_OK;
+}
+
+/* The same where the window is a few pixels wide, as nearly all are. */
+static celspan_status close_narrow(cs_window *window) {
+  int32_t from = window->from, end = window->end;
+  cs_v4 base = window->base->colour;
+  sum4 change[NARROW + 3], sum = WIDEN(base);
+  memset(change, 0, (size_t)(end - from + 3) * sizeof *change);
+  for (size_t i = 0; i < window->fragment_count; i++) {
+    const cs_fragment *f = &window->fragments[i];
+    if (f->end - f->first <= 2)
+      add_narrow(f, from, change);
+    else
+      add_changes(f, from, end, change);
+  }
+  return put_sums(window, from, end, change, &sum);
 }
 
 /* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
@@ -300,8 +317,10 @@ static celspan_status close_window(cs_window *window) {
       CS_TRY(close_varying(window));
     else if (window->fragment_count == 1)
       CS_TRY(close_lone(window));
+    else if (window->end - window->from <= NARROW)
+      CS_TRY(close_narrow(window));
     else
-      CS_TRY(close_flat(window));
+      CS_TRY(close_wide(window));
   }
   window->from = window->end;
   window->fragment_count = 0;
@@ -314,7 +333,7 @@ static celspan_status close_window(cs_window *window) {
 celspan_status cs_window_reach(cs_window *window, double x) {
   if (window->trace)
     return CELSPAN_OK;
-  int32_t first = floor_column(x, window->width);
+  int32_t first = cs_edges_floor(x, window->width);
   if (window->is_held || (window->is_open && first < window->end))
     return CELSPAN_OK;
   if (window->is_open)
@@ -330,106 +349,99 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
+static celspan_status add_fragment(cs_window *window, const cs_fragment *fragment) {
+  if (window->fragment_count == window->fragment_capacity)
+    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
+                          &window->fragment_capacity, window->fragment_count + 1,
+                          sizeof *window->fragments));
+  cs_fragment *added = &window->fragments[window->fragment_count++];
+  *added = *fragment;
+  if (added->first < window->from) { /* rounding put it left of what is written */
+    added->first = window->from;
+    added->end = added->end < added->first + 3 ? added->first + 3 : added->end;
+  }
+  if (fragment->end > window->end)
+    window->end = fragment->end;
+  window->varies |= fragment->left->length > 0 || fragment->right->length > 0;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
                              const cs_cell *left, const cs_cell *right) {
   if (window->trace)
     return cs_trace_add(window->trace, window->composer, xa, ya, xb, yb, left, right);
   double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa, top = window->centre - 0.5;
-  double height = round_area(yb - top) - round_area(ya - top);
-  cs_fragment fragment = {xa, xb, height, left, right, floor_column(low, window->width),
-                          ceil_column(high, window->width)};
-  if (fragment.first < window->from) /* rounding put it left of what is written */
-    fragment.first = window->from;
-  if (fragment.end > window->end)
-    window->end = fragment.end;
-  CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
-                        &window->fragment_capacity, window->fragment_count + 1,
-                        sizeof *window->fragments));
-  window->fragments[window->fragment_count++] = fragment;
-  window->varies |= left->length > 0 || right->length > 0;
-  return CELSPAN_OK;
+  double height = cs_edges_round(yb - top) - cs_edges_round(ya - top);
+  cs_fragment f = {.xa = xa, .xb = xb, .height = height, .left = left, .right = right,
+                   .first = cs_edges_floor(low, window->width),
+                   .end = cs_edges_ceil(high, window->width)};
+  if (f.end - f.first <= 2) {
+    f.area = f.end > f.first ? cover(&f, f.first) : height;
+    f.rest = f.end > f.first + 1 ? cover(&f, f.first + 1) : height;
+  }
+  return add_fragment(window, &f);
 }
 
-/* Adds to two pixels, of which the first begins at `first`, the area right of a straight piece that
- * crosses no others. */
-static inline void add_areas(double xa, double xb, double height, int32_t first, double areas[2]) {
-  double split = first + 1.0, low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
-  if (high <= split) {
-    areas[0] += height * (split - 0.5 * (low + high));
-    areas[1] += height;
-  } else if (low >= split) {
-    areas[1] += height * (split + 1 - 0.5 * (low + high));
-  } else {
-    double share = height / (2 * (high - low));
-    areas[0] += (split - low) * (split - low) * share;
-    areas[1] += height - (high - split) * (high - split) * share;
+/* A straight edge and its areas, as they have been measured. */
+static celspan_status add_measured(cs_window *window, const cs_active *active,
+                                   const cs_edges *edges, size_t i, const cs_cell *left) {
+  cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1,
+                   .area = edges->area[i], .rest = edges->rest[i],
+                   .left = left, .right = left + 1,
+                   .first = edges->first[i], .end = edges->end[i]};
+  return add_fragment(window, &f);
+}
+
+static celspan_status add_bent(cs_window *window, const cs_active *active, size_t i,
+                               const cs_cell *left) {
+  const cs_bend *bend = cs_active_bend(active, i);
+  celspan_point above = {active->x[i], active->y};
+  for (uint32_t k = 0; k < bend->vertex_count; k++) {
+    celspan_point below = active->vertices[bend->vertex + k];
+    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, left, left + 1));
+    above = below;
   }
+  return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
 }
 
 /* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
- * most rows. areas: right of it in each of them. */
-static inline celspan_status write_areas(cs_window *window, const cs_window_edge *edge,
-                                         int32_t first, int32_t end, const double areas[2]) {
-  cs_v4 base = edge->left->colour, step = edge->right->colour - base;
+ * most rows. */
+static inline celspan_status write_edge(cs_window *window, const cs_edges *edges, size_t i,
+                                        const cs_cell *left) {
+  int32_t first = edges->first[i], end = edges->end[i];
+  cs_v4 base = left->colour, step = left[1].colour - base;
   if (window->is_open)
     CS_TRY(close_window(window));
   CS_TRY(cs_row_single(window->composer->context, window->out, window->from, first, base));
   if (end > first)
-    CS_TRY(put_pixel(window, first, base + step * (float)areas[0]));
-  if (end - first == 2)
-    CS_TRY(put_pixel(window, first + 1, base + step * (float)areas[1]));
+    CS_TRY(put_pixel(window, first, base + step * (float)edges->area[i]));
+  if (end > first + 1)
+    CS_TRY(put_pixel(window, first + 1, base + step * (float)edges->rest[i]));
   window->from = window->end = end;
-  window->cell = edge->right;
+  window->cell = left + 1;
   return CELSPAN_OK;
 }
 
-/* Whether an edge over these columns can be written at once. */
-static inline bool stands_alone(const cs_window *window, const cs_window_edge *edge, int32_t first,
-                                int32_t end) {
-  return end - first <= 2 && end <= edge->next_x && edge->left->length == 0 &&
-         edge->right->length == 0 && first >= window->end && !window->is_held && !window->trace;
+celspan_status cs_window_slice(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               size_t i, const cs_cell *left) {
+  cs_window_pass(window, left + 1);
+  return edges->is_bent[i] ? add_bent(window, active, i, left)
+                           : cs_window_add(window, active->x[i], active->y, active->x_next[i],
+                                           active->y_next, left, left + 1);
 }
 
-celspan_status cs_window_straight(cs_window *window, const cs_window_edge *edge) {
-  double low = edge->xa < edge->xb ? edge->xa : edge->xb;
-  double high = edge->xa < edge->xb ? edge->xb : edge->xa;
-  int32_t first = floor_column(low, window->width), end = ceil_column(high, window->width);
-  if (stands_alone(window, edge, first, end)) {
-    double areas[2] = {0, 0};
-    add_areas(low, high, 1, first, areas);
-    return write_areas(window, edge, first, end, areas);
-  }
-  CS_TRY(cs_window_reach(window, low));
-  CS_TRY(cs_window_add(window, edge->xa, edge->ya, edge->xb, edge->yb, edge->left, edge->right));
-  cs_window_pass(window, edge->right);
-  return CELSPAN_OK;
-}
-
-static inline celspan_point edge_point(const cs_window_edge *edge, uint32_t k) {
-  return k == 0                    ? (celspan_point){edge->xa, edge->ya}
-         : k > edge->vertex_count ? (celspan_point){edge->xb, edge->yb}
-                                   : edge->vertices[k - 1];
-}
-
-celspan_status cs_window_bent(cs_window *window, const cs_window_edge *edge) {
-  int32_t first = floor_column(edge->low, window->width);
-  int32_t end = ceil_column(edge->high, window->width);
-  celspan_point above = edge_point(edge, 0), below;
-  if (stands_alone(window, edge, first, end)) {
-    double areas[2] = {0, 0};
-    for (uint32_t k = 0; k <= edge->vertex_count; k++, above = below) {
-      below = edge_point(edge, k + 1);
-      add_areas(above.x, below.x, below.y - above.y, first, areas);
-    }
-    return write_areas(window, edge, first, end, areas);
-  }
-  CS_TRY(cs_window_reach(window, edge->low));
-  for (uint32_t k = 0; k <= edge->vertex_count; k++, above = below) {
-    below = edge_point(edge, k + 1);
-    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, edge->left, edge->right));
-  }
-  cs_window_pass(window, edge->right);
-  return CELSPAN_OK;
+celspan_status cs_window_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
+                              size_t i, const cs_cell *left, int32_t next) {
+  int32_t first = edges->first[i], end = edges->end[i];
+  bool is_alone = end - first <= 2 && end <= next && first >= window->end && !window->trace;
+  if (is_alone && left->length == 0 && left[1].length == 0)
+    return write_edge(window, edges, i, left);
+  CS_TRY(cs_window_reach(window, edges->low[i]));
+  bool is_inside = edges->low[i] >= 0 && edges->high[i] <= window->width;
+  if (edges->is_bent[i] || window->trace || !is_inside)
+    return cs_window_slice(window, active, edges, i, left);
+  cs_window_pass(window, left + 1);
+  return add_measured(window, active, edges, i, left);
 }
 
 celspan_status cs_window_finish(cs_window *window) {

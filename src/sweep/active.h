@@ -99,4 +99,17 @@ static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, 
   return &active->set->chains[active->walks[active->slot[i]].chain];
 }
 
+/* The bend of boundary i, or NULL. */
+static inline const cs_bend *cs_active_bend(const cs_active *active, size_t i) {
+  size_t low = 0, high = active->bend_count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (active->bends[middle].boundary < i)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
+}
+
 #endif
