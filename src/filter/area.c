@@ -89,11 +89,36 @@ static double least_x(const cs_member *members, size_t count, double least) {
   return least;
 }
 
-/* Replays boundaries [low, high) and the given begins; the composer stands left of them. */
-static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_member *begins,
-                                 size_t begin_count) {
+static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
+  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
+}
+
+/* The begins that belong to a block, in room of their own. */
+static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
+                                  size_t *count) {
+  size_t picked = 0;
+  for (size_t k = 0; k < b->begin_count; k++)
+    picked += begins_in(b, k, block);
+  *count = picked;
+  *begins = NULL;
+  if (picked == 0)
+    return CELSPAN_OK;
+  cs_member *next = *begins = take(b, picked, sizeof *next);
+  if (!next)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++)
+    if (begins_in(b, k, block))
+      *next++ = b->begins[k];
+  return CELSPAN_OK;
+}
+
+/* Replays a block; the composer stands left of it. */
+static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
   cs_scan *scan = b->scan;
   const cs_active *active = &scan->active;
+  size_t low = block->low, high = block->high, begin_count;
+  cs_member *begins;
+  CS_TRY(pick_begins(b, block, &begins, &begin_count));
   cs_cluster cluster = {.scan = scan,
                         .y0 = b->y0,
                         .y1 = b->y1,
@@ -125,26 +150,23 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   return CELSPAN_OK;
 }
 
-static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
-  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
+/* Whether a block is two straight boundaries that cross: the bends of both, if any, keep to their
+ * chords. */
+static bool is_pair(const cs_blocks *b, const cs_block *block) {
+  const cs_active *active = &b->scan->active;
+  size_t i = block->low;
+  return block->high - i == 2 && block->low_x > block->high_x && !b->scan->edges.is_bent[i] &&
+         !b->scan->edges.is_bent[i + 1] && active->x_next[i] > active->x_next[i + 1];
 }
 
-/* The begins that belong to a block, in room of their own. */
-static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
-                                  size_t *count) {
-  size_t picked = 0;
-  for (size_t k = 0; k < b->begin_count; k++)
-    picked += begins_in(b, k, block);
-  *count = picked;
-  *begins = NULL;
-  if (picked == 0)
-    return CELSPAN_OK;
-  cs_member *next = *begins = take(b, picked, sizeof *next);
-  if (!next)
-    return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < b->begin_count; k++)
-    if (begins_in(b, k, block))
-      *next++ = b->begins[k];
+static celspan_status walk_pair(cs_blocks *b, const cs_block *block) {
+  cs_scan *scan = b->scan;
+  const cs_toggle *toggle =
+      cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, block->reach_low);
+  b->toggle = toggle;
+  CS_TRY(cs_window_reach(&scan->window, block->reach_low));
+  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, toggle, b->toggle_end));
+  cs_window_pass(&scan->window, &b->cells[block->high]);
   return CELSPAN_OK;
 }
 
@@ -172,14 +194,11 @@ static celspan_status walk_row(cs_blocks *b) {
   size_t crossed = 0;
   for (size_t k = 0; k < b->count; k++) {
     const cs_block *block = &b->blocks[k];
-    cs_member *begins;
-    size_t begin_count;
     CS_TRY(walk_to(&w, block->low, cs_edges_floor(block->reach_low, scan->shot->width)));
     while (w.v < scan->cells.visible_count && scan->cells.visible[w.v] < block->high)
       w.v++;
-    CS_TRY(pick_begins(b, block, &begins, &begin_count));
     cross(scan, crossed, block->low);
-    CS_TRY(walk_block(b, block->low, block->high, begins, begin_count));
+    CS_TRY(is_pair(b, block) ? walk_pair(b, block) : walk_block(b, block));
     crossed = block->low;
   }
   CS_TRY(walk_to(&w, scan->active.count, scan->shot->width));
