@@ -27,6 +27,9 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
   CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
+  CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
+  if (composer->texels)
+    cs_texels_init(composer->texels, context);
   CS_TRY(take(composer, &composer->softs, stack->soft_count, sizeof(cs_seen_soft)));
   return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
@@ -43,6 +46,9 @@ void cs_composer_finish(cs_composer *composer) {
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
+  if (composer->texels)
+    cs_texels_finish(composer->texels);
+  cs_mem_free(memory, composer->texels, sizeof(cs_texels));
   for (size_t i = 0; composer->softs && i < stack->soft_count; i++)
     cs_soft_leave(stack->softs[i], composer->context, &composer->softs[i]);
   cs_mem_free(memory, composer->softs, stack->soft_count * sizeof(cs_seen_soft));

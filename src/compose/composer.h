@@ -71,6 +71,7 @@ typedef struct cs_composer {
   cs_set_hash hash;
   cs_tree_result *results;
   cs_seen_slide *slides;
+  cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
   cs_memo *memo;
   cs_item *items;

@@ -34,7 +34,9 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                .width = info.width,
                                .height = info.height,
                                .sampling = texture->sampling,
-                               .wrap = slide->wrap};
+                               .wrap = slide->wrap,
+                               .isa = cs_isa_best()};
+  cs_sampler_prepare(&seen->sampler);
   seen->is_opaque = !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT &&
                     slide->wrap != CELSPAN_WRAP_CLEAR;
   seen->is_ready = true;
@@ -66,7 +68,7 @@ static celspan_status sample_leaf(cs_composer *composer, const cs_strip *strips,
     const cs_seen_slide *slide;
     float rgba[BATCH][4];
     CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-    CS_TRY(cs_sampler_run(composer->context, &slide->sampler, x0, count, y, rgba));
+    CS_TRY(cs_sampler_run(composer->texels, &slide->sampler, x0, count, y, rgba));
     celspan_picture_use use = stack->slides[leaf->detail].texture->use;
     for (int32_t k = 0; k < count; k++)
       samples[(size_t)k * stride] = sample_paint(cs_paint_from_picture(rgba[k], use));
