@@ -17,7 +17,7 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
 
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
-  *composer = (cs_composer){.context = context, .stack = stack};
+  *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&composer->scratch);
   size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
@@ -29,6 +29,9 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
   CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
+  CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
+  if (composer->texels)
+    cs_texels_init(composer->texels, context);
   CS_TRY(take(composer, &composer->softs, stack->soft_count, sizeof(cs_seen_soft)));
   return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
@@ -45,6 +48,9 @@ void cs_composer_finish(cs_composer *composer) {
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
+  if (composer->texels)
+    cs_texels_finish(composer->texels);
+  cs_mem_free(memory, composer->texels, sizeof(cs_texels));
   for (size_t i = 0; composer->softs && i < stack->soft_count; i++)
     cs_soft_leave(stack->softs[i], composer->context, &composer->softs[i]);
   cs_mem_free(memory, composer->softs, stack->soft_count * sizeof(cs_seen_soft));
@@ -143,25 +149,8 @@ static cs_v4 fold_end(fold *f) {
   while (f->light < f->stack->light_count)
     fold_light(f);
   cs_v4 rgba = f->e;
-  rgba[3] = 1 - f->keep * ((f->t[0] + f->t[1] + f->t[2]) / 3);
+  rgba[3] = 1 - f->keep * cs_stack_mean(f->t);
   return rgba;
-}
-
-cs_v4 cs_composer_fold(const cs_composer *composer, const cs_item *items, size_t count,
-                       const cs_sample *samples) {
-  fold f;
-  fold_begin(&f, composer->stack);
-  for (size_t i = 0; i < count; i++) {
-    const cs_leaf *leaf = &composer->stack->leaves[items[i].leaf];
-    fold_reach(&f, items[i].leaf, leaf->group);
-    if (leaf->kind == CS_LEAF_FLAT) {
-      fold_paint(&f, leaf->s, leaf->t);
-    } else {
-      cs_v4 t = (1 - leaf->fade) + leaf->fade * samples[i].t;
-      fold_paint(&f, leaf->front * (leaf->fade * samples[i].s), t);
-    }
-  }
-  return fold_end(&f);
 }
 
 /* ---------------------------------------------------------------- gathering */

@@ -70,6 +70,7 @@ typedef struct cs_memo {
 typedef struct cs_composer {
   celspan_context *context; /* the worker's branch */
   const cs_stack *stack;
+  cs_isa isa;             /* that many pixels are made with */
   uint64_t *set;          /* leaves present at the walk's place */
   uint64_t *contributing; /* scratch */
   cs_presence *presences; /* one a leaf */
@@ -77,6 +78,7 @@ typedef struct cs_composer {
   cs_set_hash hash;
   cs_tree_result *results;
   cs_seen_slide *slides;
+  cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
   cs_memo *memo;
   cs_item *items;
@@ -139,15 +141,6 @@ CELSPAN_CHECKED celspan_status cs_composer_program_colours(cs_composer *composer
                                                            const cs_program *program, int32_t x0,
                                                            int32_t x1, double y, float (*rgba)[4]);
 
-/* ---- for run.c: the fold of a program at one point */
-
-typedef struct cs_sample { /* what the leaves that vary paint at one pixel */
-  cs_v4 s, t;              /* s not yet lit */
-} cs_sample;
-
-/* Folds items front to back; samples: one an item, read where the leaf varies. */
-cs_v4 cs_composer_fold(const cs_composer *composer, const cs_item *items, size_t count,
-                       const cs_sample *samples);
 /* The sampler of a picture leaf, its header read on first use. */
 CELSPAN_CHECKED celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                                  const cs_seen_slide **out);

@@ -4,6 +4,7 @@
 #include "compose/composer.h"
 
 #include "base/number.h"
+#include "compose/blend.h"
 #include "compose/shade.h"
 
 #include <math.h>
@@ -11,7 +12,6 @@
 
 /* A chord is accepted when it is this near the curve at its quarters: half of what is promised. */
 #define CHORD_TOLERANCE (0.5f / 1023)
-#define BATCH 256 /* pixels sampled at a time */
 
 /* ---------------------------------------------------------------- samples */
 
@@ -34,16 +34,13 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                .width = info.width,
                                .height = info.height,
                                .sampling = texture->sampling,
-                               .wrap = slide->wrap};
+                               .wrap = slide->wrap,
+                               .isa = composer->isa};
+  cs_sampler_prepare(&seen->sampler);
   seen->is_opaque = !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT &&
                     slide->wrap != CELSPAN_WRAP_CLEAR;
   seen->is_ready = true;
   return CELSPAN_OK;
-}
-
-static cs_sample sample_paint(cs_paint paint) {
-  return (cs_sample){{paint.s[0], paint.s[1], paint.s[2], 0},
-                     {paint.t[0], paint.t[1], paint.t[2], 0}};
 }
 
 /* The paint of a strip at x: one is flat, two or more are evenly spaced over it. */
@@ -56,65 +53,87 @@ static cs_paint strip_paint(const cs_strip *strip, double x) {
   return cs_paint_mix(&strip->paints[i], &strip->paints[i + 1], (float)(at - (double)i));
 }
 
-/* Fills samples[k * stride], one a pixel from x0 on, with what a leaf paints. */
-static celspan_status sample_leaf(cs_composer *composer, const cs_strip *strips, cs_item item,
-                                  int32_t x0, int32_t count, double y, cs_sample *samples,
-                                  size_t stride) {
+/* What leaves that vary paint in a batch of pixels. */
+typedef struct samples {
+  float rgba[CS_BLEND_BATCH][4];                     /* pictures */
+  float s[CS_BLEND_BATCH][4], t[CS_BLEND_BATCH][4]; /* all others; s is not lit */
+} samples;
+
+static void put_paint(samples *out, int32_t k, cs_paint paint) {
+  cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
+  cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+}
+
+static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
+                                    int32_t x0, double y, samples *room) {
+  const cs_seen_slide *slide;
+  CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+  CS_TRY(cs_sampler_run(composer->texels, &slide->sampler, x0, blend->count, y, room->rgba));
+  cs_blend_picture(blend, leaf, composer->stack->slides[leaf->detail].texture->use,
+                   (const float(*)[4])room->rgba);
+  return CELSPAN_OK;
+}
+
+static celspan_status blend_soft(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
+                                 int32_t x0, double y, samples *room) {
+  const cs_soft *soft = composer->stack->softs[leaf->detail];
+  cs_seen_soft *seen = &composer->softs[leaf->detail];
+  CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
+  for (int32_t k = 0; k < blend->count; k++) {
+    cs_v4 s, t;
+    cs_soft_paint(soft, seen, x0 + k + 0.5, &s, &t);
+    cs_v4_store(room->s[k], s);
+    cs_v4_store(room->t[k], t);
+  }
+  cs_blend_paints(blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
+  return CELSPAN_OK;
+}
+
+static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const cs_strip *strips,
+                                 cs_item item, int32_t x0, double y, samples *room) {
   const cs_stack *stack = composer->stack;
   const cs_leaf *leaf = &stack->leaves[item.leaf];
-  if (leaf->kind == CS_LEAF_PICTURE) {
-    const cs_seen_slide *slide;
-    float rgba[BATCH][4];
-    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-    CS_TRY(cs_sampler_run(composer->context, &slide->sampler, x0, count, y, rgba));
-    celspan_picture_use use = stack->slides[leaf->detail].texture->use;
-    for (int32_t k = 0; k < count; k++)
-      samples[(size_t)k * stride] = sample_paint(cs_paint_from_picture(rgba[k], use));
-  } else if (leaf->kind == CS_LEAF_SHADED) {
-    for (int32_t k = 0; k < count; k++)
-      samples[(size_t)k * stride] =
-          sample_paint(cs_shade_paint(&stack->shades[leaf->detail], x0 + k + 0.5, y));
-  } else if (leaf->kind == CS_LEAF_SCANLINE) {
-    for (int32_t k = 0; k < count; k++)
-      samples[(size_t)k * stride] =
-          sample_paint(strip_paint(&strips[item.strip], x0 + k + 0.5));
-  } else if (leaf->kind == CS_LEAF_SOFT) {
-    const cs_soft *soft = stack->softs[leaf->detail];
-    cs_seen_soft *seen = &composer->softs[leaf->detail];
-    CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
-    for (int32_t k = 0; k < count; k++) {
-      cs_sample *sample = &samples[(size_t)k * stride];
-      cs_soft_paint(soft, seen, x0 + k + 0.5, &sample->s, &sample->t);
-    }
+  if (leaf->kind == CS_LEAF_FLAT) {
+    cs_blend_flat(blend, leaf);
+    return CELSPAN_OK;
   }
+  if (leaf->kind == CS_LEAF_PICTURE)
+    return blend_picture(composer, blend, leaf, x0, y, room);
+  if (leaf->kind == CS_LEAF_SOFT)
+    return blend_soft(composer, blend, leaf, x0, y, room);
+  for (int32_t k = 0; k < blend->count; k++)
+    put_paint(room, k,
+              leaf->kind == CS_LEAF_SHADED
+                  ? cs_shade_paint(&stack->shades[leaf->detail], x0 + k + 0.5, y)
+                  : strip_paint(&strips[item.strip], x0 + k + 0.5));
+  cs_blend_paints(blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
   return CELSPAN_OK;
 }
 
 static celspan_status colours_batch(cs_composer *composer, const cs_program *program, int32_t x0,
-                                    int32_t count, double y, cs_sample *samples,
-                                    float (*rgba)[4]) {
-  uint32_t length = program->length;
-  for (uint32_t i = 0; i < length; i++)
-    CS_TRY(sample_leaf(composer, program->strips, program->items[i], x0, count, y, samples + i,
-                       length));
-  for (int32_t k = 0; k < count; k++)
-    cs_v4_store(rgba[k], cs_composer_fold(composer, program->items, length,
-                                          samples + (size_t)k * length));
+                                    int32_t count, double y, samples *room, float (*rgba)[4]) {
+  celspan_context *context = composer->context;
+  cs_blend blend;
+  CS_TRY(cs_blend_begin(context, &composer->scratch, composer->stack, composer->isa, count,
+                        &blend));
+  for (uint32_t i = 0; i < program->length; i++) {
+    CS_TRY(cs_blend_reach(context, &composer->scratch, &blend, program->items[i].leaf));
+    CS_TRY(blend_item(composer, &blend, program->strips, program->items[i], x0, y, room));
+  }
+  cs_blend_end(&blend, rgba);
   composer->evaluations += (uint64_t)count;
   return CELSPAN_OK;
 }
 
 celspan_status cs_composer_program_colours(cs_composer *composer, const cs_program *program,
                                            int32_t x0, int32_t x1, double y, float (*rgba)[4]) {
-  int32_t batch = x1 - x0 < BATCH ? x1 - x0 : BATCH;
-  cs_arena_reset(&composer->scratch);
-  cs_sample *samples = cs_arena_take(composer->context, &composer->scratch,
-                                     (size_t)batch * program->length * sizeof *samples);
-  if (!samples)
-    return CELSPAN_NO_MEMORY;
-  for (int32_t x = x0; x < x1; x += batch) {
-    int32_t count = x1 - x < batch ? x1 - x : batch;
-    CS_TRY(colours_batch(composer, program, x, count, y, samples, rgba + (x - x0)));
+  for (int32_t x = x0; x < x1; x += CS_BLEND_BATCH) {
+    int32_t count = x1 - x < CS_BLEND_BATCH ? x1 - x : CS_BLEND_BATCH;
+    cs_arena_reset(&composer->scratch);
+    samples *room = cs_arena_take(composer->context, &composer->scratch, sizeof *room);
+    if (!room)
+      return CELSPAN_NO_MEMORY;
+    CS_TRY(colours_batch(composer, program, x, count, y, room, rgba + (x - x0)));
   }
   return CELSPAN_OK;
 }

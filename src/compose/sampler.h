@@ -5,18 +5,38 @@
  * the pixel's footprint when shrunk: exact up to a factor of 8 while rows stay rows or columns,
  * from mip levels beyond, and by up to 16 taps an axis where the footprint is tilted. The footprint
  * is that of the pixel's parallelogram under the inverse map, so rotation, unequal scaling and
- * perspective are right too. Nearest is the texel under the centre, at any scale.
+ * perspective are right too. Nearest is the texel under the centre, bilinear the mix of the four
+ * texels about it, at any scale.
  *
  * CLEAR makes pixels whose centre lies outside the picture clear; inside, what a kernel wants
  * beyond the edge is the edge's, so a picture gets no soft border of its own.
  *
- * The samples of a run depend on the pixel and the maps alone, never on where the run begins.
+ * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor on
+ * the instructions that make them.
  */
 #ifndef CS_COMPOSE_SAMPLER_H
 #define CS_COMPOSE_SAMPLER_H
 
+#include "base/wide.h"
+#include "compose/texels.h"
 #include "geometry/matrix.h"
-#include "scene/picture.h"
+
+/* How samples are taken, by how the picture lies. */
+typedef enum cs_sampler_way {
+  CS_SAMPLER_COPY,        /* whole-pixel placement at scale 1: the texels themselves */
+  CS_SAMPLER_ROW,         /* rows stay rows: a row of texels is made first, then looked up */
+  CS_SAMPLER_TAPS,        /* affine: the mean of taps spread over the pixel */
+  CS_SAMPLER_PERSPECTIVE, /* likewise, but how many taps differs from pixel to pixel */
+  CS_SAMPLER_PIXEL        /* one by one: Catmull-Rom, and means where rows become columns */
+} cs_sampler_way;
+
+typedef enum cs_sampler_kernel {
+  CS_SAMPLER_NEAREST,
+  CS_SAMPLER_LINEAR, /* the four texels about the centre */
+  CS_SAMPLER_CUBIC,
+  CS_SAMPLER_BOX, /* the exact mean, of a footprint with sides along those of the picture */
+  CS_SAMPLER_TILTED
+} cs_sampler_kernel;
 
 typedef struct cs_sampler {
   const cs_picture *picture;
@@ -25,12 +45,25 @@ typedef struct cs_sampler {
   int32_t width, height; /* of the picture */
   celspan_sampling sampling;
   celspan_wrap wrap;
+  cs_isa isa; /* that its samples are taken with */
+
+  /* filled in by cs_sampler_prepare */
+  cs_texels_source source;
+  cs_sampler_way way;
+  cs_sampler_kernel kernel; /* PERSPECTIVE: CUBIC and TILTED where the picture is enlarged and shrunk */
+  double m[9];              /* inverse; where it is affine divided by its last */
+  int level_count;
+  int level;
+  int columns, rows; /* TILTED: taps across a pixel and down it */
+  double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
 
+/* Decides how samples are taken. */
+void cs_sampler_prepare(cs_sampler *sampler);
+
 /* Premultiplied linear RGBA of the pixels x0 .. x0+count-1 on the row whose centre is at height y
- * (pixels). A pixel at or behind the horizon is clear. Threads: any, each with its own branch of
- * the context. Errors: INPUT, LIMIT, NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_sampler_run(celspan_context *context, const cs_sampler *sampler,
+ * (pixels). A pixel at or behind the horizon is clear. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_sampler_run(cs_texels *texels, const cs_sampler *sampler,
                                               int32_t x0, int32_t count, double y,
                                               float (*rgba)[4]);
 

@@ -120,6 +120,11 @@ typedef struct cs_stack {
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);
 
+/* The mean of the three channels of a transmission: exactly their value where they are equal. */
+static inline float cs_stack_mean(cs_v4 t) {
+  return t[0] + ((t[1] - t[0]) + (t[2] - t[0])) * (1.0f / 3);
+}
+
 /* ---- sets: one bit a leaf */
 
 static inline size_t cs_stack_words(const cs_stack *stack) { return (stack->leaf_count + 63) / 64; }

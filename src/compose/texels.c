@@ -2,36 +2,41 @@
 
 static const float nothing[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
 
-void cs_texels_begin(cs_texels *texels, celspan_context *context, const cs_picture *picture) {
+cs_texels_source cs_texels_source_of(const cs_picture *picture) {
+  return (cs_texels_source){picture, (uint32_t)cs_picture_hash(picture).a};
+}
+
+void cs_texels_init(cs_texels *texels, celspan_context *context) {
   texels->context = context;
-  texels->picture = picture;
   texels->status = CELSPAN_OK;
-  for (int i = 0; i < CS_TEXELS_ACROSS * CS_TEXELS_DOWN; i++)
+  for (int i = 0; i < CS_TEXELS_SLOTS; i++)
     texels->slots[i].texels = NULL;
 }
 
 static void empty(cs_texels *texels, cs_texels_slot *slot) {
-  if (slot->texels && slot->texels != nothing)
+  if (slot->texels)
     cs_picture_release(texels->context, slot->block);
   slot->texels = NULL;
 }
 
-const float *cs_texels_fetch(cs_texels *texels, cs_texels_slot *slot, int level, int32_t column,
-                             int32_t row) {
+const float *cs_texels_fetch(cs_texels *texels, const cs_texels_source *source,
+                             cs_texels_slot *slot, int level, int32_t column, int32_t row) {
   empty(texels, slot);
-  celspan_status status = texels->status;
-  if (status == CELSPAN_OK)
-    status = cs_picture_acquire(texels->context, texels->picture, level, column, row, &slot->block);
-  texels->status = status;
-  slot->level = level;
-  slot->column = column;
-  slot->row = row;
-  slot->texels = status == CELSPAN_OK ? cs_picture_texels(slot->block) : nothing;
+  if (texels->status == CELSPAN_OK)
+    texels->status =
+        cs_picture_acquire(texels->context, source->picture, level, column, row, &slot->block);
+  if (texels->status != CELSPAN_OK)
+    return nothing;
+  *slot = (cs_texels_slot){.picture = source->picture,
+                           .level = level,
+                           .column = column,
+                           .row = row,
+                           .texels = cs_picture_texels(slot->block),
+                           .block = slot->block};
   return slot->texels;
 }
 
-celspan_status cs_texels_end(cs_texels *texels) {
-  for (int i = 0; i < CS_TEXELS_ACROSS * CS_TEXELS_DOWN; i++)
+void cs_texels_finish(cs_texels *texels) {
+  for (int i = 0; i < CS_TEXELS_SLOTS; i++)
     empty(texels, &texels->slots[i]);
-  return texels->status;
 }

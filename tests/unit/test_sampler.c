@@ -6,6 +6,7 @@
 #define SIDE 200
 
 static celspan_context *context;
+static cs_texels texels;
 static cs_picture *noise_picture, *check_picture, *zone_picture;
 static float noise[SIDE][SIDE][4];
 
@@ -62,6 +63,8 @@ static cs_sampler make_sampler(const cs_picture *picture, int width, int height,
   double determinant = m[0] * a[0] + m[1] * a[3] + m[2] * a[6];
   for (int i = 0; i < 9; i++)
     sampler.inverse.m[i] = a[i] / determinant;
+  sampler.isa = cs_isa_best();
+  cs_sampler_prepare(&sampler);
   return sampler;
 }
 
@@ -71,7 +74,7 @@ static celspan_matrix affine(double a, double b, double c, double d, double e, d
 
 static void sample(const cs_sampler *sampler, int x, int y, float rgba[4]) {
   float row[1][4];
-  CHECK(cs_sampler_run(context, sampler, x, 1, y + 0.5, row) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, sampler, x, 1, y + 0.5, row) == CELSPAN_OK);
   memcpy(rgba, row[0], sizeof row[0]);
 }
 
@@ -88,7 +91,7 @@ static void test_copy(void) {
     float row[SIDE + 40][4];
     int wrong = 0;
     for (int y = -10; y < SIDE; y++) {
-      CHECK(cs_sampler_run(context, &s, -5, SIDE + 40, y + 0.5, row) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, -5, SIDE + 40, y + 0.5, row) == CELSPAN_OK);
       for (int x = 0; x < SIDE + 40; x++) {
         static const float clear[4];
         int u = x - 5 - 13, v = y + 7;
@@ -111,7 +114,7 @@ static void test_quarter_turns(void) {
     int wrong = 0;
     for (int y = 0; y < SIDE; y++) {
       float row[SIDE][4];
-      CHECK(cs_sampler_run(context, &s, 0, SIDE, y + 0.5, row) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, 0, SIDE, y + 0.5, row) == CELSPAN_OK);
       for (int x = 0; x < SIDE; x++) {
         int u = t == 0 ? y : t == 1 ? SIDE - 1 - x : SIDE - 1 - y;
         int v = t == 0 ? SIDE - 1 - x : t == 1 ? SIDE - 1 - y : x;
@@ -155,9 +158,9 @@ static void test_runs(void) {
       cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, placements[p], CELSPAN_SAMPLING_AUTO,
                                   CELSPAN_WRAP_REPEAT);
       float whole[150][4], part[150][4];
-      CHECK(cs_sampler_run(context, &s, -20, 150, y + 0.5, whole) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, -20, 150, y + 0.5, whole) == CELSPAN_OK);
       for (int x = 0; x < 150; x += 30)
-        CHECK(cs_sampler_run(context, &s, x - 20, 30, y + 0.5, part + x) == CELSPAN_OK);
+        CHECK(cs_sampler_run(&texels, &s, x - 20, 30, y + 0.5, part + x) == CELSPAN_OK);
       CHECK(memcmp(whole, part, sizeof whole) == 0);
     }
 }
@@ -177,6 +180,7 @@ static void test_borders(void) {
   sample(&s, 8 * SIDE, 5, rgba);
   CHECK(rgba[3] == 0);
   s.wrap = CELSPAN_WRAP_CLAMP;
+  cs_sampler_prepare(&s);
   sample(&s, -1000, 0, rgba);
   CHECK(same(rgba, noise[0][0]));
   s = make_sampler(noise_picture, SIDE, SIDE, affine(1, 0, 0, 0, 1, 0), CELSPAN_SAMPLING_AUTO,
@@ -370,6 +374,7 @@ static void test_horizon(void) {
                   .height = SIDE,
                   .wrap = CELSPAN_WRAP_REPEAT,
                   .inverse = {{1, 0, 0, 0, 0, 100, 0, 0.1, -1}}}; /* w = 0.1 y - 1 */
+  cs_sampler_prepare(&s);
   float rgba[4];
   for (int y = 0; y < 9; y++) {
     sample(&s, 5, y, rgba);
@@ -417,7 +422,7 @@ static void test_errors(void) {
   cs_sampler s = make_sampler(picture, 10, 10, affine(1, 0, 0, 0, 1, 0), CELSPAN_SAMPLING_AUTO,
                               CELSPAN_WRAP_CLEAR);
   float row[10][4];
-  CHECK(cs_sampler_run(context, &s, 0, 10, 0.5, row) == CELSPAN_INPUT);
+  CHECK(cs_sampler_run(&texels, &s, 0, 10, 0.5, row) == CELSPAN_INPUT);
   CHECK(strstr(celspan_context_error(context), "/nonexistent/picture.png"));
   cs_picture_unref(picture);
 }
@@ -428,6 +433,7 @@ int main(void) {
     celspan_context_destroy(context);
     return check_done();
   }
+  cs_texels_init(&texels, context);
   for (int y = 0; y < SIDE; y++)
     for (int x = 0; x < SIDE; x++)
       paint_noise(x, y, noise[y][x]);
@@ -450,6 +456,7 @@ int main(void) {
     test_cubic();
     test_errors();
   }
+  cs_texels_finish(&texels);
   remove_picture("noise.exr", noise_picture);
   remove_picture("check.exr", check_picture);
   remove_picture("zone.exr", zone_picture);

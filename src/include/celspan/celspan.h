@@ -166,7 +166,7 @@ typedef struct celspan_stop {
 typedef enum celspan_sampling {
   CELSPAN_SAMPLING_AUTO = 0, /* identity at scale 1, bilinear enlarged, average when shrunk */
   CELSPAN_SAMPLING_NEAREST,
-  CELSPAN_SAMPLING_BILINEAR,
+  CELSPAN_SAMPLING_BILINEAR, /* the four texels about the centre, at any scale */
   CELSPAN_SAMPLING_BICUBIC
 } celspan_sampling;
 

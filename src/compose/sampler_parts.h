@@ -1,0 +1,176 @@
+/* What the files of the sampler share.
+ *
+ *   sampler.c        which way, and copies
+ *   sampler_row.c    pictures whose rows stay rows
+ *   sampler_taps.c   all others, many pixels at a time
+ *   sampler_pixel.c  kernels that are taken one by one
+ *   sampler_wide.c   the loops over pixels, compiled for every set of instructions
+ *
+ * All sums are taken about one texel, so a constant picture stays what it is to the bit.
+ */
+#ifndef CS_COMPOSE_SAMPLER_PARTS_H
+#define CS_COMPOSE_SAMPLER_PARTS_H
+
+#include <math.h>
+
+#include "base/number.h"
+#include "base/vector.h"
+#include "compose/sampler.h"
+#include "scene/picture_levels.h"
+
+/* Of a texel: closer is the same place. Matrices carry rounding, pictures have 2^20 pixels. */
+#define CS_SAMPLER_SAME 1e-6
+
+/* Texels of the chosen level across the shorter side of a footprint: at least so many, and less
+ * than twice that. More are exacter at the edges of a footprint, and slower. */
+#define CS_SAMPLER_BOX_TEXELS 4
+#define CS_SAMPLER_TAP_TEXELS 2
+#define CS_SAMPLER_MOST_BOX 64
+#define CS_SAMPLER_MOST_TAPS 16
+
+#define CS_SAMPLER_BATCH 256 /* pixels */
+
+typedef struct cs_sampling {
+  const cs_sampler *sampler;
+  cs_texels *texels;
+} cs_sampling;
+
+/* ---- places */
+
+/* floor of what fits, without a call. */
+static inline int32_t cs_sampler_floor(double x) {
+  int32_t whole = (int32_t)x;
+  return whole - (x < whole);
+}
+
+static inline int32_t cs_sampler_wrap(int32_t i, int32_t size, celspan_wrap mode) {
+  if (i >= 0 && i < size)
+    return i;
+  if (mode != CELSPAN_WRAP_REPEAT)
+    return i < 0 ? 0 : size - 1;
+  int32_t rest = i % size;
+  return rest < 0 ? rest + size : rest;
+}
+
+/* A repeated picture is sampled near its own origin, so far tiles cost no precision. Afterwards a
+ * coordinate fits an int32_t. */
+static inline double cs_sampler_home(double u, int32_t size, celspan_wrap mode) {
+  if (u >= 0 && u < size)
+    return u;
+  return mode == CELSPAN_WRAP_REPEAT ? u - floor(u / size) * size : cs_number_clamp(u, -1e9, 1e9);
+}
+
+/* Whether a centre leaves its pixel clear, along one axis. */
+static inline bool cs_sampler_is_outside(double u, int32_t size, celspan_wrap mode) {
+  return mode == CELSPAN_WRAP_CLEAR && !(u >= -CS_SAMPLER_SAME && u < size - CS_SAMPLER_SAME);
+}
+
+/* The texel left of or at u - 1/2 and the share of its right neighbour. */
+static inline int32_t cs_sampler_split(double u, float *share) {
+  int32_t left = cs_sampler_floor(u - 0.5 + CS_SAMPLER_SAME);
+  double rest = u - 0.5 - left;
+  *share = rest < CS_SAMPLER_SAME ? 0.0f : (float)rest;
+  return left;
+}
+
+/* A wrapped texel. */
+static inline const float *cs_sampling_texel(const cs_sampling *run, int level, int32_t x,
+                                             int32_t y) {
+  const cs_sampler *s = run->sampler;
+  return cs_texels_at(run->texels, &s->source, level,
+                      cs_sampler_wrap(x, cs_levels_size(s->width, level), s->wrap),
+                      cs_sampler_wrap(y, cs_levels_size(s->height, level), s->wrap));
+}
+
+/* ---- the parts: rgba has room for `count` pixels from x0 on */
+
+void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                        float (*rgba)[4]);
+void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                         float (*rgba)[4]);
+void cs_sampler_pixel_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                          float (*rgba)[4]);
+/* One sample at home, inside the picture. */
+void cs_sampler_cubic(const cs_sampling *run, double u, double v, float rgba[4]);
+
+/* One axis of a box at a level: texels and how many pixels of each it covers. */
+typedef struct cs_extent {
+  int32_t first, count;
+  float weights[2 * CS_SAMPLER_MOST_BOX + 4];
+} cs_extent;
+
+void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
+                           cs_extent *out);
+/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there. */
+int cs_sampler_level(int level_count, double shorter, double longer, double texels, double most);
+
+/* ---- sampler_wide.c: loops over `count` pixels */
+
+/* Where the centres of pixels lie on the picture. */
+typedef struct cs_sampler_centres {
+  double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
+  double near[CS_SAMPLER_BATCH];  /* 1 / w; 0 at and behind the horizon, where u and v are 0 */
+  int32_t seen[CS_SAMPLER_BATCH]; /* 0: the pixel is clear */
+} cs_sampler_centres;
+
+/* The quads of texels that taps mix. */
+typedef struct cs_sampler_quads {
+  int32_t x[CS_SAMPLER_BATCH], y[CS_SAMPLER_BATCH];
+  float across[CS_SAMPLER_BATCH], down[CS_SAMPLER_BATCH];
+  int32_t key[CS_SAMPLER_BATCH];    /* of the block that holds all four; -1 where none does */
+  int32_t offset[CS_SAMPLER_BATCH]; /* of the first in it, in texels */
+} cs_sampler_quads;
+
+/* Where taps are on the picture, relative to a pixel's centre, in pixels of the frame. */
+typedef struct cs_sampler_tap {
+  double x, y;
+} cs_sampler_tap;
+
+/* The centres of an affine map. */
+CS_WIDE_DECLARE(void, cs_sampler_map_affine,
+                (const double m[9], int32_t x0, int32_t count, double y,
+                 cs_sampler_centres *centres));
+CS_WIDE_DECLARE(void, cs_sampler_map_perspective,
+                (const double m[9], int32_t x0, int32_t count, double y,
+                 cs_sampler_centres *centres));
+/* Fills seen. */
+CS_WIDE_DECLARE(void, cs_sampler_see,
+                (const cs_sampler *sampler, int32_t count, cs_sampler_centres *centres));
+/* In perspective, what each pixel's mean is made of: level << 16 | columns << 8 | rows. */
+CS_WIDE_DECLARE(void, cs_sampler_plan_taps,
+                (const cs_sampler *sampler, int32_t count, const cs_sampler_centres *centres,
+                 int32_t *plans));
+/* The centres of pixels `from` on moved by a tap: where it is, held to what fits unless the picture
+ * repeats. */
+CS_WIDE_DECLARE(void, cs_sampler_move,
+                (const cs_sampler *sampler, cs_sampler_tap tap, int32_t from, int32_t count,
+                 const cs_sampler_centres *centres, double *u, double *v));
+CS_WIDE_DECLARE(void, cs_sampler_find_quads,
+                (const cs_sampler *sampler, int level, int32_t count, const double *u,
+                 const double *v, cs_sampler_quads *quads));
+/* Those of quads [from, from + count), all in the block. */
+CS_WIDE_DECLARE(void, cs_sampler_mix_quads,
+                (const float *block, const cs_sampler_quads *quads, int32_t from, int32_t count,
+                 float (*rgba)[4]));
+/* out = a + share (b - a); out may be a. */
+CS_WIDE_DECLARE(void, cs_sampler_mix_rows,
+                (const float (*a)[4], const float (*b)[4], float share, int32_t count,
+                 float (*out)[4]));
+/* sum += weight (texels - first) */
+CS_WIDE_DECLARE(void, cs_sampler_add_row,
+                (const float (*texels)[4], const float (*first)[4], float weight, int32_t count,
+                 float (*sum)[4]));
+/* sum = first + sum / total */
+CS_WIDE_DECLARE(void, cs_sampler_end_sum,
+                (const float (*first)[4], float total, int32_t count, float (*sum)[4]));
+/* The texels left of or at u - 1/2, and the shares of their right neighbours. */
+CS_WIDE_DECLARE(void, cs_sampler_split_row,
+                (const double *u, int32_t count, int32_t *at, float *across));
+/* Between texels[at[i]] and the next. */
+CS_WIDE_DECLARE(void, cs_sampler_mix_along,
+                (const float (*texels)[4], const int32_t *at, const float *across, int32_t count,
+                 float (*rgba)[4]));
+CS_WIDE_DECLARE(void, cs_sampler_clear_unseen,
+                (const int32_t *seen, int32_t count, float (*rgba)[4]));
+
+#endif

@@ -1,0 +1,201 @@
+/* Pictures whose rows stay rows: what a row of the frame needs of the picture's rows is made into one
+ * line of texels first, and the pixels are looked up along it.
+ *
+ *   nearest   the row of texels under the centre
+ *   linear    the two rows about it, mixed
+ *   box       the rows that the footprint covers, their mean
+ */
+#include "compose/sampler_parts.h"
+
+#define WIDE(run, name) CS_WIDE_CHOOSE((run)->sampler->isa, name)
+#define LINE 1024  /* texels */
+#define BOXES 16   /* pixels whose boxes are cut at a time */
+
+/* The line under some pixels: texels [first, first + count) of a level, wherever. */
+typedef struct line {
+  int32_t first, count;
+  float texels[LINE][4];
+} line;
+
+/* Row y of texels, inside the picture. */
+static void fetch_row(const cs_sampling *run, int32_t y, const line *like, float (*out)[4]) {
+  const cs_sampler *s = run->sampler;
+  int32_t width = cs_levels_size(s->width, s->level);
+  for (int32_t done = 0, part; done < like->count; done += part) {
+    int32_t x = cs_sampler_wrap(like->first + done, width, s->wrap);
+    int32_t in_block = CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK;
+    part = like->count - done < in_block ? like->count - done : in_block;
+    part = part < width - x ? part : width - x;
+    if (x != like->first + done && s->wrap != CELSPAN_WRAP_REPEAT)
+      part = 1; /* beyond an edge, which goes on */
+    memcpy(out + done, cs_texels_at(run->texels, &s->source, s->level, x, y),
+           (size_t)part * sizeof *out);
+  }
+}
+
+static int32_t wrap_row(const cs_sampler *s, int32_t y) {
+  return cs_sampler_wrap(y, cs_levels_size(s->height, s->level), s->wrap);
+}
+
+static void mix_line(const cs_sampling *run, double v, line *out) {
+  float down, below[LINE][4];
+  int32_t y = cs_sampler_split(v, &down);
+  fetch_row(run, wrap_row(run->sampler, y), out, out->texels);
+  if (down == 0)
+    return;
+  fetch_row(run, wrap_row(run->sampler, y + 1), out, below);
+  WIDE(run, cs_sampler_mix_rows)((const float(*)[4])out->texels, (const float(*)[4])below, down,
+                                 out->count, out->texels);
+}
+
+static void average_line(const cs_sampling *run, const cs_extent *down, line *out) {
+  float first[LINE][4], next[LINE][4], total = down->weights[0];
+  fetch_row(run, wrap_row(run->sampler, down->first), out, first);
+  memset(out->texels, 0, (size_t)out->count * sizeof *out->texels);
+  for (int32_t j = 1; j < down->count; j++) {
+    fetch_row(run, wrap_row(run->sampler, down->first + j), out, next);
+    WIDE(run, cs_sampler_add_row)((const float(*)[4])next, (const float(*)[4])first,
+                                  down->weights[j], out->count, out->texels);
+    total += down->weights[j];
+  }
+  WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, total, out->count, out->texels);
+}
+
+/* ---------------------------------------------------------------- nearest and linear */
+
+/* As many pixels from i on as one line serves, each with `texels` texels from at[] on. */
+static int32_t reach_line(const int32_t *at, int32_t i, int32_t count, int32_t texels, line *out) {
+  int32_t low = at[i], high = at[i], end = i + 1;
+  for (; end < count; end++) {
+    int32_t next_low = at[end] < low ? at[end] : low, next_high = at[end] > high ? at[end] : high;
+    if ((int64_t)next_high - next_low + texels > LINE)
+      break;
+    low = next_low;
+    high = next_high;
+  }
+  out->first = low;
+  out->count = high - low + texels;
+  return end;
+}
+
+static void look_up_nearest(const cs_sampling *run, double v, int32_t count, const double *u,
+                            float (*rgba)[4]) {
+  int32_t at[CS_SAMPLER_BATCH], y = wrap_row(run->sampler, cs_sampler_floor(v + CS_SAMPLER_SAME));
+  line under;
+  for (int32_t i = 0; i < count; i++)
+    at[i] = cs_sampler_floor(u[i] + CS_SAMPLER_SAME);
+  for (int32_t i = 0, end; i < count; i = end) {
+    end = reach_line(at, i, count, 1, &under);
+    fetch_row(run, y, &under, under.texels);
+    for (int32_t k = i; k < end; k++)
+      memcpy(rgba[k], under.texels[at[k] - under.first], sizeof *rgba);
+  }
+}
+
+static void look_up_linear(const cs_sampling *run, double v, int32_t count, const double *u,
+                           float (*rgba)[4]) {
+  int32_t at[CS_SAMPLER_BATCH];
+  float across[CS_SAMPLER_BATCH];
+  line under;
+  WIDE(run, cs_sampler_split_row)(u, count, at, across);
+  for (int32_t i = 0, end; i < count; i = end) {
+    end = reach_line(at, i, count, 2, &under);
+    mix_line(run, v, &under);
+    for (int32_t k = i; k < end; k++)
+      at[k] -= under.first;
+    WIDE(run, cs_sampler_mix_along)((const float(*)[4])under.texels, at + i, across + i, end - i,
+                                    rgba + i);
+  }
+}
+
+/* ---------------------------------------------------------------- the box */
+
+static void average_along(const line *under, const cs_extent *across, float rgba[4]) {
+  const float(*texels)[4] = (const float(*)[4])under->texels + (across->first - under->first);
+  cs_v4 first = cs_v4_load(texels[0]), sum = {0};
+  float total = across->weights[0];
+  for (int32_t i = 1; i < across->count; i++) {
+    sum += across->weights[i] * (cs_v4_load(texels[i]) - first);
+    total += across->weights[i];
+  }
+  cs_v4_store(rgba, first + sum / total);
+}
+
+/* As many boxes as one line serves. */
+static int32_t reach_boxes(const cs_extent *boxes, int32_t count, line *out) {
+  int32_t low = boxes[0].first, high = low + boxes[0].count, end = 1;
+  for (; end < count; end++) {
+    const cs_extent *box = &boxes[end];
+    int32_t next_low = box->first < low ? box->first : low;
+    int32_t next_high = box->first + box->count > high ? box->first + box->count : high;
+    if ((int64_t)next_high - next_low > LINE)
+      break;
+    low = next_low;
+    high = next_high;
+  }
+  out->first = low;
+  out->count = high - low;
+  return end;
+}
+
+static void look_up_boxes(const cs_sampling *run, double v, int32_t count, const double *u,
+                          float (*rgba)[4]) {
+  const cs_sampler *s = run->sampler;
+  cs_extent down, boxes[BOXES];
+  line under;
+  cs_sampler_cut_extent(s, v, s->high, s->height, &down);
+  for (int32_t i = 0, served; i < count; i += served) {
+    int32_t cut = count - i < BOXES ? count - i : BOXES;
+    for (int32_t k = 0; k < cut; k++)
+      cs_sampler_cut_extent(s, u[i + k], s->wide, s->width, &boxes[k]);
+    served = reach_boxes(boxes, cut, &under);
+    average_line(run, &down, &under);
+    for (int32_t k = 0; k < served; k++)
+      average_along(&under, &boxes[k], rgba[i + k]);
+  }
+}
+
+/* ---------------------------------------------------------------- runs */
+
+static void look_up(const cs_sampling *run, double v, int32_t count, const double *u,
+                    float (*rgba)[4]) {
+  if (run->sampler->kernel == CS_SAMPLER_NEAREST)
+    look_up_nearest(run, v, count, u, rgba);
+  else if (run->sampler->kernel == CS_SAMPLER_LINEAR)
+    look_up_linear(run, v, count, u, rgba);
+  else
+    look_up_boxes(run, v, count, u, rgba);
+}
+
+/* The pixels whose centres lie on the picture follow one another, unless it has no end. */
+static void row_batch(const cs_sampling *run, int32_t x0, int32_t count, double y, double v,
+                      float (*rgba)[4]) {
+  const cs_sampler *s = run->sampler;
+  double u[CS_SAMPLER_BATCH], row_u = s->m[1] * y + s->m[2];
+  int32_t first = 0;
+  for (int32_t i = 0; i < count; i++)
+    u[i] = s->m[0] * ((double)(x0 + i) + 0.5) + row_u;
+  while (first < count && cs_sampler_is_outside(u[first], s->width, s->wrap))
+    memset(rgba[first++], 0, sizeof *rgba);
+  while (count > first && cs_sampler_is_outside(u[count - 1], s->width, s->wrap))
+    memset(rgba[--count], 0, sizeof *rgba);
+  for (int32_t i = first; i < count; i++)
+    u[i] = cs_sampler_home(u[i], s->width, s->wrap);
+  if (first < count)
+    look_up(run, v, count - first, u + first, rgba + first);
+}
+
+void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                        float (*rgba)[4]) {
+  const cs_sampler *s = run->sampler;
+  double v = s->m[4] * y + s->m[5];
+  if (cs_sampler_is_outside(v, s->height, s->wrap)) {
+    memset(rgba, 0, (size_t)count * sizeof *rgba);
+    return;
+  }
+  v = cs_sampler_home(v, s->height, s->wrap);
+  for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
+    int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
+    row_batch(run, x0 + done, batch, y, v, rgba + done);
+  }
+}
