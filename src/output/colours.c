@@ -1,0 +1,11 @@
+#include "output/colours.h"
+
+#include "output/pixels.h"
+
+void cs_colours_code(cs_colours *colours, const celspan_coding *coding, const celspan_span *spans,
+                     size_t count) {
+  for (size_t i = 0; i < count; i++)
+    memcpy(colours->rgba + 4 * i, spans[i].colour, sizeof spans[i].colour);
+  celspan_span all = {.x1 = (int32_t)count, .kind = CELSPAN_SPAN_ARRAY, .array = colours->rgba};
+  cs_pixels_row(coding, &all, 1, colours->coded);
+}
