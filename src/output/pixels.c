@@ -10,6 +10,7 @@
 
 #include "colour/transfer.h"
 #include "output/fill.h"
+#include "output/srgb8.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
 
@@ -82,27 +83,10 @@ static void to_coded(const celspan_coding *coding, const float rgba[4], float co
 typedef void (*coder)(const celspan_coding *coding, const float *rgba, size_t count,
                       unsigned char *out);
 
-/* As one number, lowest byte first: bytes stored one by one are slow to read back as a pixel. */
-static inline uint32_t pixel_8_srgb_straight(const float rgba[4]) {
-  float r = rgba[0], g = rgba[1], b = rgba[2], alpha = rgba[3];
-  if (!(alpha > 0))
-    return 0;
-  if (alpha != 1) {
-    r /= alpha;
-    g /= alpha;
-    b /= alpha;
-  }
-  return cs_transfer_srgb8(r) | (uint32_t)cs_transfer_srgb8(g) << 8 |
-         (uint32_t)cs_transfer_srgb8(b) << 16 | (uint32_t)to_integer(alpha, 255) << 24;
-}
-
 static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba, size_t count,
                                  unsigned char *out) {
   (void)coding;
-  for (; count > 0; count--, rgba += 4, out += 4) {
-    uint32_t pixel = pixel_8_srgb_straight(rgba);
-    memcpy(out, &pixel, sizeof pixel);
-  }
+  cs_srgb8_choose(cs_isa_best())(rgba, count, out);
 }
 
 static void code_8(const celspan_coding *coding, const float *rgba, size_t count,
@@ -219,7 +203,7 @@ static void code_span(const celspan_coding *coding, coder code, const celspan_sp
  * called for a pixel, and a short run is one block over whatever comes next. */
 static inline void put_run_8(const float colour[4], size_t count, size_t room, cs_fill fill,
                              unsigned char *out) {
-  uint32_t pixel = pixel_8_srgb_straight(colour), block[CS_FILL_BLOCK / 4];
+  uint32_t pixel = cs_srgb8_pixel(colour), block[CS_FILL_BLOCK / 4];
   if (count == 1) {
     memcpy(out, &pixel, sizeof pixel);
     return;

@@ -1,0 +1,79 @@
+/* As many floats at once as a register holds, and which instructions to do it with.
+ *
+ * A file of kernels (wide_sources in the folder's meson.build) is compiled once for every set of
+ * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is plain
+ * IEEE arithmetic and nothing is fused, so the bits are the same whichever runs.
+ */
+#ifndef CS_BASE_WIDE_H
+#define CS_BASE_WIDE_H
+
+#include <stdint.h>
+#include <string.h>
+
+/* From the narrowest on. */
+typedef enum cs_isa { CS_ISA_ANY, CS_ISA_AVX2, CS_ISA_AVX512 } cs_isa;
+
+#ifdef __x86_64__
+#define CS_WIDE_CHOOSE(isa, name)                                                                  \
+  ((isa) == CS_ISA_AVX512 ? name##_avx512 : (isa) == CS_ISA_AVX2 ? name##_avx2 : name##_any)
+
+/* The widest that this processor has. */
+static inline cs_isa cs_isa_best(void) {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    return CS_ISA_AVX512;
+  return __builtin_cpu_supports("avx2") ? CS_ISA_AVX2 : CS_ISA_ANY;
+}
+#else
+#define CS_WIDE_CHOOSE(isa, name) ((void)(isa), name##_any)
+static inline cs_isa cs_isa_best(void) { return CS_ISA_ANY; }
+#endif
+
+/* Declares a kernel in all its makes: CS_WIDE_DECLARE(void, cs_file_verb, (int argument)). */
+#define CS_WIDE_DECLARE(type, name, arguments)                                                     \
+  type name##_any arguments;                                                                       \
+  type name##_avx2 arguments;                                                                      \
+  type name##_avx512 arguments
+
+/* The name of the make being compiled. */
+#define CS_WIDE_JOIN(name, isa) name##_##isa
+#define CS_WIDE_EXPAND(name, isa) CS_WIDE_JOIN(name, isa)
+#define CS_WIDE(name) CS_WIDE_EXPAND(name, CS_WIDE_ISA)
+
+/* As many lanes as the make's registers have. Whole pixels: lane 4 k + c is channel c of pixel k. */
+#ifdef __AVX512F__
+#define CS_WIDE_LANES 16
+#define CS_WIDE_SPREAD(v, c)                                                                       \
+  __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4, (c) + 8,   \
+                          (c) + 8, (c) + 8, (c) + 8, (c) + 12, (c) + 12, (c) + 12, (c) + 12)
+#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a}
+#elif defined(__AVX2__)
+#define CS_WIDE_LANES 8
+#define CS_WIDE_SPREAD(v, c)                                                                       \
+  __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4)
+#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a, r, g, b, a}
+#else
+#define CS_WIDE_LANES 4
+#define CS_WIDE_SPREAD(v, c) __builtin_shufflevector(v, v, (c), (c), (c), (c))
+#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a}
+#endif
+
+typedef float cs_wide __attribute__((vector_size(4 * CS_WIDE_LANES)));
+typedef int32_t cs_wide_int __attribute__((vector_size(4 * CS_WIDE_LANES)));
+
+static inline cs_wide cs_wide_load(const float *from) {
+  cs_wide v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+static inline void cs_wide_store(float *to, cs_wide v) { memcpy(to, &v, sizeof v); }
+
+static inline cs_wide cs_wide_all(float x) { return (cs_wide){0} + x; }
+
+/* Lane by lane, where a mask is set the one, else the other. */
+static inline cs_wide cs_wide_choose(cs_wide_int mask, cs_wide one, cs_wide other) {
+  return (cs_wide)(((cs_wide_int)one & mask) | ((cs_wide_int)other & ~mask));
+}
+
+#endif
