@@ -9,21 +9,18 @@
 #ifndef CS_FILTER_EDGES_H
 #define CS_FILTER_EDGES_H
 
+#include "base/wide.h"
 #include "sweep/active.h"
 
-typedef struct cs_edges cs_edges;
-typedef void (*cs_edges_way)(cs_edges *edges, const double *top, const double *foot, size_t count,
-                             int32_t width);
-
-struct cs_edges {
-  cs_edges_way way; /* of measuring straight boundaries: NULL until the first row */
+typedef struct cs_edges {
+  cs_isa isa; /* what straight boundaries are measured with */
   double *low, *high;   /* least and greatest x in the row */
   double *area, *rest;  /* right of it in its first column and in the one after; 1: all */
   int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
   bool *is_bent;        /* it has vertices in the row */
   void *block;          /* that holds the arrays */
   size_t capacity;      /* of each of them */
-};
+} cs_edges;
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory);
 /* Measures the boundaries between the heights they stand at and have reached. width: of the row.
@@ -31,9 +28,11 @@ void cs_edges_finish(cs_edges *edges, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges,
                                                 const cs_active *active, int32_t width);
 
-/* ---- for tests: one way for each set of instructions this processor has */
+/* ---- edges_wide.c: the boundaries as if all were straight */
 
-int cs_edges_ways(cs_edges_way ways[3]); /* the widest last */
+CS_WIDE_DECLARE(void, cs_edges_straight,
+                (cs_edges *edges, const double *top, const double *foot, size_t count,
+                 int32_t width));
 
 /* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
 static inline int32_t cs_edges_floor(double x, int32_t width) {

@@ -95,8 +95,7 @@ static void adler_bytes(cs_deflate *deflate, const unsigned char *bytes, size_t 
 /* n pixels of s bytes p[0..s): a grows by n S, S the sum of the bytes; b by n s a and, since byte j
  * of pixel i counts once for itself and each byte after it, by S s n (n + 1)/2 - n sum(j p[j]).
  * Held to 2^20 pixels and reduced in time, nothing passes 2^63. */
-static void adler_run(cs_deflate *deflate, uint64_t pixel, uint64_t count) {
-  uint64_t size = deflate->pixel_size;
+static inline void adler_run(cs_deflate *deflate, uint64_t pixel, uint64_t count, uint64_t size) {
   if (((deflate->adler_a | deflate->adler_b >> 24) >> 32) != 0)
     reduce_adler(deflate);
   deflate->adler_b += count * size * deflate->adler_a;
@@ -344,9 +343,10 @@ static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
     put_byte(deflate, (unsigned char)(pixel >> 8 * i));
 }
 
-static void put_pixels(cs_deflate *deflate, uint64_t pixel, size_t count) {
-  size_t size = deflate->pixel_size, bytes = (count - 1) * size;
+static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size) {
+  uint64_t pixel = run.pixel;
   put_pixel(deflate, pixel, size);
+  size_t bytes = (run.count - 1) * size;
   if (bytes >= 3) {
     put_zeros(deflate);
     put_matches(deflate, bytes, size);
@@ -357,17 +357,30 @@ static void put_pixels(cs_deflate *deflate, uint64_t pixel, size_t count) {
   }
 }
 
-celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context, uint64_t pixel,
-                              size_t count) {
+/* size: of a pixel, known to the compiler for the usual ones. */
+static inline void put_runs(cs_deflate *deflate, const cs_deflate_run *run, size_t run_count,
+                            size_t size) {
+  for (const cs_deflate_run *end = run + run_count; run < end; run++) {
+    adler_run(deflate, run->pixel, run->count, size);
+    deflate->size += run->count * size;
+    if (run->pixel == 0)
+      deflate->zeros += run->count * size;
+    else
+      put_run(deflate, *run, size);
+  }
+}
+
+celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
+                               const cs_deflate_run *runs, size_t run_count) {
   deflate->writer.context = context;
   if (deflate->next < deflate->end)
     search(deflate);
-  adler_run(deflate, pixel, count);
-  deflate->size += count * deflate->pixel_size;
-  if (pixel == 0)
-    deflate->zeros += count * deflate->pixel_size;
+  if (deflate->pixel_size == 3)
+    put_runs(deflate, runs, run_count, 3);
+  else if (deflate->pixel_size == 4)
+    put_runs(deflate, runs, run_count, 4);
   else
-    put_pixels(deflate, pixel, count);
+    put_runs(deflate, runs, run_count, deflate->pixel_size);
   forget(deflate);
   return deflate->writer.status;
 }

@@ -32,8 +32,12 @@ CELSPAN_CHECKED celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_con
                                                 const void *bytes, size_t size);
 /* `count` times the first pixel_size bytes of `pixel`, lowest first, 2^20 times at most; the bytes
  * above are 0. */
-CELSPAN_CHECKED celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context,
-                                              uint64_t pixel, size_t count);
+typedef struct cs_deflate_run {
+  uint64_t pixel;
+  uint32_t count; /* at least 1 */
+} cs_deflate_run;
+CELSPAN_CHECKED celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
+                                               const cs_deflate_run *runs, size_t run_count);
 /* One byte among runs. */
 void cs_deflate_byte(cs_deflate *deflate, unsigned char byte);
 /* Fills the last byte and passes on what is held. */

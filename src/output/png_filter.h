@@ -4,11 +4,21 @@
 
 #include "output/png_rows.h"
 
+/* By their numbers in the file. */
+typedef enum cs_png_filter {
+  CS_PNG_NONE,
+  CS_PNG_SUB,
+  CS_PNG_UP,
+  CS_PNG_AVERAGE,
+  CS_PNG_PAETH
+} cs_png_filter;
+
 void cs_png_costs_fill(cs_png_costs *costs);
-/* above: may be bytes or empty, then only filters within the row are considered. */
-CELSPAN_CHECKED celspan_status cs_png_filter_runs(cs_deflate *deflate, celspan_context *context,
-                                                  const cs_png_costs *costs, size_t pixel_size,
-                                                  const cs_png_row *row, const cs_png_row *above);
+/* Row and row above are those of `rows`, the row in hand as runs; when the one above is not, only
+ * filters within the row are considered. */
+CELSPAN_CHECKED celspan_status cs_png_filter_runs(cs_png_rows *rows, celspan_context *context,
+                                                  const cs_png_row *row, const cs_png_row *above,
+                                                  cs_deflate *deflate);
 /* Both rows have a pixel of zeros before their first and CS_PNG_BLOCK zeros after their last. size:
  * bytes of a row. */
 CELSPAN_CHECKED celspan_status cs_png_filter_bytes(cs_deflate *deflate, celspan_context *context,

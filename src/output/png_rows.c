@@ -17,6 +17,8 @@ void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, 
   rows->kept = UINT64_MAX >> (64 - 8 * rows->pixel_size);
 }
 
+void cs_png_rows_restart(cs_png_rows *rows) { rows->filter = rows->wait = rows->waiting = 0; }
+
 static size_t bytes_allocated(const cs_png_rows *rows) {
   return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
 }
@@ -27,6 +29,8 @@ void cs_png_rows_end(cs_png_rows *rows, celspan_context *context) {
     cs_mem_free(context->memory, row->runs, row->run_capacity * sizeof *row->runs);
     if (row->bytes)
       cs_mem_free(context->memory, row->bytes - rows->pixel_size, bytes_allocated(rows));
+    cs_mem_free(context->memory, rows->residues[i],
+                rows->residue_capacities[i] * sizeof *rows->residues[i]);
   }
 }
 
@@ -37,22 +41,23 @@ static uint64_t swap_samples(uint64_t pixel) {
   return (pixel & 0x00ff00ff00ff00ffu) << 8 | (pixel >> 8 & 0x00ff00ff00ff00ffu);
 }
 
-static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *bytes) {
-  uint64_t eight;
-  uint32_t four;
-  if (rows->coded_size == 4)
-    return memcpy(&four, bytes, sizeof four), four;
-  return memcpy(&eight, bytes, sizeof eight), swap_samples(eight);
-}
-
-static void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, const unsigned char *coded) {
-  uint64_t pixel = load_pixel(rows, coded);
+/* pixel: as coded. */
+static inline void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, uint64_t pixel) {
+  pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
   rows->common &= pixel;
   pixel &= rows->kept;
-  if (row->run_count > 0 && row->runs[row->run_count - 1].pixel == pixel)
-    row->runs[row->run_count - 1].end = end;
-  else
-    row->runs[row->run_count++] = (cs_png_run){end, pixel};
+  size_t last = row->run_count - 1;
+  bool is_joined = row->run_count > 0 && row->runs[last].pixel == pixel;
+  row->run_count += !is_joined;
+  row->runs[row->run_count - 1] = (cs_png_run){end, pixel};
+}
+
+static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *coded) {
+  uint64_t eight;
+  uint32_t four;
+  if (rows->coded_size == 8)
+    return memcpy(&eight, coded, sizeof eight), eight;
+  return memcpy(&four, coded, sizeof four), four;
 }
 
 /* [x, x + count) of a span, as a span from column 0. */
@@ -72,20 +77,26 @@ static void varying_to_runs(cs_png_rows *rows, const celspan_span *span, cs_png_
     celspan_span part = part_of_span(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
-      add_pixel(rows, row, x + i + 1, coded + (size_t)i * rows->coded_size);
+      add_pixel(rows, row, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
   }
+}
+
+/* At most CS_COLOURS_MOST spans. */
+static void group_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t count,
+                          cs_png_row *row) {
+  cs_colours_code(&rows->colours, &rows->coding, spans, count);
+  for (size_t i = 0; i < count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_SINGLE)
+      add_pixel(rows, row, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
+    else
+      varying_to_runs(rows, &spans[i], row);
 }
 
 static void spans_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t span_count,
                           cs_png_row *row) {
-  for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    if (span->kind == CELSPAN_SPAN_SINGLE) {
-      unsigned char coded[8] = {0};
-      cs_pixels_code(&rows->coding, span->colour, coded);
-      add_pixel(rows, row, span->x1, coded);
-    } else {
-      varying_to_runs(rows, span, row);
-    }
+  for (size_t left = span_count, part; left > 0; left -= part, spans += part) {
+    part = left < CS_COLOURS_MOST ? left : CS_COLOURS_MOST;
+    group_to_runs(rows, spans, part, row);
   }
 }
 
@@ -105,6 +116,7 @@ static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
   unsigned char *to = bytes;
   for (int32_t x = 0; x < rows->width; x++, to += rows->pixel_size) {
     uint64_t pixel = load_pixel(rows, bytes + (size_t)x * rows->coded_size);
+    pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
     rows->common &= pixel;
     memcpy(to, &pixel, rows->pixel_size);
   }
@@ -184,7 +196,7 @@ celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
   CS_TRY(cs_png_rows_pass(rows, context, spans, span_count));
   cs_png_row *row = &rows->rows[!rows->current], *above = &rows->rows[rows->current];
   if (!row->is_bytes)
-    return cs_png_filter_runs(deflate, context, &rows->costs, rows->pixel_size, row, above);
+    return cs_png_filter_runs(rows, context, row, above, deflate);
   if (!above->is_bytes)
     CS_TRY(runs_to_bytes(rows, context, above));
   return cs_png_filter_bytes(deflate, context, rows->pixel_size,

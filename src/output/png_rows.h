@@ -7,6 +7,7 @@
 #ifndef CS_OUTPUT_PNG_ROWS_H
 #define CS_OUTPUT_PNG_ROWS_H
 
+#include "output/colours.h"
 #include "output/deflate.h"
 
 enum { CS_PNG_BLOCK = 16 };
@@ -36,11 +37,18 @@ typedef struct cs_png_rows {
   uint64_t common;               /* the bits that all coded pixels of the row in hand have */
   cs_png_row rows[2];            /* the one in hand and the one before, in turn */
   int current;
+  int filter, wait, waiting; /* of rows of runs: the last choice, and how many rows it is kept */
   cs_png_costs costs;
+  cs_deflate_run *residues[2]; /* of two filters, to be compared */
+  size_t residue_capacities[2];
+  cs_colours colours;
 } cs_png_rows;
 
 /* is_opaque: alpha is left out; a pixel that is not opaque is then refused. */
 void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque);
+/* What was chosen for earlier rows is forgotten, so that a strip does not depend on where the rows
+ * before it went. */
+void cs_png_rows_restart(cs_png_rows *rows);
 CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                                const celspan_span *spans, size_t span_count,
                                                cs_deflate *deflate);

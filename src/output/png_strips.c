@@ -71,6 +71,7 @@ static celspan_status begin_strip(lane *l, int32_t index, strip *s) {
   l->packed = &s->packed;
   s->packed.size = 0;
   cs_deflate_begin(l->deflate);
+  cs_png_rows_restart(&l->rows);
   if (index > 0)
     return CELSPAN_OK;
   cs_deflate_header(header);
