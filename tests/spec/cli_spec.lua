@@ -508,7 +508,7 @@ describe("the command line", function()
       local code, out, err = celspan("info " .. plain)
       assert.equal(0, code, err)
       assert.equal("title plain\nframes 12\nfirst 1\nlast 12\nfps 12\nseconds 1\nsize 8x4\n"
-        .. "cels 1\nprimitives 2\npictures 0\n", out)
+        .. "cels 1\nprimitives 2\npictures 0\ndifferent 12\n", out)
     end)
   end)
 
