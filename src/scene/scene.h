@@ -71,6 +71,7 @@ typedef struct cs_body {
   size_t operand_count;
   int depth; /* levels of booleans below and with this one; 0 for primitives */
   size_t primitive_count; /* below and with this one, each as often as it is reached */
+  bool has_procedure;     /* below or with this one */
 } cs_body;
 
 struct celspan_object {

@@ -61,22 +61,19 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
 
 /* ---------------------------------------------------------------- what a frame shows */
 
-static celspan_status find_procedure(celspan_context *context, void *user,
-                                     const cs_body *primitive) {
-  (void)context;
-  bool *is_found = user;
-  *is_found |= primitive->kind == CS_BODY_SCANLINE;
-  return CELSPAN_OK;
+static bool has_procedure(const celspan_cel *cel) {
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (cel->objects[i]->body->has_procedure)
+      return true;
+  return false;
 }
 
 bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count) {
-  bool is_found = false;
-  for (size_t i = 0; i < count && !is_found; i++) {
-    celspan_status never_fails =
-        visit_rostrum(NULL, exposures[i].rostrum, find_procedure, &is_found);
-    (void)never_fails;
-  }
-  return is_found;
+  for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; k < exposures[i].rostrum->cel_count; k++)
+      if (has_procedure(exposures[i].rostrum->cels[k]))
+        return true;
+  return false;
 }
 
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count) {

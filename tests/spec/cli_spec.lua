@@ -211,6 +211,10 @@ describe("the command line", function()
       assert.is_nil(read(folder .. "/f.03.png"))
     end)
 
+    it("of a compiled script tell its name", function()
+      failure(3, "info " .. write("binary.lua", string.dump(load "return 7")), "binary.lua: ")
+    end)
+
     it_reads_pictures("of a picture end with 4", function()
       local script = write("picture.lua", [[
         local celspan = require "celspan"
