@@ -186,6 +186,17 @@ void cs_context_branch(celspan_context *branch, celspan_context *from) {
       .defocus_bytes = from->defocus_bytes};
 }
 
+static void trim(cs_service **place) {
+  cs_service *service = __atomic_load_n(place, __ATOMIC_ACQUIRE);
+  if (service)
+    service->trim(service);
+}
+
+void cs_context_trim(celspan_context *context) {
+  trim(&context->root->pictures);
+  trim(&context->root->soft_bands);
+}
+
 #define CS_TEXT_(x) #x
 #define CS_TEXT(x) CS_TEXT_(x)
 

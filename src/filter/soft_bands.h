@@ -25,8 +25,7 @@ typedef struct cs_band_counts { /* since the context was made; now */
   size_t bytes;
 } cs_band_counts;
 
-/* Makes the store where there is none yet; called by the context's own thread, before workers are
- * there. Errors: NO_MEMORY. */
+/* Makes the store where there is none yet. Any thread. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_soft_bands_ready(celspan_context *context);
 /* Errors: NO_MEMORY and those of `make`. */
 CELSPAN_CHECKED celspan_status cs_soft_bands_acquire(celspan_context *context,

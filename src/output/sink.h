@@ -34,6 +34,8 @@ CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
 /* By format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
+/* Whether such a file tells the number of its frame, so that no other frame's is quite the same. */
+bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file);
 /* Destroys a sink whose end was not called and keeps the recorded sentence. */
 void cs_sink_discard(celspan_context *context, celspan_sink *sink);
 
