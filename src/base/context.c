@@ -71,10 +71,8 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
   return items ? memset(items, 0, size) : NULL;
 }
 
-celspan_status cs_mem_reserve(celspan_context *context, void **items, size_t *capacity,
-                              size_t needed, size_t item_size) {
-  if (needed <= *capacity)
-    return CELSPAN_OK;
+celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
+                           size_t needed, size_t item_size) {
   size_t wanted = *capacity < 16 ? 16 : *capacity, size;
   while (wanted < needed)
     if (__builtin_mul_overflow(wanted, (size_t)2, &wanted))

@@ -50,8 +50,14 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
 
 /* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are
  * kept. Status NO_MEMORY, recorded; *items is then unchanged. */
-CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
-                                              size_t *capacity, size_t needed, size_t item_size);
+CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items,
+                                           size_t *capacity, size_t needed, size_t item_size);
+static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
+                                                            size_t *capacity, size_t needed,
+                                                            size_t item_size) {
+  return needed <= *capacity ? CELSPAN_OK
+                             : cs_mem_grow(context, items, capacity, needed, item_size);
+}
 
 /* Records "format" and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)

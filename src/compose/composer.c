@@ -124,7 +124,7 @@ static void fold_light(fold *f) {
 }
 
 /* Moves the fold back to just before `leaf`: leaves groups, meets back lights, enters groups. */
-static void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
+static inline void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
   while (f->group != CS_STACK_NONE && leaf < f->stack->groups[f->group].first)
     fold_leave_group(f);
   while (f->light < f->stack->light_count && leaf < f->stack->lights[f->light].below)
@@ -138,8 +138,9 @@ static inline void fold_paint(fold *f, cs_v4 s, cs_v4 t) {
   f->t *= t;
 }
 
-static bool fold_is_opaque(const fold *f) {
-  return f->t[0] <= CS_PAINT_OPAQUE && f->t[1] <= CS_PAINT_OPAQUE && f->t[2] <= CS_PAINT_OPAQUE;
+/* Lane 3 of t is 0 once something has been painted. */
+static inline bool fold_is_opaque(const fold *f) {
+  return !cs_v4_any_above(f->t, cs_v4_all(CS_PAINT_OPAQUE));
 }
 
 /* Premultiplied RGBA; alpha is the mean of the three mattes. */
@@ -176,9 +177,9 @@ static bool leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf) {
          leaf->fade == 1;
 }
 
-/* Takes one leaf into the cell: folds it when it is flat, notes it in any case. Until then a leaf
- * that varies and is not opaque counts as clear, so the stop comes late, never early. */
-static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index, bool *varies) {
+/* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf that
+ * varies and is not opaque counts as clear, so the stop comes late, never early. */
+static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index) {
   const cs_leaf *leaf = &composer->stack->leaves[index];
   fold_reach(f, index, leaf->group);
   CS_TRY(gather_item(composer, index));
@@ -186,14 +187,13 @@ static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index
     fold_paint(f, leaf->s, leaf->t);
     return CELSPAN_OK;
   }
-  *varies = true;
   if (leaf_is_opaque(composer, leaf))
     f->t = cs_v4_all(0);
   return CELSPAN_OK;
 }
 
 /* The highest leaf of the set below `end`, or CS_STACK_NONE. */
-static uint32_t leaf_below(const uint64_t *set, uint32_t end) {
+static inline uint32_t leaf_below(const uint64_t *set, uint32_t end) {
   if (end == 0)
     return CS_STACK_NONE;
   uint32_t word = (end - 1) / 64;
@@ -206,20 +206,38 @@ static uint32_t leaf_below(const uint64_t *set, uint32_t end) {
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
 
+/* Where the walk goes on when nothing shines through any more: behind the group, which hides the rest
+ * of itself, or nowhere. */
+static inline uint32_t end_behind(const fold *f) {
+  return f->group == CS_STACK_NONE ? 0 : f->stack->groups[f->group].first;
+}
+
 /* Walks the contributing leaves from the front until nothing shines through. */
-static celspan_status gather(cs_composer *composer, const uint64_t *set, fold *f, bool *varies) {
-  uint32_t end = (uint32_t)composer->stack->leaf_count;
+static celspan_status gather(cs_composer *composer, const uint64_t *set) {
+  fold f;
+  fold_begin(&f, composer->stack);
   composer->gathered_count = 0;
-  for (uint32_t leaf; (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
-    CS_TRY(gather_leaf(composer, f, leaf, varies));
-    end = leaf;
-    if (fold_is_opaque(f)) {
-      if (f->group == CS_STACK_NONE)
-        break;
-      end = composer->stack->groups[f->group].first; /* the rest of the group is hidden */
-    }
+  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
+       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+    CS_TRY(gather_leaf(composer, &f, leaf));
+    end = fold_is_opaque(&f) ? end_behind(&f) : leaf;
   }
   return CELSPAN_OK;
+}
+
+/* The same while all leaves are flat; false where one is not. */
+static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f) {
+  const cs_leaf *leaves = composer->stack->leaves;
+  fold_begin(f, composer->stack);
+  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
+       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+    if (leaves[leaf].kind != CS_LEAF_FLAT)
+      return false;
+    fold_reach(f, leaf, leaves[leaf].group);
+    fold_paint(f, leaves[leaf].s, leaves[leaf].t);
+    end = fold_is_opaque(f) ? end_behind(f) : leaf;
+  }
+  return true;
 }
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
@@ -243,14 +261,13 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
     set = composer->contributing;
   }
   fold f;
-  bool varies = false;
-  fold_begin(&f, composer->stack);
-  CS_TRY(gather(composer, set, &f, &varies));
   composer->evaluations++;
-  if (varies)
-    return keep_program(composer, cell);
-  cell->colour = fold_end(&f);
-  return CELSPAN_OK;
+  if (fold_flats(composer, set, &f)) {
+    cell->colour = fold_end(&f);
+    return CELSPAN_OK;
+  }
+  CS_TRY(gather(composer, set));
+  return keep_program(composer, cell);
 }
 
 /* ---------------------------------------------------------------- cells */
