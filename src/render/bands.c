@@ -7,6 +7,8 @@
 
 /* Bands that may be made ahead of delivery, a worker. */
 #define AHEAD 3
+/* Rows of a part at most, where the sink has no wish: signals are looked for between parts. */
+#define PART_ROWS 128
 
 typedef struct band {
   int32_t index; /* of the band held, or -1 */
@@ -292,11 +294,22 @@ static int32_t count_bands(const cs_frame *frame, int32_t band_rows) {
   return (int32_t)(((int64_t)frame->crop_height + band_rows - 1) / band_rows);
 }
 
+/* A lane that goes on to its next band passes over the rows of the others. Where nothing of a band
+ * is kept it may be high, so that this is seldom. */
+static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
+  const cs_frame *frame = p->frame;
+  int32_t share = frame->crop_height / (frame->workers * 8);
+  if (p->parts.rows > 0)
+    return p->parts.rows;
+  if (!p->has_parts || desc->strip_rows > 0 || share <= frame->band_rows)
+    return frame->band_rows;
+  return share < PART_ROWS ? share : PART_ROWS;
+}
+
 static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d) {
-  pool p = {.context = context, .frame = frame, .band_rows = frame->band_rows};
+  pool p = {.context = context, .frame = frame};
   p.has_parts = cs_sink_parts(d->sink, &p.parts);
-  if (p.parts.rows > 0)
-    p.band_rows = p.parts.rows;
+  p.band_rows = choose_rows(&p, d->desc);
   int32_t total = p.total = count_bands(frame, p.band_rows);
   p.lane_count = frame->workers < total ? frame->workers : (int)total;
   p.band_count = p.lane_count * AHEAD;
