@@ -23,7 +23,7 @@ CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const c
  * premultiplied. */
 CELSPAN_CHECKED celspan_status cs_sink_span(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* RGBA pixels into the caller's memory. */
+/* RGBA pixels into the caller's memory; pixels NULL: coded and dropped, to measure the making. */
 CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
                                               const celspan_coding *coding, void *pixels,
                                               size_t stride, celspan_sink *out);
