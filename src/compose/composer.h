@@ -141,6 +141,13 @@ CELSPAN_CHECKED celspan_status cs_composer_program_colours(cs_composer *composer
                                                            const cs_program *program, int32_t x0,
                                                            int32_t x1, double y, float (*rgba)[4]);
 
+/* ---- for ramps.c */
+
+/* The colours of ascending columns, at most CS_BLEND_BATCH. */
+CELSPAN_CHECKED celspan_status cs_composer_colours_at(cs_composer *composer,
+                                                      const cs_program *program,
+                                                      const int32_t *columns, int32_t count,
+                                                      double y, float (*rgba)[4]);
 /* The sampler of a picture leaf, its header read on first use. */
 CELSPAN_CHECKED celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                                  const cs_seen_slide **out);

@@ -1,17 +1,14 @@
 /* From a cell's program to spans: samples of the leaves that vary, folded at every pixel where a
- * picture shows, else at as few columns as a piecewise linear row needs.
+ * picture shows in them, else at as few columns as a piecewise linear row needs (ramps.c).
  */
 #include "compose/composer.h"
 
 #include "base/number.h"
 #include "compose/blend.h"
+#include "compose/ramps.h"
 #include "compose/shade.h"
 
 #include <math.h>
-#include <stdlib.h>
-
-/* A chord is accepted when it is this near the curve at its quarters: half of what is promised. */
-#define CHORD_TOLERANCE (0.5f / 1023)
 
 /* ---------------------------------------------------------------- samples */
 
@@ -53,6 +50,17 @@ static cs_paint strip_paint(const cs_strip *strip, double x) {
   return cs_paint_mix(&strip->paints[i], &strip->paints[i + 1], (float)(at - (double)i));
 }
 
+/* Pixels of one row, ascending: `count` from x0 on, or those listed. */
+typedef struct batch {
+  const int32_t *columns; /* or NULL */
+  int32_t x0, count;
+  double y;
+} batch;
+
+static double centre(const batch *b, int32_t k) {
+  return (b->columns ? b->columns[k] : b->x0 + k) + 0.5;
+}
+
 /* What leaves that vary paint in a batch of pixels. */
 typedef struct samples {
   float rgba[CS_BLEND_BATCH][4];                     /* pictures */
@@ -65,23 +73,25 @@ static void put_paint(samples *out, int32_t k, cs_paint paint) {
 }
 
 static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
-                                    int32_t x0, double y, samples *room) {
+                                    const batch *b, samples *room) {
   const cs_seen_slide *slide;
   CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-  CS_TRY(cs_sampler_run(composer->texels, &slide->sampler, x0, blend->count, y, room->rgba));
+  const cs_sampler *sampler = &slide->sampler;
+  CS_TRY(b->columns ? cs_sampler_at(composer->texels, sampler, b->columns, b->count, b->y, room->rgba)
+                    : cs_sampler_run(composer->texels, sampler, b->x0, b->count, b->y, room->rgba));
   cs_blend_picture(blend, leaf, composer->stack->slides[leaf->detail].texture->use,
                    (const float(*)[4])room->rgba);
   return CELSPAN_OK;
 }
 
 static celspan_status blend_soft(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
-                                 int32_t x0, double y, samples *room) {
+                                 const batch *b, samples *room) {
   const cs_soft *soft = composer->stack->softs[leaf->detail];
   cs_seen_soft *seen = &composer->softs[leaf->detail];
-  CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
-  for (int32_t k = 0; k < blend->count; k++) {
+  CS_TRY(cs_soft_stand(soft, composer->context, seen, b->y));
+  for (int32_t k = 0; k < b->count; k++) {
     cs_v4 s, t;
-    cs_soft_paint(soft, seen, x0 + k + 0.5, &s, &t);
+    cs_soft_paint(soft, seen, centre(b, k), &s, &t);
     cs_v4_store(room->s[k], s);
     cs_v4_store(room->t[k], t);
   }
@@ -90,7 +100,7 @@ static celspan_status blend_soft(cs_composer *composer, cs_blend *blend, const c
 }
 
 static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const cs_strip *strips,
-                                 cs_item item, int32_t x0, double y, samples *room) {
+                                 cs_item item, const batch *b, samples *room) {
   const cs_stack *stack = composer->stack;
   const cs_leaf *leaf = &stack->leaves[item.leaf];
   if (leaf->kind == CS_LEAF_FLAT) {
@@ -98,30 +108,34 @@ static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const c
     return CELSPAN_OK;
   }
   if (leaf->kind == CS_LEAF_PICTURE)
-    return blend_picture(composer, blend, leaf, x0, y, room);
+    return blend_picture(composer, blend, leaf, b, room);
   if (leaf->kind == CS_LEAF_SOFT)
-    return blend_soft(composer, blend, leaf, x0, y, room);
-  for (int32_t k = 0; k < blend->count; k++)
+    return blend_soft(composer, blend, leaf, b, room);
+  for (int32_t k = 0; k < b->count; k++)
     put_paint(room, k,
               leaf->kind == CS_LEAF_SHADED
-                  ? cs_shade_paint(&stack->shades[leaf->detail], x0 + k + 0.5, y)
-                  : strip_paint(&strips[item.strip], x0 + k + 0.5));
+                  ? cs_shade_paint(&stack->shades[leaf->detail], centre(b, k), b->y)
+                  : strip_paint(&strips[item.strip], centre(b, k)));
   cs_blend_paints(blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
   return CELSPAN_OK;
 }
 
-static celspan_status colours_batch(cs_composer *composer, const cs_program *program, int32_t x0,
-                                    int32_t count, double y, samples *room, float (*rgba)[4]) {
+static celspan_status colours_batch(cs_composer *composer, const cs_program *program,
+                                    const batch *b, float (*rgba)[4]) {
   celspan_context *context = composer->context;
+  cs_arena *scratch = &composer->scratch;
   cs_blend blend;
-  CS_TRY(cs_blend_begin(context, &composer->scratch, composer->stack, composer->isa, count,
-                        &blend));
+  cs_arena_reset(scratch);
+  samples *room = cs_arena_take(context, scratch, sizeof *room);
+  if (!room)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_blend_begin(context, scratch, composer->stack, composer->isa, b->count, &blend));
   for (uint32_t i = 0; i < program->length; i++) {
-    CS_TRY(cs_blend_reach(context, &composer->scratch, &blend, program->items[i].leaf));
-    CS_TRY(blend_item(composer, &blend, program->strips, program->items[i], x0, y, room));
+    CS_TRY(cs_blend_reach(context, scratch, &blend, program->items[i].leaf));
+    CS_TRY(blend_item(composer, &blend, program->strips, program->items[i], b, room));
   }
   cs_blend_end(&blend, rgba);
-  composer->evaluations += (uint64_t)count;
+  composer->evaluations += (uint64_t)b->count;
   return CELSPAN_OK;
 }
 
@@ -129,13 +143,15 @@ celspan_status cs_composer_program_colours(cs_composer *composer, const cs_progr
                                            int32_t x0, int32_t x1, double y, float (*rgba)[4]) {
   for (int32_t x = x0; x < x1; x += CS_BLEND_BATCH) {
     int32_t count = x1 - x < CS_BLEND_BATCH ? x1 - x : CS_BLEND_BATCH;
-    cs_arena_reset(&composer->scratch);
-    samples *room = cs_arena_take(composer->context, &composer->scratch, sizeof *room);
-    if (!room)
-      return CELSPAN_NO_MEMORY;
-    CS_TRY(colours_batch(composer, program, x, count, y, room, rgba + (x - x0)));
+    CS_TRY(colours_batch(composer, program, &(batch){NULL, x, count, y}, rgba + (x - x0)));
   }
   return CELSPAN_OK;
+}
+
+celspan_status cs_composer_colours_at(cs_composer *composer, const cs_program *program,
+                                      const int32_t *columns, int32_t count, double y,
+                                      float (*rgba)[4]) {
+  return colours_batch(composer, program, &(batch){columns, 0, count, y}, rgba);
 }
 
 cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell) {
@@ -153,172 +169,31 @@ celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, i
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- ramps */
-
-typedef struct ramp {
-  cs_composer *composer;
-  const cs_program *program;
-  double y;
-  cs_row *row;
-} ramp;
-
-static celspan_status ramp_colour(const ramp *r, int32_t x, cs_v4 *out) {
-  float rgba[1][4];
-  CS_TRY(cs_composer_program_colours(r->composer, r->program, x, x + 1, r->y, rgba));
-  *out = cs_v4_load(rgba[0]);
-  return CELSPAN_OK;
-}
-
-static bool is_near(cs_v4 a, cs_v4 b) {
-  for (int c = 0; c < 4; c++)
-    if (!(fabsf(a[c] - b[c]) <= CHORD_TOLERANCE))
-      return false;
-  return true;
-}
-
-/* Whether the line from `first` at x0 to `last` at x1 - 1 is near the colour at three columns. */
-static celspan_status ramp_is_straight(const ramp *r, int32_t x0, int32_t x1, cs_v4 first,
-                                       cs_v4 last, bool *out) {
-  *out = true;
-  int32_t length = x1 - 1 - x0;
-  for (int quarter = 1; quarter <= 3 && *out; quarter++) {
-    int32_t x = x0 + (int32_t)((int64_t)length * quarter / 4);
-    float u = (float)(x - x0) / (float)length;
-    cs_v4 colour;
-    CS_TRY(ramp_colour(r, x, &colour));
-    *out = is_near(colour, first + u * (last - first));
-  }
-  return CELSPAN_OK;
-}
-
-/* Appends [x0, x1) as straight pieces, halving until each is; `first`, `last`: the colours of its
- * end columns. A piece of two columns is always straight, so the depth is at most log2(width). */
-static celspan_status ramp_append(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last) {
-  bool is_straight = true;
-  if (x1 - x0 > 2)
-    CS_TRY(ramp_is_straight(r, x0, x1, first, last, &is_straight));
-  if (is_straight) {
-    float steps = x1 - x0 > 1 ? (float)(x1 - 1 - x0) : 1;
-    return cs_row_gradient(r->composer->context, r->row, x0, x1, first, (last - first) / steps);
-  }
-  int32_t middle = x0 + (x1 - x0) / 2;
-  cs_v4 before, after;
-  CS_TRY(ramp_colour(r, middle - 1, &before));
-  CS_TRY(ramp_colour(r, middle, &after));
-  CS_TRY(ramp_append(r, x0, middle, first, before));
-  return ramp_append(r, middle, x1, after, last);
-}
-
-static celspan_status ramp_piece(const ramp *r, int32_t x0, int32_t x1) {
-  cs_v4 first, last;
-  CS_TRY(ramp_colour(r, x0, &first));
-  CS_TRY(ramp_colour(r, x1 - 1, &last));
-  return ramp_append(r, x0, x1, first, last);
-}
-
 /* ---------------------------------------------------------------- runs */
 
-static int compare_columns(const void *a, const void *b) {
-  int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
-  return (p > q) - (p < q);
-}
-
-static size_t strip_break_limit(const cs_strip *strip) { return strip->paint_count; }
-
-static size_t strip_breaks(const cs_strip *strip, double x0, double x1, double *out) {
-  size_t count = 0;
-  for (size_t i = 1; i + 1 < strip->paint_count; i++) {
-    double u = (double)i / (double)(strip->paint_count - 1);
-    double x = strip->x0 + u * (strip->x1 - strip->x0);
-    if (x > x0 && x < x1)
-      out[count++] = x;
-  }
-  return count;
-}
-
-static size_t item_break_limit(const cs_composer *composer, const cs_strip *strips,
-                               cs_item item) {
-  const cs_stack *stack = composer->stack;
-  const cs_leaf *leaf = &stack->leaves[item.leaf];
-  return leaf->kind == CS_LEAF_SHADED     ? cs_shade_break_limit(&stack->shades[leaf->detail])
-         : leaf->kind == CS_LEAF_SCANLINE ? strip_break_limit(&strips[item.strip])
-         : leaf->kind == CS_LEAF_SOFT     ? cs_soft_break_limit(stack->softs[leaf->detail])
-                                          : 0;
-}
-
-static celspan_status item_breaks(cs_composer *composer, const cs_strip *strips, cs_item item,
-                                  double y, double x0, double x1, double *out, size_t *count) {
-  const cs_stack *stack = composer->stack;
-  const cs_leaf *leaf = &stack->leaves[item.leaf];
-  *count = 0;
-  if (leaf->kind == CS_LEAF_SHADED) {
-    *count = cs_shade_breaks(&stack->shades[leaf->detail], y, x0, x1, out);
-  } else if (leaf->kind == CS_LEAF_SCANLINE) {
-    *count = strip_breaks(&strips[item.strip], x0, x1, out);
-  } else if (leaf->kind == CS_LEAF_SOFT) {
-    const cs_soft *soft = stack->softs[leaf->detail];
-    cs_seen_soft *seen = &composer->softs[leaf->detail];
-    CS_TRY(cs_soft_stand(soft, composer->context, seen, y));
-    *count = cs_soft_breaks(soft, seen, x0, x1, out);
-  }
-  return CELSPAN_OK;
-}
-
-/* The columns strictly inside [x0, x1) at which a formula of the program changes, sorted, in room
- * of the row's own arena (the scratch arena is used anew for every colour). */
-static celspan_status run_breaks(cs_composer *composer, const cs_program *program, int32_t x0,
-                                 int32_t x1, double y, cs_row *row, int32_t **columns,
-                                 size_t *column_count) {
-  size_t limit = 0, count = 0;
-  for (uint32_t i = 0; i < program->length; i++)
-    limit += item_break_limit(composer, program->strips, program->items[i]);
-  double *breaks = cs_arena_take(composer->context, &row->colours, limit * sizeof *breaks);
-  *columns = cs_arena_take(composer->context, &row->colours, limit * sizeof **columns);
-  if (!breaks || !*columns)
-    return CELSPAN_NO_MEMORY;
-  for (uint32_t i = 0; i < program->length; i++) {
-    size_t more;
-    CS_TRY(item_breaks(composer, program->strips, program->items[i], y, x0, x1, breaks + count,
-                       &more));
-    count += more;
-  }
-  for (size_t i = 0; i < count; i++)
-    (*columns)[i] = cs_number_first_centre(breaks[i]);
-  qsort(*columns, count, sizeof **columns, compare_columns);
-  *column_count = count;
-  return CELSPAN_OK;
-}
-
-static celspan_status run_ramps(cs_composer *composer, const cs_program *program, int32_t x0,
-                                int32_t x1, double y, cs_row *row) {
-  int32_t *columns;
-  size_t count;
-  ramp r = {composer, program, y, row};
-  CS_TRY(run_breaks(composer, program, x0, x1, y, row, &columns, &count));
-  int32_t from = x0;
-  for (size_t i = 0; i < count; i++) {
-    if (columns[i] <= from || columns[i] >= x1)
+/* Whether a picture of the program shows pixel by pixel. */
+static celspan_status needs_array(cs_composer *composer, const cs_program *program, bool *out) {
+  *out = false;
+  for (uint32_t i = 0; i < program->length && !*out; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
+    const cs_seen_slide *slide;
+    if (leaf->kind != CS_LEAF_PICTURE)
       continue;
-    CS_TRY(ramp_piece(&r, from, columns[i]));
-    from = columns[i];
+    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+    *out = !cs_sampler_is_grid(&slide->sampler);
   }
-  return ramp_piece(&r, from, x1);
-}
-
-static bool has_picture(const cs_composer *composer, const cs_program *program) {
-  for (uint32_t i = 0; i < program->length; i++)
-    if (composer->stack->leaves[program->items[i].leaf].kind == CS_LEAF_PICTURE)
-      return true;
-  return false;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
                                        int32_t x0, int32_t x1, double y, cs_row *row) {
+  bool is_array;
+  float *colours;
   if (x1 <= x0)
     return CELSPAN_OK;
-  if (!has_picture(composer, program))
-    return run_ramps(composer, program, x0, x1, y, row);
-  float *colours;
+  CS_TRY(needs_array(composer, program, &is_array));
+  if (!is_array)
+    return cs_ramps_run(composer, program, x0, x1, y, row);
   CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
   return cs_composer_program_colours(composer, program, x0, x1, y, (float(*)[4])colours);
 }

@@ -166,3 +166,15 @@ celspan_status cs_sampler_run(cs_texels *texels, const cs_sampler *sampler, int3
   }
   return texels->status;
 }
+
+celspan_status cs_sampler_at(cs_texels *texels, const cs_sampler *sampler, const int32_t *columns,
+                             int32_t count, double y, float (*rgba)[4]) {
+  if (sampler->way != CS_SAMPLER_ROW) {
+    for (int32_t i = 0; i < count; i++)
+      CS_TRY(cs_sampler_run(texels, sampler, columns[i], 1, y, rgba + i));
+    return CELSPAN_OK;
+  }
+  texels->status = CELSPAN_OK;
+  cs_sampler_row_at(&(cs_sampling){sampler, texels}, columns, count, y, rgba);
+  return texels->status;
+}

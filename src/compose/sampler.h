@@ -66,5 +66,18 @@ void cs_sampler_prepare(cs_sampler *sampler);
 CELSPAN_CHECKED celspan_status cs_sampler_run(cs_texels *texels, const cs_sampler *sampler,
                                               int32_t x0, int32_t count, double y,
                                               float (*rgba)[4]);
+/* The same of some columns, ascending. */
+CELSPAN_CHECKED celspan_status cs_sampler_at(cs_texels *texels, const cs_sampler *sampler,
+                                             const int32_t *columns, int32_t count, double y,
+                                             float (*rgba)[4]);
+
+/* Whether texels are some pixels wide and stand upright, so that a row of them is worth a span each:
+ * of one colour (nearest), or straight from centre to centre. */
+bool cs_sampler_is_grid(const cs_sampler *sampler);
+/* Of a grid: the columns inside (x0, x1) at which such spans begin, ascending; at most as many as the
+ * limit says. Returns how many. */
+size_t cs_sampler_steps(const cs_sampler *sampler, int32_t x0, int32_t x1, double y,
+                        int32_t *columns);
+size_t cs_sampler_step_limit(const cs_sampler *sampler, int32_t x0, int32_t x1);
 
 #endif

@@ -2,6 +2,7 @@
  *
  *   sampler.c        which way, and copies
  *   sampler_row.c    pictures whose rows stay rows
+ *   sampler_grid.c   where their texels begin, when these are wide
  *   sampler_taps.c   all others, many pixels at a time
  *   sampler_pixel.c  kernels that are taken one by one
  *   sampler_wide.c   the loops over pixels, compiled for every set of instructions
@@ -82,10 +83,21 @@ static inline const float *cs_sampling_texel(const cs_sampling *run, int level, 
                       cs_sampler_wrap(y, cs_levels_size(s->height, level), s->wrap));
 }
 
+/* Where a row stays a row: the centre of a column, and the height. */
+static inline double cs_sampler_row_u(const cs_sampler *s, int32_t column, double y) {
+  return s->m[0] * ((double)column + 0.5) + (s->m[1] * y + s->m[2]);
+}
+
+static inline double cs_sampler_row_v(const cs_sampler *s, double y) {
+  return s->m[4] * y + s->m[5];
+}
+
 /* ---- the parts: rgba has room for `count` pixels from x0 on */
 
 void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
                         float (*rgba)[4]);
+void cs_sampler_row_at(const cs_sampling *run, const int32_t *columns, int32_t count, double y,
+                       float (*rgba)[4]);
 void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
                          float (*rgba)[4]);
 void cs_sampler_pixel_run(const cs_sampling *run, int32_t x0, int32_t count, double y,

@@ -168,13 +168,10 @@ static void look_up(const cs_sampling *run, double v, int32_t count, const doubl
 }
 
 /* The pixels whose centres lie on the picture follow one another, unless it has no end. */
-static void row_batch(const cs_sampling *run, int32_t x0, int32_t count, double y, double v,
-                      float (*rgba)[4]) {
+static void look_up_seen(const cs_sampling *run, double v, int32_t count, double *u,
+                         float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
-  double u[CS_SAMPLER_BATCH], row_u = s->m[1] * y + s->m[2];
   int32_t first = 0;
-  for (int32_t i = 0; i < count; i++)
-    u[i] = s->m[0] * ((double)(x0 + i) + 0.5) + row_u;
   while (first < count && cs_sampler_is_outside(u[first], s->width, s->wrap))
     memset(rgba[first++], 0, sizeof *rgba);
   while (count > first && cs_sampler_is_outside(u[count - 1], s->width, s->wrap))
@@ -185,10 +182,11 @@ static void row_batch(const cs_sampling *run, int32_t x0, int32_t count, double 
     look_up(run, v, count - first, u + first, rgba + first);
 }
 
-void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
-                        float (*rgba)[4]) {
+/* Pixels x0 .. x0+count-1, or those listed. */
+static void row_run(const cs_sampling *run, const int32_t *columns, int32_t x0, int32_t count,
+                    double y, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
-  double v = s->m[4] * y + s->m[5];
+  double u[CS_SAMPLER_BATCH], v = cs_sampler_row_v(s, y);
   if (cs_sampler_is_outside(v, s->height, s->wrap)) {
     memset(rgba, 0, (size_t)count * sizeof *rgba);
     return;
@@ -196,6 +194,18 @@ void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, doubl
   v = cs_sampler_home(v, s->height, s->wrap);
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
-    row_batch(run, x0 + done, batch, y, v, rgba + done);
+    for (int32_t i = 0; i < batch; i++)
+      u[i] = cs_sampler_row_u(s, columns ? columns[done + i] : x0 + done + i, y);
+    look_up_seen(run, v, batch, u, rgba + done);
   }
+}
+
+void cs_sampler_row_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                        float (*rgba)[4]) {
+  row_run(run, NULL, x0, count, y, rgba);
+}
+
+void cs_sampler_row_at(const cs_sampling *run, const int32_t *columns, int32_t count, double y,
+                       float (*rgba)[4]) {
+  row_run(run, columns, 0, count, y, rgba);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "colour/transfer.h"
 #include "output/fill.h"
 #include "output/srgb8.h"
@@ -167,35 +168,46 @@ static inline void repeat(unsigned char *out, size_t pixel_size, size_t size, si
     memcpy(out, block, room < sizeof block ? size : sizeof block);
 }
 
-static void gradient_colours(const celspan_span *span, int32_t x, int32_t count, float *rgba) {
-  for (int32_t i = 0; i < count; i++)
-    for (int c = 0; c < 4; c++)
-      rgba[4 * i + c] = span->colour[c] + span->slope[c] * (float)(x + i - span->origin);
+/* Ramps that follow one another, on their way to be coded together: they may be short. */
+typedef struct ramps {
+  float rgba[CHUNK][4];
+  size_t count; /* pixels waiting */
+  unsigned char *out;
+} ramps;
+
+static void flush(ramps *waiting, const celspan_coding *coding, coder code) {
+  if (waiting->count > 0)
+    code(coding, waiting->rgba[0], waiting->count, waiting->out);
+  waiting->count = 0;
 }
 
-static void code_gradient(const celspan_coding *coding, coder code, const celspan_span *span,
-                          size_t pixel_size, unsigned char *out) {
-  float rgba[4 * CHUNK];
-  for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
-    int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
-    gradient_colours(span, x, count, rgba);
-    code(coding, rgba, (size_t)count, out);
-    out += (size_t)count * pixel_size;
+static void put_gradient(ramps *waiting, const celspan_coding *coding, coder code,
+                         const celspan_span *span, size_t pixel_size, unsigned char *out) {
+  cs_v4 colour = cs_v4_load(span->colour), slope = cs_v4_load(span->slope);
+  for (int32_t x = span->x0; x < span->x1;) {
+    if (waiting->count == 0)
+      waiting->out = out + (size_t)(x - span->x0) * pixel_size;
+    size_t room = CHUNK - waiting->count, rest = (size_t)(span->x1 - x);
+    size_t count = rest < room ? rest : room;
+    for (size_t k = 0; k < count; k++, x++)
+      cs_v4_store(waiting->rgba[waiting->count + k], colour + slope * (float)(x - span->origin));
+    waiting->count += count;
+    if (waiting->count == CHUNK)
+      flush(waiting, coding, code);
   }
 }
 
+/* Arrays and flat spans. */
 static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
                       size_t pixel_size, size_t room, cs_fill fill, unsigned char *out) {
   size_t count = (size_t)(span->x1 - span->x0);
   if (span->kind == CELSPAN_SPAN_ARRAY) {
     code(coding, span->array, count, out);
-  } else if (span->kind == CELSPAN_SPAN_GRADIENT) {
-    code_gradient(coding, code, span, pixel_size, out);
-  } else {
-    code(coding, span->colour, 1, out);
-    if (count > 1)
-      repeat(out, pixel_size, count * pixel_size, room, fill);
+    return;
   }
+  code(coding, span->colour, 1, out);
+  if (count > 1)
+    repeat(out, pixel_size, count * pixel_size, room, fill);
 }
 
 static void code_spans(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
@@ -204,16 +216,24 @@ static void code_spans(const celspan_coding *coding, const celspan_span *spans, 
   cs_fill fill = cs_fill_choose();
   size_t pixel_size = celspan_coding_pixel_size(coding);
   size_t size = (size_t)spans[span_count - 1].x1 * pixel_size;
+  ramps waiting;
+  waiting.count = 0;
   for (const celspan_span *span = spans; span < spans + span_count; span++) {
     size_t at = (size_t)span->x0 * pixel_size;
+    if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      put_gradient(&waiting, coding, code, span, pixel_size, row + at);
+      continue;
+    }
+    flush(&waiting, coding, code);
     code_span(coding, code, span, pixel_size, size - at, fill, row + at);
   }
+  flush(&waiting, coding, code);
 }
 
-/* ---------------------------------------------------------------- flat rows of the usual coding
+/* ---------------------------------------------------------------- rows of the usual coding
  *
- * A frame may have a thousand million pixels in them. The colours of many spans are coded together;
- * a run then begins with a block over whatever comes next, for that is written later. */
+ * A frame may have a thousand million pixels in them. The colours of many flat spans are coded
+ * together; a run then begins with a block over whatever comes next, for that is written later. */
 
 static inline void put_run_8(uint32_t pixel, size_t count, size_t room, cs_fill fill,
                              unsigned char *out) {
@@ -226,9 +246,30 @@ static inline void put_run_8(uint32_t pixel, size_t count, size_t room, cs_fill 
     memcpy(out, block, room < CS_FILL_BLOCK ? 4 * count : CS_FILL_BLOCK);
 }
 
+/* Spans whose colours, where they are flat, have been coded. */
+static void put_spans_8(const celspan_coding *coding, const celspan_span *spans, size_t count,
+                        const uint32_t *pixels, size_t size, unsigned char *row) {
+  cs_fill fill = cs_fill_choose();
+  ramps waiting;
+  waiting.count = 0;
+  for (size_t k = 0; k < count; k++) {
+    const celspan_span *span = &spans[k];
+    size_t at = 4 * (size_t)span->x0;
+    if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      put_gradient(&waiting, coding, code_8_srgb_straight, span, 4, row + at);
+      continue;
+    }
+    flush(&waiting, coding, code_8_srgb_straight);
+    if (span->kind == CELSPAN_SPAN_SINGLE)
+      put_run_8(pixels[k], (size_t)(span->x1 - span->x0), size - at, fill, row + at);
+    else
+      code_span(coding, code_8_srgb_straight, span, 4, size - at, fill, row + at);
+  }
+  flush(&waiting, coding, code_8_srgb_straight);
+}
+
 static void code_spans_8(const celspan_coding *coding, const celspan_span *spans,
                          size_t span_count, unsigned char *row) {
-  cs_fill fill = cs_fill_choose();
   cs_srgb8 code = cs_srgb8_choose(cs_isa_best());
   float rgba[4 * CHUNK] = {0};
   uint32_t pixels[CHUNK];
@@ -238,14 +279,7 @@ static void code_spans_8(const celspan_coding *coding, const celspan_span *spans
     for (size_t k = 0; k < count; k++)
       memcpy(rgba + 4 * k, spans[done + k].colour, sizeof spans[done + k].colour);
     code(rgba, CHUNK, (unsigned char *)pixels); /* whole portions are quicker than odd ones */
-    for (size_t k = 0; k < count; k++) {
-      const celspan_span *span = &spans[done + k];
-      size_t at = 4 * (size_t)span->x0;
-      if (span->kind == CELSPAN_SPAN_SINGLE)
-        put_run_8(pixels[k], (size_t)(span->x1 - span->x0), size - at, fill, row + at);
-      else
-        code_span(coding, code_8_srgb_straight, span, 4, size - at, fill, row + at);
-    }
+    put_spans_8(coding, spans + done, count, pixels, size, row);
   }
 }
 
