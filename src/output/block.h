@@ -9,18 +9,19 @@ typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, c
                                          size_t size);
 
 /* A literal is its byte; three of them in one, the first lowest, and matches are made here. length
- * 3..258, distance 1..32768. A match of the greatest length may stand for up to CS_TOKEN_TIMES
- * equal ones. */
+ * 3..258, distance 1..32768. Of a run's matches all but the last are of the greatest length:
+ * `times`, at most CS_TOKEN_TIMES, from a distance of at most CS_TOKEN_NEAR. */
 typedef uint32_t cs_token;
-enum { CS_TOKEN_LONGEST = 258, CS_TOKEN_TIMES = 128 };
+enum { CS_TOKEN_LONGEST = 258, CS_TOKEN_TIMES = 127, CS_TOKEN_NEAR = 16 };
 static inline cs_token cs_token_triple(uint32_t bytes) { return 0x40000000u | bytes; }
 static inline bool cs_token_is_triple(cs_token token) { return token >> 30 == 1; }
 static inline cs_token cs_token_match(size_t length, size_t distance) {
   return 0x80000000u | (cs_token)(length - 3) << 16 | (cs_token)(distance - 1);
 }
-static inline cs_token cs_token_longest(size_t times, size_t distance) {
-  return cs_token_match(CS_TOKEN_LONGEST, distance) | (cs_token)(times - 1) << 24;
+static inline cs_token cs_token_run(size_t times, size_t length, size_t distance) {
+  return cs_token_match(length, distance) | (cs_token)times << 24;
 }
+static inline uint32_t cs_token_times(cs_token token) { return token >> 24 & CS_TOKEN_TIMES; }
 
 enum { CS_BLOCK_BYTES = 1 << 16 };
 

@@ -290,18 +290,16 @@ static size_t room(const cs_deflate *deflate) { return WINDOW + PENDING - deflat
 
 /* ---------------------------------------------------------------- runs */
 
-static void put_matches(cs_deflate *deflate, size_t bytes, size_t distance) {
-  size_t times = bytes >= LONGEST + 3 ? (bytes - 3) / LONGEST : 0;
-  bytes -= times * LONGEST;
-  for (size_t part; times > 0; times -= part) {
-    part = times < CS_TOKEN_TIMES ? times : CS_TOKEN_TIMES;
-    put_token(deflate, cs_token_longest(part, distance));
+static inline void put_matches(cs_deflate *deflate, size_t bytes, size_t distance) {
+  size_t times = (bytes - 3) / LONGEST, rest = bytes - times * LONGEST;
+  for (; times > CS_TOKEN_TIMES; times -= CS_TOKEN_TIMES + 1)
+    put_token(deflate, cs_token_run(CS_TOKEN_TIMES, LONGEST, distance));
+  if (rest <= LONGEST) {
+    put_token(deflate, cs_token_run(times, rest, distance));
+  } else { /* what is left must not be shorter than a match */
+    put_token(deflate, cs_token_run(times, rest - 3, distance));
+    put_token(deflate, cs_token_match(3, distance));
   }
-  if (bytes > LONGEST) { /* what is left must not be shorter than a match */
-    put_token(deflate, cs_token_match(bytes - 3, distance));
-    bytes = 3;
-  }
-  put_token(deflate, cs_token_match(bytes, distance));
 }
 
 static void put_zeros(cs_deflate *deflate) {
