@@ -59,18 +59,6 @@ static void close_stream(bit_stream *stream) {
   stream->writer->size = (size_t)(stream->at - stream->writer->bytes);
 }
 
-/* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
-void cs_block_align(cs_block_writer *writer) {
-  bit_stream stream = open_stream(writer);
-  make_room(&stream);
-  put_bits(&stream, 0, 3);
-  put_bits(&stream, 0, (8 - stream.count % 8) % 8);
-  put_bits(&stream, 0xffff0000u, 32);
-  close_stream(&stream);
-}
-
-void cs_block_flush(cs_block_writer *writer) { drain(writer, writer->size); }
-
 /* ---------------------------------------------------------------- symbols */
 
 static int floor_log2(unsigned x) { return 31 - __builtin_clz(x); }
@@ -341,22 +329,49 @@ static void put_tokens(bit_stream *stream, const codes *code, const cs_token *to
   put_bits(stream, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
 }
 
-void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last) {
+/* ---------------------------------------------------------------- blocks */
+
+void cs_block_begin(cs_block_writer *writer) {
+  writer->status = CELSPAN_OK;
+  writer->bits = 0;
+  writer->bit_count = 0;
+  writer->size = writer->token_count = 0;
+}
+
+void cs_block_put(cs_block_writer *writer) {
   bit_stream stream = open_stream(writer);
   counts frequency;
   codes own, fixed;
   header head;
-  count_tokens(&frequency, tokens, count);
+  count_tokens(&frequency, writer->tokens, writer->token_count);
   best_lengths(&own, &frequency);
   fixed_lengths(&fixed);
   make_header(&head, &own);
   bool own_is_shorter = coded_size(&own, &frequency) + head.size < coded_size(&fixed, &frequency);
   make_room(&stream);
-  put_bits(&stream, (own_is_shorter ? 4u : 2u) | is_last, 3);
+  put_bits(&stream, own_is_shorter ? 4 : 2, 3);
   if (own_is_shorter)
     put_header(&stream, &head);
   codes *chosen = own_is_shorter ? &own : &fixed;
   assign_codes(chosen);
-  put_tokens(&stream, chosen, tokens, count);
+  put_tokens(&stream, chosen, writer->tokens, writer->token_count);
   close_stream(&stream);
+  writer->token_count = 0;
+}
+
+/* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
+static void put_aligning_block(cs_block_writer *writer) {
+  bit_stream stream = open_stream(writer);
+  make_room(&stream);
+  put_bits(&stream, 0, 3);
+  put_bits(&stream, 0, (8 - stream.count) % 8);
+  put_bits(&stream, 0xffff0000u, 32);
+  close_stream(&stream);
+}
+
+void cs_block_end(cs_block_writer *writer) {
+  if (writer->token_count > 0)
+    cs_block_put(writer);
+  put_aligning_block(writer);
+  drain(writer, writer->size);
 }

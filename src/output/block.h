@@ -23,9 +23,9 @@ static inline cs_token cs_token_run(size_t times, size_t length, size_t distance
 }
 static inline uint32_t cs_token_times(cs_token token) { return token >> 24 & CS_TOKEN_TIMES; }
 
-enum { CS_BLOCK_BYTES = 1 << 16 };
+enum { CS_BLOCK_BYTES = 1 << 16, CS_BLOCK_TOKENS = 1 << 16 };
 
-/* Bits on their way out. Errors stick in status. */
+/* Tokens of a block, and bits on their way out. Errors stick in status. */
 typedef struct cs_block_writer {
   cs_block_write write;
   void *user;
@@ -35,13 +35,37 @@ typedef struct cs_block_writer {
   unsigned bit_count;
   size_t size;
   unsigned char bytes[CS_BLOCK_BYTES + 8];
+  size_t token_count;
+  cs_token tokens[CS_BLOCK_TOKENS];
 } cs_block_writer;
 
-/* One block, with codes of its own or the fixed ones, whichever is shorter. */
-void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last);
-/* An empty block that ends with a whole byte. */
-void cs_block_align(cs_block_writer *writer);
-/* Passes on what is held. */
-void cs_block_flush(cs_block_writer *writer);
+/* write, user and context are kept. */
+void cs_block_begin(cs_block_writer *writer);
+
+/* One block of the tokens that are held, with codes of its own or the fixed ones, whichever is
+ * shorter. */
+void cs_block_put(cs_block_writer *writer);
+
+static inline void cs_block_add(cs_block_writer *writer, cs_token token) {
+  writer->tokens[writer->token_count++] = token;
+  if (writer->token_count == CS_BLOCK_TOKENS)
+    cs_block_put(writer);
+}
+
+/* Any number of bytes, 3 at least, that are those `distance` before, at most CS_TOKEN_NEAR. */
+static inline void cs_block_add_run(cs_block_writer *writer, size_t bytes, size_t distance) {
+  size_t times = (bytes - 3) / CS_TOKEN_LONGEST, rest = bytes - times * CS_TOKEN_LONGEST;
+  for (; times > CS_TOKEN_TIMES; times -= CS_TOKEN_TIMES + 1)
+    cs_block_add(writer, cs_token_run(CS_TOKEN_TIMES, CS_TOKEN_LONGEST, distance));
+  if (rest <= CS_TOKEN_LONGEST) {
+    cs_block_add(writer, cs_token_run(times, rest, distance));
+  } else { /* what is left must not be shorter than a match */
+    cs_block_add(writer, cs_token_run(times, rest - 3, distance));
+    cs_block_add(writer, cs_token_match(3, distance));
+  }
+}
+
+/* Puts what is left; an empty block that ends with a whole byte; passes all on. */
+void cs_block_end(cs_block_writer *writer);
 
 #endif

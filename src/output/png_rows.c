@@ -111,16 +111,24 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-/* Coded pixels to those of the file, in place. */
-static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+/* Coded pixels of 16 bits to those of the file, in place. */
+static inline void pack_samples(cs_png_rows *rows, unsigned char *bytes, size_t pixel_size) {
   unsigned char *to = bytes;
-  for (int32_t x = 0; x < rows->width; x++, to += rows->pixel_size) {
-    uint64_t pixel = load_pixel(rows, bytes + (size_t)x * rows->coded_size);
-    pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
+  for (int32_t x = 0; x < rows->width; x++, to += pixel_size) {
+    uint64_t pixel = swap_samples(load_pixel(rows, bytes + 8 * (size_t)x));
     rows->common &= pixel;
-    memcpy(to, &pixel, rows->pixel_size);
+    memcpy(to, &pixel, pixel_size);
   }
-  memset(to, 0, CS_PNG_BLOCK);
+}
+
+static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+  if (rows->pixel_size == 3)
+    rows->common &= CS_WIDE_CHOOSE(cs_isa_best(), cs_png_drop_alpha)(bytes, (size_t)rows->width);
+  else if (rows->pixel_size == 6)
+    pack_samples(rows, bytes, 6);
+  else if (rows->pixel_size == 8)
+    pack_samples(rows, bytes, 8);
+  memset(bytes + (size_t)rows->width * rows->pixel_size, 0, CS_PNG_BLOCK);
 }
 
 static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context,
@@ -128,8 +136,7 @@ static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context
                                      cs_png_row *row) {
   CS_TRY(reserve_bytes(rows, context, row));
   cs_pixels_row(&rows->coding, spans, span_count, row->bytes);
-  if (rows->coded_size == 8 || rows->pixel_size != rows->coded_size)
-    pack_bytes(rows, row->bytes);
+  pack_bytes(rows, row->bytes);
   return CELSPAN_OK;
 }
 

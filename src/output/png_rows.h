@@ -10,8 +10,6 @@
 #include "output/colours.h"
 #include "output/deflate.h"
 
-enum { CS_PNG_BLOCK = 16 };
-
 typedef struct cs_png_run {
   int32_t end;    /* column after the last */
   uint64_t pixel; /* as bytes of the file, lowest first */
@@ -21,7 +19,7 @@ typedef struct cs_png_row {
   bool is_bytes;
   cs_png_run *runs; /* neighbours differ */
   size_t run_count, run_capacity;
-  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_filter.h */
+  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_wide.h */
 } cs_png_row;
 
 /* What a byte of a difference costs as a literal, about, in eighths of a bit. */
