@@ -7,9 +7,9 @@ enum {
   LONGEST = CS_TOKEN_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  CHAIN = 16,      /* earlier places looked at */
+  CHAIN = 8,       /* earlier places looked at */
   GOOD = 16,       /* a match that is hardly bettered a byte later */
-  LAZY = 200       /* one that is not tried to be */
+  LAZY = 64        /* one that is not tried to be */
 };
 
 /* Places remembered from history that was given up are told by their distance. */
