@@ -6,7 +6,7 @@
 
 enum {
   LITERALS = 288, /* with the end of block and 29 lengths; the last two are never used */
-  DISTANCES = 30,
+  DISTANCES = CS_BLOCK_DISTANCES,
   END_OF_BLOCK = 256,
   LENGTH_CODES = 19 /* of the code that codes the code lengths */
 };
@@ -99,26 +99,16 @@ typedef struct counts {
   uint32_t literals[LITERALS], distances[DISTANCES];
 } counts;
 
-static void count_tokens(counts *count, const cs_token *tokens, size_t token_count) {
-  uint32_t lengths[256] = {0}, second[256] = {0}, third[256] = {0}; /* counted side by side */
-  memset(count, 0, sizeof *count);
-  for (const cs_token *token = tokens; token < tokens + token_count; token++)
-    if (cs_token_is_triple(*token)) {
-      count->literals[*token & 255]++;
-      second[*token >> 8 & 255]++;
-      third[*token >> 16 & 255]++;
-    } else if (*token < 256) {
-      count->literals[*token]++;
-    } else {
-      uint32_t times = cs_token_times(*token);
-      lengths[255] += times;
-      lengths[*token >> 16 & 255]++;
-      count->distances[split_distance(*token & 0x7fff).symbol] += times + 1;
-    }
+/* From what was told to symbols. */
+static void count_symbols(counts *count, const cs_block_counts *told) {
+  memset(count->literals, 0, sizeof count->literals);
+  memcpy(count->distances, told->distances, sizeof count->distances);
   for (unsigned i = 0; i < 256; i++) {
-    count->literals[i] += second[i] + third[i];
-    count->literals[split_length(i).symbol] += lengths[i];
+    count->literals[i] += told->literals[0][i] + told->literals[1][i] + told->literals[2][i];
+    count->literals[split_length(i).symbol] += told->lengths[i];
   }
+  for (unsigned i = 0; i < CS_BLOCK_NEAR; i++)
+    count->distances[split_distance(i).symbol] += told->near_distances[i];
   count->literals[END_OF_BLOCK] = 1;
 }
 
@@ -255,8 +245,8 @@ typedef struct repeat {
 } repeat;
 
 typedef struct code_book {
-  bit_string literals[256], lengths[256], near_distances[CS_TOKEN_NEAR];
-  repeat longest[CS_TOKEN_NEAR];
+  bit_string literals[256], lengths[256], near_distances[CS_BLOCK_NEAR];
+  repeat longest[CS_BLOCK_NEAR];
 } code_book;
 
 static repeat repeat_longest(bit_string length, bit_string distance) {
@@ -275,7 +265,7 @@ static void make_book(code_book *book, const codes *code) {
     book->lengths[i] =
         join(code->literals[length.symbol], code->literal_lengths[length.symbol], length);
   }
-  for (unsigned i = 0; i < CS_TOKEN_NEAR; i++) {
+  for (unsigned i = 0; i < CS_BLOCK_NEAR; i++) {
     parts distance = split_distance(i);
     book->near_distances[i] =
         join(code->distances[distance.symbol], code->distance_lengths[distance.symbol], distance);
@@ -292,9 +282,9 @@ static inline void put_longest(bit_stream *stream, const repeat *longest, unsign
 
 static inline void put_match(bit_stream *stream, const codes *code, const code_book *book,
                              cs_token token) {
-  unsigned less_1 = token & 0x7fff, times = cs_token_times(token);
+  unsigned less_1 = token & 0x7fff, times = token >> 24 & CS_BLOCK_TIMES;
   bit_string length = book->lengths[token >> 16 & 255], distance;
-  if (less_1 < CS_TOKEN_NEAR) {
+  if (less_1 < CS_BLOCK_NEAR) {
     distance = book->near_distances[less_1];
   } else {
     parts split = split_distance(less_1);
@@ -319,7 +309,7 @@ static void put_tokens(bit_stream *stream, const codes *code, const cs_token *to
   make_book(&book, code);
   for (const cs_token *token = tokens; token < tokens + count; token++) {
     make_room(stream);
-    if (cs_token_is_triple(*token))
+    if (*token >> 30 == 1)
       put_triple(stream, &book, *token);
     else if (*token < 256)
       put_bits(stream, book.literals[*token].bits, book.literals[*token].count);
@@ -331,11 +321,24 @@ static void put_tokens(bit_stream *stream, const codes *code, const cs_token *to
 
 /* ---------------------------------------------------------------- blocks */
 
+static void forget_tokens(cs_block_writer *writer) {
+  writer->token_count = 0;
+  memset(&writer->counts, 0, sizeof writer->counts);
+}
+
 void cs_block_begin(cs_block_writer *writer) {
   writer->status = CELSPAN_OK;
   writer->bits = 0;
   writer->bit_count = 0;
-  writer->size = writer->token_count = 0;
+  writer->size = 0;
+  forget_tokens(writer);
+}
+
+void cs_block_match(cs_block_writer *writer, size_t length, size_t distance) {
+  unsigned length_less_3 = (unsigned)length - 3, less_1 = (unsigned)distance - 1;
+  writer->counts.lengths[length_less_3]++;
+  writer->counts.distances[split_distance(less_1).symbol]++;
+  cs_block_add(writer, 0x80000000u | length_less_3 << 16 | less_1);
 }
 
 void cs_block_put(cs_block_writer *writer) {
@@ -343,7 +346,7 @@ void cs_block_put(cs_block_writer *writer) {
   counts frequency;
   codes own, fixed;
   header head;
-  count_tokens(&frequency, writer->tokens, writer->token_count);
+  count_symbols(&frequency, &writer->counts);
   best_lengths(&own, &frequency);
   fixed_lengths(&fixed);
   make_header(&head, &own);
@@ -356,7 +359,7 @@ void cs_block_put(cs_block_writer *writer) {
   assign_codes(chosen);
   put_tokens(&stream, chosen, writer->tokens, writer->token_count);
   close_stream(&stream);
-  writer->token_count = 0;
+  forget_tokens(writer);
 }
 
 /* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */

@@ -48,14 +48,14 @@ static void put_zeros(cs_deflate *deflate) {
   size_t count = deflate->zeros;
   deflate->zeros = 0;
   if (count > 0 && !(deflate->ends_in_zeros && count >= 3)) {
-    cs_block_add(&deflate->writer, 0);
+    cs_block_literal(&deflate->writer, 0);
     count--;
   }
   if (count >= 3)
-    cs_block_add_run(&deflate->writer, count, 1);
+    cs_block_run(&deflate->writer, count, 1);
   else
     for (; count > 0; count--)
-      cs_block_add(&deflate->writer, 0);
+      cs_block_literal(&deflate->writer, 0);
 }
 
 static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
@@ -65,7 +65,7 @@ static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
   }
   if (deflate->zeros > 0)
     put_zeros(deflate);
-  cs_block_add(&deflate->writer, byte);
+  cs_block_literal(&deflate->writer, byte);
   deflate->ends_in_zeros = false;
 }
 
@@ -75,7 +75,7 @@ static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
   if (size >= 3 && pixel & 0xff && pixel & 0xff00 && pixel & 0xff0000) {
     if (deflate->zeros > 0)
       put_zeros(deflate);
-    cs_block_add(&deflate->writer, cs_token_triple((uint32_t)pixel & 0xffffff));
+    cs_block_literals(&deflate->writer, (uint32_t)pixel & 0xffffff);
     deflate->ends_in_zeros = false;
     i = 3;
   }
@@ -89,7 +89,7 @@ static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size)
   size_t bytes = (run.count - 1) * size;
   if (bytes >= 3) {
     put_zeros(deflate);
-    cs_block_add_run(&deflate->writer, bytes, size);
+    cs_block_run(&deflate->writer, bytes, size);
     deflate->ends_in_zeros = pixel >> 8 * (size - 1) == 0;
   } else {
     for (size_t i = 0; i < bytes; i++)

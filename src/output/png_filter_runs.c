@@ -6,7 +6,7 @@
 #include "output/png_filter.h"
 
 /* Rows a filter is kept for, at most, while it proves the best time and again. */
-enum { WAIT_MOST = 7 };
+enum { WAIT_MOST = 15 };
 
 /* About the bits of a run, in eighths: literals of the residue by their size, and a match when it
  * goes on. */

@@ -41,15 +41,22 @@ static uint64_t swap_samples(uint64_t pixel) {
   return (pixel & 0x00ff00ff00ff00ffu) << 8 | (pixel >> 8 & 0x00ff00ff00ff00ffu);
 }
 
+/* The end of a row of runs that has room for more. */
+typedef struct tail {
+  cs_png_run *next;
+  const cs_png_run *first;
+  uint64_t held;   /* the last one's pixel */
+  uint64_t common; /* as of cs_png_rows */
+} tail;
+
 /* pixel: as coded. */
-static inline void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, uint64_t pixel) {
+static inline void add_pixel(const cs_png_rows *rows, tail *t, int32_t end, uint64_t pixel) {
   pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
-  rows->common &= pixel;
+  t->common &= pixel;
   pixel &= rows->kept;
-  size_t last = row->run_count - 1;
-  bool is_joined = row->run_count > 0 && row->runs[last].pixel == pixel;
-  row->run_count += !is_joined;
-  row->runs[row->run_count - 1] = (cs_png_run){end, pixel};
+  t->next -= t->next > t->first && t->held == pixel;
+  t->held = pixel;
+  *t->next++ = (cs_png_run){end, pixel};
 }
 
 static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *coded) {
@@ -70,26 +77,30 @@ static celspan_span part_of_span(const celspan_span *span, int32_t x, int32_t co
   return part;
 }
 
-static void varying_to_runs(cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
+static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, tail *t) {
   unsigned char coded[8 * CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
     celspan_span part = part_of_span(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
-      add_pixel(rows, row, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
+      add_pixel(rows, t, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
   }
 }
 
 /* At most CS_COLOURS_MOST spans. */
 static void group_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t count,
                           cs_png_row *row) {
+  tail t = {.next = row->runs + row->run_count, .first = row->runs, .common = rows->common};
+  t.held = row->run_count > 0 ? t.next[-1].pixel : 0;
   cs_colours_code(&rows->colours, &rows->coding, spans, count);
   for (size_t i = 0; i < count; i++)
     if (spans[i].kind == CELSPAN_SPAN_SINGLE)
-      add_pixel(rows, row, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
+      add_pixel(rows, &t, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
     else
-      varying_to_runs(rows, &spans[i], row);
+      varying_to_runs(rows, &spans[i], &t);
+  row->run_count = (size_t)(t.next - t.first);
+  rows->common = t.common;
 }
 
 static void spans_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t span_count,

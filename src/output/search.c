@@ -4,7 +4,7 @@
 
 enum {
   WINDOW = CS_SEARCH_WINDOW,
-  LONGEST = CS_TOKEN_LONGEST,
+  LONGEST = CS_BLOCK_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
   CHAIN = 8,       /* earlier places looked at */
@@ -181,13 +181,13 @@ static inline void remember_match(cs_search *search, size_t next, size_t remembe
 
 /* Runs longer than a match go on as long as they do. The bytes told. */
 static inline size_t put_match(cs_search *search, size_t next, match found) {
-  if (found.length < LONGEST || found.distance > CS_TOKEN_NEAR) {
-    cs_block_add(search->writer, cs_token_match(found.length, found.distance));
+  if (found.length < LONGEST || found.distance > CS_BLOCK_NEAR) {
+    cs_block_match(search->writer, found.length, found.distance);
     return found.length;
   }
   size_t most = search->end - next;
   size_t length = match_length(search->buffer + next, found.distance, most);
-  cs_block_add_run(search->writer, length, found.distance);
+  cs_block_run(search->writer, length, found.distance);
   return length;
 }
 
@@ -202,12 +202,12 @@ static void search_all(cs_search *search) {
       remembered = 2;
       if (later.length <= best.length)
         break;
-      cs_block_add(search->writer, search->buffer[next++]);
+      cs_block_literal(search->writer, search->buffer[next++]);
       best = later;
       remembered = 1;
     }
     if (best.length == 0) {
-      cs_block_add(search->writer, search->buffer[next++]);
+      cs_block_literal(search->writer, search->buffer[next++]);
     } else {
       remember_match(search, next, remembered, best);
       next += put_match(search, next, best);
