@@ -69,14 +69,14 @@ static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
   deflate->ends_in_zeros = false;
 }
 
-/* The usual pixel begins with three bytes that are not 0. */
+/* Three bytes go out as one token unless zeros that went before could take the first. */
 static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
   size_t i = 0;
-  if (size >= 3 && pixel & 0xff && pixel & 0xff00 && pixel & 0xff0000) {
+  if (size >= 3 && pixel & 0xff) {
     if (deflate->zeros > 0)
       put_zeros(deflate);
     cs_block_literals(&deflate->writer, (uint32_t)pixel & 0xffffff);
-    deflate->ends_in_zeros = false;
+    deflate->ends_in_zeros = (pixel & 0xff0000) == 0;
     i = 3;
   }
   for (; i < size; i++)

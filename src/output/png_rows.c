@@ -14,10 +14,10 @@ void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, 
                         .coded_size = coded_size,
                         .pixel_size = is_opaque ? coded_size / 4 * 3 : coded_size};
   cs_png_costs_fill(&rows->costs);
-  rows->kept = UINT64_MAX >> (64 - 8 * rows->pixel_size);
+  rows->stored = UINT64_MAX >> (64 - 8 * rows->pixel_size);
 }
 
-void cs_png_rows_restart(cs_png_rows *rows) { rows->filter = rows->wait = rows->waiting = 0; }
+void cs_png_rows_restart(cs_png_rows *rows) { rows->kept = 0; }
 
 static size_t bytes_allocated(const cs_png_rows *rows) {
   return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
@@ -53,7 +53,7 @@ typedef struct tail {
 static inline void add_pixel(const cs_png_rows *rows, tail *t, int32_t end, uint64_t pixel) {
   pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
   t->common &= pixel;
-  pixel &= rows->kept;
+  pixel &= rows->stored;
   t->next -= t->next > t->first && t->held == pixel;
   t->held = pixel;
   *t->next++ = (cs_png_run){end, pixel};
@@ -179,7 +179,7 @@ static size_t measure(const celspan_span *spans, size_t span_count, int32_t widt
 }
 
 static celspan_status check_opaque(const cs_png_rows *rows, celspan_context *context) {
-  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->kept;
+  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->stored;
   if ((rows->common & alpha) == alpha)
     return CELSPAN_OK;
   return cs_fail(

@@ -31,11 +31,11 @@ typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
   size_t coded_size, pixel_size; /* bytes of a pixel, RGBA as coded and as in the file */
-  uint64_t kept;                 /* the bits of a coded pixel that are in the file */
+  uint64_t stored;               /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that all coded pixels of the row in hand have */
   cs_png_row rows[2];            /* the one in hand and the one before, in turn */
   int current;
-  int filter, wait, waiting; /* of rows of runs: the last choice, and how many rows it is kept */
+  int filter, kept; /* of rows of runs: the last choice, and for how many more it is kept */
   cs_png_costs costs;
   cs_deflate_run *residues[2]; /* of two filters, to be compared */
   size_t residue_capacities[2];
