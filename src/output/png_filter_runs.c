@@ -7,7 +7,7 @@
 
 /* Of a large picture, rows are much like the ones above: a filter is kept for a further row with
  * each such width, up to KEPT_MOST, and Paeth, which wins next to nothing there, is not tried. */
-enum { KEPT_WIDTH = 8192, KEPT_MOST = 15 };
+enum { KEPT_WIDTH = 4096, KEPT_MOST = 15 };
 
 /* About the bits of a run, in eighths: literals of the residue by their size, and a match when it
  * goes on. */
