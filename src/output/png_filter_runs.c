@@ -5,8 +5,9 @@
 
 #include "output/png_filter.h"
 
-/* Rows a filter is kept for, at most, while it proves the best time and again. */
-enum { WAIT_MOST = 7 };
+/* Of a large picture, rows are much like the ones above: a filter is kept for a further row with
+ * each such width, up to KEPT_MOST, and Paeth, which wins next to nothing there, is not tried. */
+enum { KEPT_WIDTH = 4096, KEPT_MOST = 15 };
 
 /* About the bits of a run, in eighths: literals of the residue by their size, and a match when it
  * goes on. */
@@ -139,15 +140,15 @@ static inline void filter_as(cs_png_filter kind, const cs_png_row *row, const cs
                                    : filter_paeth(row, above, pixel_size, out->runs);
 }
 
-/* Of Sub, Up and Paeth; where they cost the same, the one that is made quicker. */
+/* Of Up, Sub and Paeth; where they cost the same, the one that is made quicker. */
 static inline residue filter_best(const cs_png_rows *rows, const cs_png_row *row,
                                   const cs_png_row *above, size_t pixel_size) {
-  static const cs_png_filter others[2] = {CS_PNG_SUB, CS_PNG_PAETH};
+  static const cs_png_filter tried[3] = {CS_PNG_UP, CS_PNG_SUB, CS_PNG_PAETH};
+  int count = rows->width < KEPT_WIDTH ? 3 : 2;
   residue best = {.runs = rows->residues[0]}, other = {.runs = rows->residues[1]};
-  filter_as(CS_PNG_UP, row, above, pixel_size, &best);
-  uint64_t least = cost(&rows->costs, best.runs, best.count, pixel_size);
-  for (int i = 0; i < 2; i++) {
-    filter_as(others[i], row, above, pixel_size, &other);
+  uint64_t least = UINT64_MAX;
+  for (int i = 0; i < count; i++) {
+    filter_as(tried[i], row, above, pixel_size, &other);
     uint64_t bits = cost(&rows->costs, other.runs, other.count, pixel_size);
     if (bits < least) {
       residue spare = best;
@@ -157,15 +158,6 @@ static inline residue filter_best(const cs_png_rows *rows, const cs_png_row *row
     }
   }
   return best;
-}
-
-/* A filter that was the best of the last two rows looked at is kept for a while: rows are much like
- * the ones above. */
-static void note_choice(cs_png_rows *rows, cs_png_filter filter) {
-  int longer = 2 * rows->wait + 1;
-  rows->wait = filter != (cs_png_filter)rows->filter ? 0 : longer < WAIT_MOST ? longer : WAIT_MOST;
-  rows->filter = (int)filter;
-  rows->waiting = rows->wait;
 }
 
 static bool is_same(const cs_png_row *row, const cs_png_row *above) {
@@ -184,12 +176,14 @@ static inline residue filter_of_size(cs_png_rows *rows, const cs_png_row *row,
     filter_as(CS_PNG_SUB, row, above, pixel_size, &left);
   } else if (is_same(row, above)) {
     filter_as(CS_PNG_UP, row, above, pixel_size, &left);
-  } else if (rows->waiting > 0) {
-    rows->waiting--;
+  } else if (rows->kept > 0) {
+    rows->kept--;
     filter_as((cs_png_filter)rows->filter, row, above, pixel_size, &left);
   } else {
+    int most = rows->width / KEPT_WIDTH;
     left = filter_best(rows, row, above, pixel_size);
-    note_choice(rows, left.filter);
+    rows->filter = (int)left.filter;
+    rows->kept = most < KEPT_MOST ? most : KEPT_MOST;
   }
   return left;
 }

@@ -14,10 +14,10 @@ void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, 
                         .coded_size = coded_size,
                         .pixel_size = is_opaque ? coded_size / 4 * 3 : coded_size};
   cs_png_costs_fill(&rows->costs);
-  rows->kept = UINT64_MAX >> (64 - 8 * rows->pixel_size);
+  rows->stored = UINT64_MAX >> (64 - 8 * rows->pixel_size);
 }
 
-void cs_png_rows_restart(cs_png_rows *rows) { rows->filter = rows->wait = rows->waiting = 0; }
+void cs_png_rows_restart(cs_png_rows *rows) { rows->kept = 0; }
 
 static size_t bytes_allocated(const cs_png_rows *rows) {
   return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
@@ -41,15 +41,22 @@ static uint64_t swap_samples(uint64_t pixel) {
   return (pixel & 0x00ff00ff00ff00ffu) << 8 | (pixel >> 8 & 0x00ff00ff00ff00ffu);
 }
 
+/* The end of a row of runs that has room for more. */
+typedef struct tail {
+  cs_png_run *next;
+  const cs_png_run *first;
+  uint64_t held;   /* the last one's pixel */
+  uint64_t common; /* as of cs_png_rows */
+} tail;
+
 /* pixel: as coded. */
-static inline void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, uint64_t pixel) {
+static inline void add_pixel(const cs_png_rows *rows, tail *t, int32_t end, uint64_t pixel) {
   pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
-  rows->common &= pixel;
-  pixel &= rows->kept;
-  size_t last = row->run_count - 1;
-  bool is_joined = row->run_count > 0 && row->runs[last].pixel == pixel;
-  row->run_count += !is_joined;
-  row->runs[row->run_count - 1] = (cs_png_run){end, pixel};
+  t->common &= pixel;
+  pixel &= rows->stored;
+  t->next -= t->next > t->first && t->held == pixel;
+  t->held = pixel;
+  *t->next++ = (cs_png_run){end, pixel};
 }
 
 static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *coded) {
@@ -70,26 +77,30 @@ static celspan_span part_of_span(const celspan_span *span, int32_t x, int32_t co
   return part;
 }
 
-static void varying_to_runs(cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
+static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, tail *t) {
   unsigned char coded[8 * CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
     celspan_span part = part_of_span(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
-      add_pixel(rows, row, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
+      add_pixel(rows, t, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
   }
 }
 
 /* At most CS_COLOURS_MOST spans. */
 static void group_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t count,
                           cs_png_row *row) {
+  tail t = {.next = row->runs + row->run_count, .first = row->runs, .common = rows->common};
+  t.held = row->run_count > 0 ? t.next[-1].pixel : 0;
   cs_colours_code(&rows->colours, &rows->coding, spans, count);
   for (size_t i = 0; i < count; i++)
     if (spans[i].kind == CELSPAN_SPAN_SINGLE)
-      add_pixel(rows, row, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
+      add_pixel(rows, &t, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
     else
-      varying_to_runs(rows, &spans[i], row);
+      varying_to_runs(rows, &spans[i], &t);
+  row->run_count = (size_t)(t.next - t.first);
+  rows->common = t.common;
 }
 
 static void spans_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t span_count,
@@ -111,16 +122,24 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-/* Coded pixels to those of the file, in place. */
-static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+/* Coded pixels of 16 bits to those of the file, in place. */
+static inline void pack_samples(cs_png_rows *rows, unsigned char *bytes, size_t pixel_size) {
   unsigned char *to = bytes;
-  for (int32_t x = 0; x < rows->width; x++, to += rows->pixel_size) {
-    uint64_t pixel = load_pixel(rows, bytes + (size_t)x * rows->coded_size);
-    pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
+  for (int32_t x = 0; x < rows->width; x++, to += pixel_size) {
+    uint64_t pixel = swap_samples(load_pixel(rows, bytes + 8 * (size_t)x));
     rows->common &= pixel;
-    memcpy(to, &pixel, rows->pixel_size);
+    memcpy(to, &pixel, pixel_size);
   }
-  memset(to, 0, CS_PNG_BLOCK);
+}
+
+static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+  if (rows->pixel_size == 3)
+    rows->common &= CS_WIDE_CHOOSE(cs_isa_best(), cs_png_drop_alpha)(bytes, (size_t)rows->width);
+  else if (rows->pixel_size == 6)
+    pack_samples(rows, bytes, 6);
+  else if (rows->pixel_size == 8)
+    pack_samples(rows, bytes, 8);
+  memset(bytes + (size_t)rows->width * rows->pixel_size, 0, CS_PNG_BLOCK);
 }
 
 static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context,
@@ -128,8 +147,7 @@ static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context
                                      cs_png_row *row) {
   CS_TRY(reserve_bytes(rows, context, row));
   cs_pixels_row(&rows->coding, spans, span_count, row->bytes);
-  if (rows->coded_size == 8 || rows->pixel_size != rows->coded_size)
-    pack_bytes(rows, row->bytes);
+  pack_bytes(rows, row->bytes);
   return CELSPAN_OK;
 }
 
@@ -161,7 +179,7 @@ static size_t measure(const celspan_span *spans, size_t span_count, int32_t widt
 }
 
 static celspan_status check_opaque(const cs_png_rows *rows, celspan_context *context) {
-  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->kept;
+  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->stored;
   if ((rows->common & alpha) == alpha)
     return CELSPAN_OK;
   return cs_fail(

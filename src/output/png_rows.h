@@ -10,8 +10,6 @@
 #include "output/colours.h"
 #include "output/deflate.h"
 
-enum { CS_PNG_BLOCK = 16 };
-
 typedef struct cs_png_run {
   int32_t end;    /* column after the last */
   uint64_t pixel; /* as bytes of the file, lowest first */
@@ -21,7 +19,7 @@ typedef struct cs_png_row {
   bool is_bytes;
   cs_png_run *runs; /* neighbours differ */
   size_t run_count, run_capacity;
-  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_filter.h */
+  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_wide.h */
 } cs_png_row;
 
 /* What a byte of a difference costs as a literal, about, in eighths of a bit. */
@@ -33,11 +31,11 @@ typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
   size_t coded_size, pixel_size; /* bytes of a pixel, RGBA as coded and as in the file */
-  uint64_t kept;                 /* the bits of a coded pixel that are in the file */
+  uint64_t stored;               /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that all coded pixels of the row in hand have */
   cs_png_row rows[2];            /* the one in hand and the one before, in turn */
   int current;
-  int filter, wait, waiting; /* of rows of runs: the last choice, and how many rows it is kept */
+  int filter, kept; /* of rows of runs: the last choice, and for how many more it is kept */
   cs_png_costs costs;
   cs_deflate_run *residues[2]; /* of two filters, to be compared */
   size_t residue_capacities[2];

@@ -64,7 +64,9 @@ static void add_bytes(store *plain, cs_deflate *deflate, celspan_context *contex
   for (size_t i = 0; i < size; i++)
     bytes[i] = (unsigned char)(style & 1 ? random_below(256) : random_below(3) * 50);
   append(plain, bytes, size);
-  CHECK(cs_deflate_bytes(deflate, context, bytes, size) == CELSPAN_OK);
+  unsigned char *space = cs_deflate_space(deflate, context);
+  memcpy(space, bytes, size);
+  CHECK(cs_deflate_take(deflate, space, size) == CELSPAN_OK);
 }
 
 static void add_run(store *plain, cs_deflate *deflate, celspan_context *context, int style,
