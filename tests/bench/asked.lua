@@ -81,6 +81,15 @@ local function ahead(run, scene, side)
   return over((published.shapes[scene] or {})[side], mine and mine.best_processor)
 end
 
+--- The same by the yardstick of AGG: Blend2D is taken to be as much faster than AGG here as it was
+--- where both were published.
+function asked.by_yardstick(run, scene, side)
+  local mine, agg = shapes(run, scene, side, "row", "area"), shapes(run, scene, side, "row", "area",
+    "agg")
+  local known = (published.agg[scene] or {})[side]
+  return known and over(over(seconds(agg), known / published.shapes[scene][side]), seconds(mine))
+end
+
 local names = { [1024] = "1k", [4096] = "4k", [30000] = "30k" }
 
 local function pixels(run, lines)

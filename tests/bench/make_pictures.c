@@ -1,4 +1,5 @@
-/* Writes the pictures of the raster jobs, for renderers that read files: `bench_pictures FOLDER`. */
+/* Writes the pictures of the raster jobs, for renderers that read files: `bench_pictures FOLDER`.
+ */
 #include "measure.h"
 #include "pictures.h"
 

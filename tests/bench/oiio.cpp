@@ -1,6 +1,6 @@
 // OpenImageIO: the raster jobs, and PNG files of the same pixels.
 //
-//   oiio picture affine|perspective|shift FOLDER
+//   oiio picture affine|perspective|shift
 //   oiio png DRAWING SIDE LEVEL FILE     rows come from celspan; only the writing is timed
 //   oiio recode PICTURE LEVEL FILE       a picture written as PNG; level 0: the default
 //   oiio read PICTURE                    the digest of its 8-bit RGBA pixels, row by row
@@ -42,8 +42,8 @@ void draw_picture(void *user) {
     placed = job->overlay;
     placed.set_origin(int(job->matrix[2][0]), int(job->matrix[2][1]));
   } else
-    ImageBufAlgo::warp(placed, job->overlay, job->matrix, "triangle", 1.0f, false,
-                       ImageBuf::WrapBlack, frame, 1);
+    ImageBufAlgo::warp(placed, job->overlay, job->matrix, "triangle", 2.0f, true,
+                       ImageBuf::WrapBlack, ROI(), 1); // as large as what it covers
   ImageBufAlgo::over(job->out, placed, job->ground, frame, 1);
   check(!job->out.has_error(), job->out.geterror());
 }
@@ -55,8 +55,8 @@ ImageBuf wrap(const uint8_t *pixels, int width, int height) {
   return image;
 }
 
-void measure_picture(char **words) {
-  bench_job asked = bench_job_make(words[0], 0);
+void measure_picture(const char *name) {
+  bench_job asked = bench_job_make(name, 0);
   const double *m = asked.matrix;
   Pictures job{wrap(asked.ground, BENCH_FRAME_WIDTH, BENCH_FRAME_HEIGHT),
                wrap(asked.overlay, BENCH_OVERLAY_WIDTH, BENCH_OVERLAY_HEIGHT),
@@ -194,8 +194,8 @@ void read_picture(const char *path) {
 int main(int argc, char **argv) {
   OIIO::attribute("threads", 1);
   const std::string verb = argc > 1 ? argv[1] : "";
-  if (verb == "picture" && argc == 4)
-    measure_picture(argv + 2);
+  if (verb == "picture" && argc >= 3)
+    measure_picture(argv[2]);
   else if (verb == "png" && argc == 6)
     measure_png(argv + 2);
   else if (verb == "recode" && argc == 5)

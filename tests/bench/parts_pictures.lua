@@ -48,7 +48,7 @@ function parts.raster(runner, folder)
     for _, name in ipairs { "vips", "oiio" } do
       if runner:has(name) then
         entries[#entries + 1] = raster(job, name, "whole",
-          Command(runner:program(name), "picture", job, folder))
+          Command(runner:program(name), "picture", job))
       else runner:note(name .. " is not installed: its columns are empty") end
     end
     if runner.skia and job ~= "perspective" then

@@ -13,6 +13,13 @@ published.shapes = {
   small = { [1024] = 0.019, [4096] = 0.053, [30000] = 0.465 },
 }
 
+--- AGG's best times of the same measurement: how slow AGG is in a run tells how slow the run is.
+published.agg = {
+  ["10"] = { [1024] = 0.000487, [4096] = 0.00284, [30000] = 0.0754 },
+  ["100"] = { [1024] = 0.00582, [4096] = 0.0294, [30000] = 0.749 },
+  ["1000"] = { [1024] = 0.0568, [4096] = 0.294, [30000] = 7.59 },
+}
+
 published.pictures = { affine = 0.00884, shift = 0.00183 }
 
 --- The paper's figure 14: seconds at 30,000 pixels a side in 2002; the curves are squares.

@@ -72,6 +72,8 @@ Read the tables so:
   was done.
 - *Blend2D* is in no Debian package. Its column is its published best time on the same kind of
   machine, compared with celspan's best of this run; on any other machine it is a yardstick only.
+  *By AGG's yardstick*: AGG's time of this run stands for Blend2D's, divided by how much faster
+  Blend2D was where both were published, so that the machine and its load cancel out.
 - *Fill of the runs* is what writing the picture's own runs of colour costs when they are known:
   what is left when everything but the pixels is free.
 ]]
@@ -108,7 +110,8 @@ end
 --- The table of drawings to pixels.
 local function pixel_table(names)
   head { "drawing", "side", "celspan", "Blend2D, published", "Skia", "AGG", "Qt", "Cairo",
-         "fill of the runs", "memset", "ahead of Blend2D", "of the best peer here" }
+         "fill of the runs", "memset", "ahead of Blend2D", "by AGG's yardstick",
+         "ahead of the best here" }
   for _, scene in ipairs(names) do
     for _, side in ipairs { 1024, 4096, 30000 } do
       local mine = pixel_row(scene, side, "celspan", "area")
@@ -123,10 +126,36 @@ local function pixel_table(names)
         line[#line + 1] = shown(pixel_row(scene, side, "fill of runs"))
         line[#line + 1] = shown(pixel_row(scene, side, "memset"))
         line[#line + 1] = known and ("%.2g times"):format(known / mine.best_processor) or ""
+        local yardstick = asked.by_yardstick(run, scene, side)
+        line[#line + 1] = yardstick and ("%.2g times"):format(yardstick) or ""
         line[#line + 1] = best and ("%.2g times"):format(best / seconds(mine)) or ""
         cells(line)
       end
     end
+  end
+  put ""
+end
+
+local function power(wanted, sides)
+  local exponent = run:exponent(wanted, sides)
+  return exponent and ("%.2f"):format(exponent) or ""
+end
+
+--- By which power of the side the time grows.
+local function exponent_table(names)
+  head { "drawing", "spans `none`, 4k to 1M", "spans `area`, 4k to 1M", "pixels `area`, 4k to 30k",
+         "Skia", "AGG", "Qt", "Cairo" }
+  for _, scene in ipairs(names) do
+    local line = { scene }
+    for _, antialias in ipairs { "none", "area" } do
+      line[#line + 1] = power({ part = "shapes", scene = scene, output = "spans",
+        antialias = antialias, renderer = "celspan" }, { 4096, 30000, 100000, 1000000 })
+    end
+    for _, name in ipairs { "celspan", "skia", "agg", "qt", "cairo" } do
+      line[#line + 1] = power({ part = "shapes", scene = scene, output = "row", antialias = "area",
+        renderer = name }, { 4096, 30000 })
+    end
+    cells(line)
   end
   put ""
 end
@@ -166,6 +195,9 @@ many times celspan's time another takes; under 1 it is faster.]]
 A crossing is an edge that meets a row, whether or not it is hidden.
 ]]
   span_table { "10", "100", "1000" }
+  put "The power of the side that the time follows: 1 is linear, 2 is square."
+  put ""
+  exponent_table { "10", "100", "1000" }
   put "### Hard for spans"
   put ""
   put [[
