@@ -34,29 +34,28 @@ static uint32_t code(const celspan_span *span) {
   return pixel;
 }
 
-static celspan_status keep_row(void *user, celspan_context *context, int32_t y,
-                               const celspan_span *spans, size_t span_count) {
-  frame_runs *frame = user;
-  (void)context, (void)y;
+static void keep_row(frame_runs *frame, const celspan_span *spans, size_t span_count) {
   run *row = malloc(span_count * sizeof *row);
   for (size_t i = 0; i < span_count; i++)
     row[i] = (run){spans[i].x1, code(&spans[i])};
   frame->rows[frame->row_count++] = row;
   frame->run_count += span_count;
-  return CELSPAN_OK;
 }
 
-/* A crop of one row for each row that is kept. */
 static void find_runs(celspan_context *context, celspan_rostrum *rostrum, frame_runs *frame) {
   const celspan_antialias_mode mode = CELSPAN_ANTIALIAS_NONE;
-  celspan_exposure exposure = {rostrum, 1};
+  const celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc desc = bench_frame(&exposure, frame->side, frame->side, &mode);
-  celspan_sink sink = {.user = frame, .row = keep_row};
-  desc.crop_width = frame->side;
-  desc.crop_height = 1;
+  celspan_rows *rows;
+  const celspan_span *spans;
+  size_t span_count;
+  bench_check(context, celspan_rows_create(context, &desc, &rows));
   int step = frame->side > ROWS_KEPT ? (frame->side + ROWS_KEPT - 1) / ROWS_KEPT : 1;
-  for (desc.crop_y = 0; desc.crop_y < frame->side; desc.crop_y += step)
-    bench_check(context, celspan_frame_render(context, &desc, &sink, NULL));
+  for (int32_t y = 0; y < frame->side; y += step) {
+    bench_check(context, celspan_rows_get(rows, y, &spans, &span_count));
+    keep_row(frame, spans, span_count);
+  }
+  celspan_rows_destroy(rows);
 }
 
 static void fill_bytes(void *user) {
