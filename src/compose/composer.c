@@ -15,6 +15,17 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
   return CELSPAN_OK;
 }
 
+/* Whether leaves are folded one after the other, with nothing between them. */
+static bool is_plain(const cs_stack *stack) {
+  for (size_t i = 0; i < stack->leaf_count; i++)
+    if (stack->leaves[i].kind != CS_LEAF_FLAT)
+      return false;
+  for (size_t i = 0; i < stack->light_count; i++)
+    if (stack->lights[i].below > 0)
+      return false;
+  return stack->group_count == 0;
+}
+
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
   *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
@@ -28,6 +39,8 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   if (stack->procedure_count > 0)
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
+  if (is_plain(stack))
+    CS_TRY(take(composer, &composer->words, words, sizeof(cs_word_fold)));
   CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
   CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
   if (composer->texels)
@@ -47,6 +60,8 @@ void cs_composer_finish(cs_composer *composer) {
   cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
+  if (composer->words)
+    cs_mem_free(memory, composer->words, words * sizeof(cs_word_fold));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
   if (composer->texels)
     cs_texels_finish(composer->texels);
@@ -240,6 +255,65 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f
   return true;
 }
 
+static inline void pass(cs_glimpse *light, const cs_v4 e, const cs_v4 t) {
+  light->e += light->t * e;
+  light->t *= t;
+}
+
+/* Brings what is known of a word up to date: neighbouring cells differ in few leaves, so few of its
+ * bytes are folded anew. */
+static const cs_glimpse *fold_word(cs_word_fold *known, const cs_leaf *leaves, uint64_t word) {
+  const cs_glimpse clear = {cs_v4_all(0), cs_v4_all(1)};
+  uint64_t changed = known->word ^ word;
+  if (changed == 0)
+    return &known->all;
+  known->word = word;
+  known->all = clear;
+  for (int byte = 7; byte >= 0; byte--) {
+    unsigned present = word >> 8 * byte & 255;
+    if (present == 0)
+      continue;
+    if (changed >> 8 * byte & 255) {
+      known->bytes[byte] = clear;
+      for (unsigned left = present; left != 0;) {
+        int highest = 31 - __builtin_clz(left);
+        left ^= 1u << highest;
+        pass(&known->bytes[byte], leaves[8 * byte + highest].s, leaves[8 * byte + highest].t);
+      }
+    }
+    pass(&known->all, known->bytes[byte].e, known->bytes[byte].t);
+  }
+  return &known->all;
+}
+
+/* Folds the leaves of one word on top of what f holds, until nothing shines through. */
+static void fold_last(fold *f, const cs_leaf *leaves, uint64_t word) {
+  while (word != 0) {
+    int highest = 63 - __builtin_clzll(word);
+    word ^= (uint64_t)1 << highest;
+    fold_paint(f, leaves[highest].s, leaves[highest].t);
+    if (fold_is_opaque(f))
+      return;
+  }
+}
+
+/* Folds plain leaves a word at a time; the word in which the light ends, leaf by leaf, so that what
+ * lies behind the end does not count. */
+static void fold_words(cs_composer *composer, const uint64_t *set, fold *f) {
+  const cs_leaf *leaves = composer->stack->leaves;
+  fold_begin(f, composer->stack);
+  for (size_t i = cs_stack_words(composer->stack); i-- > 0;) {
+    if (set[i] == 0)
+      continue;
+    const cs_glimpse *word = fold_word(&composer->words[i], leaves + 64 * i, set[i]);
+    if (!cs_v4_any_above(f->t * word->t, cs_v4_all(CS_PAINT_OPAQUE))) {
+      fold_last(f, leaves + 64 * i, set[i]);
+      return;
+    }
+    fold_paint(f, word->e, word->t);
+  }
+}
+
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   size_t count = composer->gathered_count, needed = composer->item_count + count;
   if (needed < ITEM_LIMIT) /* all that is kept from row to row, at once */
@@ -262,7 +336,9 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   }
   fold f;
   composer->evaluations++;
-  if (fold_flats(composer, set, &f)) {
+  if (composer->words)
+    fold_words(composer, set, &f);
+  if (composer->words || fold_flats(composer, set, &f)) {
     cell->colour = fold_end(&f);
     return CELSPAN_OK;
   }

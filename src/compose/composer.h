@@ -62,6 +62,18 @@ typedef struct cs_presence {
   int32_t winding;
 } cs_presence;
 
+/* Light gathered from some leaves by themselves, and what they let through. */
+typedef struct cs_glimpse {
+  cs_v4 e, t;
+} cs_glimpse;
+
+/* The leaves of one word of a set, as they were last seen. */
+typedef struct cs_word_fold {
+  uint64_t word;       /* those present */
+  cs_glimpse all;      /* of the whole word */
+  cs_glimpse bytes[8]; /* of each byte of it that is not 0 */
+} cs_word_fold;
+
 typedef struct cs_memo {
   cs_cell cell;
   bool is_used;
@@ -77,6 +89,7 @@ typedef struct cs_composer {
   uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
   cs_set_hash hash;
   cs_tree_result *results;
+  cs_word_fold *words; /* the last fold of every word of a set; NULL where leaves are not all plain */
   cs_seen_slide *slides;
   cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
