@@ -60,13 +60,6 @@ static celspan_status add_block(cs_blocks *b, cs_block block) {
  * The order at the top of the row holds at every height iff no two neighbours cross, and those are
  * looked at only where the foot is out of order or one of them bends. */
 
-static bool is_sorted(const double *x, size_t count) {
-  int falls = 0;
-  for (size_t i = 1; i < count; i++)
-    falls |= x[i - 1] > x[i];
-  return !falls;
-}
-
 /* x of boundary i at a height of the row; one that has ended goes on straight down. */
 static double boundary_x(const cs_blocks *b, size_t i, double y) {
   const cs_active *active = &b->scan->active;
@@ -454,7 +447,8 @@ static celspan_status add_strips(cs_blocks *b) {
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   size_t begins = cs_blocks_count_begins(active, b->y1) + b->strip_count;
-  if (begins + active->bend_count == 0 && is_sorted(active->x_next, active->count))
+  if (begins + active->bend_count == 0 &&
+      CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(active->x_next, active->count))
     return CELSPAN_OK;
   CS_TRY(add_knots(b));
   if (begins > 0)

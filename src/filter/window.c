@@ -57,15 +57,15 @@ static inline cs_v4 hold(cs_v4 colour) {
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
-static inline celspan_status put_pixel(cs_window *window, int32_t p, cs_v4 colour) {
+static inline __attribute__((always_inline)) celspan_status
+put_pixel(cs_window *window, int32_t p, cs_v4 colour) {
   return cs_row_single(window->composer->context, window->out, p, p + 1, hold(colour));
 }
 
 /* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
-static celspan_status close_lone(cs_window *window) {
-  const cs_fragment *f = &window->fragments[0];
+static celspan_status put_lone(cs_window *window, const cs_fragment *f, cs_v4 base) {
   celspan_context *context = window->composer->context;
-  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+  cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
   CS_TRY(cs_row_single(context, window->out, window->from, first, base));
   CS_TRY(put_pixel(window, first, base + step * (float)cover(f, first)));
@@ -316,7 +316,7 @@ static celspan_status close_window(cs_window *window) {
     if (window->varies)
       CS_TRY(close_varying(window));
     else if (window->fragment_count == 1)
-      CS_TRY(close_lone(window));
+      CS_TRY(put_lone(window, &window->fragments[0], window->base->colour));
     else if (window->end - window->from <= NARROW)
       CS_TRY(close_narrow(window));
     else
@@ -404,19 +404,24 @@ static celspan_status add_bent(cs_window *window, const cs_active *active, size_
   return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
 }
 
-/* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
- * most rows. */
-static inline celspan_status write_edge(cs_window *window, const cs_edges *edges, size_t i,
-                                        const cs_cell *left) {
+/* An edge that shares its pixels with no other, between flat cells: most edges of most rows. */
+static inline celspan_status write_edge(cs_window *window, const cs_active *active,
+                                        const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t first = edges->first[i], end = edges->end[i];
   cs_v4 base = left->colour, step = left[1].colour - base;
   if (window->is_open)
     CS_TRY(close_window(window));
-  CS_TRY(cs_row_single(window->composer->context, window->out, window->from, first, base));
-  if (end > first)
-    CS_TRY(put_pixel(window, first, base + step * (float)edges->area[i]));
-  if (end > first + 1)
-    CS_TRY(put_pixel(window, first + 1, base + step * (float)edges->rest[i]));
+  if (end - first > 2) {
+    cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1, .left = left,
+                     .right = left + 1, .first = first, .end = end};
+    CS_TRY(put_lone(window, &f, base));
+  } else {
+    CS_TRY(cs_row_single(window->composer->context, window->out, window->from, first, base));
+    if (end > first)
+      CS_TRY(put_pixel(window, first, base + step * (float)edges->area[i]));
+    if (end > first + 1)
+      CS_TRY(put_pixel(window, first + 1, base + step * (float)edges->rest[i]));
+  }
   window->from = window->end = end;
   window->cell = left + 1;
   return CELSPAN_OK;
@@ -433,11 +438,12 @@ celspan_status cs_window_slice(cs_window *window, const cs_active *active, const
 celspan_status cs_window_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
                               size_t i, const cs_cell *left, int32_t next) {
   int32_t first = edges->first[i], end = edges->end[i];
-  bool is_alone = end - first <= 2 && end <= next && first >= window->end && !window->trace;
-  if (is_alone && left->length == 0 && left[1].length == 0)
-    return write_edge(window, edges, i, left);
-  CS_TRY(cs_window_reach(window, edges->low[i]));
   bool is_inside = edges->low[i] >= 0 && edges->high[i] <= window->width;
+  bool is_alone = end <= next && first >= window->end && !window->trace;
+  if (is_alone && (end - first <= 2 || (is_inside && !edges->is_bent[i])) && left->length == 0 &&
+      left[1].length == 0)
+    return write_edge(window, active, edges, i, left);
+  CS_TRY(cs_window_reach(window, edges->low[i]));
   if (edges->is_bent[i] || window->trace || !is_inside)
     return cs_window_slice(window, active, edges, i, left);
   cs_window_pass(window, left + 1);

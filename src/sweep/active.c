@@ -7,7 +7,7 @@
   (6 * sizeof(double) + sizeof(cs_crossing) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
-  *active = (cs_active){.set = set, .cull = cull};
+  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
@@ -140,6 +140,8 @@ static size_t find_place(const cs_active *active, size_t i) {
 /* Brings the order about. */
 static void sort(cs_active *active, cs_change *change) {
   const double *x = active->x;
+  if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
+    return;
   for (size_t i = 1; i < active->count; i++) {
     if (x[i - 1] < x[i]) /* equal x too: slopes and chains decide */
       continue;
@@ -226,19 +228,13 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
-  double *restrict x_next = active->x_next;
-  const double *restrict x0 = active->x0, *restrict y0 = active->y0;
-  const double *restrict slope = active->slope, *restrict y1 = active->y1;
-  size_t count = active->count;
-  int ends = 0;
+  cs_segments segments = {active->x0, active->y0, active->slope, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  for (size_t i = 0; i < count; i++) {
-    x_next[i] = x0[i] + (y - y0[i]) * slope[i];
-    ends |= y1[i] <= y;
-  }
-  for (size_t i = 0; ends && i < count; i++)
-    if (y1[i] <= y)
+  if (!CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
+    return CELSPAN_OK;
+  for (size_t i = 0; i < active->count; i++)
+    if (active->y1[i] <= y)
       CS_TRY(bend(context, active, i, y));
   return CELSPAN_OK;
 }

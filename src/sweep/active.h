@@ -12,6 +12,7 @@
 #ifndef CS_SWEEP_ACTIVE_H
 #define CS_SWEEP_ACTIVE_H
 
+#include "sweep/advance.h"
 #include "sweep/cull.h"
 
 /* What a boundary does between two heights, when that is not one straight piece. */
@@ -48,6 +49,7 @@ static inline cs_change cs_change_join(cs_change a, cs_change b) {
 typedef struct cs_active {
   const cs_boundary_set *set;
   const cs_cull *cull;
+  cs_isa isa;
   int32_t tile_row; /* that holds the current height */
   /* arrays of like fields, `count` of each, in order */
   double *x;     /* at the current height */
