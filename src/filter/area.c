@@ -31,14 +31,11 @@ typedef struct walk {
 static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
   cs_scan *scan = w->scan;
   const uint32_t *visible = scan->cells.visible;
-  const size_t count = scan->cells.visible_count;
-  for (; w->v < count && visible[w->v] < end; w->v++) {
-    size_t i = visible[w->v];
-    bool is_last = w->v + 1 == count || visible[w->v + 1] >= end;
-    CS_TRY(cs_window_edge(&scan->window, &scan->active, &scan->edges, i, &w->cells[i],
-                          is_last ? next : scan->edges.first[visible[w->v + 1]]));
-  }
-  return CELSPAN_OK;
+  size_t first = w->v;
+  while (w->v < scan->cells.visible_count && visible[w->v] < end)
+    w->v++;
+  return cs_window_edges(&scan->window, &scan->active, &scan->edges, w->cells, visible + first,
+                         w->v - first, next);
 }
 
 /* The same in a slice of a row. */

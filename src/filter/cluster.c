@@ -119,7 +119,7 @@ static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
 static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
   for (size_t j = 0; j < cluster->count; j++) {
     cs_member *member = &cluster->members[j];
-    member->top = member_x(member, y0);
+    member->top = member->foot; /* the last band ended at this height, on the same x */
     member->foot = member_x(member, y1);
   }
   double reached = 0, u;

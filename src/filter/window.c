@@ -1,6 +1,7 @@
 #include "filter/window.h"
 
 #include "base/number.h"
+#include "span/pen.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -57,29 +58,30 @@ static inline cs_v4 hold(cs_v4 colour) {
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
-static inline __attribute__((always_inline)) celspan_status
-put_pixel(cs_window *window, int32_t p, cs_v4 colour) {
-  return cs_row_single(window->composer->context, window->out, p, p + 1, hold(colour));
-}
+#define LONE_SPANS 4 /* that draw_lone writes at most */
 
 /* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
-static celspan_status put_lone(cs_window *window, const cs_fragment *f, cs_v4 base) {
-  celspan_context *context = window->composer->context;
+static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
   cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
-  CS_TRY(cs_row_single(context, window->out, window->from, first, base));
-  CS_TRY(put_pixel(window, first, base + step * (float)cover(f, first)));
-  if (last - first > 2) {
-    cs_v4 ramp = base + step * (float)cover(f, first + 1);
-    double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
-    CS_TRY(cs_row_gradient(context, window->out, first + 1, last, ramp,
-                           step * (float)(f->height / across)));
-  } else if (last - first == 2) {
-    CS_TRY(put_pixel(window, first + 1, base + step * (float)cover(f, first + 1)));
-  }
-  if (last == first)
-    return CELSPAN_OK;
-  return put_pixel(window, last, base + step * (float)cover(f, last));
+  cs_pen_to(p, first, base);
+  cs_pen_to(p, first + 1, hold(base + step * (float)cover(f, first)));
+  cs_v4 ramp = base + step * (float)cover(f, first + 1);
+  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+  cs_v4 slope = step * (float)(f->height / across);
+  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
+    cs_pen_ramp(p, last, ramp, slope);
+  else
+    cs_pen_to(p, last, hold(ramp));
+  cs_pen_to(p, last + 1, hold(base + step * (float)cover(f, last)));
+}
+
+static celspan_status close_lone(cs_window *window) {
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS));
+  cs_pen p = cs_pen_take(window->out, window->from);
+  draw_lone(&p, &window->fragments[0], window->base->colour);
+  cs_pen_put(&p);
+  return CELSPAN_OK;
 }
 
 /* The first column at or right of p where some fragment changes the sum; end when none does. */
@@ -120,31 +122,29 @@ static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
   change[2] += step * (f->height - f->rest);
 }
 
-/* Writes the pixels [p0, p1) and leaves the sum as it is in the last of them. */
-static inline celspan_status put_sums(cs_window *window, int32_t p0, int32_t p1,
-                                      const sum4 *change, sum4 *sum) {
-  for (int32_t p = p0; p < p1; p++) {
-    *sum += change[p - p0];
-    CS_TRY(put_pixel(window, p, __builtin_convertvector(*sum, cs_v4)));
+/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of them. */
+static inline void draw_sums(cs_pen *p, int32_t p1, const sum4 *change, sum4 *sum) {
+  for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
+    *sum += change[k];
+    cs_pen_to(p, p->from + 1, hold(__builtin_convertvector(*sum, cs_v4)));
   }
-  return CELSPAN_OK;
 }
 
 /* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
 static celspan_status close_wide(cs_window *window) {
-  celspan_context *context = window->composer->context;
-  cs_v4 base = window->base->colour;
-  sum4 change[TILE], sum = WIDEN(base);
-  for (int32_t p = window->from; p < window->end;) {
-    int32_t next = next_change(window, p);
-    CS_TRY(cs_row_single(context, window->out, p, next,
-                         hold(__builtin_convertvector(sum, cs_v4))));
+  sum4 change[TILE], sum = WIDEN(window->base->colour);
+  for (int32_t p0 = window->from; p0 < window->end;) {
+    int32_t next = next_change(window, p0);
     int32_t stop = window->end - next < TILE ? window->end : next + TILE;
     memset(change, 0, (size_t)(stop - next) * sizeof *change);
     for (size_t i = 0; i < window->fragment_count; i++)
       add_changes(&window->fragments[i], next, stop, change);
-    CS_TRY(put_sums(window, next, stop, change, &sum));
-    p = stop;
+    CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
+    cs_pen p = cs_pen_take(window->out, window->from);
+    cs_pen_to(&p, next, hold(__builtin_convertvector(sum, cs_v4)));
+    draw_sums(&p, stop, change, &sum);
+    cs_pen_put(&p);
+    window->from = p0 = stop;
   }
   return CELSPAN_OK;
 }
@@ -152,8 +152,7 @@ static celspan_status close_wide(cs_window *window) {
 /* The same where the window is a few pixels wide, as nearly all are. */
 static celspan_status close_narrow(cs_window *window) {
   int32_t from = window->from, end = window->end;
-  cs_v4 base = window->base->colour;
-  sum4 change[NARROW + 3], sum = WIDEN(base);
+  sum4 change[NARROW + 3], sum = WIDEN(window->base->colour);
   memset(change, 0, (size_t)(end - from + 3) * sizeof *change);
   for (size_t i = 0; i < window->fragment_count; i++) {
     const cs_fragment *f = &window->fragments[i];
@@ -162,7 +161,11 @@ static celspan_status close_narrow(cs_window *window) {
     else
       add_changes(f, from, end, change);
   }
-  return put_sums(window, from, end, change, &sum);
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(end - from)));
+  cs_pen p = cs_pen_take(window->out, window->from);
+  draw_sums(&p, end, change, &sum);
+  cs_pen_put(&p);
+  return CELSPAN_OK;
 }
 
 /* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
@@ -316,7 +319,7 @@ static celspan_status close_window(cs_window *window) {
     if (window->varies)
       CS_TRY(close_varying(window));
     else if (window->fragment_count == 1)
-      CS_TRY(put_lone(window, &window->fragments[0], window->base->colour));
+      CS_TRY(close_lone(window));
     else if (window->end - window->from <= NARROW)
       CS_TRY(close_narrow(window));
     else
@@ -404,29 +407,6 @@ static celspan_status add_bent(cs_window *window, const cs_active *active, size_
   return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
 }
 
-/* An edge that shares its pixels with no other, between flat cells: most edges of most rows. */
-static inline celspan_status write_edge(cs_window *window, const cs_active *active,
-                                        const cs_edges *edges, size_t i, const cs_cell *left) {
-  int32_t first = edges->first[i], end = edges->end[i];
-  cs_v4 base = left->colour, step = left[1].colour - base;
-  if (window->is_open)
-    CS_TRY(close_window(window));
-  if (end - first > 2) {
-    cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1, .left = left,
-                     .right = left + 1, .first = first, .end = end};
-    CS_TRY(put_lone(window, &f, base));
-  } else {
-    CS_TRY(cs_row_single(window->composer->context, window->out, window->from, first, base));
-    if (end > first)
-      CS_TRY(put_pixel(window, first, base + step * (float)edges->area[i]));
-    if (end > first + 1)
-      CS_TRY(put_pixel(window, first + 1, base + step * (float)edges->rest[i]));
-  }
-  window->from = window->end = end;
-  window->cell = left + 1;
-  return CELSPAN_OK;
-}
-
 celspan_status cs_window_slice(cs_window *window, const cs_active *active, const cs_edges *edges,
                                size_t i, const cs_cell *left) {
   cs_window_pass(window, left + 1);
@@ -435,19 +415,76 @@ celspan_status cs_window_slice(cs_window *window, const cs_active *active, const
                                            active->y_next, left, left + 1);
 }
 
-celspan_status cs_window_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
-                              size_t i, const cs_cell *left, int32_t next) {
-  int32_t first = edges->first[i], end = edges->end[i];
-  bool is_inside = edges->low[i] >= 0 && edges->high[i] <= window->width;
-  bool is_alone = end <= next && first >= window->end && !window->trace;
-  if (is_alone && (end - first <= 2 || (is_inside && !edges->is_bent[i])) && left->length == 0 &&
-      left[1].length == 0)
-    return write_edge(window, active, edges, i, left);
+/* An edge that shares its pixels with others, or lies between cells that vary. */
+static celspan_status add_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               size_t i, const cs_cell *left) {
   CS_TRY(cs_window_reach(window, edges->low[i]));
-  if (edges->is_bent[i] || window->trace || !is_inside)
+  if (edges->is_bent[i] || window->trace || !cs_edges_is_inside(edges, i, window->width))
     return cs_window_slice(window, active, edges, i, left);
   cs_window_pass(window, left + 1);
   return add_measured(window, active, edges, i, left);
+}
+
+/* Draws boundary i if it shares its pixels with no other and lies between flat cells: as most edges of
+ * most rows. next: nothing that comes later lies left of this column. */
+static inline bool draw_edge(cs_pen *p, const cs_active *active, const cs_edges *edges, size_t i,
+                             const cs_cell *left, int32_t next, int32_t width) {
+  int32_t first = edges->first[i], end = edges->end[i];
+  if (end > next || first < p->from || (left->length | left[1].length) != 0)
+    return false;
+  if (end - first > 2) {
+    if (edges->is_bent[i] || !cs_edges_is_inside(edges, i, width))
+      return false;
+    cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1, .left = left,
+                     .right = left + 1, .first = first, .end = end};
+    draw_lone(p, &f, left->colour);
+    return true;
+  }
+  cs_v4 base = left->colour, step = left[1].colour - base;
+  cs_pen_to(p, first, base);
+  if (end > first)
+    cs_pen_to(p, first + 1, hold(base + step * (float)edges->area[i]));
+  if (end > first + 1)
+    cs_pen_to(p, end, hold(base + step * (float)edges->rest[i]));
+  return true;
+}
+
+/* Draws the edges from the first on, up to one that cannot be. Returns how many. */
+static size_t draw_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
+                         const cs_cell *cells, const uint32_t *boundaries, size_t count,
+                         int32_t next) {
+  cs_pen p = cs_pen_take(window->out, window->from);
+  size_t done = 0;
+  while (done < count) {
+    size_t i = boundaries[done];
+    int32_t limit = done + 1 < count ? edges->first[boundaries[done + 1]] : next;
+    if (!draw_edge(&p, active, edges, i, &cells[i], limit, window->width))
+      break;
+    done++;
+  }
+  cs_pen_put(&p);
+  window->from = window->end = p.from;
+  if (done > 0)
+    window->cell = &cells[boundaries[done - 1] + 1];
+  return done;
+}
+
+celspan_status cs_window_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               const cs_cell *cells, const uint32_t *boundaries, size_t count,
+                               int32_t next) {
+  for (size_t done = 0; done < count; done++) {
+    if (window->is_open && !window->trace && edges->first[boundaries[done]] >= window->end)
+      CS_TRY(close_window(window));
+    if (!window->is_open && !window->trace) {
+      CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS * (count - done)));
+      done += draw_edges(window, active, edges, cells, boundaries + done, count - done, next);
+      if (done == count)
+        break;
+    }
+    size_t i = boundaries[done];
+    CS_TRY(add_edge(window, active, edges, i, &cells[i]));
+  }
+  return CELSPAN_OK;
 }
 
 celspan_status cs_window_finish(cs_window *window) {

@@ -57,11 +57,13 @@ CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
                                              double yb, const cs_cell *left,
                                              const cs_cell *right);
-/* A whole item: boundary i through the whole row, straight or bent, to which nothing else happens.
- * next: nothing that comes later lies left of this column; 0 when that is not known. */
-CELSPAN_CHECKED celspan_status cs_window_edge(cs_window *window, const cs_active *active,
-                                              const cs_edges *edges, size_t i,
-                                              const cs_cell *left, int32_t next);
+/* Whole items: boundaries through the whole row, straight or bent, to which nothing else happens.
+ * boundaries: `count` of them, from left to right; cells: as in cs_cells.
+ * next: nothing that comes after them lies left of this column. */
+CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, const cs_active *active,
+                                               const cs_edges *edges, const cs_cell *cells,
+                                               const uint32_t *boundaries, size_t count,
+                                               int32_t next);
 /* Boundary i through what is left of the row or through a slice of it: a part of an item. */
 CELSPAN_CHECKED celspan_status cs_window_slice(cs_window *window, const cs_active *active,
                                                const cs_edges *edges, size_t i,
