@@ -1,5 +1,8 @@
 #include "filter/scan.h"
 
+/* So many rows on, and more, it is cheaper to begin anew than to follow every boundary there. */
+#define FAR_ROWS 16
+
 celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_shot *shot) {
   *scan = (cs_scan){.context = context, .shot = shot, .row = CS_SCAN_NOWHERE};
   cs_active_init(&scan->active, &shot->boundaries, &shot->cull);
@@ -43,10 +46,10 @@ static celspan_status advance(cs_scan *scan, double height, cs_change *change) {
   return CELSPAN_OK;
 }
 
-/* Brings boundaries and cells to the row: from the one above when that is where they stand. */
+/* Brings boundaries and cells to the row: from a row above when that is near. */
 static celspan_status reach_row(cs_scan *scan, int32_t y) {
   cs_change change = cs_change_all;
-  if (scan->row != CS_SCAN_NOWHERE && scan->row < y)
+  if (scan->row != CS_SCAN_NOWHERE && scan->row < y && y - scan->row < FAR_ROWS)
     CS_TRY(advance(scan, row_height(scan, y), &change));
   else
     CS_TRY(cs_active_start(scan->context, &scan->active, row_height(scan, y)));

@@ -1,5 +1,6 @@
 #include "render/bands.h"
 
+#include "base/wait.h"
 #include "output/parts.h"
 #include "span/roll.h"
 
@@ -7,8 +8,10 @@
 
 /* Bands that may be made ahead of delivery, a worker. */
 #define AHEAD 3
-/* Rows of a part at most, where the sink has no wish: signals are looked for between parts. */
-#define PART_ROWS 128
+/* Rows of a part at most, where the sink has no wish. */
+#define PART_ROWS 1024
+/* Rows from one look for a stop to the next. */
+#define LOOK_ROWS 32
 
 typedef struct band {
   int32_t index; /* of the band held, or -1 */
@@ -20,9 +23,12 @@ typedef struct band {
   celspan_statistics counts; /* of the part's rows */
 } band;
 
+typedef struct delivery delivery;
+
 typedef struct pool {
   celspan_context *context;
   const cs_frame *frame;
+  delivery *delivery;
   cs_lane *lanes;
   bool has_parts;
   cs_parts parts;
@@ -34,17 +40,18 @@ typedef struct pool {
   int32_t claimed; /* the next band to be made */
   int32_t delivered;
   bool is_stopped;
+  atomic_bool is_cancelled; /* read without the mutex, amid parts */
   pthread_mutex_t mutex;
   pthread_cond_t done, room;
 } pool;
 
-typedef struct delivery {
+struct delivery {
   celspan_context *context;
   const celspan_frame_desc *desc;
   const celspan_sink *sink;
   celspan_statistics *statistics;
   int32_t rows_done, rows_total;
-} delivery;
+};
 
 /* ---------------------------------------------------------------- delivery */
 
@@ -70,12 +77,18 @@ static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t
   return d->sink->row ? d->sink->row(d->sink->user, d->context, y, spans, count) : CELSPAN_OK;
 }
 
-static celspan_status report_progress(const delivery *d) {
+static bool goes_on(const delivery *d) {
   const celspan_frame_desc *desc = d->desc;
-  if (desc->progress && !desc->progress(desc->progress_user, d->rows_done, d->rows_total))
-    return cs_fail(d->context, CELSPAN_CANCELLED, "stopped after %d of %d rows", (int)d->rows_done,
-                   (int)d->rows_total);
-  return CELSPAN_OK;
+  return !desc->progress || desc->progress(desc->progress_user, d->rows_done, d->rows_total);
+}
+
+static celspan_status stop(const delivery *d) {
+  return cs_fail(d->context, CELSPAN_CANCELLED, "stopped after %d of %d rows", (int)d->rows_done,
+                 (int)d->rows_total);
+}
+
+static celspan_status report_progress(const delivery *d) {
+  return goes_on(d) ? CELSPAN_OK : stop(d);
 }
 
 /* ---------------------------------------------------------------- making bands */
@@ -97,6 +110,14 @@ static celspan_status make_part_row(pool *p, cs_lane *lane, band *b, int32_t y) 
                       : CELSPAN_OK;
 }
 
+/* Parts may take long. The calling thread, which has the first lane, asks whether to go on; the
+ * others hear of it. */
+static celspan_status look(pool *p, cs_lane *lane) {
+  if (lane == p->lanes && !goes_on(p->delivery))
+    atomic_store(&p->is_cancelled, true);
+  return atomic_load(&p->is_cancelled) ? CELSPAN_CANCELLED : CELSPAN_OK;
+}
+
 static celspan_status make_part(pool *p, cs_lane *lane, band *b) {
   const cs_parts *parts = &p->parts;
   void *hand = p->hands[lane - p->lanes];
@@ -104,8 +125,11 @@ static celspan_status make_part(pool *p, cs_lane *lane, band *b) {
   b->counts = (celspan_statistics){0};
   if (parts->begin)
     CS_TRY(parts->begin(hand, &lane->context, b->part, b->index));
-  for (int32_t y = first - (parts->takes_above && first > 0); y < end; y++)
+  for (int32_t y = first - (parts->takes_above && first > 0); y < end; y++) {
     CS_TRY(make_part_row(p, lane, b, y));
+    if ((y - first) % LOOK_ROWS == LOOK_ROWS - 1)
+      CS_TRY(look(p, lane));
+  }
   return parts->end ? parts->end(hand, &lane->context) : CELSPAN_OK;
 }
 
@@ -185,7 +209,9 @@ static celspan_status join_part(const pool *p, delivery *d, const band *b) {
   return report_progress(d);
 }
 
-static celspan_status deliver_band(const pool *p, delivery *d, const band *b) {
+static celspan_status deliver_band(pool *p, delivery *d, const band *b) {
+  if (atomic_load(&p->is_cancelled))
+    return stop(d);
   if (b->status != CELSPAN_OK)
     return cs_fail(d->context, b->status, "%s", b->error);
   if (p->has_parts)
@@ -195,6 +221,14 @@ static celspan_status deliver_band(const pool *p, delivery *d, const band *b) {
     CS_TRY(deliver_row(d, row.spans, row.count, row.varied));
   }
   return report_progress(d);
+}
+
+/* While others work: the mutex is held, and let go meanwhile. */
+static celspan_status look_up(pool *p, const delivery *d) {
+  pthread_mutex_unlock(&p->mutex);
+  celspan_status status = report_progress(d);
+  pthread_mutex_lock(&p->mutex);
+  return status;
 }
 
 /* Delivers bands in order, making one whenever the next is not there yet; the mutex is held, and
@@ -214,8 +248,8 @@ static celspan_status deliver_all(pool *p, delivery *d) {
     band *own = claim(p);
     if (own)
       work(p, &p->lanes[0], own);
-    else
-      pthread_cond_wait(&p->done, &p->mutex);
+    else if (!cs_wait_moment(&p->done, &p->mutex))
+      CS_TRY(look_up(p, d));
   }
   return CELSPAN_OK;
 }
@@ -230,6 +264,7 @@ static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
   pthread_mutex_lock(&p->mutex);
   celspan_status status = deliver_all(p, d);
   p->is_stopped = true;
+  atomic_store(&p->is_cancelled, true); /* parts that nobody waits for any more */
   pthread_cond_broadcast(&p->room);
   pthread_mutex_unlock(&p->mutex);
   while (--started > 0)
@@ -298,7 +333,7 @@ static int32_t count_bands(const cs_frame *frame, int32_t band_rows) {
  * is kept it may be high, so that this is seldom. */
 static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
   const cs_frame *frame = p->frame;
-  int32_t share = frame->crop_height / (frame->workers * 8);
+  int32_t share = frame->crop_height / (frame->workers * 16);
   if (p->parts.rows > 0)
     return p->parts.rows;
   if (!p->has_parts || desc->strip_rows > 0 || share <= frame->band_rows)
@@ -307,14 +342,14 @@ static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
 }
 
 static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d) {
-  pool p = {.context = context, .frame = frame};
+  pool p = {.context = context, .frame = frame, .delivery = d};
   p.has_parts = cs_sink_parts(d->sink, &p.parts);
   p.band_rows = choose_rows(&p, d->desc);
   int32_t total = p.total = count_bands(frame, p.band_rows);
   p.lane_count = frame->workers < total ? frame->workers : (int)total;
   p.band_count = p.lane_count * AHEAD;
   pthread_mutex_init(&p.mutex, NULL);
-  pthread_cond_init(&p.done, NULL);
+  cs_wait_init(&p.done);
   pthread_cond_init(&p.room, NULL);
   p.lanes = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *p.lanes);
   p.bands = cs_mem_array(context->memory, (size_t)p.band_count, sizeof *p.bands);

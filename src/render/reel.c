@@ -3,14 +3,13 @@
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/wait.h"
 #include "render/frame.h"
 
 enum {
-  AHEAD = 2,         /* frames a worker that are built or made, and not yet finished */
-  SHARE_ONE = 65536, /* a whole frame, in the shares of turns */
-  PAUSE = 100000000  /* nanoseconds between two ticks while others work */
+  AHEAD = 2,        /* frames a worker that are built or made, and not yet finished */
+  SHARE_ONE = 65536 /* a whole frame, in the shares of turns */
 };
 
 typedef struct run run;
@@ -191,17 +190,11 @@ static bool is_done(run *r, slot *s) {
   return answer;
 }
 
-/* Waits for a worker, not longer than until the next tick is due. */
 static celspan_status wait_for(run *r, slot *s) {
-  struct timespec until;
-  clock_gettime(CLOCK_MONOTONIC, &until);
-  until.tv_nsec += PAUSE;
-  until.tv_sec += until.tv_nsec / 1000000000;
-  until.tv_nsec %= 1000000000;
   pthread_mutex_lock(&r->lock);
-  int outcome = s->is_done ? 0 : pthread_cond_timedwait(&r->done, &r->lock, &until);
+  bool is_news = s->is_done || cs_wait_moment(&r->done, &r->lock);
   pthread_mutex_unlock(&r->lock);
-  return outcome == 0 ? CELSPAN_OK : tick_or_stop(r);
+  return is_news ? CELSPAN_OK : tick_or_stop(r);
 }
 
 static bool can_build(run *r) {
@@ -270,13 +263,9 @@ static void stop_threads(run *r) {
 }
 
 static void init_locks(run *r) {
-  pthread_condattr_t monotonic;
-  pthread_condattr_init(&monotonic);
-  pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
   pthread_mutex_init(&r->lock, NULL);
   pthread_cond_init(&r->work, NULL);
-  pthread_cond_init(&r->done, &monotonic);
-  pthread_condattr_destroy(&monotonic);
+  cs_wait_init(&r->done);
 }
 
 static void finish_locks(run *r) {

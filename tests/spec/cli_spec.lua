@@ -271,6 +271,15 @@ describe("the command line", function()
       end
     end)
 
+    it("and all else but Lua, zlib and the C library stays out of a small script", function()
+      local opened = libraries("render " .. plain .. " --progress none --hash --frames 1")
+      local expected = { ["libc"] = true, ["libm"] = true, ["libz"] = true, ["liblua5.4"] = true }
+      for name in opened:gmatch "calling init: %S*/(%S-)%.so" do
+        local is_sanitizer = name:find "san$" or name == "libgcc_s" or name == "libstdc++"
+        assert.truthy(expected[name] or is_sanitizer or name:find "^ld%-linux", name)
+      end
+    end)
+
     it_reads_pictures("comes with the first file that needs it", function()
       local opened = libraries("render " .. plain .. " --progress none --frames 1 -o " .. folder
         .. "/f.exr")

@@ -194,6 +194,47 @@ describe("frames by several workers", function()
   end)
 end)
 
+describe("a frame by several workers", function()
+  local function assert_alike(ending, arguments)
+    local alone
+    for workers = 1, 4 do
+      local name = ("one%d.%s"):format(workers, ending)
+      local code, out, err = render("film.lua", "-o %s/%s --frames 4 --hash --progress none --workers %d %s",
+        bench.folder, name, workers, arguments)
+      assert.are.equal(0, code, err)
+      local made = out .. bench:read(name)
+      alone = alone or made
+      assert.is_true(alone == made, ("%s with %d workers"):format(arguments, workers))
+    end
+  end
+
+  it("is one PNG to the byte, of one strip or of many #workers", function()
+    assert_alike("png", "--size 700x300")
+    assert_alike("png", "--size 1500x2100")
+    assert_alike("png", "--size 1500x2100 --depth 16 --crop 3,70,1490,1999")
+    assert_alike("png", "--size 30000x60 --antialias none")
+  end)
+
+  it("is one file of the other formats too #workers", function()
+    assert_alike("tga", "--size 700x300")
+    assert_alike("span", "--size 700x300")
+  end)
+
+  it("without files or text is counted, and as pixels dropped #workers", function()
+    for _, pixels in ipairs { "", "--pixels 8", "--pixels float" } do
+      local alone
+      for workers = 1, 4 do
+        local code, out, err = bench:celspan("spans %s/film.lua --frame 4 --size 700x900 --stats %s "
+          .. "--workers %d", bench.folder, pixels, workers)
+        assert.are.equal(0, code, err)
+        local counts = out:match "^(rows 900 .- pixels_in_arrays %d+)"
+        alone = alone or counts
+        assert.are.equal(alone, counts)
+      end
+    end
+  end)
+end)
+
 describe("equal frames", function()
   it("are copied, and come out as if they were made #workers", function()
     for workers = 1, 2 do
