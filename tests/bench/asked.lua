@@ -113,7 +113,7 @@ end
 
 --- The time of a peer over celspan's in a raster job.
 local function raster_ratio(run, job, renderer)
-  local mine = run:one { part = "raster", scene = job, renderer = "celspan", output = "row" }
+  local mine = run:one { part = "raster", scene = job, renderer = "celspan", output = "whole" }
   local other = run:one { part = "raster", scene = job, renderer = renderer }
   return over(seconds(other), seconds(mine))
 end
@@ -130,7 +130,8 @@ local function pictures(run, lines)
       end
     end
   end
-  local affine = run:one { part = "raster", scene = "affine", renderer = "celspan", output = "row" }
+  local affine = run:one { part = "raster", scene = "affine", renderer = "celspan",
+                           output = "whole" }
   at_most(lines, "a picture over a picture, affine: at most twice Blend2D's published time",
     over(affine and affine.best_processor, published.pictures.affine), 2, times)
   for _, sampling in ipairs { "nearest", "bilinear" } do

@@ -38,19 +38,6 @@ typedef struct frame_job {
 
 /* ---------------------------------------------------------------- frames */
 
-static celspan_status drop_row(void *user, celspan_context *context, int32_t y,
-                               const celspan_span *spans, size_t span_count) {
-  (void)user, (void)context, (void)y, (void)spans, (void)span_count;
-  return CELSPAN_OK;
-}
-
-static celspan_status code_row(void *user, celspan_context *context, int32_t y,
-                               const celspan_span *spans, size_t span_count) {
-  (void)context, (void)y;
-  celspan_spans_code(&coded, spans, span_count, user);
-  return CELSPAN_OK;
-}
-
 static void open_frame(frame_job *job, int width, int height, const char *antialias,
                        const char *output, int workers) {
   job->exposure = (celspan_exposure){job->rostrum, 1};
@@ -58,26 +45,25 @@ static void open_frame(frame_job *job, int width, int height, const char *antial
   job->desc = bench_frame(&job->exposure, width, height, &job->mode);
   job->desc.workers = workers;
   job->output = output;
-  size_t rows = strcmp(output, "whole") == 0 ? (size_t)height : 1;
-  job->pixels = calloc(4 * (size_t)width, rows);
+  job->pixels = calloc(4 * (size_t)width, strcmp(output, "whole") == 0 ? (size_t)height : 1);
   if (!job->pixels)
     bench_stop("no memory for the pixels");
 }
 
 static void render(void *user) {
   frame_job *job = user;
-  const celspan_sink drop = {.row = drop_row}, code = {.user = job->pixels, .row = code_row};
-  celspan_status status;
+  const celspan_sink nowhere = {.row = NULL};
+  celspan_context *context = job->context;
+  celspan_statistics *statistics = &job->statistics;
   if (strcmp(job->output, "file") == 0)
-    status = celspan_frame_write(job->context, &job->desc, job->file, NULL, &job->statistics);
+    bench_check(context, celspan_frame_write(context, &job->desc, job->file, NULL, statistics));
   else if (strcmp(job->output, "whole") == 0)
-    status = celspan_frame_pixels(job->context, &job->desc, &coded, job->pixels,
-                                  4 * (size_t)job->desc.width, &job->statistics);
+    bench_check(context, celspan_frame_pixels(context, &job->desc, &coded, job->pixels,
+                                              4 * (size_t)job->desc.width, statistics));
+  else if (strcmp(job->output, "row") == 0)
+    bench_check(context, celspan_frame_pixels(context, &job->desc, &coded, NULL, 0, statistics));
   else
-    status =
-        celspan_frame_render(job->context, &job->desc,
-                             strcmp(job->output, "row") == 0 ? &code : &drop, &job->statistics);
-  bench_check(job->context, status);
+    bench_check(context, celspan_frame_render(context, &job->desc, &nowhere, statistics));
 }
 
 static void tell_statistics(const celspan_statistics *s) {

@@ -63,7 +63,7 @@ local began = os.time()
 for _, part in ipairs(parts) do
   local name, title, run = table.unpack(part)
   if next(options.only) == nil or options.only[name] then
-    print("== " .. title)
+    print(("== %s (after %d s)"):format(title, os.time() - began))
     run(runner, options.folder, options.is_quick)
   end
 end
