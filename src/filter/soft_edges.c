@@ -103,7 +103,8 @@ typedef struct filling {
   block *blocks;
   cs_v4 *below;       /* by column: what the row above added to the line below it */
   cs_v4 *lines;       /* a ring of 2 reach_y, of columns each */
-  const cs_v4 **seen; /* those under a row of nodes, from the middle outwards */
+  const float **seen; /* those under a row of nodes, from the middle outwards */
+  cs_isa isa;
   cs_trace trace;
 } filling;
 
@@ -231,45 +232,31 @@ static celspan_status add_row(filling *f, cs_scan *scan, int32_t row) {
 
 /* ---------------------------------------------------------------- nodes */
 
-#define TOGETHER 4 /* nodes weighed at a time */
-#define SAME 1e-6f
-
-/* Sums of equal values miss them by some last bits: what is as near to one of them is that one. */
-static inline cs_v4 settle(cs_v4 sum, cs_v4 centre) {
-  typedef int lanes __attribute__((vector_size(16)));
-  cs_v4 away = sum - centre, slack = SAME * cs_v4_max(centre, -centre);
-  lanes near = (away <= slack) & (away >= -slack);
-  return (cs_v4)(((lanes)centre & near) | ((lanes)sum & ~near));
-}
-
-static void weigh(const filling *f, int32_t p, float (*nodes)[4]) {
-  cs_v4 sum[TOGETHER] = {{0}}, centre[TOGETHER];
-  for (int32_t k = f->edges->reach_y - 1; k >= 0; k--) {
-    const cs_v4 *above = f->seen[2 * k] + p, *below = f->seen[2 * k + 1] + p;
-    float weight = f->edges->weights[k];
-    for (int j = 0; j < TOGETHER; j++)
-      sum[j] += weight * (above[j] + below[j]);
-  }
-  memcpy(centre, f->seen[0] + p, sizeof centre);
-  for (int j = 0; j < TOGETHER; j++)
-    cs_v4_store(nodes[p + j], settle(sum[j], centre[j]));
+/* The last block of those from i on that are weighed together. */
+static int32_t weighed_end(const filling *f, int32_t i, int32_t lines) {
+  while (i < f->block_count && f->blocks[i].still < lines)
+    i++;
+  return i;
 }
 
 static void fill_nodes(filling *f, int32_t row, float (*nodes)[4]) {
   int32_t reach = f->edges->reach_y;
   for (int32_t k = 0; k < reach; k++) {
-    f->seen[2 * k] = line_of(f, row + reach - k);
-    f->seen[2 * k + 1] = line_of(f, row + reach + 1 + k);
+    f->seen[2 * k] = (const float *)line_of(f, row + reach - k);
+    f->seen[2 * k + 1] = (const float *)line_of(f, row + reach + 1 + k);
   }
-  for (int32_t i = 0; i < f->block_count; i++) {
-    const block *b = &f->blocks[i];
-    int32_t end = block_end(f, i);
-    if (b->still >= 2 * reach)
-      for (int32_t p = i * BLOCK; p < end; p++)
-        cs_v4_store(nodes[p], b->colour);
-    else
-      for (int32_t p = i * BLOCK; p < end; p += TOGETHER)
-        weigh(f, p + TOGETHER <= end ? p : end - TOGETHER, nodes);
+  for (int32_t i = 0; i < f->block_count;) {
+    int32_t first = i * BLOCK, weighed = weighed_end(f, i, 2 * reach);
+    if (weighed > i) {
+      int32_t end = block_end(f, weighed - 1);
+      CS_WIDE_CHOOSE(f->isa, cs_soft_edges_weigh)
+      (f->seen, f->edges->weights, reach, 4 * first, 4 * end, &nodes[0][0]);
+      i = weighed;
+      continue;
+    }
+    for (int32_t p = first; p < block_end(f, i); p++)
+      cs_v4_store(nodes[p], f->blocks[i].colour);
+    i++;
   }
 }
 
@@ -288,7 +275,10 @@ celspan_status cs_soft_edges_fill(const cs_soft_edges *edges, cs_scan *scan, int
                                   int32_t first, int32_t end, float (*nodes)[4]) {
   cs_memory *memory = scan->context->memory;
   size_t count = (size_t)columns, lines = 2 * (size_t)edges->reach_y;
-  filling f = {.edges = edges, .columns = columns, .block_count = (columns + BLOCK - 1) / BLOCK};
+  filling f = {.edges = edges,
+               .columns = columns,
+               .block_count = (columns + BLOCK - 1) / BLOCK,
+               .isa = scan->composer.isa};
   size_t blocks = (size_t)f.block_count;
   f.near = cs_mem_array(memory, count, sizeof *f.near);
   f.steps = cs_mem_array(memory, count, sizeof *f.steps);

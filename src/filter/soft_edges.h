@@ -10,6 +10,7 @@
 #ifndef CS_FILTER_SOFT_EDGES_H
 #define CS_FILTER_SOFT_EDGES_H
 
+#include "base/wide.h"
 #include "filter/scan.h"
 
 typedef struct cs_soft_edges {
@@ -27,5 +28,13 @@ void cs_soft_edges_finish(cs_soft_edges *edges, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_soft_edges_fill(const cs_soft_edges *edges, cs_scan *scan,
                                                   int32_t columns, int32_t first, int32_t end,
                                                   float (*nodes)[4]);
+
+/* ---- soft_edges_wide.c */
+
+/* The floats [first, end) of a row of nodes: sums over `pairs` pairs of lines, from the middle
+ * outwards, by their weights. */
+CS_WIDE_DECLARE(void, cs_soft_edges_weigh,
+                (const float *const *lines, const float *weights, int32_t pairs, int32_t first,
+                 int32_t end, float *nodes));
 
 #endif
