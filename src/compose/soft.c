@@ -99,28 +99,29 @@ static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t t
   return ends * (0.5f * (float)(to - from - 1)) - sum;
 }
 
+/* Whether a row's knot stays what it is: at its ends, and beside constant stretches. */
+static bool is_fixed(const cs_soft_knots *knots, size_t first, size_t k) {
+  return k == first || k + 1 == knots->count || knots->still[k - first] ||
+         knots->still[k - first - 1];
+}
+
 /* Lines through nodes lie above a hollow and below a hill: each moves its ends by half of what it
- * adds, so that the row keeps its light. Constant stretches stay what they are, and the lines
- * beside them move their other end alone. first: of the row's knots; `still` tells them. */
-static void balance(const node_row *row, cs_soft_knots *knots, size_t first, const bool *still) {
+ * adds, or the one that may move by all, so that the row keeps its light. first: of the row's
+ * knots. */
+static void balance(const node_row *row, cs_soft_knots *knots, size_t first) {
   size_t planes = (size_t)row->plane_count;
   for (size_t p = 0; p < planes; p++) {
-    cs_v4 before = cs_v4_all(0); /* owed to this knot by the line that ends in it */
-    for (size_t k = first; k < knots->count; k++) {
-      bool is_last = k + 1 == knots->count;
-      bool is_fixed = still[k - first] || (k > first && still[k - 1 - first]);
-      bool is_next_fixed = is_last || still[k + 1 - first];
-      cs_v4 added = is_last || still[k - first]
-                        ? cs_v4_all(0)
-                        : light_added(row, (int)p, knots->at[k], knots->at[k + 1]);
-      cs_v4 here = is_fixed ? cs_v4_all(0) : is_next_fixed ? added : 0.5f * added;
-      if (!is_fixed && !is_last && k > first) {
+    cs_v4 owed = cs_v4_all(0); /* by the line that ends in the knot */
+    for (size_t k = first; k + 1 < knots->count; k++) {
+      bool moves = !is_fixed(knots, first, k);
+      cs_v4 added = light_added(row, (int)p, knots->at[k], knots->at[k + 1]);
+      cs_v4 here = is_fixed(knots, first, k + 1) ? added : 0.5f * added;
+      if (moves) {
         float *value = knots->values[k * planes + p];
-        cs_v4 moved = cs_v4_load(value) -
-                      (before + here) * (2 / (float)(knots->at[k + 1] - knots->at[k - 1]));
-        cs_v4_store(value, hold(moved));
+        float wide = 0.5f * (float)(knots->at[k + 1] - knots->at[k - 1]);
+        cs_v4_store(value, hold(cs_v4_load(value) - (owed + here) * (1 / wide)));
       }
-      before = is_fixed ? added : added - here;
+      owed = moves ? added - here : added;
     }
   }
 }
@@ -141,7 +142,7 @@ static celspan_status add_row(celspan_context *context, const node_row *row, cs_
     add_knot(row, i, out);
   }
   out->still[out->count - 1 - first] = false;
-  balance(row, out, first, out->still);
+  balance(row, out, first);
   return CELSPAN_OK;
 }
 
