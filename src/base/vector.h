@@ -7,7 +7,33 @@
 
 typedef float cs_v4 __attribute__((vector_size(16)));
 
+/* Four doubles, for sums of many floats. */
+typedef double cs_v2d __attribute__((vector_size(16)));
+typedef struct cs_v4d {
+  cs_v2d low, high;
+} cs_v4d;
+
 static inline cs_v4 cs_v4_all(float x) { return (cs_v4){x, x, x, x}; }
+
+static inline cs_v4d cs_v4_wide(cs_v4 v) { return (cs_v4d){{v[0], v[1]}, {v[2], v[3]}}; }
+
+static inline cs_v4 cs_v4_narrow(cs_v4d v) {
+  return (cs_v4){(float)v.low[0], (float)v.low[1], (float)v.high[0], (float)v.high[1]};
+}
+
+static inline cs_v4d cs_v4d_add(cs_v4d a, cs_v4d b) {
+  return (cs_v4d){a.low + b.low, a.high + b.high};
+}
+
+static inline cs_v4d cs_v4d_scale(double weight, cs_v4d v) {
+  return (cs_v4d){weight * v.low, weight * v.high};
+}
+
+/* From one colour to another, exactly. */
+static inline cs_v4d cs_v4d_step(cs_v4 from, cs_v4 to) {
+  cs_v4d a = cs_v4_wide(from), b = cs_v4_wide(to);
+  return (cs_v4d){b.low - a.low, b.high - a.high};
+}
 
 static inline cs_v4 cs_v4_load(const float *from) {
   cs_v4 v;

@@ -7,6 +7,7 @@
 #include "compose/blend.h"
 #include "compose/ramps.h"
 #include "compose/shade.h"
+#include "compose/soft_run.h"
 
 #include <math.h>
 
@@ -89,9 +90,10 @@ static celspan_status blend_soft(cs_composer *composer, cs_blend *blend, const c
   const cs_soft *soft = composer->stack->softs[leaf->detail];
   cs_seen_soft *seen = &composer->softs[leaf->detail];
   CS_TRY(cs_soft_stand(soft, composer->context, seen, b->y));
+  size_t piece = 0;
   for (int32_t k = 0; k < b->count; k++) {
     cs_v4 s, t;
-    cs_soft_paint(soft, seen, centre(b, k), &s, &t);
+    cs_soft_paint(soft, seen, centre(b, k), &piece, &s, &t);
     cs_v4_store(room->s[k], s);
     cs_v4_store(room->t[k], t);
   }
@@ -191,6 +193,9 @@ celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *
   float *colours;
   if (x1 <= x0)
     return CELSPAN_OK;
+  uint32_t item;
+  if (cs_soft_run_fits(composer, program, &item))
+    return cs_soft_run(composer, program, item, x0, x1, y, row);
   CS_TRY(needs_array(composer, program, &is_array));
   if (!is_array)
     return cs_ramps_run(composer, program, x0, x1, y, row);

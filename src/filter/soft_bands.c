@@ -29,7 +29,7 @@ typedef struct store {
 /* ---------------------------------------------------------------- life */
 
 static void free_entry(store *bands, entry *e) {
-  cs_mem_free(bands->memory, e->band.nodes, e->size);
+  cs_soft_band_free(&e->band, bands->memory);
   cs_mem_free(bands->memory, e, sizeof *e);
 }
 
@@ -135,21 +135,14 @@ static void shrink_to(store *bands, size_t budget) {
 
 static void shrink(store *bands) { shrink_to(bands, bands->budget); }
 
-static entry *add(store *bands, const cs_band_key *key, size_t size) {
+static entry *add(store *bands, const cs_band_key *key) {
   entry *e = cs_mem_array(bands->memory, 1, sizeof *e);
   if (!e)
     return NULL;
-  e->band.nodes = cs_mem_array(bands->memory, 1, size);
-  if (!e->band.nodes) {
-    cs_mem_free(bands->memory, e, sizeof *e);
-    return NULL;
-  }
   e->key = *key;
-  e->size = size;
   entry **bucket = bucket_of(bands, key);
   e->next = *bucket;
   *bucket = e;
-  bands->counts.bytes += size;
   return e;
 }
 
@@ -165,12 +158,14 @@ static void drop_holder(store *bands, entry *e) {
 
 /* ---------------------------------------------------------------- making */
 
-/* Makes a new entry's nodes with the lock let go. */
+/* Makes a new entry's band with the lock let go. */
 static celspan_status make_entry(store *bands, celspan_context *context, entry *e,
                                  cs_band_maker make, const void *layer) {
   pthread_mutex_unlock(&bands->lock);
-  celspan_status status = make(layer, context, e->key.number, e->band.nodes);
+  celspan_status status = make(layer, context, e->key.number, &e->band);
   pthread_mutex_lock(&bands->lock);
+  e->size = cs_soft_band_bytes(&e->band);
+  bands->counts.bytes += e->size;
   e->is_made = status == CELSPAN_OK;
   bands->counts.made += e->is_made;
   pthread_cond_broadcast(&bands->changed);
@@ -190,14 +185,14 @@ static entry *hold(store *bands, const cs_band_key *key) {
   return e;
 }
 
-celspan_status cs_soft_bands_acquire(celspan_context *context, const cs_band_key *key, size_t size,
+celspan_status cs_soft_bands_acquire(celspan_context *context, const cs_band_key *key,
                                      cs_band_maker make, const void *layer, cs_soft_band **out) {
   store *bands = store_of(context);
   celspan_status status = CELSPAN_OK;
   pthread_mutex_lock(&bands->lock);
   entry *e = hold(bands, key);
   if (!e) {
-    e = add(bands, key, size);
+    e = add(bands, key);
     if (e) {
       e->holders = 1;
       status = make_entry(bands, context, e, make, layer);
