@@ -132,8 +132,8 @@ static celspan_status add_row(celspan_context *context, const node_row *row, cs_
   CS_TRY(cs_mem_reserve(context, (void **)&out->at, &out->at_capacity, limit, sizeof *out->at));
   CS_TRY(cs_mem_reserve(context, (void **)&out->values, &out->value_capacity,
                         limit * (size_t)row->plane_count, sizeof *out->values));
-  CS_TRY(cs_mem_reserve(context, (void **)&out->still, &out->still_capacity,
-                        (size_t)row->last + 1, sizeof *out->still));
+  CS_TRY(cs_mem_reserve(context, (void **)&out->still, &out->still_capacity, (size_t)row->last + 1,
+                        sizeof *out->still));
   add_knot(row, 0, out);
   for (int32_t i = 0; i < row->last;) {
     int32_t still = still_end(row, i);
@@ -197,8 +197,8 @@ celspan_status cs_soft_band_thin(const cs_soft *soft, celspan_context *context, 
   }
   band->rows[rows] = knots->count;
   fit(memory, (void **)&knots->at, &knots->at_capacity, knots->count, sizeof *knots->at);
-  fit(memory, (void **)&knots->values, &knots->value_capacity,
-      knots->count * (size_t)soft->planes, sizeof *knots->values);
+  fit(memory, (void **)&knots->values, &knots->value_capacity, knots->count * (size_t)soft->planes,
+      sizeof *knots->values);
   cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
   band->nodes = NULL;
   band->node_count = 0;
@@ -309,8 +309,8 @@ size_t cs_soft_find(const cs_seen_soft *seen, double at, size_t hint) {
   return low;
 }
 
-void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece,
-                   cs_v4 *s, cs_v4 *t) {
+void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece, cs_v4 *s,
+                   cs_v4 *t) {
   double at = cs_soft_at(soft, x);
   size_t k = *piece = cs_soft_find(seen, at, *piece), planes = (size_t)soft->planes;
   float share = (float)((at - seen->at[k]) / (seen->at[k + 1] - seen->at[k]));

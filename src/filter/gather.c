@@ -45,8 +45,7 @@ void cs_gather_step(cs_gather *g, const cs_trace_piece *piece, int32_t p, double
 
 /* ---------------------------------------------------------------- pieces */
 
-bool cs_gather_cut(const cs_trace_piece *piece, double top, double foot,
-                   cs_trace_piece *out) {
+bool cs_gather_cut(const cs_trace_piece *piece, double top, double foot, cs_trace_piece *out) {
   double slope = (piece->xb - piece->xa) / (piece->yb - piece->ya);
   *out = *piece;
   if (piece->yb <= top || piece->ya >= foot)
@@ -73,8 +72,8 @@ static bool are_alike(const cs_composer *composer, const cs_program *a, const cs
   return true;
 }
 
-static celspan_status find_look(cs_gather *g, const cs_composer *composer, const cs_program *program,
-                                int32_t *out) {
+static celspan_status find_look(cs_gather *g, const cs_composer *composer,
+                                const cs_program *program, int32_t *out) {
   cs_convolve *convolve = g->convolve;
   for (size_t i = convolve->look_count; i-- > 0;)
     if (are_alike(composer, convolve->looks[i].program, program)) {

@@ -1,4 +1,5 @@
-/* A piece under an even shape: at each height the kernel is one interval in which it is constant. */
+/* A piece under an even shape: at each height the kernel is one interval in which it is constant.
+ */
 #include "filter/gather.h"
 
 #include "base/number.h"
@@ -17,8 +18,7 @@ typedef struct part {
   int32_t first, end; /* columns that it parts; from `end` on it is passed */
 } part;
 
-static celspan_status change(cs_gather *g, const cs_trace_piece *piece, int32_t p,
-                             double weight) {
+static celspan_status change(cs_gather *g, const cs_trace_piece *piece, int32_t p, double weight) {
   cs_gather_step(g, piece, p, weight);
   return cs_gather_shift(g, piece, p, weight);
 }
