@@ -13,8 +13,9 @@
 typedef struct node_row {
   const float (*planes[2])[4]; /* nodes */
   int plane_count;
-  int32_t last;  /* node */
-  bool is_split; /* nodes are shown as they are: a line may end in one and the next begin after it */
+  int32_t last; /* node */
+  bool
+      is_split; /* nodes are shown as they are: a line may end in one and the next begin after it */
 } node_row;
 
 static void free_knots(cs_soft_knots *knots, cs_memory *memory) {
