@@ -14,6 +14,8 @@ typedef struct node_row {
   const float (*planes[2])[4]; /* nodes */
   int plane_count;
   int32_t last; /* node */
+  bool
+      is_split; /* nodes are shown as they are: a line may end in one and the next begin after it */
 } node_row;
 
 static void free_knots(cs_soft_knots *knots, cs_memory *memory) {
@@ -140,6 +142,11 @@ static celspan_status add_row(celspan_context *context, const node_row *row, cs_
     out->still[out->count - 1 - first] = still > i;
     i = still > i ? still : swing_end(row, i);
     add_knot(row, i, out);
+    if (row->is_split && !out->still[out->count - 2 - first] && i + 1 < row->last &&
+        still_end(row, i) == i) {
+      out->still[out->count - 1 - first] = false;
+      add_knot(row, ++i, out);
+    }
   }
   out->still[out->count - 1 - first] = false;
   balance(row, out, first);
@@ -169,7 +176,8 @@ static const float (*band_row(const cs_soft *soft, const cs_soft_band *band, int
 }
 
 static node_row band_nodes(const cs_soft *soft, const cs_soft_band *band, int32_t row) {
-  node_row out = {.plane_count = soft->planes, .last = soft->columns - 1};
+  node_row out = {
+      .plane_count = soft->planes, .last = soft->columns - 1, .is_split = soft->pitch_x == 1};
   for (int plane = 0; plane < soft->planes; plane++)
     out.planes[plane] = band_row(soft, band, plane, row);
   return out;

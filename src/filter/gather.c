@@ -10,8 +10,7 @@ void cs_gather_touch(cs_convolve *convolve, int32_t p) {
   memset(convolve->changes[p], 0, sizeof convolve->changes[p]);
   if (convolve->slopes)
     memset(convolve->slopes[p], 0, sizeof convolve->slopes[p]);
-  if (convolve->values)
-    convolve->values[p] = cs_v4_all(0);
+  convolve->values[p] = cs_v4_all(0);
   convolve->shifts_at[p] = 0;
   if (convolve->kernel->is_signed) {
     convolve->passages_at[p] = 0;
