@@ -1,3 +1,7 @@
+/* Two tables of places: of eight bytes, with all earlier places of a hash in a chain, because what
+ * filters leave is made of few values and four bytes of it are everywhere; and of four bytes, the
+ * latest place alone, for what is new.
+ */
 #include "output/search.h"
 
 #include <string.h>
