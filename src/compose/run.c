@@ -169,7 +169,7 @@ celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, i
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- runs */
+/* ---------------------------------------------------------------- runs of one program */
 
 /* Whether a picture of the program shows pixel by pixel. */
 static celspan_status needs_array(cs_composer *composer, const cs_program *program, bool *out) {
@@ -185,17 +185,141 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
   return CELSPAN_OK;
 }
 
-celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
-                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+/* Whether a picture's samples pass through its leaf unchanged: nothing is in front of it, and no
+ * light but white is on it. */
+static bool is_bare(const cs_stack *stack, const cs_leaf *leaf, uint32_t index) {
+  return leaf->group == CS_STACK_NONE && leaf->fade == 1 && leaf->front[0] == 1 &&
+         leaf->front[1] == 1 && leaf->front[2] == 1 &&
+         (stack->light_count == 0 || stack->lights[0].below <= index);
+}
+
+/* What shows over some columns: the items of a program without those that are clear there, up to the
+ * first that is opaque. */
+typedef struct segment {
+  cs_program program;
+  cs_item *items;
+  bool ends_opaque;
+} segment;
+
+/* Whether all that shows is one opaque picture, texel by pixel. */
+static bool is_copy(const cs_composer *composer, const segment *part) {
+  if (!part->ends_opaque || part->program.length != 1)
+    return false;
+  uint32_t index = part->program.items[0].leaf;
+  const cs_leaf *leaf = &composer->stack->leaves[index];
+  return leaf->kind == CS_LEAF_PICTURE && is_bare(composer->stack, leaf, index) &&
+         composer->slides[leaf->detail].sampler.way == CS_SAMPLER_COPY;
+}
+
+static celspan_status run_copy(cs_composer *composer, const segment *part, int32_t x0, int32_t x1,
+                               double y, cs_row *row) {
+  const cs_leaf *leaf = &composer->stack->leaves[part->program.items[0].leaf];
+  unsigned char *codes;
+  CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
+  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0,
+                          y, codes);
+}
+
+static celspan_status run_segment(cs_composer *composer, const segment *part, int32_t x0,
+                                  int32_t x1, double y, cs_row *row) {
   bool is_array;
   float *colours;
   if (x1 <= x0)
     return CELSPAN_OK;
-  CS_TRY(needs_array(composer, program, &is_array));
+  if (row->takes_codes && is_copy(composer, part))
+    return run_copy(composer, part, x0, x1, y, row);
+  CS_TRY(needs_array(composer, &part->program, &is_array));
   if (!is_array)
-    return cs_ramps_run(composer, program, x0, x1, y, row);
+    return cs_ramps_run(composer, &part->program, x0, x1, y, row);
   CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
-  return cs_composer_program_colours(composer, program, x0, x1, y, (float(*)[4])colours);
+  return cs_composer_program_colours(composer, &part->program, x0, x1, y, (float(*)[4])colours);
+}
+
+/* ---------------------------------------------------------------- runs cut into segments */
+
+/* Columns looked at at a time, from the left edge of the frame on: what is known of them must not
+ * depend on where a run begins. */
+#define LOOK 64
+
+/* What samples of an item have in common that lets it, or all behind it, be left out. */
+static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_t x0, int32_t x1,
+                                   double y, cs_picture_look *out) {
+  const cs_leaf *leaf = &composer->stack->leaves[index];
+  const cs_seen_slide *slide;
+  *out = CS_PICTURE_MIXED;
+  if (leaf->kind != CS_LEAF_PICTURE || leaf->fade != 1 || leaf->group != CS_STACK_NONE)
+    return CELSPAN_OK;
+  CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+  if (slide->is_opaque) {
+    *out = CS_PICTURE_OPAQUE;
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_sampler_look(composer->texels, &slide->sampler, x0, x1, y, out));
+  if (*out == CS_PICTURE_OPAQUE &&
+      composer->stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_GEL)
+    *out = CS_PICTURE_MIXED;
+  return CELSPAN_OK;
+}
+
+static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t x0,
+                                  double y, segment *out) {
+  int32_t left = x0 / LOOK * LOOK;
+  uint32_t length = 0;
+  out->ends_opaque = false;
+  for (uint32_t i = 0; i < program->length && !out->ends_opaque; i++) {
+    cs_picture_look look;
+    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + LOOK, y, &look));
+    if (look != CS_PICTURE_CLEAR)
+      out->items[length++] = program->items[i];
+    out->ends_opaque = look == CS_PICTURE_OPAQUE;
+  }
+  out->program = (cs_program){out->items, program->strips, length};
+  return CELSPAN_OK;
+}
+
+static bool is_same_segment(const segment *a, const segment *b) {
+  return a->program.length == b->program.length && a->ends_opaque == b->ends_opaque &&
+         memcmp(a->items, b->items, a->program.length * sizeof *a->items) == 0;
+}
+
+static celspan_status make_segments(cs_composer *composer, const cs_program *program, cs_row *row,
+                                    segment parts[2]) {
+  for (int k = 0; k < 2; k++) {
+    parts[k].items = cs_arena_take(composer->context, &row->colours,
+                                   program->length * sizeof *parts[k].items);
+    if (!parts[k].items)
+      return CELSPAN_NO_MEMORY;
+  }
+  return CELSPAN_OK;
+}
+
+static bool has_picture(const cs_composer *composer, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++)
+    if (composer->stack->leaves[program->items[i].leaf].kind == CS_LEAF_PICTURE)
+      return true;
+  return false;
+}
+
+celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
+                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+  segment parts[2];
+  int32_t begun = x0, current = 0;
+  if (x1 <= x0)
+    return CELSPAN_OK;
+  if (!has_picture(composer, program))
+    return cs_ramps_run(composer, program, x0, x1, y, row);
+  CS_TRY(make_segments(composer, program, row, parts));
+  CS_TRY(cut_segment(composer, program, x0, y, &parts[0]));
+  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < x1; x += LOOK) {
+    segment *next = &parts[1 - current];
+    CS_TRY(cut_segment(composer, program, x, y, next));
+    if (is_same_segment(&parts[current], next))
+      continue;
+    CS_TRY(run_segment(composer, &parts[current], begun, x, y, row));
+    begun = x;
+    current = 1 - current;
+  }
+  return run_segment(composer, &parts[current], begun, x1, y, row);
 }
 
 celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,

@@ -5,6 +5,7 @@
  *   sampler_grid.c   where their texels begin, when these are wide
  *   sampler_taps.c   all others, many pixels at a time
  *   sampler_pixel.c  kernels that are taken one by one
+ *   sampler_look.c   what samples have in common, by the blocks of texels they come from
  *   sampler_wide.c   the loops over pixels, compiled for every set of instructions
  *
  * All sums are taken about one texel, so a constant picture stays what it is to the bit.
@@ -160,10 +161,11 @@ CS_WIDE_DECLARE(void, cs_sampler_move,
 CS_WIDE_DECLARE(void, cs_sampler_find_quads,
                 (const cs_sampler *sampler, int level, int32_t count, const double *u,
                  const double *v, cs_sampler_quads *quads));
-/* Those of quads [from, from + count), all in the block. */
+/* Those of quads [from, from + count), all in the block. ahead: bytes from a quad to where the row
+ * after the next will read, if it is in the block: fetched now, it is there in time. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_quads,
                 (const float *block, const cs_sampler_quads *quads, int32_t from, int32_t count,
-                 float (*rgba)[4]));
+                 ptrdiff_t ahead, float (*rgba)[4]));
 /* out = a + share (b - a); out may be a. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_rows,
                 (const float (*a)[4], const float (*b)[4], float share, int32_t count,

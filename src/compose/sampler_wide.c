@@ -139,9 +139,11 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
 }
 
 void CS_WIDE(cs_sampler_mix_quads)(const float *restrict block, const cs_sampler_quads *quads,
-                                   int32_t from, int32_t count, float (*restrict rgba)[4]) {
+                                   int32_t from, int32_t count, ptrdiff_t ahead,
+                                   float (*restrict rgba)[4]) {
   for (int32_t i = from; i < from + count; i++) {
     const float *at = block + 4 * (size_t)quads->offset[i];
+    __builtin_prefetch((const char *)at + ahead);
     pair above, below;
     memcpy(&above, at, sizeof above);
     memcpy(&below, at + 4 * CS_PICTURE_BLOCK, sizeof below);

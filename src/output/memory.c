@@ -37,6 +37,10 @@ celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *co
   if (!sink)
     return cs_fail_memory(context);
   *sink = (memory_sink){cs_pixels_resolve(coding, CELSPAN_DEPTH_8), pixels, stride};
-  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

@@ -231,7 +231,8 @@ static void run_job(job *j, int run, void *row) {
   desc.width = j->width;
   desc.height = j->height;
   desc.workers = 1;
-  celspan_sink sink = {.user = row, .row = j->is_to_spans ? drop_row : code_row};
+  celspan_sink sink = {
+      .user = row, .row = j->is_to_spans ? drop_row : code_row, .takes_codes = !j->is_to_spans};
   double begun = seconds();
   check(celspan_frame_render(context, &desc, &sink, &j->statistics));
   if (run >= 0) /* the first one decodes the pictures */
