@@ -177,13 +177,23 @@ CS_WIDE_DECLARE(void, cs_sampler_add_row,
 /* sum = first + sum / total */
 CS_WIDE_DECLARE(void, cs_sampler_end_sum,
                 (const float (*first)[4], float total, int32_t count, float (*sum)[4]));
+/* Where the centres of a row's columns lie. */
+CS_WIDE_DECLARE(void, cs_sampler_place_row,
+                (const cs_sampler *sampler, int32_t x0, int32_t count, double y, double *u));
+CS_WIDE_DECLARE(void, cs_sampler_place_columns,
+                (const cs_sampler *sampler, const int32_t *columns, int32_t count, double y,
+                 double *u));
+/* As cs_sampler_home, for pictures that do not repeat. */
+CS_WIDE_DECLARE(void, cs_sampler_hold_row, (int32_t count, double *u));
+/* The texels under the centres. */
+CS_WIDE_DECLARE(void, cs_sampler_floor_row, (const double *u, int32_t count, int32_t *at));
 /* The texels left of or at u - 1/2, and the shares of their right neighbours. */
 CS_WIDE_DECLARE(void, cs_sampler_split_row,
                 (const double *u, int32_t count, int32_t *at, float *across));
-/* Between texels[at[i]] and the next. */
+/* Between texels[at[i] - first] and the next. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_along,
-                (const float (*texels)[4], const int32_t *at, const float *across, int32_t count,
-                 float (*rgba)[4]));
+                (const float (*texels)[4], int32_t first, const int32_t *at, const float *across,
+                 int32_t count, float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_sampler_clear_unseen,
                 (const int32_t *seen, int32_t count, float (*rgba)[4]));
 

@@ -1,5 +1,8 @@
 #include "compose/texels.h"
 
+#define LEAST_PAIRS 16
+#define SHARE 8 /* of the memory for pictures, what one thread may pin */
+
 const float cs_texels_none[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
 
 cs_texels_source cs_texels_source_of(const cs_picture *picture) {
@@ -9,6 +12,10 @@ cs_texels_source cs_texels_source_of(const cs_picture *picture) {
 void cs_texels_init(cs_texels *texels, celspan_context *context) {
   texels->context = context;
   texels->status = CELSPAN_OK;
+  texels->pairs = LEAST_PAIRS;
+  size_t share = context->root->picture_bytes / SHARE / (2 * CS_PICTURE_BLOCK_BYTES);
+  while (texels->pairs < CS_TEXELS_SLOTS / 2 && 2 * texels->pairs <= share)
+    texels->pairs *= 2;
   for (int i = 0; i < CS_TEXELS_SLOTS; i++)
     texels->slots[i].texels = NULL;
 }

@@ -23,6 +23,7 @@ typedef struct cs_texels_slot {
 typedef struct cs_texels {
   celspan_context *context;
   celspan_status status; /* of the first block that could not be had; texels are clear then */
+  uint32_t pairs;        /* in use, a power of two: fewer where memory is short */
   cs_texels_slot slots[CS_TEXELS_SLOTS];
 } cs_texels;
 
@@ -54,7 +55,7 @@ static inline const cs_texels_slot *cs_texels_slot_of(cs_texels *texels,
                                                       const cs_texels_source *source, int level,
                                                       int32_t column, int32_t row) {
   uint32_t place = source->salt + (uint32_t)column + 117 * (uint32_t)row + 31 * (uint32_t)level;
-  cs_texels_slot *pair = &texels->slots[2 * (place % (CS_TEXELS_SLOTS / 2))];
+  cs_texels_slot *pair = &texels->slots[2 * (place & (texels->pairs - 1))];
   if (cs_texels_is_in(pair, source, level, column, row))
     return pair;
   if (cs_texels_is_in(pair + 1, source, level, column, row))
