@@ -300,6 +300,17 @@ static bool has_picture(const cs_composer *composer, const cs_program *program) 
   return false;
 }
 
+/* Whether all that may be looked at is known already to be opaque everywhere. */
+static bool is_uniform(const cs_composer *composer, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
+    const cs_seen_slide *slide = &composer->slides[leaf->detail];
+    if (leaf->kind == CS_LEAF_PICTURE && !(slide->is_ready && slide->is_opaque))
+      return false;
+  }
+  return true;
+}
+
 celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
                                        int32_t x0, int32_t x1, double y, cs_row *row) {
   segment parts[2];
@@ -310,7 +321,8 @@ celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *
     return cs_ramps_run(composer, program, x0, x1, y, row);
   CS_TRY(make_segments(composer, program, row, parts));
   CS_TRY(cut_segment(composer, program, x0, y, &parts[0]));
-  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < x1; x += LOOK) {
+  int32_t end = is_uniform(composer, program) ? x0 : x1;
+  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {
     segment *next = &parts[1 - current];
     CS_TRY(cut_segment(composer, program, x, y, next));
     if (is_same_segment(&parts[current], next))

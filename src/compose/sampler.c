@@ -148,7 +148,11 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
     int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
     if (is_inside)
       part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
-    memcpy(out, texel_at(run, x, y, is_code), (size_t)part * size);
+    const char *from = texel_at(run, x, y, is_code);
+    memcpy(out, from, (size_t)part * size);
+    /* The row below follows in the block: fetched now, it is there in time. */
+    for (size_t ahead = 0; ahead < (size_t)part * size; ahead += 64)
+      __builtin_prefetch(from + CS_PICTURE_BLOCK * size + ahead);
   }
 }
 

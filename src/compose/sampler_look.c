@@ -58,7 +58,7 @@ static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, co
   for (int32_t row = top; row <= bottom; row++)
     for (int32_t column = left; column <= right; column++) {
       const cs_texels_slot *slot = cs_texels_slot_of(texels, &s->source, s->level, column, row);
-      cs_picture_look next = slot->texels ? cs_picture_block_look(slot->block) : CS_PICTURE_MIXED;
+      cs_picture_look next = slot->texels ? slot->look : CS_PICTURE_MIXED;
       bool is_first = row == top && column == left;
       if (next == CS_PICTURE_MIXED || (!is_first && next != look))
         return CS_PICTURE_MIXED;

@@ -123,6 +123,7 @@ int cs_sampler_level(int level_count, double shorter, double longer, double texe
 typedef struct cs_sampler_centres {
   double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
   double near[CS_SAMPLER_BATCH];  /* 1 / w; 0 at and behind the horizon, where u and v are 0 */
+  bool all_seen;                  /* and `seen` is not filled */
   int32_t seen[CS_SAMPLER_BATCH]; /* 0: the pixel is clear */
 } cs_sampler_centres;
 

@@ -41,6 +41,7 @@ void cs_texels_fetch(cs_texels *texels, const cs_texels_source *source, cs_texel
                            .level = level,
                            .column = column,
                            .row = row,
+                           .look = cs_picture_block_look(slot->block),
                            .texels = cs_picture_texels(slot->block),
                            .block = slot->block};
 }

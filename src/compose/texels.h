@@ -16,6 +16,7 @@ typedef struct cs_texels_slot {
   const cs_picture *picture;
   int level;
   int32_t column, row;
+  cs_picture_look look;
   const float *texels; /* NULL: empty */
   cs_picture_block *block;
 } cs_texels_slot;
