@@ -196,43 +196,42 @@ static bool is_bare(const cs_stack *stack, const cs_leaf *leaf, uint32_t index) 
 /* What shows over some columns: the items of a program without those that are clear there, up to the
  * first that is opaque. */
 typedef struct segment {
-  cs_program program;
-  cs_item *items;
+  uint32_t end;      /* of the items */
+  uint64_t left_out; /* a bit each, of the first 64 */
   bool ends_opaque;
 } segment;
 
 /* Whether all that shows is one opaque picture, texel by pixel. */
-static bool is_copy(const cs_composer *composer, const segment *part) {
-  if (!part->ends_opaque || part->program.length != 1)
+static bool is_copy(const cs_composer *composer, const cs_program *shown, bool ends_opaque) {
+  if (!ends_opaque || shown->length != 1)
     return false;
-  uint32_t index = part->program.items[0].leaf;
+  uint32_t index = shown->items[0].leaf;
   const cs_leaf *leaf = &composer->stack->leaves[index];
   return leaf->kind == CS_LEAF_PICTURE && is_bare(composer->stack, leaf, index) &&
          composer->slides[leaf->detail].sampler.way == CS_SAMPLER_COPY;
 }
 
-static celspan_status run_copy(cs_composer *composer, const segment *part, int32_t x0, int32_t x1,
-                               double y, cs_row *row) {
-  const cs_leaf *leaf = &composer->stack->leaves[part->program.items[0].leaf];
+static celspan_status run_copy(cs_composer *composer, const cs_program *shown, int32_t x0,
+                               int32_t x1, double y, cs_row *row) {
+  const cs_leaf *leaf = &composer->stack->leaves[shown->items[0].leaf];
   unsigned char *codes;
   CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
   return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0,
                           y, codes);
 }
 
-static celspan_status run_segment(cs_composer *composer, const segment *part, int32_t x0,
-                                  int32_t x1, double y, cs_row *row) {
+/* A program of what shows, and nothing else. */
+static celspan_status run_shown(cs_composer *composer, const cs_program *shown, bool ends_opaque,
+                                int32_t x0, int32_t x1, double y, cs_row *row) {
   bool is_array;
   float *colours;
-  if (x1 <= x0)
-    return CELSPAN_OK;
-  if (row->takes_codes && is_copy(composer, part))
-    return run_copy(composer, part, x0, x1, y, row);
-  CS_TRY(needs_array(composer, &part->program, &is_array));
+  if (row->takes_codes && is_copy(composer, shown, ends_opaque))
+    return run_copy(composer, shown, x0, x1, y, row);
+  CS_TRY(needs_array(composer, shown, &is_array));
   if (!is_array)
-    return cs_ramps_run(composer, &part->program, x0, x1, y, row);
+    return cs_ramps_run(composer, shown, x0, x1, y, row);
   CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
-  return cs_composer_program_colours(composer, &part->program, x0, x1, y, (float(*)[4])colours);
+  return cs_composer_program_colours(composer, shown, x0, x1, y, (float(*)[4])colours);
 }
 
 /* ---------------------------------------------------------------- runs cut into segments */
@@ -264,33 +263,42 @@ static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_
 static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t x0,
                                   double y, segment *out) {
   int32_t left = x0 / LOOK * LOOK;
-  uint32_t length = 0;
-  out->ends_opaque = false;
-  for (uint32_t i = 0; i < program->length && !out->ends_opaque; i++) {
+  *out = (segment){.end = program->length};
+  for (uint32_t i = 0; i < program->length && i < 64; i++) {
     cs_picture_look look;
     CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + LOOK, y, &look));
-    if (look != CS_PICTURE_CLEAR)
-      out->items[length++] = program->items[i];
-    out->ends_opaque = look == CS_PICTURE_OPAQUE;
+    if (look == CS_PICTURE_CLEAR)
+      out->left_out |= (uint64_t)1 << i;
+    if (look != CS_PICTURE_OPAQUE)
+      continue;
+    out->ends_opaque = true;
+    out->end = i + 1;
+    break;
   }
-  out->program = (cs_program){out->items, program->strips, length};
   return CELSPAN_OK;
 }
 
 static bool is_same_segment(const segment *a, const segment *b) {
-  return a->program.length == b->program.length && a->ends_opaque == b->ends_opaque &&
-         memcmp(a->items, b->items, a->program.length * sizeof *a->items) == 0;
+  return a->end == b->end && a->left_out == b->left_out && a->ends_opaque == b->ends_opaque;
 }
 
-static celspan_status make_segments(cs_composer *composer, const cs_program *program, cs_row *row,
-                                    segment parts[2]) {
-  for (int k = 0; k < 2; k++) {
-    parts[k].items = cs_arena_take(composer->context, &row->colours,
-                                   program->length * sizeof *parts[k].items);
-    if (!parts[k].items)
+static celspan_status run_segment(cs_composer *composer, const cs_program *program,
+                                  const segment *part, int32_t x0, int32_t x1, double y,
+                                  cs_row *row) {
+  cs_program shown = {program->items, program->strips, part->end};
+  if (x1 <= x0)
+    return CELSPAN_OK;
+  if (part->left_out) {
+    cs_item *items =
+        cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
+    if (!items)
       return CELSPAN_NO_MEMORY;
+    shown = (cs_program){items, program->strips, 0};
+    for (uint32_t i = 0; i < part->end; i++)
+      if (i >= 64 || !(part->left_out >> i & 1))
+        items[shown.length++] = program->items[i];
   }
-  return CELSPAN_OK;
+  return run_shown(composer, &shown, part->ends_opaque, x0, x1, y, row);
 }
 
 static bool has_picture(const cs_composer *composer, const cs_program *program) {
@@ -313,25 +321,23 @@ static bool is_uniform(const cs_composer *composer, const cs_program *program) {
 
 celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
                                        int32_t x0, int32_t x1, double y, cs_row *row) {
-  segment parts[2];
-  int32_t begun = x0, current = 0;
+  segment current, next;
+  int32_t begun = x0;
   if (x1 <= x0)
     return CELSPAN_OK;
   if (!has_picture(composer, program))
     return cs_ramps_run(composer, program, x0, x1, y, row);
-  CS_TRY(make_segments(composer, program, row, parts));
-  CS_TRY(cut_segment(composer, program, x0, y, &parts[0]));
+  CS_TRY(cut_segment(composer, program, x0, y, &current));
   int32_t end = is_uniform(composer, program) ? x0 : x1;
   for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {
-    segment *next = &parts[1 - current];
-    CS_TRY(cut_segment(composer, program, x, y, next));
-    if (is_same_segment(&parts[current], next))
+    CS_TRY(cut_segment(composer, program, x, y, &next));
+    if (is_same_segment(&current, &next))
       continue;
-    CS_TRY(run_segment(composer, &parts[current], begun, x, y, row));
+    CS_TRY(run_segment(composer, program, &current, begun, x, y, row));
     begun = x;
-    current = 1 - current;
+    current = next;
   }
-  return run_segment(composer, &parts[current], begun, x1, y, row);
+  return run_segment(composer, program, &current, begun, x1, y, row);
 }
 
 celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,

@@ -93,6 +93,25 @@ static cs_sampler_kernel perspective_kernel(celspan_sampling sampling) {
   return CS_SAMPLER_TILTED;
 }
 
+/* How far from its centre a sample may reach, in picture pixels. */
+static double reach_of(const cs_sampler *s) {
+  double texel = (double)((int64_t)1 << s->level);
+  double slant = fabs(s->m[0]) + fabs(s->m[1]), fall = fabs(s->m[3]) + fabs(s->m[4]);
+  switch (s->way == CS_SAMPLER_COPY ? CS_SAMPLER_NEAREST : s->kernel) {
+  case CS_SAMPLER_NEAREST:
+    return 0.25;
+  case CS_SAMPLER_LINEAR:
+    return 0.51;
+  case CS_SAMPLER_CUBIC:
+    return 2;
+  case CS_SAMPLER_BOX:
+    return 0.5 * fmax(s->wide, s->high) + texel;
+  case CS_SAMPLER_TILTED:
+    return 0.5 * fmax(slant, fall) + texel;
+  }
+  return INFINITY;
+}
+
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_texels_source_of(s->picture);
   s->level_count = cs_levels_count(s->width, s->height);
@@ -108,6 +127,7 @@ void cs_sampler_prepare(cs_sampler *s) {
     s->way = CS_SAMPLER_COPY;
   else
     plan_affine(s);
+  s->reach = reach_of(s);
 }
 
 /* ---------------------------------------------------------------- copies */

@@ -55,6 +55,7 @@ typedef struct cs_sampler {
   int level_count;
   int level;
   int columns, rows; /* TILTED: taps across a pixel and down it */
+  double reach;      /* affine: how far from its centre a sample comes, at most, in picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
 

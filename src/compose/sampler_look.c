@@ -7,29 +7,10 @@ typedef struct area {
   double u0, v0, u1, v1;
 } area;
 
-/* How far from its centre a sample may reach, in picture pixels. */
-static double reach_of(const cs_sampler *s) {
-  double texel = (double)((int64_t)1 << s->level);
-  double slant = fabs(s->m[0]) + fabs(s->m[1]), fall = fabs(s->m[3]) + fabs(s->m[4]);
-  switch (s->way == CS_SAMPLER_COPY ? CS_SAMPLER_NEAREST : s->kernel) {
-  case CS_SAMPLER_NEAREST:
-    return 0.25;
-  case CS_SAMPLER_LINEAR:
-    return 0.51;
-  case CS_SAMPLER_CUBIC:
-    return 2;
-  case CS_SAMPLER_BOX:
-    return 0.5 * (s->wide > s->high ? s->wide : s->high) + texel;
-  case CS_SAMPLER_TILTED:
-    return 0.5 * (slant > fall ? slant : fall) + texel;
-  }
-  return INFINITY;
-}
-
 /* All that the samples of [x0, x1) may come from. */
 static area area_of(const cs_sampler *s, int32_t x0, int32_t x1, double y) {
   const double *m = s->m;
-  double left = x0 + 0.5, right = x1 - 0.5, reach = reach_of(s);
+  double left = x0 + 0.5, right = x1 - 0.5, reach = s->reach;
   double ua = m[0] * left + m[1] * y + m[2], ub = m[0] * right + m[1] * y + m[2];
   double va = m[3] * left + m[4] * y + m[5], vb = m[3] * right + m[4] * y + m[5];
   return (area){(ua < ub ? ua : ub) - reach, (va < vb ? va : vb) - reach,
