@@ -72,13 +72,19 @@ static void put_paint(samples *out, int32_t k, cs_paint paint) {
   cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
 }
 
-static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
-                                    const batch *b, samples *room) {
+static celspan_status sample_picture(cs_composer *composer, const cs_leaf *leaf, const batch *b,
+                                     float (*rgba)[4]) {
   const cs_seen_slide *slide;
   CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-  const cs_sampler *sampler = &slide->sampler;
-  CS_TRY(b->columns ? cs_sampler_at(composer->texels, sampler, b->columns, b->count, b->y, room->rgba)
-                    : cs_sampler_run(composer->texels, sampler, b->x0, b->count, b->y, room->rgba));
+  return b->columns ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y,
+                                    rgba)
+                    : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y,
+                                     rgba);
+}
+
+static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
+                                    const batch *b, samples *room) {
+  CS_TRY(sample_picture(composer, leaf, b, room->rgba));
   cs_blend_picture(blend, leaf, composer->stack->slides[leaf->detail].texture->use,
                    (const float(*)[4])room->rgba);
   return CELSPAN_OK;
@@ -120,12 +126,48 @@ static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const c
   return CELSPAN_OK;
 }
 
+/* Whether a picture's samples pass through its leaf unchanged: no light but white is on it. */
+static bool is_bare(const cs_leaf *leaf) {
+  return leaf->kind == CS_LEAF_PICTURE && leaf->group == CS_STACK_NONE && leaf->fade == 1 &&
+         leaf->front[0] == 1 && leaf->front[1] == 1 && leaf->front[2] == 1;
+}
+
+#define BARE_LAYERS 8
+
+static bool is_all_bare(const cs_stack *stack, const cs_program *program) {
+  bool bare = stack->light_count == 0 && program->length <= BARE_LAYERS;
+  for (uint32_t i = 0; i < program->length && bare; i++) {
+    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
+    bare = is_bare(leaf) && stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_PAINT;
+  }
+  return bare;
+}
+
+static celspan_status bare_batch(cs_composer *composer, const cs_program *program, const batch *b,
+                                 float (*rgba)[4]) {
+  const float(*layers[BARE_LAYERS])[4];
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
+    float(*room)[4] =
+        cs_arena_take(composer->context, &composer->scratch, CS_BLEND_BATCH * sizeof *room);
+    if (!room)
+      return CELSPAN_NO_MEMORY;
+    CS_TRY(sample_picture(composer, leaf, b, room));
+    layers[i] = (const float(*)[4])room;
+  }
+  cs_blend_bare(composer->isa, layers, program->length, b->count, rgba);
+  return CELSPAN_OK;
+}
+
 static celspan_status colours_batch(cs_composer *composer, const cs_program *program,
                                     const batch *b, float (*rgba)[4]) {
   celspan_context *context = composer->context;
   cs_arena *scratch = &composer->scratch;
   cs_blend blend;
   cs_arena_reset(scratch);
+  composer->evaluations += (uint64_t)b->count;
+  if (is_all_bare(composer->stack, program))
+    return bare_batch(composer, program, b, rgba);
   samples *room = cs_arena_take(context, scratch, sizeof *room);
   if (!room)
     return CELSPAN_NO_MEMORY;
@@ -135,7 +177,6 @@ static celspan_status colours_batch(cs_composer *composer, const cs_program *pro
     CS_TRY(blend_item(composer, &blend, program->strips, program->items[i], b, room));
   }
   cs_blend_end(&blend, rgba);
-  composer->evaluations += (uint64_t)b->count;
   return CELSPAN_OK;
 }
 
@@ -185,14 +226,6 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
   return CELSPAN_OK;
 }
 
-/* Whether a picture's samples pass through its leaf unchanged: nothing is in front of it, and no
- * light but white is on it. */
-static bool is_bare(const cs_stack *stack, const cs_leaf *leaf, uint32_t index) {
-  return leaf->group == CS_STACK_NONE && leaf->fade == 1 && leaf->front[0] == 1 &&
-         leaf->front[1] == 1 && leaf->front[2] == 1 &&
-         (stack->light_count == 0 || stack->lights[0].below <= index);
-}
-
 /* What shows over some columns: the items of a program without those that are clear there, up to the
  * first that is opaque. */
 typedef struct segment {
@@ -205,9 +238,10 @@ typedef struct segment {
 static bool is_copy(const cs_composer *composer, const cs_program *shown, bool ends_opaque) {
   if (!ends_opaque || shown->length != 1)
     return false;
+  const cs_stack *stack = composer->stack;
   uint32_t index = shown->items[0].leaf;
-  const cs_leaf *leaf = &composer->stack->leaves[index];
-  return leaf->kind == CS_LEAF_PICTURE && is_bare(composer->stack, leaf, index) &&
+  const cs_leaf *leaf = &stack->leaves[index];
+  return is_bare(leaf) && (stack->light_count == 0 || stack->lights[0].below <= index) &&
          composer->slides[leaf->detail].sampler.way == CS_SAMPLER_COPY;
 }
 
