@@ -1,4 +1,5 @@
---- SVG path data as points in order: what motion.lua walks along. A curve becomes `pieces` chords.
+--- SVG path data: a walk along its pieces, or its points in order, where a curve becomes `pieces`
+--- chords: what motion.lua walks along.
 local pathdata = {}
 
 local pieces = 64
@@ -22,20 +23,17 @@ local function read_number(text, at, is_flag)
   return tonumber(digits), stop + 1 + #digits
 end
 
-local function add(pen, x, y)
-  pen.points[#pen.points + 1] = { x, y }
-  pen.x, pen.y = x, y
+local function go(pen, x, y) pen.x, pen.y = x, y end
+
+local function line(pen, x, y)
+  pen:line(x, y)
+  go(pen, x, y)
 end
 
 --- A cubic with inner control points 1 and 2.
 local function cubic(pen, x1, y1, x2, y2, x, y)
-  local x0, y0 = pen.x, pen.y
-  for i = 1, pieces do
-    local t = i / pieces
-    local s = 1 - t
-    local a, b, c, d = s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t
-    add(pen, a * x0 + b * x1 + c * x2 + d * x, a * y0 + b * y1 + c * y2 + d * y)
-  end
+  pen:curve(x1, y1, x2, y2, x, y)
+  go(pen, x, y)
   pen.control_x, pen.control_y = x2, y2
 end
 
@@ -50,7 +48,7 @@ end
 local function arc(pen, rx, ry, degrees, is_large, is_sweep, x, y)
   rx, ry = math.abs(rx), math.abs(ry)
   local x0, y0 = pen.x, pen.y
-  if rx == 0 or ry == 0 or (x0 == x and y0 == y) then return add(pen, x, y) end
+  if rx == 0 or ry == 0 or (x0 == x and y0 == y) then return line(pen, x, y) end
   local cos, sin = math.cos(math.rad(degrees)), math.sin(math.rad(degrees))
   local dx, dy = (x0 - x) / 2, (y0 - y) / 2
   local px, py = (cos * dx + sin * dy) / rx, (cos * dy - sin * dx) / ry
@@ -66,25 +64,29 @@ local function arc(pen, rx, ry, degrees, is_large, is_sweep, x, y)
   if is_sweep == 1 and to < from then to = to + 2 * math.pi end
   if is_sweep == 0 and to > from then to = to - 2 * math.pi end
   local mx, my = (x0 + x) / 2, (y0 + y) / 2
-  for i = 1, pieces - 1 do
-    local angle = from + (to - from) * i / pieces
+  --- The point at an angle, and the direction there, as long as the angle is fast.
+  local function point(angle)
     local ux, uy = rx * (math.cos(angle) + cx), ry * (math.sin(angle) + cy)
-    add(pen, mx + cos * ux - sin * uy, my + sin * ux + cos * uy)
+    local vx, vy = -rx * math.sin(angle), ry * math.cos(angle)
+    return mx + cos * ux - sin * uy, my + sin * ux + cos * uy, cos * vx - sin * vy,
+      sin * vx + cos * vy
   end
-  add(pen, x, y)
+  pen:arc(point, from, to, x, y)
+  go(pen, x, y)
 end
 
 local draw = {}
 
 function draw.M(pen, x, y)
-  add(pen, x, y)
+  pen:move(x, y)
+  go(pen, x, y)
   pen.start_x, pen.start_y = x, y
 end
 
-function draw.L(pen, x, y) add(pen, x, y) end
-function draw.H(pen, x) add(pen, x, pen.y) end
-function draw.V(pen, y) add(pen, pen.x, y) end
-function draw.Z(pen) add(pen, pen.start_x, pen.start_y) end
+function draw.L(pen, x, y) line(pen, x, y) end
+function draw.H(pen, x) line(pen, x, pen.y) end
+function draw.V(pen, y) line(pen, pen.x, y) end
+function draw.Z(pen) line(pen, pen.start_x, pen.start_y) end
 draw.C, draw.Q, draw.A = cubic, quadratic, arc
 
 --- The control point mirrored at the pen, where the command before was of the same family.
@@ -113,16 +115,19 @@ local function make_absolute(pen, command, n)
   end
 end
 
---- The points of path data in order, or nil and a message.
+--- Walks a pen along path data: pen:move(x, y), pen:line(x, y), pen:curve(x1, y1, x2, y2, x, y) and
+--- pen:arc(point, from, to, x, y), where point(angle) is on the arc and gives its direction too.
+--- pen.x, pen.y is where it stands before each. True, or nil and a message.
 ---@param text string
----@return number[][]? points
+---@param pen table
+---@return boolean? done
 ---@return string? message
-function pathdata.points(text)
-  local pen = { points = {}, x = 0, y = 0, start_x = 0, start_y = 0, last = "M" }
+function pathdata.walk(text, pen)
+  pen.x, pen.y, pen.start_x, pen.start_y, pen.last = 0, 0, 0, 0, "M"
   local at, letter = 1, nil
   while true do
     at = text:find("[^%s,]", at)
-    if not at then return pen.points end
+    if not at then return true end
     local found = text:match("^[A-Za-z]", at)
     if found then letter, at = found, at + 1 end
     local command = letter and letter:upper()
@@ -140,6 +145,42 @@ function pathdata.points(text)
     pen.last = command
     if command == "M" then letter = letter == "M" and "L" or "l" end
   end
+end
+
+--- A pen that keeps points in order.
+local Chords = {}
+Chords.__index = Chords
+
+function Chords:line(x, y) self.points[#self.points + 1] = { x, y } end
+Chords.move = Chords.line
+
+function Chords:curve(x1, y1, x2, y2, x, y)
+  local x0, y0 = self.x, self.y
+  for i = 1, pieces do
+    local t = i / pieces
+    local s = 1 - t
+    local a, b, c, d = s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t
+    self:line(a * x0 + b * x1 + c * x2 + d * x, a * y0 + b * y1 + c * y2 + d * y)
+  end
+end
+
+function Chords:arc(point, from, to, x, y)
+  for i = 1, pieces - 1 do
+    local px, py = point(from + (to - from) * i / pieces)
+    self:line(px, py)
+  end
+  self:line(x, y)
+end
+
+--- The points of path data in order, or nil and a message.
+---@param text string
+---@return number[][]? points
+---@return string? message
+function pathdata.points(text)
+  local pen = setmetatable({ points = {} }, Chords)
+  local done, message = pathdata.walk(text, pen)
+  if not done then return nil, message end
+  return pen.points
 end
 
 return pathdata

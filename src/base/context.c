@@ -71,10 +71,8 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
   return items ? memset(items, 0, size) : NULL;
 }
 
-celspan_status cs_mem_reserve(celspan_context *context, void **items, size_t *capacity,
-                              size_t needed, size_t item_size) {
-  if (needed <= *capacity)
-    return CELSPAN_OK;
+celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
+                           size_t needed, size_t item_size) {
   size_t wanted = *capacity < 16 ? 16 : *capacity, size;
   while (wanted < needed)
     if (__builtin_mul_overflow(wanted, (size_t)2, &wanted))
@@ -184,6 +182,17 @@ void cs_context_branch(celspan_context *branch, celspan_context *from) {
   *branch = (celspan_context){
       .memory = from->memory, .root = from->root, .picture_bytes = from->picture_bytes,
       .defocus_bytes = from->defocus_bytes};
+}
+
+static void trim(cs_service **place) {
+  cs_service *service = __atomic_load_n(place, __ATOMIC_ACQUIRE);
+  if (service)
+    service->trim(service);
+}
+
+void cs_context_trim(celspan_context *context) {
+  trim(&context->root->pictures);
+  trim(&context->root->soft_bands);
 }
 
 #define CS_TEXT_(x) #x

@@ -26,12 +26,13 @@ typedef struct cs_memory {
  * with the root context. */
 typedef struct cs_service {
   void (*destroy)(struct cs_service *service);
+  void (*trim)(struct cs_service *service); /* drops what nobody holds; any thread */
 } cs_service;
 
 struct celspan_context {
   cs_memory *memory;
   celspan_context *root; /* itself, or the context it was branched from */
-  cs_service *pictures;  /* root only; owned; made on first use by scene/picture.c */
+  cs_service *pictures;  /* root only; owned; made on first use, by any thread, by scene/picture.c */
   cs_service *soft_bands; /* likewise, by filter/soft_bands.c */
   size_t picture_bytes, defocus_bytes;
   char error[1024];
@@ -49,8 +50,14 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
 
 /* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are
  * kept. Status NO_MEMORY, recorded; *items is then unchanged. */
-CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
-                                              size_t *capacity, size_t needed, size_t item_size);
+CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items,
+                                           size_t *capacity, size_t needed, size_t item_size);
+static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
+                                                            size_t *capacity, size_t needed,
+                                                            size_t item_size) {
+  return needed <= *capacity ? CELSPAN_OK
+                             : cs_mem_grow(context, items, capacity, needed, item_size);
+}
 
 /* Records "format" and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
@@ -60,6 +67,9 @@ celspan_status cs_fail_memory(celspan_context *context);
 /* A context for a worker thread, on the caller's memory: same cs_memory, own error text. Not
  * counted; must not outlive the context it is branched from. */
 void cs_context_branch(celspan_context *branch, celspan_context *from);
+
+/* Drops what is kept for later frames and what no frame holds now. Any thread. */
+void cs_context_trim(celspan_context *context);
 
 #define CS_TRY(call)                               \
   do {                                             \

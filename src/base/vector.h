@@ -7,7 +7,33 @@
 
 typedef float cs_v4 __attribute__((vector_size(16)));
 
+/* Four doubles, for sums of many floats. */
+typedef double cs_v2d __attribute__((vector_size(16)));
+typedef struct cs_v4d {
+  cs_v2d low, high;
+} cs_v4d;
+
 static inline cs_v4 cs_v4_all(float x) { return (cs_v4){x, x, x, x}; }
+
+static inline cs_v4d cs_v4_wide(cs_v4 v) { return (cs_v4d){{v[0], v[1]}, {v[2], v[3]}}; }
+
+static inline cs_v4 cs_v4_narrow(cs_v4d v) {
+  return (cs_v4){(float)v.low[0], (float)v.low[1], (float)v.high[0], (float)v.high[1]};
+}
+
+static inline cs_v4d cs_v4d_add(cs_v4d a, cs_v4d b) {
+  return (cs_v4d){a.low + b.low, a.high + b.high};
+}
+
+static inline cs_v4d cs_v4d_scale(double weight, cs_v4d v) {
+  return (cs_v4d){weight * v.low, weight * v.high};
+}
+
+/* From one colour to another, exactly. */
+static inline cs_v4d cs_v4d_step(cs_v4 from, cs_v4 to) {
+  cs_v4d a = cs_v4_wide(from), b = cs_v4_wide(to);
+  return (cs_v4d){b.low - a.low, b.high - a.high};
+}
 
 static inline cs_v4 cs_v4_load(const float *from) {
   cs_v4 v;
@@ -17,7 +43,6 @@ static inline cs_v4 cs_v4_load(const float *from) {
 
 static inline void cs_v4_store(float *to, cs_v4 v) { memcpy(to, &v, sizeof v); }
 
-/* Whether all 128 bits agree: minus zero differs from zero. */
 /* Lane by lane the greater, the lesser; b where a is not a number. */
 static inline cs_v4 cs_v4_max(cs_v4 a, cs_v4 b) {
   typedef int lanes __attribute__((vector_size(16)));
@@ -31,6 +56,14 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
   return (cs_v4)(((lanes)a & use_a) | ((lanes)b & ~use_a));
 }
 
+/* Whether a lane of a is greater than that of b. */
+static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
+  typedef long long words __attribute__((vector_size(16)));
+  words above = (words)(a > b);
+  return (above[0] | above[1]) != 0;
+}
+
+/* Whether all 128 bits agree: minus zero differs from zero. */
 static inline int cs_v4_same(cs_v4 a, cs_v4 b) {
   typedef long long words __attribute__((vector_size(16)));
   words differ = (words)a ^ (words)b;

@@ -406,6 +406,8 @@ static int run_script(lua_State *L) {
   set_search_path(L, folder);
   int outcome = luaL_loadfilex(L, s->path, "t");
   s->is_missing = outcome == LUA_ERRFILE;
+  if (outcome == LUA_ERRSYNTAX && position_length(lua_tostring(L, -1)) == 0)
+    return luaL_error(L, "%s: %s", s->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
     return lua_error(L);
   luaL_checkstack(L, s->argument_count + 4, "too many arguments");

@@ -1,11 +1,10 @@
 /* celspan.render: a film or a rostrum into files. */
-#include <limits.h>
-
 #include "bind/film.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/options.h"
 #include "bind/sequence.h"
+#include "bind/shoot.h"
 #include "bind/value.h"
 
 static const cs_field fields[] = {
@@ -25,6 +24,7 @@ typedef struct job {
   const char *pattern;
   cs_sequence sequence;
   size_t done;
+  double share; /* told last */
   bool has_error; /* raised by the progress function; the message is on top of the stack */
 } job;
 
@@ -62,16 +62,18 @@ static void read_coding(const cs_form *form, celspan_coding *out) {
   out->alpha = (celspan_alpha)cs_form_choice(form, "alpha", alphas);
 }
 
-/* Called by the core between strips: the share of the whole job that is done, and the frame. */
-static bool report_progress(void *user, int32_t rows_done, int32_t rows_total) {
+/* Tells the share of the whole job that is done, and the first frame that is not, or the last. */
+static bool report_progress(void *user, double share) {
   job *j = user;
   lua_State *L = j->L;
-  double share = rows_total > 0 ? (double)rows_done / rows_total : 0;
+  size_t last = j->sequence.count - 1;
+  share = ((double)j->done + share) / (double)j->sequence.count;
+  j->share = share > j->share ? share : j->share; /* frames that were given up count no more */
   if (!lua_checkstack(L, 4))
     return false;
   lua_pushvalue(L, j->progress);
-  lua_pushnumber(L, ((double)j->done + share) / (double)j->sequence.count);
-  lua_pushinteger(L, j->sequence.frames[j->done]);
+  lua_pushnumber(L, j->share);
+  lua_pushinteger(L, j->sequence.frames[j->done < last ? j->done : last]);
   if (lua_pcall(L, 2, 1, 0) != LUA_OK) {
     j->has_error = true;
     return false;
@@ -90,11 +92,8 @@ static void read_job(const cs_form *form, job *j) {
   int type = lua_rawget(L, form->table);
   if (type != LUA_TNIL && type != LUA_TFUNCTION)
     cs_form_fail(form, "field 'progress' must be a function, got %s", cs_value_type(L, -1));
-  if (type == LUA_TFUNCTION) {
+  if (type == LUA_TFUNCTION)
     j->progress = lua_gettop(L);
-    j->frame.desc.progress = report_progress;
-    j->frame.desc.progress_user = j;
-  }
 }
 
 /* Pushes a film for argument 1 where it is a rostrum: as large as the film or size that is given.
@@ -119,8 +118,6 @@ static void read_film(const cs_form *form, job *j) {
     desc->film_width = j->info.width;
     desc->film_height = j->info.height;
   }
-  j->file.title = j->info.title;
-  j->file.frames_second = j->info.frames_second;
 }
 
 static celspan_status read_frames(const cs_form *form, job *j) {
@@ -145,21 +142,25 @@ static celspan_status read_frames(const cs_form *form, job *j) {
   return status;
 }
 
-static celspan_status write_frame(job *j, int64_t number) {
-  char name[4096];
-  celspan_status status = cs_sequence_name(j->context, j->pattern, number, name, sizeof name);
-  if (status != CELSPAN_OK)
-    return status;
-  cs_film_frame built;
-  status = cs_film_build(j->L, j->film, number, &built);
-  if (status != CELSPAN_OK)
-    return status;
-  j->frame.desc.exposures = built.exposures;
-  j->frame.desc.exposure_count = built.count;
-  j->file.frame = number >= INT32_MIN && number <= INT32_MAX ? (int32_t)number : 0;
-  status = celspan_frame_write(j->context, &j->frame.desc, name, &j->file, NULL);
-  cs_film_finish_frame(&built);
+static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_status status) {
+  job *j = user;
+  (void)frame;
+  j->done += status == CELSPAN_OK;
   return status;
+}
+
+static celspan_status write_frames(job *j) {
+  const cs_shoot shoot = {.L = j->L,
+                          .film = j->film,
+                          .context = j->context,
+                          .frames = &j->sequence,
+                          .pattern = j->pattern,
+                          .frame = j->frame.desc,
+                          .file = j->file,
+                          .user = j,
+                          .told = told,
+                          .tick = j->progress ? report_progress : NULL};
+  return cs_shoot_run(&shoot);
 }
 
 static int render(lua_State *L) {
@@ -175,8 +176,8 @@ static int render(lua_State *L) {
   read_film(&form, j);
   celspan_status status = read_frames(&form, j);
   lua_State *before = cs_host_enter(L);
-  for (j->done = 0; status == CELSPAN_OK && j->done < j->sequence.count; j->done++)
-    status = write_frame(j, j->sequence.frames[j->done]);
+  if (status == CELSPAN_OK)
+    status = write_frames(j);
   cs_host_leave(L, before);
   if (status == CELSPAN_OK) {
     lua_pushboolean(L, true);

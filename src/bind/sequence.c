@@ -186,6 +186,17 @@ static place find_place(const char *pattern) {
 
 bool cs_sequence_has_number(const char *pattern) { return find_place(pattern).is_found; }
 
+bool cs_sequence_matches(const char *pattern, const char *name) {
+  place at = find_place(pattern);
+  if (!at.is_found)
+    return strcmp(pattern, name) == 0;
+  size_t tail = strlen(pattern + at.end), length = strlen(name);
+  if (length < at.start + tail || strncmp(pattern, name, at.start) != 0 ||
+      strcmp(pattern + at.end, name + length - tail) != 0)
+    return false;
+  return strspn(name + at.start, "-0123456789 ") >= length - tail - at.start;
+}
+
 celspan_status cs_sequence_name(celspan_context *context, const char *pattern, int64_t frame,
                                 char *name, size_t size) {
   place at = find_place(pattern);

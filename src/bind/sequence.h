@@ -32,6 +32,8 @@ CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
 
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);
+/* Whether the name, without a folder, may be that of a frame of the pattern. */
+bool cs_sequence_matches(const char *pattern, const char *name);
 /* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into size. */
 CELSPAN_CHECKED celspan_status cs_sequence_name(celspan_context *context, const char *pattern,
                                                 int64_t frame, char *name, size_t size);

@@ -69,38 +69,10 @@ static void fault(checkup *check, int64_t frame, const char *told, cs_exit code)
   cs_report_error("frame %lld: %s", (long long)frame, sentence);
 }
 
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-static bool has_procedure(celspan_object *const *objects, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    const cs_body *body = objects[i]->body;
-    if (body->kind == CS_BODY_SCANLINE)
-      return true;
-    if (body->kind == CS_BODY_BOOLEAN && has_procedure(body->operands, body->operand_count))
-      return true;
-  }
-  return false;
-}
-
-static bool is_named(const celspan_rostrum *rostrum) {
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    if (has_procedure(rostrum->cels[i]->objects, rostrum->cels[i]->object_count))
-      return false;
-  return true;
-}
-
 static void name_scene(const cs_shot *shot, scene_name *out) {
-  cs_hash hash = cs_hash_begin(shot->frame.count);
-  bool is_known = true;
-  for (size_t i = 0; i < shot->frame.count; i++) {
-    const celspan_exposure *exposure = &shot->frame.exposures[i];
-    uint64_t rostrum[2];
-    celspan_rostrum_hash(exposure->rostrum, rostrum);
-    cs_hash_word(&hash, rostrum[0]);
-    cs_hash_word(&hash, rostrum[1]);
-    cs_hash_number(&hash, exposure->weight);
-    is_known &= is_named(exposure->rostrum);
-  }
-  *out = (scene_name){is_known, cs_hash_end(hash)};
+  const cs_film_frame *frame = &shot->frame;
+  *out = (scene_name){!cs_scene_has_procedure(frame->exposures, frame->count),
+                      cs_scene_hash(frame->exposures, frame->count)};
 }
 
 static bool is_same(const scene_name *a, const scene_name *b) {

@@ -2,38 +2,64 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "base/context.h"
+#include "bind/twins.h"
 #include "cli/interrupt.h"
 #include "cli/shot.h"
 #include "cli/spanread.h"
 #include "cli/verbs.h"
+#include "scene/scene.h"
 
 static void keep_larger(size_t *most, size_t count) {
   if (count > *most)
     *most = count;
 }
 
-/* The most of each in any frame. */
-static cs_exit count_all(cs_shot *shot, celspan_rostrum_counts *most) {
+typedef struct survey {
+  celspan_rostrum_counts most; /* of each in any frame */
+  size_t different;            /* frames that are not equal to one before */
+  cs_twins twins;
+} survey;
+
+static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most) {
+  celspan_rostrum_counts all = {0, 0, 0};
+  for (size_t e = 0; e < frame->count; e++) {
+    celspan_rostrum_counts counts;
+    celspan_rostrum_count(frame->exposures[e].rostrum, &counts);
+    all.cels += counts.cels;
+    all.primitives += counts.primitives;
+    all.pictures += counts.pictures;
+  }
+  keep_larger(&most->cels, all.cels);
+  keep_larger(&most->primitives, all.primitives);
+  keep_larger(&most->pictures, all.pictures);
+}
+
+static celspan_status meet_frame(cs_shot *shot, survey *s) {
+  const cs_film_frame *frame = &shot->frame;
+  bool is_new = true;
+  size_t index;
+  if (!cs_scene_has_procedure(frame->exposures, frame->count))
+    CS_TRY(cs_twins_meet(&s->twins, shot->context, cs_scene_hash(frame->exposures, frame->count),
+                         shot->number, &index, &is_new));
+  s->different += is_new;
+  return CELSPAN_OK;
+}
+
+static cs_exit survey_all(cs_shot *shot, survey *s) {
   for (int64_t i = 0; i < shot->film.count && !cs_interrupt_signal(); i++) {
     cs_exit outcome = cs_shot_build(shot, shot->film.first + i);
+    if (outcome == CS_EXIT_OK)
+      outcome = cs_report_failure(shot->context, meet_frame(shot, s), NULL);
     if (outcome != CS_EXIT_OK)
       return outcome;
-    celspan_rostrum_counts frame = {0, 0, 0};
-    for (size_t e = 0; e < shot->frame.count; e++) {
-      celspan_rostrum_counts counts;
-      celspan_rostrum_count(shot->frame.exposures[e].rostrum, &counts);
-      frame.cels += counts.cels;
-      frame.primitives += counts.primitives;
-      frame.pictures += counts.pictures;
-    }
-    keep_larger(&most->cels, frame.cels);
-    keep_larger(&most->primitives, frame.primitives);
-    keep_larger(&most->pictures, frame.pictures);
+    count_frame(&shot->frame, &s->most);
   }
   return CS_EXIT_OK;
 }
 
-static void print_info(const cs_shot *shot, const celspan_rostrum_counts *most) {
+static void print_info(const cs_shot *shot, const survey *s) {
+  const celspan_rostrum_counts *most = &s->most;
   if (shot->film.title)
     printf("title %s\n", shot->film.title);
   printf("frames %lld\nfirst %lld\nlast %lld\n", (long long)shot->film.count,
@@ -41,6 +67,7 @@ static void print_info(const cs_shot *shot, const celspan_rostrum_counts *most) 
   printf("fps %.9g\nseconds %.9g\nsize %dx%d\n", shot->film.frames_second,
          (double)shot->film.count / shot->film.frames_second, shot->film.width, shot->film.height);
   printf("cels %zu\nprimitives %zu\npictures %zu\n", most->cels, most->primitives, most->pictures);
+  printf("different %zu\n", s->different);
 }
 
 /* What the whole of it is made of: so it is read to its end. */
@@ -72,11 +99,12 @@ cs_exit cs_info_run(celspan_context *context, const cs_request *request) {
     return inform_spans(context, request->operands[0]);
   cs_shot shot;
   cs_exit outcome = cs_shot_open(context, request, &shot);
-  celspan_rostrum_counts most = {0, 0, 0};
+  survey s = {0};
   if (outcome == CS_EXIT_OK)
-    outcome = count_all(&shot, &most);
+    outcome = survey_all(&shot, &s);
   if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
-    print_info(&shot, &most);
+    print_info(&shot, &s);
+  cs_twins_finish(&s.twins, context);
   cs_shot_close(&shot);
   return outcome;
 }

@@ -11,6 +11,7 @@
 
 #include "bind/form.h"
 #include "cli/interrupt.h"
+#include "cli/progress.h"
 #include "cli/verbs.h"
 
 static const cs_verb VERBS[] = {
@@ -89,7 +90,7 @@ static void help_overview(FILE *stream) {
   fputs("celspan --version prints the version.\n\n"
         "Exit codes\n"
         "  0   every frame asked for exists      5      an output cannot be written\n"
-        "  1   compare: not the same             6      a limit was hit\n"
+        "  1   some frames failed, or differ     6      a limit was hit\n"
         "  2   wrong usage                       33     out of memory\n"
         "  3   the script or its scene failed    70     internal error\n"
         "  4   an input is missing or broken     128+n  ended by signal n\n",
@@ -116,9 +117,10 @@ static cs_exit run_verb(const cs_verb *verb, size_t count, char **arguments) {
   cs_exit outcome = cs_request_parse(verb, count, arguments, &request);
   if (outcome != CS_EXIT_OK)
     return outcome;
+  cs_progress_choose(request.progress);
   celspan_context *context = NULL;
   celspan_context_desc desc = {.struct_size = sizeof desc};
-  desc.defocus_bytes = (size_t)request.memory * 1048576 / 3; /* as the defaults are divided */
+  desc.defocus_bytes = (size_t)request.memory.value * 1048576 / 3; /* as the defaults are divided */
   desc.picture_bytes = 2 * desc.defocus_bytes;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
     cs_report_error("no memory to begin");

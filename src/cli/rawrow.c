@@ -1,4 +1,4 @@
-/* The sink for raw frames and for measuring how fast rows become pixels. */
+/* The sink for raw frames. */
 #include "cli/rawrow.h"
 
 #include <errno.h>
@@ -19,7 +19,7 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   cs_rawrow *raw = user;
   cs_pixels_row(&raw->coding, spans, span_count, raw->row);
-  if (!raw->stream || fwrite(raw->row, 1, raw->row_size, raw->stream) == raw->row_size)
+  if (fwrite(raw->row, 1, raw->row_size, raw->stream) == raw->row_size)
     return CELSPAN_OK;
   return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: row %d: %s", y,
                               strerror(errno));
@@ -29,7 +29,7 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   cs_rawrow *raw = user;
   cs_mem_free(context->memory, raw->row, raw->row_size);
   raw->row = NULL;
-  if (outcome == CELSPAN_OK && raw->stream && fflush(raw->stream) != 0)
+  if (outcome == CELSPAN_OK && fflush(raw->stream) != 0)
     return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
   return outcome;
 }

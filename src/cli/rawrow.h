@@ -1,4 +1,4 @@
-/* Rows as coded pixels, each in the same reused memory: written to a stream, or dropped.
+/* Rows as coded pixels, each in the same reused memory: written to a stream.
  */
 #ifndef CS_CLI_RAWROW_H
 #define CS_CLI_RAWROW_H
@@ -9,7 +9,7 @@
 
 typedef struct cs_rawrow {
   celspan_coding coding; /* every default filled in */
-  FILE *stream;          /* NULL: rows are dropped */
+  FILE *stream;
   unsigned char *row;
   size_t row_size;
 } cs_rawrow;

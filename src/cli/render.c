@@ -1,111 +1,155 @@
-/* celspan render SCRIPT -o OUT: the frames of a film, one after the other.
+/* celspan render SCRIPT -o OUT: the frames of a film.
+ *
+ *   target (where to) -> shoot (bind/shoot.h: build, make, copy) -> told, frame by frame
  *
  * Everything that can be refused is refused before the first frame is made. A frame that fails ends
- * the run: the frames before it are whole and stay.
+ * the run, unless it is to go on: the frames before it are whole and stay.
  */
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "bind/sequence.h"
+#include "base/context.h"
+#include "bind/shoot.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/rawrow.h"
-#include "cli/shot.h"
+#include "cli/record.h"
 #include "cli/target.h"
-#include "cli/tee.h"
 #include "cli/verbs.h"
 #include "cli/view.h"
-#include "output/sink.h"
 
 typedef struct render_job {
   cs_shot *shot;
   const cs_request *request;
-  celspan_frame_desc frame; /* its exposures change from frame to frame */
+  celspan_frame_desc frame;
   cs_sequence frames;
   cs_progress progress;
+  cs_record record;
+  int64_t *failed; /* frames; owned */
+  size_t failed_count, failed_capacity;
+  cs_exit outcome; /* of what was reported */
 } render_job;
 
-static celspan_status render_raw(const render_job *job) {
+static celspan_status put_raw(void *user, const celspan_frame_desc *frame) {
+  const render_job *job = user;
   cs_rawrow raw;
   celspan_sink sink = cs_rawrow_sink(&raw, &job->request->coding, stdout);
-  return celspan_frame_render(job->shot->context, &job->frame, &sink, NULL);
+  return celspan_frame_render(job->shot->context, frame, &sink, NULL);
 }
 
-/* Writes the file and hashes its pixels in one go. */
-static celspan_status render_hashed(const render_job *job, const char *path,
-                                    const celspan_file_desc *file, uint64_t digest[2]) {
+static bool keep(void *user, cs_shoot_frame *frame) {
+  render_job *job = user;
+  return cs_record_has(&job->record, frame);
+}
+
+static bool tick(void *user, double share) {
+  render_job *job = user;
+  return cs_progress_tick(&job->progress, share);
+}
+
+/* ---------------------------------------------------------------- what is told */
+
+/* A frame that failed: reported; under --keep-going it is remembered and the run goes on. */
+static celspan_status take_failure(render_job *job, int64_t number, celspan_status status) {
   celspan_context *context = job->shot->context;
-  cs_tee tee;
-  celspan_status status = cs_sink_file(context, path, file, &tee.sinks[0]);
+  cs_exit outcome = cs_report_failure(context, status, NULL);
+  if (outcome == CS_EXIT_SIGNAL || !job->request->keeps_going) {
+    job->outcome = outcome;
+    return status;
+  }
+  CS_TRY(cs_mem_reserve(context, (void **)&job->failed, &job->failed_capacity,
+                        job->failed_count + 1, sizeof *job->failed));
+  job->failed[job->failed_count++] = number;
+  return CELSPAN_OK;
+}
+
+static const char *place_of(const cs_request *request, const cs_shoot_frame *frame) {
+  return !request->output                          ? "hashed"
+         : cs_target_is_stream(request->output) ? "standard output"
+                                                   : frame->path;
+}
+
+static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_status status) {
+  static const char *const ways[] = {"made", "copied", "kept"};
+  render_job *job = user;
+  if (status == CELSPAN_OK && job->request->resumes)
+    status = cs_record_add(&job->record, frame);
   if (status != CELSPAN_OK)
-    return status;
-  status = cs_sink_digest(context, &file->coding, digest, &tee.sinks[1]);
-  if (status != CELSPAN_OK) {
-    cs_sink_discard(context, &tee.sinks[0]);
-    return status;
-  }
-  celspan_sink sink = cs_tee_sink(&tee);
-  status = celspan_frame_render(context, &job->frame, &sink, NULL);
-  for (int i = 0; i < 2 && !tee.is_ended; i++)
-    cs_sink_discard(context, &tee.sinks[i]);
-  return status;
+    return take_failure(job, frame->number, status);
+  if (job->request->hash)
+    printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
+           frame->digest[1]);
+  cs_progress_frame(&job->progress, frame->number, place_of(job->request, frame),
+                    ways[frame->way]);
+  return CELSPAN_OK;
 }
 
-/* digest: NULL when none is asked for. */
-static celspan_status render_file(const render_job *job, const char *path, uint64_t *digest) {
-  celspan_file_desc file = cs_target_file(job->request);
-  file.title = job->shot->film.title;
-  file.frames_second = job->shot->film.frames_second;
-  file.frame = (int32_t)job->shot->number;
-  file.is_opaque = celspan_frame_is_opaque(&job->frame);
-  if (digest)
-    return render_hashed(job, path, &file, digest);
-  return celspan_frame_write(job->shot->context, &job->frame, path, &file, NULL);
+/* "2, 5-6": the frames that failed, in the order of the run. */
+static void list_failed(const render_job *job, char *out, size_t size) {
+  size_t length = 0;
+  for (size_t i = 0, end; i < job->failed_count && length < size; i = end) {
+    const int64_t *failed = job->failed;
+    for (end = i + 1; end < job->failed_count && failed[end] == failed[end - 1] + 1;)
+      end++;
+    int added = snprintf(out + length, size - length, "%s%" PRId64, i ? ", " : "", failed[i]);
+    if (end > i + 1 && added > 0 && length + (size_t)added < size)
+      added += snprintf(out + length + added, size - length - (size_t)added, "-%" PRId64,
+                        failed[end - 1]);
+    length += added > 0 ? (size_t)added : size;
+  }
 }
 
-/* Puts the frame that is built where it is asked for; path: room for the file's name. */
-static celspan_status put_frame(const render_job *job, char *path, size_t size, uint64_t *digest) {
-  celspan_context *context = job->shot->context;
-  const char *output = job->request->output;
-  if (!output) {
-    snprintf(path, size, "hashed");
-    return celspan_frame_digest(context, &job->frame, &job->request->coding, digest);
-  }
-  if (cs_target_is_stream(output)) {
-    snprintf(path, size, "standard output");
-    return render_raw(job);
-  }
-  celspan_status status = cs_sequence_name(context, output, job->shot->number, path, size);
-  return status == CELSPAN_OK ? render_file(job, path, digest) : status;
-}
-
-static cs_exit render_frame(render_job *job, int64_t number) {
-  cs_exit outcome = cs_shot_build(job->shot, number);
-  if (outcome != CS_EXIT_OK)
+static cs_exit tell_end(render_job *job, cs_exit outcome) {
+  char list[1024];
+  size_t done = job->progress.frames_done, count = job->frames.count;
+  cs_progress_end(&job->progress, job->failed, job->failed_count);
+  if (done < count && count > 1)
+    cs_report_note("%zu of %zu frames are finished", done, count);
+  if (job->failed_count == 0)
     return outcome;
-  job->frame.exposures = job->shot->frame.exposures;
-  job->frame.exposure_count = job->shot->frame.count;
-  char path[4096];
-  uint64_t digest[2];
-  bool is_hashed = job->request->hash;
-  celspan_status status = put_frame(job, path, sizeof path, is_hashed ? digest : NULL);
-  if (status == CELSPAN_OK && is_hashed)
-    printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", number, digest[0], digest[1]);
-  if (status == CELSPAN_OK)
-    cs_progress_frame(&job->progress, number, path);
-  return cs_shot_failure(job->shot, status);
+  list_failed(job, list, sizeof list);
+  cs_report_error("%zu of %zu frames failed: %s", job->failed_count, count, list);
+  return outcome == CS_EXIT_OK ? CS_EXIT_PARTIAL : outcome;
+}
+
+/* ---------------------------------------------------------------- the run */
+
+static cs_exit shoot(render_job *job) {
+  const cs_request *request = job->request;
+  bool is_stream = request->output && cs_target_is_stream(request->output);
+  const cs_shoot shoot = {.L = job->shot->L,
+                          .film = CS_SHOT_FILM,
+                          .context = job->shot->context,
+                          .frames = &job->frames,
+                          .pattern = is_stream ? NULL : request->output,
+                          .frame = job->frame,
+                          .file = cs_target_file(request),
+                          .has_digests = request->hash,
+                          .keeps_going = request->keeps_going,
+                          .keeps_nothing = request->memory.is_given && request->memory.value == 0,
+                          .user = job,
+                          .put = is_stream ? put_raw : NULL,
+                          .keep = request->resumes ? keep : NULL,
+                          .told = told,
+                          .tick = tick};
+  celspan_status status = cs_shoot_run(&shoot);
+  return job->outcome != CS_EXIT_OK ? job->outcome
+                                    : cs_report_failure(job->shot->context, status, NULL);
 }
 
 static cs_exit render_all(render_job *job) {
   cs_progress_start(&job->progress, job->request->progress, job->frames.count);
-  job->frame.progress = cs_progress_rows;
-  job->frame.progress_user = &job->progress;
-  cs_exit outcome = CS_EXIT_OK;
-  for (size_t i = 0; i < job->frames.count && outcome == CS_EXIT_OK && !cs_interrupt_signal(); i++)
-    outcome = render_frame(job, job->frames.frames[i]);
-  cs_progress_end(&job->progress);
-  if (job->progress.frames_done < job->frames.count && job->frames.count > 1)
-    cs_report_note("%zu of %zu frames are finished", job->progress.frames_done, job->frames.count);
+  return tell_end(job, shoot(job));
+}
+
+static cs_exit resume_all(render_job *job) {
+  if (!job->request->resumes)
+    return render_all(job);
+  celspan_status status = cs_record_open(&job->record, job->shot, job->request, &job->frame);
+  cs_exit outcome = cs_report_failure(job->shot->context, status, NULL);
+  if (outcome == CS_EXIT_OK)
+    outcome = render_all(job);
+  cs_record_close(&job->record);
   return outcome;
 }
 
@@ -113,9 +157,22 @@ static cs_exit refuse_stream(const cs_request *request) {
   if (request->hash)
     return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
                            "of them");
+  if (request->progress == CS_PROGRESS_OPENJD)
+    return cs_report_usage("--progress openjd prints to standard output, where -o - puts the "
+                           "frames: give one of them");
   if (request->format)
     return cs_report_usage("--format %s goes into files: with -o - frames are raw RGBA rows",
                            request->format);
+  return CS_EXIT_OK;
+}
+
+static cs_exit refuse_resume(const cs_request *request) {
+  bool has_files = request->output && !cs_target_is_stream(request->output);
+  if (request->is_forced && !request->resumes)
+    return cs_report_usage("--force belongs to --resume");
+  if (request->resumes && !has_files)
+    return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
+                           "shot.####.png");
   return CS_EXIT_OK;
 }
 
@@ -123,6 +180,9 @@ static cs_exit refuse_stream(const cs_request *request) {
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   if (!request->output && !request->hash)
     return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");
+  cs_exit outcome = refuse_resume(request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
   if (request->output && cs_target_is_stream(request->output))
     return refuse_stream(request);
   return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
@@ -134,7 +194,8 @@ static cs_exit run(cs_shot *shot, const cs_request *request) {
   if (outcome == CS_EXIT_OK)
     outcome = cs_target_frames(shot, request, &job.frames);
   if (outcome == CS_EXIT_OK)
-    outcome = render_all(&job);
+    outcome = resume_all(&job);
+  cs_mem_free(shot->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
   cs_sequence_finish(&job.frames);
   return outcome;
 }

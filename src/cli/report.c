@@ -8,7 +8,12 @@
 
 #include "cli/interrupt.h"
 
+enum { SENTENCE = 8192 }; /* paths may be 4096 bytes long */
+
 static void (*clear_line)(void);
+static cs_report_form chosen;
+
+void cs_report_choose(cs_report_form form) { chosen = form; }
 
 cs_exit cs_report_exit(celspan_status status) {
   switch (status) {
@@ -33,33 +38,69 @@ cs_exit cs_report_exit(celspan_status status) {
   return CS_EXIT_INTERNAL;
 }
 
-__attribute__((format(printf, 2, 0))) static void print_line(const char *prefix, const char *format,
-                                                             va_list arguments) {
+void cs_report_event(cs_json *event) { fputs(cs_json_end(event), stderr); }
+
+static void print_openjd(const char *name, char *text) {
+  for (char *at = text; *at; at++)
+    if ((unsigned char)*at < ' ')
+      *at = ' ';
+  printf("openjd_%s: %s\n", name, text);
+  fflush(stdout);
+}
+
+void cs_report_openjd(const char *name, const char *format, ...) {
+  char text[SENTENCE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  print_openjd(name, text);
+}
+
+static void print_words(bool is_error, const char *text) {
   if (clear_line)
     clear_line();
-  fputs(prefix, stderr);
-  vfprintf(stderr, format, arguments);
-  fputc('\n', stderr);
+  fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", text);
+}
+
+static void print_event(bool is_error, const char *text) {
+  cs_json event;
+  cs_json_begin(&event);
+  cs_json_text(&event, "event", is_error ? "error" : "note");
+  cs_json_text(&event, "message", text);
+  cs_report_event(&event);
+}
+
+__attribute__((format(printf, 2, 0))) static void print_line(bool is_error, const char *format,
+                                                             va_list arguments) {
+  char text[SENTENCE];
+  vsnprintf(text, sizeof text, format, arguments);
+  if (chosen == CS_REPORT_JSON)
+    print_event(is_error, text);
+  else
+    print_words(is_error, text);
+  if (chosen == CS_REPORT_OPENJD && is_error)
+    print_openjd("fail", text);
 }
 
 void cs_report_error(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  print_line("celspan: error: ", format, arguments);
+  print_line(true, format, arguments);
   va_end(arguments);
 }
 
 void cs_report_note(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  print_line("celspan: ", format, arguments);
+  print_line(false, format, arguments);
   va_end(arguments);
 }
 
 cs_exit cs_report_usage(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  print_line("celspan: error: ", format, arguments);
+  print_line(true, format, arguments);
   va_end(arguments);
   return CS_EXIT_USAGE;
 }

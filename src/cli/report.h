@@ -8,10 +8,12 @@
 #define CS_CLI_REPORT_H
 
 #include "celspan/celspan.h"
+#include "cli/json.h"
 
 typedef enum cs_exit {
   CS_EXIT_OK = 0,
   CS_EXIT_DIFFERENT = 1, /* compare: not the same */
+  CS_EXIT_PARTIAL = 1,   /* some frames failed under --keep-going */
   CS_EXIT_USAGE = 2,
   CS_EXIT_SCRIPT = 3, /* the script failed, or its scene was refused */
   CS_EXIT_INPUT = 4,
@@ -34,6 +36,20 @@ cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1
 /* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the
  * exit code. Says nothing about CANCELLED, nor of anything once a signal asked to stop. */
 cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
+
+/* How diagnostics look to who reads them. */
+typedef enum cs_report_form {
+  CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
+  CS_REPORT_JSON,      /* {"event":"error","message":"..."} */
+  CS_REPORT_OPENJD     /* as words, and errors on standard output too: "openjd_fail: ..." */
+} cs_report_form;
+
+void cs_report_choose(cs_report_form form);
+/* An object that tells what happened, on a line of standard error. */
+void cs_report_event(cs_json *event);
+/* "openjd_NAME: ..." on standard output, at once. */
+void cs_report_openjd(const char *name, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
 /* Called before each line on standard error, to clear what stands there; NULL: nothing stands. */
 void cs_report_before_line(void (*clear)(void));

@@ -14,7 +14,7 @@ typedef struct option {
   unsigned verbs;
   size_t offset;
   cs_value_reader read; /* NULL: a flag (bool) */
-  const char *help;     /* NULL: known, but not shown because it is not built */
+  const char *help;
 } option;
 
 #define FIELD(field) offsetof(cs_request, field)
@@ -61,8 +61,9 @@ static const option OPTIONS[] = {
     {"--workers", "N", "a whole number from 1 to 1024",
      CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_CONVERT | CS_VERB_TILES, FIELD(workers), cs_value_workers,
      "threads that render; default: one a processor"},
-    {"--progress", "HOW", "auto, bar, lines or none", CS_VERB_RENDER | CS_VERB_TILES,
-     FIELD(progress), cs_value_progress, "auto, bar, lines or none, on standard error"},
+    {"--progress", "HOW", "auto, bar, lines, none, json or openjd", CS_VERB_RENDER | CS_VERB_TILES,
+     FIELD(progress), cs_value_progress,
+     "auto, bar, lines, none or json on standard error; openjd on standard output"},
     {"--hash", NULL, NULL, CS_VERB_RENDER, FIELD(hash), NULL,
      "print FRAME DIGEST of each frame's pixels; OUT may be left out"},
     {"--stats", NULL, NULL, CS_VERB_SPANS, FIELD(statistics), NULL,
@@ -89,12 +90,16 @@ static const option OPTIONS[] = {
      cs_value_text, "OpenSeadragon, to be copied beside the page"},
     {"--fail", "D", "a number, 0 or more", CS_VERB_COMPARE, FIELD(tolerance), cs_value_tolerance,
      "largest difference of coded values (0..1) that is let pass; default 0"},
-    {"--resume", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
-    {"--force", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
-    {"--keep-going", NULL, NULL, CS_VERB_RENDER, 0, cs_value_absent, NULL},
-    {"--memory", "MiB", "a whole number of MiB from 1 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
+    {"--resume", NULL, NULL, CS_VERB_RENDER, FIELD(resumes), NULL,
+     "keep the frames of earlier runs with --resume that would come out the same"},
+    {"--force", NULL, NULL, CS_VERB_RENDER, FIELD(is_forced), NULL,
+     "with --resume: keep every frame that stands there whole, whatever it shows"},
+    {"--keep-going", NULL, NULL, CS_VERB_RENDER, FIELD(keeps_going), NULL,
+     "go on after frames that fail; the exit code is then 1"},
+    {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
      FIELD(memory), cs_value_memory,
-     "pictures and defocused cels kept in memory; default: 768"},
+     "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"
+     "                     as if it were the first"},
 };
 
 enum { OPTION_COUNT = sizeof OPTIONS / sizeof OPTIONS[0], NAME_SIZE = 32 };
@@ -123,7 +128,7 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
   const char *names[OPTION_COUNT];
   size_t count = 0;
   for (size_t i = 0; i < OPTION_COUNT; i++)
-    if (belongs(&OPTIONS[i], verb) && OPTIONS[i].help)
+    if (belongs(&OPTIONS[i], verb))
       names[count++] = OPTIONS[i].name;
   const char *nearest = cs_form_nearest(name, names, count);
   if (nearest)
@@ -134,15 +139,8 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
 
 static cs_exit read_value(const option *known, const char *text, cs_request *out) {
   void *field = (char *)out + known->offset;
-  switch (known->read(text, field)) {
-  case CS_VALUE_READ:
+  if (known->read(text, field) == CS_VALUE_READ)
     return CS_EXIT_OK;
-  case CS_VALUE_ABSENT:
-    return cs_report_usage("%s%s%s is not built into this version", known->name,
-                           known->help ? " " : "", known->help ? text : "");
-  case CS_VALUE_BAD:
-    break;
-  }
   return cs_report_usage("%s: '%s' is not %s", known->name, text, known->allowed);
 }
 
@@ -230,7 +228,7 @@ void cs_request_help(const cs_verb *verb, FILE *stream) {
   bool is_first = true;
   for (size_t i = 0; i < OPTION_COUNT; i++) {
     const option *known = &OPTIONS[i];
-    if (!belongs(known, verb) || !known->help)
+    if (!belongs(known, verb))
       continue;
     fputs(is_first ? "\nOptions\n" : "", stream);
     is_first = false;

@@ -27,9 +27,10 @@ typedef struct cs_request {
   cs_given_antialias antialias;
   celspan_coding coding;
   int32_t workers; /* 0: one a processor */
-  int32_t memory;  /* MiB; 0: not given */
+  cs_given_integer memory; /* MiB; 0: nothing is kept from frame to frame */
   cs_progress_style progress;
   bool hash, statistics;
+  bool resumes, is_forced, keeps_going;
   celspan_depth pixels; /* DEFAULT: not given */
   double tolerance;
   cs_pyramid_layout layout;

@@ -10,8 +10,6 @@
 #include "cli/interrupt.h"
 #include "cli/view.h"
 
-enum { FILM_INDEX = 1 };
-
 static lua_State *running; /* the state that a signal interrupts */
 
 static void raise_interrupt(lua_State *L, lua_Debug *where) {
@@ -73,7 +71,7 @@ cs_exit cs_shot_open(celspan_context *context, const cs_request *request, cs_sho
                    (const char *const *)request->script_arguments);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
-  cs_film_read(out->L, FILM_INDEX, &out->film);
+  cs_film_read(out->L, CS_SHOT_FILM, &out->film);
   return CS_EXIT_OK;
 }
 
@@ -89,7 +87,7 @@ celspan_status cs_shot_try(cs_shot *shot, int64_t number) {
   running = shot->L;
   cs_film_finish_frame(&shot->frame);
   shot->number = number;
-  return cs_film_build(shot->L, FILM_INDEX, number, &shot->frame);
+  return cs_film_build(shot->L, CS_SHOT_FILM, number, &shot->frame);
 }
 
 cs_exit cs_shot_build(cs_shot *shot, int64_t number) {

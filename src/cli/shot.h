@@ -7,9 +7,11 @@
 #include "bind/film.h"
 #include "cli/request.h"
 
+#define CS_SHOT_FILM 1 /* where the film stands on the state's stack */
+
 typedef struct cs_shot {
   celspan_context *context; /* borrowed */
-  lua_State *L;             /* owned; the film stands at index 1; NULL: not open */
+  lua_State *L;             /* owned; NULL: not open */
   cs_film_info film;        /* its texts live as long as the state */
   int64_t number;           /* of the frame built last */
   cs_film_frame frame;      /* that frame; owned */

@@ -161,22 +161,46 @@ static void to_colour(const cs_spanread *file, const unsigned char *pixel, float
     rgba[c] = file->light[pixel[c]] * rgba[3];
 }
 
-static celspan_status make_room(cs_spanread *file, const spanfile_row *row, int32_t x0,
-                                int32_t x1) {
-  size_t arrays = 0, longest = 0;
+/* Pixels that a span has among the row's values. */
+static uint32_t values_of(const spanfile_span *span, uint32_t start) {
+  return span->kind == SPANFILE_RAW ? span->end - start : span->kind == SPANFILE_GRADIENT ? 2 : 0;
+}
+
+/* The spans of a row that reach into [x0, x1), from `first` on. */
+typedef struct part_of_row {
+  uint32_t x0, x1;
+  const spanfile_span *first, *end; /* end: of the row */
+  uint32_t start;                   /* column of the first */
+  const unsigned char *values;      /* of the first */
+} part_of_row;
+
+static part_of_row find_part(const cs_spanread *file, const spanfile_row *row, uint32_t x0,
+                             uint32_t x1) {
+  const spanfile_span *span = row->spans, *end = row->spans + row->count;
   uint32_t start = 0;
-  for (size_t i = 0; i < row->count; start = row->spans[i++].end) {
-    const spanfile_span *span = &row->spans[i];
-    int64_t from = start > (uint32_t)x0 ? (int64_t)start : x0;
-    int64_t count = (span->end < (uint32_t)x1 ? (int64_t)span->end : x1) - from;
-    if (span->kind != SPANFILE_RUN && count > 0) {
-      arrays += (size_t)count;
-      longest = (size_t)count > longest ? (size_t)count : longest;
+  size_t pixels = 0;
+  for (; span < end && span->end <= x0; start = span++->end)
+    pixels += values_of(span, start);
+  return (part_of_row){x0,    x1,
+                       span,  row->spans + row->count,
+                       start, row->values + pixels * spanfile_pixel_size(file->info.format)};
+}
+
+static celspan_status make_room(cs_spanread *file, const part_of_row *part) {
+  size_t spans = 0, arrays = 0, longest = 0;
+  uint32_t from = part->x0;
+  for (const spanfile_span *span = part->first; span < part->end && from < part->x1; span++) {
+    size_t count = (span->end < part->x1 ? span->end : part->x1) - from;
+    spans++;
+    if (span->kind != SPANFILE_RUN) {
+      arrays += count;
+      longest = count > longest ? count : longest;
     }
+    from = span->end;
   }
   celspan_context *context = file->context;
   size_t pixel_size = spanfile_pixel_size(file->info.format);
-  CS_TRY(cs_mem_reserve(context, (void **)&file->spans, &file->span_capacity, row->count,
+  CS_TRY(cs_mem_reserve(context, (void **)&file->spans, &file->span_capacity, spans,
                         sizeof *file->spans));
   CS_TRY(cs_mem_reserve(context, (void **)&file->colours, &file->colour_capacity, 4 * arrays,
                         sizeof *file->colours));
@@ -203,36 +227,39 @@ static void set_run(const cs_spanread *file, const spanfile_span *span, celspan_
   to_colour(file, pixel, out->colour);
 }
 
+/* Into file->spans and file->colours, which have room. How many spans. */
+static size_t take_part(cs_spanread *file, const part_of_row *part) {
+  size_t pixel_size = spanfile_pixel_size(file->info.format);
+  const unsigned char *values = part->values;
+  celspan_span *out = file->spans;
+  float *colours = file->colours;
+  uint32_t start = part->start, from = part->x0;
+  for (const spanfile_span *span = part->first; span < part->end && from < part->x1; span++) {
+    uint32_t to = span->end < part->x1 ? span->end : part->x1;
+    *out = (celspan_span){.x0 = (int32_t)(from - part->x0), .x1 = (int32_t)(to - part->x0)};
+    if (span->kind == SPANFILE_RUN) {
+      set_run(file, span, out);
+    } else {
+      out->kind = CELSPAN_SPAN_ARRAY;
+      out->array = colours;
+      decode_array(file, span, start, values, from, to, colours);
+      colours += 4 * (size_t)(to - from);
+    }
+    values += values_of(span, start) * pixel_size;
+    start = from = span->end;
+    out++;
+  }
+  return (size_t)(out - file->spans);
+}
+
 celspan_status cs_spanread_row(cs_spanread *file, int32_t y, int32_t x0, int32_t x1,
                                const celspan_span **spans, size_t *span_count) {
   spanfile_row row;
   spanfile_fault fault;
   CS_TRY(report(file, spanfile_reader_row(file->reader, (uint32_t)y, &row, &fault), &fault));
-  CS_TRY(make_room(file, &row, x0, x1));
-  const unsigned char *values = row.values;
-  size_t pixel_size = spanfile_pixel_size(file->info.format), count = 0;
-  float *colours = file->colours;
-  uint32_t start = 0;
-  for (size_t i = 0; i < row.count && start < (uint32_t)x1; start = row.spans[i++].end) {
-    const spanfile_span *span = &row.spans[i];
-    uint32_t from = start > (uint32_t)x0 ? start : (uint32_t)x0;
-    uint32_t to = span->end < (uint32_t)x1 ? span->end : (uint32_t)x1;
-    if (from < to) {
-      celspan_span *out = &file->spans[count++];
-      *out = (celspan_span){.x0 = (int32_t)from - x0, .x1 = (int32_t)to - x0};
-      if (span->kind == SPANFILE_RUN) {
-        set_run(file, span, out);
-      } else {
-        out->kind = CELSPAN_SPAN_ARRAY;
-        out->array = colours;
-        decode_array(file, span, start, values, from, to, colours);
-        colours += 4 * (size_t)(to - from);
-      }
-    }
-    if (span->kind != SPANFILE_RUN)
-      values += (span->kind == SPANFILE_RAW ? span->end - start : 2) * pixel_size;
-  }
+  part_of_row part = find_part(file, &row, (uint32_t)x0, (uint32_t)x1);
+  CS_TRY(make_room(file, &part));
+  *span_count = take_part(file, &part);
   *spans = file->spans;
-  *span_count = count;
   return CELSPAN_OK;
 }

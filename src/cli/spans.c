@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/rawrow.h"
 #include "cli/shot.h"
 #include "cli/verbs.h"
 #include "cli/view.h"
@@ -46,12 +45,6 @@ static celspan_status print_row(void *user, celspan_context *context, int32_t y,
   return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
 }
 
-static celspan_status drop_row(void *user, celspan_context *context, int32_t y,
-                               const celspan_span *spans, size_t span_count) {
-  (void)user, (void)context, (void)y, (void)spans, (void)span_count;
-  return CELSPAN_OK;
-}
-
 static void print_statistics(const celspan_statistics *s, double seconds) {
   printf("rows %" PRIu64 " spans %" PRIu64 " single %" PRIu64 " gradient %" PRIu64 " array %" PRIu64
          " pixels_in_arrays %" PRIu64 " colour_evaluations %" PRIu64 " allocations %" PRIu64
@@ -62,15 +55,15 @@ static void print_statistics(const celspan_statistics *s, double seconds) {
 
 static celspan_status measure(celspan_context *context, const cs_request *request,
                               const celspan_frame_desc *frame) {
-  cs_rawrow raw;
-  celspan_coding coding = {.depth = request->pixels};
-  celspan_sink dropped = {.row = drop_row};
-  bool is_coded = request->pixels != CELSPAN_DEPTH_DEFAULT;
-  celspan_sink sink = is_coded ? cs_rawrow_sink(&raw, &coding, NULL) : dropped;
+  const celspan_coding coding = {.depth = request->pixels};
+  const celspan_sink nowhere = {.row = NULL};
   celspan_statistics statistics;
   memset(&statistics, 0, sizeof statistics);
   double started = cs_progress_clock();
-  celspan_status status = celspan_frame_render(context, frame, &sink, &statistics);
+  celspan_status status =
+      request->pixels != CELSPAN_DEPTH_DEFAULT
+          ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
+          : celspan_frame_render(context, frame, &nowhere, &statistics);
   if (status == CELSPAN_OK)
     print_statistics(&statistics, cs_progress_clock() - started);
   return status;

@@ -180,7 +180,7 @@ static celspan_status finished(void *user, celspan_context *context, cs_tile_row
   char what[32];
   CS_TRY(cs_tilelog_add(context, &job->log, row));
   snprintf(what, sizeof what, "level %d", row.level);
-  cs_progress_frame(&job->progress, row.row, what);
+  cs_progress_frame(&job->progress, row.row, what, "made");
   return CELSPAN_OK;
 }
 
@@ -188,7 +188,7 @@ static celspan_status finished(void *user, celspan_context *context, cs_tile_row
 static bool go_on(void *user, int32_t rows_done, int32_t rows_total) {
   tiles_job *job = user;
   (void)rows_done, (void)rows_total;
-  return cs_progress_rows(&job->progress, 0, 0);
+  return cs_progress_tick(&job->progress, 0);
 }
 
 /* The whole of a level, to be cut to what is wanted. */
@@ -302,7 +302,7 @@ static celspan_status render_all(tiles_job *job) {
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < job->plan.count && status == CELSPAN_OK; i++)
     status = render_part(job, &job->plan.jobs[i]);
-  cs_progress_end(&job->progress);
+  cs_progress_end(&job->progress, NULL, 0);
   cs_tilefile_finish(&job->files);
   cs_tilesmall_free(job->context, &job->small);
   return keep_finished(job, status);

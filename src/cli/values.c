@@ -17,14 +17,10 @@ typedef struct choice {
 #define CHOOSE(text, field, choices)                                                               \
   choose(text, field, choices, sizeof(choices) / sizeof((choices)[0]))
 
-static const int ABSENT = -1; /* a choice's value: known, but not built */
-
 static cs_value_outcome choose(const char *text, void *field, const choice *choices, size_t count) {
   for (size_t i = 0; i < count; i++) {
     if (strcmp(text, choices[i].name) != 0)
       continue;
-    if (choices[i].value == ABSENT)
-      return CS_VALUE_ABSENT;
     memcpy(field, &choices[i].value, sizeof choices[i].value);
     return CS_VALUE_READ;
   }
@@ -86,7 +82,11 @@ cs_value_outcome cs_value_workers(const char *text, void *field) {
 }
 
 cs_value_outcome cs_value_memory(const char *text, void *field) {
-  return read_integers(text, 0, 1, 1048576, field, 1) ? CS_VALUE_READ : CS_VALUE_BAD;
+  int32_t value = 0;
+  if (!read_integers(text, 0, 0, 1048576, &value, 1))
+    return CS_VALUE_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_VALUE_READ;
 }
 
 cs_value_outcome cs_value_number(const char *text, void *field) {
@@ -189,11 +189,6 @@ cs_value_outcome cs_value_layout(const char *text, void *field) {
 cs_value_outcome cs_value_progress(const char *text, void *field) {
   static const choice choices[] = {
       {"auto", CS_PROGRESS_AUTO}, {"bar", CS_PROGRESS_BAR}, {"lines", CS_PROGRESS_LINES},
-      {"none", CS_PROGRESS_NONE}, {"json", ABSENT},         {"openjd", ABSENT}};
+      {"none", CS_PROGRESS_NONE}, {"json", CS_PROGRESS_JSON}, {"openjd", CS_PROGRESS_OPENJD}};
   return CHOOSE(text, field, choices);
-}
-
-cs_value_outcome cs_value_absent(const char *text, void *field) {
-  (void)text, (void)field;
-  return CS_VALUE_ABSENT;
 }

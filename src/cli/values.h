@@ -15,8 +15,7 @@
 
 typedef enum cs_value_outcome {
   CS_VALUE_READ = 0,
-  CS_VALUE_BAD,
-  CS_VALUE_ABSENT /* promised, but not built into this version */
+  CS_VALUE_BAD
 } cs_value_outcome;
 
 typedef cs_value_outcome (*cs_value_reader)(const char *text, void *field);
@@ -25,7 +24,9 @@ typedef enum cs_progress_style {
   CS_PROGRESS_AUTO = 0,
   CS_PROGRESS_BAR,
   CS_PROGRESS_LINES,
-  CS_PROGRESS_NONE
+  CS_PROGRESS_NONE,
+  CS_PROGRESS_JSON,
+  CS_PROGRESS_OPENJD
 } cs_progress_style;
 
 typedef struct cs_given_antialias {
@@ -42,7 +43,7 @@ typedef struct cs_given_integer {
 cs_value_outcome cs_value_text(const char *text, void *field);      /* const char * */
 cs_value_outcome cs_value_integer(const char *text, void *field);   /* cs_given_integer */
 cs_value_outcome cs_value_workers(const char *text, void *field);   /* int32_t, 1..1024 */
-cs_value_outcome cs_value_memory(const char *text, void *field);    /* int32_t, 1..1048576 */
+cs_value_outcome cs_value_memory(const char *text, void *field);    /* cs_given_integer, 0..1048576 */
 cs_value_outcome cs_value_number(const char *text, void *field);    /* double, finite */
 cs_value_outcome cs_value_scale(const char *text, void *field);     /* double, above 0 */
 cs_value_outcome cs_value_tolerance(const char *text, void *field); /* double, 0 or more */
@@ -56,7 +57,5 @@ cs_value_outcome cs_value_alpha(const char *text, void *field);     /* celspan_a
 cs_value_outcome cs_value_count(const char *text, void *field);     /* cs_given_integer, 0.. */
 cs_value_outcome cs_value_layout(const char *text, void *field);    /* cs_pyramid_layout */
 cs_value_outcome cs_value_progress(const char *text, void *field);  /* cs_progress_style */
-/* For options that are not built into this version: always ABSENT. */
-cs_value_outcome cs_value_absent(const char *text, void *field);
 
 #endif

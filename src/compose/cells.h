@@ -30,10 +30,11 @@ typedef struct cs_cells {
 
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
-/* Brings the cells up to date with the active boundaries. Errors: NO_MEMORY; what composing meets
- * stays in composer->failure. */
+/* Brings the cells up to date with the active boundaries. change: where they differ from those of the
+ * last update. The composer stands left of all boundaries, before and after.
+ * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
-                                               const cs_active *active);
+                                               const cs_active *active, cs_change change);
 /* Forgets every cell. */
 void cs_cells_forget(cs_cells *cells);
 

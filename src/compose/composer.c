@@ -15,6 +15,17 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
   return CELSPAN_OK;
 }
 
+/* Whether leaves are folded one after the other, with nothing between them. */
+static bool is_plain(const cs_stack *stack) {
+  for (size_t i = 0; i < stack->leaf_count; i++)
+    if (stack->leaves[i].kind != CS_LEAF_FLAT)
+      return false;
+  for (size_t i = 0; i < stack->light_count; i++)
+    if (stack->lights[i].below > 0)
+      return false;
+  return stack->group_count == 0;
+}
+
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
   *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
@@ -22,10 +33,14 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->windings, stack->leaf_count, sizeof(int32_t)));
+  CS_TRY(take(composer, &composer->presences, stack->leaf_count, sizeof(cs_presence)));
+  for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
+    composer->presences[leaf].mark = stack->marks[leaf];
   if (stack->procedure_count > 0)
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
+  if (is_plain(stack))
+    CS_TRY(take(composer, &composer->words, words, sizeof(cs_word_fold)));
   CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
   CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
   if (composer->texels)
@@ -42,9 +57,11 @@ void cs_composer_finish(cs_composer *composer) {
   size_t words = cs_stack_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->windings, stack->leaf_count * sizeof(int32_t));
+  cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
+  if (composer->words)
+    cs_mem_free(memory, composer->words, words * sizeof(cs_word_fold));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
   if (composer->texels)
     cs_texels_finish(composer->texels);
@@ -122,7 +139,7 @@ static void fold_light(fold *f) {
 }
 
 /* Moves the fold back to just before `leaf`: leaves groups, meets back lights, enters groups. */
-static void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
+static inline void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
   while (f->group != CS_STACK_NONE && leaf < f->stack->groups[f->group].first)
     fold_leave_group(f);
   while (f->light < f->stack->light_count && leaf < f->stack->lights[f->light].below)
@@ -136,8 +153,9 @@ static inline void fold_paint(fold *f, cs_v4 s, cs_v4 t) {
   f->t *= t;
 }
 
-static bool fold_is_opaque(const fold *f) {
-  return f->t[0] <= CS_PAINT_OPAQUE && f->t[1] <= CS_PAINT_OPAQUE && f->t[2] <= CS_PAINT_OPAQUE;
+/* Lane 3 of t is 0 once something has been painted. */
+static inline bool fold_is_opaque(const fold *f) {
+  return !cs_v4_any_above(f->t, cs_v4_all(CS_PAINT_OPAQUE));
 }
 
 /* Premultiplied RGBA; alpha is the mean of the three mattes. */
@@ -174,9 +192,9 @@ static bool leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf) {
          leaf->fade == 1;
 }
 
-/* Takes one leaf into the cell: folds it when it is flat, notes it in any case. Until then a leaf
- * that varies and is not opaque counts as clear, so the stop comes late, never early. */
-static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index, bool *varies) {
+/* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf that
+ * varies and is not opaque counts as clear, so the stop comes late, never early. */
+static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index) {
   const cs_leaf *leaf = &composer->stack->leaves[index];
   fold_reach(f, index, leaf->group);
   CS_TRY(gather_item(composer, index));
@@ -184,14 +202,13 @@ static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index
     fold_paint(f, leaf->s, leaf->t);
     return CELSPAN_OK;
   }
-  *varies = true;
   if (leaf_is_opaque(composer, leaf))
     f->t = cs_v4_all(0);
   return CELSPAN_OK;
 }
 
 /* The highest leaf of the set below `end`, or CS_STACK_NONE. */
-static uint32_t leaf_below(const uint64_t *set, uint32_t end) {
+static inline uint32_t leaf_below(const uint64_t *set, uint32_t end) {
   if (end == 0)
     return CS_STACK_NONE;
   uint32_t word = (end - 1) / 64;
@@ -204,20 +221,97 @@ static uint32_t leaf_below(const uint64_t *set, uint32_t end) {
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
 
+/* Where the walk goes on when nothing shines through any more: behind the group, which hides the rest
+ * of itself, or nowhere. */
+static inline uint32_t end_behind(const fold *f) {
+  return f->group == CS_STACK_NONE ? 0 : f->stack->groups[f->group].first;
+}
+
 /* Walks the contributing leaves from the front until nothing shines through. */
-static celspan_status gather(cs_composer *composer, const uint64_t *set, fold *f, bool *varies) {
-  uint32_t end = (uint32_t)composer->stack->leaf_count;
+static celspan_status gather(cs_composer *composer, const uint64_t *set) {
+  fold f;
+  fold_begin(&f, composer->stack);
   composer->gathered_count = 0;
-  for (uint32_t leaf; (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
-    CS_TRY(gather_leaf(composer, f, leaf, varies));
-    end = leaf;
-    if (fold_is_opaque(f)) {
-      if (f->group == CS_STACK_NONE)
-        break;
-      end = composer->stack->groups[f->group].first; /* the rest of the group is hidden */
-    }
+  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
+       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+    CS_TRY(gather_leaf(composer, &f, leaf));
+    end = fold_is_opaque(&f) ? end_behind(&f) : leaf;
   }
   return CELSPAN_OK;
+}
+
+/* The same while all leaves are flat; false where one is not. */
+static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f) {
+  const cs_leaf *leaves = composer->stack->leaves;
+  fold_begin(f, composer->stack);
+  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
+       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+    if (leaves[leaf].kind != CS_LEAF_FLAT)
+      return false;
+    fold_reach(f, leaf, leaves[leaf].group);
+    fold_paint(f, leaves[leaf].s, leaves[leaf].t);
+    end = fold_is_opaque(f) ? end_behind(f) : leaf;
+  }
+  return true;
+}
+
+static inline void pass(cs_glimpse *light, const cs_v4 e, const cs_v4 t) {
+  light->e += light->t * e;
+  light->t *= t;
+}
+
+/* Brings what is known of a word up to date: neighbouring cells differ in few leaves, so few of its
+ * bytes are folded anew. */
+static const cs_glimpse *fold_word(cs_word_fold *known, const cs_leaf *leaves, uint64_t word) {
+  const cs_glimpse clear = {cs_v4_all(0), cs_v4_all(1)};
+  uint64_t changed = known->word ^ word;
+  if (changed == 0)
+    return &known->all;
+  known->word = word;
+  known->all = clear;
+  for (int byte = 7; byte >= 0; byte--) {
+    unsigned present = word >> 8 * byte & 255;
+    if (present == 0)
+      continue;
+    if (changed >> 8 * byte & 255) {
+      known->bytes[byte] = clear;
+      for (unsigned left = present; left != 0;) {
+        int highest = 31 - __builtin_clz(left);
+        left ^= 1u << highest;
+        pass(&known->bytes[byte], leaves[8 * byte + highest].s, leaves[8 * byte + highest].t);
+      }
+    }
+    pass(&known->all, known->bytes[byte].e, known->bytes[byte].t);
+  }
+  return &known->all;
+}
+
+/* Folds the leaves of one word on top of what f holds, until nothing shines through. */
+static void fold_last(fold *f, const cs_leaf *leaves, uint64_t word) {
+  while (word != 0) {
+    int highest = 63 - __builtin_clzll(word);
+    word ^= (uint64_t)1 << highest;
+    fold_paint(f, leaves[highest].s, leaves[highest].t);
+    if (fold_is_opaque(f))
+      return;
+  }
+}
+
+/* Folds plain leaves a word at a time; the word in which the light ends, leaf by leaf, so that what
+ * lies behind the end does not count. */
+static void fold_words(cs_composer *composer, const uint64_t *set, fold *f) {
+  const cs_leaf *leaves = composer->stack->leaves;
+  fold_begin(f, composer->stack);
+  for (size_t i = cs_stack_words(composer->stack); i-- > 0;) {
+    if (set[i] == 0)
+      continue;
+    const cs_glimpse *word = fold_word(&composer->words[i], leaves + 64 * i, set[i]);
+    if (!cs_v4_any_above(f->t * word->t, cs_v4_all(CS_PAINT_OPAQUE))) {
+      fold_last(f, leaves + 64 * i, set[i]);
+      return;
+    }
+    fold_paint(f, word->e, word->t);
+  }
 }
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
@@ -241,14 +335,15 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
     set = composer->contributing;
   }
   fold f;
-  bool varies = false;
-  fold_begin(&f, composer->stack);
-  CS_TRY(gather(composer, set, &f, &varies));
   composer->evaluations++;
-  if (varies)
-    return keep_program(composer, cell);
-  cell->colour = fold_end(&f);
-  return CELSPAN_OK;
+  if (composer->words)
+    fold_words(composer, set, &f);
+  if (composer->words || fold_flats(composer, set, &f)) {
+    cell->colour = fold_end(&f);
+    return CELSPAN_OK;
+  }
+  CS_TRY(gather(composer, set));
+  return keep_program(composer, cell);
 }
 
 /* ---------------------------------------------------------------- cells */

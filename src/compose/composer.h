@@ -56,6 +56,24 @@ typedef struct cs_seen_slide {
   cs_sampler sampler;
 } cs_seen_slide;
 
+/* A leaf at the walk's place. */
+typedef struct cs_presence {
+  cs_mark mark;
+  int32_t winding;
+} cs_presence;
+
+/* Light gathered from some leaves by themselves, and what they let through. */
+typedef struct cs_glimpse {
+  cs_v4 e, t;
+} cs_glimpse;
+
+/* The leaves of one word of a set, as they were last seen. */
+typedef struct cs_word_fold {
+  uint64_t word;       /* those present */
+  cs_glimpse all;      /* of the whole word */
+  cs_glimpse bytes[8]; /* of each byte of it that is not 0 */
+} cs_word_fold;
+
 typedef struct cs_memo {
   cs_cell cell;
   bool is_used;
@@ -67,10 +85,11 @@ typedef struct cs_composer {
   cs_isa isa;             /* that many pixels are made with */
   uint64_t *set;          /* leaves present at the walk's place */
   uint64_t *contributing; /* scratch */
-  int32_t *windings;
+  cs_presence *presences; /* one a leaf */
   uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
   cs_set_hash hash;
   cs_tree_result *results;
+  cs_word_fold *words; /* the last fold of every word of a set; NULL where leaves are not all plain */
   cs_seen_slide *slides;
   cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
@@ -95,9 +114,10 @@ bool cs_composer_begin_row(cs_composer *composer);
 
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  const cs_mark *mark = &composer->stack->marks[leaf];
-  int32_t before = composer->windings[leaf], after = before + direction;
-  composer->windings[leaf] = after;
+  cs_presence *presence = &composer->presences[leaf];
+  const cs_mark *mark = &presence->mark;
+  int32_t before = presence->winding, after = before + direction;
+  presence->winding = after;
   if (((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0)) {
     composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
     composer->hash.a ^= mark->key[0];

@@ -7,6 +7,7 @@
 #include "compose/blend.h"
 #include "compose/ramps.h"
 #include "compose/shade.h"
+#include "compose/soft_run.h"
 
 #include <math.h>
 
@@ -95,9 +96,10 @@ static celspan_status blend_soft(cs_composer *composer, cs_blend *blend, const c
   const cs_soft *soft = composer->stack->softs[leaf->detail];
   cs_seen_soft *seen = &composer->softs[leaf->detail];
   CS_TRY(cs_soft_stand(soft, composer->context, seen, b->y));
+  size_t piece = 0;
   for (int32_t k = 0; k < b->count; k++) {
     cs_v4 s, t;
-    cs_soft_paint(soft, seen, centre(b, k), &s, &t);
+    cs_soft_paint(soft, seen, centre(b, k), &piece, &s, &t);
     cs_v4_store(room->s[k], s);
     cs_v4_store(room->t[k], t);
   }
@@ -259,8 +261,11 @@ static celspan_status run_shown(cs_composer *composer, const cs_program *shown, 
                                 int32_t x0, int32_t x1, double y, cs_row *row) {
   bool is_array;
   float *colours;
+  uint32_t item;
   if (row->takes_codes && is_copy(composer, shown, ends_opaque))
     return run_copy(composer, shown, x0, x1, y, row);
+  if (cs_soft_run_fits(composer, shown, &item))
+    return cs_soft_run(composer, shown, item, x0, x1, y, row);
   CS_TRY(needs_array(composer, shown, &is_array));
   if (!is_array)
     return cs_ramps_run(composer, shown, x0, x1, y, row);
@@ -360,7 +365,7 @@ celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *
   if (x1 <= x0)
     return CELSPAN_OK;
   if (!has_picture(composer, program))
-    return cs_ramps_run(composer, program, x0, x1, y, row);
+    return run_shown(composer, program, false, x0, x1, y, row);
   CS_TRY(cut_segment(composer, program, x0, y, &current));
   int32_t end = is_uniform(composer, program) ? x0 : x1;
   for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {

@@ -1,14 +1,15 @@
 /* Soft layers: a defocused cel as values at the nodes of a grid over the frame.
  *
- *   bands of nodes (filter/soften.c makes them) --two rows, by height--> the nodes of a row
- *                                               --between two nodes, linear--> paint at a place
+ *   bands (filter/soften.c makes them) --a row, or two blended--> knots: straight pieces of a row
+ *                                      --between two knots, linear--> paint at a place
  *
  * Node (i, j) stands at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels: in the middles of the grid's
  * cells, the first of which lies before the frame. A plane holds four values a node: the paint's S
  * and its matte (1 - the mean of T); where T differs from channel to channel a second plane holds
  * T.
  *
- * Invariant: what a node holds is a function of the cel, its placement and the frame's size.
+ * Invariant: what a node holds is a function of the cel, its placement and the frame's size; lines
+ * from knot to knot stray from the nodes by at most a quarter of 1/1023.
  */
 #ifndef CS_COMPOSE_SOFT_H
 #define CS_COMPOSE_SOFT_H
@@ -16,9 +17,21 @@
 #include "base/context.h"
 #include "base/vector.h"
 
-/* band_rows rows of nodes, plane after plane. */
+/* Rows as straight pieces: equal values at two knots are a constant stretch. */
+typedef struct cs_soft_knots {
+  int32_t *at;        /* nodes, ascending in each row, from the first to the last */
+  float (*values)[4]; /* of each knot, plane after plane */
+  bool *still;        /* scratch: of the row being made, which pieces are constant */
+  size_t count, at_capacity, value_capacity, still_capacity;
+} cs_soft_knots;
+
+/* band_rows rows of nodes: plane after plane, or as knots. */
 typedef struct cs_soft_band {
-  float (*nodes)[4];
+  float (*nodes)[4]; /* NULL where they are knots */
+  size_t node_count;
+  cs_soft_knots knots;
+  size_t *rows; /* the first knot of each row, and the end: band_rows + 1 */
+  size_t row_capacity;
 } cs_soft_band;
 
 typedef struct cs_soft cs_soft;
@@ -38,19 +51,45 @@ struct cs_soft {
 typedef struct cs_seen_soft {
   cs_soft_band *bands[2]; /* held; NULL: none */
   int32_t numbers[2];     /* theirs */
-  bool stands;            /* nodes are those at height y */
+  bool stands;            /* the knots are those at height y */
   double y;
-  float (*nodes)[4]; /* plane after plane */
+  const int32_t *at; /* the knots of the row: a band's, or its own */
+  const float (*values)[4];
+  size_t count;
+  cs_soft_knots own;
+  float (*blended)[4]; /* a row of nodes, plane after plane */
 } cs_seen_soft;
+
+/* ---- bands */
+
+void cs_soft_band_free(cs_soft_band *band, cs_memory *memory);
+size_t cs_soft_band_bytes(const cs_soft_band *band);
+/* Turns the nodes of a band of `rows` rows into knots. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_soft_band_thin(const cs_soft *soft, celspan_context *context,
+                                                 int32_t rows, cs_soft_band *band);
+
+/* ---- rows */
 
 void cs_soft_leave(const cs_soft *soft, celspan_context *context, cs_seen_soft *seen);
 /* Brings `seen` to the height y, pixels. */
 CELSPAN_CHECKED celspan_status cs_soft_stand(const cs_soft *soft, celspan_context *context,
                                              cs_seen_soft *seen, double y);
-/* The paint at x, at the height where `seen` stands. */
-void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, cs_v4 *s, cs_v4 *t);
-/* Where, x0 < x < x1, straight lines through the paint must end so that none strays far from it,
- * and where it begins or ends to be constant: at most cs_soft_break_limit. Returns how many. */
+/* Where x lies among the nodes. */
+static inline double cs_soft_at(const cs_soft *soft, double x) {
+  double at = x / soft->pitch_x + 0.5, last = soft->columns - 1;
+  return at < 0 ? 0 : at > last ? last : at;
+}
+static inline cs_v4 cs_soft_value(const cs_soft *soft, const cs_seen_soft *seen, size_t knot,
+                                  int plane) {
+  return cs_v4_load(seen->values[knot * (size_t)soft->planes + (size_t)plane]);
+}
+/* The piece that holds a place: its first knot. hint: where to look first. */
+size_t cs_soft_find(const cs_seen_soft *seen, double at, size_t hint);
+/* The paint at x, at the height where `seen` stands. *piece: a hint, and where x was found. */
+void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece,
+                   cs_v4 *s, cs_v4 *t);
+/* The knots in x0 < x < x1, as places along the row: at most cs_soft_break_limit. Returns how many.
+ */
 size_t cs_soft_breaks(const cs_soft *soft, const cs_seen_soft *seen, double x0, double x1,
                       double *breaks);
 size_t cs_soft_break_limit(const cs_soft *soft);

@@ -19,83 +19,31 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
 
 /* ---------------------------------------------------------------- alone */
 
-/* The fragments of a visible boundary that nothing happens to but bends. */
-static celspan_status walk_bent(cs_scan *scan, const cs_cell *cells, size_t i,
-                                const cs_bend *bend) {
-  const cs_active *active = &scan->active;
-  const cs_cell *left = &cells[i], *right = left + 1;
-  const celspan_point *vertex = &active->vertices[bend->vertex];
-  celspan_point at = {active->x[i], active->y};
-  double least = at.x < active->x_next[i] ? at.x : active->x_next[i];
-  for (uint32_t k = 0; k < bend->vertex_count; k++)
-    least = vertex[k].x < least ? vertex[k].x : least;
-  CS_TRY(cs_window_reach(&scan->window, least));
-  for (uint32_t k = 0; k < bend->vertex_count; at = vertex[k++])
-    CS_TRY(cs_window_add(&scan->window, at.x, at.y, vertex[k].x, vertex[k].y, left, right));
-  CS_TRY(
-      cs_window_add(&scan->window, at.x, at.y, active->x_next[i], active->y_next, left, right));
-  cs_window_pass(&scan->window, right);
-  return CELSPAN_OK;
-}
-
 /* The walk over the visible boundaries of a row, from left to right. */
 typedef struct walk {
   cs_scan *scan;
   const cs_cell *cells;
-  size_t v;    /* the next visible boundary */
-  size_t bend; /* the first bend at or right of it */
+  size_t v; /* the next visible boundary */
 } walk;
 
-/* The bend of boundary i, at or right of the walk's place, or NULL. */
-static inline const cs_bend *walk_bend(walk *w, size_t i) {
-  const cs_active *active = &w->scan->active;
-  while (w->bend < active->bend_count && active->bends[w->bend].boundary < i)
-    w->bend++;
-  return w->bend < active->bend_count && active->bends[w->bend].boundary == i
-             ? &active->bends[w->bend]
-             : NULL;
+/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what comes
+ * then lies at or right of column `next`. */
+static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
+  cs_scan *scan = w->scan;
+  const uint32_t *visible = scan->cells.visible;
+  size_t first = w->v;
+  while (w->v < scan->cells.visible_count && visible[w->v] < end)
+    w->v++;
+  return cs_window_edges(&scan->window, &scan->active, &scan->edges, w->cells, visible + first,
+                         w->v - first, next);
 }
 
-/* The least x of visible boundary v if it is straight, else less than that. */
-static inline double walk_peek(walk *w, size_t v) {
-  const cs_active *active = &w->scan->active;
-  if (v >= w->scan->cells.visible_count)
-    return w->scan->shot->width;
-  size_t i = w->scan->cells.visible[v];
-  if (walk_bend(w, i))
-    return -1;
-  return active->x[i] < active->x_next[i] ? active->x[i] : active->x_next[i];
-}
-
-/* A straight boundary in a slice of a row. */
-static celspan_status walk_slice(walk *w, size_t i) {
-  const cs_active *active = &w->scan->active;
-  cs_window_pass(&w->scan->window, &w->cells[i + 1]);
-  return cs_window_add(&w->scan->window, active->x[i], active->y, active->x_next[i],
-                       active->y_next, &w->cells[i], &w->cells[i + 1]);
-}
-
-/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends. Only when
- * no block follows is it known what comes after the last of them. */
-static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
-  const cs_active *active = &w->scan->active;
-  const cs_cells *cells = &w->scan->cells;
-  for (; w->v < cells->visible_count && cells->visible[w->v] < end; w->v++) {
-    size_t i = cells->visible[w->v];
-    const cs_bend *bend = walk_bend(w, i);
-    if (bend && bend->vertex_count > 0) {
-      CS_TRY(walk_bent(w->scan, w->cells, i, bend));
-      continue;
-    }
-    if (w->scan->window.is_held) {
-      CS_TRY(walk_slice(w, i));
-      continue;
-    }
-    double next = is_last || (w->v + 1 < cells->visible_count && cells->visible[w->v + 1] < end)
-                      ? walk_peek(w, w->v + 1)
-                      : -1;
-    CS_TRY(cs_window_edge(&w->scan->window, active->x[i], active->x_next[i], &w->cells[i],
-                          &w->cells[i + 1], next));
+/* The same in a slice of a row. */
+static celspan_status walk_slice(walk *w, size_t end) {
+  cs_scan *scan = w->scan;
+  for (; w->v < scan->cells.visible_count && scan->cells.visible[w->v] < end; w->v++) {
+    size_t i = scan->cells.visible[w->v];
+    CS_TRY(cs_window_slice(&scan->window, &scan->active, &scan->edges, i, &w->cells[i]));
   }
   return CELSPAN_OK;
 }
@@ -106,7 +54,7 @@ static celspan_status walk_alone(walk *w, size_t end, bool is_last) {
 static celspan_status active_points(cs_blocks *b, size_t i, const celspan_point **points,
                                     uint32_t *count) {
   const cs_active *active = &b->scan->active;
-  const cs_bend *bend = cs_blocks_bend(active, i);
+  const cs_bend *bend = cs_active_bend(active, i);
   uint32_t inner = bend ? bend->vertex_count : 0;
   celspan_point *p = take(b, inner + 2, sizeof *p);
   if (!p)
@@ -138,11 +86,36 @@ static double least_x(const cs_member *members, size_t count, double least) {
   return least;
 }
 
-/* Replays boundaries [low, high) and the given begins; the composer stands left of them. */
-static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_member *begins,
-                                 size_t begin_count) {
+static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
+  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
+}
+
+/* The begins that belong to a block, in room of their own. */
+static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
+                                  size_t *count) {
+  size_t picked = 0;
+  for (size_t k = 0; k < b->begin_count; k++)
+    picked += begins_in(b, k, block);
+  *count = picked;
+  *begins = NULL;
+  if (picked == 0)
+    return CELSPAN_OK;
+  cs_member *next = *begins = take(b, picked, sizeof *next);
+  if (!next)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++)
+    if (begins_in(b, k, block))
+      *next++ = b->begins[k];
+  return CELSPAN_OK;
+}
+
+/* Replays a block; the composer stands left of it. */
+static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
   cs_scan *scan = b->scan;
   const cs_active *active = &scan->active;
+  size_t low = block->low, high = block->high, begin_count;
+  cs_member *begins;
+  CS_TRY(pick_begins(b, block, &begins, &begin_count));
   cs_cluster cluster = {.scan = scan,
                         .y0 = b->y0,
                         .y1 = b->y1,
@@ -174,41 +147,41 @@ static celspan_status walk_block(cs_blocks *b, size_t low, size_t high, cs_membe
   return CELSPAN_OK;
 }
 
-static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
-  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
+/* Whether a block is two straight boundaries that cross: the bends of both, if any, keep to their
+ * chords. */
+static bool is_pair(const cs_blocks *b, const cs_block *block) {
+  const cs_active *active = &b->scan->active;
+  size_t i = block->low;
+  return block->high - i == 2 && block->low_x > block->high_x && !b->scan->edges.is_bent[i] &&
+         !b->scan->edges.is_bent[i + 1] && active->x_next[i] > active->x_next[i + 1];
 }
 
-/* The begins that belong to a block, in room of their own. */
-static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
-                                  size_t *count) {
-  size_t picked = 0;
-  for (size_t k = 0; k < b->begin_count; k++)
-    picked += begins_in(b, k, block);
-  *count = picked;
-  *begins = NULL;
-  if (picked == 0)
-    return CELSPAN_OK;
-  cs_member *next = *begins = take(b, picked, sizeof *next);
-  if (!next)
-    return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < b->begin_count; k++)
-    if (begins_in(b, k, block))
-      *next++ = b->begins[k];
+static celspan_status walk_pair(cs_blocks *b, const cs_block *block) {
+  cs_scan *scan = b->scan;
+  const cs_toggle *toggle =
+      cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, block->reach_low);
+  b->toggle = toggle;
+  CS_TRY(cs_window_reach(&scan->window, block->reach_low));
+  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, toggle, b->toggle_end));
+  cs_window_pass(&scan->window, &b->cells[block->high]);
   return CELSPAN_OK;
 }
 
 /* Crosses the boundaries [low, high). */
 static void cross(cs_scan *scan, size_t low, size_t high) {
-  for (size_t i = low; i < high; i++) {
-    const cs_boundary_chain *chain = cs_active_chain(&scan->active, i);
-    cs_composer_cross(&scan->composer, chain->leaf, chain->direction);
-  }
+  const cs_crossing *crossing = scan->active.crossing;
+  for (size_t i = low; i < high; i++)
+    cs_composer_cross(&scan->composer, crossing[i].leaf, crossing[i].direction);
 }
 
 /* On to the right end of the row, where nothing is present any more. */
 static void cross_rest(cs_blocks *b, size_t crossed) {
   cross(b->scan, crossed, b->scan->active.count);
   cs_cells_toggle(&b->scan->composer, b->toggle, b->toggle_end, INFINITY);
+}
+
+static celspan_status walk_to(walk *w, size_t end, int32_t next) {
+  return w->scan->window.is_held ? walk_slice(w, end) : walk_alone(w, end, next);
 }
 
 /* Boundaries are crossed on the way, so that each block knows what is present left of it. */
@@ -218,17 +191,14 @@ static celspan_status walk_row(cs_blocks *b) {
   size_t crossed = 0;
   for (size_t k = 0; k < b->count; k++) {
     const cs_block *block = &b->blocks[k];
-    cs_member *begins;
-    size_t begin_count;
-    CS_TRY(walk_alone(&w, block->low, false));
+    CS_TRY(walk_to(&w, block->low, cs_edges_floor(block->reach_low, scan->shot->width)));
     while (w.v < scan->cells.visible_count && scan->cells.visible[w.v] < block->high)
       w.v++;
-    CS_TRY(pick_begins(b, block, &begins, &begin_count));
     cross(scan, crossed, block->low);
-    CS_TRY(walk_block(b, block->low, block->high, begins, begin_count));
+    CS_TRY(is_pair(b, block) ? walk_pair(b, block) : walk_block(b, block));
     crossed = block->low;
   }
-  CS_TRY(walk_alone(&w, scan->active.count, true));
+  CS_TRY(walk_to(&w, scan->active.count, scan->shot->width));
   if (b->count > 0)
     cross_rest(b, crossed);
   return CELSPAN_OK;
@@ -246,15 +216,15 @@ static celspan_status append_edges(cs_blocks *b, const cs_strip_edges *edges, do
   if (b->strip_count > 0)
     memcpy(strips, b->strips, b->strip_count * sizeof *strips);
   for (size_t k = 0; k < edges->count; k++, points += 2) {
-    const cs_strip_edge *edge = &edges->edges[k];
-    points[0] = (celspan_point){edge->x, y0};
-    points[1] = (celspan_point){edge->x, y1};
+    const cs_strip_edge *e = &edges->edges[k];
+    points[0] = (celspan_point){e->x, y0};
+    points[1] = (celspan_point){e->x, y1};
     strips[b->strip_count + k] =
-        (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = edge->leaf,
-                    .strip = edge->strip, .order = 2 * edge->strip + (edge->direction < 0),
-                    .direction = edge->direction, .x = edge->x, .y = y0, .foot = edge->x};
-    b->strips_low = edge->x < b->strips_low ? edge->x : b->strips_low;
-    b->strips_high = edge->x > b->strips_high ? edge->x : b->strips_high;
+        (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = e->leaf,
+                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0),
+                    .direction = e->direction, .x = e->x, .y = y0, .foot = e->x};
+    b->strips_low = e->x < b->strips_low ? e->x : b->strips_low;
+    b->strips_high = e->x > b->strips_high ? e->x : b->strips_high;
   }
   b->strips = strips;
   b->strip_count += edges->count;
@@ -284,7 +254,7 @@ static int count_slices(const cs_scan *scan, int32_t y) {
   const cs_active *active = &scan->active;
   size_t events = cs_blocks_count_begins(active, y + 1.0);
   int slices = 1;
-  if (scan->window.trace || cs_strips_meet(scan, y))
+  if (events + active->count <= ROW_EVENTS || scan->window.trace || cs_strips_meet(scan, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;
@@ -305,10 +275,10 @@ static celspan_status keep_cells(cs_scan *scan, const cs_cell **out) {
 
 /* Moves the boundaries down to the slice that begins where the last one ended. */
 static celspan_status next_slice(cs_scan *scan) {
-  bool changed;
-  CS_TRY(cs_active_settle(scan->context, &scan->active, &changed));
-  if (changed)
-    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  cs_change change;
+  CS_TRY(cs_active_settle(scan->context, &scan->active, &change));
+  if (!cs_change_is_none(change))
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
   return scan->composer.failure;
 }
 
@@ -319,6 +289,7 @@ static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y
   CS_TRY(cs_active_reach(scan->context, &scan->active, y1));
   if (!scan->window.is_held && cs_strips_meet(scan, (int32_t)y0))
     CS_TRY(find_strips(&blocks));
+  CS_TRY(cs_edges_measure(scan->context, &scan->edges, &scan->active, scan->shot->width));
   CS_TRY(cs_blocks_find(&blocks));
   return walk_row(&blocks);
 }

@@ -7,18 +7,6 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
   return cs_arena_take(b->scan->context, &b->scan->arena, count * size);
 }
 
-const cs_bend *cs_blocks_bend(const cs_active *active, size_t i) {
-  size_t low = 0, high = active->bend_count;
-  while (low < high) {
-    size_t middle = (low + high) / 2;
-    if (active->bends[middle].boundary < i)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
-}
-
 cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
                            uint32_t count) {
   const cs_boundary_chain *c = &active->set->chains[chain];
@@ -41,24 +29,18 @@ typedef struct range {
 } range;
 
 /* Where boundary i is inside the row. */
-static range boundary_range(const cs_active *active, size_t i) {
-  double top = active->x[i], foot = active->x_next[i];
-  range r = {top < foot ? top : foot, top < foot ? foot : top};
-  const cs_bend *bend = active->bend_count > 0 ? cs_blocks_bend(active, i) : NULL;
-  for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
-    double x = active->vertices[bend->vertex + k].x;
-    r.low = x < r.low ? x : r.low;
-    r.high = x > r.high ? x : r.high;
-  }
-  return r;
+static inline range boundary_range(const cs_blocks *b, size_t i) {
+  const cs_edges *edges = &b->scan->edges;
+  return (range){edges->low[i], edges->high[i]};
+}
+
+static range join_ranges(range a, range b) {
+  return (range){a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
 }
 
 /* ---------------------------------------------------------------- blocks */
 
-static const range nothing = {INFINITY, -INFINITY};
-
-/* r: of what begins or ends in the block. */
-static celspan_status add_block(cs_blocks *b, size_t low, size_t high, range r) {
+static celspan_status add_block(cs_blocks *b, cs_block block) {
   if (b->count == b->capacity) {
     size_t wanted = b->capacity ? 2 * b->capacity : 64;
     cs_block *grown = take(b, wanted, sizeof *grown);
@@ -69,102 +51,147 @@ static celspan_status add_block(cs_blocks *b, size_t low, size_t high, range r) 
     b->blocks = grown;
     b->capacity = wanted;
   }
-  b->blocks[b->count++] = (cs_block){low, high, low, r.low, r.high};
+  b->blocks[b->count++] = block;
   return CELSPAN_OK;
 }
 
-static bool is_sorted(const double *x, size_t count) {
-  int falls = 0;
-  for (size_t i = 1; i < count; i++)
-    falls |= x[i - 1] > x[i];
-  return !falls;
+/* ---------------------------------------------------------------- disorder
+ *
+ * The order at the top of the row holds at every height iff no two neighbours cross, and those are
+ * looked at only where the foot is out of order or one of them bends. */
+
+/* x of boundary i at a height of the row; one that has ended goes on straight down. */
+static double boundary_x(const cs_blocks *b, size_t i, double y) {
+  const cs_active *active = &b->scan->active;
+  const cs_bend *bend = cs_active_bend(active, i);
+  celspan_point above = {active->x[i], b->y0}, below = {active->x_next[i], b->y1};
+  for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
+    celspan_point vertex = active->vertices[bend->vertex + k];
+    if (vertex.y >= y) {
+      below = vertex;
+      break;
+    }
+    above = vertex;
+  }
+  if (y >= below.y)
+    return below.x;
+  return above.x + (below.x - above.x) * ((y - above.y) / (below.y - above.y));
 }
 
-/* Blocks that the order at the foot permutes: back from each boundary that is overtaken, to the
- * first one at or left of which nothing ends up right of it. */
-static celspan_status add_swaps(cs_blocks *b) {
+/* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or on
+ * its right (+1). */
+static bool passes(const cs_blocks *b, const cs_bend *bend, size_t neighbour, int side) {
+  const cs_active *active = &b->scan->active;
+  range r = boundary_range(b, neighbour);
+  if (side > 0 ? bend->high <= r.low : bend->low >= r.high)
+    return false;
+  for (uint32_t k = 0; k < bend->vertex_count; k++) {
+    celspan_point vertex = active->vertices[bend->vertex + k];
+    double x = boundary_x(b, neighbour, vertex.y);
+    if (side > 0 ? vertex.x > x : vertex.x < x)
+      return true;
+  }
+  return false;
+}
+
+/* Neighbours that must be replayed together, as they grow. */
+typedef struct knot {
+  size_t low, high;
+  range reach, foot; /* of its boundaries, in the row and at its foot */
+  bool is_bent;
+} knot;
+
+static inline knot knot_of(const cs_blocks *b, size_t i) {
+  double foot = b->scan->active.x_next[i];
+  return (knot){i, i + 1, boundary_range(b, i), {foot, foot}, b->scan->edges.is_bent[i]};
+}
+
+static void join_knots(knot *k, const knot *other) {
+  k->low = other->low < k->low ? other->low : k->low;
+  k->high = other->high > k->high ? other->high : k->high;
+  k->reach = join_ranges(k->reach, other->reach);
+  k->foot = join_ranges(k->foot, other->foot);
+  k->is_bent |= other->is_bent;
+}
+
+/* Straight boundaries cross iff the row permutes them; bent ones might wherever they reach over. */
+static bool may_cross(const knot *left, const knot *right) {
+  return left->foot.high > right->foot.low ||
+         ((left->is_bent || right->is_bent) && left->reach.high > right->reach.low);
+}
+
+/* Takes neighbours in until none is left that the knot may cross. */
+static void grow_knot(const cs_blocks *b, knot *k) {
+  const cs_active *active = &b->scan->active;
+  bool grows = true;
+  while (grows) {
+    knot next;
+    grows = false;
+    while (k->low > 0 && (next = knot_of(b, k->low - 1), may_cross(&next, k))) {
+      join_knots(k, &next);
+      grows = true;
+    }
+    while (k->high < active->count && (next = knot_of(b, k->high), may_cross(k, &next))) {
+      join_knots(k, &next);
+      grows = true;
+    }
+  }
+}
+
+/* Ties boundaries i and i + 1 together. knots: those found so far, from left to right. */
+static void tie(const cs_blocks *b, size_t i, knot *knots, size_t *count) {
+  if (*count > 0 && knots[*count - 1].high >= i + 2)
+    return;
+  knot *k = &knots[*count], other = knot_of(b, i + 1);
+  *k = knot_of(b, i);
+  join_knots(k, &other);
+  grow_knot(b, k);
+  for (; *count > 0; --*count, k--) {
+    knot *last = k - 1;
+    if (last->high < k->low || (last->high == k->low && !may_cross(last, k)))
+      break;
+    join_knots(last, k);
+    grow_knot(b, last);
+  }
+  ++*count;
+}
+
+/* Ties what the bent boundaries below place `end` pass, in order of place. */
+static void tie_bends(const cs_blocks *b, size_t end, size_t *bend, knot *knots, size_t *count) {
+  const cs_active *active = &b->scan->active;
+  for (; *bend < active->bend_count && active->bends[*bend].boundary < end; ++*bend) {
+    const cs_bend *at = &active->bends[*bend];
+    size_t i = at->boundary;
+    if (at->vertex_count == 0)
+      continue;
+    if (i > 0 && passes(b, at, i - 1, -1))
+      tie(b, i - 1, knots, count);
+    if (i + 1 < active->count && passes(b, at, i + 1, 1))
+      tie(b, i, knots, count);
+  }
+}
+
+static celspan_status add_knots(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   const double *foot = active->x_next;
-  if (is_sorted(foot, active->count))
-    return CELSPAN_OK;
-  double *greatest = take(b, active->count, sizeof *greatest);
-  if (!greatest)
+  size_t count = 0, bend = 0;
+  knot *knots = take(b, active->count, sizeof *knots);
+  if (!knots)
     return CELSPAN_NO_MEMORY;
-  for (size_t i = 0; i < active->count; i++) {
-    greatest[i] = i > 0 && greatest[i - 1] > foot[i] ? greatest[i - 1] : foot[i];
-    size_t low = i;
-    while (low > 0 && greatest[low - 1] > foot[i])
-      low--;
-    if (low < i)
-      CS_TRY(add_block(b, low, i + 1, nothing));
-  }
+  for (size_t i = 1; i < active->count; i++)
+    if (foot[i - 1] > foot[i]) {
+      tie_bends(b, i, &bend, knots, &count);
+      tie(b, i - 1, knots, &count);
+    }
+  tie_bends(b, active->count, &bend, knots, &count);
+  for (size_t k = 0; k < count; k++)
+    CS_TRY(add_block(b, (cs_block){knots[k].low, knots[k].high, knots[k].low, INFINITY, -INFINITY,
+                                   knots[k].reach.low, knots[k].reach.high}));
+  b->knot_count = count;
   return CELSPAN_OK;
 }
 
-/* The x-ranges of all boundaries, and how far left and right something reaches from each place on:
- * where the row permutes boundaries their ranges are in no order. */
-typedef struct ranges {
-  range *own;
-  double *high_upto; /* the greatest high of 0..i */
-  double *low_from;  /* the least low of i.. */
-} ranges;
-
-static celspan_status measure_ranges(cs_blocks *b, ranges *out) {
-  const cs_active *active = &b->scan->active;
-  size_t count = active->count;
-  ranges r = {take(b, count, sizeof *r.own), take(b, count, sizeof *r.high_upto),
-              take(b, count, sizeof *r.low_from)};
-  if (!r.own || !r.high_upto || !r.low_from)
-    return CELSPAN_NO_MEMORY;
-  for (size_t i = 0; i < count; i++) {
-    double top = active->x[i], foot = active->x_next[i];
-    r.own[i] = (range){top < foot ? top : foot, top < foot ? foot : top};
-  }
-  for (size_t k = 0; k < active->bend_count; k++)
-    r.own[active->bends[k].boundary] = boundary_range(active, active->bends[k].boundary);
-  for (size_t i = 0; i < count; i++)
-    r.high_upto[i] = i > 0 && r.high_upto[i - 1] > r.own[i].high ? r.high_upto[i - 1] : r.own[i].high;
-  for (size_t i = count; i-- > 0;)
-    r.low_from[i] =
-        i + 1 < count && r.low_from[i + 1] < r.own[i].low ? r.low_from[i + 1] : r.own[i].low;
-  *out = r;
-  return CELSPAN_OK;
-}
-
-/* Blocks of bent boundaries with all that they may touch; the row also permutes boundaries. */
-static celspan_status add_bends_far(cs_blocks *b, const ranges *r) {
-  const cs_active *active = &b->scan->active;
-  for (size_t k = 0; k < active->bend_count; k++) {
-    size_t i = active->bends[k].boundary, low = i, high = i + 1;
-    if (active->bends[k].vertex_count == 0)
-      continue;
-    while (low > 0 && r->high_upto[low - 1] > r->own[i].low)
-      low--;
-    while (high < active->count && r->low_from[high] < r->own[i].high)
-      high++;
-    if (high - low > 1)
-      CS_TRY(add_block(b, low, high, nothing));
-  }
-  return CELSPAN_OK;
-}
-
-/* The same in a row that keeps its order, where what a boundary touches are its neighbours. */
-static celspan_status add_bends_near(cs_blocks *b) {
-  const cs_active *active = &b->scan->active;
-  for (size_t k = 0; k < active->bend_count; k++) {
-    size_t i = active->bends[k].boundary, low = i, high = i + 1;
-    if (active->bends[k].vertex_count == 0)
-      continue;
-    range own = boundary_range(active, i);
-    while (low > 0 && boundary_range(active, low - 1).high > own.low)
-      low--;
-    while (high < active->count && boundary_range(active, high).low < own.high)
-      high++;
-    if (high - low > 1)
-      CS_TRY(add_block(b, low, high, nothing));
-  }
-  return CELSPAN_OK;
-}
+/* ---------------------------------------------------------------- begins and ends at one height */
 
 static int compare_events(const void *p, const void *q) {
   const cs_row_event *a = p, *b = q;
@@ -177,21 +204,60 @@ static int compare_events(const void *p, const void *q) {
   return a->is_end - b->is_end;
 }
 
-/* The block of the boundaries whose x-range meets [low, high], or the place between two. */
-static celspan_status add_range(cs_blocks *b, const range *own, double low, double high,
-                                cs_block *out) {
-  const cs_active *active = &b->scan->active;
-  size_t first = active->count, end = 0, place = 0;
-  for (size_t i = 0; i < active->count; i++) {
-    place += active->x[i] <= low;
-    if (own[i].high < low || own[i].low > high)
-      continue;
-    first = i < first ? i : first;
-    end = i + 1;
+/* What keeps its order through the row: one boundary, or the knot it is in. */
+typedef struct unit {
+  size_t low, high;
+  range reach;
+} unit;
+
+/* The first boundary whose x at the top of the row is greater than `x`. */
+static size_t find_place(const cs_active *active, double x) {
+  size_t low = 0, high = active->count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (active->x[middle] <= x)
+      low = middle + 1;
+    else
+      high = middle;
   }
-  *out = first < end ? (cs_block){first, end, first, low, high}
-                     : (cs_block){place, place, place, low, high};
-  return add_block(b, out->low, out->high, (range){low, high});
+  return low;
+}
+
+/* The knot that holds boundary i, or NULL. */
+static const cs_block *find_knot(const cs_blocks *b, size_t i) {
+  size_t low = 0, high = b->knot_count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (b->blocks[middle].high <= i)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < b->knot_count && b->blocks[low].low <= i ? &b->blocks[low] : NULL;
+}
+
+static unit unit_at(const cs_blocks *b, size_t i) {
+  const cs_block *block = find_knot(b, i);
+  return block ? (unit){block->low, block->high, {block->reach_low, block->reach_high}}
+               : (unit){i, i + 1, boundary_range(b, i)};
+}
+
+/* The block of the boundaries whose x-range meets that of something, or the place between two. Units
+ * do not cross, so their ranges rise with their places. */
+static celspan_status add_range(cs_blocks *b, range r, cs_block *out) {
+  const cs_active *active = &b->scan->active;
+  size_t place = find_place(active, r.low), first = place, end = place;
+  range reach = r;
+  for (unit u; first > 0 && (u = unit_at(b, first - 1), u.reach.high >= r.low); first = u.low) {
+    end = u.high > end ? u.high : end;
+    reach = join_ranges(reach, u.reach);
+  }
+  for (unit u; end < active->count && (u = unit_at(b, end), u.reach.low <= r.high); end = u.high) {
+    first = u.low < first ? u.low : first;
+    reach = join_ranges(reach, u.reach);
+  }
+  *out = (cs_block){first, end, first, r.low, r.high, reach.low, reach.high};
+  return add_block(b, *out);
 }
 
 /* A chain that begins and ends inside the row ties the blocks of both events together. */
@@ -205,14 +271,18 @@ static celspan_status tie_ends(cs_blocks *b, const cs_row_event *events, size_t 
       *begin = at;
       continue;
     }
-    CS_TRY(add_block(b, begin->low < at.low ? begin->low : at.low,
-                     begin->high > at.high ? begin->high : at.high, nothing));
+    size_t low = begin->low < at.low ? begin->low : at.low;
+    size_t high = begin->high > at.high ? begin->high : at.high;
+    range reach = join_ranges((range){begin->reach_low, begin->reach_high},
+                              (range){at.reach_low, at.reach_high});
+    CS_TRY(add_block(
+        b, (cs_block){low, high, low, INFINITY, -INFINITY, reach.low, reach.high}));
   }
   return CELSPAN_OK;
 }
 
 /* Blocks of begins and ends: one for all of a leaf at one height. */
-static celspan_status add_events(cs_blocks *b, const range *own) {
+static celspan_status add_events(cs_blocks *b) {
   if (b->event_count > 1)
     qsort(b->events, b->event_count, sizeof *b->events, compare_events);
   for (size_t first = 0, end; first < b->event_count; first = end) {
@@ -224,7 +294,7 @@ static celspan_status add_events(cs_blocks *b, const range *own) {
       r.high = b->events[end].high > r.high ? b->events[end].high : r.high;
     }
     cs_block at;
-    CS_TRY(add_range(b, own, r.low, r.high, &at));
+    CS_TRY(add_range(b, r, &at));
     CS_TRY(tie_ends(b, e, end - first, at));
   }
   return CELSPAN_OK;
@@ -248,6 +318,8 @@ static void join(cs_block *last, const cs_block *next) {
   last->last_low = next->last_low;
   last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
   last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
+  last->reach_low = next->reach_low < last->reach_low ? next->reach_low : last->reach_low;
+  last->reach_high = next->reach_high > last->reach_high ? next->reach_high : last->reach_high;
 }
 
 /* Joins blocks that share a boundary or an x at which something begins, and places that touch a
@@ -362,11 +434,11 @@ static celspan_status find_events(cs_blocks *b) {
 }
 
 /* The block of all strips: their edges begin and end at every height of the row. */
-static celspan_status add_strips(cs_blocks *b, const range *own) {
+static celspan_status add_strips(cs_blocks *b) {
   cs_block at;
   if (b->strip_count == 0)
     return CELSPAN_OK;
-  CS_TRY(add_range(b, own, b->strips_low, b->strips_high, &at));
+  CS_TRY(add_range(b, (range){b->strips_low, b->strips_high}, &at));
   for (size_t k = b->chain_count; k < b->begin_count; k++)
     b->begin_blocks[k] = at;
   return CELSPAN_OK;
@@ -374,20 +446,16 @@ static celspan_status add_strips(cs_blocks *b, const range *own) {
 
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
-  CS_TRY(add_swaps(b));
-  if (b->strip_count > 0 || cs_blocks_count_begins(active, b->y1) > 0)
+  size_t begins = cs_blocks_count_begins(active, b->y1) + b->strip_count;
+  if (begins + active->bend_count == 0 &&
+      CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(active->x_next, active->count))
+    return CELSPAN_OK;
+  CS_TRY(add_knots(b));
+  if (begins > 0)
     CS_TRY(find_begins(b));
-  if (b->begin_count > 0 || active->bend_count > 0)
-    CS_TRY(find_events(b));
-  if (b->event_count > 0 || b->strip_count > 0 || (b->count > 0 && active->bend_count > 0)) {
-    ranges r;
-    CS_TRY(measure_ranges(b, &r));
-    CS_TRY(add_bends_far(b, &r));
-    CS_TRY(add_events(b, r.own));
-    CS_TRY(add_strips(b, r.own));
-  } else {
-    CS_TRY(add_bends_near(b));
-  }
+  CS_TRY(find_events(b));
+  CS_TRY(add_events(b));
+  CS_TRY(add_strips(b));
   merge_blocks(b);
   return CELSPAN_OK;
 }

@@ -1,11 +1,13 @@
 /* Blocks: which boundaries of a row must be replayed together.
  *
- * A block is the smallest run of neighbours that holds all of: the boundaries that the order at the
- * foot of the row permutes; a bent boundary and those whose x-range it meets; what begins and ends
- * at one height in one leaf (its windings balance only together), all between, and all it may meet
- * further down.
+ *   knot    neighbours that cross, with all that they may cross on the way
+ *   range   what begins and ends at one height in one leaf (its windings balance only together), all
+ *           between, and all it may meet further down
  *
- * Blocks in which what begins could meet are one. Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
+ * A block is a knot or a range, or several that touch; blocks in which what begins could meet are
+ * one. Work is done where something happens, not over the whole row.
+ *
+ * Invariant: after cs_blocks_find the blocks ascend and share no boundary; a place between two
  * boundaries (low == high) touches no other block.
  */
 #ifndef CS_FILTER_BLOCKS_H
@@ -18,6 +20,7 @@ typedef struct cs_block {
   size_t low, high;
   size_t last_low; /* the greatest `low` merged into it */
   double low_x, high_x; /* of what begins or ends in it; low_x > high_x when nothing does */
+  double reach_low, reach_high; /* where its boundaries, and what begins, are in the row */
 } cs_block;
 
 /* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
@@ -41,8 +44,8 @@ typedef struct cs_blocks {
   size_t begin_count, chain_count;
   cs_row_event *events;
   size_t event_count;
-  cs_block *blocks;
-  size_t count, capacity;
+  cs_block *blocks; /* while they are sought, knots first */
+  size_t count, capacity, knot_count;
 } cs_blocks;
 
 /* How many chains begin between the active boundaries' height and y1. */
@@ -51,8 +54,6 @@ size_t cs_blocks_count_begins(const cs_active *active, double y1);
  * strips are given. */
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
 
-/* The bend of active boundary i, or NULL. */
-const cs_bend *cs_blocks_bend(const cs_active *active, size_t i);
 /* A chain as a member that stands at the top of its points. */
 cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
                            uint32_t count);

@@ -119,7 +119,7 @@ static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
 static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
   for (size_t j = 0; j < cluster->count; j++) {
     cs_member *member = &cluster->members[j];
-    member->top = member_x(member, y0);
+    member->top = member->foot; /* the last band ended at this height, on the same x */
     member->foot = member_x(member, y1);
   }
   double reached = 0, u;
@@ -265,4 +265,49 @@ celspan_status cs_cluster_replay(cs_cluster *cluster) {
     y = next;
     CS_TRY(turn(cluster, y));
   }
+}
+
+/* ---------------------------------------------------------------- pairs */
+
+static celspan_status draw(cs_scan *scan, celspan_point above, celspan_point below,
+                           const cs_cell *left, const cs_cell *right) {
+  if (!(below.y > above.y) || cs_composer_same(&scan->composer, left, right))
+    return CELSPAN_OK;
+  return cs_window_add(&scan->window, above.x, above.y, below.x, below.y, left, right);
+}
+
+/* The cell that boundary i + 1 opens when it is crossed first, at x. */
+static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_toggle *toggle,
+                                   const cs_toggle *toggle_end, cs_cell **out) {
+  cs_composer *composer = &scan->composer;
+  cs_crossing second = scan->active.crossing[i + 1];
+  *out = cs_arena_take(scan->context, &scan->arena, sizeof **out);
+  if (!*out)
+    return CELSPAN_NO_MEMORY;
+  cs_composer_cross(composer, second.leaf, second.direction);
+  const cs_toggle *passed = cs_cells_toggle(composer, toggle, toggle_end, x);
+  cs_composer_cell(composer, *out);
+  cs_composer_cross(composer, second.leaf, -second.direction);
+  for (; passed > toggle; passed--)
+    cs_composer_cross(composer, passed[-1].leaf, -passed[-1].direction);
+  return composer->failure;
+}
+
+celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
+                               const cs_toggle *toggle, const cs_toggle *toggle_end) {
+  const cs_active *active = &scan->active;
+  celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
+  celspan_point a_foot = {active->x_next[i], active->y_next};
+  celspan_point b_foot = {active->x_next[i + 1], active->y_next};
+  double top = b.x - a.x, foot = a_foot.x - b_foot.x, u = top / (top + foot);
+  double y = a.y + (a_foot.y - a.y) * u;
+  celspan_point a_meets = {a.x + (a_foot.x - a.x) * u, y};
+  celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
+  const cs_cell *right = left + 2;
+  cs_cell *between;
+  CS_TRY(draw(scan, a, a_meets, left, left + 1));
+  CS_TRY(draw(scan, b, b_meets, left + 1, right));
+  CS_TRY(cell_between(scan, i, b_meets.x, toggle, toggle_end, &between));
+  CS_TRY(draw(scan, b_meets, b_foot, left, between));
+  return draw(scan, a_meets, a_foot, between, right);
 }

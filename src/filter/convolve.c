@@ -8,6 +8,9 @@
 
 /* ---------------------------------------------------------------- life */
 
+/* A stretch parts few columns more than the kernel does. */
+static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
+
 celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
                                 const cs_kernel *kernel, int32_t width) {
   cs_memory *memory = context->memory;
@@ -20,6 +23,10 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
   if (kernel->shape != CS_KERNEL_SEPARABLE) {
     convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
     is_whole = is_whole && convolve->slopes;
+  } else {
+    convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
+    convolve->sums = cs_mem_array(memory, sum_count(kernel), sizeof *convolve->sums);
+    is_whole = is_whole && convolve->values && convolve->sums;
   }
   if (kernel->is_signed) {
     convolve->passages_at = cs_mem_array(memory, columns, sizeof *convolve->passages_at);
@@ -33,6 +40,8 @@ void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
   size_t columns = (size_t)convolve->width;
   cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
   cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
+  cs_mem_free(memory, convolve->values, columns * sizeof *convolve->values);
+  cs_mem_free(memory, convolve->sums, sum_count(convolve->kernel) * sizeof *convolve->sums);
   cs_mem_free(memory, convolve->touched, cs_convolve_words(convolve->width) * sizeof(uint64_t));
   cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
   cs_mem_free(memory, convolve->passages_at, columns * sizeof(uint32_t));
@@ -62,8 +71,7 @@ static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *contex
                     ((double)(i % CS_CONVOLVE_SLABS) + 0.5) / CS_CONVOLVE_SLABS;
     cs_convolve_slab *slab = &convolve->slabs[i];
     slab->varies = fabs(height - (y + 0.5)) >= convolve->kernel->radius_y;
-    for (int c = 0; c < 4; c++)
-      slab->colour[c] = (double)traces[0]->base[c];
+    slab->colour = cs_v4_wide(traces[0]->base);
   }
   return CELSPAN_OK;
 }
@@ -77,6 +85,7 @@ typedef struct summing {
   int32_t at;              /* the column that was reached, */
   double sum[4];           /* the flat colours, weighed, there, */
   double slope[4];         /* and their change from column to column after it */
+  cs_v4 here;              /* what is seen at it besides */
   size_t varying;          /* looks whose weight is not nothing */
   cs_convolve_range range; /* of what lies under the kernel, but near pieces */
 } summing;
@@ -88,15 +97,10 @@ static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
 /* The range of what is seen at the heights of a row. */
 static void see_row(cs_convolve *convolve, size_t row) {
   cs_convolve_range range = cs_convolve_nothing();
-  for (size_t i = row * CS_CONVOLVE_SLABS; i < (row + 1) * CS_CONVOLVE_SLABS; i++) {
-    const cs_convolve_slab *slab = &convolve->slabs[i];
-    if (slab->varies > 0)
-      continue;
-    cs_v4 colour;
-    for (int c = 0; c < 4; c++)
-      colour[c] = (float)slab->colour[c];
-    cs_convolve_widen(&range, colour);
-  }
+  const cs_convolve_slab *slab = &convolve->slabs[row * CS_CONVOLVE_SLABS];
+  for (int i = 0; i < CS_CONVOLVE_SLABS; i++)
+    if (slab[i].varies <= 0)
+      cs_convolve_widen(&range, cs_v4_narrow(slab[i].colour));
   convolve->ranges[row] = range;
 }
 
@@ -110,8 +114,7 @@ static void pass_piece(cs_convolve *convolve, const cs_convolve_passage *passage
   for (int k = passage->slab; k < passage->slab_end; k++) {
     cs_convolve_slab *slab = &convolve->slabs[passage->row * CS_CONVOLVE_SLABS + (size_t)k];
     slab->varies += passage->varies;
-    for (int c = 0; c < 4; c++)
-      slab->colour[c] += passage->step[c];
+    slab->colour = cs_v4d_add(slab->colour, passage->step);
   }
 }
 
@@ -134,6 +137,7 @@ static void reach_column(summing *s, int32_t p) {
     s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
     s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
   }
+  s->here = convolve->values ? convolve->values[p] : cs_v4_all(0);
   s->at = p;
   for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
     const cs_convolve_shift *shift = &convolve->shifts[at - 1];
@@ -156,7 +160,7 @@ static cs_v4 flat_sum(const summing *s, int32_t x) {
   cs_v4 colour;
   for (int c = 0; c < 4; c++)
     colour[c] = (float)tidy(s->sum[c] + s->slope[c] * (x - s->at));
-  return colour;
+  return colour + s->here;
 }
 
 static cs_v4 flat_slope(const summing *s) {

@@ -37,12 +37,12 @@ typedef struct cs_convolve_shift { /* of a look's weight */
 typedef struct cs_convolve_passage { /* the whole kernel is right of a piece now */
   uint32_t next, row;
   int slab, slab_end;
-  double step[4];
+  cs_v4d step;
   int varies; /* +1: a layer that varies begins, -1: one ends */
 } cs_convolve_passage;
 
 typedef struct cs_convolve_slab { /* what is seen at one height, left of the kernel */
-  double colour[4];
+  cs_v4d colour;
   int varies;
 } cs_convolve_slab;
 
@@ -55,6 +55,8 @@ typedef struct cs_convolve {
   int32_t width;
   double (*changes)[4];              /* by column */
   double (*slopes)[4];               /* even shapes: of the change from column to column */
+  cs_v4 *values;                     /* separable kernels: what is seen at a column besides */
+  float *sums;                       /* separable kernels: scratch */
   uint64_t *touched;                 /* columns at which something changes, one bit each */
   uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */
   cs_convolve_range *near;           /* signed kernels: of the looks near a column */
@@ -72,11 +74,7 @@ typedef struct cs_convolve {
 static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }
 
 static inline cs_convolve_range cs_convolve_both(cs_convolve_range a, cs_convolve_range b) {
-  for (int c = 0; c < 4; c++) {
-    a.least[c] = b.least[c] < a.least[c] ? b.least[c] : a.least[c];
-    a.most[c] = b.most[c] > a.most[c] ? b.most[c] : a.most[c];
-  }
-  return a;
+  return (cs_convolve_range){cs_v4_min(a.least, b.least), cs_v4_max(a.most, b.most)};
 }
 
 static inline void cs_convolve_widen(cs_convolve_range *range, cs_v4 colour) {

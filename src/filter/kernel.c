@@ -11,6 +11,16 @@
  */
 #define SMALL 0.4
 #define OFFSETS 4
+#define PLACES 256     /* in a pixel, at which light is measured */
+#define UNNOTICED 0.0015 /* what an edge may be changed by, so that light is kept */
+#define SHARP 0.8      /* a pixel: the peak of a Gaussian of radius 1.5 */
+#define SHARPEST 8
+#define PHASES 64 /* places of an edge in a pixel, for radii from 1 on */
+#define PHASES_MOST 1024
+
+static size_t share_count(const cs_kernel *kernel) {
+  return (size_t)(kernel->phases + 1) * (size_t)kernel->stride;
+}
 
 /* ---------------------------------------------------------------- tables */
 
@@ -28,15 +38,79 @@ static void integrate(const double *samples, double *first) {
   }
 }
 
-static void integrate_again(cs_kernel *kernel) {
-  kernel->second[0] = 0;
-  for (int i = 0; i < SAMPLES; i++)
-    kernel->second[i + 1] = kernel->second[i] + (kernel->first[i] + kernel->first[i + 1]) / SAMPLES;
-}
-
 static celspan_status make(celspan_context *context, cs_kernel **out) {
   *out = cs_mem_array(context->memory, 1, sizeof **out);
   return *out ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+/* What the columns left and right of an edge at -x make together, more than x: it is the same for
+ * every x where the kernel's values at whole distances always sum to 1. */
+static double light_at(const double *first, double radius, double x) {
+  int32_t reach = cs_number_ceil(radius) + 1;
+  double sum = 0;
+  for (int32_t k = -reach; k <= reach; k++)
+    sum += cs_kernel_look_up(first, (x + k) / radius);
+  return sum - x;
+}
+
+/* Where light that is missing is added: a trapezoid over `width` columns, whose values at whole
+ * distances sum to 1. */
+static double window(double width, double x) {
+  return width > 1 ? cs_number_clamp(0.5 * width - fabs(x), 0, 1) / (width - 1)
+                   : fabs(x) <= 0.5 * width;
+}
+
+/* Pixels are samples of the filtered picture, and what a shape makes of them together may depend on
+ * where it lies between them. Evens that out as far as no edge is changed by more than `most`. */
+static void balance(double *first, double radius, double most) {
+  double missing[PLACES], mean = 0, worst = 0, width = floor(2 * radius);
+  if (width < 1)
+    return;
+  for (int j = 0; j < PLACES; j++) {
+    missing[j] = -light_at(first, radius, (double)j / PLACES);
+    mean += missing[j] / PLACES;
+  }
+  for (int j = 0; j < PLACES; j++) {
+    missing[j] -= mean;
+    worst = fmax(worst, fabs(missing[j]) * window(width, 0));
+  }
+  double share = worst > most ? most / worst : 1;
+  for (int i = 1; i < SAMPLES; i++) {
+    double x = (2.0 * i / SAMPLES - 1) * radius, at = (x - floor(x)) * PLACES;
+    int j = (int)at;
+    double here = missing[j % PLACES] + (at - j) * (missing[(j + 1) % PLACES] - missing[j % PLACES]);
+    first[i] += share * here * window(width, x);
+  }
+}
+
+/* The kernel's greatest value, a pixel. */
+static double peak(const double *first, double radius) {
+  double most = 0;
+  for (int i = 0; i < SAMPLES; i++)
+    most = fmax(most, fabs(first[i + 1] - first[i]));
+  return most * (SAMPLES / 2) / radius;
+}
+
+/* Tabulates the shares along x, of a kernel whose table along y is there. */
+static celspan_status finish(celspan_context *context, const double *first, cs_kernel *kernel) {
+  kernel->per_radius_y = 1 / kernel->radius_y;
+  double fineness = sqrt(peak(first, kernel->radius_x) * peak(kernel->above, kernel->radius_y));
+  kernel->sharpness = fmin(fineness / SHARP, SHARPEST);
+  kernel->phases = PHASES;
+  while (kernel->phases < PHASES_MOST && kernel->phases * kernel->radius_x < PHASES)
+    kernel->phases *= 2;
+  kernel->reach = cs_number_ceil(kernel->radius_x);
+  kernel->stride = (2 * kernel->reach + 2 + 3) / 4 * 4;
+  kernel->shares = cs_mem_array(context->memory, share_count(kernel), sizeof *kernel->shares);
+  if (!kernel->shares)
+    return cs_fail_memory(context);
+  for (int phase = 0; phase <= kernel->phases; phase++)
+    for (int32_t k = 0; k < kernel->stride; k++) {
+      double x = k - kernel->reach - (double)phase / kernel->phases;
+      kernel->shares[phase * kernel->stride + k] =
+          (float)cs_kernel_look_up(first, x / kernel->radius_x);
+    }
+  return CELSPAN_OK;
 }
 
 celspan_status cs_kernel_create(celspan_context *context, const cs_antialias *antialias,
@@ -45,16 +119,21 @@ celspan_status cs_kernel_create(celspan_context *context, const cs_antialias *an
   CS_TRY(make(context, &kernel));
   kernel->radius_x = kernel->radius_y = antialias->radius;
   kernel->rows = antialias->rows;
-  integrate(antialias->samples, kernel->first);
-  integrate_again(kernel);
-  memcpy(kernel->above, kernel->first, sizeof kernel->above);
+  integrate(antialias->samples, kernel->above);
   for (int i = 0; i < SAMPLES; i++)
-    kernel->is_signed |= kernel->first[i + 1] < kernel->first[i];
-  *out = kernel;
-  return CELSPAN_OK;
+    kernel->is_signed |= kernel->above[i + 1] < kernel->above[i];
+  balance(kernel->above, kernel->radius_y, UNNOTICED);
+  celspan_status status = finish(context, kernel->above, kernel);
+  if (status == CELSPAN_OK)
+    *out = kernel;
+  else
+    cs_kernel_free(kernel, context->memory);
+  return status;
 }
 
 void cs_kernel_free(cs_kernel *kernel, cs_memory *memory) {
+  if (kernel && kernel->shares)
+    cs_mem_free(memory, kernel->shares, share_count(kernel) * sizeof *kernel->shares);
   cs_mem_free(memory, kernel, sizeof *kernel);
 }
 
@@ -65,43 +144,65 @@ int32_t cs_kernel_reach(const cs_kernel *kernel) {
 
 /* ---------------------------------------------------------------- soft layers */
 
+typedef struct axis { /* room for making a table */
+  double samples[SAMPLES];
+  double narrow[SAMPLES + 1], twice[SAMPLES + 1]; /* before the blur: the shares, their integral */
+  double first[SAMPLES + 1];
+} axis;
+
+/* The integral of the narrow shares up to u. */
+static double integral(const axis *work, double u) {
+  double at = (u + 1) * (SAMPLES / 2);
+  if (!(at > 0))
+    return 0;
+  if (at >= SAMPLES)
+    return work->twice[SAMPLES] + (u - 1);
+  int i = (int)at;
+  double t = at - i, low = work->narrow[i], high = work->narrow[i + 1];
+  return work->twice[i] + (2.0 / SAMPLES) * t * (low + 0.5 * t * (high - low));
+}
+
 /* One axis of a soft kernel: the shares left of the table's places. *radius: how far it reaches;
- * made wider by the blur. work: for the kernel before the blur. */
-static void fill_axis(celspan_defocus_kernel kind, double blur, double *radius, double *first,
-                      cs_kernel *work) {
-  double samples[SAMPLES], narrow = *radius;
+ * made wider by the blur. */
+static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, double *radius,
+                      double *first) {
+  double narrow = *radius;
   for (int i = 0; i < SAMPLES; i++) {
     double u = middle(i);
-    samples[i] = kind == CELSPAN_DEFOCUS_GAUSSIAN ? cs_elementary_exp(-8 * u * u) /* 4 sigmas */
-                 : kind == CELSPAN_DEFOCUS_BOX    ? 1
-                                                  : sqrt(1 - u * u);
+    work->samples[i] = kind == CELSPAN_DEFOCUS_GAUSSIAN ? cs_elementary_exp(-8 * u * u)
+                       : kind == CELSPAN_DEFOCUS_BOX    ? 1
+                                                        : sqrt(1 - u * u);
   }
-  integrate(samples, work->first);
-  integrate_again(work);
+  integrate(work->samples, work->narrow);
+  work->twice[0] = 0;
+  for (int i = 0; i < SAMPLES; i++)
+    work->twice[i + 1] = work->twice[i] + (work->narrow[i] + work->narrow[i + 1]) / SAMPLES;
   *radius = narrow + 0.5 * blur;
   if (blur == 0)
-    memcpy(first, work->first, sizeof work->first);
+    memcpy(first, work->narrow, sizeof work->narrow);
   for (int i = 0; blur > 0 && i <= SAMPLES; i++) {
     double x = (2.0 * i / SAMPLES - 1) * *radius;
-    double share = (cs_kernel_sum(work, (x + 0.5 * blur) / narrow) -
-                    cs_kernel_sum(work, (x - 0.5 * blur) / narrow)) *
+    double share = (integral(work, (x + 0.5 * blur) / narrow) -
+                    integral(work, (x - 0.5 * blur) / narrow)) *
                    narrow / blur;
     first[i] = i == 0 ? 0 : i == SAMPLES ? 1 : cs_number_clamp(share, first[i - 1], 1);
   }
+  balance(first, *radius, blur > 0 ? 1 : UNNOTICED);
 }
 
 static celspan_status fill_separable(celspan_context *context, const cs_softness *softness,
                                      cs_kernel *kernel) {
-  cs_kernel *work;
-  CS_TRY(make(context, &work));
+  axis *work = cs_mem_array(context->memory, 1, sizeof *work);
+  if (!work)
+    return cs_fail_memory(context);
   double scale = softness->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 : 1;
   kernel->radius_x = scale * softness->radius_x;
   kernel->radius_y = scale * softness->radius_y;
-  fill_axis(softness->kind, softness->blur, &kernel->radius_y, kernel->above, work);
-  fill_axis(softness->kind, softness->blur, &kernel->radius_x, kernel->first, work);
-  integrate_again(kernel);
-  cs_kernel_free(work, context->memory);
-  return CELSPAN_OK;
+  fill_axis(softness->kind, softness->blur, work, &kernel->radius_y, kernel->above);
+  fill_axis(softness->kind, softness->blur, work, &kernel->radius_x, work->first);
+  celspan_status status = finish(context, work->first, kernel);
+  cs_mem_free(context->memory, work, sizeof *work);
+  return status;
 }
 
 static bool slice_parallelogram(const cs_kernel *kernel, double d, double *from, double *to) {
@@ -136,8 +237,10 @@ static void fill_even(const cs_softness *softness, cs_kernel *kernel) {
   const double(*e)[2] = softness->edges;
   bool is_box = softness->kind == CELSPAN_DEFOCUS_BOX;
   kernel->shape = is_box ? CS_KERNEL_PARALLELOGRAM : CS_KERNEL_ELLIPSE;
+  kernel->rows = 8; /* its slices weigh what they should; only their width is that of a middle */
   kernel->radius_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : softness->radius_x;
   kernel->radius_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : softness->radius_y;
+  kernel->per_radius_y = 1 / kernel->radius_y;
   bool turned = fabs(e[0][1]) > fabs(e[1][1]);
   memcpy(kernel->edges[0], e[turned ? 1 : 0], sizeof kernel->edges[0]);
   memcpy(kernel->edges[1], e[turned ? 0 : 1], sizeof kernel->edges[1]);

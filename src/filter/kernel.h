@@ -1,9 +1,8 @@
 /* A filter kernel as rows use it: its antiderivatives, tabulated, or an even shape.
  *
  * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts; its
- * integral H is then piecewise linear and the integral of that piecewise quadratic, both exact, so
- * a filtered edge has neither gap nor overlap: the weights that H gives to parts of a whole sum
- * to 1. An even shape (a disc, a turned box) is cut at a height into one interval, in which the
+ * integral H is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
+ * that H gives to parts of a whole sum to 1. An even shape (a disc, a turned box) is cut at a height into one interval, in which the
  * kernel is constant.
  */
 #ifndef CS_FILTER_KERNEL_H
@@ -28,15 +27,20 @@ typedef enum cs_kernel_shape {
 typedef struct cs_kernel {
   cs_kernel_shape shape;
   double radius_x, radius_y; /* pixels: how far it reaches */
+  double per_radius_y;       /* 1 / radius_y */
   int rows;                  /* pieces a slanted boundary is cut into, a row */
   bool is_signed;            /* negative somewhere */
+  double sharpness;          /* SEPARABLE: how finely a slanted boundary is cut; 1 for the sharpest */
   double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
   int offsets;               /* even shapes: the mean of so many by so many of them, */
   double spread;             /* evenly over a square of this width */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
   double above[CS_ANTIALIAS_SAMPLES + 1];  /* over a height */
-  double first[CS_ANTIALIAS_SAMPLES + 1];  /* SEPARABLE: left of an x: H */
-  double second[CS_ANTIALIAS_SAMPLES + 1]; /* SEPARABLE: the integral of H from -1 */
+  /* SEPARABLE: shares right of an edge that stands phase/phases right of a pixel's centre, at the
+   * columns from `reach` left of that pixel on: `stride` of them, after which they are 1. */
+  float *shares;
+  int phases;
+  int32_t reach, stride;
 } cs_kernel;
 
 /* Errors: NO_MEMORY. */
@@ -64,23 +68,7 @@ static inline double cs_kernel_look_up(const double *table, double u) {
 
 /* The share of the kernel above the height d below its centre. */
 static inline double cs_kernel_above(const cs_kernel *kernel, double d) {
-  return cs_kernel_look_up(kernel->above, d / kernel->radius_y);
-}
-
-/* SEPARABLE: the share left of u, and its integral. */
-static inline double cs_kernel_left(const cs_kernel *kernel, double u) {
-  return cs_kernel_look_up(kernel->first, u);
-}
-
-static inline double cs_kernel_sum(const cs_kernel *kernel, double u) {
-  double at = (u + 1) * (CS_ANTIALIAS_SAMPLES / 2);
-  if (!(at > 0))
-    return 0;
-  if (at >= CS_ANTIALIAS_SAMPLES)
-    return kernel->second[CS_ANTIALIAS_SAMPLES] + (u - 1);
-  int i = (int)at;
-  double t = at - i, low = kernel->first[i], high = kernel->first[i + 1];
-  return kernel->second[i] + (2.0 / CS_ANTIALIAS_SAMPLES) * t * (low + 0.5 * t * (high - low));
+  return cs_kernel_look_up(kernel->above, d * kernel->per_radius_y);
 }
 
 #endif

@@ -1,5 +1,8 @@
 #include "filter/scan.h"
 
+/* So many rows on, and more, it is cheaper to begin anew than to follow every boundary there. */
+#define FAR_ROWS 16
+
 celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_shot *shot) {
   *scan = (cs_scan){.context = context, .shot = shot, .row = CS_SCAN_NOWHERE};
   cs_active_init(&scan->active, &shot->boundaries, &shot->cull);
@@ -17,6 +20,7 @@ void cs_scan_finish(cs_scan *scan) {
   cs_composer_finish(&scan->composer);
   cs_active_finish(&scan->active, memory);
   cs_cells_finish(&scan->cells, memory);
+  cs_edges_finish(&scan->edges, memory);
   cs_window_free(&scan->window, memory);
   cs_arena_finish(&scan->arena, memory);
   cs_scanline_finish(&scan->output, memory);
@@ -29,32 +33,32 @@ static double row_height(const cs_scan *scan, int32_t y) {
   return scan->shot->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
 }
 
-static celspan_status advance(cs_scan *scan, double height, bool *changed) {
+static celspan_status advance(cs_scan *scan, double height, cs_change *change) {
   cs_active *active = &scan->active;
-  bool settled = false, moved = false;
+  cs_change settled = cs_change_none, moved = cs_change_none;
   if (active->y_next > active->y)
     CS_TRY(cs_active_settle(scan->context, active, &settled));
   if (active->y < height) {
     CS_TRY(cs_active_reach(scan->context, active, height));
     CS_TRY(cs_active_settle(scan->context, active, &moved));
   }
-  *changed = settled || moved;
+  *change = cs_change_join(settled, moved);
   return CELSPAN_OK;
 }
 
-/* Brings boundaries and cells to the row: from the one above when that is where they stand. */
+/* Brings boundaries and cells to the row: from a row above when that is near. */
 static celspan_status reach_row(cs_scan *scan, int32_t y) {
-  bool changed = true;
-  if (scan->row != CS_SCAN_NOWHERE && scan->row < y)
-    CS_TRY(advance(scan, row_height(scan, y), &changed));
+  cs_change change = cs_change_all;
+  if (scan->row != CS_SCAN_NOWHERE && scan->row < y && y - scan->row < FAR_ROWS)
+    CS_TRY(advance(scan, row_height(scan, y), &change));
   else
     CS_TRY(cs_active_start(scan->context, &scan->active, row_height(scan, y)));
   if (cs_composer_begin_row(&scan->composer)) {
     cs_cells_forget(&scan->cells);
-    changed = true;
+    change = cs_change_all;
   }
-  if (changed)
-    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active));
+  if (!cs_change_is_none(change))
+    CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
   return scan->composer.failure;
 }
 

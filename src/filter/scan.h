@@ -33,6 +33,7 @@ typedef struct cs_scan {
   cs_composer composer;
   cs_active active;
   cs_cells cells;
+  cs_edges edges; /* of the row being made */
   cs_window window;
   cs_arena arena; /* of the current row */
   celspan_scanline_output output; /* room for what procedures return */

@@ -29,7 +29,7 @@ typedef struct store {
 /* ---------------------------------------------------------------- life */
 
 static void free_entry(store *bands, entry *e) {
-  cs_mem_free(bands->memory, e->band.nodes, e->size);
+  cs_soft_band_free(&e->band, bands->memory);
   cs_mem_free(bands->memory, e, sizeof *e);
 }
 
@@ -47,23 +47,38 @@ static void destroy(cs_service *service) {
   cs_memory_unref(memory);
 }
 
+static void shrink_to(store *bands, size_t budget);
+
+static void trim(cs_service *service) {
+  store *bands = (store *)service;
+  pthread_mutex_lock(&bands->lock);
+  shrink_to(bands, 0);
+  pthread_mutex_unlock(&bands->lock);
+}
+
 celspan_status cs_soft_bands_ready(celspan_context *context) {
   celspan_context *root = context->root;
-  if (root->soft_bands)
+  cs_service *held = __atomic_load_n(&root->soft_bands, __ATOMIC_ACQUIRE);
+  if (held)
     return CELSPAN_OK;
   store *bands = cs_mem_array(context->memory, 1, sizeof *bands);
   if (!bands)
     return cs_fail_memory(context);
-  bands->service.destroy = destroy;
+  bands->service = (cs_service){destroy, trim};
   bands->memory = cs_memory_ref(context->memory);
   bands->budget = root->defocus_bytes;
   pthread_mutex_init(&bands->lock, NULL);
   pthread_cond_init(&bands->changed, NULL);
-  root->soft_bands = &bands->service;
+  /* Another thread may have been first. */
+  if (!__atomic_compare_exchange_n(&root->soft_bands, &held, &bands->service, false,
+                                   __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
+    destroy(&bands->service);
   return CELSPAN_OK;
 }
 
-static store *store_of(celspan_context *context) { return (store *)context->root->soft_bands; }
+static store *store_of(celspan_context *context) {
+  return (store *)__atomic_load_n(&context->root->soft_bands, __ATOMIC_ACQUIRE);
+}
 
 cs_band_counts cs_soft_bands_count(celspan_context *context) {
   store *bands = store_of(context);
@@ -110,29 +125,24 @@ static void forget(store *bands, entry *e) {
   free_entry(bands, e);
 }
 
-static void shrink(store *bands) {
-  while (bands->oldest && bands->counts.bytes > bands->budget) {
+static void shrink_to(store *bands, size_t budget) {
+  while (bands->oldest && bands->counts.bytes > budget) {
     entry *e = bands->oldest;
     unlink_idle(bands, e);
     forget(bands, e);
   }
 }
 
-static entry *add(store *bands, const cs_band_key *key, size_t size) {
+static void shrink(store *bands) { shrink_to(bands, bands->budget); }
+
+static entry *add(store *bands, const cs_band_key *key) {
   entry *e = cs_mem_array(bands->memory, 1, sizeof *e);
   if (!e)
     return NULL;
-  e->band.nodes = cs_mem_array(bands->memory, 1, size);
-  if (!e->band.nodes) {
-    cs_mem_free(bands->memory, e, sizeof *e);
-    return NULL;
-  }
   e->key = *key;
-  e->size = size;
   entry **bucket = bucket_of(bands, key);
   e->next = *bucket;
   *bucket = e;
-  bands->counts.bytes += size;
   return e;
 }
 
@@ -148,12 +158,14 @@ static void drop_holder(store *bands, entry *e) {
 
 /* ---------------------------------------------------------------- making */
 
-/* Makes a new entry's nodes with the lock let go. */
+/* Makes a new entry's band with the lock let go. */
 static celspan_status make_entry(store *bands, celspan_context *context, entry *e,
                                  cs_band_maker make, const void *layer) {
   pthread_mutex_unlock(&bands->lock);
-  celspan_status status = make(layer, context, e->key.number, e->band.nodes);
+  celspan_status status = make(layer, context, e->key.number, &e->band);
   pthread_mutex_lock(&bands->lock);
+  e->size = cs_soft_band_bytes(&e->band);
+  bands->counts.bytes += e->size;
   e->is_made = status == CELSPAN_OK;
   bands->counts.made += e->is_made;
   pthread_cond_broadcast(&bands->changed);
@@ -173,14 +185,14 @@ static entry *hold(store *bands, const cs_band_key *key) {
   return e;
 }
 
-celspan_status cs_soft_bands_acquire(celspan_context *context, const cs_band_key *key, size_t size,
+celspan_status cs_soft_bands_acquire(celspan_context *context, const cs_band_key *key,
                                      cs_band_maker make, const void *layer, cs_soft_band **out) {
   store *bands = store_of(context);
   celspan_status status = CELSPAN_OK;
   pthread_mutex_lock(&bands->lock);
   entry *e = hold(bands, key);
   if (!e) {
-    e = add(bands, key, size);
+    e = add(bands, key);
     if (e) {
       e->holders = 1;
       status = make_entry(bands, context, e, make, layer);

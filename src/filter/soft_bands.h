@@ -16,23 +16,21 @@ typedef struct cs_band_key {
   int32_t number;
 } cs_band_key;
 
-/* Fills `size` bytes of nodes, zeroed. */
+/* Fills an empty band, whole or in part: the store frees it. */
 typedef celspan_status (*cs_band_maker)(const void *layer, celspan_context *context, int32_t number,
-                                        float (*nodes)[4]);
+                                        cs_soft_band *band);
 
 typedef struct cs_band_counts { /* since the context was made; now */
   uint64_t made, found;
   size_t bytes;
 } cs_band_counts;
 
-/* Makes the store where there is none yet; called by the context's own thread, before workers are
- * there. Errors: NO_MEMORY. */
+/* Makes the store where there is none yet. Any thread. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_soft_bands_ready(celspan_context *context);
 /* Errors: NO_MEMORY and those of `make`. */
 CELSPAN_CHECKED celspan_status cs_soft_bands_acquire(celspan_context *context,
-                                                     const cs_band_key *key, size_t size,
-                                                     cs_band_maker make, const void *layer,
-                                                     cs_soft_band **out);
+                                                     const cs_band_key *key, cs_band_maker make,
+                                                     const void *layer, cs_soft_band **out);
 void cs_soft_bands_release(celspan_context *context, cs_soft_band *band);
 cs_band_counts cs_soft_bands_count(celspan_context *context);
 

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#define CELLS 32   /* in the lesser radius, where the factor allows */
-#define FACTOR 8   /* at most */
+#define CELLS 16   /* in the lesser radius, where the factor allows */
+#define FACTOR 9   /* at most; odd, so that a node stands in the middle of a cell */
 #define TILE 32    /* nodes of a row summed at a time */
 #define SHORT 1e-6 /* slices that are shorter are left out */
 

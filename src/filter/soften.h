@@ -1,31 +1,37 @@
 /* Softening: a cel, compiled alone onto a grid, filtered into bands of nodes.
  *
  *   cel --two shots: lit from the front (S), lit from behind (T)--> rows of spans on the grid
- *       --the kernel over their boundaries (traces.c), or a Gaussian over their cells--> bands
+ *       --one of four ways--> bands of nodes
  *
- * The grid's pitch follows the radius, from one pixel up, so the work falls as the radius grows; a
- * Gaussian of some cells is applied to the cells, its variance lessened by theirs. Where it is but
- * a few cells wide, means would show where in its cell an edge lies (an error of 0.02/sigma^2);
- * tents do not (below 0.001 from sigma 1.5 on).
+ * Flat art goes by its boundaries, through a kernel (traces.c) or, under a wide Gaussian, line by
+ * line (soft_edges.h). Where pictures and gradients lie between the boundaries, cells are summed:
+ * soft_sums.h for a Gaussian, soft_slices.h for even kernels.
  *
- * Stretches in which the rows are one colour are not summed.
+ * The grid's pitch follows the radius, from one pixel up, so the work falls as the radius grows.
  */
 #ifndef CS_FILTER_SOFTEN_H
 #define CS_FILTER_SOFTEN_H
 
 #include "filter/scan.h"
 #include "filter/soft_bands.h"
+#include "filter/soft_edges.h"
 #include "filter/soft_slices.h"
+#include "filter/soft_sums.h"
+
+typedef enum cs_soften_way {
+  CS_SOFTEN_KERNEL, /* the shots' own */
+  CS_SOFTEN_EDGES,
+  CS_SOFTEN_SUMS,
+  CS_SOFTEN_SLICES
+} cs_soften_way;
 
 typedef struct cs_soften {
   cs_soft soft;         /* first: what composing sees */
   cs_softness softness; /* in cells */
-  bool is_summed;       /* a Gaussian over cells; else through the shots' kernel */
-  bool has_tents; /* is_summed: the cells are not means, but seen through tents two cells wide */
-  int32_t reach_x, reach_y; /* is_summed: cells, and the shots' frames are wider by as many */
-  float *weights[2];        /* is_summed: by distance, reach_x + 1 and reach_y + 1 of them */
-  bool is_sliced;           /* an even kernel over cells */
-  cs_soft_slices slices;    /* is_sliced */
+  cs_soften_way way;
+  cs_soft_edges edges;
+  cs_soft_sums sums;
+  cs_soft_slices slices;
   cs_shot shots[2];         /* one a plane; made by render/compile.c */
   cs_hash key;
 } cs_soften;

@@ -114,9 +114,8 @@ static void cross_next(cs_scan *scan, const cs_strip_edges *edges, size_t *bound
   const cs_active *active = &scan->active;
   if (*edge == edges->count ||
       (*boundary < active->count && active->x[*boundary] <= edges->edges[*edge].x)) {
-    const cs_boundary_chain *chain = cs_active_chain(active, *boundary);
-    cs_composer_cross(&scan->composer, chain->leaf, chain->direction);
-    ++*boundary;
+    const cs_crossing *crossing = &active->crossing[(*boundary)++];
+    cs_composer_cross(&scan->composer, crossing->leaf, crossing->direction);
     return;
   }
   const cs_strip_edge *e = &edges->edges[(*edge)++];

@@ -1,11 +1,13 @@
 #include "filter/window.h"
 
 #include "base/number.h"
+#include "span/pen.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define TILE 256 /* pixels summed at a time */
+#define TILE 256  /* pixels summed at a time */
+#define NARROW 32 /* and where a window is not wider */
 
 void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
                      int32_t y, const cs_cell *leftmost, cs_row *out) {
@@ -33,23 +35,6 @@ void cs_window_free(cs_window *window, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- coverage */
 
-/* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
-static inline int32_t floor_column(double x, int32_t width) {
-  int32_t column = x <= 0 ? 0 : x >= width ? width : (int32_t)x;
-  return column;
-}
-
-static inline int32_t ceil_column(double x, int32_t width) {
-  int32_t column = floor_column(x, width);
-  return column + (column < x && column < width);
-}
-
-/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
-static inline double round_area(double x) {
-  const double bias = 0x1.8p24;
-  return (x + bias) - bias;
-}
-
 /* The integral, up to x, of the share of the fragment's height at which the boundary lies left. */
 static inline double passed(double low, double high, double x) {
   return x <= low    ? 0
@@ -61,8 +46,8 @@ static inline double passed(double low, double high, double x) {
 static inline double cover(const cs_fragment *f, int32_t p) {
   double low = f->xa < f->xb ? f->xa : f->xb, high = f->xa < f->xb ? f->xb : f->xa;
   if (low == high)
-    return round_area(f->height * cs_number_clamp(p + 1 - low, 0, 1));
-  return round_area(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
+    return cs_edges_round(f->height * cs_number_clamp(p + 1 - low, 0, 1));
+  return cs_edges_round(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
 }
 
 /* ---------------------------------------------------------------- closing */
@@ -73,29 +58,30 @@ static inline cs_v4 hold(cs_v4 colour) {
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
-static inline celspan_status put_pixel(cs_window *window, int32_t p, cs_v4 colour) {
-  return cs_row_single(window->composer->context, window->out, p, p + 1, hold(colour));
-}
+#define LONE_SPANS 4 /* that draw_lone writes at most */
 
 /* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
-static celspan_status close_lone(cs_window *window) {
-  const cs_fragment *f = &window->fragments[0];
-  celspan_context *context = window->composer->context;
-  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
+  cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
-  CS_TRY(cs_row_single(context, window->out, window->from, first, base));
-  CS_TRY(put_pixel(window, first, base + step * (float)cover(f, first)));
-  if (last - first > 2) {
-    cs_v4 ramp = base + step * (float)cover(f, first + 1);
-    double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
-    CS_TRY(cs_row_gradient(context, window->out, first + 1, last, ramp,
-                           step * (float)(f->height / across)));
-  } else if (last - first == 2) {
-    CS_TRY(put_pixel(window, first + 1, base + step * (float)cover(f, first + 1)));
-  }
-  if (last == first)
-    return CELSPAN_OK;
-  return put_pixel(window, last, base + step * (float)cover(f, last));
+  cs_pen_to(p, first, base);
+  cs_pen_to(p, first + 1, hold(base + step * (float)cover(f, first)));
+  cs_v4 ramp = base + step * (float)cover(f, first + 1);
+  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+  cs_v4 slope = step * (float)(f->height / across);
+  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
+    cs_pen_ramp(p, last, ramp, slope);
+  else
+    cs_pen_to(p, last, hold(ramp));
+  cs_pen_to(p, last + 1, hold(base + step * (float)cover(f, last)));
+}
+
+static celspan_status close_lone(cs_window *window) {
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS));
+  cs_pen p = cs_pen_take(window->out, window->from);
+  draw_lone(&p, &window->fragments[0], window->base->colour);
+  cs_pen_put(&p);
+  return CELSPAN_OK;
 }
 
 /* The first column at or right of p where some fragment changes the sum; end when none does. */
@@ -113,41 +99,72 @@ static int32_t next_change(const cs_window *window, int32_t p) {
 /* Four doubles: the sums of colour steps. */
 typedef double sum4 __attribute__((vector_size(32)));
 
-static inline void add_step(sum4 *sum, const cs_fragment *f, double area) {
-  cs_v4 left = f->left->colour, right = f->right->colour;
-  for (int c = 0; c < 4; c++)
-    (*sum)[c] += ((double)right[c] - (double)left[c]) * area;
-}
+#define WIDEN(v) __builtin_convertvector(v, sum4) /* a function would return it by the AVX rules */
 
 /* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
 static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *change) {
+  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
   double before = p > f->first ? cover(f, p - 1) : 0;
   for (; p <= end; p++) {
     double now = p < f->end ? cover(f, p) : f->height;
-    add_step(&change[p - p0], f, now - before);
+    change[p - p0] += step * (now - before);
     before = now;
   }
 }
 
+/* As add_changes for a fragment over at most two columns, all from p0 on. */
+static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
+  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
+  change += f->first - p0;
+  change[0] += step * f->area;
+  change[1] += step * (f->rest - f->area);
+  change[2] += step * (f->height - f->rest);
+}
+
+/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of them. */
+static inline void draw_sums(cs_pen *p, int32_t p1, const sum4 *change, sum4 *sum) {
+  for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
+    *sum += change[k];
+    cs_pen_to(p, p->from + 1, hold(__builtin_convertvector(*sum, cs_v4)));
+  }
+}
+
 /* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
-static celspan_status close_flat(cs_window *window) {
-  celspan_context *context = window->composer->context;
-  cs_v4 base = window->base->colour, colour = base;
-  sum4 change[TILE], sum = {base[0], base[1], base[2], base[3]};
-  for (int32_t p = window->from; p < window->end;) {
-    int32_t next = next_change(window, p);
-    CS_TRY(cs_row_single(context, window->out, p, next, colour));
+static celspan_status close_wide(cs_window *window) {
+  sum4 change[TILE], sum = WIDEN(window->base->colour);
+  for (int32_t p0 = window->from; p0 < window->end;) {
+    int32_t next = next_change(window, p0);
     int32_t stop = window->end - next < TILE ? window->end : next + TILE;
     memset(change, 0, (size_t)(stop - next) * sizeof *change);
     for (size_t i = 0; i < window->fragment_count; i++)
       add_changes(&window->fragments[i], next, stop, change);
-    for (p = next; p < stop; p++) {
-      sum += change[p - next];
-      colour = hold((cs_v4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]});
-      CS_TRY(put_pixel(window, p, colour));
-    }
+    CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
+    cs_pen p = cs_pen_take(window->out, window->from);
+    cs_pen_to(&p, next, hold(__builtin_convertvector(sum, cs_v4)));
+    draw_sums(&p, stop, change, &sum);
+    cs_pen_put(&p);
+    window->from = p0 = stop;
   }
+  return CELSPAN_OK;
+}
+
+/* The same where the window is a few pixels wide, as nearly all are. */
+static celspan_status close_narrow(cs_window *window) {
+  int32_t from = window->from, end = window->end;
+  sum4 change[NARROW + 3], sum = WIDEN(window->base->colour);
+  memset(change, 0, (size_t)(end - from + 3) * sizeof *change);
+  for (size_t i = 0; i < window->fragment_count; i++) {
+    const cs_fragment *f = &window->fragments[i];
+    if (f->end - f->first <= 2)
+      add_narrow(f, from, change);
+    else
+      add_changes(f, from, end, change);
+  }
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(end - from)));
+  cs_pen p = cs_pen_take(window->out, window->from);
+  draw_sums(&p, end, change, &sum);
+  cs_pen_put(&p);
   return CELSPAN_OK;
 }
 
@@ -303,8 +320,10 @@ static celspan_status close_window(cs_window *window) {
       CS_TRY(close_varying(window));
     else if (window->fragment_count == 1)
       CS_TRY(close_lone(window));
+    else if (window->end - window->from <= NARROW)
+      CS_TRY(close_narrow(window));
     else
-      CS_TRY(close_flat(window));
+      CS_TRY(close_wide(window));
   }
   window->from = window->end;
   window->fragment_count = 0;
@@ -317,7 +336,7 @@ static celspan_status close_window(cs_window *window) {
 celspan_status cs_window_reach(cs_window *window, double x) {
   if (window->trace)
     return CELSPAN_OK;
-  int32_t first = floor_column(x, window->width);
+  int32_t first = cs_edges_floor(x, window->width);
   if (window->is_held || (window->is_open && first < window->end))
     return CELSPAN_OK;
   if (window->is_open)
@@ -333,64 +352,138 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
+static celspan_status add_fragment(cs_window *window, const cs_fragment *fragment) {
+  if (window->fragment_count == window->fragment_capacity)
+    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
+                          &window->fragment_capacity, window->fragment_count + 1,
+                          sizeof *window->fragments));
+  cs_fragment *added = &window->fragments[window->fragment_count++];
+  *added = *fragment;
+  if (added->first < window->from) { /* rounding put it left of what is written */
+    added->first = window->from;
+    added->end = added->end < added->first + 3 ? added->first + 3 : added->end;
+  }
+  if (fragment->end > window->end)
+    window->end = fragment->end;
+  window->varies |= fragment->left->length > 0 || fragment->right->length > 0;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
                              const cs_cell *left, const cs_cell *right) {
   if (window->trace)
     return cs_trace_add(window->trace, window->composer, xa, ya, xb, yb, left, right);
   double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa, top = window->centre - 0.5;
-  double height = round_area(yb - top) - round_area(ya - top);
-  cs_fragment fragment = {xa, xb, height, left, right, floor_column(low, window->width),
-                          ceil_column(high, window->width)};
-  if (fragment.first < window->from) /* rounding put it left of what is written */
-    fragment.first = window->from;
-  if (fragment.end > window->end)
-    window->end = fragment.end;
-  CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
-                        &window->fragment_capacity, window->fragment_count + 1,
-                        sizeof *window->fragments));
-  window->fragments[window->fragment_count++] = fragment;
-  window->varies |= left->length > 0 || right->length > 0;
-  return CELSPAN_OK;
-}
-
-/* An edge over one or two pixels that shares them with no other, between flat cells: most edges of
- * most rows. The same sums as close_lone, in closed form. */
-static celspan_status write_edge(cs_window *window, double low, double high, int32_t first,
-                                 int32_t end, const cs_cell *left, const cs_cell *right) {
-  celspan_context *context = window->composer->context;
-  cs_row *out = window->out;
-  cs_v4 base = left->colour, step = right->colour - base;
-  CS_TRY(cs_row_single(context, out, window->from, first, base));
-  if (end - first == 1) {
-    float area = (float)(first + 1 - 0.5 * (low + high));
-    CS_TRY(put_pixel(window, first, base + step * area));
-  } else if (end - first == 2) {
-    double split = first + 1, twice = 2 * (high - low);
-    float area = (float)((split - low) * (split - low) / twice);
-    float rest = (float)(1 - (high - split) * (high - split) / twice);
-    CS_TRY(put_pixel(window, first, base + step * area));
-    CS_TRY(put_pixel(window, first + 1, base + step * rest));
+  double height = cs_edges_round(yb - top) - cs_edges_round(ya - top);
+  cs_fragment f = {.xa = xa, .xb = xb, .height = height, .left = left, .right = right,
+                   .first = cs_edges_floor(low, window->width),
+                   .end = cs_edges_ceil(high, window->width)};
+  if (f.end - f.first <= 2) {
+    f.area = f.end > f.first ? cover(&f, f.first) : height;
+    f.rest = f.end > f.first + 1 ? cover(&f, f.first + 1) : height;
   }
-  window->from = window->end = end;
-  window->cell = right;
-  return CELSPAN_OK;
+  return add_fragment(window, &f);
 }
 
-celspan_status cs_window_edge(cs_window *window, double xa, double xb, const cs_cell *left,
-                              const cs_cell *right, double next_x) {
-  if (window->trace)
-    return cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right);
-  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
-  int32_t first = floor_column(low, window->width), end = ceil_column(high, window->width);
-  if (end - first <= 2 && end <= next_x && left->length == 0 && right->length == 0 &&
-      first >= window->end) {
-    if (window->is_open)
+/* A straight edge and its areas, as they have been measured. */
+static celspan_status add_measured(cs_window *window, const cs_active *active,
+                                   const cs_edges *edges, size_t i, const cs_cell *left) {
+  cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1,
+                   .area = edges->area[i], .rest = edges->rest[i],
+                   .left = left, .right = left + 1,
+                   .first = edges->first[i], .end = edges->end[i]};
+  return add_fragment(window, &f);
+}
+
+static celspan_status add_bent(cs_window *window, const cs_active *active, size_t i,
+                               const cs_cell *left) {
+  const cs_bend *bend = cs_active_bend(active, i);
+  celspan_point above = {active->x[i], active->y};
+  for (uint32_t k = 0; k < bend->vertex_count; k++) {
+    celspan_point below = active->vertices[bend->vertex + k];
+    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, left, left + 1));
+    above = below;
+  }
+  return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
+}
+
+celspan_status cs_window_slice(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               size_t i, const cs_cell *left) {
+  cs_window_pass(window, left + 1);
+  return edges->is_bent[i] ? add_bent(window, active, i, left)
+                           : cs_window_add(window, active->x[i], active->y, active->x_next[i],
+                                           active->y_next, left, left + 1);
+}
+
+/* An edge that shares its pixels with others, or lies between cells that vary. */
+static celspan_status add_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               size_t i, const cs_cell *left) {
+  CS_TRY(cs_window_reach(window, edges->low[i]));
+  if (edges->is_bent[i] || window->trace || !cs_edges_is_inside(edges, i, window->width))
+    return cs_window_slice(window, active, edges, i, left);
+  cs_window_pass(window, left + 1);
+  return add_measured(window, active, edges, i, left);
+}
+
+/* Draws boundary i if it shares its pixels with no other and lies between flat cells: as most edges of
+ * most rows. next: nothing that comes later lies left of this column. */
+static inline bool draw_edge(cs_pen *p, const cs_active *active, const cs_edges *edges, size_t i,
+                             const cs_cell *left, int32_t next, int32_t width) {
+  int32_t first = edges->first[i], end = edges->end[i];
+  if (end > next || first < p->from || (left->length | left[1].length) != 0)
+    return false;
+  if (end - first > 2) {
+    if (edges->is_bent[i] || !cs_edges_is_inside(edges, i, width))
+      return false;
+    cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1, .left = left,
+                     .right = left + 1, .first = first, .end = end};
+    draw_lone(p, &f, left->colour);
+    return true;
+  }
+  cs_v4 base = left->colour, step = left[1].colour - base;
+  cs_pen_to(p, first, base);
+  if (end > first)
+    cs_pen_to(p, first + 1, hold(base + step * (float)edges->area[i]));
+  if (end > first + 1)
+    cs_pen_to(p, end, hold(base + step * (float)edges->rest[i]));
+  return true;
+}
+
+/* Draws the edges from the first on, up to one that cannot be. Returns how many. */
+static size_t draw_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
+                         const cs_cell *cells, const uint32_t *boundaries, size_t count,
+                         int32_t next) {
+  cs_pen p = cs_pen_take(window->out, window->from);
+  size_t done = 0;
+  while (done < count) {
+    size_t i = boundaries[done];
+    int32_t limit = done + 1 < count ? edges->first[boundaries[done + 1]] : next;
+    if (!draw_edge(&p, active, edges, i, &cells[i], limit, window->width))
+      break;
+    done++;
+  }
+  cs_pen_put(&p);
+  window->from = window->end = p.from;
+  if (done > 0)
+    window->cell = &cells[boundaries[done - 1] + 1];
+  return done;
+}
+
+celspan_status cs_window_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               const cs_cell *cells, const uint32_t *boundaries, size_t count,
+                               int32_t next) {
+  for (size_t done = 0; done < count; done++) {
+    if (window->is_open && !window->trace && edges->first[boundaries[done]] >= window->end)
       CS_TRY(close_window(window));
-    return write_edge(window, low, high, first, end, left, right);
+    if (!window->is_open && !window->trace) {
+      CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS * (count - done)));
+      done += draw_edges(window, active, edges, cells, boundaries + done, count - done, next);
+      if (done == count)
+        break;
+    }
+    size_t i = boundaries[done];
+    CS_TRY(add_edge(window, active, edges, i, &cells[i]));
   }
-  CS_TRY(cs_window_reach(window, low));
-  CS_TRY(cs_window_add(window, xa, window->centre - 0.5, xb, window->centre + 0.5, left, right));
-  cs_window_pass(window, right);
   return CELSPAN_OK;
 }
 

@@ -15,11 +15,13 @@
 #ifndef CS_FILTER_WINDOW_H
 #define CS_FILTER_WINDOW_H
 
+#include "filter/edges.h"
 #include "filter/trace.h"
 
 typedef struct cs_fragment {
   double xa, xb; /* at its top and at its bottom */
   double height; /* of the row: 0..1, a multiple of 2^-28 */
+  double area, rest; /* right of it in its first column and in the next, if it crosses no more */
   const cs_cell *left, *right;
   int32_t first, end; /* the columns it crosses; empty when it stands on a pixel's edge */
 } cs_fragment;
@@ -55,11 +57,17 @@ CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
                                              double yb, const cs_cell *left,
                                              const cs_cell *right);
-/* A whole item: one straight edge through the whole row. next_x: nothing that comes later lies left
- * of it; any lesser value when that is not known. */
-CELSPAN_CHECKED celspan_status cs_window_edge(cs_window *window, double xa, double xb,
-                                              const cs_cell *left, const cs_cell *right,
-                                              double next_x);
+/* Whole items: boundaries through the whole row, straight or bent, to which nothing else happens.
+ * boundaries: `count` of them, from left to right; cells: as in cs_cells.
+ * next: nothing that comes after them lies left of this column. */
+CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, const cs_active *active,
+                                               const cs_edges *edges, const cs_cell *cells,
+                                               const uint32_t *boundaries, size_t count,
+                                               int32_t next);
+/* Boundary i through what is left of the row or through a slice of it: a part of an item. */
+CELSPAN_CHECKED celspan_status cs_window_slice(cs_window *window, const cs_active *active,
+                                               const cs_edges *edges, size_t i,
+                                               const cs_cell *left);
 /* The current item is done; right of it lies `cell`. */
 static inline void cs_window_pass(cs_window *window, const cs_cell *cell) { window->cell = cell; }
 /* Closes the last window and writes the rest of the row. */

@@ -6,17 +6,20 @@
 
 enum {
   LITERALS = 288, /* with the end of block and 29 lengths; the last two are never used */
-  DISTANCES = 30,
+  DISTANCES = CS_BLOCK_DISTANCES,
   END_OF_BLOCK = 256,
   LENGTH_CODES = 19 /* of the code that codes the code lengths */
 };
 
 /* ---------------------------------------------------------------- bits */
 
+/* Of what is put between two times that room is made: a token, or the header of a block. */
+enum { ROOM = 1024 };
+
 /* The writer's bits while a block is put: no byte that is stored can alias them. */
 typedef struct bit_stream {
   uint64_t bits;
-  unsigned count;
+  unsigned count; /* below 8 */
   unsigned char *at;
   cs_block_writer *writer;
 } bit_stream;
@@ -31,43 +34,30 @@ static void drain(cs_block_writer *writer, size_t size) {
   writer->size = 0;
 }
 
-static inline void put_whole_bytes(bit_stream *stream) {
+/* For ROOM more bytes, and a word beyond. */
+static inline void make_room(bit_stream *stream) {
   cs_block_writer *writer = stream->writer;
-  if (stream->at > writer->bytes + CS_BLOCK_BYTES - 8) {
+  if (stream->at > writer->bytes + CS_BLOCK_BYTES - ROOM) {
     drain(writer, (size_t)(stream->at - writer->bytes));
     stream->at = writer->bytes;
   }
+}
+
+/* count <= 56. All is stored every time, because when it must be cannot be foreseen. */
+static inline void put_bits(bit_stream *stream, uint64_t bits, unsigned count) {
+  stream->bits |= bits << stream->count;
+  stream->count += count;
   memcpy(stream->at, &stream->bits, 8);
   stream->at += stream->count / 8;
   stream->bits >>= stream->count & ~7u;
   stream->count &= 7;
 }
 
-/* count <= 48. */
-static inline void put_bits(bit_stream *stream, uint64_t bits, unsigned count) {
-  if (stream->count + count > 63)
-    put_whole_bytes(stream);
-  stream->bits |= bits << stream->count;
-  stream->count += count;
-}
-
 static void close_stream(bit_stream *stream) {
-  put_whole_bytes(stream);
   stream->writer->bits = stream->bits;
   stream->writer->bit_count = stream->count;
   stream->writer->size = (size_t)(stream->at - stream->writer->bytes);
 }
-
-/* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
-void cs_block_align(cs_block_writer *writer) {
-  bit_stream stream = open_stream(writer);
-  put_bits(&stream, 0, 3);
-  put_bits(&stream, 0, (8 - stream.count % 8) % 8);
-  put_bits(&stream, 0xffff0000u, 32);
-  close_stream(&stream);
-}
-
-void cs_block_flush(cs_block_writer *writer) { drain(writer, writer->size); }
 
 /* ---------------------------------------------------------------- symbols */
 
@@ -109,22 +99,16 @@ typedef struct counts {
   uint32_t literals[LITERALS], distances[DISTANCES];
 } counts;
 
-static void count_tokens(counts *count, const cs_token *tokens, size_t token_count) {
-  uint32_t lengths[256] = {0};
-  memset(count, 0, sizeof *count);
-  for (size_t i = 0; i < token_count; i++)
-    if (cs_token_is_triple(tokens[i])) {
-      for (int k = 0; k < 3; k++)
-        count->literals[tokens[i] >> 8 * k & 255]++;
-    } else if (tokens[i] < 256) {
-      count->literals[tokens[i]]++;
-    } else {
-      uint32_t times = (tokens[i] >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
-      lengths[tokens[i] >> 16 & 255] += times;
-      count->distances[split_distance(tokens[i] & 0x7fff).symbol] += times;
-    }
-  for (unsigned length = 0; length < 256; length++)
-    count->literals[split_length(length).symbol] += lengths[length];
+/* From what was told to symbols. */
+static void count_symbols(counts *count, const cs_block_counts *told) {
+  memset(count->literals, 0, sizeof count->literals);
+  memcpy(count->distances, told->distances, sizeof count->distances);
+  for (unsigned i = 0; i < 256; i++) {
+    count->literals[i] += told->literals[0][i] + told->literals[1][i] + told->literals[2][i];
+    count->literals[split_length(i).symbol] += told->lengths[i];
+  }
+  for (unsigned i = 0; i < CS_BLOCK_NEAR; i++)
+    count->distances[split_distance(i).symbol] += told->near_distances[i];
   count->literals[END_OF_BLOCK] = 1;
 }
 
@@ -254,11 +238,25 @@ static bit_string join(uint16_t code, uint8_t code_bits, parts split) {
   return (bit_string){code | split.extra << code_bits, code_bits + (unsigned)split.extra_bits};
 }
 
-enum { NEAR = 16 }; /* distances of runs: no farther than a pixel */
+/* The longest match from a near distance, as often as fits into one word. */
+typedef struct repeat {
+  uint64_t bits;
+  unsigned times, unit; /* bits of one */
+} repeat;
 
 typedef struct code_book {
-  bit_string literals[256], lengths[256], near_distances[NEAR];
+  bit_string literals[256], lengths[256], near_distances[CS_BLOCK_NEAR];
+  repeat longest[CS_BLOCK_NEAR];
 } code_book;
+
+static repeat repeat_longest(bit_string length, bit_string distance) {
+  enum { MOST = 56 };
+  unsigned unit = length.count + distance.count;
+  repeat made = {.times = MOST / (unit ? unit : MOST), .unit = unit};
+  for (unsigned i = 0; i < made.times; i++)
+    made.bits |= (length.bits | (uint64_t)distance.bits << length.count) << i * unit;
+  return made;
+}
 
 static void make_book(code_book *book, const codes *code) {
   for (unsigned i = 0; i < 256; i++) {
@@ -267,33 +265,35 @@ static void make_book(code_book *book, const codes *code) {
     book->lengths[i] =
         join(code->literals[length.symbol], code->literal_lengths[length.symbol], length);
   }
-  for (unsigned i = 0; i < NEAR; i++) {
+  for (unsigned i = 0; i < CS_BLOCK_NEAR; i++) {
     parts distance = split_distance(i);
     book->near_distances[i] =
         join(code->distances[distance.symbol], code->distance_lengths[distance.symbol], distance);
+    book->longest[i] = repeat_longest(book->lengths[255], book->near_distances[i]);
   }
+}
+
+static inline void put_longest(bit_stream *stream, const repeat *longest, unsigned times) {
+  for (; times > longest->times; times -= longest->times)
+    put_bits(stream, longest->bits, longest->times * longest->unit);
+  unsigned count = times * longest->unit;
+  put_bits(stream, longest->bits & (((uint64_t)1 << count) - 1), count);
 }
 
 static inline void put_match(bit_stream *stream, const codes *code, const code_book *book,
                              cs_token token) {
-  unsigned less_1 = token & 0x7fff, times = (token >> 24 & (CS_TOKEN_TIMES - 1)) + 1;
+  unsigned less_1 = token & 0x7fff, times = token >> 24 & CS_BLOCK_TIMES;
   bit_string length = book->lengths[token >> 16 & 255], distance;
-  if (less_1 < NEAR) {
+  if (less_1 < CS_BLOCK_NEAR) {
     distance = book->near_distances[less_1];
   } else {
     parts split = split_distance(less_1);
     distance = join(code->distances[split.symbol], code->distance_lengths[split.symbol], split);
   }
-  uint64_t bits = length.bits | (uint64_t)distance.bits << length.count;
-  unsigned count = length.count + distance.count;
-  for (; times > 1 && count <= 24; times /= 2) { /* twice as many bits, half as often */
-    if (times & 1)
-      put_bits(stream, bits, count);
-    bits |= bits << count;
-    count *= 2;
-  }
-  while (times-- > 0)
-    put_bits(stream, bits, count);
+  if (times > 0)
+    put_longest(stream, &book->longest[less_1], times);
+  put_bits(stream, length.bits | (uint64_t)distance.bits << length.count,
+           length.count + distance.count);
 }
 
 static inline void put_triple(bit_stream *stream, const code_book *book, cs_token token) {
@@ -308,7 +308,8 @@ static void put_tokens(bit_stream *stream, const codes *code, const cs_token *to
   code_book book;
   make_book(&book, code);
   for (const cs_token *token = tokens; token < tokens + count; token++) {
-    if (cs_token_is_triple(*token))
+    make_room(stream);
+    if (*token >> 30 == 1)
       put_triple(stream, &book, *token);
     else if (*token < 256)
       put_bits(stream, book.literals[*token].bits, book.literals[*token].count);
@@ -318,21 +319,62 @@ static void put_tokens(bit_stream *stream, const codes *code, const cs_token *to
   put_bits(stream, code->literals[END_OF_BLOCK], code->literal_lengths[END_OF_BLOCK]);
 }
 
-void cs_block_put(cs_block_writer *writer, const cs_token *tokens, size_t count, bool is_last) {
+/* ---------------------------------------------------------------- blocks */
+
+static void forget_tokens(cs_block_writer *writer) {
+  writer->token_count = 0;
+  memset(&writer->counts, 0, sizeof writer->counts);
+}
+
+void cs_block_begin(cs_block_writer *writer) {
+  writer->status = CELSPAN_OK;
+  writer->bits = 0;
+  writer->bit_count = 0;
+  writer->size = 0;
+  forget_tokens(writer);
+}
+
+void cs_block_match(cs_block_writer *writer, size_t length, size_t distance) {
+  unsigned length_less_3 = (unsigned)length - 3, less_1 = (unsigned)distance - 1;
+  writer->counts.lengths[length_less_3]++;
+  writer->counts.distances[split_distance(less_1).symbol]++;
+  cs_block_add(writer, 0x80000000u | length_less_3 << 16 | less_1);
+}
+
+void cs_block_put(cs_block_writer *writer) {
   bit_stream stream = open_stream(writer);
   counts frequency;
   codes own, fixed;
   header head;
-  count_tokens(&frequency, tokens, count);
+  count_symbols(&frequency, &writer->counts);
   best_lengths(&own, &frequency);
   fixed_lengths(&fixed);
   make_header(&head, &own);
   bool own_is_shorter = coded_size(&own, &frequency) + head.size < coded_size(&fixed, &frequency);
-  put_bits(&stream, (own_is_shorter ? 4u : 2u) | is_last, 3);
+  make_room(&stream);
+  put_bits(&stream, own_is_shorter ? 4 : 2, 3);
   if (own_is_shorter)
     put_header(&stream, &head);
   codes *chosen = own_is_shorter ? &own : &fixed;
   assign_codes(chosen);
-  put_tokens(&stream, chosen, tokens, count);
+  put_tokens(&stream, chosen, writer->tokens, writer->token_count);
   close_stream(&stream);
+  forget_tokens(writer);
+}
+
+/* Bytes as they are, none of them, with their count and its complement (RFC 1951, 3.2.4). */
+static void put_aligning_block(cs_block_writer *writer) {
+  bit_stream stream = open_stream(writer);
+  make_room(&stream);
+  put_bits(&stream, 0, 3);
+  put_bits(&stream, 0, (8 - stream.count) % 8);
+  put_bits(&stream, 0xffff0000u, 32);
+  close_stream(&stream);
+}
+
+void cs_block_end(cs_block_writer *writer) {
+  if (writer->token_count > 0)
+    cs_block_put(writer);
+  put_aligning_block(writer);
+  drain(writer, writer->size);
 }

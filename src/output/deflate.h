@@ -4,12 +4,12 @@
  * and a trailer. Runs become literals and matches of the byte or the pixel before; the checksum
  * follows them in closed form; so their cost does not depend on their length. Plain bytes are
  * looked up at their last two occurrences within 32 KiB. The bytes that come out of a part depend
- * on the calls for it alone. Memory: about 750 KiB.
+ * on the calls for it alone. Memory: about 1 MiB.
  */
 #ifndef CS_OUTPUT_DEFLATE_H
 #define CS_OUTPUT_DEFLATE_H
 
-#include "output/block.h"
+#include "output/search.h"
 
 typedef struct cs_deflate cs_deflate;
 
@@ -27,13 +27,20 @@ typedef struct cs_deflate_sum {
 
 /* A part begins, whatever became of the one before. */
 void cs_deflate_begin(cs_deflate *deflate);
-/* Errors of `write` stick, and come back from cs_deflate_end at the latest. */
-CELSPAN_CHECKED celspan_status cs_deflate_bytes(cs_deflate *deflate, celspan_context *context,
-                                                const void *bytes, size_t size);
+/* Plain bytes: room for CS_SEARCH_PART of them, and CS_SEARCH_SLACK more that may be written
+ * without meaning; then how many were put there. Errors of `write` stick, and come back from
+ * cs_deflate_end at the latest. */
+unsigned char *cs_deflate_space(cs_deflate *deflate, celspan_context *context);
+CELSPAN_CHECKED celspan_status cs_deflate_take(cs_deflate *deflate, const unsigned char *space,
+                                               size_t size);
 /* `count` times the first pixel_size bytes of `pixel`, lowest first, 2^20 times at most; the bytes
  * above are 0. */
-CELSPAN_CHECKED celspan_status cs_deflate_run(cs_deflate *deflate, celspan_context *context,
-                                              uint64_t pixel, size_t count);
+typedef struct cs_deflate_run {
+  uint64_t pixel;
+  uint32_t count; /* at least 1 */
+} cs_deflate_run;
+CELSPAN_CHECKED celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
+                                               const cs_deflate_run *runs, size_t run_count);
 /* One byte among runs. */
 void cs_deflate_byte(cs_deflate *deflate, unsigned char byte);
 /* Fills the last byte and passes on what is held. */

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "output/part.h"
+
 enum {
   BUFFER_BYTES = 1 << 16,
   NAME_BYTES = 200, /* of the name kept in the temporary one, which may have 255 */
@@ -105,8 +107,11 @@ static int open_temporary(cs_file *file) {
              NAME_BYTES, name, (start + i) & 0xffff);
     file->descriptor = open_again(file->system, file->temporary,
                                   O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file->descriptor >= 0 || errno != EEXIST)
+    if (file->descriptor >= 0 ? cs_part_claim(file->descriptor) : errno != EEXIST)
       break;
+    if (file->descriptor >= 0)
+      file->system->close(file->descriptor);
+    file->descriptor = -1;
   }
   return file->descriptor >= 0 ? 0 : -1;
 }

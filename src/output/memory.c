@@ -1,33 +1,51 @@
+/* Pixels into the caller's memory, or into rows of the sink's own that are used again and again. */
+#include "output/parts.h"
 #include "output/pixels.h"
 #include "output/sink.h"
 
 typedef struct memory_sink {
   celspan_coding coding;
-  unsigned char *pixels;
+  unsigned char *pixels; /* NULL: rows are dropped */
   size_t stride;
+  size_t row_size;
+  unsigned char *row; /* where rows are dropped */
 } memory_sink;
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
-  const memory_sink *sink = user;
+  memory_sink *sink = user;
   (void)height;
-  size_t needed = (size_t)width * celspan_coding_pixel_size(&sink->coding);
-  if (sink->stride >= needed)
+  sink->row_size = (size_t)width * celspan_coding_pixel_size(&sink->coding);
+  if (!sink->pixels)
+    sink->row = cs_mem_array(context->memory, 1, sink->row_size);
+  if (sink->pixels ? sink->stride >= sink->row_size : sink->row != NULL)
     return CELSPAN_OK;
+  if (!sink->pixels)
+    return cs_fail_memory(context);
   return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                  "the stride is %zu bytes; a row of %d pixels needs at least %zu", sink->stride,
-                 (int)width, needed);
+                 (int)width, sink->row_size);
+}
+
+/* hand: a row of the thread's own; NULL: the sink's, or the caller's memory. */
+static celspan_status fill_row(void *user, void *hand, celspan_context *context, int32_t y,
+                               const celspan_span *spans, size_t span_count) {
+  const memory_sink *sink = user;
+  unsigned char *own = hand ? hand : sink->row;
+  (void)context;
+  cs_pixels_row(&sink->coding, spans, span_count,
+                sink->pixels ? sink->pixels + (size_t)y * sink->stride : own);
+  return CELSPAN_OK;
 }
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
-  const memory_sink *sink = user;
-  (void)context;
-  cs_pixels_row(&sink->coding, spans, span_count, sink->pixels + (size_t)y * sink->stride);
-  return CELSPAN_OK;
+  return fill_row(user, NULL, context, y, spans, span_count);
 }
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
-  cs_mem_free(context->memory, user, sizeof(memory_sink));
+  memory_sink *sink = user;
+  cs_mem_free(context->memory, sink->row, sink->row_size);
+  cs_mem_free(context->memory, sink, sizeof *sink);
   return outcome;
 }
 
@@ -36,11 +54,35 @@ celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *co
   memory_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
   if (!sink)
     return cs_fail_memory(context);
-  *sink = (memory_sink){cs_pixels_resolve(coding, CELSPAN_DEPTH_8), pixels, stride};
+  sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  sink->pixels = pixels;
+  sink->stride = stride;
   *out = (celspan_sink){.user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- several threads */
+
+static celspan_status open_hand(void *user, celspan_context *context, void **hand) {
+  const memory_sink *sink = user;
+  *hand = sink->pixels ? NULL : cs_mem_array(context->memory, 1, sink->row_size);
+  return sink->pixels || *hand ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static void close_hand(void *user, celspan_context *context, void *hand) {
+  cs_mem_free(context->memory, hand, ((const memory_sink *)user)->row_size);
+}
+
+bool cs_memory_parts(const celspan_sink *sink, cs_parts *out) {
+  if (sink->row != put_row)
+    return false;
+  *out = (cs_parts){.user = sink->user,
+                    .open_hand = open_hand,
+                    .close_hand = close_hand,
+                    .row = fill_row};
+  return true;
 }

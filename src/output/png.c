@@ -110,6 +110,13 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
+bool cs_png_parts(const celspan_sink *sink, cs_parts *out) {
+  if (sink->row != put_row)
+    return false;
+  *out = cs_png_strips_parts(((const png_sink *)sink->user)->strips);
+  return true;
+}
+
 static const char title_head[] = "Title\0\0\0\0"; /* plain text, no language, UTF-8 */
 
 static celspan_status check_coding(celspan_context *context, const char *path,

@@ -14,8 +14,10 @@ void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, 
                         .coded_size = coded_size,
                         .pixel_size = is_opaque ? coded_size / 4 * 3 : coded_size};
   cs_png_costs_fill(&rows->costs);
-  rows->kept = UINT64_MAX >> (64 - 8 * rows->pixel_size);
+  rows->stored = UINT64_MAX >> (64 - 8 * rows->pixel_size);
 }
+
+void cs_png_rows_restart(cs_png_rows *rows) { rows->kept = 0; }
 
 static size_t bytes_allocated(const cs_png_rows *rows) {
   return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
@@ -27,6 +29,8 @@ void cs_png_rows_end(cs_png_rows *rows, celspan_context *context) {
     cs_mem_free(context->memory, row->runs, row->run_capacity * sizeof *row->runs);
     if (row->bytes)
       cs_mem_free(context->memory, row->bytes - rows->pixel_size, bytes_allocated(rows));
+    cs_mem_free(context->memory, rows->residues[i],
+                rows->residue_capacities[i] * sizeof *rows->residues[i]);
   }
 }
 
@@ -37,45 +41,63 @@ static uint64_t swap_samples(uint64_t pixel) {
   return (pixel & 0x00ff00ff00ff00ffu) << 8 | (pixel >> 8 & 0x00ff00ff00ff00ffu);
 }
 
-static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *bytes) {
+/* The end of a row of runs that has room for more. */
+typedef struct tail {
+  cs_png_run *next;
+  const cs_png_run *first;
+  uint64_t held;   /* the last one's pixel */
+  uint64_t common; /* as of cs_png_rows */
+} tail;
+
+/* pixel: as coded. */
+static inline void add_pixel(const cs_png_rows *rows, tail *t, int32_t end, uint64_t pixel) {
+  pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
+  t->common &= pixel;
+  pixel &= rows->stored;
+  t->next -= t->next > t->first && t->held == pixel;
+  t->held = pixel;
+  *t->next++ = (cs_png_run){end, pixel};
+}
+
+static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *coded) {
   uint64_t eight;
   uint32_t four;
-  if (rows->coded_size == 4)
-    return memcpy(&four, bytes, sizeof four), four;
-  return memcpy(&eight, bytes, sizeof eight), swap_samples(eight);
+  if (rows->coded_size == 8)
+    return memcpy(&eight, coded, sizeof eight), eight;
+  return memcpy(&four, coded, sizeof four), four;
 }
 
-static void add_pixel(cs_png_rows *rows, cs_png_row *row, int32_t end, const unsigned char *coded) {
-  uint64_t pixel = load_pixel(rows, coded);
-  rows->common &= pixel;
-  pixel &= rows->kept;
-  if (row->run_count > 0 && row->runs[row->run_count - 1].pixel == pixel)
-    row->runs[row->run_count - 1].end = end;
-  else
-    row->runs[row->run_count++] = (cs_png_run){end, pixel};
-}
-
-static void varying_to_runs(cs_png_rows *rows, const celspan_span *span, cs_png_row *row) {
+static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, tail *t) {
   unsigned char coded[8 * CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
     celspan_span part = cs_pixels_part(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
-      add_pixel(rows, row, x + i + 1, coded + (size_t)i * rows->coded_size);
+      add_pixel(rows, t, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));
   }
+}
+
+/* At most CS_COLOURS_MOST spans. */
+static void group_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t count,
+                          cs_png_row *row) {
+  tail t = {.next = row->runs + row->run_count, .first = row->runs, .common = rows->common};
+  t.held = row->run_count > 0 ? t.next[-1].pixel : 0;
+  cs_colours_code(&rows->colours, &rows->coding, spans, count);
+  for (size_t i = 0; i < count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_SINGLE)
+      add_pixel(rows, &t, spans[i].x1, cs_colours_pixel(&rows->colours, rows->coded_size, i));
+    else
+      varying_to_runs(rows, &spans[i], &t);
+  row->run_count = (size_t)(t.next - t.first);
+  rows->common = t.common;
 }
 
 static void spans_to_runs(cs_png_rows *rows, const celspan_span *spans, size_t span_count,
                           cs_png_row *row) {
-  for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    if (span->kind == CELSPAN_SPAN_SINGLE) {
-      unsigned char coded[8] = {0};
-      cs_pixels_code(&rows->coding, span->colour, coded);
-      add_pixel(rows, row, span->x1, coded);
-    } else {
-      varying_to_runs(rows, span, row);
-    }
+  for (size_t left = span_count, part; left > 0; left -= part, spans += part) {
+    part = left < CS_COLOURS_MOST ? left : CS_COLOURS_MOST;
+    group_to_runs(rows, spans, part, row);
   }
 }
 
@@ -90,15 +112,24 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-/* Coded pixels to those of the file, in place. */
-static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+/* Coded pixels of 16 bits to those of the file, in place. */
+static inline void pack_samples(cs_png_rows *rows, unsigned char *bytes, size_t pixel_size) {
   unsigned char *to = bytes;
-  for (int32_t x = 0; x < rows->width; x++, to += rows->pixel_size) {
-    uint64_t pixel = load_pixel(rows, bytes + (size_t)x * rows->coded_size);
+  for (int32_t x = 0; x < rows->width; x++, to += pixel_size) {
+    uint64_t pixel = swap_samples(load_pixel(rows, bytes + 8 * (size_t)x));
     rows->common &= pixel;
-    memcpy(to, &pixel, rows->pixel_size);
+    memcpy(to, &pixel, pixel_size);
   }
-  memset(to, 0, CS_PNG_BLOCK);
+}
+
+static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
+  if (rows->pixel_size == 3)
+    rows->common &= CS_WIDE_CHOOSE(cs_isa_best(), cs_png_drop_alpha)(bytes, (size_t)rows->width);
+  else if (rows->pixel_size == 6)
+    pack_samples(rows, bytes, 6);
+  else if (rows->pixel_size == 8)
+    pack_samples(rows, bytes, 8);
+  memset(bytes + (size_t)rows->width * rows->pixel_size, 0, CS_PNG_BLOCK);
 }
 
 static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context,
@@ -106,8 +137,7 @@ static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context
                                      cs_png_row *row) {
   CS_TRY(reserve_bytes(rows, context, row));
   cs_pixels_row(&rows->coding, spans, span_count, row->bytes);
-  if (rows->coded_size == 8 || rows->pixel_size != rows->coded_size)
-    pack_bytes(rows, row->bytes);
+  pack_bytes(rows, row->bytes);
   return CELSPAN_OK;
 }
 
@@ -139,7 +169,7 @@ static size_t measure(const celspan_span *spans, size_t span_count, int32_t widt
 }
 
 static celspan_status check_opaque(const cs_png_rows *rows, celspan_context *context) {
-  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->kept;
+  uint64_t coded = UINT64_MAX >> (64 - 8 * rows->coded_size), alpha = coded & ~rows->stored;
   if ((rows->common & alpha) == alpha)
     return CELSPAN_OK;
   return cs_fail(
@@ -174,7 +204,7 @@ celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
   CS_TRY(cs_png_rows_pass(rows, context, spans, span_count));
   cs_png_row *row = &rows->rows[!rows->current], *above = &rows->rows[rows->current];
   if (!row->is_bytes)
-    return cs_png_filter_runs(deflate, context, &rows->costs, rows->pixel_size, row, above);
+    return cs_png_filter_runs(rows, context, row, above, deflate);
   if (!above->is_bytes)
     CS_TRY(runs_to_bytes(rows, context, above));
   return cs_png_filter_bytes(deflate, context, rows->pixel_size,

@@ -7,9 +7,8 @@
 #ifndef CS_OUTPUT_PNG_ROWS_H
 #define CS_OUTPUT_PNG_ROWS_H
 
+#include "output/colours.h"
 #include "output/deflate.h"
-
-enum { CS_PNG_BLOCK = 16 };
 
 typedef struct cs_png_run {
   int32_t end;    /* column after the last */
@@ -20,7 +19,7 @@ typedef struct cs_png_row {
   bool is_bytes;
   cs_png_run *runs; /* neighbours differ */
   size_t run_count, run_capacity;
-  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_filter.h */
+  unsigned char *bytes; /* NULL until first needed; zeros before and after, see png_wide.h */
 } cs_png_row;
 
 /* What a byte of a difference costs as a literal, about, in eighths of a bit. */
@@ -32,15 +31,22 @@ typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
   size_t coded_size, pixel_size; /* bytes of a pixel, RGBA as coded and as in the file */
-  uint64_t kept;                 /* the bits of a coded pixel that are in the file */
+  uint64_t stored;               /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that all coded pixels of the row in hand have */
   cs_png_row rows[2];            /* the one in hand and the one before, in turn */
   int current;
+  int filter, kept; /* of rows of runs: the last choice, and for how many more it is kept */
   cs_png_costs costs;
+  cs_deflate_run *residues[2]; /* of two filters, to be compared */
+  size_t residue_capacities[2];
+  cs_colours colours;
 } cs_png_rows;
 
 /* is_opaque: alpha is left out; a pixel that is not opaque is then refused. */
 void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque);
+/* What was chosen for earlier rows is forgotten, so that a strip does not depend on where the rows
+ * before it went. */
+void cs_png_rows_restart(cs_png_rows *rows);
 CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                                const celspan_span *spans, size_t span_count,
                                                cs_deflate *deflate);

@@ -46,7 +46,7 @@ struct cs_png_strips {
   int32_t row; /* the next one */
   cs_deflate_sum sum;
   lane *lanes; /* the first is the caller's, the others have threads */
-  int lane_count, started;
+  int lane_count, started; /* lanes: from the first row on */
   strip *ring; /* strip i lies at i % ring_size */
   int32_t ring_size;
   pthread_mutex_t mutex;
@@ -66,19 +66,24 @@ static celspan_status append(void *user, celspan_context *context, const void *b
   return CELSPAN_OK;
 }
 
-static celspan_status begin_strip(lane *l, int32_t index, strip *s) {
+static celspan_status begin_strip(lane *l, int32_t index) {
   unsigned char header[CS_DEFLATE_HEADER];
-  l->packed = &s->packed;
-  s->packed.size = 0;
   cs_deflate_begin(l->deflate);
+  cs_png_rows_restart(&l->rows);
   if (index > 0)
     return CELSPAN_OK;
   cs_deflate_header(header);
   return append(&l->packed, &l->context, header, sizeof header);
 }
 
+static void empty(lane *l, part *packed) {
+  packed->size = 0;
+  l->packed = packed;
+}
+
 static celspan_status put_rows(lane *l, int32_t index, strip *s) {
-  CS_TRY(begin_strip(l, index, s));
+  empty(l, &s->packed);
+  CS_TRY(begin_strip(l, index));
   for (size_t i = 0; i < s->rows.count; i++) {
     cs_roll_row row = cs_roll_get(&s->rows, i);
     if (i == 0 && index > 0)
@@ -95,17 +100,22 @@ static void pack_strip(lane *l, int32_t index, strip *s) {
     memcpy(s->error, l->context.error, sizeof s->error);
 }
 
-/* The last part ends the stream. */
+/* Writes what was packed from `start` on: a strip's own. The last one ends the stream. */
 static celspan_status write_strip(cs_png_strips *strips, celspan_context *context, int32_t index,
-                                  strip *s) {
+                                  cs_deflate_sum sum, part *packed, size_t start, size_t end) {
   unsigned char trailer[CS_DEFLATE_TRAILER];
-  part *packed = &s->packed;
-  strips->sum = cs_deflate_join(strips->sum, s->sum);
+  strips->sum = cs_deflate_join(strips->sum, sum);
   if (index == strips->total - 1) {
     cs_deflate_trailer(strips->sum, trailer);
     CS_TRY(append(&packed, context, trailer, sizeof trailer));
+    end = packed->size;
   }
-  return strips->write(strips->user, context, packed->bytes, packed->size);
+  return strips->write(strips->user, context, packed->bytes + start, end - start);
+}
+
+static celspan_status write_whole(cs_png_strips *strips, celspan_context *context, int32_t index,
+                                  strip *s) {
+  return write_strip(strips, context, index, s->sum, &s->packed, 0, s->packed.size);
 }
 
 /* ---------------------------------------------------------------- one thread */
@@ -114,10 +124,11 @@ static int32_t row_of_strip(const cs_png_strips *strips) {
   return strips->row % strips->strip_rows;
 }
 
-static bool ends_strip(const cs_png_strips *strips) {
-  return row_of_strip(strips) == strips->strip_rows - 1 ||
-         strips->row == strips->picture.height - 1;
+static bool is_last_row(const cs_png_strips *strips, int32_t y) {
+  return y % strips->strip_rows == strips->strip_rows - 1 || y == strips->picture.height - 1;
 }
+
+static bool ends_strip(const cs_png_strips *strips) { return is_last_row(strips, strips->row); }
 
 static celspan_status report(celspan_context *context, celspan_status status, const char *error) {
   return status == CELSPAN_OK ? status : cs_fail(context, status, "%s", error);
@@ -127,8 +138,10 @@ static celspan_status pack_row(cs_png_strips *strips, const celspan_span *spans,
                                size_t span_count) {
   lane *l = strips->lanes;
   strip *s = strips->ring;
-  if (row_of_strip(strips) == 0)
-    CS_TRY(begin_strip(l, strips->row / strips->strip_rows, s));
+  if (row_of_strip(strips) == 0) {
+    empty(l, &s->packed);
+    CS_TRY(begin_strip(l, strips->row / strips->strip_rows));
+  }
   CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
   return ends_strip(strips) ? cs_deflate_end(l->deflate, &l->context, &s->sum) : CELSPAN_OK;
 }
@@ -138,7 +151,7 @@ static celspan_status put_row_alone(cs_png_strips *strips, celspan_context *cont
   CS_TRY(report(context, pack_row(strips, spans, span_count), strips->lanes->context.error));
   if (!ends_strip(strips))
     return CELSPAN_OK;
-  return write_strip(strips, context, strips->row / strips->strip_rows, strips->ring);
+  return write_whole(strips, context, strips->row / strips->strip_rows, strips->ring);
 }
 
 /* ---------------------------------------------------------------- several threads */
@@ -201,7 +214,7 @@ static celspan_status write_until(cs_png_strips *strips, celspan_context *contex
       pthread_mutex_unlock(&strips->mutex);
       celspan_status status = report(context, s->status, s->error);
       if (status == CELSPAN_OK)
-        status = write_strip(strips, context, index, s);
+        status = write_whole(strips, context, index, s);
       pthread_mutex_lock(&strips->mutex);
       CS_TRY(status);
       strips->written++;
@@ -248,8 +261,12 @@ static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *con
 
 /* ---------------------------------------------------------------- all strips */
 
+static celspan_status init_strips(cs_png_strips *strips, celspan_context *context);
+
 celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
                                  const celspan_span *spans, size_t span_count) {
+  if (!strips->lanes)
+    CS_TRY(init_strips(strips, context));
   CS_TRY(strips->lane_count > 1 ? put_row_shared(strips, context, spans, span_count)
                                 : put_row_alone(strips, context, spans, span_count));
   strips->row++;
@@ -314,12 +331,8 @@ celspan_status cs_png_strips_create(celspan_context *context, const cs_png_pictu
   pthread_mutex_init(&strips->mutex, NULL);
   pthread_cond_init(&strips->filled_some, NULL);
   pthread_cond_init(&strips->done_some, NULL);
-  celspan_status status = init_strips(strips, context);
-  if (status == CELSPAN_OK)
-    *out = strips;
-  else
-    cs_png_strips_destroy(strips, context);
-  return status;
+  *out = strips;
+  return CELSPAN_OK;
 }
 
 static void free_strip(strip *s, cs_memory *memory) {
@@ -347,4 +360,112 @@ void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context) {
   pthread_cond_destroy(&strips->filled_some);
   pthread_mutex_destroy(&strips->mutex);
   cs_mem_free(memory, strips, sizeof *strips);
+}
+
+/* ---------------------------------------------------------------- parts */
+
+/* So many strips in a part that the row above it, which is made twice, counts for little. */
+enum { PART_STRIPS = 4, PARTS_A_LANE = 8 };
+
+typedef struct piece {
+  part packed;
+  int32_t first; /* strip */
+  int32_t count; /* strips that are packed */
+  size_t ends[PART_STRIPS];
+  cs_deflate_sum sums[PART_STRIPS];
+} piece;
+
+typedef struct hand {
+  lane lane;
+  piece *piece;
+} hand;
+
+static int32_t part_strips(const cs_png_strips *strips) {
+  int32_t share = strips->total / (strips->lane_count * PARTS_A_LANE);
+  return share < 1 ? 1 : share < PART_STRIPS ? share : PART_STRIPS;
+}
+
+static celspan_status open_piece(void *user, celspan_context *context, void **out) {
+  (void)user;
+  *out = cs_mem_array(context->memory, 1, sizeof(piece));
+  return *out ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static void close_piece(void *user, celspan_context *context, void *made) {
+  piece *p = made;
+  (void)user;
+  if (p)
+    cs_mem_free(context->memory, p->packed.bytes, p->packed.capacity);
+  cs_mem_free(context->memory, p, sizeof *p);
+}
+
+static void close_hand(void *user, celspan_context *context, void *made) {
+  hand *h = made;
+  (void)user;
+  if (h)
+    free_lane(&h->lane, context);
+  cs_mem_free(context->memory, h, sizeof *h);
+}
+
+static celspan_status open_hand(void *user, celspan_context *context, void **out) {
+  hand *h = cs_mem_array(context->memory, 1, sizeof *h);
+  *out = h;
+  return h ? init_lane(user, context, &h->lane) : cs_fail_memory(context);
+}
+
+static celspan_status begin_piece(void *made, celspan_context *context, void *filled,
+                                  int32_t index) {
+  hand *h = made;
+  h->piece = filled;
+  h->piece->first = index * part_strips(h->lane.strips);
+  h->piece->count = 0;
+  empty(&h->lane, &h->piece->packed);
+  return report(context, begin_strip(&h->lane, h->piece->first), h->lane.context.error);
+}
+
+static celspan_status pack_piece_row(hand *h, int32_t y, const celspan_span *spans,
+                                     size_t span_count) {
+  const cs_png_strips *strips = h->lane.strips;
+  piece *p = h->piece;
+  lane *l = &h->lane;
+  if (y < p->first * strips->strip_rows)
+    return cs_png_rows_pass(&l->rows, &l->context, spans, span_count);
+  if (y % strips->strip_rows == 0 && p->count > 0)
+    CS_TRY(begin_strip(l, p->first + p->count));
+  CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
+  if (!is_last_row(strips, y))
+    return CELSPAN_OK;
+  CS_TRY(cs_deflate_end(l->deflate, &l->context, &p->sums[p->count]));
+  p->ends[p->count++] = p->packed.size;
+  return CELSPAN_OK;
+}
+
+static celspan_status put_piece_row(void *user, void *made, celspan_context *context, int32_t y,
+                                    const celspan_span *spans, size_t span_count) {
+  hand *h = made;
+  (void)user;
+  return report(context, pack_piece_row(h, y, spans, span_count), h->lane.context.error);
+}
+
+static celspan_status join_piece(void *user, celspan_context *context, void *made, int32_t index) {
+  cs_png_strips *strips = user;
+  piece *p = made;
+  (void)index;
+  for (int32_t i = 0; i < p->count; i++)
+    CS_TRY(write_strip(strips, context, p->first + i, p->sums[i], &p->packed,
+                       i > 0 ? p->ends[i - 1] : 0, p->ends[i]));
+  return CELSPAN_OK;
+}
+
+cs_parts cs_png_strips_parts(cs_png_strips *strips) {
+  return (cs_parts){.user = strips,
+                    .rows = part_strips(strips) * strips->strip_rows,
+                    .takes_above = true,
+                    .open_hand = open_hand,
+                    .close_hand = close_hand,
+                    .open_part = open_piece,
+                    .close_part = close_piece,
+                    .begin = begin_piece,
+                    .row = put_piece_row,
+                    .join = join_piece};
 }

@@ -9,6 +9,7 @@
 #ifndef CS_OUTPUT_PNG_STRIPS_H
 #define CS_OUTPUT_PNG_STRIPS_H
 
+#include "output/parts.h"
 #include "output/png_rows.h"
 
 typedef struct cs_png_strips cs_png_strips;
@@ -32,6 +33,9 @@ CELSPAN_CHECKED celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_
 /* After the last row: writes what is left. */
 CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
                                                     celspan_context *context);
+/* How several threads fill strips from the rows that they make themselves; in place of
+ * cs_png_strips_row. */
+cs_parts cs_png_strips_parts(cs_png_strips *strips);
 /* At any time; NULL is ignored. */
 void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context);
 

@@ -23,7 +23,7 @@ CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const c
  * premultiplied. */
 CELSPAN_CHECKED celspan_status cs_sink_span(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* RGBA pixels into the caller's memory. */
+/* RGBA pixels into the caller's memory; pixels NULL: coded and dropped, to measure the making. */
 CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
                                               const celspan_coding *coding, void *pixels,
                                               size_t stride, celspan_sink *out);
@@ -34,6 +34,8 @@ CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
 /* By format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
+/* Whether such a file tells the number of its frame, so that no other frame's is quite the same. */
+bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file);
 /* Destroys a sink whose end was not called and keeps the recorded sentence. */
 void cs_sink_discard(celspan_context *context, celspan_sink *sink);
 

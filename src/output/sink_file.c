@@ -10,9 +10,21 @@ static const char *ending(const char *path) {
   return dot ? dot + 1 : "";
 }
 
+static const char *format_of(const char *path, const celspan_file_desc *file) {
+  return file->format ? file->format : ending(path);
+}
+
+bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {
+  static const char *const unnumbered[] = {"png", "tga", "targa", "span"};
+  for (size_t i = 0; i < sizeof unnumbered / sizeof *unnumbered; i++)
+    if (strcasecmp(format_of(path, file), unnumbered[i]) == 0)
+      return false;
+  return true;
+}
+
 celspan_status cs_sink_file(celspan_context *context, const char *path,
                             const celspan_file_desc *file, celspan_sink *out) {
-  const char *format = file->format ? file->format : ending(path);
+  const char *format = format_of(path, file);
   if (format[0] == '\0')
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,

@@ -1,35 +1,25 @@
-/* Span files: spans stay spans. A colour is coded once and then found again by its bits; gradients
- * and arrays are coded in pieces, and the library finds in them what is even.
+/* Span files: spans stay spans. Gradients and arrays are coded in pieces, and the library finds in
+ * them what is even.
  */
 #include <spanfile.h>
 #include <string.h>
 
+#include "output/colours.h"
 #include "output/file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
 
-enum {
-  PIECE = 4096,
-  COLOUR_BITS = 10,
-  SHORT = 4,  /* pixels; on an edge, whose colours are not met again */
-  EDGE = 1024 /* pixels coded together */
-};
-
-typedef struct coded_colour {
-  uint64_t bits[2]; /* of the RGBA floats */
-  uint64_t pixel;
-} coded_colour;
+enum { PIECE = 4096 };
 
 typedef struct span_sink {
   size_t allocated;
   celspan_context *context; /* of the call that is running, for put_bytes */
   celspan_coding coding;
-  cs_file *file;                          /* from begin to end */
-  spanfile_writer *writer;                /* likewise */
-  coded_colour colours[1 << COLOUR_BITS]; /* an empty one says that zeros are coded as zeros */
+  cs_file *file;           /* from begin to end */
+  spanfile_writer *writer; /* likewise */
+  cs_colours colours;
+  spanfile_run runs[CS_COLOURS_MOST];
   unsigned char piece[PIECE * 8];
-  float edge[4 * EDGE]; /* colours of short spans, and what they are coded as */
-  unsigned char coded_edge[EDGE * 8];
   char path[];
 } span_sink;
 
@@ -59,26 +49,7 @@ static celspan_status report(const span_sink *sink, spanfile_status status) {
   }
 }
 
-/* ---------------------------------------------------------------- colours and spans */
-
-static uint64_t code(const span_sink *sink, const float colour[4]) {
-  uint64_t pixel = 0;
-  cs_pixels_code(&sink->coding, colour, &pixel);
-  return pixel;
-}
-
-static uint64_t find_coded(span_sink *sink, const float colour[4]) {
-  uint64_t bits[2];
-  memcpy(bits, colour, sizeof bits);
-  uint64_t mixed = (bits[0] ^ bits[1] * 0x9e3779b97f4a7c15u) * 0xd6e8feb86659fd93u;
-  coded_colour *found = &sink->colours[mixed >> (64 - COLOUR_BITS)];
-  if (found->bits[0] != bits[0] || found->bits[1] != bits[1]) {
-    found->bits[0] = bits[0];
-    found->bits[1] = bits[1];
-    found->pixel = code(sink, colour);
-  }
-  return found->pixel;
-}
+/* ---------------------------------------------------------------- spans */
 
 static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   spanfile_status status = SPANFILE_OK;
@@ -96,61 +67,28 @@ static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
   return status;
 }
 
-static bool is_short(const celspan_span *span) {
-  return span->kind == CELSPAN_SPAN_SINGLE && span->x1 - span->x0 < SHORT;
-}
-
-/* Codes the short ones among the spans, as many as fit; the first span that was not looked at. */
-static const celspan_span *code_edges(span_sink *sink, const celspan_span *span,
-                                      const celspan_span *end) {
-  int32_t length = 0;
-  for (; span < end && length <= EDGE - SHORT; span++) {
-    /* Copied whether it counts or not: which ones do cannot be foreseen. */
-    float *edge = sink->edge + 4 * length;
-    memcpy(edge, span->colour, sizeof span->colour);
-    int32_t count = is_short(span) ? span->x1 - span->x0 : 0;
-    for (int32_t i = 1; i < count; i++)
-      memcpy(edge + 4 * i, edge, sizeof span->colour);
-    length += count;
-  }
-  celspan_span edge = {.x1 = length, .kind = CELSPAN_SPAN_ARRAY, .array = sink->edge};
-  cs_pixels_row(&sink->coding, &edge, 1, sink->coded_edge);
-  return span;
-}
-
-/* The spans whose short ones are coded. */
-static spanfile_status put_group(span_sink *sink, const celspan_span *span,
-                                 const celspan_span *end) {
-  const unsigned char *coded = sink->coded_edge;
-  size_t pixel_size = celspan_coding_pixel_size(&sink->coding);
+/* At most CS_COLOURS_MOST spans. */
+static spanfile_status put_group(span_sink *sink, const celspan_span *spans, size_t count) {
+  size_t pixel_size = celspan_coding_pixel_size(&sink->coding), run_count = 0;
   spanfile_status status = SPANFILE_OK;
-  while (span < end && status == SPANFILE_OK) {
-    int32_t x0 = span->x0;
-    uint32_t length = (uint32_t)(span->x1 - x0);
-    if (is_short(span)) {
-      for (span++; span < end && is_short(span);)
-        span++;
-      length = (uint32_t)(span[-1].x1 - x0);
-      status = spanfile_writer_pixels(sink->writer, coded, length);
-      coded += length * pixel_size;
-    } else if (span->kind == CELSPAN_SPAN_SINGLE) {
-      status = spanfile_writer_run(sink->writer, length, find_coded(sink, span->colour));
-      span++;
+  cs_colours_code(&sink->colours, &sink->coding, spans, count);
+  for (size_t i = 0; i < count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_SINGLE) {
+      uint64_t pixel = cs_colours_pixel(&sink->colours, pixel_size, i);
+      sink->runs[run_count++] = (spanfile_run){(uint32_t)(spans[i].x1 - spans[i].x0), pixel};
     } else {
-      status = put_pieces(sink, span++);
+      (void)spanfile_writer_runs(sink->writer, sink->runs, run_count); /* errors stick */
+      run_count = 0;
+      status = put_pieces(sink, &spans[i]);
     }
-  }
-  return status;
+  return run_count > 0 ? spanfile_writer_runs(sink->writer, sink->runs, run_count) : status;
 }
 
 static spanfile_status put_spans(span_sink *sink, const celspan_span *spans, size_t count) {
-  const celspan_span *end = spans + count;
   spanfile_status status = SPANFILE_OK;
-  while (spans < end && status == SPANFILE_OK) {
-    const celspan_span *next = code_edges(sink, spans, end);
-    status = put_group(sink, spans, next);
-    spans = next;
-  }
+  for (size_t done = 0; done < count && status == SPANFILE_OK; done += CS_COLOURS_MOST)
+    status = put_group(sink, spans + done,
+                       count - done < CS_COLOURS_MOST ? count - done : CS_COLOURS_MOST);
   return status;
 }
 

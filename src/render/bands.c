@@ -1,41 +1,57 @@
 #include "render/bands.h"
 
+#include "base/wait.h"
+#include "output/parts.h"
 #include "span/roll.h"
 
 #include <pthread.h>
 
 /* Bands that may be made ahead of delivery, a worker. */
 #define AHEAD 3
+/* Rows of a part at most, where the sink has no wish. */
+#define PART_ROWS 1024
+/* Rows from one look for a stop to the next. */
+#define LOOK_ROWS 32
 
 typedef struct band {
   int32_t index; /* of the band held, or -1 */
   bool is_done;
   celspan_status status;
   char error[sizeof((celspan_context *)0)->error];
-  cs_roll rows;
+  cs_roll rows;              /* where the sink takes no parts */
+  void *part;                /* else */
+  celspan_statistics counts; /* of the part's rows */
 } band;
+
+typedef struct delivery delivery;
 
 typedef struct pool {
   celspan_context *context;
   const cs_frame *frame;
+  delivery *delivery;
   cs_lane *lanes;
+  bool has_parts;
+  cs_parts parts;
+  void **hands; /* one a lane, where there are parts */
   band *bands; /* a ring: band i lies at i % band_count */
   int lane_count, band_count;
+  int32_t band_rows;
   int32_t total;   /* bands of the frame */
   int32_t claimed; /* the next band to be made */
   int32_t delivered;
   bool is_stopped;
+  atomic_bool is_cancelled; /* read without the mutex, amid parts */
   pthread_mutex_t mutex;
   pthread_cond_t done, room;
 } pool;
 
-typedef struct delivery {
+struct delivery {
   celspan_context *context;
   const celspan_frame_desc *desc;
   const celspan_sink *sink;
   celspan_statistics *statistics;
   int32_t rows_done, rows_total;
-} delivery;
+};
 
 /* ---------------------------------------------------------------- delivery */
 
@@ -57,32 +73,70 @@ static void count_spans(celspan_statistics *statistics, const celspan_span *span
 static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count,
                                   size_t varied) {
   count_spans(d->statistics, spans, count, varied);
-  return d->sink->row(d->sink->user, d->context, d->rows_done++, spans, count);
+  int32_t y = d->rows_done++;
+  return d->sink->row ? d->sink->row(d->sink->user, d->context, y, spans, count) : CELSPAN_OK;
+}
+
+static bool goes_on(const delivery *d) {
+  const celspan_frame_desc *desc = d->desc;
+  return !desc->progress || desc->progress(desc->progress_user, d->rows_done, d->rows_total);
+}
+
+static celspan_status stop(const delivery *d) {
+  return cs_fail(d->context, CELSPAN_CANCELLED, "stopped after %d of %d rows", (int)d->rows_done,
+                 (int)d->rows_total);
 }
 
 static celspan_status report_progress(const delivery *d) {
-  const celspan_frame_desc *desc = d->desc;
-  if (desc->progress && !desc->progress(desc->progress_user, d->rows_done, d->rows_total))
-    return cs_fail(d->context, CELSPAN_CANCELLED, "stopped after %d of %d rows", (int)d->rows_done,
-                   (int)d->rows_total);
-  return CELSPAN_OK;
+  return goes_on(d) ? CELSPAN_OK : stop(d);
 }
 
 /* ---------------------------------------------------------------- making bands */
 
-static int32_t band_first(const cs_frame *frame, int32_t index) {
-  return index * frame->band_rows;
+static int32_t band_first(const pool *p, int32_t index) { return index * p->band_rows; }
+
+static int32_t band_end(const pool *p, int32_t index) {
+  int64_t end = (int64_t)band_first(p, index) + p->band_rows;
+  return end < p->frame->crop_height ? (int32_t)end : p->frame->crop_height;
 }
 
-static int32_t band_end(const cs_frame *frame, int32_t index) {
-  int64_t end = (int64_t)band_first(frame, index) + frame->band_rows;
-  return end < frame->crop_height ? (int32_t)end : frame->crop_height;
+static celspan_status make_part_row(pool *p, cs_lane *lane, band *b, int32_t y) {
+  const cs_row *row;
+  CS_TRY(cs_lane_row(lane, y, &row));
+  if (y >= band_first(p, b->index))
+    count_spans(&b->counts, row->spans, row->count, row->varied);
+  return p->parts.row ? p->parts.row(p->parts.user, p->hands[lane - p->lanes], &lane->context, y,
+                                     row->spans, row->count)
+                      : CELSPAN_OK;
+}
+
+/* Parts may take long. The calling thread, which has the first lane, asks whether to go on; the
+ * others hear of it. */
+static celspan_status look(pool *p, cs_lane *lane) {
+  if (lane == p->lanes && !goes_on(p->delivery))
+    atomic_store(&p->is_cancelled, true);
+  return atomic_load(&p->is_cancelled) ? CELSPAN_CANCELLED : CELSPAN_OK;
+}
+
+static celspan_status make_part(pool *p, cs_lane *lane, band *b) {
+  const cs_parts *parts = &p->parts;
+  void *hand = p->hands[lane - p->lanes];
+  int32_t first = band_first(p, b->index), end = band_end(p, b->index);
+  b->counts = (celspan_statistics){0};
+  if (parts->begin)
+    CS_TRY(parts->begin(hand, &lane->context, b->part, b->index));
+  for (int32_t y = first - (parts->takes_above && first > 0); y < end; y++) {
+    CS_TRY(make_part_row(p, lane, b, y));
+    if ((y - first) % LOOK_ROWS == LOOK_ROWS - 1)
+      CS_TRY(look(p, lane));
+  }
+  return parts->end ? parts->end(hand, &lane->context) : CELSPAN_OK;
 }
 
 static celspan_status make_rows(pool *p, cs_lane *lane, band *b) {
-  int32_t end = band_end(p->frame, b->index);
+  int32_t end = band_end(p, b->index);
   cs_roll_clear(&b->rows);
-  for (int32_t y = band_first(p->frame, b->index); y < end; y++) {
+  for (int32_t y = band_first(p, b->index); y < end; y++) {
     const cs_row *row;
     CS_TRY(cs_lane_row(lane, y, &row));
     CS_TRY(cs_roll_add(&lane->context, &b->rows, row->spans, row->count));
@@ -91,7 +145,7 @@ static celspan_status make_rows(pool *p, cs_lane *lane, band *b) {
 }
 
 static void make_band(pool *p, cs_lane *lane, band *b) {
-  b->status = make_rows(p, lane, b);
+  b->status = p->has_parts ? make_part(p, lane, b) : make_rows(p, lane, b);
   if (b->status != CELSPAN_OK)
     memcpy(b->error, lane->context.error, sizeof b->error);
 }
@@ -138,14 +192,43 @@ static void *worker_main(void *argument) {
 
 /* ---------------------------------------------------------------- the pool */
 
-static celspan_status deliver_band(delivery *d, const band *b) {
+static void add_counts(celspan_statistics *sum, const celspan_statistics *counts) {
+  sum->rows += counts->rows;
+  sum->spans += counts->spans;
+  sum->single += counts->single;
+  sum->gradient += counts->gradient;
+  sum->array += counts->array;
+  sum->pixels_in_arrays += counts->pixels_in_arrays;
+}
+
+static celspan_status join_part(const pool *p, delivery *d, const band *b) {
+  add_counts(d->statistics, &b->counts);
+  d->rows_done += (int32_t)b->counts.rows;
+  if (p->parts.join)
+    CS_TRY(p->parts.join(p->parts.user, d->context, b->part, b->index));
+  return report_progress(d);
+}
+
+static celspan_status deliver_band(pool *p, delivery *d, const band *b) {
+  if (atomic_load(&p->is_cancelled))
+    return stop(d);
   if (b->status != CELSPAN_OK)
     return cs_fail(d->context, b->status, "%s", b->error);
+  if (p->has_parts)
+    return join_part(p, d, b);
   for (size_t k = 0; k < b->rows.count; k++) {
     cs_roll_row row = cs_roll_get(&b->rows, k);
     CS_TRY(deliver_row(d, row.spans, row.count, row.varied));
   }
   return report_progress(d);
+}
+
+/* While others work: the mutex is held, and let go meanwhile. */
+static celspan_status look_up(pool *p, const delivery *d) {
+  pthread_mutex_unlock(&p->mutex);
+  celspan_status status = report_progress(d);
+  pthread_mutex_lock(&p->mutex);
+  return status;
 }
 
 /* Delivers bands in order, making one whenever the next is not there yet; the mutex is held, and
@@ -155,7 +238,7 @@ static celspan_status deliver_all(pool *p, delivery *d) {
     band *next = &p->bands[p->delivered % p->band_count];
     if (next->index == p->delivered && next->is_done) {
       pthread_mutex_unlock(&p->mutex);
-      celspan_status status = deliver_band(d, next);
+      celspan_status status = deliver_band(p, d, next);
       pthread_mutex_lock(&p->mutex);
       CS_TRY(status);
       p->delivered++;
@@ -165,8 +248,8 @@ static celspan_status deliver_all(pool *p, delivery *d) {
     band *own = claim(p);
     if (own)
       work(p, &p->lanes[0], own);
-    else
-      pthread_cond_wait(&p->done, &p->mutex);
+    else if (!cs_wait_moment(&p->done, &p->mutex))
+      CS_TRY(look_up(p, d));
   }
   return CELSPAN_OK;
 }
@@ -181,6 +264,7 @@ static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
   pthread_mutex_lock(&p->mutex);
   celspan_status status = deliver_all(p, d);
   p->is_stopped = true;
+  atomic_store(&p->is_cancelled, true); /* parts that nobody waits for any more */
   pthread_cond_broadcast(&p->room);
   pthread_mutex_unlock(&p->mutex);
   while (--started > 0)
@@ -188,8 +272,30 @@ static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
   return status;
 }
 
+static void close_parts(pool *p) {
+  const cs_parts *parts = &p->parts;
+  for (int i = 0; parts->close_hand && p->hands && i < p->lane_count; i++)
+    parts->close_hand(parts->user, p->context, p->hands[i]);
+  for (int i = 0; parts->close_part && p->bands && i < p->band_count; i++)
+    parts->close_part(parts->user, p->context, p->bands[i].part);
+  cs_mem_free(p->context->memory, p->hands, (size_t)p->lane_count * sizeof *p->hands);
+}
+
+static celspan_status open_parts(pool *p) {
+  const cs_parts *parts = &p->parts;
+  p->hands = cs_mem_array(p->context->memory, (size_t)p->lane_count, sizeof *p->hands);
+  if (!p->hands)
+    return cs_fail_memory(p->context);
+  for (int i = 0; parts->open_hand && i < p->lane_count; i++)
+    CS_TRY(parts->open_hand(parts->user, p->context, &p->hands[i]));
+  for (int i = 0; parts->open_part && i < p->band_count; i++)
+    CS_TRY(parts->open_part(parts->user, p->context, &p->bands[i].part));
+  return CELSPAN_OK;
+}
+
 static void free_pool(pool *p, worker *workers) {
   cs_memory *memory = p->context->memory;
+  close_parts(p);
   for (int i = 0; p->lanes && i < p->lane_count; i++)
     cs_lane_finish(&p->lanes[i]);
   for (int i = 0; p->bands && i < p->band_count; i++)
@@ -219,13 +325,31 @@ static uint64_t sum_evaluations(const cs_lane *lanes, int count) {
   return sum;
 }
 
-static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d,
-                                  int32_t total) {
-  pool p = {.context = context, .frame = frame, .total = total};
+static int32_t count_bands(const cs_frame *frame, int32_t band_rows) {
+  return (int32_t)(((int64_t)frame->crop_height + band_rows - 1) / band_rows);
+}
+
+/* A lane that goes on to its next band passes over the rows of the others. Where nothing of a band
+ * is kept it may be high, so that this is seldom. */
+static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
+  const cs_frame *frame = p->frame;
+  int32_t share = frame->crop_height / (frame->workers * 16);
+  if (p->parts.rows > 0)
+    return p->parts.rows;
+  if (!p->has_parts || desc->strip_rows > 0 || share <= frame->band_rows)
+    return frame->band_rows;
+  return share < PART_ROWS ? share : PART_ROWS;
+}
+
+static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d) {
+  pool p = {.context = context, .frame = frame, .delivery = d};
+  p.has_parts = cs_sink_parts(d->sink, &p.parts);
+  p.band_rows = choose_rows(&p, d->desc);
+  int32_t total = p.total = count_bands(frame, p.band_rows);
   p.lane_count = frame->workers < total ? frame->workers : (int)total;
   p.band_count = p.lane_count * AHEAD;
   pthread_mutex_init(&p.mutex, NULL);
-  pthread_cond_init(&p.done, NULL);
+  cs_wait_init(&p.done);
   pthread_cond_init(&p.room, NULL);
   p.lanes = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *p.lanes);
   p.bands = cs_mem_array(context->memory, (size_t)p.band_count, sizeof *p.bands);
@@ -237,6 +361,8 @@ static celspan_status render_pool(celspan_context *context, const cs_frame *fram
     p.bands[i].index = -1;
   if (status == CELSPAN_OK)
     status = init_lanes(context, frame, p.lanes, p.lane_count);
+  if (status == CELSPAN_OK && p.has_parts)
+    status = open_parts(&p);
   if (status == CELSPAN_OK)
     status = run_pool(&p, d, workers);
   if (p.lanes)
@@ -275,8 +401,7 @@ celspan_status cs_bands_render(celspan_context *context, const cs_frame *frame,
                                const celspan_frame_desc *desc, const celspan_sink *sink,
                                celspan_statistics *statistics) {
   delivery d = {context, desc, sink, statistics, 0, frame->crop_height};
-  int32_t total = (int32_t)(((int64_t)frame->crop_height + frame->band_rows - 1) / frame->band_rows);
-  if (frame->workers == 1 || total == 1)
+  if (frame->workers == 1 || frame->crop_height <= frame->band_rows)
     return render_alone(context, frame, &d);
-  return render_pool(context, frame, &d, total);
+  return render_pool(context, frame, &d);
 }

@@ -84,13 +84,13 @@ static bool needs_one_thread(const cs_frame *frame) {
   return false;
 }
 
+int cs_frame_workers(int wanted) {
+  double count = wanted > 0 ? wanted : (double)sysconf(_SC_NPROCESSORS_ONLN);
+  return (int)cs_number_clamp(count, 1, WORKER_LIMIT);
+}
+
 static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
-  int processors = (int)cs_number_clamp((double)sysconf(_SC_NPROCESSORS_ONLN), 1, WORKER_LIMIT);
-  frame->workers = desc->workers <= 0 ? processors : desc->workers;
-  if (frame->workers > WORKER_LIMIT)
-    frame->workers = WORKER_LIMIT;
-  if (needs_one_thread(frame))
-    frame->workers = 1;
+  frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(desc->workers);
   int32_t share = frame->crop_height / (frame->workers * 8);
   frame->band_rows = desc->strip_rows > 0 ? desc->strip_rows : share < 4 ? 4 : share > 64 ? 64 : share;
 }

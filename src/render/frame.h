@@ -24,6 +24,8 @@ typedef struct cs_frame {
 CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
                                                const celspan_frame_desc *desc, cs_frame *out);
 void cs_frame_free(cs_frame *frame, cs_memory *memory);
+/* Threads for a number that is asked for; 0 or less: one a processor. */
+int cs_frame_workers(int wanted);
 
 typedef struct cs_lane {
   celspan_context context; /* a branch of the frame's */

@@ -51,7 +51,9 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
                              const celspan_sink *sink, celspan_statistics *statistics,
                              bool *ended) {
   celspan_statistics counted = {0};
-  meter m = meter_begin(context);
+  meter m = {0};
+  if (statistics) /* else other frames may be made at the same time, and share the peak */
+    m = meter_begin(context);
   cs_frame frame;
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
@@ -59,9 +61,10 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }
-  meter_end(context, &m, &counted);
-  if (statistics)
+  if (statistics) {
+    meter_end(context, &m, &counted);
     *statistics = counted;
+  }
   return status;
 }
 

@@ -1,5 +1,6 @@
 #include "scene/body.h"
 
+#include "geometry/matrix.h"
 #include "scene/door.h"
 #include "scene/texture.h"
 #include "scene/value.h"
@@ -19,6 +20,7 @@ celspan_status cs_body_create(celspan_context *context, cs_body_kind kind, celsp
   atomic_init(&body->references, 1);
   body->memory = cs_memory_ref(context->memory);
   body->kind = kind;
+  body->has_procedure = kind == CS_BODY_SCANLINE;
   body->texture = kept;
   cs_outline_init(&body->outline);
   *out = body;
@@ -111,11 +113,21 @@ celspan_status cs_body_wrap(celspan_context *context, cs_body *body, celspan_sta
   return status;
 }
 
+celspan_status cs_body_check_placement(celspan_context *context, const cs_body *body,
+                                       const celspan_matrix *matrix) {
+  if (!body->has_procedure || cs_matrix_is_upright(matrix))
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "transform: a scan-line primitive can be moved and scaled, but not rotated, skewed "
+                 "or put in perspective");
+}
+
 celspan_status celspan_object_transform(celspan_context *context, celspan_object *object,
                                         const celspan_matrix *matrix, celspan_object **out) {
   CS_TRY(cs_door_given(context, "transform", "the object", object));
   celspan_matrix whole;
   CS_TRY(cs_door_transform(context, &object->matrix, matrix, &whole));
+  CS_TRY(cs_body_check_placement(context, object->body, &whole));
   return create_object(context, object->body, &whole, object->fade, out);
 }
 

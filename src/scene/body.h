@@ -21,6 +21,11 @@ void cs_body_unref(cs_body *body);
 CELSPAN_CHECKED celspan_status cs_body_wrap(celspan_context *context, cs_body *body,
                                             celspan_status status, celspan_object **out);
 
+/* BAD_ARGUMENT when a procedure takes part and its rows would not run along the frame's. */
+CELSPAN_CHECKED celspan_status cs_body_check_placement(celspan_context *context,
+                                                       const cs_body *body,
+                                                       const celspan_matrix *matrix);
+
 /* Copies a list, keeping every object; *out is NULL when count is 0. noun and field are for the
  * message. Errors: NO_MEMORY, BAD_ARGUMENT for an object that is NULL. */
 CELSPAN_CHECKED celspan_status cs_body_list_copy(celspan_context *context, const char *noun,

@@ -16,6 +16,7 @@ static celspan_status measure(celspan_context *context, cs_body *body, const cha
     const cs_body *operand = body->operands[i]->body;
     body->depth = operand->depth > body->depth ? operand->depth : body->depth;
     body->primitive_count += operand->primitive_count;
+    body->has_procedure |= operand->has_procedure;
     if (body->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);

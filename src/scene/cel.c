@@ -84,6 +84,8 @@ celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
   CS_TRY(cs_door_given(context, "transform", "the cel", cel));
   celspan_cel fields = *cel;
   CS_TRY(cs_door_transform(context, &cel->matrix, matrix, &fields.matrix));
+  for (size_t i = 0; i < cel->object_count; i++)
+    CS_TRY(cs_body_check_placement(context, cel->objects[i]->body, &fields.matrix));
   return create(context, &fields, cel->objects, cel->object_count, out);
 }
 

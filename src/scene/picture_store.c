@@ -47,6 +47,8 @@ static void destroy_store(cs_service *service) {
   cs_mem_free(store->memory, store, sizeof *store);
 }
 
+static void trim_store(cs_service *service);
+
 celspan_status cs_store_get(celspan_context *context, cs_picture_store **out) {
   celspan_context *root = context->root;
   cs_service *held = __atomic_load_n(&root->pictures, __ATOMIC_ACQUIRE);
@@ -54,7 +56,7 @@ celspan_status cs_store_get(celspan_context *context, cs_picture_store **out) {
     cs_picture_store *store = cs_mem_array(context->memory, 1, sizeof *store);
     if (!store)
       return cs_fail_memory(context);
-    store->service.destroy = destroy_store;
+    store->service = (cs_service){destroy_store, trim_store};
     store->memory = context->memory;
     store->budget = root->picture_bytes;
     pthread_mutex_init(&store->lock, NULL);
@@ -142,14 +144,26 @@ static void free_block(cs_picture_store *store, cs_picture_block *block) {
   store->bytes -= sizeof *block;
 }
 
-/* Drops what was not used for longest until `size` more bytes fit, or nothing is left to drop. */
-static void make_room(cs_picture_store *store, size_t size) {
-  while (store->oldest && store->bytes + size > store->budget) {
+/* Drops what was not used for longest until no more than `size` bytes are left, or nothing that can
+ * be dropped. */
+static void shrink(cs_picture_store *store, size_t size) {
+  while (store->oldest && store->bytes > size) {
     cs_picture_block *block = store->oldest;
     list_remove(store, block);
     bucket_remove(store, block);
     free_block(store, block);
   }
+}
+
+static void make_room(cs_picture_store *store, size_t size) {
+  shrink(store, store->budget > size ? store->budget - size : 0);
+}
+
+static void trim_store(cs_service *service) {
+  cs_picture_store *store = (cs_picture_store *)service;
+  pthread_mutex_lock(&store->lock);
+  shrink(store, 0);
+  pthread_mutex_unlock(&store->lock);
 }
 
 static bool grow_buckets(cs_picture_store *store) {

@@ -71,6 +71,7 @@ typedef struct cs_body {
   size_t operand_count;
   int depth; /* levels of booleans below and with this one; 0 for primitives */
   size_t primitive_count; /* below and with this one, each as often as it is reached */
+  bool has_procedure;     /* below or with this one */
 } cs_body;
 
 struct celspan_object {
@@ -128,6 +129,13 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
                                double film_height);
 /* The front light of a cel: its own, the rostrum's, or white; brightness included. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
+/* What exposures show, whatever the view; two that hash alike show the same as long as neither holds
+ * a procedure and their pictures' files do not change. */
+cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
+/* Whether a scan-line procedure takes part. */
+bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
+/* The sizes and times of change of the pictures' files as they are now. */
+cs_hash cs_scene_hash_files(const celspan_exposure *exposures, size_t count);
 /* A back light times the rostrum's brightness; its matte as it is. */
 celspan_light cs_scene_back(const celspan_rostrum *rostrum, celspan_light back);
 

@@ -1,4 +1,7 @@
-/* Going through everything a rostrum holds: counting, and reading the headers of its pictures. */
+/* Going through everything a rostrum holds: counting, naming, and looking at its pictures. */
+#include <sys/stat.h>
+
+#include "scene/picture_store.h"
 #include "scene/scene.h"
 
 /* Called for every primitive, as often as it is reached. */
@@ -54,4 +57,52 @@ static celspan_status check_primitive(celspan_context *context, void *user,
 
 celspan_status celspan_rostrum_check(celspan_context *context, const celspan_rostrum *rostrum) {
   return visit_rostrum(context, rostrum, check_primitive, NULL);
+}
+
+/* ---------------------------------------------------------------- what a frame shows */
+
+static bool has_procedure(const celspan_cel *cel) {
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (cel->objects[i]->body->has_procedure)
+      return true;
+  return false;
+}
+
+bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; k < exposures[i].rostrum->cel_count; k++)
+      if (has_procedure(exposures[i].rostrum->cels[k]))
+        return true;
+  return false;
+}
+
+cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count) {
+  cs_hash hash = cs_hash_begin(count);
+  for (size_t i = 0; i < count; i++) {
+    cs_hash_hash(&hash, exposures[i].rostrum->hash);
+    cs_hash_number(&hash, exposures[i].weight);
+  }
+  return cs_hash_end(hash);
+}
+
+static celspan_status hash_file(celspan_context *context, void *user, const cs_body *primitive) {
+  (void)context;
+  const cs_picture *picture = picture_of(primitive);
+  struct stat found = {0};
+  if (!picture)
+    return CELSPAN_OK;
+  cs_hash_word(user, stat(picture->file, &found) == 0);
+  cs_hash_word(user, (uint64_t)found.st_size);
+  cs_hash_word(user, (uint64_t)found.st_mtim.tv_sec);
+  cs_hash_word(user, (uint64_t)found.st_mtim.tv_nsec);
+  return CELSPAN_OK;
+}
+
+cs_hash cs_scene_hash_files(const celspan_exposure *exposures, size_t count) {
+  cs_hash hash = cs_hash_begin(count);
+  for (size_t i = 0; i < count; i++) {
+    celspan_status never_fails = visit_rostrum(NULL, exposures[i].rostrum, hash_file, &hash);
+    (void)never_fails;
+  }
+  return cs_hash_end(hash);
 }

@@ -31,6 +31,12 @@ CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *ro
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
+/* Room for `more` spans after those that are there. */
+static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,
+                                                            size_t more) {
+  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, row->count + more,
+                        sizeof *row->spans);
+}
 
 static inline celspan_status cs_row_single(celspan_context *context, cs_row *row, int32_t x0,
                                            int32_t x1, cs_v4 colour) {

@@ -2,11 +2,12 @@
 
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: six doubles, two slots, a walk. */
-#define ITEM_SIZE (6 * sizeof(double) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
+/* Bytes of one boundary over all arrays: six doubles, a crossing, two slots, a walk. */
+#define ITEM_SIZE                                                                                  \
+  (6 * sizeof(double) + sizeof(cs_crossing) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
-  *active = (cs_active){.set = set, .cull = cull};
+  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
@@ -40,6 +41,7 @@ static celspan_status grow(celspan_context *context, cs_active *active) {
   active->y0 = carve(&at, active->y0, old, wanted, sizeof *active->y0);
   active->slope = carve(&at, active->slope, old, wanted, sizeof *active->slope);
   active->y1 = carve(&at, active->y1, old, wanted, sizeof *active->y1);
+  active->crossing = carve(&at, active->crossing, old, wanted, sizeof *active->crossing);
   active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
   active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
   cs_mem_free(context->memory, active->block, old * ITEM_SIZE);
@@ -66,21 +68,43 @@ static celspan_status append(celspan_context *context, cs_active *active, uint32
   if (active->count == active->capacity)
     CS_TRY(grow(context, active));
   uint32_t slot = active->free_slots[--active->free_count];
+  const cs_boundary_chain *c = &active->set->chains[chain];
   size_t i = active->count++;
   active->slot[i] = slot;
+  active->crossing[i] = (cs_crossing){c->leaf, c->direction};
   cs_boundary_start(active->set, chain, y, &active->walks[slot]);
   take_segment(active, i);
   active->x[i] = cs_boundary_x(&active->walks[slot], y);
   return CELSPAN_OK;
 }
 
-static void move_boundary(cs_active *active, size_t to, size_t from) {
-  active->x[to] = active->x[from];
-  active->x0[to] = active->x0[from];
-  active->y0[to] = active->y0[from];
-  active->slope[to] = active->slope[from];
-  active->y1[to] = active->y1[from];
-  active->slot[to] = active->slot[from];
+/* ---------------------------------------------------------------- moving */
+
+/* Moves boundaries [from, from + count) to `to`; what they leave behind is to be written over. */
+static void move_boundaries(cs_active *active, size_t to, size_t from, size_t count) {
+  memmove(active->x + to, active->x + from, count * sizeof *active->x);
+  memmove(active->x0 + to, active->x0 + from, count * sizeof *active->x0);
+  memmove(active->y0 + to, active->y0 + from, count * sizeof *active->y0);
+  memmove(active->slope + to, active->slope + from, count * sizeof *active->slope);
+  memmove(active->y1 + to, active->y1 + from, count * sizeof *active->y1);
+  memmove(active->crossing + to, active->crossing + from, count * sizeof *active->crossing);
+  memmove(active->slot + to, active->slot + from, count * sizeof *active->slot);
+}
+
+/* Moves boundary `from` left to place `to`; those between make room. */
+static void insert_boundary(cs_active *active, size_t to, size_t from) {
+  double x = active->x[from], x0 = active->x0[from], y0 = active->y0[from];
+  double slope = active->slope[from], y1 = active->y1[from];
+  cs_crossing crossing = active->crossing[from];
+  uint32_t slot = active->slot[from];
+  move_boundaries(active, to + 1, to, from - to);
+  active->x[to] = x;
+  active->x0[to] = x0;
+  active->y0[to] = y0;
+  active->slope[to] = slope;
+  active->y1[to] = y1;
+  active->crossing[to] = crossing;
+  active->slot[to] = slot;
 }
 
 /* ---------------------------------------------------------------- order */
@@ -94,34 +118,39 @@ static inline bool is_right(const cs_active *active, size_t i, size_t j) {
   return active->walks[active->slot[i]].chain > active->walks[active->slot[j]].chain;
 }
 
-/* Moves boundary i left to its place among 0..i-1, which are in order. */
-static bool settle(cs_active *active, size_t i) {
-  size_t to = i;
-  while (to > 0 && is_right(active, to - 1, i))
-    to--;
-  if (to == i)
-    return false;
-  double x = active->x[i], x0 = active->x0[i], y0 = active->y0[i];
-  double slope = active->slope[i], y1 = active->y1[i];
-  uint32_t slot = active->slot[i];
-  for (size_t j = i; j > to; j--)
-    move_boundary(active, j, j - 1);
-  active->x[to] = x;
-  active->x0[to] = x0;
-  active->y0[to] = y0;
-  active->slope[to] = slope;
-  active->y1[to] = y1;
-  active->slot[to] = slot;
-  return true;
+/* Where boundary i belongs among 0..i-1, which are in order: near its place when it is about right,
+ * by halves when it is new. */
+static size_t find_place(const cs_active *active, size_t i) {
+  size_t high = i, step = 1;
+  while (high >= step && is_right(active, high - step, i)) {
+    high -= step;
+    step *= 2;
+  }
+  size_t low = high >= step ? high - step + 1 : 0;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (is_right(active, middle, i))
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return low;
 }
 
-static bool sort(cs_active *active) {
-  bool changed = false;
+/* Brings the order about. */
+static void sort(cs_active *active, cs_change *change) {
   const double *x = active->x;
-  for (size_t i = 1; i < active->count; i++)
-    if (!(x[i - 1] < x[i])) /* equal x too: slopes and chains decide */
-      changed |= settle(active, i);
-  return changed;
+  if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
+    return;
+  for (size_t i = 1; i < active->count; i++) {
+    if (x[i - 1] < x[i]) /* equal x too: slopes and chains decide */
+      continue;
+    size_t to = find_place(active, i);
+    if (to == i)
+      continue;
+    insert_boundary(active, to, i);
+    *change = cs_change_join(*change, (cs_change){to, active->count - (i + 1)});
+  }
 }
 
 /* ---------------------------------------------------------------- heights */
@@ -130,21 +159,25 @@ static int32_t tile_row_of(const cs_active *active, double y) {
   return active->cull->tile_rows > 0 ? cs_cull_row(active->cull, y) : 0;
 }
 
+/* Lets the chains in that begin at or above y, each at its place. */
 static celspan_status begin_chains(celspan_context *context, cs_active *active, double y,
-                                   bool *changed) {
+                                   cs_change *change) {
   const cs_boundary_chain *chains = active->set->chains;
   for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++) {
     uint32_t chain = (uint32_t)active->next;
-    if (y < chains[chain].y1 && cs_cull_keeps(active->cull, active->set, chain, active->tile_row)) {
+    if (y < chains[chain].y1 && cs_cull_keeps(active->cull, chain, active->tile_row)) {
       CS_TRY(append(context, active, chain, y));
-      *changed = true;
+      size_t last = active->count - 1, place = find_place(active, last);
+      if (place < last)
+        insert_boundary(active, place, last);
+      *change = cs_change_join(*change, (cs_change){place, last - place});
     }
   }
   return CELSPAN_OK;
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
-  bool changed;
+  cs_change change;
   for (size_t i = 0; i < active->count; i++)
     active->free_slots[active->free_count++] = active->slot[i];
   active->count = 0;
@@ -152,9 +185,7 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
   active->y = active->y_next = y;
   active->bend_count = active->vertex_count = 0;
   active->tile_row = tile_row_of(active, y);
-  CS_TRY(begin_chains(context, active, y, &changed));
-  sort(active);
-  return CELSPAN_OK;
+  return begin_chains(context, active, y, &change);
 }
 
 static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
@@ -164,16 +195,24 @@ static celspan_status note_vertex(celspan_context *context, cs_active *active, d
   return CELSPAN_OK;
 }
 
+static void widen(cs_bend *noted, double x) {
+  noted->low = x < noted->low ? x : noted->low;
+  noted->high = x > noted->high ? x : noted->high;
+}
+
 /* Steps boundary i on until its segment holds y or its chain ends, noting the vertices passed.
  * Displaced vertices may run back a little; those hold no height and are not noted. */
 static celspan_status bend(celspan_context *context, cs_active *active, size_t i, double y) {
   cs_boundary_walk *walk = &active->walks[active->slot[i]];
   cs_bend noted = {.boundary = (uint32_t)i, .vertex = (uint32_t)active->vertex_count};
   double above = active->y;
+  noted.low = noted.high = active->x[i];
   while (walk->y1 <= y && !noted.ends) {
     active->x_next[i] = walk->x1;
-    if (walk->y1 > above && walk->y1 < y)
+    if (walk->y1 > above && walk->y1 < y) {
       CS_TRY(note_vertex(context, active, walk->x1, above = walk->y1));
+      widen(&noted, walk->x1);
+    }
     noted.ends = !cs_boundary_next(active->set, walk);
   }
   noted.ends_above = noted.ends && walk->y1 < y;
@@ -181,6 +220,7 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   take_segment(active, i);
   if (!noted.ends)
     active->x_next[i] = cs_boundary_x(walk, y);
+  widen(&noted, active->x_next[i]);
   CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
                         active->bend_count + 1, sizeof *active->bends));
   active->bends[active->bend_count++] = noted;
@@ -188,41 +228,34 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
-  double *restrict x_next = active->x_next;
-  const double *restrict x0 = active->x0, *restrict y0 = active->y0;
-  const double *restrict slope = active->slope, *restrict y1 = active->y1;
-  size_t count = active->count;
-  int ends = 0;
+  cs_segments segments = {active->x0, active->y0, active->slope, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  for (size_t i = 0; i < count; i++) {
-    x_next[i] = x0[i] + (y - y0[i]) * slope[i];
-    ends |= y1[i] <= y;
-  }
-  for (size_t i = 0; ends && i < count; i++)
-    if (y1[i] <= y)
+  if (!CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
+    return CELSPAN_OK;
+  for (size_t i = 0; i < active->count; i++)
+    if (active->y1[i] <= y)
       CS_TRY(bend(context, active, i, y));
   return CELSPAN_OK;
 }
 
 /* Takes the chains that have ended out of the order. */
-static bool drop_ended(cs_active *active) {
-  size_t kept = 0, next_bend = 0;
-  for (size_t i = 0; i < active->count; i++) {
-    while (next_bend < active->bend_count && active->bends[next_bend].boundary < i)
-      next_bend++;
-    if (next_bend < active->bend_count && active->bends[next_bend].boundary == i &&
-        active->bends[next_bend].ends) {
-      active->free_slots[active->free_count++] = active->slot[i];
+static void drop_ended(cs_active *active, cs_change *change) {
+  size_t kept = 0, from = 0, old_count = active->count;
+  for (size_t k = 0; k < active->bend_count; k++) {
+    size_t i = active->bends[k].boundary;
+    if (!active->bends[k].ends)
       continue;
-    }
-    if (kept != i)
-      move_boundary(active, kept, i);
-    kept++;
+    active->free_slots[active->free_count++] = active->slot[i];
+    if (kept < from)
+      move_boundaries(active, kept, from, i - from);
+    kept += i - from;
+    *change = cs_change_join(*change, (cs_change){kept, old_count - (i + 1)});
+    from = i + 1;
   }
-  bool changed = kept != active->count;
-  active->count = kept;
-  return changed;
+  if (kept < from)
+    move_boundaries(active, kept, from, old_count - from);
+  active->count = kept + (old_count - from);
 }
 
 /* Takes the chains that the next row of tiles does not keep out of the order, and those that only it
@@ -232,10 +265,10 @@ static celspan_status change_tile_row(celspan_context *context, cs_active *activ
   size_t kept = 0;
   for (size_t i = 0; i < active->count; i++) {
     uint32_t chain = active->walks[active->slot[i]].chain;
-    if (!cs_cull_keeps(cull, active->set, chain, active->tile_row))
+    if (!cs_cull_keeps(cull, chain, active->tile_row))
       active->free_slots[active->free_count++] = active->slot[i];
     else
-      move_boundary(active, kept++, i);
+      move_boundaries(active, kept++, i, 1);
   }
   active->count = kept;
   for (uint32_t k = cull->enter_starts[active->tile_row];
@@ -245,23 +278,24 @@ static celspan_status change_tile_row(celspan_context *context, cs_active *activ
   return CELSPAN_OK;
 }
 
-celspan_status cs_active_settle(celspan_context *context, cs_active *active, bool *changed) {
+celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_change *change) {
   int32_t tile_row = tile_row_of(active, active->y_next);
-  *changed = true;
+  *change = cs_change_all;
   if (tile_row > active->tile_row + 1)
     return cs_active_start(context, active, active->y_next);
   double *left_behind = active->x;
   active->x = active->x_next;
   active->x_next = left_behind;
   active->y = active->y_next;
-  *changed = active->bend_count > 0 && drop_ended(active);
+  *change = cs_change_none;
+  if (active->bend_count > 0)
+    drop_ended(active, change);
   active->bend_count = active->vertex_count = 0;
   if (tile_row != active->tile_row) {
     active->tile_row = tile_row;
     CS_TRY(change_tile_row(context, active));
-    *changed = true;
+    *change = cs_change_all;
   }
-  CS_TRY(begin_chains(context, active, active->y, changed));
-  *changed |= sort(active);
-  return CELSPAN_OK;
+  sort(active, change);
+  return begin_chains(context, active, active->y, change);
 }

@@ -12,6 +12,7 @@
 #ifndef CS_SWEEP_ACTIVE_H
 #define CS_SWEEP_ACTIVE_H
 
+#include "sweep/advance.h"
 #include "sweep/cull.h"
 
 /* What a boundary does between two heights, when that is not one straight piece. */
@@ -21,16 +22,40 @@ typedef struct cs_bend {
   uint32_t vertex_count;
   bool ends;       /* it is not there at the lower height */
   bool ends_above; /* it ended before, at its last vertex */
+  double low, high; /* the least and the greatest x on the way, both ends included */
 } cs_bend;
+
+/* What crossing a boundary from left to right changes. */
+typedef struct cs_crossing {
+  uint32_t leaf;
+  int32_t direction;
+} cs_crossing;
+
+/* Where the order at a height differs from the one before: the boundaries left of place `low` and
+ * the last `tail` ones are the same as before, and what lies between two of them too. */
+typedef struct cs_change {
+  size_t low, tail;
+} cs_change;
+
+static const cs_change cs_change_none = {SIZE_MAX, SIZE_MAX};
+static const cs_change cs_change_all = {0, 0};
+
+static inline bool cs_change_is_none(cs_change change) { return change.low == SIZE_MAX; }
+
+static inline cs_change cs_change_join(cs_change a, cs_change b) {
+  return (cs_change){a.low < b.low ? a.low : b.low, a.tail < b.tail ? a.tail : b.tail};
+}
 
 typedef struct cs_active {
   const cs_boundary_set *set;
   const cs_cull *cull;
+  cs_isa isa;
   int32_t tile_row; /* that holds the current height */
   /* arrays of like fields, `count` of each, in order */
   double *x;     /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
   double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
+  cs_crossing *crossing;
   uint32_t *slot;
   size_t count;
   /* by slot */
@@ -57,11 +82,11 @@ CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_acti
  * is at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
                                                double y);
-/* Moves down to the height reached. *changed: boundaries began, ended or changed places, or another
- * row of tiles has begun.
+/* Moves down to the height reached. *change: where boundaries began, ended or changed places; all of
+ * the order when another row of tiles has begun.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
-                                                bool *changed);
+                                                cs_change *change);
 
 /* The toggles that stand for culled chains at the current height, from left to right. */
 static inline const cs_toggle *cs_active_toggles(const cs_active *active, const cs_toggle **end) {
@@ -74,6 +99,19 @@ static inline const cs_toggle *cs_active_toggles(const cs_active *active, const 
 
 static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, size_t i) {
   return &active->set->chains[active->walks[active->slot[i]].chain];
+}
+
+/* The bend of boundary i, or NULL. */
+static inline const cs_bend *cs_active_bend(const cs_active *active, size_t i) {
+  size_t low = 0, high = active->bend_count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (active->bends[middle].boundary < i)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
 }
 
 #endif

@@ -1,12 +1,18 @@
 #include "sweep/cull.h"
 
 #include "base/number.h"
+#include "geometry/polyline.h"
 
+#include <math.h>
 #include <string.h>
 
 #define LEAVES_LEAST 8 /* with fewer there is nothing to gain */
 #define TILE_ROWS_MOST 256
 #define TILE_HEIGHT_LEAST 4
+/* How far, in tiles, chords may lie from the curves they stand for: fewer chords are quicker, a
+ * boundary that is taken for wider hides less. */
+#define SLACK_TILES 0.25
+#define SLACK_LEAST 0x1p-8 /* pixels: more than all rounding */
 
 /* The columns a chain touches in one row of tiles. */
 typedef struct reach {
@@ -19,7 +25,9 @@ typedef struct culler {
   const cs_cull_leaf *leaves;
   size_t leaf_count;
   double width, height, margin, opaque;
+  double slack; /* pixels */
   cs_cull *cull;
+  int32_t *last_rows;    /* by chain: of tiles; less than the first where it is nowhere near */
   reach *reaches;        /* one a kept bit */
   size_t reach_count;
   uint32_t *leaf_starts; /* leaf_count + 1, into by_leaf */
@@ -51,14 +59,14 @@ static double row_foot(const culler *c, int32_t row) {
                                        : (double)(row + 1) * c->cull->tile_height;
 }
 
-/* Rows of tiles that a chain crosses; false when it is nowhere near the frame. */
-static bool chain_rows(const culler *c, uint32_t chain, int32_t *first, int32_t *last) {
-  const cs_boundary_chain *ch = &c->set->chains[chain];
-  if (ch->y1 <= -c->margin || ch->y0 >= c->height + c->margin)
-    return false;
-  *first = cs_cull_row(c->cull, ch->y0);
-  *last = cs_cull_row(c->cull, ch->y1);
-  return true;
+/* Finds the rows of tiles that every chain crosses. */
+static void find_rows(culler *c) {
+  for (size_t i = 0; i < c->set->chain_count; i++) {
+    const cs_boundary_chain *chain = &c->set->chains[i];
+    bool is_near = chain->y1 > -c->margin && chain->y0 < c->height + c->margin;
+    c->cull->first_rows[i] = is_near ? cs_cull_row(c->cull, chain->y0) : 0;
+    c->last_rows[i] = is_near ? cs_cull_row(c->cull, chain->y1) : -1;
+  }
 }
 
 static uint8_t column(const culler *c, double x) {
@@ -82,40 +90,67 @@ static void widen(reach *r, uint8_t at) {
   r->high = at > r->high ? at : r->high;
 }
 
-/* Walks a chain down the frame and notes the columns it touches in every row of tiles. A tile's
- * edge counts for both tiles beside it, so that rounding cannot put a boundary outside its reach. */
-static void trace_chain(const culler *c, uint32_t chain, int32_t first, int32_t last,
+/* A chord of a chain, and how far from it the chain may be. */
+typedef struct chord {
+  celspan_point top, foot;
+  double slack;
+} chord;
+
+/* x of the chord at a height, held to its ends. */
+static double chord_x(const chord *line, double y) {
+  if (y <= line->top.y)
+    return line->top.x;
+  if (y >= line->foot.y)
+    return line->foot.x;
+  return line->top.x +
+         (line->foot.x - line->top.x) * ((y - line->top.y) / (line->foot.y - line->top.y));
+}
+
+/* Notes the columns that a chord touches in the rows first..last. */
+static void trace_chord(const culler *c, const chord *line, int32_t first, int32_t last,
                         reach *reaches) {
-  const cs_boundary_chain *ch = &c->set->chains[chain];
-  double y = cs_number_clamp(ch->y0, -c->margin, ch->y1);
-  double foot = cs_number_clamp(ch->y1, y, c->height + c->margin);
-  cs_boundary_walk walk;
-  cs_boundary_start(c->set, chain, y, &walk);
-  for (int32_t row = first; row <= last; row++) {
-    double end = row_foot(c, row);
-    reach *r = &reaches[row - first];
-    end = end < foot ? end : foot;
-    *r = (reach){column(c, cs_boundary_x(&walk, y)), column(c, cs_boundary_x(&walk, y))};
-    while (walk.y1 < end) {
-      widen(r, column(c, walk.x1));
-      if (!cs_boundary_next(c->set, &walk))
-        break;
-    }
-    widen(r, column(c, cs_boundary_x(&walk, end < walk.y1 ? end : walk.y1)));
-    r->low -= r->low > 0;
-    r->high += r->high < CS_CULL_COLUMNS - 1;
-    y = end;
+  int32_t from = cs_cull_row(c->cull, line->top.y - line->slack);
+  int32_t to = cs_cull_row(c->cull, line->foot.y + line->slack);
+  from = from > first ? from : first;
+  to = to < last ? to : last;
+  for (int32_t row = from; row <= to; row++) {
+    double top = chord_x(line, row_top(c, row) - line->slack);
+    double foot = chord_x(line, row_foot(c, row) + line->slack);
+    widen(&reaches[row - first], column(c, (top < foot ? top : foot) - line->slack));
+    widen(&reaches[row - first], column(c, (top < foot ? foot : top) + line->slack));
   }
+}
+
+/* Walks a piece in chords as long as the slack allows: s segments of a piece lie within s^2 + 2 times
+ * its overhang of their chord, displaced vertices included. */
+static void trace_piece(const culler *c, const cs_boundary_piece *piece, int32_t first,
+                        int32_t last, reach *reaches) {
+  double stride = piece->overhang > 0 ? sqrt(fmax(c->slack / piece->overhang - 2, 1)) : 1;
+  uint32_t step = stride < piece->segments ? (uint32_t)stride : piece->segments;
+  chord line = {.slack = SLACK_LEAST + ((double)step * step + 2) * piece->overhang};
+  line.top = cs_polyline_vertex(c->set, piece, 0);
+  for (uint32_t vertex = 0; vertex < piece->segments; line.top = line.foot) {
+    vertex = piece->segments - vertex > step ? vertex + step : piece->segments;
+    line.foot = cs_polyline_vertex(c->set, piece, vertex);
+    trace_chord(c, &line, first, last, reaches);
+  }
+}
+
+static void trace_chain(const culler *c, uint32_t chain, reach *reaches) {
+  const cs_boundary_chain *ch = &c->set->chains[chain];
+  int32_t first = c->cull->first_rows[chain], last = c->last_rows[chain];
+  for (int32_t row = first; row <= last; row++)
+    reaches[row - first] = (reach){CS_CULL_COLUMNS - 1, 0};
+  for (uint32_t k = 0; k < ch->piece_count; k++)
+    trace_piece(c, &c->set->pieces[ch->piece + k], first, last, reaches);
 }
 
 static celspan_status trace_chains(culler *c) {
   cs_cull *cull = c->cull;
   size_t chains = c->set->chain_count, bits = 0;
-  int32_t first, last;
   for (uint32_t chain = 0; chain < chains; chain++) {
     cull->bits[chain] = bits;
-    if (chain_rows(c, chain, &first, &last))
-      bits += (size_t)(last - first + 1);
+    bits += (size_t)(c->last_rows[chain] - cull->first_rows[chain] + 1);
   }
   c->reach_count = bits;
   cull->kept_words = bits / 64 + 1;
@@ -124,8 +159,7 @@ static celspan_status trace_chains(culler *c) {
   if ((bits > 0 && !c->reaches) || !cull->kept)
     return cs_fail_memory(c->context);
   for (uint32_t chain = 0; chain < chains; chain++)
-    if (chain_rows(c, chain, &first, &last))
-      trace_chain(c, chain, first, last, c->reaches + cull->bits[chain]);
+    trace_chain(c, chain, c->reaches + cull->bits[chain]);
   return CELSPAN_OK;
 }
 
@@ -147,18 +181,24 @@ typedef struct footprint {
   uint64_t touched;
   reach turning; /* columns between what begins and ends in the row */
   bool turns, keeps;
-  int32_t winding[CS_CULL_COLUMNS + 1]; /* differences along the columns at the top of the row */
+  uint64_t crossed; /* columns that some chain enters from, at the top of the row */
+  int32_t winding[CS_CULL_COLUMNS]; /* what the crossings of a column add up to, where crossed */
 } footprint;
+
+static void cross_column(footprint *f, uint8_t index, int32_t direction) {
+  uint64_t bit = (uint64_t)1 << index;
+  f->winding[index] = (f->crossed & bit ? f->winding[index] : 0) + direction;
+  f->crossed |= bit;
+}
 
 static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footprint *f) {
   const cs_boundary_chain *ch = &c->set->chains[chain];
   double top = row_top(c, row), foot = row_foot(c, row);
-  int32_t first = cs_cull_row(c->cull, ch->y0);
-  size_t bit = c->cull->bits[chain] + (size_t)(row - first);
+  size_t bit = c->cull->bits[chain] + (size_t)(row - c->cull->first_rows[chain]);
   reach r = c->reaches[bit];
   f->touched |= column_mask(r);
   if (ch->y0 <= top)
-    f->winding[r.low + 1] += ch->direction;
+    cross_column(f, r.low, ch->direction);
   bool turns = ch->y0 > top || ch->y1 < foot;
   if (turns) {
     f->turning = f->turns ? f->turning : r;
@@ -178,10 +218,12 @@ static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footpr
 static uint64_t inside_mask(const footprint *f, int32_t winding_mask) {
   uint64_t inside = 0;
   int32_t winding = 0;
-  for (int column_index = 0; column_index < CS_CULL_COLUMNS; column_index++) {
-    winding += f->winding[column_index];
-    if (winding & winding_mask)
-      inside |= (uint64_t)1 << column_index;
+  for (uint64_t left = f->crossed; left; left &= left - 1) {
+    int index = __builtin_ctzll(left);
+    bool was_inside = winding & winding_mask;
+    winding += f->winding[index];
+    if (was_inside != ((winding & winding_mask) != 0))
+      inside ^= ~(uint64_t)0 << index; /* from here on */
   }
   inside &= ~f->touched;
   return f->turns ? inside & ~column_mask(f->turning) : inside;
@@ -199,12 +241,15 @@ static void cover(culler *c, int32_t row, uint64_t inside, double through) {
 }
 
 static celspan_status cull_leaf_row(culler *c, uint32_t leaf, int32_t row) {
-  footprint f = {0};
+  footprint f;
+  f.touched = f.crossed = 0;
+  f.turning = (reach){0, 0};
+  f.turns = f.keeps = false;
   size_t toggles = c->toggle_count;
   for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
-    int32_t first, last;
-    if (chain_rows(c, c->by_leaf[k], &first, &last) && row >= first && row <= last)
-      CS_TRY(place_chain(c, c->by_leaf[k], row, &f));
+    uint32_t chain = c->by_leaf[k];
+    if (row >= c->cull->first_rows[chain] && row <= c->last_rows[chain])
+      CS_TRY(place_chain(c, chain, row, &f));
   }
   uint64_t inside = f.touched ? inside_mask(&f, c->leaves[leaf].winding_mask) : 0;
   if (!f.keeps && !(inside & c->live[row]))
@@ -217,10 +262,8 @@ static celspan_status cull_leaf_row(culler *c, uint32_t leaf, int32_t row) {
 static celspan_status cull_leaf(culler *c, uint32_t leaf) {
   int32_t top = c->cull->tile_rows, bottom = -1;
   for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
-    int32_t first, last;
-    if (!chain_rows(c, c->by_leaf[k], &first, &last))
-      continue;
-    top = first < top ? first : top;
+    int32_t first = c->cull->first_rows[c->by_leaf[k]], last = c->last_rows[c->by_leaf[k]];
+    top = first <= last && first < top ? first : top;
     bottom = last > bottom ? last : bottom;
   }
   for (int32_t row = top; row <= bottom; row++)
@@ -270,18 +313,14 @@ static celspan_status sort_toggles(culler *c) {
 
 /* Calls for every row of tiles of every chain below its first in which it is kept and was not. */
 static void list_enters(culler *c, uint32_t *counts, uint32_t *enters) {
-  int32_t first, last;
-  for (uint32_t chain = 0; chain < c->set->chain_count; chain++) {
-    if (!chain_rows(c, chain, &first, &last))
-      continue;
-    for (int32_t row = first + 1; row <= last; row++)
-      if (cs_cull_keeps(c->cull, c->set, chain, row) &&
-          !cs_cull_keeps(c->cull, c->set, chain, row - 1)) {
+  const cs_cull *cull = c->cull;
+  for (uint32_t chain = 0; chain < c->set->chain_count; chain++)
+    for (int32_t row = cull->first_rows[chain] + 1; row <= c->last_rows[chain]; row++)
+      if (cs_cull_keeps(cull, chain, row) && !cs_cull_keeps(cull, chain, row - 1)) {
         if (enters)
           enters[counts[row]] = chain;
         counts[row]++;
       }
-  }
 }
 
 static celspan_status find_enters(culler *c) {
@@ -307,13 +346,15 @@ static celspan_status take_room(culler *c) {
   cs_cull *cull = c->cull;
   size_t rows = (size_t)cull->tile_rows, chains = c->set->chain_count;
   cull->bits = cs_mem_array(memory, chains, sizeof *cull->bits);
+  cull->first_rows = cs_mem_array(memory, chains, sizeof *cull->first_rows);
+  c->last_rows = cs_mem_array(memory, chains, sizeof *c->last_rows);
   cull->toggle_starts = cs_mem_array(memory, rows + 1, sizeof *cull->toggle_starts);
   cull->enter_starts = cs_mem_array(memory, rows + 1, sizeof *cull->enter_starts);
   c->leaf_starts = cs_mem_array(memory, c->leaf_count + 1, sizeof *c->leaf_starts);
   c->by_leaf = cs_mem_array(memory, chains, sizeof *c->by_leaf);
   c->live = cs_mem_array(memory, rows, sizeof *c->live);
   c->through = cs_mem_array(memory, rows * CS_CULL_COLUMNS, sizeof *c->through);
-  if (!cull->bits || !cull->toggle_starts || !cull->enter_starts || !c->leaf_starts ||
+  if (!cull->bits || !cull->first_rows || !c->last_rows || !cull->toggle_starts || !cull->enter_starts || !c->leaf_starts ||
       !c->by_leaf || !c->live || !c->through)
     return cs_fail_memory(c->context);
   memset(c->live, 0xff, rows * sizeof *c->live);
@@ -326,6 +367,7 @@ static void give_room_back(culler *c) {
   cs_memory *memory = c->context->memory;
   size_t rows = (size_t)c->cull->tile_rows;
   cs_mem_free(memory, c->reaches, c->reach_count * sizeof *c->reaches);
+  cs_mem_free(memory, c->last_rows, c->set->chain_count * sizeof *c->last_rows);
   cs_mem_free(memory, c->leaf_starts, (c->leaf_count + 1) * sizeof *c->leaf_starts);
   cs_mem_free(memory, c->by_leaf, c->set->chain_count * sizeof *c->by_leaf);
   cs_mem_free(memory, c->live, rows * sizeof *c->live);
@@ -336,6 +378,7 @@ static void give_room_back(culler *c) {
 
 static celspan_status cull_all(culler *c) {
   CS_TRY(take_room(c));
+  find_rows(c);
   CS_TRY(trace_chains(c));
   group_by_leaf(c);
   for (size_t leaf = c->leaf_count; leaf-- > 0;)
@@ -356,6 +399,7 @@ celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *s
   cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
   culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
               .width = width, .height = height, .margin = margin, .opaque = opaque, .cull = &cull};
+  c.slack = SLACK_TILES * fmin((double)width / CS_CULL_COLUMNS, cull.tile_height);
   celspan_status status = cull_all(&c);
   give_room_back(&c);
   if (status == CELSPAN_OK)
@@ -373,5 +417,6 @@ void cs_cull_free(cs_cull *cull, cs_memory *memory) {
   cs_mem_free(memory, cull->enter_starts, rows * sizeof *cull->enter_starts);
   cs_mem_free(memory, cull->kept, cull->kept_words * sizeof *cull->kept);
   cs_mem_free(memory, cull->bits, cull->chain_count * sizeof *cull->bits);
+  cs_mem_free(memory, cull->first_rows, cull->chain_count * sizeof *cull->first_rows);
   *cull = (cs_cull){0};
 }

@@ -40,6 +40,7 @@ typedef struct cs_cull {
   uint32_t *enter_starts;
   uint64_t *kept; /* a bit for every row of tiles of every chain */
   size_t *bits;   /* by chain: its first bit */
+  int32_t *first_rows; /* by chain: the row of tiles that bit stands for */
   size_t toggle_count, enter_count, kept_words, chain_count;
 } cs_cull;
 
@@ -58,11 +59,10 @@ static inline int32_t cs_cull_row(const cs_cull *cull, double y) {
 }
 
 /* Whether a chain that crosses the row of tiles is kept in it. */
-static inline bool cs_cull_keeps(const cs_cull *cull, const cs_boundary_set *set, uint32_t chain,
-                                 int32_t row) {
+static inline bool cs_cull_keeps(const cs_cull *cull, uint32_t chain, int32_t row) {
   if (cull->tile_rows == 0)
     return true;
-  size_t bit = cull->bits[chain] + (size_t)(row - cs_cull_row(cull, set->chains[chain].y0));
+  size_t bit = cull->bits[chain] + (size_t)(row - cull->first_rows[chain]);
   return cull->kept[bit / 64] >> (bit % 64) & 1;
 }
 

@@ -140,6 +140,28 @@ describe("a wrong type", function()
   end
 end)
 
+describe("a scan-line primitive that would not stand upright", function()
+  local refusal = "a scan-line primitive can be moved and scaled, but not rotated, skewed or put in perspective"
+  local function rows()
+    return celspan.scanline { bounds = { 0, 0, 9, 9 }, spans = function() end }
+  end
+  local cases = {
+    { "rotate", function() rows():rotate(10) end },
+    { "skew", function() (rows() | celspan.union {}):translate(3, 0):skew(5, 0) end },
+    { "transform", function() rows():transform { 1, 0, 0, 0, 1, 0, 0, 0.1, 1 } end },
+    { "rotate", function() celspan.cel { rows() - celspan.union {} }:rotate(-3) end },
+  }
+  for i, case in ipairs(cases) do
+    it("is refused at the call: " .. case[1] .. " " .. i, function()
+      assert.are.equal(case[1] .. ": " .. refusal, rest_of(case[2]))
+    end)
+  end
+
+  it("may be mirrored and turned by half", function()
+    rows():rotate(180):scale(-1, 2):translate(4, 4)
+  end)
+end)
+
 describe("a number that is refused", function()
   local cases = {
     { "circle: radius is -1; ", function() celspan.circle { centre = { 0, 0 }, radius = -1 } end },

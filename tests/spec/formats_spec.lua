@@ -119,6 +119,24 @@ describe("PNG and Targa files", function()
     end
   end)
 
+  -- With the largest difference that the format's own numbers explain.
+  local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
+  it_reads_pictures("may be so long and thin in all formats that can hold them", function()
+    for _, size in ipairs { "1000000x1", "1x1000000" } do
+      assert.are.same({ 0, "", "" }, { render("g.png", true, "--size " .. size) })
+      for format, difference in pairs(LONG) do
+        assert.are.same({ 0, "", "" }, { render("g." .. format, true, "--size " .. size) })
+        local code, out, err = celspan(("compare g.png g.%s --fail %g"):format(format, difference))
+        assert.are.equal(0, code, format .. " " .. size .. ": " .. out .. err)
+      end
+    end
+    for _, format in ipairs { "tga", "jpg", "webp", "gif", "jp2" } do
+      local code, _, err = render("h." .. format, true, "--size 1000000x1")
+      assert.are.equal(6, code)
+      assert.truthy(err:find("files hold at most", 1, true), err)
+    end
+  end)
+
   it("are refused where Targa has no numbers for the size", function()
     local code, _, err = render("f.tga", false, "--size 65536x2")
     assert.are_not.equal(0, code)

@@ -57,13 +57,13 @@ static bool is_ordered(const cs_active *active) {
 /* Walks down in steps and, at each, stands there anew: both must list the same. */
 static void check_walk(const cs_boundary_set *set, const cs_cull *cull, double step) {
   cs_active walked, fresh;
-  bool changed;
+  cs_change change;
   cs_active_init(&walked, set, cull);
   cs_active_init(&fresh, set, cull);
   CHECK(cs_active_start(context, &walked, 0) == CELSPAN_OK);
   for (double y = step; y < HEIGHT; y += step) {
     CHECK(cs_active_reach(context, &walked, y) == CELSPAN_OK);
-    CHECK(cs_active_settle(context, &walked, &changed) == CELSPAN_OK);
+    CHECK(cs_active_settle(context, &walked, &change) == CELSPAN_OK);
     CHECK(cs_active_start(context, &fresh, y) == CELSPAN_OK);
     CHECK(same_order(&walked, &fresh));
     CHECK(is_ordered(&walked));

@@ -64,7 +64,9 @@ static void add_bytes(store *plain, cs_deflate *deflate, celspan_context *contex
   for (size_t i = 0; i < size; i++)
     bytes[i] = (unsigned char)(style & 1 ? random_below(256) : random_below(3) * 50);
   append(plain, bytes, size);
-  CHECK(cs_deflate_bytes(deflate, context, bytes, size) == CELSPAN_OK);
+  unsigned char *space = cs_deflate_space(deflate, context);
+  memcpy(space, bytes, size);
+  CHECK(cs_deflate_take(deflate, space, size) == CELSPAN_OK);
 }
 
 static void add_run(store *plain, cs_deflate *deflate, celspan_context *context, int style,
@@ -74,7 +76,8 @@ static void add_run(store *plain, cs_deflate *deflate, celspan_context *context,
   pixel &= UINT64_MAX >> (64 - 8 * pixel_size);
   for (size_t i = 0; i < count; i++)
     append(plain, &pixel, pixel_size);
-  CHECK(cs_deflate_run(deflate, context, pixel, count) == CELSPAN_OK);
+  cs_deflate_run run = {pixel, (uint32_t)count};
+  CHECK(cs_deflate_runs(deflate, context, &run, 1) == CELSPAN_OK);
 }
 
 typedef struct stream {
@@ -169,8 +172,8 @@ static void check_long_white(celspan_context *context) {
   plain.bytes = malloc(plain.size = plain.capacity = (size_t)16 << 20);
   memset(plain.bytes, 255, plain.size);
   cs_deflate_begin(deflate);
-  for (int i = 0; i < 2; i++)
-    CHECK(cs_deflate_run(deflate, context, UINT64_MAX, 1 << 20) == CELSPAN_OK);
+  const cs_deflate_run runs[2] = {{UINT64_MAX, 1 << 20}, {UINT64_MAX, 1 << 20}};
+  CHECK(cs_deflate_runs(deflate, context, runs, 2) == CELSPAN_OK);
   CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
   made.sum = cs_deflate_join(made.sum, sum);
   cs_deflate_destroy(deflate, context);
@@ -186,14 +189,17 @@ static void check_errors_stick(celspan_context *context) {
   CHECK(cs_deflate_create(context, 4, write_store, &packed, &deflate) == CELSPAN_OK);
   celspan_status status = CELSPAN_OK;
   cs_deflate_begin(deflate);
-  for (int i = 0; i < 300000; i++)
-    status = cs_deflate_run(deflate, context, random_below(0xffffffffu), 1);
+  for (int i = 0; i < 300000; i++) {
+    cs_deflate_run run = {random_below(0xffffffffu), 1};
+    status = cs_deflate_runs(deflate, context, &run, 1);
+  }
   CHECK(status == CELSPAN_OUTPUT);
   CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OUTPUT);
   CHECK(packed.size <= packed.limit);
   CHECK_TEXT(celspan_context_error(context), "full");
   cs_deflate_begin(deflate);
-  CHECK(cs_deflate_run(deflate, context, 1, 1) == CELSPAN_OK);
+  const cs_deflate_run one = {1, 1};
+  CHECK(cs_deflate_runs(deflate, context, &one, 1) == CELSPAN_OK);
   cs_deflate_destroy(deflate, context);
   cs_deflate_destroy(NULL, context);
   free(packed.bytes);

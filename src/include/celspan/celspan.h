@@ -579,7 +579,8 @@ typedef struct celspan_statistics {
 
 /* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,
  * disjoint, without gap from column 0 to width-1 of the crop. `end` is called once after a
- * successful `begin`, with the outcome so far; what it returns counts. begin and end may be NULL.
+ * successful `begin`, with the outcome so far; what it returns counts. begin and end may be NULL;
+ * without `row` rows are made, and counted in the statistics, and go nowhere.
  */
 typedef struct celspan_sink {
   void *user;

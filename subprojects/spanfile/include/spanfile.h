@@ -90,6 +90,13 @@ void spanfile_writer_destroy(spanfile_writer *writer);
  * alike. BAD_ARGUMENT: more pixels than the row has. */
 spanfile_status spanfile_writer_run(spanfile_writer *writer, uint32_t count, uint64_t pixel);
 spanfile_status spanfile_writer_pixels(spanfile_writer *writer, const void *pixels, uint32_t count);
+/* Many runs in one call, which is faster; equal neighbours are one run. */
+typedef struct spanfile_run {
+  uint32_t count; /* at least 1 */
+  uint64_t pixel;
+} spanfile_run;
+spanfile_status spanfile_writer_runs(spanfile_writer *writer, const spanfile_run *runs,
+                                     size_t run_count);
 /* Ends the row. BAD_ARGUMENT: pixels are missing, or there are rows enough. */
 spanfile_status spanfile_writer_row(spanfile_writer *writer);
 /* After the last row: index and trailer, and all bytes to the write function. */

@@ -38,16 +38,26 @@ static const unsigned char sf_end_magic[8] = {'s', 'p', 'a', 'n', 's', 'e', 'n',
 /* No extension area and no developer directory: their offsets have 32 bits. */
 static const unsigned char sf_footer[SF_FOOTER_BYTES] = "\0\0\0\0\0\0\0\0TRUEVISION-XFILE.";
 
+/* As little endian, and back. */
+static inline uint32_t sf_little_32(uint32_t number) {
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  return number >> 24 | (number >> 8 & 0xff00) | (number << 8 & 0xff0000) | number << 24;
+#else
+  return number;
+#endif
+}
 static inline void sf_store_32(unsigned char *at, uint32_t number) {
-  for (int i = 0; i < 4; i++)
-    at[i] = (unsigned char)(number >> 8 * i);
+  number = sf_little_32(number);
+  memcpy(at, &number, sizeof number);
 }
 static inline void sf_store_64(unsigned char *at, uint64_t number) {
   sf_store_32(at, (uint32_t)number);
   sf_store_32(at + 4, (uint32_t)(number >> 32));
 }
 static inline uint32_t sf_load_32(const unsigned char *at) {
-  return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+  uint32_t number;
+  memcpy(&number, at, sizeof number);
+  return sf_little_32(number);
 }
 static inline uint64_t sf_load_64(const unsigned char *at) {
   return sf_load_32(at) | (uint64_t)sf_load_32(at + 4) << 32;

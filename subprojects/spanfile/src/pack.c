@@ -11,6 +11,55 @@ bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const 
 
 /* ---------------------------------------------------------------- runs */
 
+/* Room for the rest of the runs, whatever becomes of them. */
+static bool make_room(const sf_memory *memory, sf_row *row, size_t pixel_size, size_t run_count) {
+  while (row->capacity - row->count < run_count)
+    if (!sf_row_grow(memory, row))
+      return false;
+  return sf_bytes_room(memory, &row->values, run_count * SF_RUN_LEAST * pixel_size);
+}
+
+/* Of an antialiased picture most runs are short, and which are cannot be foreseen: nothing is
+ * called and little is decided for a run, and as many pixels are stored as a short one can have.
+ * pixel_size: known to the compiler. */
+static inline void pack_runs(sf_row *row, size_t pixel_size, const spanfile_run *run,
+                             const spanfile_run *end) {
+  const uint64_t whole = pixel_size == 4 ? UINT32_MAX : UINT64_MAX;
+  uint32_t column = sf_row_end(row);
+  spanfile_span *next = row->spans + row->count;
+  spanfile_span before = row->count > 0 ? next[-1] : (spanfile_span){.kind = SPANFILE_GRADIENT};
+  unsigned char *values = row->values.at + row->values.size;
+  while (run < end) {
+    uint64_t pixel = run->pixel & whole;
+    uint32_t count = run->count;
+    for (run++; run < end && (run->pixel & whole) == pixel; run++)
+      count += run->count;
+    for (int i = 0; i < SF_RUN_LEAST - 1; i++)
+      sf_store_pixel(values + i * pixel_size, pixel_size, pixel);
+    bool is_continued = (before.kind == SPANFILE_RUN) & (before.pixel == pixel);
+    bool is_raw = (count < SF_RUN_LEAST) & !is_continued;
+    bool is_joined = is_continued | (is_raw & (before.kind == SPANFILE_RAW));
+    values += is_raw ? count * pixel_size : 0;
+    column += count;
+    before = (spanfile_span){column, is_raw ? SPANFILE_RAW : SPANFILE_RUN, is_raw ? 0 : pixel};
+    next -= is_joined;
+    *next++ = before;
+  }
+  row->count = (size_t)(next - row->spans);
+  row->values.size = (size_t)(values - row->values.at);
+}
+
+bool sf_pack_runs(const sf_memory *memory, sf_row *row, size_t pixel_size, const spanfile_run *runs,
+                  size_t run_count) {
+  if (!make_room(memory, row, pixel_size, run_count))
+    return false;
+  if (pixel_size == 4)
+    pack_runs(row, 4, runs, runs + run_count);
+  else
+    pack_runs(row, 8, runs, runs + run_count);
+  return true;
+}
+
 static uint32_t run_length(const unsigned char *pixels, uint32_t count, size_t pixel_size) {
   uint64_t first = sf_load_pixel(pixels, pixel_size);
   uint32_t length = 1;

@@ -7,7 +7,9 @@
 /* Shorter runs are kept as pixels: a packet of their own and another begun after it cost more. */
 enum { SF_RUN_LEAST = 3 };
 
-/* Both append to the row; false: no memory. */
+/* These append to the row; false: no memory. */
+bool sf_pack_runs(const sf_memory *memory, sf_row *row, size_t pixel_size, const spanfile_run *runs,
+                  size_t run_count);
 bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
                  uint32_t count);
 bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format,

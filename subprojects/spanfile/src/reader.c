@@ -31,7 +31,8 @@ struct spanfile_reader {
   bool has_row;
   uint32_t y; /* of the row in hand */
   sf_row row;
-  int64_t *moves; /* of its ends, from the row above */
+  bool has_gradients; /* the row */
+  int64_t *moves;     /* of its ends, from the row above */
   size_t move_capacity;
   uint64_t next; /* offset of the record after it */
   spanfile_counts counts;
@@ -153,6 +154,7 @@ static spanfile_status read_packet(spanfile_reader *reader, const file_record *r
   if (left - 3 < size)
     return REFUSE(reader, offset, "row %" PRIu32 ": a packet is cut", reader->y);
   bool is_run = kind == SPANFILE_RUN;
+  reader->has_gradients |= kind == SPANFILE_GRADIENT;
   uint64_t pixel = is_run ? sf_load_pixel(packet + 3, reader->pixel_size) : 0;
   if (!sf_row_add(&reader->memory, &reader->row, count, kind, pixel) ||
       (!is_run && !sf_bytes_add(&reader->memory, &reader->row.values, packet + 3, size)))
@@ -164,6 +166,8 @@ static spanfile_status read_packet(spanfile_reader *reader, const file_record *r
 /* Of the row as it stands now: lengths, and numbers between which there is something. */
 static spanfile_status check_gradients(spanfile_reader *reader, const file_record *record) {
   const sf_row *row = &reader->row;
+  if (!reader->has_gradients)
+    return SPANFILE_OK;
   const unsigned char *values = sf_bytes_start(&row->values);
   uint32_t start = 0;
   for (size_t i = 0; i < row->count; start = row->spans[i++].end) {
@@ -194,6 +198,7 @@ static spanfile_status stand_still(spanfile_reader *reader) {
 
 static spanfile_status read_packets(spanfile_reader *reader, const file_record *record) {
   sf_row_clear(&reader->row);
+  reader->has_gradients = false;
   for (size_t at = 0; at < record->size;)
     TRY(read_packet(reader, record, &at));
   if (sf_row_end(&reader->row) != reader->info.width)
@@ -204,10 +209,12 @@ static spanfile_status read_packets(spanfile_reader *reader, const file_record *
 
 /* ---------------------------------------------------------------- a row as moves */
 
-/* The ends but the last, each moved; *at: moves past what was read. */
-static spanfile_status read_moves(spanfile_reader *reader, const file_record *record, size_t *at) {
+/* The ends but the last, each moved. *at: moves past what was read; *pixels: those in values. */
+static spanfile_status read_moves(spanfile_reader *reader, const file_record *record, size_t *at,
+                                  uint64_t *pixels) {
   size_t count = reader->row.count - 1, more = (count + 3) / 4;
   uint64_t offset = record->offset;
+  spanfile_span *spans = reader->row.spans;
   uint32_t start = 0, width = reader->info.width;
   if (record->size < more)
     return REFUSE(reader, offset, "row %" PRIu32 ": moves are missing", reader->y);
@@ -223,13 +230,15 @@ static spanfile_status read_moves(spanfile_reader *reader, const file_record *re
       rest = sf_unzigzag(number);
       more += size;
     }
-    int64_t move = reader->moves[i] + rest, end = (int64_t)reader->row.spans[i].end + move;
+    int64_t move = reader->moves[i] + rest, end = (int64_t)spans[i].end + move;
     if (end <= (int64_t)start || end >= (int64_t)width)
       return REFUSE(reader, offset, "row %" PRIu32 ": span %zu ends out of order", reader->y,
                     i + 1);
     reader->moves[i] = move;
-    start = reader->row.spans[i].end = (uint32_t)end;
+    *pixels += values_of(spans[i].kind, (uint32_t)end - start);
+    start = spans[i].end = (uint32_t)end;
   }
+  *pixels += values_of(spans[count].kind, width - start);
   *at = more;
   return SPANFILE_OK;
 }
@@ -237,11 +246,8 @@ static spanfile_status read_moves(spanfile_reader *reader, const file_record *re
 static spanfile_status read_moved(spanfile_reader *reader, const file_record *record) {
   sf_row *row = &reader->row;
   size_t at = 0;
-  TRY(read_moves(reader, record, &at));
   uint64_t pixels = 0;
-  uint32_t start = 0;
-  for (size_t i = 0; i < row->count; start = row->spans[i++].end)
-    pixels += values_of(row->spans[i].kind, row->spans[i].end - start);
+  TRY(read_moves(reader, record, &at, &pixels));
   if (pixels * reader->pixel_size != record->size - at)
     return REFUSE(reader, record->offset, "row %" PRIu32 ": has not the pixels it needs",
                   reader->y);

@@ -311,29 +311,30 @@ static bool put_row(spanfile_writer *writer) {
   return writer->status == SPANFILE_OK && put_packets(writer) && stand_still(writer);
 }
 
-static bool has_room(const spanfile_writer *writer, uint32_t count) {
+static bool has_room(const spanfile_writer *writer, uint64_t count) {
   return writer->y < writer->height && count <= writer->width - sf_row_end(&writer->row);
 }
 
-spanfile_status spanfile_writer_run(spanfile_writer *writer, uint32_t count, uint64_t pixel) {
-  if (writer->status != SPANFILE_OK || count == 0)
-    return writer->status;
-  if (!has_room(writer, count))
-    return fail(writer, SPANFILE_BAD_ARGUMENT);
-  sf_row *row = &writer->row;
-  pixel = writer->pixel_size == 4 ? (uint32_t)pixel : pixel;
-  bool is_continued = row->count > 0 && row->spans[row->count - 1].kind == SPANFILE_RUN &&
-                      row->spans[row->count - 1].pixel == pixel;
-  bool is_added;
-  if (count >= SF_RUN_LEAST || is_continued) {
-    is_added = sf_row_add(&writer->memory, row, count, SPANFILE_RUN, pixel);
-  } else {
-    unsigned char pixels[SF_RUN_LEAST * 8];
-    for (uint32_t i = 0; i < count; i++)
-      sf_store_pixel(pixels + i * writer->pixel_size, writer->pixel_size, pixel);
-    is_added = sf_pack_raw(&writer->memory, row, writer->pixel_size, pixels, count);
+spanfile_status spanfile_writer_runs(spanfile_writer *writer, const spanfile_run *runs,
+                                     size_t run_count) {
+  uint64_t count = 0;
+  bool has_empty = false;
+  for (size_t i = 0; i < run_count; i++) {
+    count += runs[i].count;
+    has_empty |= runs[i].count == 0;
   }
-  return is_added ? SPANFILE_OK : fail(writer, SPANFILE_NO_MEMORY);
+  if (writer->status != SPANFILE_OK)
+    return writer->status;
+  if (has_empty || !has_room(writer, count))
+    return fail(writer, SPANFILE_BAD_ARGUMENT);
+  return sf_pack_runs(&writer->memory, &writer->row, writer->pixel_size, runs, run_count)
+             ? SPANFILE_OK
+             : fail(writer, SPANFILE_NO_MEMORY);
+}
+
+spanfile_status spanfile_writer_run(spanfile_writer *writer, uint32_t count, uint64_t pixel) {
+  spanfile_run run = {count, pixel};
+  return spanfile_writer_runs(writer, &run, count > 0);
 }
 
 spanfile_status spanfile_writer_pixels(spanfile_writer *writer, const void *pixels,

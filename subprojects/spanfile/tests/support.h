@@ -181,22 +181,50 @@ static inline spanfile_writer *open_writer(const picture *p, memory_file *file) 
   return writer;
 }
 
-/* The row in pieces: runs as runs, the rest as arrays cut anywhere. */
+static inline uint64_t load_pixel(const unsigned char *at, size_t pixel_size) {
+  uint64_t pixel = 0;
+  for (size_t i = 0; i < pixel_size; i++)
+    pixel |= (uint64_t)at[i] << 8 * i;
+  return pixel;
+}
+
+/* The next pixels as at most 9 runs, cut now and then where nothing changes. How many pixels. */
+static inline uint32_t write_runs(random_state *random, spanfile_writer *writer,
+                                  const unsigned char *at, uint32_t left, size_t pixel_size) {
+  spanfile_run runs[9];
+  uint32_t run_count = 1 + random_below(random, 9), x = 0, taken = 0;
+  for (; taken < run_count && x < left; taken++) {
+    uint32_t count = 1, most = left - x;
+    most = random_below(random, 8) > 0 ? most : 1 + random_below(random, most);
+    while (count < most &&
+           memcmp(at + x * pixel_size, at + (x + count) * pixel_size, pixel_size) == 0)
+      count++;
+    runs[taken] = (spanfile_run){count, load_pixel(at + x * pixel_size, pixel_size)};
+    x += count;
+  }
+  CHECK(spanfile_writer_runs(writer, runs, taken) == SPANFILE_OK);
+  return x;
+}
+
+/* The row in pieces: as runs, as one run, or as arrays cut anywhere. */
 static inline void write_row(random_state *random, spanfile_writer *writer, const picture *p,
                              uint32_t y) {
   const unsigned char *row = picture_row(p, y);
   for (uint32_t x = 0; x < p->width;) {
     const unsigned char *at = row + x * p->pixel_size;
     uint32_t run = 1, left = p->width - x, count = 1 + random_below(random, left);
-    uint64_t pixel = 0;
     while (run < left && memcmp(at, at + run * p->pixel_size, p->pixel_size) == 0)
       run++;
-    for (size_t i = 0; i < p->pixel_size; i++)
-      pixel |= (uint64_t)at[i] << 8 * i;
-    bool is_run = run > 1 && random_below(random, 4) > 0;
-    CHECK((is_run ? spanfile_writer_run(writer, run, pixel)
-                  : spanfile_writer_pixels(writer, at, count)) == SPANFILE_OK);
-    x += is_run ? run : count;
+    uint32_t way = random_below(random, run > 1 ? 4 : 2);
+    if (way == 0) {
+      CHECK(spanfile_writer_pixels(writer, at, count) == SPANFILE_OK);
+      x += count;
+    } else if (way == 1) {
+      x += write_runs(random, writer, at, left, p->pixel_size);
+    } else {
+      CHECK(spanfile_writer_run(writer, run, load_pixel(at, p->pixel_size)) == SPANFILE_OK);
+      x += run;
+    }
   }
   CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
 }

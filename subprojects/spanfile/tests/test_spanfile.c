@@ -412,6 +412,14 @@ static void test_misuse(void) {
   CHECK(spanfile_writer_run(writer, 10, 0) == SPANFILE_BAD_ARGUMENT); /* it sticks */
   spanfile_writer_destroy(writer);
   writer = open_writer(&p, &file);
+  const spanfile_run runs[3] = {{9, 0}, {2, 1}, {0, 2}};
+  CHECK(spanfile_writer_runs(writer, runs, 2) == SPANFILE_BAD_ARGUMENT);
+  spanfile_writer_destroy(writer);
+  writer = open_writer(&p, &file);
+  CHECK(spanfile_writer_runs(writer, runs + 1, 2) == SPANFILE_BAD_ARGUMENT); /* an empty one */
+  spanfile_writer_destroy(writer);
+  writer = open_writer(&p, &file);
+  CHECK(spanfile_writer_run(writer, 0, 0) == SPANFILE_OK);
   CHECK(spanfile_writer_run(writer, 9, 0) == SPANFILE_OK);
   CHECK(spanfile_writer_row(writer) == SPANFILE_BAD_ARGUMENT);
   spanfile_writer_destroy(writer);

@@ -1,7 +1,7 @@
 /* One row to two sinks: a frame is written and hashed while it is made once.
  */
-#ifndef CS_CLI_TEE_H
-#define CS_CLI_TEE_H
+#ifndef CS_BIND_TEE_H
+#define CS_BIND_TEE_H
 
 #include "celspan/celspan.h"
 

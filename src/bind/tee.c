@@ -1,5 +1,5 @@
 /* A sink that feeds two. */
-#include "cli/tee.h"
+#include "bind/tee.h"
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   cs_tee *tee = user;

@@ -1,0 +1,32 @@
+/* Plain loops for the compiler to make vectors of: each step is one operation on every boundary. */
+#include "filter/edges.h"
+
+void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
+                                const double *restrict foot, size_t count, int32_t width) {
+  double *restrict low = edges->low, *restrict high = edges->high;
+  double *restrict area = edges->area, *restrict rest = edges->rest;
+  int32_t *restrict first = edges->first, *restrict end = edges->end;
+  const double right = width, whole = 0x1p52; /* above it doubles are whole numbers */
+#pragma omp simd
+  for (size_t i = 0; i < count; i++) {
+    double a = top[i] < foot[i] ? top[i] : foot[i], b = top[i] < foot[i] ? foot[i] : top[i];
+    double held = a > 0 ? a : 0, held_high = b > 0 ? b : 0;
+    held = held < right ? held : right;
+    held_high = held_high < right ? held_high : right;
+    double near = (held + whole) - whole, near_high = (held_high + whole) - whole;
+    double column = near - (near > held ? 1.0 : 0.0);
+    double last = near_high + (near_high < held_high ? 1.0 : 0.0);
+    double split = column + 1, by_twice = 0.5 / (b - a);
+    double one = split - 0.5 * (a + b);
+    double two = (split - a) * (split - a) * by_twice;
+    double two_rest = 1 - (b - split) * (b - split) * by_twice;
+    double leaves = (a < 0 ? held_high : 0) + (b > right ? right - held : 0);
+    double least = leaves > 0 ? column + 3 : last;
+    low[i] = a;
+    high[i] = b;
+    area[i] = cs_edges_round(b > split ? two : one);
+    rest[i] = cs_edges_round(b > split ? two_rest : 1);
+    first[i] = (int32_t)column;
+    end[i] = (int32_t)(last < least ? least : last);
+  }
+}

@@ -1,0 +1,66 @@
+#include "output/part.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define TAIL ".part"
+
+enum {
+  NAME_SIZE = 512,
+  DIGITS = 4,
+  TAIL_SIZE = 1 + DIGITS + sizeof TAIL - 1 /* ".12ef.part" */
+};
+
+/* Where locks are not to be had, nobody takes the file for left behind. */
+bool cs_part_claim(int descriptor) {
+  struct stat there;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    return errno != EWOULDBLOCK;
+  return fstat(descriptor, &there) != 0 || there.st_nlink > 0;
+}
+
+/* The name that a temporary file is to get; false when it is none. */
+static bool final_name(const char *temporary, char name[NAME_SIZE]) {
+  size_t length = strlen(temporary);
+  if (temporary[0] != '.' || length <= TAIL_SIZE + 1 || length >= NAME_SIZE)
+    return false;
+  const char *tail = temporary + length - TAIL_SIZE;
+  if (tail[0] != '.' || strcmp(tail + 1 + DIGITS, TAIL) != 0)
+    return false;
+  for (int i = 1; i <= DIGITS; i++)
+    if (!isxdigit((unsigned char)tail[i]))
+      return false;
+  memcpy(name, temporary + 1, length - 1 - TAIL_SIZE);
+  name[length - 1 - TAIL_SIZE] = '\0';
+  return true;
+}
+
+static void sweep(int folder, const char *temporary) {
+  int descriptor = openat(folder, temporary, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0)
+    return;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    unlinkat(folder, temporary, 0);
+  close(descriptor);
+}
+
+void cs_part_sweep(const char *pattern, bool (*matches)(const char *pattern, const char *name)) {
+  char path[4096], name[NAME_SIZE];
+  const char *slash = strrchr(pattern, '/');
+  const char *base = slash ? slash + 1 : pattern;
+  int length = snprintf(path, sizeof path, "%.*s.", (int)(base - pattern), pattern);
+  DIR *folder = length < (int)sizeof path ? opendir(path) : NULL;
+  if (!folder)
+    return;
+  for (struct dirent *entry; (entry = readdir(folder));)
+    if (final_name(entry->d_name, name) && matches(base, name))
+      sweep(dirfd(folder), entry->d_name);
+  closedir(folder);
+}

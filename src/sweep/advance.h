@@ -1,0 +1,21 @@
+/* What every row does to every boundary, in vector code: x at the next height, which segments end on
+ * the way, and whether the order still holds. */
+#ifndef CS_SWEEP_ADVANCE_H
+#define CS_SWEEP_ADVANCE_H
+
+#include "base/wide.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Segments: their tops, slopes and feet, arrays of `count`. */
+typedef struct cs_segments {
+  const double *x0, *y0, *slope, *y1;
+} cs_segments;
+
+/* Fills x_next with x at height y. Returns whether a segment ends at or above y. */
+CS_WIDE_DECLARE(bool, cs_advance_to,
+                (const cs_segments *segments, size_t count, double y, double *x_next));
+/* Whether each of x is less than the one after it. */
+CS_WIDE_DECLARE(bool, cs_advance_rises, (const double *x, size_t count));
+
+#endif

@@ -1,0 +1,152 @@
+// AGG: scanline_p8 on premultiplied BGRA.
+#include <agg_conv_curve.h>
+#include <agg_conv_transform.h>
+#include <agg_image_accessors.h>
+#include <agg_path_storage.h>
+#include <agg_pixfmt_rgba.h>
+#include <agg_rasterizer_scanline_aa.h>
+#include <agg_renderer_base.h>
+#include <agg_renderer_scanline.h>
+#include <agg_scanline_p.h>
+#include <agg_span_allocator.h>
+#include <agg_span_image_filter_rgba.h>
+#include <agg_span_interpolator_linear.h>
+#include <agg_span_subdiv_adaptor.h>
+#include <agg_trans_perspective.h>
+#include <cstring>
+#include <vector>
+
+#include "peer.h"
+
+namespace {
+
+using Format = agg::pixfmt_bgra32_pre;
+using Base = agg::renderer_base<Format>;
+
+struct Frame {
+  const bench_drawing *drawing;
+  agg::path_storage paths; // of all shapes, flattened at full size
+  std::vector<unsigned> starts;
+  int side;
+  bool is_antialiased;
+};
+
+void trace(const bench_shape &shape, double side, agg::path_storage &path) {
+  for (size_t i = 0; i < shape.segment_count; i++) {
+    const bench_point *p = shape.segments[i].p;
+    switch (shape.segments[i].verb) {
+    case BENCH_MOVE:
+      path.move_to(side * p[0].x, side * p[0].y);
+      break;
+    case BENCH_LINE:
+      path.line_to(side * p[0].x, side * p[0].y);
+      break;
+    case BENCH_CUBIC:
+      path.curve4(side * p[0].x, side * p[0].y, side * p[1].x, side * p[1].y, side * p[2].x,
+                  side * p[2].y);
+      break;
+    case BENCH_CLOSE:
+      path.close_polygon();
+      break;
+    }
+  }
+}
+
+void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
+  auto *frame = new Frame{drawing, {}, {}, side, is_antialiased};
+  agg::path_storage path;
+  for (size_t i = 0; i < drawing->shape_count; i++) {
+    path.remove_all();
+    trace(drawing->shapes[i], side, path);
+    agg::conv_curve<agg::path_storage> curve(path);
+    frame->starts.push_back(frame->paths.start_new_path());
+    frame->paths.concat_path(curve);
+  }
+  return frame;
+}
+
+agg::rgba8 colour(const bench_shape &s) {
+  return agg::rgba8(s.red, s.green, s.blue, s.alpha).premultiply();
+}
+
+void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
+  auto *frame = static_cast<Frame *>(user);
+  agg::rendering_buffer buffer(pixels, width, rows, 4 * width);
+  Format format(buffer);
+  Base base(format);
+  base.clear(agg::rgba8(255, 255, 255, 255));
+  agg::rasterizer_scanline_aa<> rasterizer;
+  agg::scanline_p8 scanline;
+  rasterizer.clip_box(0, 0, width, rows);
+  if (!frame->is_antialiased)
+    rasterizer.gamma(agg::gamma_threshold(0.5));
+  agg::trans_affine down = agg::trans_affine_translation(0, -first_row);
+  agg::conv_transform<agg::path_storage> placed(frame->paths, down);
+  for (size_t i = 0; i < frame->starts.size(); i++) {
+    const bench_shape &s = frame->drawing->shapes[i];
+    if (!bench_shape_meets(&s, frame->side, first_row, rows))
+      continue;
+    rasterizer.reset();
+    rasterizer.filling_rule(s.is_evenodd ? agg::fill_even_odd : agg::fill_non_zero);
+    rasterizer.add_path(placed, frame->starts[i]);
+    agg::render_scanlines_aa_solid(rasterizer, scanline, base, colour(s));
+  }
+}
+
+void end(void *user) { delete static_cast<Frame *>(user); }
+
+// Fills the overlay's quadrilateral with what `interpolator` finds in it.
+template <class Interpolator, class Filter>
+void fill(const bench_job *job, Base &base, Interpolator &interpolator) {
+  agg::rendering_buffer buffer(job->overlay, BENCH_OVERLAY_WIDTH, BENCH_OVERLAY_HEIGHT,
+                               4 * BENCH_OVERLAY_WIDTH);
+  Format overlay(buffer);
+  agg::image_accessor_clip<Format> source(overlay, agg::rgba8(0, 0, 0, 0));
+  Filter filter(source, interpolator);
+  agg::rasterizer_scanline_aa<> rasterizer;
+  agg::scanline_p8 scanline;
+  agg::span_allocator<agg::rgba8> spans;
+  rasterizer.clip_box(0, 0, BENCH_FRAME_WIDTH, BENCH_FRAME_HEIGHT);
+  rasterizer.move_to_d(job->corners[0][0], job->corners[0][1]);
+  for (int i = 1; i < 4; i++)
+    rasterizer.line_to_d(job->corners[i][0], job->corners[i][1]);
+  agg::render_scanlines_aa(rasterizer, scanline, base, spans, filter);
+}
+
+void fill_affine(const bench_job *job, Base &base) {
+  using Interpolator = agg::span_interpolator_linear<>;
+  using Source = agg::image_accessor_clip<Format>;
+  const double *m = job->inverse;
+  agg::trans_affine back(m[0], m[3], m[1], m[4], m[2], m[5]);
+  Interpolator interpolator(back);
+  fill<Interpolator, agg::span_image_filter_rgba_bilinear<Source, Interpolator>>(job, base,
+                                                                                 interpolator);
+}
+
+void fill_perspective(const bench_job *job, Base &base) {
+  using Linear = agg::span_interpolator_linear<agg::trans_perspective>;
+  using Interpolator = agg::span_subdiv_adaptor<Linear>;
+  using Source = agg::image_accessor_clip<Format>;
+  const double *m = job->inverse;
+  agg::trans_perspective back(m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]);
+  Linear linear(back);
+  Interpolator interpolator(linear);
+  fill<Interpolator, agg::span_image_filter_rgba_bilinear<Source, Interpolator>>(job, base,
+                                                                                 interpolator);
+}
+
+void picture(const bench_job *job, uint8_t *pixels) {
+  std::memcpy(pixels, job->ground, size_t(4) * BENCH_FRAME_WIDTH * BENCH_FRAME_HEIGHT);
+  agg::rendering_buffer buffer(pixels, BENCH_FRAME_WIDTH, BENCH_FRAME_HEIGHT,
+                               4 * BENCH_FRAME_WIDTH);
+  Format format(buffer);
+  Base base(format);
+  if (job->kind == BENCH_PERSPECTIVE)
+    fill_perspective(job, base);
+  else
+    fill_affine(job, base);
+}
+
+} // namespace
+
+extern "C" const bench_peer bench_peer_here = {true, begin, band, end, picture, true};

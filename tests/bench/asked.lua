@@ -1,0 +1,229 @@
+--- The figures that are asked of celspan: each a line of what is asked, what was measured, and
+--- whether that meets it. A figure whose rows are not in the table is told as not measured.
+local published = require "tests.bench.published"
+local results = require "tests.bench.results"
+
+local asked = {}
+local seconds = results.seconds
+
+local function time(value)
+  if value < 1e-3 then return ("%.0f us"):format(1e6 * value) end
+  if value < 1 then return ("%.3g ms"):format(1e3 * value) end
+  return ("%.3g s"):format(value)
+end
+
+asked.time = time
+
+--- lines: the list that grows; a value of nil is a figure that was not measured.
+local function add(lines, what, value, told, is_met)
+  lines[#lines + 1] = { what = what, told = value and told(value) or "not measured",
+                        is_met = value and is_met(value) }
+end
+
+local function at_most(lines, what, value, limit, told)
+  add(lines, what, value, told, function(v) return v <= limit end)
+end
+
+local function at_least(lines, what, value, limit, told)
+  add(lines, what, value, told, function(v) return v >= limit end)
+end
+
+local function times(value) return ("%.3g times"):format(value) end
+local function number(value) return ("%.2f"):format(value) end
+local function mebibytes(value) return ("%.1f MiB"):format(value) end
+
+local function over(a, b) return a and b and a / b end
+
+local function shapes(run, scene, side, output, antialias, renderer)
+  return run:one { part = "shapes", scene = scene, side = side, output = output,
+                   antialias = antialias, renderer = renderer or "celspan" }
+end
+
+-- ---------------------------------------------------------------- spans
+
+local function spans(run, lines)
+  for _, scene in ipairs { "10", "100", "1000" } do
+    for _, antialias in ipairs { "none", "area" } do
+      local power = run:exponent({ part = "shapes", scene = scene, output = "spans",
+        antialias = antialias, renderer = "celspan" }, { 4096, 30000, 100000, 1000000 })
+      at_most(lines, ("%s shapes, `%s`, to spans: power of the side, 4k to 1M, at most 1.0")
+        :format(scene, antialias), power, 1.0, number)
+    end
+  end
+  local limits = { { "100", 30000, 0.005, 0.016 }, { "1000", 30000, 0.030, 0.065 },
+                   { "100", 1000000, 0.06, 0.42 }, { "1000", 1000000, 0.2, 1.0 } }
+  for _, limit in ipairs(limits) do
+    local scene, side = limit[1], limit[2]
+    for i, antialias in ipairs { "none", "area" } do
+      at_most(lines, ("%s shapes at %s, `%s`, to spans: at most %s"):format(scene,
+        side == 30000 and "30k" or "1M", antialias, time(limit[2 + i])),
+        seconds(shapes(run, scene, side, "spans", antialias)), limit[2 + i], time)
+    end
+  end
+  for _, scene in ipairs { "100", "1000" } do
+    local large = shapes(run, scene, 1000000, "spans", "area")
+    local small = shapes(run, scene, 4096, "spans", "area")
+    at_most(lines, scene .. " shapes at 1M, `area`: peak memory under 64 MiB",
+      large and large.peak_kib / 1024, 64, mebibytes)
+    at_most(lines, scene .. " shapes, `area`: peak memory at 1M over that at 4k, flat",
+      over(large and large.peak_kib, small and small.peak_kib), 2, times)
+  end
+  local area = seconds(shapes(run, "100", 30000, "spans", "area"))
+  at_most(lines, "100 shapes at 30k, `area`: at most 15 ns a listed boundary (46 a row)",
+    area and 1e9 * area / (46 * 30000), 15, function(v) return ("%.1f ns"):format(v) end)
+end
+
+-- ---------------------------------------------------------------- pixels
+
+--- How many times celspan's best time the published best of Blend2D is.
+local function ahead(run, scene, side)
+  local mine = shapes(run, scene, side, "row", "area")
+  return over((published.shapes[scene] or {})[side], mine and mine.best_processor)
+end
+
+--- The same by the yardstick of AGG: Blend2D is taken to be as much faster than AGG here as it was
+--- where both were published.
+function asked.by_yardstick(run, scene, side)
+  local mine, agg = shapes(run, scene, side, "row", "area"), shapes(run, scene, side, "row", "area",
+    "agg")
+  local known = (published.agg[scene] or {})[side]
+  return known and over(over(seconds(agg), known / published.shapes[scene][side]), seconds(mine))
+end
+
+local names = { [1024] = "1k", [4096] = "4k", [30000] = "30k" }
+
+local function pixels(run, lines)
+  local bounds = {
+    ["10"] = { 1.1, 1.6, 2.9 }, ["100"] = { 1.1, 2.5, 11 }, ["1000"] = { 1.7, 6, 40 },
+    opaque = { 1, 1, 1 }, small = { false, 0.95, 1 }, faint = { 0.2, false, 1 },
+  }
+  for _, scene in ipairs { "10", "100", "1000", "opaque", "small", "faint" } do
+    for i, side in ipairs { 1024, 4096, 30000 } do
+      local bound = bounds[scene][i]
+      local name = tonumber(scene) and scene .. " shapes" or "the scene `" .. scene .. "`"
+      if bound then
+        at_least(lines, ("%s at %s to pixels: Blend2D, published, takes at least %g times as long")
+          :format(name, names[side], bound), ahead(run, scene, side), bound, times)
+      end
+    end
+  end
+end
+
+-- ---------------------------------------------------------------- pictures, softness
+
+--- The time of a peer over celspan's in a raster job.
+local function raster_ratio(run, job, renderer)
+  local mine = run:one { part = "raster", scene = job, renderer = "celspan", output = "whole" }
+  local other = run:one { part = "raster", scene = job, renderer = renderer }
+  return over(seconds(other), seconds(mine))
+end
+
+local function pictures(run, lines)
+  for _, job in ipairs { "affine", "perspective" } do
+    for _, peer in ipairs { { "cairo", "Cairo" }, { "agg", "AGG" }, { "vips", "libvips" },
+                            { "oiio", "OpenImageIO" }, { "qt", "Qt" } } do
+      local is_asked = not (job == "affine" and peer[1] == "qt")
+        and not (job == "perspective" and peer[1] == "cairo")
+      if is_asked then
+        at_least(lines, ("a picture over a picture, %s: ahead of %s"):format(job, peer[2]),
+          raster_ratio(run, job, peer[1]), 1, times)
+      end
+    end
+  end
+  local affine = run:one { part = "raster", scene = "affine", renderer = "celspan",
+                           output = "whole" }
+  at_most(lines, "a picture over a picture, affine: at most twice Blend2D's published time",
+    over(affine and affine.best_processor, published.pictures.affine), 2, times)
+  for _, sampling in ipairs { "nearest", "bilinear" } do
+    at_most(lines, ("figure 14, geometry over a picture, %s: power of the side, 10k to 30k, linear")
+      :format(sampling), run:exponent({ part = "figure14", scene = "geometry " .. sampling,
+      output = "spans" }, { 10000, 30000 }), 1.1, number)
+  end
+end
+
+local function softness(run, lines)
+  for _, art in ipairs { "100", "figure 11" } do
+    for _, radius in ipairs { 50, 500 } do
+      for _, peer in ipairs { { "opencv", "OpenCV" }, { "vips", "libvips" } } do
+        local scene = ("%s radius %d"):format(art, radius)
+        local mine = run:one { part = "defocus", scene = scene, renderer = "celspan",
+                               antialias = "gaussian", output = "row" }
+        local other = run:one { part = "defocus", scene = scene, renderer = peer[1] }
+        at_least(lines, ("defocus of %s, radius %d at 4096: not slower than %s"):format(
+          art == "100" and "100 shapes" or art, radius, peer[2]),
+          over(seconds(other), seconds(mine)), 1, times)
+      end
+    end
+  end
+end
+
+-- ---------------------------------------------------------------- files
+
+local function files(run, lines)
+  local limits = { none = 1, area = 3 }
+  for _, antialias in ipairs { "none", "area" } do
+    local row = run:one { part = "files", side = 1000000, output = "span", antialias = antialias }
+    at_most(lines, ("100 shapes at 1M x 1M to a span file, `%s`: under %d s"):format(antialias,
+      limits[antialias]), row and row.wall, limits[antialias], time)
+    at_most(lines, ("the same, `%s`: peak memory under 64 MiB"):format(antialias),
+      row and row.peak_kib / 1024, 64, mebibytes)
+  end
+  local png = run:one { part = "files", side = 30000, output = "png", antialias = "area",
+                        renderer = "celspan", workers = 1 }
+  local fast = run:one { part = "files", side = 30000, renderer = "OpenImageIO level 1" }
+  local good = run:one { part = "files", side = 30000, renderer = "OpenImageIO level 6" }
+  at_least(lines, "100 shapes at 30k, `area`, to PNG: 50 times faster than OpenImageIO at level 1",
+    over(seconds(fast), seconds(png)), 50, times)
+  at_most(lines, "the same: no larger than OpenImageIO's file at level 6",
+    over(png and png.bytes, good and good.bytes), 1, times)
+  local frame = run:one { part = "film png", renderer = "celspan" }
+  local other = run:one { part = "film png", renderer = "OpenImageIO default" }
+  at_least(lines, "a frame of the demo film as PNG: 5 times faster than OpenImageIO at its default",
+    over(seconds(other), seconds(frame)), 5, times)
+  at_most(lines, "the same: no larger", over(frame and frame.bytes, other and other.bytes), 1,
+    times)
+  local cut = run:one { part = "cut", side = 1000000, output = "cut of 4096" }
+  at_most(lines, "4096 x 4096 out of the terapixel span file: under 100 ms", cut and cut.wall, 0.1,
+    time)
+end
+
+-- ---------------------------------------------------------------- sequences
+
+--- Frames a second of a row of the film.
+local function rate(run, renderer, workers)
+  local row = run:one { part = "film", renderer = renderer, workers = workers }
+  return row and tonumber(row.scene:match "%d+") / row.wall
+end
+
+asked.rate = rate
+
+local function sequences(run, lines)
+  for _, side in ipairs { 4096, 30000 } do
+    for _, scene in ipairs { "100", "1000" } do
+      local one = run:one { part = "workers", scene = scene, side = side, workers = 1 }
+      local two = run:one { part = "workers", scene = scene, side = side, workers = 2 }
+      at_least(lines, ("%s shapes at %s to pixels: two workers at least 1.85 times one")
+        :format(scene, names[side]), over(one and one.wall, two and two.wall), 1.85, times)
+    end
+  end
+  at_least(lines, "the demo film to PNG: two workers at least 1.85 times one",
+    over(rate(run, "celspan", 2), rate(run, "celspan", 1)), 1.85, times)
+  at_least(lines, "the demo film to PNG: ahead of ffmpeg over the same layers",
+    over(rate(run, "celspan", 2), rate(run, "ffmpeg", 2)), 1, times)
+  at_least(lines, "the demo film to PNG: ahead of itself with nothing kept",
+    over(rate(run, "celspan", 2), rate(run, "celspan keeping nothing", 2)), 1, times)
+  local start = run:one { part = "start", scene = "small" }
+  at_most(lines, "a small script: under 5 ms from exec to the first row", start and start.wall,
+    0.005, time)
+end
+
+--- { { what, told, is_met }, ... }; is_met is nil where nothing was measured.
+function asked.lines(run)
+  local lines = {}
+  for _, part in ipairs { spans, pixels, pictures, softness, files, sequences } do
+    part(run, lines)
+  end
+  return lines
+end
+
+return asked

@@ -1,0 +1,76 @@
+--- The benchmark: measures everything and writes a table. From the top of the tree:
+---   lua5.4 tests/bench/main.lua BUILD FOLDER [--quick] [--skia MODULES] [PART...]
+--- BUILD was configured with -Dbench=true; FOLDER takes drawings, pictures and the table. Where
+--- parts are named, only those are measured.
+package.path = "./?.lua;./lua/?.lua;" .. package.path
+local Runner = require "tests.bench.runner"
+local scenes = require "tests.bench.scenes"
+local machine = require "tests.bench.machine"
+
+local files = require "tests.bench.parts_files"
+local film = require "tests.bench.parts_film"
+local pictures = require "tests.bench.parts_pictures"
+local shapes = require "tests.bench.parts_shapes"
+
+local parts = {
+  { "agreement", "whether all draw the same picture", shapes.agreement },
+  { "shapes", "10, 100 and 1000 random shapes", shapes.shapes },
+  { "hard", "scenes that are hard for spans", shapes.hard },
+  { "artwork", "real artwork", shapes.artwork },
+  { "large", "to spans, a hundred thousand and a million pixels a side", shapes.large },
+  { "whole", "whole images, and without antialiasing", shapes.whole },
+  { "workers", "one worker and two", shapes.workers },
+  { "png", "100 shapes to PNG", files.png },
+  { "span", "100 shapes, a million pixels a side, to a span file", files.span_file },
+  { "cut", "a cut out of the terapixel frame", files.cut },
+  { "raster", "a picture over a picture", pictures.raster },
+  { "figure14", "the paper's figure 14", pictures.figure14 },
+  { "multiplane", "a frame of twelve painted planes", pictures.multiplane },
+  { "defocus", "defocus of 100 shapes", pictures.defocus },
+  { "figure11", "the paper's figure 11", pictures.figure11 },
+  { "start", "from exec to the first row", film.start },
+  { "film_png", "a frame of the demo film to PNG", film.film_png },
+  { "film", "the demo film", film.film },
+}
+
+local function read_arguments(words)
+  local options = { build = words[1], folder = words[2], only = {} }
+  assert(options.folder, "usage: main.lua BUILD FOLDER [--quick] [--skia MODULES] [PART...]")
+  local i = 3
+  while words[i] do
+    if words[i] == "--quick" then options.is_quick = true
+    elseif words[i] == "--skia" then
+      i = i + 1
+      options.skia = words[i]
+    else options.only[words[i]] = true end
+    i = i + 1
+  end
+  return options
+end
+
+local options = read_arguments { ... }
+local runner = Runner.new { programs = options.build .. "/tests/bench",
+                            seconds = options.is_quick and 0.05 or 0.2,
+                            share = options.is_quick and 0 or 1 }
+local pipe = assert(io.popen "pwd")
+runner.root = pipe:read "l"
+pipe:close()
+runner.folder, runner.celspan = options.folder, options.build .. "/celspan"
+runner.skia = options.skia and Runner.command("node", "tests/bench/skia.js", options.skia)
+
+runner.has_material = scenes.write(options.folder)
+local began = os.time()
+for _, part in ipairs(parts) do
+  local name, title, run = table.unpack(part)
+  if next(options.only) == nil or options.only[name] then
+    print(("== %s (after %d s)"):format(title, os.time() - began))
+    run(runner, options.folder, options.is_quick)
+  end
+end
+
+local csv = options.folder .. "/bench.csv"
+runner:write(csv)
+machine.write(options.folder .. "/machine.txt", { began = began, ended = os.time(),
+  notes = runner.notes, same = runner.same, has_material = runner.has_material,
+  is_quick = options.is_quick })
+print(("== %d measurements in %s, after %d seconds"):format(#runner.rows, csv, os.time() - began))

@@ -1,0 +1,79 @@
+--- Files: PNG and span files beside OpenImageIO's PNG, and a cut of a million by a million pixels.
+local Command = require("tests.bench.runner").command
+
+local parts = {}
+
+local function written(runner, drawing, side, antialias, file, workers)
+  return { command = Command(runner:program "celspan", "shapes", drawing, side, antialias, "file",
+             workers, file), part = "files", scene = "100", side = side,
+           output = file:match "%.(%w+)$", antialias = antialias, renderer = "celspan",
+           workers = workers }
+end
+
+local function by_openimageio(runner, drawing, side, level, file)
+  return { command = Command(runner:program "oiio", "png", drawing, side, level, file),
+           part = "files", scene = "100", side = side, output = "png", antialias = "area",
+           renderer = "OpenImageIO level " .. level, workers = 1 }
+end
+
+--- Whether two readers that know nothing of celspan see the very pixels.
+local function compare_readers(runner, drawing, side, file)
+  local truth = runner:ask(Command(runner:program "celspan", "digest", drawing, side))
+  for _, reader in ipairs { "oiio", "vips" } do
+    local told = runner:has(reader) and runner:ask(Command(runner:program(reader), "read", file))
+    if told then
+      local is_same = told[1].digest == truth[1].digest
+      runner.same = runner.same or {}
+      runner.same[#runner.same + 1] = { reader = reader, side = side, is_same = is_same }
+      print(("   the PNG of %d decoded by %s: %s"):format(side, reader,
+        is_same and "the very pixels" or "OTHER PIXELS"))
+    end
+  end
+end
+
+function parts.png(runner, folder, is_quick)
+  local drawing, file = folder .. "/100.txt", folder .. "/100.png"
+  for _, side in ipairs(is_quick and { 4096 } or { 4096, 30000 }) do
+    runner:measure(3, { written(runner, drawing, side, "area", file, 2),
+                        written(runner, drawing, side, "none", file, 1),
+                        written(runner, drawing, side, "area", file, 1) })
+    compare_readers(runner, drawing, side, file)
+    if runner:has "oiio" then
+      runner:measure(1, { by_openimageio(runner, drawing, side, 1, folder .. "/oiio.png"),
+                          by_openimageio(runner, drawing, side, 6, folder .. "/oiio.png") })
+    end
+  end
+  os.remove(file)
+  os.remove(folder .. "/oiio.png")
+end
+
+function parts.span_file(runner, folder)
+  local drawing, file = folder .. "/100.txt", folder .. "/100.span"
+  for _, antialias in ipairs { "none", "area" } do
+    runner:measure(3, { written(runner, drawing, 1000000, antialias, file, 1) })
+  end
+  os.remove(file)
+end
+
+--- A cut out of the terapixel frame's span file.
+function parts.cut(runner, folder, is_quick)
+  local side = is_quick and 100000 or 1000000
+  local file = folder .. "/terapixel.span"
+  local size = ("%dx%d"):format(side, side)
+  local launch = runner:program "launch"
+  local entry = { part = "cut", scene = "terapixel", side = side, renderer = "celspan" }
+  local function like(fields)
+    for key, value in pairs(entry) do fields[key] = value end
+    return fields
+  end
+  runner:measure(1, { like { output = "span", workers = 2, command = Command(launch, "all",
+    runner.celspan, "render", "scripts/terapixel.lua", "--size", size, "--antialias", "none",
+    "--progress", "none", "-o", file) } })
+  runner:measure(3, { like { output = "cut of 4096", workers = 2, command = Command(launch, "all",
+    runner.celspan, "convert", file, folder .. "/cut.png", "--crop",
+    ("%d,%d,4096,4096"):format(side * 6 // 10, side * 4 // 10)) } })
+  os.remove(file)
+  os.remove(folder .. "/cut.png")
+end
+
+return parts

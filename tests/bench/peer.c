@@ -1,0 +1,131 @@
+/* The program around a peer:
+ *
+ *   PEER shapes DRAWING SIDE area|none BAND STRIDE    BAND rows at a time (0: one whole image),
+ *                                                     every STRIDEth band; times are scaled up
+ *   PEER picture affine|perspective|shift
+ *   PEER look DRAWING SIDE                            the picture's cells, for agreement
+ */
+#include "peer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "measure.h"
+
+typedef struct shapes_job {
+  bench_drawing drawing;
+  uint8_t *band;
+  int side, rows, stride;
+  bool is_antialiased;
+} shapes_job;
+
+static void draw_shapes(void *user) {
+  const shapes_job *job = user;
+  const bench_peer *peer = &bench_peer_here;
+  void *frame = peer->begin(&job->drawing, job->side, job->is_antialiased);
+  for (int y = 0; y < job->side; y += job->rows * job->stride) {
+    int rows = job->side - y < job->rows ? job->side - y : job->rows;
+    peer->band(frame, job->band, job->side, rows, y);
+  }
+  peer->end(frame);
+}
+
+/* The share of rows that a run draws, turned over. */
+static double scale_of(const shapes_job *job) {
+  int drawn = 0;
+  for (int y = 0; y < job->side; y += job->rows * job->stride)
+    drawn += job->side - y < job->rows ? job->side - y : job->rows;
+  return (double)job->side / drawn;
+}
+
+/* What building the paths takes, which a part of the bands needs whole. */
+static double build_seconds(const shapes_job *job) {
+  double begun = bench_processor();
+  bench_peer_here.end(bench_peer_here.begin(&job->drawing, job->side, job->is_antialiased));
+  return bench_processor() - begun;
+}
+
+static shapes_job open_shapes(const char *path, int side, bool is_antialiased, int rows,
+                              int stride) {
+  shapes_job job = {.side = side, .stride = stride, .is_antialiased = is_antialiased};
+  job.drawing = bench_drawing_read(path);
+  job.rows = rows ? rows : side;
+  job.band = calloc((size_t)side * (size_t)job.rows, 4);
+  if (!job.band)
+    bench_stop("no memory for a band of %d rows", job.rows);
+  return job;
+}
+
+static void close_shapes(shapes_job *job) {
+  free(job->band);
+  bench_drawing_free(&job->drawing);
+}
+
+static void measure_shapes(char **words) {
+  shapes_job job = open_shapes(words[0], atoi(words[1]), strcmp(words[2], "area") == 0,
+                               atoi(words[3]), atoi(words[4]));
+  bench_measure_part(draw_shapes, &job, (bench_part){scale_of(&job), build_seconds(&job)});
+  bench_tell("crossings", job.drawing.crossings * job.side);
+  bench_line_end();
+  close_shapes(&job);
+}
+
+static void swap_channels(uint8_t *pixels, size_t count) {
+  for (size_t i = 0; i < count; i++, pixels += 4) {
+    uint8_t blue = pixels[0];
+    pixels[0] = pixels[2];
+    pixels[2] = blue;
+  }
+}
+
+static void tell_frame(uint8_t *pixels, int width, int height) {
+  if (bench_peer_here.is_bgra)
+    swap_channels(pixels, (size_t)width * (size_t)height);
+  bench_tell_picture(pixels, (size_t)width, (size_t)height);
+}
+
+static void look(char **words) {
+  shapes_job job = open_shapes(words[0], atoi(words[1]), true, 0, 1);
+  draw_shapes(&job);
+  tell_frame(job.band, job.side, job.side);
+  bench_line_end();
+  close_shapes(&job);
+}
+
+/* ---------------------------------------------------------------- pictures */
+
+typedef struct picture_job {
+  bench_job job;
+  uint8_t *frame;
+} picture_job;
+
+static void draw_picture(void *user) {
+  const picture_job *job = user;
+  bench_peer_here.picture(&job->job, job->frame);
+}
+
+static void measure_picture(const char *name) {
+  if (!bench_peer_here.picture ||
+      (strcmp(name, "perspective") == 0 && !bench_peer_here.has_perspective))
+    bench_stop("this peer has no such job");
+  picture_job job = {.job = bench_job_make(name, bench_peer_here.is_bgra)};
+  job.frame = calloc((size_t)BENCH_FRAME_WIDTH * BENCH_FRAME_HEIGHT, 4);
+  bench_measure(draw_picture, &job);
+  tell_frame(job.frame, BENCH_FRAME_WIDTH, BENCH_FRAME_HEIGHT);
+  bench_line_end();
+  free(job.frame);
+  bench_job_free(&job.job);
+}
+
+int main(int argc, char **argv) {
+  if (argc == 7 && strcmp(argv[1], "shapes") == 0)
+    measure_shapes(argv + 2);
+  else if (argc == 4 && strcmp(argv[1], "look") == 0)
+    look(argv + 2);
+  else if (argc == 3 && strcmp(argv[1], "picture") == 0)
+    measure_picture(argv[2]);
+  else
+    bench_stop("usage: %s shapes|look|picture ...", argv[0]);
+  return 0;
+}

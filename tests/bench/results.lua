@@ -1,0 +1,67 @@
+--- The table of a run, read back.
+local Runner = require "tests.bench.runner"
+
+local results = {}
+results.__index = results
+
+local numbers = { side = true, workers = true }
+for i = 8, #Runner.columns do numbers[Runner.columns[i]] = true end
+
+function results.read(path)
+  local rows = {}
+  local names
+  for line in io.lines(path) do
+    local cells = {}
+    for cell in (line .. ","):gmatch "([^,]*)," do cells[#cells + 1] = cell end
+    if not names then names = cells
+    else
+      local row = {}
+      for i, name in ipairs(names) do
+        local value = cells[i]
+        if value ~= "" then row[name] = numbers[name] and tonumber(value) or value end
+      end
+      rows[#rows + 1] = row
+    end
+  end
+  return setmetatable({ rows = rows }, results)
+end
+
+--- Rows whose columns are these.
+function results:all(wanted)
+  local list = {}
+  for _, row in ipairs(self.rows) do
+    local is_wanted = true
+    for key, value in pairs(wanted) do is_wanted = is_wanted and row[key] == value end
+    if is_wanted then list[#list + 1] = row end
+  end
+  return list
+end
+
+function results:one(wanted) return self:all(wanted)[1] end
+
+--- Seconds of a row: one thread's processor time, which waits for nobody; else the wall's clock.
+function results.seconds(row)
+  if not row then return nil end
+  return row.workers == 1 and row.processor or row.wall
+end
+
+--- What stands before a time: only a part was measured, or it was ended before it was done.
+function results.mark(row) return row.is_over and "over " or row.is_part and "~" or "" end
+
+--- The power of the side that the time follows, by least squares over these sides.
+function results:exponent(wanted, sides)
+  local sx, sy, sxx, sxy, n = 0, 0, 0, 0, 0
+  for _, side in ipairs(sides) do
+    wanted.side = side
+    local seconds = results.seconds(self:one(wanted))
+    if seconds then
+      local x, y = math.log(side), math.log(seconds)
+      sx, sy, sxx, sxy, n = sx + x, sy + y, sxx + x * x, sxy + x * y, n + 1
+    end
+  end
+  wanted.side = nil
+  if n < 2 then return nil end
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx)
+end
+
+return results

@@ -1,0 +1,74 @@
+#include "scene.h"
+
+#include <stdlib.h>
+
+#include "measure.h"
+
+void bench_check(celspan_context *context, celspan_status status) {
+  if (status != CELSPAN_OK)
+    bench_stop("%s", celspan_context_error(context));
+}
+
+static celspan_object *make_shape(celspan_context *context, const bench_shape *shape) {
+  celspan_paint paint =
+      celspan_paint_rgb((float)(shape->red / 255.0), (float)(shape->green / 255.0),
+                        (float)(shape->blue / 255.0), (float)(shape->alpha / 255.0));
+  celspan_rule rule = shape->is_evenodd ? CELSPAN_RULE_EVENODD : CELSPAN_RULE_NONZERO;
+  celspan_texture *texture;
+  celspan_object *object;
+  bench_check(context, celspan_texture_create_paint(context, &paint, &texture));
+  if (shape->is_spline) {
+    celspan_point points[4];
+    for (int i = 0; i < 4; i++)
+      points[i] = (celspan_point){shape->spline[i].x, shape->spline[i].y};
+    celspan_nurbs_desc desc = {
+        .points = points, .point_count = 4, .degree = 3, .rule = rule, .texture = texture};
+    bench_check(context, celspan_object_create_nurbs(context, &desc, &object));
+  } else {
+    celspan_path_desc desc = {.data = shape->data, .rule = rule, .texture = texture};
+    bench_check(context, celspan_object_create_path(context, &desc, &object));
+  }
+  celspan_texture_unref(texture);
+  return object;
+}
+
+celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc) {
+  celspan_cel *cel;
+  celspan_rostrum *rostrum;
+  bench_check(context, celspan_cel_create(context, cel_desc, &cel));
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.cels = &cel;
+  desc.cel_count = 1;
+  desc.back = (celspan_light){1, 1, 1, 1};
+  bench_check(context, celspan_rostrum_create(context, &desc, &rostrum));
+  celspan_cel_unref(cel);
+  return rostrum;
+}
+
+celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
+                             const celspan_cel_desc *cel) {
+  celspan_object **objects = calloc(drawing->shape_count, sizeof *objects);
+  for (size_t i = 0; i < drawing->shape_count; i++)
+    objects[i] = make_shape(context, &drawing->shapes[i]);
+  celspan_cel_desc desc = cel ? *cel : CELSPAN_CEL_DESC;
+  desc.objects = objects;
+  desc.object_count = drawing->shape_count;
+  celspan_rostrum *rostrum = bench_rostrum(context, &desc);
+  for (size_t i = 0; i < drawing->shape_count; i++)
+    celspan_object_unref(objects[i]);
+  free(objects);
+  return rostrum;
+}
+
+celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,
+                               const celspan_antialias_mode *mode) {
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = exposure;
+  desc.exposure_count = 1;
+  desc.film_width = desc.film_height = 1;
+  desc.width = width;
+  desc.height = height;
+  desc.antialias = mode;
+  desc.workers = 1;
+  return desc;
+}

@@ -1,0 +1,29 @@
+/* Drawings as scenes of celspan. */
+#ifndef CELSPAN_BENCH_SCENE_H
+#define CELSPAN_BENCH_SCENE_H
+
+#include "celspan/celspan.h"
+#include "drawing.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Ends the program with the context's sentence unless the status is OK. */
+void bench_check(celspan_context *context, celspan_status status);
+
+/* One cel over white, which fills a film of 1 x 1. new
+ * cel  what the cel is like but for its objects; may be NULL */
+celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
+                             const celspan_cel_desc *cel);
+/* One cel over white, as described. new */
+celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc);
+
+/* One exposure of a film of 1 x 1 by one worker. The pointers are borrowed. */
+celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,
+                               const celspan_antialias_mode *mode);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,57 @@
+#!/bin/bash
+# What is installed is enough: the examples are compiled against it as a stranger would do it, plain
+# Lua loads the module, and the program renders a picture.
+#
+#   tests/support/installed.sh BUILD
+set -eu
+
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+meson install -C "$1" --no-rebuild --quiet --destdir "$tree"
+
+# What must be there, once.
+installed() {
+  local found
+  found=$(find "$tree" -name "$1")
+  [ "$(wc -l <<<"$found")" = 1 ] && [ -n "$found" ] || {
+    echo "installed: $1 is not there once: $found" >&2
+    return 1
+  }
+  echo "$found"
+}
+
+settings=$(dirname "$(installed celspan.pc)")
+libraries=$(dirname "$settings")
+export LD_LIBRARY_PATH=$libraries
+
+# flags PACKAGE: they name folders of the tree; Lua's own are where they always are.
+flags() {
+  PKG_CONFIG_SYSROOT_DIR=$tree PKG_CONFIG_PATH=$settings pkg-config --cflags --libs "$1"
+  pkg-config --cflags --libs lua5.4
+}
+
+read -ra of_c <<<"$(flags celspan | tr '\n' ' ')"
+read -ra of_lua <<<"$(flags celspan-lua | tr '\n' ' ')"
+"${CC:-cc}" examples/memory.c -o "$tree/memory" "${of_c[@]}"
+"${CC:-cc}" examples/embed.c -o "$tree/embed" "${of_lua[@]}"
+"$tree/memory" >/dev/null
+"$tree/embed" | grep -q '#'
+
+module=$(dirname "$(installed celspan.so)")
+LUA_PATH="" LUA_CPATH="$module/?.so" lua5.4 - <<'LUA'
+local celspan, ease = require "celspan", require "celspan.ease"
+assert(celspan._VERSION and ease "inOutSine")
+local dot = celspan.circle{ centre = {12, 6}, radius = 5, texture = "#ff8800" }
+local image = assert(celspan.pixels(celspan.rostrum{ celspan.cel{ dot } }, { size = {24, 12} }))
+assert(select(4, image:get(12, 6)) == 1 and select(4, image:get(0, 0)) == 0)
+LUA
+
+program=$(find "$tree" -path '*/bin/celspan')
+cat >"$tree/dot.lua" <<'LUA'
+local celspan = require "celspan"
+return celspan.film{ size = {24, 12}, frames = 1, frame = function()
+  return celspan.rostrum{ celspan.cel{ celspan.circle{ centre = {12, 6}, radius = 5 } } }
+end }
+LUA
+"$program" render "$tree/dot.lua" -o "$tree/dot.png" --progress none
+[ -s "$tree/dot.png" ]
