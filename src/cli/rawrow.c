@@ -36,5 +36,5 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 celspan_sink cs_rawrow_sink(cs_rawrow *raw, const celspan_coding *coding, FILE *stream) {
   *raw = (cs_rawrow){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .stream = stream};
-  return (celspan_sink){raw, begin, put_row, end};
+  return (celspan_sink){raw, begin, put_row, end, cs_pixels_takes_codes(&raw->coding)};
 }

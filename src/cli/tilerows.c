@@ -191,5 +191,5 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 celspan_sink cs_tilerows_sink(cs_tilerows *rows) {
   rows->ring = NULL;
   rows->writers = NULL;
-  return (celspan_sink){rows, begin, put_row, end};
+  return (celspan_sink){rows, begin, put_row, end, false};
 }

@@ -76,6 +76,11 @@ void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
                                    leaf->fade, s, t);
 }
 
+void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count,
+                   int32_t count, float (*rgba)[4]) {
+  CS_WIDE_CHOOSE(isa, cs_blend_fold_bare)(layers, layer_count, count, rgba);
+}
+
 void cs_blend_end(cs_blend *blend, float (*rgba)[4]) {
   while (blend->group != CS_STACK_NONE)
     leave_group(blend);

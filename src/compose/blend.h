@@ -48,6 +48,11 @@ void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
 /* Premultiplied RGBA of the pixels. */
 void cs_blend_end(cs_blend *blend, float (*rgba)[4]);
 
+/* The fold of pictures alone, none faded, lit white, in no group and before no back light: the same
+ * bits at once. layers: samples from the front, room for a whole batch in each. */
+void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count,
+                   int32_t count, float (*rgba)[4]);
+
 /* ---- blend_wide.c: loops over the pixels of a level */
 
 CS_WIDE_DECLARE(void, cs_blend_clear, (cs_blend_level *level, int32_t count));
@@ -64,6 +69,9 @@ CS_WIDE_DECLARE(void, cs_blend_add_light,
 /* A faded group into what is around it. */
 CS_WIDE_DECLARE(void, cs_blend_add_group,
                 (cs_blend_level *outer, int32_t count, float fade, const cs_blend_level *inner));
+CS_WIDE_DECLARE(void, cs_blend_fold_bare,
+                (const float (*const *layers)[4], uint32_t layer_count, int32_t count,
+                 float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_blend_to_rgba,
                 (const cs_blend_level *level, int32_t count, float keep, float (*rgba)[4]));
 

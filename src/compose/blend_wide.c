@@ -77,13 +77,31 @@ static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
   return cs_wide_choose(colours, e, 1 - keep * mean);
 }
 
+static inline void put(cs_wide colour, int32_t i, int32_t count, float (*rgba)[4]) {
+  if (i + PIXELS <= count)
+    cs_wide_store(rgba[i], colour);
+  else
+    memcpy(rgba[i], &colour, (size_t)(count - i) * sizeof *rgba);
+}
+
 void CS_WIDE(cs_blend_to_rgba)(const cs_blend_level *level, int32_t count, float keep,
                                float (*rgba)[4]) {
+  for (int32_t i = 0; i < count; i += PIXELS)
+    put(to_rgba(cs_wide_load(level->e[i]), cs_wide_load(level->t[i]), keep), i, count, rgba);
+}
+
+/* Multiplying by white and by a fade of 1 changes nothing, and the transmissions of a pixel are
+ * equal: what is left of add_picture and to_rgba. */
+void CS_WIDE(cs_blend_fold_bare)(const float (*const *layers)[4], uint32_t layer_count,
+                                 int32_t count, float (*rgba)[4]) {
+  const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
   for (int32_t i = 0; i < count; i += PIXELS) {
-    cs_wide colour = to_rgba(cs_wide_load(level->e[i]), cs_wide_load(level->t[i]), keep);
-    if (i + PIXELS <= count)
-      cs_wide_store(rgba[i], colour);
-    else
-      memcpy(rgba[i], &colour, (size_t)(count - i) * sizeof *rgba);
+    cs_wide e = cs_wide_all(0), t = cs_wide_all(1);
+    for (uint32_t k = 0; k < layer_count; k++) {
+      cs_wide v = cs_wide_load(layers[k][i]);
+      e += t * v;
+      t *= 1 - hold(CS_WIDE_SPREAD(v, 3));
+    }
+    put(cs_wide_choose(colours, e, 1 - t), i, count, rgba);
   }
 }

@@ -73,13 +73,19 @@ static void put_paint(samples *out, int32_t k, cs_paint paint) {
   cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
 }
 
-static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
-                                    const batch *b, samples *room) {
+static celspan_status sample_picture(cs_composer *composer, const cs_leaf *leaf, const batch *b,
+                                     float (*rgba)[4]) {
   const cs_seen_slide *slide;
   CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-  const cs_sampler *sampler = &slide->sampler;
-  CS_TRY(b->columns ? cs_sampler_at(composer->texels, sampler, b->columns, b->count, b->y, room->rgba)
-                    : cs_sampler_run(composer->texels, sampler, b->x0, b->count, b->y, room->rgba));
+  return b->columns ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y,
+                                    rgba)
+                    : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y,
+                                     rgba);
+}
+
+static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
+                                    const batch *b, samples *room) {
+  CS_TRY(sample_picture(composer, leaf, b, room->rgba));
   cs_blend_picture(blend, leaf, composer->stack->slides[leaf->detail].texture->use,
                    (const float(*)[4])room->rgba);
   return CELSPAN_OK;
@@ -122,12 +128,48 @@ static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const c
   return CELSPAN_OK;
 }
 
+/* Whether a picture's samples pass through its leaf unchanged: no light but white is on it. */
+static bool is_bare(const cs_leaf *leaf) {
+  return leaf->kind == CS_LEAF_PICTURE && leaf->group == CS_STACK_NONE && leaf->fade == 1 &&
+         leaf->front[0] == 1 && leaf->front[1] == 1 && leaf->front[2] == 1;
+}
+
+#define BARE_LAYERS 8
+
+static bool is_all_bare(const cs_stack *stack, const cs_program *program) {
+  bool bare = stack->light_count == 0 && program->length <= BARE_LAYERS;
+  for (uint32_t i = 0; i < program->length && bare; i++) {
+    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
+    bare = is_bare(leaf) && stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_PAINT;
+  }
+  return bare;
+}
+
+static celspan_status bare_batch(cs_composer *composer, const cs_program *program, const batch *b,
+                                 float (*rgba)[4]) {
+  const float(*layers[BARE_LAYERS])[4];
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
+    float(*room)[4] =
+        cs_arena_take(composer->context, &composer->scratch, CS_BLEND_BATCH * sizeof *room);
+    if (!room)
+      return CELSPAN_NO_MEMORY;
+    CS_TRY(sample_picture(composer, leaf, b, room));
+    layers[i] = (const float(*)[4])room;
+  }
+  cs_blend_bare(composer->isa, layers, program->length, b->count, rgba);
+  return CELSPAN_OK;
+}
+
 static celspan_status colours_batch(cs_composer *composer, const cs_program *program,
                                     const batch *b, float (*rgba)[4]) {
   celspan_context *context = composer->context;
   cs_arena *scratch = &composer->scratch;
   cs_blend blend;
   cs_arena_reset(scratch);
+  composer->evaluations += (uint64_t)b->count;
+  if (is_all_bare(composer->stack, program))
+    return bare_batch(composer, program, b, rgba);
   samples *room = cs_arena_take(context, scratch, sizeof *room);
   if (!room)
     return CELSPAN_NO_MEMORY;
@@ -137,7 +179,6 @@ static celspan_status colours_batch(cs_composer *composer, const cs_program *pro
     CS_TRY(blend_item(composer, &blend, program->strips, program->items[i], b, room));
   }
   cs_blend_end(&blend, rgba);
-  composer->evaluations += (uint64_t)b->count;
   return CELSPAN_OK;
 }
 
@@ -171,7 +212,7 @@ celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell, i
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- runs */
+/* ---------------------------------------------------------------- runs of one program */
 
 /* Whether a picture of the program shows pixel by pixel. */
 static celspan_status needs_array(cs_composer *composer, const cs_program *program, bool *out) {
@@ -187,20 +228,155 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
   return CELSPAN_OK;
 }
 
-celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
-                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+/* What shows over some columns: the items of a program without those that are clear there, up to the
+ * first that is opaque. */
+typedef struct segment {
+  uint32_t end;      /* of the items */
+  uint64_t left_out; /* a bit each, of the first 64 */
+  bool ends_opaque;
+} segment;
+
+/* Whether all that shows is one opaque picture, texel by pixel. */
+static bool is_copy(const cs_composer *composer, const cs_program *shown, bool ends_opaque) {
+  if (!ends_opaque || shown->length != 1)
+    return false;
+  const cs_stack *stack = composer->stack;
+  uint32_t index = shown->items[0].leaf;
+  const cs_leaf *leaf = &stack->leaves[index];
+  return is_bare(leaf) && (stack->light_count == 0 || stack->lights[0].below <= index) &&
+         composer->slides[leaf->detail].sampler.way == CS_SAMPLER_COPY;
+}
+
+static celspan_status run_copy(cs_composer *composer, const cs_program *shown, int32_t x0,
+                               int32_t x1, double y, cs_row *row) {
+  const cs_leaf *leaf = &composer->stack->leaves[shown->items[0].leaf];
+  unsigned char *codes;
+  CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
+  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0,
+                          y, codes);
+}
+
+/* A program of what shows, and nothing else. */
+static celspan_status run_shown(cs_composer *composer, const cs_program *shown, bool ends_opaque,
+                                int32_t x0, int32_t x1, double y, cs_row *row) {
   bool is_array;
   float *colours;
+  uint32_t item;
+  if (row->takes_codes && is_copy(composer, shown, ends_opaque))
+    return run_copy(composer, shown, x0, x1, y, row);
+  if (cs_soft_run_fits(composer, shown, &item))
+    return cs_soft_run(composer, shown, item, x0, x1, y, row);
+  CS_TRY(needs_array(composer, shown, &is_array));
+  if (!is_array)
+    return cs_ramps_run(composer, shown, x0, x1, y, row);
+  CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
+  return cs_composer_program_colours(composer, shown, x0, x1, y, (float(*)[4])colours);
+}
+
+/* ---------------------------------------------------------------- runs cut into segments */
+
+/* Columns looked at at a time, from the left edge of the frame on: what is known of them must not
+ * depend on where a run begins. */
+#define LOOK 64
+
+/* What samples of an item have in common that lets it, or all behind it, be left out. */
+static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_t x0, int32_t x1,
+                                   double y, cs_picture_look *out) {
+  const cs_leaf *leaf = &composer->stack->leaves[index];
+  const cs_seen_slide *slide;
+  *out = CS_PICTURE_MIXED;
+  if (leaf->kind != CS_LEAF_PICTURE || leaf->fade != 1 || leaf->group != CS_STACK_NONE)
+    return CELSPAN_OK;
+  CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+  if (slide->is_opaque) {
+    *out = CS_PICTURE_OPAQUE;
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_sampler_look(composer->texels, &slide->sampler, x0, x1, y, out));
+  if (*out == CS_PICTURE_OPAQUE &&
+      composer->stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_GEL)
+    *out = CS_PICTURE_MIXED;
+  return CELSPAN_OK;
+}
+
+static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t x0,
+                                  double y, segment *out) {
+  int32_t left = x0 / LOOK * LOOK;
+  *out = (segment){.end = program->length};
+  for (uint32_t i = 0; i < program->length && i < 64; i++) {
+    cs_picture_look look;
+    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + LOOK, y, &look));
+    if (look == CS_PICTURE_CLEAR)
+      out->left_out |= (uint64_t)1 << i;
+    if (look != CS_PICTURE_OPAQUE)
+      continue;
+    out->ends_opaque = true;
+    out->end = i + 1;
+    break;
+  }
+  return CELSPAN_OK;
+}
+
+static bool is_same_segment(const segment *a, const segment *b) {
+  return a->end == b->end && a->left_out == b->left_out && a->ends_opaque == b->ends_opaque;
+}
+
+static celspan_status run_segment(cs_composer *composer, const cs_program *program,
+                                  const segment *part, int32_t x0, int32_t x1, double y,
+                                  cs_row *row) {
+  cs_program shown = {program->items, program->strips, part->end};
   if (x1 <= x0)
     return CELSPAN_OK;
-  uint32_t item;
-  if (cs_soft_run_fits(composer, program, &item))
-    return cs_soft_run(composer, program, item, x0, x1, y, row);
-  CS_TRY(needs_array(composer, program, &is_array));
-  if (!is_array)
-    return cs_ramps_run(composer, program, x0, x1, y, row);
-  CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
-  return cs_composer_program_colours(composer, program, x0, x1, y, (float(*)[4])colours);
+  if (part->left_out) {
+    cs_item *items =
+        cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
+    if (!items)
+      return CELSPAN_NO_MEMORY;
+    shown = (cs_program){items, program->strips, 0};
+    for (uint32_t i = 0; i < part->end; i++)
+      if (i >= 64 || !(part->left_out >> i & 1))
+        items[shown.length++] = program->items[i];
+  }
+  return run_shown(composer, &shown, part->ends_opaque, x0, x1, y, row);
+}
+
+static bool has_picture(const cs_composer *composer, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++)
+    if (composer->stack->leaves[program->items[i].leaf].kind == CS_LEAF_PICTURE)
+      return true;
+  return false;
+}
+
+/* Whether all that may be looked at is known already to be opaque everywhere. */
+static bool is_uniform(const cs_composer *composer, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
+    const cs_seen_slide *slide = &composer->slides[leaf->detail];
+    if (leaf->kind == CS_LEAF_PICTURE && !(slide->is_ready && slide->is_opaque))
+      return false;
+  }
+  return true;
+}
+
+celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
+                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+  segment current, next;
+  int32_t begun = x0;
+  if (x1 <= x0)
+    return CELSPAN_OK;
+  if (!has_picture(composer, program))
+    return run_shown(composer, program, false, x0, x1, y, row);
+  CS_TRY(cut_segment(composer, program, x0, y, &current));
+  int32_t end = is_uniform(composer, program) ? x0 : x1;
+  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {
+    CS_TRY(cut_segment(composer, program, x, y, &next));
+    if (is_same_segment(&current, &next))
+      continue;
+    CS_TRY(run_segment(composer, program, &current, begun, x, y, row));
+    begun = x;
+    current = next;
+  }
+  return run_segment(composer, program, &current, begun, x1, y, row);
 }
 
 celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell, int32_t x0, int32_t x1,

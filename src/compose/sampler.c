@@ -93,6 +93,25 @@ static cs_sampler_kernel perspective_kernel(celspan_sampling sampling) {
   return CS_SAMPLER_TILTED;
 }
 
+/* How far from its centre a sample may reach, in picture pixels. */
+static double reach_of(const cs_sampler *s) {
+  double texel = (double)((int64_t)1 << s->level);
+  double slant = fabs(s->m[0]) + fabs(s->m[1]), fall = fabs(s->m[3]) + fabs(s->m[4]);
+  switch (s->way == CS_SAMPLER_COPY ? CS_SAMPLER_NEAREST : s->kernel) {
+  case CS_SAMPLER_NEAREST:
+    return 0.25;
+  case CS_SAMPLER_LINEAR:
+    return 0.51;
+  case CS_SAMPLER_CUBIC:
+    return 2;
+  case CS_SAMPLER_BOX:
+    return 0.5 * fmax(s->wide, s->high) + texel;
+  case CS_SAMPLER_TILTED:
+    return 0.5 * fmax(slant, fall) + texel;
+  }
+  return INFINITY;
+}
+
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_texels_source_of(s->picture);
   s->level_count = cs_levels_count(s->width, s->height);
@@ -108,38 +127,66 @@ void cs_sampler_prepare(cs_sampler *s) {
     s->way = CS_SAMPLER_COPY;
   else
     plan_affine(s);
+  s->reach = reach_of(s);
 }
 
 /* ---------------------------------------------------------------- copies */
 
 static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 
+/* Texel (x, y): as light, or as the 4 bytes of its code. */
+static const void *texel_at(const cs_sampling *run, int32_t x, int32_t y, bool is_code) {
+  const cs_texels_slot *slot =
+      cs_texels_slot_of(run->texels, &run->sampler->source, 0, x / CS_PICTURE_BLOCK,
+                        y / CS_PICTURE_BLOCK);
+  size_t at = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
+  if (!slot->texels)
+    return cs_texels_none;
+  return is_code ? (const void *)(cs_picture_codes(slot->block) + at) : slot->texels + at;
+}
+
 /* `count` texels of row v from u on, both wherever. */
-static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, float (*rgba)[4]) {
+static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, bool is_code,
+                        unsigned char *out) {
   const cs_sampler *s = run->sampler;
+  const size_t size = is_code ? 4 : 4 * sizeof(float);
   bool is_clear = s->wrap == CELSPAN_WRAP_CLEAR, repeats = s->wrap == CELSPAN_WRAP_REPEAT;
   if (repeats)
     v = ((v % s->height) + s->height) % s->height;
   bool is_row_outside = v < 0 || v >= s->height;
   int32_t y = v < 0 ? 0 : v >= s->height ? s->height - 1 : (int32_t)v;
-  for (int32_t done = 0, part; done < count; done += part) {
+  for (int32_t done = 0, part; done < count; done += part, out += (size_t)part * size) {
     int64_t at = u + done;
     if (repeats)
       at = ((at % s->width) + s->width) % s->width;
     bool is_inside = at >= 0 && at < s->width;
-    if (is_inside && !(is_clear && is_row_outside)) {
-      int32_t x = (int32_t)at, in_block = CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK;
-      part = smaller(smaller(in_block, s->width - x), count - done);
-      memcpy(rgba + done, cs_texels_at(run->texels, &s->source, 0, x, y), (size_t)part * sizeof *rgba);
+    part = 1;
+    if (is_clear && (is_row_outside || !is_inside)) {
+      memset(out, 0, size);
       continue;
     }
-    part = 1;
-    if (is_clear)
-      memset(rgba + done, 0, sizeof *rgba);
-    else
-      memcpy(rgba + done, cs_texels_at(run->texels, &s->source, 0, at < 0 ? 0 : s->width - 1, y),
-             sizeof *rgba);
+    int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
+    if (is_inside)
+      part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
+    const char *from = texel_at(run, x, y, is_code);
+    memcpy(out, from, (size_t)part * size);
+    /* The row below follows in the block: fetched now, it is there in time. */
+    for (size_t ahead = 0; ahead < (size_t)part * size; ahead += 64)
+      __builtin_prefetch(from + CS_PICTURE_BLOCK * size + ahead);
   }
+}
+
+static void copy_run(const cs_sampling *run, int32_t x0, int32_t count, double y, bool is_code,
+                     void *out) {
+  const double *m = run->sampler->m;
+  copy_texels(run, x0 + (int64_t)rint(m[2]), (int64_t)floor(y + rint(m[5])), count, is_code, out);
+}
+
+celspan_status cs_sampler_codes(cs_texels *texels, const cs_sampler *sampler, int32_t x0,
+                                int32_t count, double y, unsigned char *codes) {
+  texels->status = CELSPAN_OK;
+  copy_run(&(cs_sampling){sampler, texels}, x0, count, y, true, codes);
+  return texels->status;
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -147,11 +194,10 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
 celspan_status cs_sampler_run(cs_texels *texels, const cs_sampler *sampler, int32_t x0,
                               int32_t count, double y, float (*rgba)[4]) {
   cs_sampling run = {sampler, texels};
-  const double *m = sampler->m;
   texels->status = CELSPAN_OK;
   switch (sampler->way) {
   case CS_SAMPLER_COPY:
-    copy_texels(&run, x0 + (int64_t)rint(m[2]), (int64_t)floor(y + rint(m[5])), count, rgba);
+    copy_run(&run, x0, count, y, false, rgba);
     break;
   case CS_SAMPLER_ROW:
     cs_sampler_row_run(&run, x0, count, y, rgba);

@@ -55,6 +55,7 @@ typedef struct cs_sampler {
   int level_count;
   int level;
   int columns, rows; /* TILTED: taps across a pixel and down it */
+  double reach;      /* affine: how far from its centre a sample comes, at most, in picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
 
@@ -70,6 +71,15 @@ CELSPAN_CHECKED celspan_status cs_sampler_run(cs_texels *texels, const cs_sample
 CELSPAN_CHECKED celspan_status cs_sampler_at(cs_texels *texels, const cs_sampler *sampler,
                                              const int32_t *columns, int32_t count, double y,
                                              float (*rgba)[4]);
+
+/* A picture that is copied: the codes of its texels (cs_picture_codes), 4 bytes a pixel. */
+CELSPAN_CHECKED celspan_status cs_sampler_codes(cs_texels *texels, const cs_sampler *sampler,
+                                                int32_t x0, int32_t count, double y,
+                                                unsigned char *codes);
+/* What the samples of the pixels [x0, x1) are known to have in common; MIXED where it is not known. */
+CELSPAN_CHECKED celspan_status cs_sampler_look(cs_texels *texels, const cs_sampler *sampler,
+                                               int32_t x0, int32_t x1, double y,
+                                               cs_picture_look *out);
 
 /* Whether texels are some pixels wide and stand upright, so that a row of them is worth a span each:
  * of one colour (nearest), or straight from centre to centre. */

@@ -5,6 +5,7 @@
  *   sampler_grid.c   where their texels begin, when these are wide
  *   sampler_taps.c   all others, many pixels at a time
  *   sampler_pixel.c  kernels that are taken one by one
+ *   sampler_look.c   what samples have in common, by the blocks of texels they come from
  *   sampler_wide.c   the loops over pixels, compiled for every set of instructions
  *
  * All sums are taken about one texel, so a constant picture stays what it is to the bit.
@@ -122,6 +123,7 @@ int cs_sampler_level(int level_count, double shorter, double longer, double texe
 typedef struct cs_sampler_centres {
   double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
   double near[CS_SAMPLER_BATCH];  /* 1 / w; 0 at and behind the horizon, where u and v are 0 */
+  bool all_seen;                  /* and `seen` is not filled */
   int32_t seen[CS_SAMPLER_BATCH]; /* 0: the pixel is clear */
 } cs_sampler_centres;
 
@@ -160,10 +162,11 @@ CS_WIDE_DECLARE(void, cs_sampler_move,
 CS_WIDE_DECLARE(void, cs_sampler_find_quads,
                 (const cs_sampler *sampler, int level, int32_t count, const double *u,
                  const double *v, cs_sampler_quads *quads));
-/* Those of quads [from, from + count), all in the block. */
+/* Those of quads [from, from + count), all in the block. ahead: bytes from a quad to where the row
+ * after the next will read, if it is in the block: fetched now, it is there in time. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_quads,
                 (const float *block, const cs_sampler_quads *quads, int32_t from, int32_t count,
-                 float (*rgba)[4]));
+                 ptrdiff_t ahead, float (*rgba)[4]));
 /* out = a + share (b - a); out may be a. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_rows,
                 (const float (*a)[4], const float (*b)[4], float share, int32_t count,
@@ -175,13 +178,23 @@ CS_WIDE_DECLARE(void, cs_sampler_add_row,
 /* sum = first + sum / total */
 CS_WIDE_DECLARE(void, cs_sampler_end_sum,
                 (const float (*first)[4], float total, int32_t count, float (*sum)[4]));
+/* Where the centres of a row's columns lie. */
+CS_WIDE_DECLARE(void, cs_sampler_place_row,
+                (const cs_sampler *sampler, int32_t x0, int32_t count, double y, double *u));
+CS_WIDE_DECLARE(void, cs_sampler_place_columns,
+                (const cs_sampler *sampler, const int32_t *columns, int32_t count, double y,
+                 double *u));
+/* As cs_sampler_home, for pictures that do not repeat. */
+CS_WIDE_DECLARE(void, cs_sampler_hold_row, (int32_t count, double *u));
+/* The texels under the centres. */
+CS_WIDE_DECLARE(void, cs_sampler_floor_row, (const double *u, int32_t count, int32_t *at));
 /* The texels left of or at u - 1/2, and the shares of their right neighbours. */
 CS_WIDE_DECLARE(void, cs_sampler_split_row,
                 (const double *u, int32_t count, int32_t *at, float *across));
-/* Between texels[at[i]] and the next. */
+/* Between texels[at[i] - first] and the next. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_along,
-                (const float (*texels)[4], const int32_t *at, const float *across, int32_t count,
-                 float (*rgba)[4]));
+                (const float (*texels)[4], int32_t first, const int32_t *at, const float *across,
+                 int32_t count, float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_sampler_clear_unseen,
                 (const int32_t *seen, int32_t count, float (*rgba)[4]));
 

@@ -17,43 +17,70 @@ typedef struct line {
   float texels[LINE][4];
 } line;
 
-/* Row y of texels, inside the picture. */
-static void fetch_row(const cs_sampling *run, int32_t y, const line *like, float (*out)[4]) {
-  const cs_sampler *s = run->sampler;
-  int32_t width = cs_levels_size(s->width, s->level);
-  for (int32_t done = 0, part; done < like->count; done += part) {
-    int32_t x = cs_sampler_wrap(like->first + done, width, s->wrap);
-    int32_t in_block = CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK;
-    part = like->count - done < in_block ? like->count - done : in_block;
-    part = part < width - x ? part : width - x;
-    if (x != like->first + done && s->wrap != CELSPAN_WRAP_REPEAT)
-      part = 1; /* beyond an edge, which goes on */
-    memcpy(out + done, cs_texels_at(run->texels, &s->source, s->level, x, y),
-           (size_t)part * sizeof *out);
-  }
+/* The next texels of a line that lie side by side in one block. */
+typedef struct part {
+  int32_t x, count;
+} part;
+
+static part next_part(const cs_sampler *s, const line *under, int32_t done) {
+  int32_t width = cs_levels_size(s->width, s->level), at = under->first + done;
+  int32_t x = cs_sampler_wrap(at, width, s->wrap), count = under->count - done;
+  int32_t in_block = CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK;
+  count = count < in_block ? count : in_block;
+  count = count < width - x ? count : width - x;
+  if (x != at && s->wrap != CELSPAN_WRAP_REPEAT)
+    count = 1; /* beyond an edge, which goes on */
+  return (part){x, count};
 }
 
 static int32_t wrap_row(const cs_sampler *s, int32_t y) {
   return cs_sampler_wrap(y, cs_levels_size(s->height, s->level), s->wrap);
 }
 
+/* Row y of texels, wherever. */
+static void fetch_row(const cs_sampling *run, int32_t y, const line *like, float (*out)[4]) {
+  const cs_sampler *s = run->sampler;
+  y = wrap_row(s, y);
+  for (int32_t done = 0; done < like->count;) {
+    part p = next_part(s, like, done);
+    memcpy(out + done, cs_texels_at(run->texels, &s->source, s->level, p.x, y),
+           (size_t)p.count * sizeof *out);
+    done += p.count;
+  }
+}
+
+/* Rows y and y + 1, which the same blocks hold. */
+static void mix_in_blocks(const cs_sampling *run, int32_t y, float down, line *out) {
+  const cs_sampler *s = run->sampler;
+  for (int32_t done = 0; done < out->count;) {
+    part p = next_part(s, out, done);
+    const float(*above)[4] =
+        (const float(*)[4])cs_texels_at(run->texels, &s->source, s->level, p.x, y);
+    WIDE(run, cs_sampler_mix_rows)(above, above + CS_PICTURE_BLOCK, down, p.count,
+                                   out->texels + done);
+    done += p.count;
+  }
+}
+
 static void mix_line(const cs_sampling *run, double v, line *out) {
   float down, below[LINE][4];
-  int32_t y = cs_sampler_split(v, &down);
-  fetch_row(run, wrap_row(run->sampler, y), out, out->texels);
-  if (down == 0)
+  int32_t y = cs_sampler_split(v, &down), last = run->sampler->height - 1;
+  if (y >= 0 && y < last && y % CS_PICTURE_BLOCK != CS_PICTURE_BLOCK - 1) {
+    mix_in_blocks(run, y, down, out);
     return;
-  fetch_row(run, wrap_row(run->sampler, y + 1), out, below);
+  }
+  fetch_row(run, y, out, out->texels);
+  fetch_row(run, y + 1, out, below);
   WIDE(run, cs_sampler_mix_rows)((const float(*)[4])out->texels, (const float(*)[4])below, down,
                                  out->count, out->texels);
 }
 
 static void average_line(const cs_sampling *run, const cs_extent *down, line *out) {
   float first[LINE][4], next[LINE][4], total = down->weights[0];
-  fetch_row(run, wrap_row(run->sampler, down->first), out, first);
+  fetch_row(run, down->first, out, first);
   memset(out->texels, 0, (size_t)out->count * sizeof *out->texels);
   for (int32_t j = 1; j < down->count; j++) {
-    fetch_row(run, wrap_row(run->sampler, down->first + j), out, next);
+    fetch_row(run, down->first + j, out, next);
     WIDE(run, cs_sampler_add_row)((const float(*)[4])next, (const float(*)[4])first,
                                   down->weights[j], out->count, out->texels);
     total += down->weights[j];
@@ -63,29 +90,38 @@ static void average_line(const cs_sampling *run, const cs_extent *down, line *ou
 
 /* ---------------------------------------------------------------- nearest and linear */
 
-/* As many pixels from i on as one line serves, each with `texels` texels from at[] on. */
-static int32_t reach_line(const int32_t *at, int32_t i, int32_t count, int32_t texels, line *out) {
-  int32_t low = at[i], high = at[i], end = i + 1;
-  for (; end < count; end++) {
-    int32_t next_low = at[end] < low ? at[end] : low, next_high = at[end] > high ? at[end] : high;
-    if ((int64_t)next_high - next_low + texels > LINE)
-      break;
-    low = next_low;
-    high = next_high;
-  }
+static bool serve(line *out, int32_t low, int32_t high, int32_t texels) {
+  if ((int64_t)high - low + texels > LINE)
+    return false;
   out->first = low;
   out->count = high - low + texels;
+  return true;
+}
+
+/* As many pixels from i on as one line serves, each with `texels` texels from at[] on. */
+static int32_t reach_line(const cs_sampling *run, const int32_t *at, int32_t i, int32_t count,
+                          int32_t texels, line *out) {
+  int32_t low = at[i], high = at[count - 1], end = i + 1;
+  bool is_ordered = run->sampler->wrap != CELSPAN_WRAP_REPEAT;
+  if (is_ordered && serve(out, low < high ? low : high, low < high ? high : low, texels))
+    return count;
+  serve(out, low, low, texels);
+  for (high = low; end < count; end++) {
+    low = at[end] < low ? at[end] : low;
+    high = at[end] > high ? at[end] : high;
+    if (!serve(out, low, high, texels))
+      break;
+  }
   return end;
 }
 
 static void look_up_nearest(const cs_sampling *run, double v, int32_t count, const double *u,
                             float (*rgba)[4]) {
-  int32_t at[CS_SAMPLER_BATCH], y = wrap_row(run->sampler, cs_sampler_floor(v + CS_SAMPLER_SAME));
+  int32_t at[CS_SAMPLER_BATCH], y = cs_sampler_floor(v + CS_SAMPLER_SAME);
   line under;
-  for (int32_t i = 0; i < count; i++)
-    at[i] = cs_sampler_floor(u[i] + CS_SAMPLER_SAME);
+  WIDE(run, cs_sampler_floor_row)(u, count, at);
   for (int32_t i = 0, end; i < count; i = end) {
-    end = reach_line(at, i, count, 1, &under);
+    end = reach_line(run, at, i, count, 1, &under);
     fetch_row(run, y, &under, under.texels);
     for (int32_t k = i; k < end; k++)
       memcpy(rgba[k], under.texels[at[k] - under.first], sizeof *rgba);
@@ -99,12 +135,10 @@ static void look_up_linear(const cs_sampling *run, double v, int32_t count, cons
   line under;
   WIDE(run, cs_sampler_split_row)(u, count, at, across);
   for (int32_t i = 0, end; i < count; i = end) {
-    end = reach_line(at, i, count, 2, &under);
+    end = reach_line(run, at, i, count, 2, &under);
     mix_line(run, v, &under);
-    for (int32_t k = i; k < end; k++)
-      at[k] -= under.first;
-    WIDE(run, cs_sampler_mix_along)((const float(*)[4])under.texels, at + i, across + i, end - i,
-                                    rgba + i);
+    WIDE(run, cs_sampler_mix_along)((const float(*)[4])under.texels, under.first, at + i,
+                                    across + i, end - i, rgba + i);
   }
 }
 
@@ -176,7 +210,9 @@ static void look_up_seen(const cs_sampling *run, double v, int32_t count, double
     memset(rgba[first++], 0, sizeof *rgba);
   while (count > first && cs_sampler_is_outside(u[count - 1], s->width, s->wrap))
     memset(rgba[--count], 0, sizeof *rgba);
-  for (int32_t i = first; i < count; i++)
+  if (s->wrap != CELSPAN_WRAP_REPEAT)
+    WIDE(run, cs_sampler_hold_row)(count, u);
+  for (int32_t i = first; i < count && s->wrap == CELSPAN_WRAP_REPEAT; i++)
     u[i] = cs_sampler_home(u[i], s->width, s->wrap);
   if (first < count)
     look_up(run, v, count - first, u + first, rgba + first);
@@ -194,8 +230,10 @@ static void row_run(const cs_sampling *run, const int32_t *columns, int32_t x0, 
   v = cs_sampler_home(v, s->height, s->wrap);
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
-    for (int32_t i = 0; i < batch; i++)
-      u[i] = cs_sampler_row_u(s, columns ? columns[done + i] : x0 + done + i, y);
+    if (columns)
+      WIDE(run, cs_sampler_place_columns)(s, columns + done, batch, y, u);
+    else
+      WIDE(run, cs_sampler_place_row)(s, x0 + done, batch, y, u);
     look_up_seen(run, v, batch, u, rgba + done);
   }
 }

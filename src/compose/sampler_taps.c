@@ -6,6 +6,7 @@
 #include "compose/sampler_parts.h"
 
 #define ENLARGED (1 << 8 | 1) /* the plan of pixels that one tap is enough for */
+#define ROWS_AHEAD 2.5 /* texels are fetched into the cache so many rows before they are mixed */
 #define WIDE(run, name) CS_WIDE_CHOOSE((run)->sampler->isa, name)
 
 /* ---------------------------------------------------------------- one tap a pixel */
@@ -29,14 +30,26 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
   cs_v4_store(rgba, column[0] + quads->across[i] * (column[1] - column[0]));
 }
 
-/* seen: pixels that are not need not be mixed. */
+/* Bytes from a quad to one that the row after the next mixes. */
+static ptrdiff_t reach_ahead(const cs_sampler *s, int level, const cs_sampler_centres *centres,
+                             int32_t i) {
+  double u = centres->u[i], v = centres->v[i];
+  double rows = ROWS_AHEAD * centres->near[i] / (double)((int64_t)1 << level);
+  double across = (s->m[1] - u * s->m[7]) * rows, down = (s->m[4] - v * s->m[7]) * rows;
+  if (!(fabs(across) < CS_PICTURE_BLOCK && fabs(down) < CS_PICTURE_BLOCK))
+    return 0;
+  return ((ptrdiff_t)rint(down) * CS_PICTURE_BLOCK + (ptrdiff_t)rint(across)) *
+         (ptrdiff_t)(4 * sizeof(float));
+}
+
+/* seen: pixels that are not need not be mixed; NULL: all are. */
 static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_quads *quads,
-                          const int32_t *seen, int32_t count, float (*rgba)[4]) {
+                          const int32_t *seen, int32_t count, ptrdiff_t ahead, float (*rgba)[4]) {
   for (int32_t i = 0, end; i < count; i = end) {
     int32_t key = quads->key[i];
     end = i + 1;
     if (key < 0) {
-      if (seen[i])
+      if (!seen || seen[i])
         mix_apart(run, level, quads, i, rgba[i]);
       continue;
     }
@@ -44,7 +57,7 @@ static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_qu
       end++;
     const float *block = cs_texels_block(run->texels, &run->sampler->source, level, key & 0x7fff,
                                          key >> 15);
-    WIDE(run, cs_sampler_mix_quads)(block, quads, i, end - i, rgba + i);
+    WIDE(run, cs_sampler_mix_quads)(block, quads, i, end - i, ahead, rgba + i);
   }
 }
 
@@ -57,7 +70,8 @@ static void tap_linear(const cs_sampling *run, int level, cs_sampler_tap tap, in
   if (s->wrap == CELSPAN_WRAP_REPEAT)
     bring_home(s, count, u, v);
   WIDE(run, cs_sampler_find_quads)(s, level, count, u, v, &quads);
-  mix_stretches(run, level, &quads, centres->seen + from, count, rgba);
+  mix_stretches(run, level, &quads, centres->all_seen ? NULL : centres->seen + from, count,
+                reach_ahead(s, level, centres, from), rgba);
 }
 
 static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_centres *centres,
@@ -66,7 +80,7 @@ static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_
   for (int32_t i = 0; i < count; i++) {
     double u = cs_sampler_home(centres->u[i], s->width, s->wrap) + CS_SAMPLER_SAME;
     double v = cs_sampler_home(centres->v[i], s->height, s->wrap) + CS_SAMPLER_SAME;
-    if (centres->seen[i])
+    if (centres->all_seen || centres->seen[i])
       memcpy(rgba[i], cs_sampling_texel(run, 0, cs_sampler_floor(u), cs_sampler_floor(v)),
              sizeof *rgba);
   }
@@ -76,7 +90,7 @@ static void tap_cubic(const cs_sampling *run, int32_t from, int32_t count,
                       const cs_sampler_centres *centres, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   for (int32_t i = from; i < from + count; i++)
-    if (centres->seen[i])
+    if (centres->all_seen || centres->seen[i])
       cs_sampler_cubic(run, cs_sampler_home(centres->u[i], s->width, s->wrap),
                        cs_sampler_home(centres->v[i], s->height, s->wrap), rgba[i - from]);
 }
@@ -143,8 +157,11 @@ void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, doub
       WIDE(run, cs_sampler_map_perspective)(s->m, x0 + done, batch, y, &centres);
     else
       WIDE(run, cs_sampler_map_affine)(s->m, x0 + done, batch, y, &centres);
-    WIDE(run, cs_sampler_see)(s, batch, &centres);
+    centres.all_seen = s->way == CS_SAMPLER_TAPS && s->wrap != CELSPAN_WRAP_CLEAR;
+    if (!centres.all_seen)
+      WIDE(run, cs_sampler_see)(s, batch, &centres);
     tap_batch(run, batch, &centres, rgba + done);
-    WIDE(run, cs_sampler_clear_unseen)(centres.seen, batch, rgba + done);
+    if (!centres.all_seen)
+      WIDE(run, cs_sampler_clear_unseen)(centres.seen, batch, rgba + done);
   }
 }

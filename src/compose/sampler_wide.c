@@ -139,9 +139,11 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
 }
 
 void CS_WIDE(cs_sampler_mix_quads)(const float *restrict block, const cs_sampler_quads *quads,
-                                   int32_t from, int32_t count, float (*restrict rgba)[4]) {
+                                   int32_t from, int32_t count, ptrdiff_t ahead,
+                                   float (*restrict rgba)[4]) {
   for (int32_t i = from; i < from + count; i++) {
     const float *at = block + 4 * (size_t)quads->offset[i];
+    __builtin_prefetch((const char *)at + ahead);
     pair above, below;
     memcpy(&above, at, sizeof above);
     memcpy(&below, at + 4 * CS_PICTURE_BLOCK, sizeof below);
@@ -176,6 +178,35 @@ void CS_WIDE(cs_sampler_end_sum)(const float (*restrict first)[4], float total, 
       sum[i][c] = first[i][c] + sum[i][c] / total;
 }
 
+void CS_WIDE(cs_sampler_place_row)(const cs_sampler *sampler, int32_t x0, int32_t count, double y,
+                                   double *restrict u) {
+  double step = sampler->m[0], start = sampler->m[1] * y + sampler->m[2];
+  for (int32_t i = 0; i < count; i++)
+    u[i] = step * ((double)(x0 + i) + 0.5) + start;
+}
+
+void CS_WIDE(cs_sampler_place_columns)(const cs_sampler *sampler, const int32_t *restrict columns,
+                                       int32_t count, double y, double *restrict u) {
+  double step = sampler->m[0], start = sampler->m[1] * y + sampler->m[2];
+  for (int32_t i = 0; i < count; i++)
+    u[i] = step * ((double)columns[i] + 0.5) + start;
+}
+
+void CS_WIDE(cs_sampler_hold_row)(int32_t count, double *u) {
+  for (int32_t i = 0; i < count; i++) {
+    double held = u[i] > -1e9 ? u[i] : -1e9;
+    u[i] = held < 1e9 ? held : 1e9;
+  }
+}
+
+void CS_WIDE(cs_sampler_floor_row)(const double *restrict u, int32_t count, int32_t *restrict at) {
+  for (int32_t i = 0; i < count; i++) {
+    double place = u[i] + SAME;
+    int32_t whole = (int32_t)place;
+    at[i] = whole - (place < whole);
+  }
+}
+
 void CS_WIDE(cs_sampler_split_row)(const double *restrict u, int32_t count, int32_t *restrict at,
                                    float *restrict across) {
   for (int32_t i = 0; i < count; i++) {
@@ -188,13 +219,13 @@ void CS_WIDE(cs_sampler_split_row)(const double *restrict u, int32_t count, int3
   }
 }
 
-void CS_WIDE(cs_sampler_mix_along)(const float (*restrict texels)[4], const int32_t *restrict at,
-                                   const float *restrict across, int32_t count,
-                                   float (*restrict rgba)[4]) {
+void CS_WIDE(cs_sampler_mix_along)(const float (*restrict texels)[4], int32_t first,
+                                   const int32_t *restrict at, const float *restrict across,
+                                   int32_t count, float (*restrict rgba)[4]) {
   for (int32_t i = 0; i < count; i++) {
     texel left, right;
-    memcpy(&left, texels[at[i]], sizeof left);
-    memcpy(&right, texels[at[i] + 1], sizeof right);
+    memcpy(&left, texels[at[i] - first], sizeof left);
+    memcpy(&right, texels[at[i] - first + 1], sizeof right);
     left += across[i] * (right - left);
     memcpy(rgba[i], &left, sizeof left);
   }

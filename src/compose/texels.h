@@ -1,20 +1,22 @@
 /* Texels by their place, for one thread: blocks stay pinned while they are likely to be asked for
  * again, from run to run and from row to row.
  *
- * Invariant: at most CS_TEXELS_SLOTS blocks are pinned. Slots are found by the block's place, so that
- * neighbours on a row and those that a footprint touches do not fight for one.
+ * Invariant: at most CS_TEXELS_SLOTS blocks are pinned. Pairs of slots are found by the block's place,
+ * so that neighbours on a row and those that a footprint touches do not fight for one; of a pair the
+ * second is the one that was fetched before.
  */
 #ifndef CS_COMPOSE_TEXELS_H
 #define CS_COMPOSE_TEXELS_H
 
 #include "scene/picture.h"
 
-#define CS_TEXELS_SLOTS 256
+#define CS_TEXELS_SLOTS 512
 
 typedef struct cs_texels_slot {
   const cs_picture *picture;
   int level;
   int32_t column, row;
+  cs_picture_look look;
   const float *texels; /* NULL: empty */
   cs_picture_block *block;
 } cs_texels_slot;
@@ -22,6 +24,7 @@ typedef struct cs_texels_slot {
 typedef struct cs_texels {
   celspan_context *context;
   celspan_status status; /* of the first block that could not be had; texels are clear then */
+  uint32_t pairs;        /* in use, a power of two: fewer where memory is short */
   cs_texels_slot slots[CS_TEXELS_SLOTS];
 } cs_texels;
 
@@ -37,19 +40,38 @@ void cs_texels_init(cs_texels *texels, celspan_context *context);
 /* Releases all blocks. */
 void cs_texels_finish(cs_texels *texels);
 
-/* For cs_texels_block. */
-const float *cs_texels_fetch(cs_texels *texels, const cs_texels_source *source,
-                             cs_texels_slot *slot, int level, int32_t column, int32_t row);
+/* For cs_texels_slot_of: into the first of a pair. */
+void cs_texels_fetch(cs_texels *texels, const cs_texels_source *source, cs_texels_slot *pair,
+                     int level, int32_t column, int32_t row);
 
-/* The 64 x 64 texels of a block that exists; valid until another is asked for. */
+static inline bool cs_texels_is_in(const cs_texels_slot *slot, const cs_texels_source *source,
+                                   int level, int32_t column, int32_t row) {
+  return slot->texels && slot->column == column && slot->row == row && slot->level == level &&
+         slot->picture == source->picture;
+}
+
+/* A block that exists, valid until another is asked for. Its texels are NULL where it could not be
+ * had. */
+static inline const cs_texels_slot *cs_texels_slot_of(cs_texels *texels,
+                                                      const cs_texels_source *source, int level,
+                                                      int32_t column, int32_t row) {
+  uint32_t place = source->salt + (uint32_t)column + 117 * (uint32_t)row + 31 * (uint32_t)level;
+  cs_texels_slot *pair = &texels->slots[2 * (place & (texels->pairs - 1))];
+  if (cs_texels_is_in(pair, source, level, column, row))
+    return pair;
+  if (cs_texels_is_in(pair + 1, source, level, column, row))
+    return pair + 1;
+  cs_texels_fetch(texels, source, pair, level, column, row);
+  return pair;
+}
+
+extern const float cs_texels_none[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
+
+/* Its 64 x 64 texels. */
 static inline const float *cs_texels_block(cs_texels *texels, const cs_texels_source *source,
                                            int level, int32_t column, int32_t row) {
-  uint32_t place = source->salt + (uint32_t)column + 117 * (uint32_t)row + 31 * (uint32_t)level;
-  cs_texels_slot *slot = &texels->slots[place % CS_TEXELS_SLOTS];
-  if (slot->texels && slot->column == column && slot->row == row && slot->level == level &&
-      slot->picture == source->picture)
-    return slot->texels;
-  return cs_texels_fetch(texels, source, slot, level, column, row);
+  const cs_texels_slot *slot = cs_texels_slot_of(texels, source, level, column, row);
+  return slot->texels ? slot->texels : cs_texels_none;
 }
 
 /* Texel (x, y) of a level, inside the picture: four floats. */

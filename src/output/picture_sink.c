@@ -345,6 +345,10 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   }
   *sink = made;
-  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

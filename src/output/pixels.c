@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "colour/srgb8.h"
 #include "colour/transfer.h"
 #include "output/fill.h"
-#include "output/srgb8.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
 
@@ -39,6 +39,24 @@ celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth def
   if (resolved.alpha == CELSPAN_ALPHA_DEFAULT)
     resolved.alpha = integer ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
   return resolved;
+}
+
+bool cs_pixels_takes_codes(const celspan_coding *coding) {
+  return coding->depth == CELSPAN_DEPTH_8 && coding->transfer == CELSPAN_TRANSFER_SRGB &&
+         coding->alpha == CELSPAN_ALPHA_STRAIGHT;
+}
+
+celspan_span cs_pixels_part(const celspan_span *span, int32_t x, int32_t count) {
+  celspan_span part = *span;
+  size_t cut = 4 * (size_t)(x - span->x0);
+  part.x0 = 0;
+  part.x1 = count;
+  part.origin = span->origin - x;
+  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes)
+    part.codes += cut;
+  else if (span->kind == CELSPAN_SPAN_ARRAY)
+    part.array += cut;
+  return part;
 }
 
 /* ---------------------------------------------------------------- one pixel */
@@ -201,6 +219,10 @@ static void put_gradient(ramps *waiting, const celspan_coding *coding, coder cod
 static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
                       size_t pixel_size, size_t room, cs_fill fill, unsigned char *out) {
   size_t count = (size_t)(span->x1 - span->x0);
+  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes) {
+    memcpy(out, span->codes, 4 * count);
+    return;
+  }
   if (span->kind == CELSPAN_SPAN_ARRAY) {
     code(coding, span->array, count, out);
     return;

@@ -11,6 +11,10 @@ celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth def
  * by one coded pixel. coding: resolved. Deterministic. Threads: any. */
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row);
+/* Whether a row of that coding is content with spans that hold codes. coding: resolved. */
+bool cs_pixels_takes_codes(const celspan_coding *coding);
+/* [x, x + count) of a span, as a span from column 0. */
+celspan_span cs_pixels_part(const celspan_span *span, int32_t x, int32_t count);
 /* One colour, linear premultiplied, to one coded pixel. */
 void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);
 

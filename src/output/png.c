@@ -151,6 +151,10 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
     memcpy(sink->title + sizeof title_head, file->title, title);
   }
   sink->path = memcpy(sink->title + title_size, path, path_size);
-  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

@@ -67,21 +67,11 @@ static uint64_t load_pixel(const cs_png_rows *rows, const unsigned char *coded) 
   return memcpy(&four, coded, sizeof four), four;
 }
 
-/* [x, x + count) of a span, as a span from column 0. */
-static celspan_span part_of_span(const celspan_span *span, int32_t x, int32_t count) {
-  celspan_span part = *span;
-  part.x0 = 0;
-  part.x1 = count;
-  part.origin = span->origin - x;
-  part.array = span->array ? span->array + 4 * (size_t)(x - span->x0) : NULL;
-  return part;
-}
-
 static void varying_to_runs(const cs_png_rows *rows, const celspan_span *span, tail *t) {
   unsigned char coded[8 * CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
-    celspan_span part = part_of_span(span, x, count);
+    celspan_span part = cs_pixels_part(span, x, count);
     cs_pixels_row(&rows->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
       add_pixel(rows, t, x + i + 1, load_pixel(rows, coded + (size_t)i * rows->coded_size));

@@ -78,11 +78,7 @@ static void add_varying(tga_sink *sink, const celspan_span *span) {
   uint32_t coded[CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
-    celspan_span part = *span;
-    part.x0 = 0;
-    part.x1 = count;
-    part.origin = span->origin - x;
-    part.array = span->array ? span->array + 4 * (size_t)(x - span->x0) : NULL;
+    celspan_span part = cs_pixels_part(span, x, count);
     cs_pixels_row(&sink->coding, &part, 1, coded);
     for (int32_t i = 0; i < count; i++)
       add_run(sink, coded[i], 1);
@@ -220,6 +216,10 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
   sink->pixel_size = file->is_opaque ? 3 : 4;
   sink->path = memcpy(sink->text, path, path_size);
   sink->title = memcpy(sink->text + path_size, title, title_size);
-  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

@@ -177,6 +177,7 @@ celspan_status cs_lane_init(cs_lane *lane, celspan_context *context, const cs_fr
     return cs_fail_memory(&lane->context);
   for (size_t i = 0; i < frame->count; i++) {
     cs_row_init(&lane->rows[i]);
+    lane->rows[i].takes_codes = frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
     CS_TRY(cs_scan_init(&lane->scans[i], &lane->context, &frame->shots[i]));
   }
   return CELSPAN_OK;

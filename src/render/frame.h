@@ -17,6 +17,7 @@ typedef struct cs_frame {
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
   int band_rows;
+  bool takes_codes; /* rows may hold codes: for the sink they go to */
 } cs_frame;
 
 /* Errors: BAD_ARGUMENT naming the field; those of cs_compile. */

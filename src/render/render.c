@@ -57,6 +57,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   cs_frame frame;
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
+    frame.takes_codes = sink->takes_codes;
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }

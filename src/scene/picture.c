@@ -134,6 +134,10 @@ celspan_status cs_picture_acquire(celspan_context *context, const cs_picture *pi
 
 const float *cs_picture_texels(const cs_picture_block *block) { return block->texels; }
 
+cs_picture_look cs_picture_block_look(const cs_picture_block *block) { return block->look; }
+
+const unsigned char *cs_picture_codes(const cs_picture_block *block) { return block->codes; }
+
 void cs_picture_release(celspan_context *context, cs_picture_block *block) {
   cs_store_unpin((cs_picture_store *)context->root->pictures, block);
 }

@@ -30,6 +30,7 @@ CELSPAN_CHECKED celspan_status cs_picture_info(celspan_context *context, const c
  * `level` (texel = 2^level picture pixels, the mean in linear light), block (column, row). Texels
  * beyond the picture are clear. Pinned until released. Errors: INPUT, LIMIT, NO_MEMORY. */
 #define CS_PICTURE_BLOCK 64
+#define CS_PICTURE_BLOCK_BYTES ((size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK * 20) /* or little more */
 
 typedef struct cs_picture_block cs_picture_block;
 CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,
@@ -37,6 +38,15 @@ CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,
                                                   int32_t column, int32_t row,
                                                   cs_picture_block **out);
 const float *cs_picture_texels(const cs_picture_block *block);
+/* What texels of a block have in common, those beyond the picture left out. */
+typedef enum cs_picture_look {
+  CS_PICTURE_MIXED,
+  CS_PICTURE_OPAQUE, /* alpha is 1 */
+  CS_PICTURE_CLEAR   /* all is 0 */
+} cs_picture_look;
+cs_picture_look cs_picture_block_look(const cs_picture_block *block);
+/* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them. */
+const unsigned char *cs_picture_codes(const cs_picture_block *block);
 void cs_picture_release(celspan_context *context, cs_picture_block *block);
 
 #endif

@@ -8,6 +8,7 @@
  */
 #include <string.h>
 
+#include "colour/srgb8.h"
 #include "scene/picture_store.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
@@ -174,6 +175,34 @@ static celspan_status read_rows(file_pass *pass) {
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- what is known of a block */
+
+/* One row of texels: bit 0 while all are opaque, bit 1 while all are clear. */
+static int look_along(const float *texels, int32_t count) {
+  static const float clear[4];
+  int look = 3;
+  for (int32_t i = 0; i < count && look != 0; i++, texels += 4) {
+    look &= texels[3] == 1 ? ~0 : ~1;
+    look &= memcmp(texels, clear, sizeof clear) == 0 ? ~0 : ~2;
+  }
+  return look;
+}
+
+/* A block whose texels are complete. */
+static void describe(cs_picture_block *block) {
+  const celspan_picture_info *info = &block->entry->header.info;
+  int32_t width = cs_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
+  int32_t height = cs_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
+  int look = 3;
+  for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && look != 0; y++)
+    look &= look_along(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
+                       least(width, CS_PICTURE_BLOCK));
+  block->look = look & 1 ? CS_PICTURE_OPAQUE : look & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
+  if (block->level == 0)
+    cs_srgb8_choose(cs_isa_best())(block->texels, (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK,
+                                   block->codes);
+}
+
 /* ---------------------------------------------------------------- a pass from start to end */
 
 /* Hands the blocks to the store; the one that was asked for comes back with a pin. */
@@ -183,6 +212,7 @@ static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row)
     cs_picture_block *block = pass->blocks[i];
     bool is_wanted = block->column == column && block->row == row;
     pass->blocks[i] = NULL;
+    describe(block);
     block = cs_store_insert(pass->store, block, is_wanted);
     if (is_wanted)
       wanted = block;
@@ -278,6 +308,7 @@ celspan_status cs_load_block(celspan_context *context, cs_picture_store *store,
     cs_store_discard(store, block);
     return status;
   }
+  describe(block);
   *out = cs_store_insert(store, block, 1);
   return CELSPAN_OK;
 }

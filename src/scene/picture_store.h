@@ -33,7 +33,9 @@ struct cs_picture_block {
   uint32_t pins;
   cs_picture_block *next;          /* in its bucket */
   cs_picture_block *older, *newer; /* while it has no pins */
+  cs_picture_look look;
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
+  unsigned char codes[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK]; /* of level 0 */
 };
 
 struct cs_picture_entry {

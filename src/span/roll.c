@@ -17,11 +17,16 @@ static size_t spans_so_far(const cs_roll *roll) {
 }
 
 static celspan_status copy_array(celspan_context *context, cs_roll *roll, celspan_span *span) {
-  size_t size = (size_t)(span->x1 - span->x0) * 4 * sizeof(float);
-  float *colours = cs_arena_take(context, &roll->arrays, size);
-  if (!colours)
+  bool is_coded = span->codes;
+  size_t size = (size_t)(span->x1 - span->x0) * (is_coded ? 4 : 4 * sizeof(float));
+  void *copy = cs_arena_take(context, &roll->arrays, size);
+  if (!copy)
     return CELSPAN_NO_MEMORY;
-  span->array = memcpy(colours, span->array, size);
+  memcpy(copy, is_coded ? (const void *)span->codes : span->array, size);
+  if (is_coded)
+    span->codes = copy;
+  else
+    span->array = copy;
   return CELSPAN_OK;
 }
 

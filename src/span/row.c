@@ -51,6 +51,16 @@ celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, i
                                .array = *colours});
 }
 
+celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                            unsigned char **codes) {
+  *codes = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * 4);
+  if (!*codes)
+    return CELSPAN_NO_MEMORY;
+  return append_varied(context, row,
+                       (celspan_span){.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_ARRAY, .origin = x0,
+                                      .codes = *codes});
+}
+
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   size_t kept = 0;
   row->varied = 0;
@@ -59,8 +69,11 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
     int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;
     if (from >= to)
       continue;
-    if (span.kind == CELSPAN_SPAN_ARRAY)
-      span.array += 4 * (size_t)(from - span.x0);
+    size_t cut = 4 * (size_t)(from - span.x0);
+    if (span.kind == CELSPAN_SPAN_ARRAY && span.codes)
+      span.codes += cut;
+    else if (span.kind == CELSPAN_SPAN_ARRAY)
+      span.array += cut;
     span.x0 = from - x0;
     span.x1 = to - x0;
     span.origin -= x0;

@@ -13,6 +13,7 @@ typedef struct cs_row {
   celspan_span *spans;
   size_t count, capacity;
   size_t varied; /* spans that are not singles */
+  bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   cs_arena colours;
 } cs_row;
 
@@ -26,6 +27,9 @@ CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row 
 /* *colours: new room for x1 - x0 colours, to be filled by the caller. */
 CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, float **colours);
+/* The same of codes, 4 bytes a pixel, in a row that takes them. */
+CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
+                                            int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
 /* Room for `more` spans after those that are there. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,

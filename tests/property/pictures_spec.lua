@@ -115,7 +115,8 @@ local function placed(random)
     or celspan.polygon { { 1, 2 }, { 50, 8 }, { 40, 44 }, { 5, 30 }, texture = celspan.picture(texture) }
   if random:once(2) then shape = shape:rotate(random:between(-180, 180), 25, 20) end
   if random:once(2) then shape = shape:scale(random:between(1, 2.5), random:between(1, 2.5)) end
-  if random:once(4) then -- enlarged in all places: where a picture shrinks it is averaged
+  if random:once(3) then shape = shape:scale(random:between(2, 6)) end
+  if random:once(4) then
     shape = shape:scale(2.5):quad({ { 0, 0 }, { 125, 0 }, { 125, 100 }, { 0, 100 } },
                                   { { -4, 2 }, { 130, -6 }, { 134, 110 }, { 3, 104 } })
   end
@@ -142,6 +143,81 @@ describe("an enlarged picture", function()
           end
         end
       end
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- enlarged, upright
+
+--- The picture over the whole of a frame `scale` times its size.
+local function spread(sampling, scale, rest)
+  local image = celspan.image { file = file, x = 0, y = 0, sampling = sampling, wrap = "clamp" }:scale(scale)
+  local size = { math.floor(WIDTH * scale), math.floor(HEIGHT * scale) }
+  local rostrum = celspan.rostrum { celspan.cel { image }, table.unpack(rest or {}) }
+  return assert(celspan.spans(rostrum, { size = size, workers = 1 })), size, rostrum
+end
+
+local function count_kinds(list, size)
+  local counts = { single = 0, gradient = 0, array = 0 }
+  for y = 0, size[2] - 1 do
+    for _, span in ipairs(list[y]) do counts[span.kind] = counts[span.kind] + 1 end
+  end
+  return counts
+end
+
+describe("a picture enlarged upright", function()
+  for _, scale in ipairs { 4, 5.3, 17 } do
+    it("is a span a texel and no array, nearest, at " .. scale, function()
+      local list, size = spread("nearest", scale)
+      local counts = count_kinds(list, size)
+      assert.are.equal(0, counts.array)
+      assert.are.equal(0, counts.gradient)
+      assert.is_true(counts.single <= WIDTH * size[2])
+    end)
+
+    it("is a gradient from texel to texel and no array, bilinear, at " .. scale, function()
+      local list, size, rostrum = spread("bilinear", scale)
+      local counts = count_kinds(list, size)
+      assert.are.equal(0, counts.array)
+      assert.is_true(counts.single + counts.gradient <= (WIDTH + 1) * size[2])
+      for y = 0, size[2] - 1, 3 do
+        for x = 0, size[1] - 1 do
+          local colour = rows.colour(list[y], x)
+          local truth = { celspan.probe(rostrum, x + 0.5, y + 0.5, { film = size }) }
+          for c = 1, 4 do assert.is_true(math.abs(colour[c] - truth[c]) <= 1 / 1023) end
+        end
+      end
+    end)
+
+    it("is the same as pixel by pixel, at " .. scale, function()
+      for _, sampling in ipairs { "nearest", "bilinear" } do
+        local list, size = spread(sampling, scale)
+        -- A turn too small to see keeps the picture from being upright.
+        local turned = celspan.image { file = file, x = 0, y = 0, sampling = sampling, wrap = "clamp" }
+          :scale(scale):rotate(1e-8)
+        local arrays = assert(celspan.spans(show(turned), { size = size, workers = 1 }))
+        for y = 2, size[2] - 3 do
+          assert.are.equal("array", arrays[y][math.ceil(#arrays[y] / 2)].kind)
+          for x = 2, size[1] - 3 do
+            local a, b = rows.colour(list[y], x), rows.colour(arrays[y], x)
+            for c = 1, 4 do assert.is_true(math.abs(a[c] - b[c]) <= 1 / 1023) end
+          end
+        end
+      end
+    end)
+  end
+
+  it("keeps its spans between the edges of what lies over it", function()
+    local over = celspan.cel { celspan.circle { centre = { 60, 50 }, radius = 40, texture = "#10a0f080" } }
+    for _, sampling in ipairs { "nearest", "bilinear" } do
+      local list, size = spread(sampling, 8, { over })
+      local pixels = 0
+      for y = 0, size[2] - 1 do
+        for _, span in ipairs(list[y]) do
+          if span.kind == "array" then pixels = pixels + span.x1 - span.x0 end
+        end
+      end
+      assert.is_true(pixels <= 10 * size[2], pixels .. " pixels in arrays")
     end
   end)
 end)

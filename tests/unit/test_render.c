@@ -197,7 +197,7 @@ static void check_sinks(studio *s) {
   celspan_frame_desc desc = frame_of(&exposure, NULL);
   for (desc.workers = 1; desc.workers <= 4; desc.workers++) {
     tally whole = {.fail_at = -1, .outcome = CELSPAN_INTERNAL}, failed = {.fail_at = 30};
-    celspan_sink sink = {&whole, tally_begin, tally_row, tally_end};
+    celspan_sink sink = {&whole, tally_begin, tally_row, tally_end, false};
     celspan_statistics statistics = {0};
     studio_check(s, celspan_frame_render(s->context, &desc, &sink, &statistics));
     CHECK(whole.begins == 1 && whole.ends == 1 && whole.rows == HEIGHT && whole.is_tiled);
@@ -224,7 +224,7 @@ static void check_cancel(studio *s) {
   desc.strip_rows = 4;
   for (desc.workers = 1; desc.workers <= 3; desc.workers++) {
     tally t = {.fail_at = -1};
-    celspan_sink sink = {&t, tally_begin, tally_row, tally_end};
+    celspan_sink sink = {&t, tally_begin, tally_row, tally_end, false};
     CHECK(celspan_frame_render(s->context, &desc, &sink, NULL) == CELSPAN_CANCELLED);
     CHECK(reached >= HEIGHT / 2 && reached < HEIGHT && t.rows < HEIGHT);
     CHECK(t.ends == 1 && t.outcome == CELSPAN_CANCELLED);

@@ -1,5 +1,6 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
  */
+#include "colour/srgb8.h"
 #include "compose/sampler.h"
 #include "tests/support/picture.h"
 
@@ -415,6 +416,139 @@ static void test_cubic(void) {
   CHECK_NEAR((double)rgba[2], fmax(least, fmin(most, wanted)), 1e-5);
 }
 
+/* ---------------------------------------------------------------- ways that must agree */
+
+static const celspan_matrix all_placements[] = {
+    {{1, 0, 13, 0, 1, -7, 0, 0, 1}},                  /* copied */
+    {{1.7, 0, 3.3, 0, 1.3, -2, 0, 0, 1}},             /* rows, enlarged */
+    {{-5.3, 0, 300.1, 0, 4.1, -2, 0, 0, 1}},          /* mirrored, a grid */
+    {{0.3, 0, 3, 0, 0.4, 1, 0, 0, 1}},                /* rows, shrunk */
+    {{0, -0.7, 120, 0.6, 0, 3, 0, 0, 1}},             /* a quarter turn, shrunk */
+    {{1.5, 0.6, 9, -0.4, 1.7, 80, 0, 0, 1}},          /* tilted, enlarged */
+    {{0.2, 0.1, 9, -0.1, 0.15, 30, 0, 0, 1}},         /* tilted, shrunk */
+    {{0.5, 0.1, 10, 0.05, 0.6, 5, 0.001, 0.002, 1}}}; /* perspective */
+
+enum { PLACEMENTS = sizeof all_placements / sizeof *all_placements, RUN = 150 };
+
+typedef void (*try_sampler)(cs_sampler *sampler, double y);
+
+/* Every placement, kernel and wrap. */
+static void try_all(try_sampler try) {
+  for (int p = 0; p < PLACEMENTS; p++)
+    for (int sampling = 0; sampling <= CELSPAN_SAMPLING_BICUBIC; sampling++)
+      for (int wrap = 0; wrap <= CELSPAN_WRAP_REPEAT; wrap++)
+        for (int y = -4; y < 120; y += 31) {
+          cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, all_placements[p],
+                                      (celspan_sampling)sampling, (celspan_wrap)wrap);
+          try(&s, y + 0.5);
+        }
+}
+
+static void try_instructions(cs_sampler *s, double y) {
+  float wanted[RUN][4], made[RUN][4];
+  s->isa = CS_ISA_ANY;
+  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, wanted) == CELSPAN_OK);
+  for (cs_isa isa = CS_ISA_AVX2; isa <= cs_isa_best(); isa++) {
+    s->isa = isa;
+    CHECK(cs_sampler_run(&texels, s, -20, RUN, y, made) == CELSPAN_OK);
+    CHECK(memcmp(made, wanted, sizeof made) == 0);
+  }
+}
+
+static void try_columns(cs_sampler *s, double y) {
+  float whole[RUN][4], some[RUN][4];
+  int32_t columns[RUN], count = 0;
+  for (int32_t x = -20; x < RUN - 20; x += 1 + (x & 3))
+    columns[count++] = x;
+  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, whole) == CELSPAN_OK);
+  CHECK(cs_sampler_at(&texels, s, columns, count, y, some) == CELSPAN_OK);
+  for (int32_t i = 0; i < count; i++)
+    CHECK(same(some[i], whole[columns[i] + 20]));
+}
+
+/* Between steps a grid is of one colour, or a line. */
+static void try_steps(cs_sampler *s, double y) {
+  if (!cs_sampler_is_grid(s))
+    return;
+  enum { WIDE = 1200 };
+  static float row[WIDE][4];
+  int32_t ends[WIDE + 2] = {-20};
+  size_t limit = cs_sampler_step_limit(s, -20, WIDE - 20);
+  size_t count = cs_sampler_steps(s, -20, WIDE - 20, y, ends + 1);
+  CHECK(count <= limit && limit < WIDE / 2);
+  ends[count + 1] = WIDE - 20;
+  CHECK(cs_sampler_run(&texels, s, -20, WIDE, y, row) == CELSPAN_OK);
+  int wrong = 0;
+  for (size_t i = 0; i <= count; i++) {
+    wrong += ends[i] >= ends[i + 1];
+    int32_t first = ends[i] + 20, last = ends[i + 1] + 19;
+    for (int32_t x = first; x <= last; x++)
+      for (int c = 0; c < 4; c++) {
+        float u = last > first ? (float)(x - first) / (float)(last - first) : 0;
+        float line = row[first][c] + u * (row[last][c] - row[first][c]);
+        wrong += !(fabsf(line - row[x][c]) <= (s->kernel == CS_SAMPLER_NEAREST ? 0 : 1e-5f));
+      }
+  }
+  CHECK(wrong == 0);
+}
+
+static void try_codes(cs_sampler *s, double y) {
+  float row[RUN][4];
+  unsigned char codes[RUN][4];
+  if (s->way != CS_SAMPLER_COPY)
+    return;
+  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, row) == CELSPAN_OK);
+  CHECK(cs_sampler_codes(&texels, s, -20, RUN, y, codes[0]) == CELSPAN_OK);
+  int wrong = 0;
+  for (int x = 0; x < RUN; x++) {
+    uint32_t code = cs_srgb8_pixel(row[x]);
+    wrong += memcmp(&code, codes[x], sizeof code) != 0;
+  }
+  CHECK(wrong == 0);
+}
+
+/* ---------------------------------------------------------------- looks */
+
+enum { TILES = 300 };
+
+/* Clear, opaque and mixed in blocks of 100 by 100. */
+static void paint_tiles(int x, int y, float rgba[4]) {
+  int tile = (x / 100 + y / 100) % 3;
+  paint_noise(x, y, rgba);
+  rgba[3] = tile == 1 ? 1 : rgba[3];
+  for (int c = 0; c < 4 && tile == 0; c++)
+    rgba[c] = 0;
+}
+
+/* What a look says of samples is true of them, and it says something. */
+static void test_looks(void) {
+  cs_picture *tiles = make_picture("tiles.exr", TILES, TILES, paint_tiles);
+  int told[3] = {0}, wrong = 0;
+  for (int p = 0; p < PLACEMENTS && tiles; p++)
+    for (int wrap = 0; wrap <= CELSPAN_WRAP_REPEAT; wrap++)
+      for (int sampling = 0; sampling <= CELSPAN_SAMPLING_BICUBIC; sampling++)
+        for (int y = -40; y < 300; y += 7)
+          for (int x = -64; x < 320; x += 16) {
+            cs_sampler s = make_sampler(tiles, TILES, TILES, all_placements[p],
+                                        (celspan_sampling)sampling, (celspan_wrap)wrap);
+            float row[16][4];
+            cs_picture_look look;
+            CHECK(cs_sampler_look(&texels, &s, x, x + 16, y + 0.5, &look) == CELSPAN_OK);
+            told[look]++;
+            if (look == CS_PICTURE_MIXED)
+              continue;
+            CHECK(cs_sampler_run(&texels, &s, x, 16, y + 0.5, row) == CELSPAN_OK);
+            for (int i = 0; i < 16; i++)
+              wrong += look == CS_PICTURE_OPAQUE
+                           ? row[i][3] != 1
+                           : row[i][0] != 0 || row[i][1] != 0 || row[i][2] != 0 || row[i][3] != 0;
+          }
+  CHECK(wrong == 0);
+  CHECK(told[CS_PICTURE_OPAQUE] > 1000 && told[CS_PICTURE_CLEAR] > 1000);
+  cs_texels_finish(&texels);
+  remove_picture("tiles.exr", tiles);
+}
+
 static void test_errors(void) {
   celspan_picture_desc desc = {.file = "/nonexistent/picture.png"};
   cs_picture *picture;
@@ -454,6 +588,11 @@ int main(void) {
     test_perspective();
     test_horizon();
     test_cubic();
+    try_all(try_instructions);
+    try_all(try_columns);
+    try_all(try_steps);
+    try_all(try_codes);
+    test_looks();
     test_errors();
   }
   cs_texels_finish(&texels);

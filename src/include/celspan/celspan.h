@@ -536,6 +536,9 @@ typedef struct celspan_span {
   float colour[4];    /* linear, premultiplied RGBA */
   float slope[4];     /* gradient: a column */
   const float *array; /* array: 4 floats a pixel, from x0 on */
+  /* An array for a sink that takes codes may have these instead, and NULL for `array`: the pixels as
+   * RGBA of 8 bits, sRGB, straight. */
+  const unsigned char *codes;
 } celspan_span;
 
 /* The colour of one column of a span, x0 <= x < x1. Any thread. */
@@ -585,6 +588,8 @@ typedef struct celspan_sink {
   celspan_status (*row)(void *user, celspan_context *context, int32_t y, const celspan_span *spans,
                         size_t span_count);
   celspan_status (*end)(void *user, celspan_context *context, celspan_status outcome);
+  bool takes_codes; /* row is content with codes where pictures are copied, and codes to 8 bits,
+                       sRGB, straight (celspan_spans_code takes them) */
 } celspan_sink;
 
 /* Renders a frame into a sink. statistics may be NULL.

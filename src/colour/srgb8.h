@@ -2,8 +2,8 @@
  *
  * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
  */
-#ifndef CS_OUTPUT_SRGB8_H
-#define CS_OUTPUT_SRGB8_H
+#ifndef CS_COLOUR_SRGB8_H
+#define CS_COLOUR_SRGB8_H
 
 #include <stddef.h>
 

@@ -1,3 +1,3 @@
-#include "output/srgb8.h"
+#include "colour/srgb8.h"
 
 cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }

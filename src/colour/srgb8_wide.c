@@ -6,7 +6,7 @@
  * over the octave. y is then right within UNSURE, so its floor is right unless y lies within UNSURE of
  * a whole number: such pixels, one in a hundred and fifty, are coded one by one.
  */
-#include "output/srgb8.h"
+#include "colour/srgb8.h"
 
 #include <stdbool.h>
 

@@ -1,0 +1,69 @@
+#include "compose/sampler_parts.h"
+
+#define MOST_BLOCKS 12 /* looked at for one answer */
+
+/* A rectangle of the picture, in its pixels. */
+typedef struct area {
+  double u0, v0, u1, v1;
+} area;
+
+/* All that the samples of [x0, x1) may come from. */
+static area area_of(const cs_sampler *s, int32_t x0, int32_t x1, double y) {
+  const double *m = s->m;
+  double left = x0 + 0.5, right = x1 - 0.5, reach = s->reach;
+  double ua = m[0] * left + m[1] * y + m[2], ub = m[0] * right + m[1] * y + m[2];
+  double va = m[3] * left + m[4] * y + m[5], vb = m[3] * right + m[4] * y + m[5];
+  return (area){(ua < ub ? ua : ub) - reach, (va < vb ? va : vb) - reach,
+                (ua < ub ? ub : ua) + reach, (va < vb ? vb : va) + reach};
+}
+
+static bool is_beyond(const cs_sampler *s, const area *a) {
+  return a->u1 < 0 || a->v1 < 0 || a->u0 >= s->width || a->v0 >= s->height;
+}
+
+static bool is_within(const cs_sampler *s, const area *a) {
+  return a->u0 >= 0 && a->v0 >= 0 && a->u1 < s->width && a->v1 < s->height;
+}
+
+/* The block along an axis that holds a coordinate, held to the picture. */
+static int32_t block_at(const cs_sampler *s, double u, int32_t size) {
+  return (int32_t)cs_number_clamp(u, 0, size - 1) / CS_PICTURE_BLOCK >> s->level;
+}
+
+static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, const area *a) {
+  int32_t left = block_at(s, a->u0, s->width), right = block_at(s, a->u1, s->width);
+  int32_t top = block_at(s, a->v0, s->height), bottom = block_at(s, a->v1, s->height);
+  if ((int64_t)(right - left + 1) * (bottom - top + 1) > MOST_BLOCKS)
+    return CS_PICTURE_MIXED;
+  cs_picture_look look = CS_PICTURE_MIXED;
+  for (int32_t row = top; row <= bottom; row++)
+    for (int32_t column = left; column <= right; column++) {
+      const cs_texels_slot *slot = cs_texels_slot_of(texels, &s->source, s->level, column, row);
+      cs_picture_look next = slot->texels ? slot->look : CS_PICTURE_MIXED;
+      bool is_first = row == top && column == left;
+      if (next == CS_PICTURE_MIXED || (!is_first && next != look))
+        return CS_PICTURE_MIXED;
+      look = next;
+    }
+  return look;
+}
+
+celspan_status cs_sampler_look(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
+                               double y, cs_picture_look *out) {
+  *out = CS_PICTURE_MIXED;
+  texels->status = CELSPAN_OK;
+  if (s->way == CS_SAMPLER_PERSPECTIVE)
+    return CELSPAN_OK;
+  area a = area_of(s, x0, x1, y);
+  bool is_within_picture = is_within(s, &a);
+  if (s->wrap == CELSPAN_WRAP_CLEAR && is_beyond(s, &a)) {
+    *out = CS_PICTURE_CLEAR;
+    return CELSPAN_OK;
+  }
+  if (!is_within_picture && s->wrap == CELSPAN_WRAP_REPEAT)
+    return CELSPAN_OK;
+  *out = look_at_blocks(texels, s, &a);
+  if (*out == CS_PICTURE_OPAQUE && !is_within_picture && s->wrap == CELSPAN_WRAP_CLEAR)
+    *out = CS_PICTURE_MIXED;
+  return texels->status;
+}

@@ -1,0 +1,109 @@
+/* compose/blend.c: every set of instructions folds alike, and every pixel by itself. */
+#include "compose/blend.h"
+
+#include "tests/support/check.h"
+
+static uint32_t state = 11;
+
+static float random_unit(void) {
+  state = state * 1664525u + 1013904223u;
+  return (float)(state >> 8) * 0x1p-24f;
+}
+
+static float rgba[CS_BLEND_BATCH][4], s[CS_BLEND_BATCH][4], t[CS_BLEND_BATCH][4];
+static cs_leaf leaves[6];
+static cs_group groups[2] = {{.parent = CS_STACK_NONE, .first = 1, .fade = 0.7f},
+                             {.parent = 0, .first = 2, .fade = 0.4f}};
+static cs_back_light lights[2] = {{.below = 5, .light = {0.1f, 0.2f, 0.3f, 0}, .keep = 0.8f},
+                                  {.below = 1, .light = {1, 1, 0.5f, 0}, .keep = 0.1f}};
+static const cs_stack stack = {.leaves = leaves,
+                               .leaf_count = 6,
+                               .groups = groups,
+                               .group_count = 2,
+                               .lights = lights,
+                               .light_count = 2};
+
+static void fill(void) {
+  for (int i = 0; i < CS_BLEND_BATCH; i++)
+    for (int c = 0; c < 4; c++) {
+      rgba[i][c] = c == 3 ? 0.5f + 0.5f * random_unit() : 0.4f * random_unit();
+      s[i][c] = 0.4f * random_unit();
+      t[i][c] = random_unit();
+    }
+  for (uint32_t i = 0; i < 6; i++) {
+    leaves[i] = (cs_leaf){.fade = i == 5 ? 1 : random_unit(),
+                          .group = i == 0 || i == 5 ? CS_STACK_NONE : i < 2 || i == 4 ? 0 : 1,
+                          .front = {random_unit(), 1, 2 * random_unit(), 0},
+                          .s = {0.1f, 0.2f, random_unit(), 0},
+                          .t = {0.5f, random_unit(), 0.7f, 0}};
+  }
+}
+
+/* Leaves 5 .. 0 from the front, in all the ways of painting, groups and lights between them. */
+static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t from, int32_t count,
+                 float (*out)[4]) {
+  cs_blend blend;
+  cs_arena_reset(arena);
+  CHECK(cs_blend_begin(context, arena, &stack, isa, count, &blend) == CELSPAN_OK);
+  for (uint32_t leaf = 6; leaf-- > 0;) {
+    CHECK(cs_blend_reach(context, arena, &blend, leaf) == CELSPAN_OK);
+    if (leaf % 3 == 0)
+      cs_blend_flat(&blend, &leaves[leaf]);
+    else if (leaf % 3 == 1)
+      cs_blend_paints(&blend, &leaves[leaf], (const float(*)[4])s + from,
+                      (const float(*)[4])t + from);
+    else
+      cs_blend_picture(&blend, &leaves[leaf],
+                       leaf == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
+                       (const float(*)[4])rgba + from);
+  }
+  cs_blend_end(&blend, out);
+}
+
+/* The fold of one pixel by the book, in doubles; groups are folded by recursion. */
+static double by_hand_alpha(int i) {
+  double through[3] = {1, 1, 1}, inner[3] = {1, 1, 1}, innermost[3] = {1, 1, 1}, mean = 0;
+  for (int c = 0; c < 3; c++) {
+    const cs_leaf *l = leaves;
+    double alpha = (double)rgba[i][3], front = 1 - alpha; /* leaf 5 is a picture that is not faded */
+    through[c] *= front;
+    inner[c] *= 1 - (double)l[4].fade + (double)l[4].fade * (double)t[i][c];
+    innermost[c] *= (double)l[3].t[c];
+    innermost[c] *= 1 - (double)l[2].fade +
+                    (double)l[2].fade * fmin(1, 1 - alpha + (double)rgba[i][c]);
+    inner[c] *= 1 - (double)groups[1].fade + (double)groups[1].fade * innermost[c];
+    inner[c] *= 1 - (double)l[1].fade + (double)l[1].fade * (double)t[i][c];
+    through[c] *= 1 - (double)groups[0].fade + (double)groups[0].fade * inner[c];
+    through[c] *= (double)l[0].t[c];
+    mean += through[c] / 3;
+  }
+  return 1 - (double)lights[0].keep * (double)lights[1].keep * mean;
+}
+
+int main(void) {
+  celspan_context *context;
+  cs_arena arena;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  cs_arena_init(&arena);
+  for (int round = 0; round < 20; round++) {
+    float wanted[CS_BLEND_BATCH][4], made[CS_BLEND_BATCH][4];
+    fill();
+    fold(context, &arena, CS_ISA_ANY, 0, CS_BLEND_BATCH, wanted);
+    for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+      fold(context, &arena, isa, 0, CS_BLEND_BATCH, made);
+      CHECK(memcmp(made, wanted, sizeof wanted) == 0);
+      for (int32_t from = 0; from < 200; from += 37) { /* alone, and in odd numbers */
+        int32_t count = 1 + from % 7;
+        made[count][0] = -1;
+        fold(context, &arena, isa, from, count, made);
+        CHECK(memcmp(made, wanted + from, (size_t)count * sizeof *made) == 0);
+        CHECK(made[count][0] == -1);
+      }
+    }
+    for (int i = 0; i < CS_BLEND_BATCH; i += 17)
+      CHECK_NEAR((double)wanted[i][3], by_hand_alpha(i), 1e-6);
+  }
+  cs_arena_finish(&arena, context->memory);
+  celspan_context_destroy(context);
+  return check_done();
+}

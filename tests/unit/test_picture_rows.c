@@ -1,0 +1,137 @@
+/* Pictures in frames: the same pixels with codes and without, on any number of workers, from tiles
+ * that are clear, opaque or neither.
+ */
+#include "output/pixels.h"
+#include "tests/support/picture.h"
+#include "tests/support/scene.h"
+
+enum { WIDTH = 300, HEIGHT = 130 };
+
+static uint32_t mix(uint32_t x, uint32_t y) {
+  uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u;
+  h = (h ^ h >> 15) * 0x2c1b3c6du;
+  return h ^ h >> 13;
+}
+
+static void paint_ground(int x, int y, float rgba[4]) {
+  for (uint32_t c = 0; c < 3; c++)
+    rgba[c] = (float)(mix((uint32_t)x + c * 977, (uint32_t)y) & 255) / 255;
+  rgba[3] = 1;
+}
+
+/* Tiles of 70 by 70: clear, opaque, translucent. */
+static void paint_tiles(int x, int y, float rgba[4]) {
+  int tile = (x / 70 + 2 * (y / 70)) % 3;
+  paint_ground(x + 5, y + 9, rgba);
+  rgba[3] = tile == 0 ? 0 : tile == 1 ? 1 : 0.25f + (float)(mix((uint32_t)x, 7) & 127) / 255;
+  for (int c = 0; c < 3; c++)
+    rgba[c] *= rgba[3];
+}
+
+static celspan_cel *picture_cel(studio *s, const char *file, celspan_matrix placement,
+                                double opacity) {
+  celspan_image_desc desc = {.picture = {.file = file}};
+  celspan_object *plain = NULL, *placed = NULL;
+  studio_check(s, celspan_object_create_image(s->context, &desc, &plain));
+  studio_check(s, celspan_object_transform(s->context, plain, &placement, &placed));
+  s->objects[s->object_count++] = plain;
+  s->objects[s->object_count++] = placed;
+  celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  cel.objects = &placed;
+  cel.object_count = 1;
+  cel.opacity = opacity;
+  celspan_cel *made = NULL;
+  studio_check(s, celspan_cel_create(s->context, &cel, &made));
+  s->cels[s->cel_count++] = made;
+  return made;
+}
+
+typedef struct sheet {
+  unsigned char rows[HEIGHT][4 * WIDTH];
+  size_t coded; /* pixels that came as codes */
+} sheet;
+
+static celspan_status take_row(void *user, celspan_context *context, int32_t y,
+                               const celspan_span *spans, size_t span_count) {
+  sheet *to = user;
+  (void)context;
+  celspan_spans_code(NULL, spans, span_count, to->rows[y]);
+  for (size_t i = 0; i < span_count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_ARRAY && spans[i].codes)
+      to->coded += (size_t)(spans[i].x1 - spans[i].x0);
+  return CELSPAN_OK;
+}
+
+static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_codes, sheet *to) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  celspan_sink sink = {.user = to, .row = take_row, .takes_codes = takes_codes};
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.width = WIDTH;
+  desc.height = HEIGHT;
+  desc.workers = workers;
+  desc.strip_rows = 7;
+  memset(to, 0, sizeof *to);
+  studio_check(s, celspan_frame_render(s->context, &desc, &sink, NULL));
+}
+
+static void check_frame(studio *s, celspan_cel **cels, size_t count, bool has_codes) {
+  static sheet plain, coded;
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  celspan_rostrum *rostrum = NULL;
+  desc.cels = cels;
+  desc.cel_count = count;
+  studio_check(s, celspan_rostrum_create(s->context, &desc, &rostrum));
+  s->rostrums[s->rostrum_count++] = rostrum;
+  render(s, rostrum, 1, false, &plain);
+  CHECK(plain.coded == 0);
+  for (int workers = 1; workers <= 3; workers++) {
+    render(s, rostrum, workers, true, &coded);
+    CHECK((coded.coded > 0) == has_codes);
+    CHECK(memcmp(plain.rows, coded.rows, sizeof plain.rows) == 0);
+  }
+}
+
+static void check_frames(studio *s, const char *ground, const char *tiles) {
+  celspan_matrix still = celspan_matrix_identity();
+  celspan_cel *cels[3] = {picture_cel(s, ground, still, 1)};
+  check_frame(s, cels, 1, true);
+  cels[1] = picture_cel(s, tiles, celspan_matrix_translation(31, -14), 1);
+  check_frame(s, cels, 2, true);
+  cels[2] = picture_cel(s, tiles, celspan_matrix_scaling(1.7, 1.3), 1);
+  check_frame(s, cels, 3, true);
+  cels[2] = picture_cel(s, ground, celspan_matrix_rotation(0.4, (celspan_point){150, 60}), 0.5);
+  check_frame(s, cels, 3, true);
+  cels[0] = picture_cel(s, ground, still, 0.5); /* faded: no copy */
+  check_frame(s, cels, 1, false);
+  celspan_cel_desc lit = CELSPAN_CEL_DESC;
+  lit.objects = &s->objects[1];
+  lit.object_count = 1;
+  lit.has_front = true;
+  lit.front = (celspan_light){1, 0.5f, 1, 0};
+  studio_check(s, celspan_cel_create(s->context, &lit, &s->cels[s->cel_count++]));
+  check_frame(s, &s->cels[s->cel_count - 1], 1, false);
+  lit.has_front = false;
+  lit.back = (celspan_light){1, 1, 1, 1}; /* behind an opaque picture nothing shines */
+  studio_check(s, celspan_cel_create(s->context, &lit, &s->cels[s->cel_count++]));
+  check_frame(s, &s->cels[s->cel_count - 1], 1, true);
+}
+
+int main(void) {
+  studio s = {0};
+  char ground[512], tiles[512];
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  if (picture_module_is_there(s.context)) {
+    snprintf(ground, sizeof ground, "%s", picture_path("ground.png"));
+    snprintf(tiles, sizeof tiles, "%s", picture_path("tiles.png"));
+    studio_check(&s, picture_write(s.context, ground, NULL, WIDTH, HEIGHT, paint_ground));
+    studio_check(&s, picture_write(s.context, tiles, NULL, WIDTH, HEIGHT, paint_tiles));
+    check_frames(&s, ground, tiles);
+    unlink(ground);
+    unlink(tiles);
+  }
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+  return check_done();
+}
