@@ -139,7 +139,6 @@ void CS_WIDE(cs_png_add_costs)(const unsigned char *row, const unsigned char *ab
 /* Four pixels at a time: what is written lies before what is yet to be read. */
 uint32_t CS_WIDE(cs_png_drop_alpha)(unsigned char *from, size_t pixel_count) {
   typedef uint8_t four __attribute__((vector_size(16)));
-  const four kept = {0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 15, 15, 15, 15};
   four common = ~(four){0};
   uint32_t parts[4], all = UINT32_MAX;
   unsigned char *to = from;
@@ -147,7 +146,8 @@ uint32_t CS_WIDE(cs_png_drop_alpha)(unsigned char *from, size_t pixel_count) {
     four pixels;
     memcpy(&pixels, from, sizeof pixels);
     common &= pixels;
-    pixels = __builtin_shuffle(pixels, kept);
+    pixels = __builtin_shufflevector(pixels, pixels, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 15, 15,
+                                     15, 15);
     memcpy(to, &pixels, sizeof pixels);
   }
   for (; pixel_count > 0; pixel_count--, from += 4, to += 3) {
