@@ -38,6 +38,8 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
 }
 
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
+  if (!convolve->kernel)
+    return; /* it was never begun */
   size_t columns = (size_t)convolve->width;
   cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
   cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);

@@ -3,6 +3,7 @@
 
 #include "filter/soft_bands.h"
 #include "render/frame.h"
+#include "tests/support/memory.h"
 #include "tests/support/scene.h"
 
 #define SIDE 48
@@ -376,7 +377,63 @@ static void check_bars(void) {
   celspan_context_destroy(s.context);
 }
 
+/* ---------------------------------------------------------------- memory */
+
+/* Makes the frame with every allocation failing once: the status says so and nothing is lost. */
+static void check_failures_of(studio *s, memory_watch *watch, celspan_rostrum *rostrum,
+                              const celspan_filter_desc *kernel) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_antialias_mode mode = CELSPAN_ANTIALIAS_FILTER;
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  uint64_t expected[2], digest[2];
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.film_width = desc.film_height = SIDE;
+  desc.width = desc.height = 20;
+  desc.workers = 1;
+  desc.antialias = kernel ? &mode : NULL;
+  if (kernel)
+    desc.filter = *kernel;
+  studio_check(s, celspan_frame_digest(s->context, &desc, NULL, expected));
+  size_t bytes = watch->bytes, failures = 0;
+  for (celspan_status status = CELSPAN_NO_MEMORY; status != CELSPAN_OK; failures++) {
+    watch->fail_at = watch->allocations + failures + 1;
+    status = celspan_frame_digest(s->context, &desc, NULL, digest);
+    watch->fail_at = 0;
+    if (!CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY) ||
+        !CHECK(watch->bytes == bytes))
+      break;
+  }
+  CHECK(digest[0] == expected[0] && digest[1] == expected[1]);
+  CHECK(failures > 30 && watch->size_errors == 0);
+}
+
+/* Every way to soften a cel, and a kernel over a picture that varies. */
+static void check_memory(void) {
+  static const double radii[] = {12, 2, 110}; /* film units: 5, 0.8 and 46 pixels */
+  memory_watch watch = {0};
+  static studio s;
+  celspan_context_desc desc = {.struct_size = sizeof desc,
+                               .resize = memory_watch_resize,
+                               .resize_user = &watch,
+                               .defocus_bytes = 1};
+  CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
+  for (int k = 0; k < 18; k++) {
+    random_state = 31 + (uint64_t)k;
+    stage set =
+        random_stage(&s, k / 9 ? 4 : k % 2, radii[k % 3], (celspan_defocus_kernel)(k / 3 % 3), 0);
+    check_failures_of(&s, &watch, set.soft, NULL);
+    celspan_filter_desc kernel = {.kernel = k / 9 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_BOX};
+    if (k % 9 == 0)
+      check_failures_of(&s, &watch, set.sharp, &kernel);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0);
+}
+
 int main(void) {
+  check_memory();
   check_bars();
   check_orders();
   check_kept();
