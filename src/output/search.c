@@ -10,7 +10,7 @@ enum {
   WINDOW = CS_SEARCH_WINDOW,
   LONGEST = CS_BLOCK_LONGEST,
   SHORTEST = 4,
-  REMEMBERED = 32, /* the longest match whose inner places are remembered */
+  REMEMBERED = 64, /* the longest match whose inner places are remembered */
   CHAIN = 10,      /* earlier places looked at */
   CHAIN_LATER = 3, /* those for a better match a byte later */
   GOOD = 16,       /* a match that is hardly bettered: one place is looked at */
@@ -175,11 +175,11 @@ static inline match find(cs_search *search, size_t next, int chain) {
 
 /* ---------------------------------------------------------------- tokens */
 
-/* The places inside short matches are worth remembering in photographs; those inside long ones only
- * push out the starts of flat runs. remembered: how many of its places are already. */
+/* The places inside long matches are left out: they only push out the starts of flat runs.
+ * remembered: how many of its places are already. */
 static inline void remember_match(cs_search *search, size_t next, size_t remembered, match found) {
   const unsigned char *at = search->buffer + next, *end = search->buffer + search->end;
-  if (found.length <= REMEMBERED && found.distance > search->pixel_size)
+  if (found.length <= REMEMBERED)
     for (size_t i = remembered; i < found.length && at + i + SHORTEST <= end; i++)
       remember(search, at + i);
 }

@@ -119,6 +119,17 @@ describe("PNG and Targa files", function()
     end
   end)
 
+  it_reads("are no larger than what OpenImageIO makes of the same pixels", function()
+    local root = os.getenv("PWD")
+    for _, frame in ipairs { 1, 120, 240 } do
+      local code, _, err = celspan(("render '%s/scripts/demo.lua' -o k.png --size 3840x2160 "
+        .. "--frames %d --progress none"):format(root, frame))
+      assert.are.equal(0, code, err)
+      assert.are.equal(0, (shell("oiiotool k.png -o l.png")))
+      assert.is_true(#read(folder .. "/k.png") < #read(folder .. "/l.png"), "frame " .. frame)
+    end
+  end)
+
   -- With the largest difference that the format's own numbers explain.
   local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
   it_reads_pictures("may be so long and thin in all formats that can hold them", function()

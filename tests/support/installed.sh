@@ -13,10 +13,10 @@ meson install -C "$1" --no-rebuild --quiet --destdir "$tree"
 installed() {
   local found
   found=$(find "$tree" -name "$1")
-  [ "$(wc -l <<<"$found")" = 1 ] && [ -n "$found" ] || {
+  if [ -z "$found" ] || [ "$(wc -l <<<"$found")" != 1 ]; then
     echo "installed: $1 is not there once: $found" >&2
     return 1
-  }
+  fi
   echo "$found"
 }
 
