@@ -352,6 +352,14 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
+/* Rounding put a fragment left of what is written: it begins where that ends. */
+static void cut_fragment(cs_fragment *f, int32_t from) {
+  f->first = from;
+  f->end = f->end > from ? f->end : from;
+  f->area = f->end > from ? cover(f, from) : f->height;
+  f->rest = f->end > from + 1 ? cover(f, from + 1) : f->height;
+}
+
 static celspan_status add_fragment(cs_window *window, const cs_fragment *fragment) {
   if (window->fragment_count == window->fragment_capacity)
     CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
@@ -359,10 +367,8 @@ static celspan_status add_fragment(cs_window *window, const cs_fragment *fragmen
                           sizeof *window->fragments));
   cs_fragment *added = &window->fragments[window->fragment_count++];
   *added = *fragment;
-  if (added->first < window->from) { /* rounding put it left of what is written */
-    added->first = window->from;
-    added->end = added->end < added->first + 3 ? added->first + 3 : added->end;
-  }
+  if (added->first < window->from)
+    cut_fragment(added, window->from);
   if (fragment->end > window->end)
     window->end = fragment->end;
   window->varies |= fragment->left->length > 0 || fragment->right->length > 0;
