@@ -43,7 +43,7 @@ static const float powers[6] = {0x1.2f1e0ep+0f, 0x1.50cc54p-2f,  -0x1.05932cp-4f
 typedef struct chunk {
   float values[LANES];  /* 0..1, colours straight */
   float octaves[LANES]; /* the powers of their octaves */
-  unsigned char unsure[LANES];
+  uint16_t unsure[LANES / CS_WIDE_LANES]; /* a bit a lane */
 } chunk;
 
 static inline int differs_from_one(const float *rgba) {
@@ -84,6 +84,15 @@ static inline void store_bytes(unsigned char *out, cs_wide_int numbers) {
 #endif
 }
 
+/* A mask as a bit a lane. */
+static inline int bits_of(cs_wide_int mask) {
+#ifdef __AVX512F__
+  return (int)_mm512_movepi32_mask((__m512i)mask);
+#else
+  return _mm256_movemask_ps((__m256)mask);
+#endif
+}
+
 /* Codes of the values, to be trusted where unsure is 0. */
 static inline void code_values(chunk *c, unsigned char *out) {
   const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
@@ -98,18 +107,14 @@ static inline void code_values(chunk *c, unsigned char *out) {
     cs_wide_int code = __builtin_convertvector(y, cs_wide_int);
     cs_wide rest = y - __builtin_convertvector(code, cs_wide);
     store_bytes(out + i, code);
-    store_bytes(c->unsure + i, ((rest < UNSURE) | (rest > 1 - UNSURE)) & 1);
+    c->unsure[i / CS_WIDE_LANES] = (uint16_t)bits_of((rest < UNSURE) | (rest > 1 - UNSURE));
   }
 }
 
-/* Two pixels at a time. */
 static inline void code_unsure(const float *rgba, const chunk *c, unsigned char *out) {
-  for (int i = 0; i < LANES; i += 8) {
-    uint64_t unsure;
-    memcpy(&unsure, c->unsure + i, sizeof unsure);
-    if (unsure)
-      code_pixels(rgba + i, 2, out + i);
-  }
+  for (int i = 0; i < LANES; i += CS_WIDE_LANES)
+    if (c->unsure[i / CS_WIDE_LANES])
+      code_pixels(rgba + i, CS_WIDE_LANES / 4, out + i);
 }
 
 /* Fills octaves. */

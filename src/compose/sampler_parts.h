@@ -159,6 +159,10 @@ CS_WIDE_DECLARE(void, cs_sampler_plan_taps,
 CS_WIDE_DECLARE(void, cs_sampler_move,
                 (const cs_sampler *sampler, cs_sampler_tap tap, int32_t from, int32_t count,
                  const cs_sampler_centres *centres, double *u, double *v));
+/* The centres of an affine map as taps at once, where the picture does not repeat. */
+CS_WIDE_DECLARE(void, cs_sampler_place_taps,
+                (const cs_sampler *sampler, int32_t x0, int32_t count, double y, double *u,
+                 double *v));
 CS_WIDE_DECLARE(void, cs_sampler_find_quads,
                 (const cs_sampler *sampler, int level, int32_t count, const double *u,
                  const double *v, cs_sampler_quads *quads));
