@@ -2,9 +2,9 @@
  *
  *   colour --divided by alpha, held to 0..1--> x --curve--> y = 255 f(x) + 1/2 --> floor(y)
  *
- * x^(1/2.4) is the power of its octave, from a table that fits a register or two, times a polynomial
- * over the octave. y is then right within UNSURE, so its floor is right unless y lies within UNSURE of
- * a whole number: such pixels, one in a hundred and fifty, are coded one by one.
+ * x^(1/2.4) is the power of its octave, from a table that fits a register or two, times a
+ * polynomial over the octave. y is then right within UNSURE, so its floor is right unless y lies
+ * within UNSURE of a whole number: such pixels, one in a hundred and fifty, are coded one by one.
  */
 #include "colour/srgb8.h"
 
@@ -30,10 +30,22 @@ static void code_pixels(const float *rgba, size_t count, unsigned char *out) {
 
 /* 255 * 1.055 * 2^(e / 2.4), by the last four bits of the exponent e + 127 of a float from 2^-13 to
  * 1: what is smaller lies on the straight part of the curve. */
-static const float octave_powers[16] = {
-    0,              0,              0x1.931502p+2f, 0x1.0d0666p+3f, 0x1.671af4p+3f, 0x1.df591ap+3f,
-    0x1.3fed2cp+4f, 0x1.ab0cf2p+4f, 0x1.1d05a6p+5f, 0x1.7c7574p+5f, 0x1.fbda00p+5f, 0x1.52f344p+6f,
-    0x1.c471bep+6f, 0x1.2df86ap+7f, 0x1.931502p+7f, 0x1.0d0666p+8f};
+static const float octave_powers[16] = {0,
+                                        0,
+                                        0x1.931502p+2f,
+                                        0x1.0d0666p+3f,
+                                        0x1.671af4p+3f,
+                                        0x1.df591ap+3f,
+                                        0x1.3fed2cp+4f,
+                                        0x1.ab0cf2p+4f,
+                                        0x1.1d05a6p+5f,
+                                        0x1.7c7574p+5f,
+                                        0x1.fbda00p+5f,
+                                        0x1.52f344p+6f,
+                                        0x1.c471bep+6f,
+                                        0x1.2df86ap+7f,
+                                        0x1.931502p+7f,
+                                        0x1.0d0666p+8f};
 
 /* (1.5 + t)^(1/2.4), |t| <= 1/2, right within 2e-6 of itself. */
 static const float powers[6] = {0x1.2f1e0ep+0f, 0x1.50cc54p-2f,  -0x1.05932cp-4f,
@@ -41,8 +53,8 @@ static const float powers[6] = {0x1.2f1e0ep+0f, 0x1.50cc54p-2f,  -0x1.05932cp-4f
 
 /* One chunk on its way. */
 typedef struct chunk {
-  float values[LANES];  /* 0..1, colours straight */
-  float octaves[LANES]; /* the powers of their octaves */
+  float values[LANES];                    /* 0..1, colours straight */
+  float octaves[LANES];                   /* the powers of their octaves */
   uint16_t unsure[LANES / CS_WIDE_LANES]; /* a bit a lane */
 } chunk;
 

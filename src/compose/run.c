@@ -24,9 +24,9 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
   celspan_picture_info info;
   CS_TRY(cs_picture_info(composer->context, texture->picture, &info));
   const celspan_box *box = &slide->box;
-  celspan_matrix to_picture = {
-      {info.width / box->width, 0, -box->x * info.width / box->width, 0, info.height / box->height,
-       -box->y * info.height / box->height, 0, 0, 1}};
+  celspan_matrix to_picture = {{info.width / box->width, 0, -box->x * info.width / box->width, 0,
+                                info.height / box->height, -box->y * info.height / box->height, 0,
+                                0, 1}};
   seen->sampler = (cs_sampler){.picture = texture->picture,
                                .inverse = celspan_matrix_then(slide->inverse, to_picture),
                                .width = info.width,
@@ -35,8 +35,8 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                .wrap = slide->wrap,
                                .isa = composer->isa};
   cs_sampler_prepare(&seen->sampler);
-  seen->is_opaque = !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT &&
-                    slide->wrap != CELSPAN_WRAP_CLEAR;
+  seen->is_opaque =
+      !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT && slide->wrap != CELSPAN_WRAP_CLEAR;
   seen->is_ready = true;
   return CELSPAN_OK;
 }
@@ -64,7 +64,7 @@ static double centre(const batch *b, int32_t k) {
 
 /* What leaves that vary paint in a batch of pixels. */
 typedef struct samples {
-  float rgba[CS_BLEND_BATCH][4];                     /* pictures */
+  float rgba[CS_BLEND_BATCH][4];                    /* pictures */
   float s[CS_BLEND_BATCH][4], t[CS_BLEND_BATCH][4]; /* all others; s is not lit */
 } samples;
 
@@ -77,10 +77,9 @@ static celspan_status sample_picture(cs_composer *composer, const cs_leaf *leaf,
                                      float (*rgba)[4]) {
   const cs_seen_slide *slide;
   CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-  return b->columns ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y,
-                                    rgba)
-                    : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y,
-                                     rgba);
+  return b->columns
+             ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y, rgba)
+             : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y, rgba);
 }
 
 static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
@@ -228,8 +227,8 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
   return CELSPAN_OK;
 }
 
-/* What shows over some columns: the items of a program without those that are clear there, up to the
- * first that is opaque. */
+/* What shows over some columns: the items of a program without those that are clear there, up to
+ * the first that is opaque. */
 typedef struct segment {
   uint32_t end;      /* of the items */
   uint64_t left_out; /* a bit each, of the first 64 */
@@ -252,8 +251,8 @@ static celspan_status run_copy(cs_composer *composer, const cs_program *shown, i
   const cs_leaf *leaf = &composer->stack->leaves[shown->items[0].leaf];
   unsigned char *codes;
   CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
-  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0,
-                          y, codes);
+  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0, y,
+                          codes);
 }
 
 /* A program of what shows, and nothing else. */
@@ -328,8 +327,7 @@ static celspan_status run_segment(cs_composer *composer, const cs_program *progr
   if (x1 <= x0)
     return CELSPAN_OK;
   if (part->left_out) {
-    cs_item *items =
-        cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
+    cs_item *items = cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
     if (!items)
       return CELSPAN_NO_MEMORY;
     shown = (cs_program){items, program->strips, 0};
@@ -358,8 +356,8 @@ static bool is_uniform(const cs_composer *composer, const cs_program *program) {
   return true;
 }
 
-celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
-                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program, int32_t x0,
+                                       int32_t x1, double y, cs_row *row) {
   segment current, next;
   int32_t begun = x0;
   if (x1 <= x0)

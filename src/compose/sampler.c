@@ -40,9 +40,9 @@ static int taps_along(double length, int level) {
 static void plan_tilted(cs_sampler *s, const footprint *f) {
   double right = sqrt(f->ux * f->ux + f->vx * f->vx), below = sqrt(f->uy * f->uy + f->vy * f->vy);
   s->kernel = CS_SAMPLER_TILTED;
-  s->level = cs_sampler_level(s->level_count, right < below ? right : below,
-                              right < below ? below : right, CS_SAMPLER_TAP_TEXELS,
-                              CS_SAMPLER_MOST_TAPS);
+  s->level =
+      cs_sampler_level(s->level_count, right < below ? right : below, right < below ? below : right,
+                       CS_SAMPLER_TAP_TEXELS, CS_SAMPLER_MOST_TAPS);
   s->columns = taps_along(right, s->level);
   s->rows = taps_along(below, s->level);
 }
@@ -136,9 +136,8 @@ static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 
 /* Texel (x, y): as light, or as the 4 bytes of its code. */
 static const void *texel_at(const cs_sampling *run, int32_t x, int32_t y, bool is_code) {
-  const cs_texels_slot *slot =
-      cs_texels_slot_of(run->texels, &run->sampler->source, 0, x / CS_PICTURE_BLOCK,
-                        y / CS_PICTURE_BLOCK);
+  const cs_texels_slot *slot = cs_texels_slot_of(run->texels, &run->sampler->source, 0,
+                                                 x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   size_t at = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
   if (!slot->texels)
     return cs_texels_none;

@@ -114,7 +114,8 @@ typedef struct cs_extent {
 
 void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
                            cs_extent *out);
-/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there. */
+/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there.
+ */
 int cs_sampler_level(int level_count, double shorter, double longer, double texels, double most);
 
 /* ---- sampler_wide.c: loops over `count` pixels */

@@ -23,8 +23,7 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
                       float rgba[4]) {
   cs_v4 quad[4], column[2];
   for (int k = 0; k < 4; k++)
-    quad[k] = cs_v4_load(
-        cs_sampling_texel(run, level, quads->x[i] + k % 2, quads->y[i] + k / 2));
+    quad[k] = cs_v4_load(cs_sampling_texel(run, level, quads->x[i] + k % 2, quads->y[i] + k / 2));
   for (int k = 0; k < 2; k++)
     column[k] = quad[k] + quads->down[i] * (quad[k + 2] - quad[k]);
   cs_v4_store(rgba, column[0] + quads->across[i] * (column[1] - column[0]));
@@ -53,8 +52,8 @@ static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_qu
     }
     while (end < count && quads->key[end] == key)
       end++;
-    const float *block = cs_texels_block(run->texels, &run->sampler->source, level, key & 0x7fff,
-                                         key >> 15);
+    const float *block =
+        cs_texels_block(run->texels, &run->sampler->source, level, key & 0x7fff, key >> 15);
     WIDE(run, cs_sampler_mix_quads)(block, quads, i, end - i, ahead, rgba + i);
   }
 }
@@ -109,8 +108,8 @@ static void tap_mean(const cs_sampling *run, int level, int columns, int rows, i
     cs_sampler_tap tap = {(k % columns + 0.5) / columns - 0.5, (k / columns + 0.5) / rows - 0.5};
     tap_linear(run, level, tap, from, count, centres, k ? next : first);
     if (k)
-      WIDE(run, cs_sampler_add_row)((const float(*)[4])next, (const float(*)[4])first, 1, count,
-                                    rgba);
+      WIDE(run, cs_sampler_add_row)
+      ((const float(*)[4])next, (const float(*)[4])first, 1, count, rgba);
   }
   WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, (float)taps, count, rgba);
 }
@@ -161,8 +160,8 @@ void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, doub
                          float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   cs_sampler_centres centres;
-  bool is_plain = s->way == CS_SAMPLER_TAPS && s->kernel == CS_SAMPLER_LINEAR &&
-                  s->wrap == CELSPAN_WRAP_CLAMP;
+  bool is_plain =
+      s->way == CS_SAMPLER_TAPS && s->kernel == CS_SAMPLER_LINEAR && s->wrap == CELSPAN_WRAP_CLAMP;
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
     if (is_plain) {

@@ -48,8 +48,8 @@ void CS_WIDE(cs_sampler_see)(const cs_sampler *sampler, int32_t count,
   }
   for (int32_t i = 0; i < count; i++) {
     double u = centres->u[i], v = centres->v[i];
-    centres->seen[i] = -(int32_t)((u >= last) & (u < right) & (v >= last) & (v < bottom) &
-                                  (centres->near[i] > 0));
+    centres->seen[i] =
+        -(int32_t)((u >= last) & (u < right) & (v >= last) & (v < bottom) & (centres->near[i] > 0));
   }
 }
 
@@ -180,8 +180,9 @@ void CS_WIDE(cs_sampler_mix_rows)(const float (*a)[4], const float (*b)[4], floa
       out[i][c] = a[i][c] + share * (b[i][c] - a[i][c]);
 }
 
-void CS_WIDE(cs_sampler_add_row)(const float (*restrict texels)[4], const float (*restrict first)[4],
-                                 float weight, int32_t count, float (*restrict sum)[4]) {
+void CS_WIDE(cs_sampler_add_row)(const float (*restrict texels)[4],
+                                 const float (*restrict first)[4], float weight, int32_t count,
+                                 float (*restrict sum)[4]) {
   for (int32_t i = 0; i < count; i++)
     for (int c = 0; c < 4; c++)
       sum[i][c] += weight * (texels[i][c] - first[i][c]);
