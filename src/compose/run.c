@@ -274,10 +274,6 @@ static celspan_status run_shown(cs_composer *composer, const cs_program *shown, 
 
 /* ---------------------------------------------------------------- runs cut into segments */
 
-/* Columns looked at at a time, from the left edge of the frame on: what is known of them must not
- * depend on where a run begins. */
-#define LOOK 64
-
 /* What samples of an item have in common that lets it, or all behind it, be left out. */
 static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_t x0, int32_t x1,
                                    double y, cs_picture_look *out) {
@@ -298,13 +294,14 @@ static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_
   return CELSPAN_OK;
 }
 
-static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t x0,
-                                  double y, segment *out) {
-  int32_t left = x0 / LOOK * LOOK;
+/* What shows over the `step` columns around x. */
+static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t step,
+                                  int32_t x, double y, segment *out) {
+  int32_t left = x / step * step;
   *out = (segment){.end = program->length};
   for (uint32_t i = 0; i < program->length && i < 64; i++) {
     cs_picture_look look;
-    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + LOOK, y, &look));
+    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + step, y, &look));
     if (look == CS_PICTURE_CLEAR)
       out->left_out |= (uint64_t)1 << i;
     if (look != CS_PICTURE_OPAQUE)
@@ -345,33 +342,38 @@ static bool has_picture(const cs_composer *composer, const cs_program *program) 
   return false;
 }
 
-/* Whether all that may be looked at is known already to be opaque everywhere. */
-static bool is_uniform(const cs_composer *composer, const cs_program *program) {
+/* Columns looked at at a time, from the left edge of the frame on, since what is known of them must
+ * not depend on where a run begins: those of the picture that asks for fewest. */
+static celspan_status find_step(cs_composer *composer, const cs_program *program, int32_t *out) {
+  *out = INT32_MAX;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
-    const cs_seen_slide *slide = &composer->slides[leaf->detail];
-    if (leaf->kind == CS_LEAF_PICTURE && !(slide->is_ready && slide->is_opaque))
-      return false;
+    const cs_seen_slide *slide;
+    if (leaf->kind != CS_LEAF_PICTURE)
+      continue;
+    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+    if (!slide->is_opaque && slide->sampler.look_columns < *out)
+      *out = slide->sampler.look_columns;
   }
-  return true;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program, int32_t x0,
                                        int32_t x1, double y, cs_row *row) {
   segment current, next;
-  int32_t begun = x0;
+  int32_t begun = x0, step;
   if (x1 <= x0)
     return CELSPAN_OK;
   if (!has_picture(composer, program))
     return run_shown(composer, program, false, x0, x1, y, row);
-  CS_TRY(cut_segment(composer, program, x0, y, &current));
-  int32_t end = is_uniform(composer, program) ? x0 : x1;
-  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {
-    CS_TRY(cut_segment(composer, program, x, y, &next));
+  CS_TRY(find_step(composer, program, &step));
+  CS_TRY(cut_segment(composer, program, step, x0, y, &current));
+  for (int64_t x = ((int64_t)x0 / step + 1) * step; x < x1; x += step) {
+    CS_TRY(cut_segment(composer, program, step, (int32_t)x, y, &next));
     if (is_same_segment(&current, &next))
       continue;
-    CS_TRY(run_segment(composer, program, &current, begun, x, y, row));
-    begun = x;
+    CS_TRY(run_segment(composer, program, &current, begun, (int32_t)x, y, row));
+    begun = (int32_t)x;
     current = next;
   }
   return run_segment(composer, program, &current, begun, x1, y, row);

@@ -112,6 +112,15 @@ static double reach_of(const cs_sampler *s) {
   return INFINITY;
 }
 
+/* As many columns as lie on the texels of one block, a power of two. */
+static int32_t look_columns(const cs_sampler *s) {
+  double across = fmax(fabs(s->m[0]), fabs(s->m[3]));
+  int32_t columns = CS_PICTURE_BLOCK;
+  while (columns < 1 << 20 && 2 * columns * across <= CS_PICTURE_BLOCK)
+    columns *= 2;
+  return columns;
+}
+
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_texels_source_of(s->picture);
   s->level_count = cs_levels_count(s->width, s->height);
@@ -119,6 +128,7 @@ void cs_sampler_prepare(cs_sampler *s) {
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
     s->way = CS_SAMPLER_PERSPECTIVE;
     s->kernel = perspective_kernel(s->sampling);
+    s->look_columns = INT32_MAX;
     return;
   }
   for (int i = 0; i < 9; i++)
@@ -128,6 +138,7 @@ void cs_sampler_prepare(cs_sampler *s) {
   else
     plan_affine(s);
   s->reach = reach_of(s);
+  s->look_columns = look_columns(s);
 }
 
 /* ---------------------------------------------------------------- copies */

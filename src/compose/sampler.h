@@ -55,7 +55,8 @@ typedef struct cs_sampler {
   double m[9]; /* inverse; where it is affine divided by its last */
   int level_count;
   int level;
-  int columns, rows; /* TILTED: taps across a pixel and down it */
+  int columns, rows;    /* TILTED: taps across a pixel and down it */
+  int32_t look_columns; /* that are worth a look at a time; INT32_MAX: none tells anything */
   double reach; /* affine: how far from its centre a sample comes, at most, in picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
