@@ -46,8 +46,8 @@ typedef struct cs_shoot {
   void *user;
   /* Instead of files: called by the calling thread, in order. NULL: files. */
   celspan_status (*put)(void *user, const celspan_frame_desc *frame);
-  /* Whether the frame, which is named as far as it can be, is there already; it sets the digest where
-   * there are digests. Calling thread. NULL: none is. */
+  /* Whether the frame, which is named as far as it can be, is there already; it sets the digest
+   * where there are digests. Calling thread. NULL: none is. */
   bool (*keep)(void *user, cs_shoot_frame *frame);
   /* A frame came to its end, in order; status: with its sentence, which names the frame, in the
    * context. What is returned ends the run unless it is OK. */

@@ -226,8 +226,9 @@ celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {
   if (frame->way == CS_SHOOT_KEPT)
     return CELSPAN_OK;
   if (!hash_contents(frame->path, &contents, &bytes))
-    return cs_fail(record->context, CELSPAN_OUTPUT, "frame %" PRId64 ": %s: cannot read it back: %s",
-                   frame->number, frame->path, strerror(errno));
+    return cs_fail(record->context, CELSPAN_OUTPUT,
+                   "frame %" PRId64 ": %s: cannot read it back: %s", frame->number, frame->path,
+                   strerror(errno));
   if (record->descriptor < 0)
     CS_TRY(open_for_lines(record));
   if (record->needs_pixels)

@@ -14,12 +14,15 @@ static celspan_status make_cel(celspan_context *context, celspan_object *object,
   return celspan_cel_create(context, &desc, out);
 }
 
-static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel,
+/* Behind a picture without alpha is black, which is nowhere to be seen: so files can leave the alpha
+ * out that the picture never had. */
+static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel, bool has_alpha,
                                    celspan_rostrum **out) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.cels = &cel;
   desc.cel_count = 1;
   desc.antialias = CELSPAN_ANTIALIAS_NONE;
+  desc.back.a = has_alpha ? 0 : 1;
   return celspan_rostrum_create(context, &desc, out);
 }
 
@@ -32,7 +35,7 @@ static celspan_status make_scene(celspan_context *context, const celspan_picture
   if (status == CELSPAN_OK)
     status = make_cel(context, object, &cel);
   if (status == CELSPAN_OK)
-    status = make_rostrum(context, cel, out);
+    status = make_rostrum(context, cel, info->has_alpha, out);
   celspan_cel_unref(cel);
   celspan_object_unref(object);
   return status;

@@ -87,6 +87,15 @@ bool cs_composer_begin_row(cs_composer *composer) {
   return true;
 }
 
+void cs_composer_restart(cs_composer *composer) {
+  const cs_stack *stack = composer->stack;
+  for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
+    composer->presences[leaf].winding = 0;
+  if (stack->leaf_count > 0)
+    memset(composer->set, 0, cs_stack_words(stack) * sizeof *composer->set);
+  composer->hash = (cs_set_hash){0};
+}
+
 /* ---------------------------------------------------------------- the fold */
 
 /* Light gathered so far (e) and what still shines through (t), inside one faded group. */

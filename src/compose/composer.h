@@ -112,6 +112,9 @@ void cs_composer_finish(cs_composer *composer);
  * before are no longer valid. */
 bool cs_composer_begin_row(cs_composer *composer);
 
+/* Puts the walk back to where nothing is present, from wherever a failure left it. */
+void cs_composer_restart(cs_composer *composer);
+
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
   cs_presence *presence = &composer->presences[leaf];

@@ -14,6 +14,8 @@ typedef struct node_row {
   const float (*planes[2])[4]; /* nodes */
   int plane_count;
   int32_t last; /* node */
+  bool
+      is_split; /* nodes are shown as they are: a line may end in one and the next begin after it */
 } node_row;
 
 static void free_knots(cs_soft_knots *knots, cs_memory *memory) {
@@ -132,14 +134,19 @@ static celspan_status add_row(celspan_context *context, const node_row *row, cs_
   CS_TRY(cs_mem_reserve(context, (void **)&out->at, &out->at_capacity, limit, sizeof *out->at));
   CS_TRY(cs_mem_reserve(context, (void **)&out->values, &out->value_capacity,
                         limit * (size_t)row->plane_count, sizeof *out->values));
-  CS_TRY(cs_mem_reserve(context, (void **)&out->still, &out->still_capacity,
-                        (size_t)row->last + 1, sizeof *out->still));
+  CS_TRY(cs_mem_reserve(context, (void **)&out->still, &out->still_capacity, (size_t)row->last + 1,
+                        sizeof *out->still));
   add_knot(row, 0, out);
   for (int32_t i = 0; i < row->last;) {
     int32_t still = still_end(row, i);
     out->still[out->count - 1 - first] = still > i;
     i = still > i ? still : swing_end(row, i);
     add_knot(row, i, out);
+    if (row->is_split && !out->still[out->count - 2 - first] && i + 1 < row->last &&
+        still_end(row, i) == i) {
+      out->still[out->count - 1 - first] = false;
+      add_knot(row, ++i, out);
+    }
   }
   out->still[out->count - 1 - first] = false;
   balance(row, out, first);
@@ -169,7 +176,8 @@ static const float (*band_row(const cs_soft *soft, const cs_soft_band *band, int
 }
 
 static node_row band_nodes(const cs_soft *soft, const cs_soft_band *band, int32_t row) {
-  node_row out = {.plane_count = soft->planes, .last = soft->columns - 1};
+  node_row out = {
+      .plane_count = soft->planes, .last = soft->columns - 1, .is_split = soft->pitch_x == 1};
   for (int plane = 0; plane < soft->planes; plane++)
     out.planes[plane] = band_row(soft, band, plane, row);
   return out;
@@ -197,8 +205,8 @@ celspan_status cs_soft_band_thin(const cs_soft *soft, celspan_context *context, 
   }
   band->rows[rows] = knots->count;
   fit(memory, (void **)&knots->at, &knots->at_capacity, knots->count, sizeof *knots->at);
-  fit(memory, (void **)&knots->values, &knots->value_capacity,
-      knots->count * (size_t)soft->planes, sizeof *knots->values);
+  fit(memory, (void **)&knots->values, &knots->value_capacity, knots->count * (size_t)soft->planes,
+      sizeof *knots->values);
   cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
   band->nodes = NULL;
   band->node_count = 0;
@@ -309,8 +317,8 @@ size_t cs_soft_find(const cs_seen_soft *seen, double at, size_t hint) {
   return low;
 }
 
-void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece,
-                   cs_v4 *s, cs_v4 *t) {
+void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece, cs_v4 *s,
+                   cs_v4 *t) {
   double at = cs_soft_at(soft, x);
   size_t k = *piece = cs_soft_find(seen, at, *piece), planes = (size_t)soft->planes;
   float share = (float)((at - seen->at[k]) / (seen->at[k + 1] - seen->at[k]));

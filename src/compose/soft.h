@@ -86,8 +86,8 @@ static inline cs_v4 cs_soft_value(const cs_soft *soft, const cs_seen_soft *seen,
 /* The piece that holds a place: its first knot. hint: where to look first. */
 size_t cs_soft_find(const cs_seen_soft *seen, double at, size_t hint);
 /* The paint at x, at the height where `seen` stands. *piece: a hint, and where x was found. */
-void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece,
-                   cs_v4 *s, cs_v4 *t);
+void cs_soft_paint(const cs_soft *soft, const cs_seen_soft *seen, double x, size_t *piece, cs_v4 *s,
+                   cs_v4 *t);
 /* The knots in x0 < x < x1, as places along the row: at most cs_soft_break_limit. Returns how many.
  */
 size_t cs_soft_breaks(const cs_soft *soft, const cs_seen_soft *seen, double x0, double x1,

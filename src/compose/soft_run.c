@@ -115,6 +115,14 @@ static int32_t column_after(const walk *w, size_t k, int32_t x1) {
   return k + 1 >= w->seen->count || column > x1 ? x1 : column;
 }
 
+/* Whether all that is left of a piece at column x is its last knot's column, and the next piece can
+ * begin there. */
+static bool is_joint(const walk *w, size_t k, int32_t x) {
+  const int32_t *at = w->seen->at;
+  return w->soft->pitch_x == 1 && at[k + 1] == at[k] + 1 && k + 2 < w->seen->count &&
+         !is_still(w, k + 1) && cs_soft_at(w->soft, x + 0.5) > at[k];
+}
+
 static celspan_status walk_pieces(walk *w, int32_t x0, int32_t x1, cs_row *row) {
   celspan_context *context = w->composer->context;
   const int32_t *at = w->seen->at;
@@ -122,7 +130,7 @@ static celspan_status walk_pieces(walk *w, int32_t x0, int32_t x1, cs_row *row) 
   cs_v4 left = knot_colour(w, k);
   for (int32_t x = x0, to; x < x1; x = to, k++) {
     cs_v4 right = knot_colour(w, k + 1);
-    to = column_after(w, k + 1, x1);
+    to = is_joint(w, k, x) ? x : column_after(w, k + 1, x1);
     if (to > x && is_still(w, k)) {
       CS_TRY(cs_row_single(context, row, x, to, still_colour(w, k)));
     } else if (to > x) {

@@ -34,17 +34,32 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
     cs_composer_cross_strip(composer, member->leaf, member->strip, sign * member->direction);
 }
 
-/* Brings the cells right of members first..last up to date; the walk returns to the left. */
+/* Walks the composer to just right of the first `place` members. */
+static void stand(cs_cluster *cluster, size_t place) {
+  cs_composer *composer = &cluster->scan->composer;
+  for (; cluster->stood < place; cluster->stood++)
+    cross(composer, &cluster->members[cluster->stood], 1);
+  for (; cluster->stood > place; cluster->stood--)
+    cross(composer, &cluster->members[cluster->stood - 1], -1);
+}
+
+/* And past the toggles at or left of x. */
+static void stand_toggles(cs_cluster *cluster, double x) {
+  cs_composer *composer = &cluster->scan->composer;
+  cluster->passed = cs_cells_toggle(composer, cluster->passed, cluster->toggle_end, x);
+  for (; cluster->passed > cluster->toggle && cluster->passed[-1].x > x; cluster->passed--)
+    cs_composer_cross(composer, cluster->passed[-1].leaf, -cluster->passed[-1].direction);
+}
+
+/* Brings the cells right of members first..last up to date. */
 static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
   cs_scan *scan = cluster->scan;
   cs_composer *composer = &scan->composer;
-  const cs_toggle *toggle = cluster->toggle;
-  for (size_t j = 0; j <= last; j++) {
+  for (size_t j = first; j <= last; j++) {
     cs_member *member = &cluster->members[j];
-    cross(composer, member, 1);
-    if (j >= first)
-      toggle = cs_cells_toggle(composer, toggle, cluster->toggle_end, member->x);
-    if (j < first || (member->right && cs_set_hash_same(member->right->hash, composer->hash)))
+    stand(cluster, j + 1);
+    stand_toggles(cluster, member->x);
+    if (member->right && cs_set_hash_same(member->right->hash, composer->hash))
       continue;
     cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
     if (!cell)
@@ -52,10 +67,6 @@ static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
     cs_composer_cell(composer, cell);
     member->right = cell;
   }
-  for (size_t j = last + 1; j-- > 0;)
-    cross(composer, &cluster->members[j], -1);
-  for (; toggle > cluster->toggle; toggle--)
-    cs_composer_cross(composer, toggle[-1].leaf, -toggle[-1].direction);
   return composer->failure;
 }
 
@@ -84,23 +95,26 @@ static double next_height(const cs_cluster *cluster) {
   return next;
 }
 
-/* Which neighbours inside the band cross next, and how far down the band (0..1). */
-static bool next_swap(const cs_cluster *cluster, size_t *pair, double *depth) {
-  bool found = false;
-  *depth = 0;
-  for (size_t j = 0; j + 1 < cluster->count; j++) {
-    const cs_member *a = &cluster->members[j], *b = a + 1;
-    double foot = a->foot - b->foot, top = b->top > a->top ? b->top - a->top : 0;
-    if (!(foot > 0))
-      continue;
-    double u = top / (top + foot);
-    if (!found || u < *depth) {
+/* Where in the band member j meets its right neighbour. */
+static void find_meeting(cs_cluster *cluster, size_t j) {
+  cs_member *a = &cluster->members[j];
+  const cs_member *b = a + 1;
+  a->meets = INFINITY;
+  if (j + 1 >= cluster->count || !(a->foot > b->foot))
+    return;
+  double foot = a->foot - b->foot, top = b->top > a->top ? b->top - a->top : 0;
+  a->meets = top / (top + foot);
+}
+
+/* Which neighbours inside the band cross next. */
+static bool next_swap(const cs_cluster *cluster, size_t *pair) {
+  double least = INFINITY;
+  for (size_t j = 0; j < cluster->count; j++)
+    if (cluster->members[j].meets < least) {
+      least = cluster->members[j].meets;
       *pair = j;
-      *depth = u;
-      found = true;
     }
-  }
-  return found;
+  return least < INFINITY;
 }
 
 static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
@@ -108,6 +122,8 @@ static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
   CS_TRY(flush(cluster, j, a->top + (a->foot - a->top) * u, y));
   CS_TRY(flush(cluster, j + 1, b->top + (b->foot - b->top) * u, y));
   const cs_cell *right = b->right;
+  if (cluster->stood > j)
+    stand(cluster, j);
   cs_member moved = *a;
   *a = *b;
   *b = moved;
@@ -122,10 +138,17 @@ static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
     member->top = member->foot; /* the last band ended at this height, on the same x */
     member->foot = member_x(member, y1);
   }
-  double reached = 0, u;
-  for (size_t j = 0; next_swap(cluster, &j, &u);) {
+  for (size_t j = 0; j < cluster->count; j++)
+    find_meeting(cluster, j);
+  double reached = 0;
+  for (size_t j = 0; next_swap(cluster, &j);) {
+    double u = cluster->members[j].meets;
     reached = u > reached ? u : reached;
     CS_TRY(swap(cluster, j, reached, y0 + (y1 - y0) * reached));
+    find_meeting(cluster, j);
+    find_meeting(cluster, j + 1);
+    if (j > 0)
+      find_meeting(cluster, j - 1);
   }
   return CELSPAN_OK;
 }
@@ -248,6 +271,7 @@ static celspan_status turn(cs_cluster *cluster, double y) {
   if (t.low > t.high)
     return CELSPAN_OK;
   CS_TRY(flush_inside(cluster, &t, y));
+  stand(cluster, 0);
   drop_ended(cluster);
   begin_members(cluster, y);
   sort(cluster);
@@ -256,12 +280,17 @@ static celspan_status turn(cs_cluster *cluster, double y) {
 
 celspan_status cs_cluster_replay(cs_cluster *cluster) {
   double y = cluster->y0;
+  cluster->stood = 0;
+  cluster->passed = cluster->toggle;
   for (;;) {
     double next = next_height(cluster);
     if (next > y)
       CS_TRY(run_band(cluster, y, next));
-    if (next >= cluster->y1)
+    if (next >= cluster->y1) {
+      stand(cluster, 0);
+      stand_toggles(cluster, -INFINITY);
       return flush_all(cluster, cluster->y1);
+    }
     y = next;
     CS_TRY(turn(cluster, y));
   }

@@ -27,6 +27,7 @@ typedef struct cs_member {
   int32_t direction;
   double x, y;      /* up to where its fragments were given */
   double top, foot; /* x where the current band begins and ends */
+  double meets;     /* how far down the band (0..1) it meets its right neighbour; INFINITY: not */
   const cs_cell *right;
 } cs_member;
 
@@ -39,6 +40,9 @@ typedef struct cs_cluster {
   cs_member *begins; /* those still to begin, by height, then x, then order */
   size_t begin_count;
   const cs_toggle *toggle, *toggle_end; /* those right of the cluster's least x */
+  /* where the composer stands: right of so many members, and of the toggles before `passed` */
+  size_t stood;
+  const cs_toggle *passed;
 } cs_cluster;
 
 /* Replays the cluster into the scan's window. The composer stands left of the cluster, and does so

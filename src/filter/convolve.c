@@ -20,13 +20,14 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
   convolve->touched = cs_mem_array(memory, cs_convolve_words(width), sizeof *convolve->touched);
   convolve->shifts_at = cs_mem_array(memory, columns, sizeof *convolve->shifts_at);
   bool is_whole = convolve->changes && convolve->touched && convolve->shifts_at;
+  convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
+  is_whole = is_whole && convolve->values;
   if (kernel->shape != CS_KERNEL_SEPARABLE) {
     convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
     is_whole = is_whole && convolve->slopes;
   } else {
-    convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
     convolve->sums = cs_mem_array(memory, sum_count(kernel), sizeof *convolve->sums);
-    is_whole = is_whole && convolve->values && convolve->sums;
+    is_whole = is_whole && convolve->sums;
   }
   if (kernel->is_signed) {
     convolve->passages_at = cs_mem_array(memory, columns, sizeof *convolve->passages_at);
@@ -137,7 +138,7 @@ static void reach_column(summing *s, int32_t p) {
     s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
     s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
   }
-  s->here = convolve->values ? convolve->values[p] : cs_v4_all(0);
+  s->here = convolve->values[p];
   s->at = p;
   for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
     const cs_convolve_shift *shift = &convolve->shifts[at - 1];

@@ -55,7 +55,7 @@ typedef struct cs_convolve {
   int32_t width;
   double (*changes)[4];              /* by column */
   double (*slopes)[4];               /* even shapes: of the change from column to column */
-  cs_v4 *values;                     /* separable kernels: what is seen at a column besides */
+  cs_v4 *values;                     /* by column: what is seen there alone */
   float *sums;                       /* separable kernels: scratch */
   uint64_t *touched;                 /* columns at which something changes, one bit each */
   uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */

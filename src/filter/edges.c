@@ -78,7 +78,8 @@ celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const
   CS_TRY(make_room(context, edges, active->count));
   CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
   (edges, active->x, active->x_next, active->count, width);
-  memset(edges->is_bent, 0, active->count * sizeof *edges->is_bent);
+  if (active->count > 0) /* else there is no room yet */
+    memset(edges->is_bent, 0, active->count * sizeof *edges->is_bent);
   for (size_t k = 0; k < active->bend_count; k++)
     if (active->bends[k].vertex_count > 0)
       measure_bent(edges, active, &active->bends[k], width);

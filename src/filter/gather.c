@@ -10,8 +10,7 @@ void cs_gather_touch(cs_convolve *convolve, int32_t p) {
   memset(convolve->changes[p], 0, sizeof convolve->changes[p]);
   if (convolve->slopes)
     memset(convolve->slopes[p], 0, sizeof convolve->slopes[p]);
-  if (convolve->values)
-    convolve->values[p] = cs_v4_all(0);
+  convolve->values[p] = cs_v4_all(0);
   convolve->shifts_at[p] = 0;
   if (convolve->kernel->is_signed) {
     convolve->passages_at[p] = 0;
@@ -45,8 +44,7 @@ void cs_gather_step(cs_gather *g, const cs_trace_piece *piece, int32_t p, double
 
 /* ---------------------------------------------------------------- pieces */
 
-bool cs_gather_cut(const cs_trace_piece *piece, double top, double foot,
-                   cs_trace_piece *out) {
+bool cs_gather_cut(const cs_trace_piece *piece, double top, double foot, cs_trace_piece *out) {
   double slope = (piece->xb - piece->xa) / (piece->yb - piece->ya);
   *out = *piece;
   if (piece->yb <= top || piece->ya >= foot)
@@ -73,8 +71,8 @@ static bool are_alike(const cs_composer *composer, const cs_program *a, const cs
   return true;
 }
 
-static celspan_status find_look(cs_gather *g, const cs_composer *composer, const cs_program *program,
-                                int32_t *out) {
+static celspan_status find_look(cs_gather *g, const cs_composer *composer,
+                                const cs_program *program, int32_t *out) {
   cs_convolve *convolve = g->convolve;
   for (size_t i = convolve->look_count; i-- > 0;)
     if (are_alike(composer, convolve->looks[i].program, program)) {

@@ -1,4 +1,5 @@
-/* A piece under an even shape: at each height the kernel is one interval in which it is constant. */
+/* A piece under an even shape: at each height the kernel is one interval in which it is constant.
+ */
 #include "filter/gather.h"
 
 #include "base/number.h"
@@ -17,39 +18,44 @@ typedef struct part {
   int32_t first, end; /* columns that it parts; from `end` on it is passed */
 } part;
 
-static celspan_status change(cs_gather *g, const cs_trace_piece *piece, int32_t p,
-                             double weight) {
+static celspan_status change(cs_gather *g, const cs_trace_piece *piece, int32_t p, double weight) {
   cs_gather_step(g, piece, p, weight);
   return cs_gather_shift(g, piece, p, weight);
 }
 
 static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
 
-/* The share of an even slice of the kernel about c that lies right of the part. */
-static double share_right(const part *t, double c) {
-  double length = t->to - t->from, across = t->high - t->low;
-  if (across < NARROW * length)
-    return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) / length, 0, 1);
+/* The share of the kernel's slice about c that lies right of the part. scale: 1 / its length, and
+ * 1 / what the part crosses unless it stands upright. */
+static double share_right(const part *t, double c, bool is_upright, double scale) {
+  if (is_upright)
+    return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) * scale, 0, 1);
   return (half_square(c + t->to - t->low) - half_square(c + t->from - t->low) -
-          half_square(c + t->to - t->high) + half_square(c + t->from - t->high)) /
-         (length * across);
+          half_square(c + t->to - t->high) + half_square(c + t->from - t->high)) *
+         scale;
 }
 
 static celspan_status spread(cs_gather *g, const cs_trace_piece *piece, const part *t) {
   cs_convolve *convolve = g->convolve;
-  double before = 0;
+  double before = 0, length = t->to - t->from, across = t->high - t->low;
+  bool is_upright = across < NARROW * length, is_flat = cs_gather_is_flat(piece);
+  double scale = 1 / (is_upright ? length : length * across);
+  cs_v4 step = (float)t->weight * (piece->right.colour - piece->left.colour);
   int32_t stop = t->end < convolve->width ? t->end : convolve->width;
   for (int32_t p = t->first > 0 ? t->first : 0; p < stop; p++) {
-    double now = share_right(t, p + 0.5);
+    double now = share_right(t, p + 0.5, is_upright, scale);
     cs_gather_touch(convolve, p);
-    CS_TRY(change(g, piece, p, t->weight * (now - before)));
+    convolve->values[p] += (float)now * step;
+    if (!is_flat)
+      CS_TRY(cs_gather_shift(g, piece, p, t->weight * (now - before)));
     before = now;
   }
   if (t->end >= convolve->width)
     return CELSPAN_OK;
   int32_t rest = t->end > 0 ? t->end : 0;
   cs_gather_touch(convolve, rest);
-  return change(g, piece, rest, t->weight * (1 - before));
+  cs_gather_step(g, piece, rest, t->weight);
+  return cs_gather_shift(g, piece, rest, t->weight * (1 - before));
 }
 
 static void tilt(cs_gather *g, const cs_trace_piece *piece, int32_t p, double slope) {

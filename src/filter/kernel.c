@@ -11,9 +11,9 @@
  */
 #define SMALL 0.4
 #define OFFSETS 4
-#define PLACES 256     /* in a pixel, at which light is measured */
+#define PLACES 256       /* in a pixel, at which light is measured */
 #define UNNOTICED 0.0015 /* what an edge may be changed by, so that light is kept */
-#define SHARP 0.8      /* a pixel: the peak of a Gaussian of radius 1.5 */
+#define SHARP 0.8        /* a pixel: the peak of a Gaussian of radius 1.5 */
 #define SHARPEST 8
 #define PHASES 64 /* places of an edge in a pixel, for radii from 1 on */
 #define PHASES_MOST 1024
@@ -78,7 +78,8 @@ static void balance(double *first, double radius, double most) {
   for (int i = 1; i < SAMPLES; i++) {
     double x = (2.0 * i / SAMPLES - 1) * radius, at = (x - floor(x)) * PLACES;
     int j = (int)at;
-    double here = missing[j % PLACES] + (at - j) * (missing[(j + 1) % PLACES] - missing[j % PLACES]);
+    double here =
+        missing[j % PLACES] + (at - j) * (missing[(j + 1) % PLACES] - missing[j % PLACES]);
     first[i] += share * here * window(width, x);
   }
 }
@@ -182,9 +183,9 @@ static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, doub
     memcpy(first, work->narrow, sizeof work->narrow);
   for (int i = 0; blur > 0 && i <= SAMPLES; i++) {
     double x = (2.0 * i / SAMPLES - 1) * *radius;
-    double share = (integral(work, (x + 0.5 * blur) / narrow) -
-                    integral(work, (x - 0.5 * blur) / narrow)) *
-                   narrow / blur;
+    double share =
+        (integral(work, (x + 0.5 * blur) / narrow) - integral(work, (x - 0.5 * blur) / narrow)) *
+        narrow / blur;
     first[i] = i == 0 ? 0 : i == SAMPLES ? 1 : cs_number_clamp(share, first[i - 1], 1);
   }
   balance(first, *radius, blur > 0 ? 1 : UNNOTICED);
@@ -255,7 +256,7 @@ static void fill_even(const cs_softness *softness, cs_kernel *kernel) {
   integrate(lengths, kernel->above);
 }
 
-static bool is_upright(const cs_softness *softness) {
+bool cs_softness_is_upright(const cs_softness *softness) {
   const double(*e)[2] = softness->edges;
   return (e[0][1] == 0 && e[1][0] == 0) || (e[0][0] == 0 && e[1][1] == 0);
 }
@@ -279,8 +280,8 @@ celspan_status cs_kernel_create_soft(celspan_context *context, const cs_softness
   double least = fmin(upright.radius_x, upright.radius_y);
   bool is_separable =
       softness->kind == CELSPAN_DEFOCUS_GAUSSIAN ||
-      (softness->blur > 0 &&
-       (least < SMALL || (softness->kind == CELSPAN_DEFOCUS_BOX && is_upright(softness))));
+      (softness->blur > 0 && (least < SMALL || (softness->kind == CELSPAN_DEFOCUS_BOX &&
+                                                cs_softness_is_upright(softness))));
   kernel->rows = 16;
   celspan_status status = CELSPAN_OK;
   if (is_separable)

@@ -2,8 +2,8 @@
  *
  * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts; its
  * integral H is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
- * that H gives to parts of a whole sum to 1. An even shape (a disc, a turned box) is cut at a height into one interval, in which the
- * kernel is constant.
+ * that H gives to parts of a whole sum to 1. An even shape (a disc, a turned box) is cut at a
+ * height into one interval, in which the kernel is constant.
  */
 #ifndef CS_FILTER_KERNEL_H
 #define CS_FILTER_KERNEL_H
@@ -18,6 +18,9 @@ typedef struct cs_softness {
   double blur;               /* width of the square that is averaged over besides; 0: none */
 } cs_softness;
 
+/* BOX: whether its sides lie along the axes. */
+bool cs_softness_is_upright(const cs_softness *softness);
+
 typedef enum cs_kernel_shape {
   CS_KERNEL_SEPARABLE,
   CS_KERNEL_ELLIPSE,      /* even inside, of radius_x and radius_y */
@@ -30,12 +33,12 @@ typedef struct cs_kernel {
   double per_radius_y;       /* 1 / radius_y */
   int rows;                  /* pieces a slanted boundary is cut into, a row */
   bool is_signed;            /* negative somewhere */
-  double sharpness;          /* SEPARABLE: how finely a slanted boundary is cut; 1 for the sharpest */
-  double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
-  int offsets;               /* even shapes: the mean of so many by so many of them, */
-  double spread;             /* evenly over a square of this width */
+  double sharpness;   /* SEPARABLE: how finely a slanted boundary is cut; 1 for the sharpest */
+  double edges[2][2]; /* PARALLELOGRAM: half of two sides; the second is the steeper */
+  int offsets;        /* even shapes: the mean of so many by so many of them, */
+  double spread;      /* evenly over a square of this width */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
-  double above[CS_ANTIALIAS_SAMPLES + 1];  /* over a height */
+  double above[CS_ANTIALIAS_SAMPLES + 1]; /* over a height */
   /* SEPARABLE: shares right of an edge that stands phase/phases right of a pixel's centre, at the
    * columns from `reach` left of that pixel on: `stride` of them, after which they are 1. */
   float *shares;

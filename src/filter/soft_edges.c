@@ -7,12 +7,13 @@
 
 #define PHASES 64 /* places of an edge in its column that shares are tabulated for */
 #define FINE 4    /* steps of the integral in a phase */
-#define BLOCK 8  /* columns that are constant together or not */
+#define BLOCK 8   /* columns that are constant together or not */
 #define SIGMAS 4  /* how far the kernel reaches */
 /* Columns that a piece may cross: upright enough to be one point, one part of two points. */
 #define UPRIGHT 0.25
 #define PART 1.5
-#define ROOT 0.28867513459481287 /* Gauss: the two points of a part lie this far from its middle */
+#define ROOT 0.28867513459481287 /* Gauss: the two points of a part lie this far from its middle   \
+                                  */
 
 /* ---------------------------------------------------------------- tables */
 
@@ -20,51 +21,84 @@ static size_t share_count(const cs_soft_edges *edges) {
   return (size_t)(PHASES + 1) * (size_t)(2 * edges->reach_x + 2);
 }
 
-/* shares[phase][k]: of the kernel about column k - reach left of an edge at phase/PHASES in column
- * 0's centre: the integral, by the rule of middles, from the left. */
-static void fill_shares(cs_soft_edges *edges, double sigma) {
-  int32_t stride = 2 * edges->reach_x + 2;
-  double step = 1.0 / (PHASES * FINE), sum = 0;
-  int32_t count = PHASES * stride;
-  for (int pass = 0; pass < 2; pass++) { /* the first finds the whole */
-    double whole = pass == 0 ? 1 : sum;
-    sum = 0;
-    for (int32_t i = 0; i <= count; i++) {
-      double from = (double)i / PHASES - edges->reach_x - 1;
-      int32_t phase = (PHASES - i % PHASES) % PHASES, k = (i + PHASES - 1) / PHASES - 1;
-      float share = (float)(sum / whole);
-      if (k >= 0 && k < stride)
-        edges->shares[phase * stride + k] = share;
-      if (phase == 0 && k + 1 < stride)
-        edges->shares[PHASES * stride + k + 1] = share;
-      for (int j = 0; j < FINE; j++) {
-        double x = (from + (j + 0.5) * step) / sigma;
-        sum += fabs(x) < SIGMAS ? cs_elementary_exp(-0.5 * x * x) : 0;
-      }
-    }
+/* The share of a kernel left of x. */
+typedef struct profile {
+  bool is_box;
+  double radius; /* BOX */
+  double sigma;
+  double x, sum, whole; /* GAUSSIAN: the integral up to x, by the rule of middles */
+} profile;
+
+/* Brings a Gaussian's integral to x, which must not lie left of where it was. */
+static double share_left(profile *p, double x) {
+  if (p->is_box)
+    return cs_number_clamp(0.5 + 0.5 * x / p->radius, 0, 1);
+  const double step = 1.0 / (PHASES * FINE);
+  for (; p->x + 0.5 * step < x; p->x += step) {
+    double u = (p->x + 0.5 * step) / p->sigma;
+    p->sum += fabs(u) < SIGMAS ? cs_elementary_exp(-0.5 * u * u) : 0;
+  }
+  return p->sum / p->whole;
+}
+
+/* shares[phase][k]: of the kernel about column k - reach left of an edge phase/PHASES right of
+ * column 0's centre. */
+static void fill_shares(cs_soft_edges *edges, profile p) {
+  int32_t stride = 2 * edges->reach_x + 2, count = PHASES * stride;
+  p.x = -edges->reach_x - 1;
+  for (int32_t i = 0; i <= count; i++) {
+    int32_t phase = (PHASES - i % PHASES) % PHASES, k = (i + PHASES - 1) / PHASES - 1;
+    float share = (float)share_left(&p, (double)i / PHASES - edges->reach_x - 1);
+    if (k >= 0 && k < stride)
+      edges->shares[phase * stride + k] = share;
+    if (phase == 0 && k + 1 < stride)
+      edges->shares[PHASES * stride + k + 1] = share;
   }
 }
 
-/* The tent that lines see through has spread them already by 1/6. */
-static void fill_weights(cs_soft_edges *edges, double sigma) {
-  double variance = sigma * sigma - 1.0 / 6, sum = 0;
-  for (int32_t k = edges->reach_y - 1; k >= 0; k--)
-    sum += 2 * cs_elementary_exp(-0.5 * (k + 0.5) * (k + 0.5) / variance);
-  for (int32_t k = 0; k < edges->reach_y; k++)
-    edges->weights[k] = (float)(cs_elementary_exp(-0.5 * (k + 0.5) * (k + 0.5) / variance) / sum);
+static profile find_profile(const cs_softness *softness, const cs_soft_edges *edges) {
+  const double(*e)[2] = softness->edges;
+  profile p = {.is_box = softness->kind == CELSPAN_DEFOCUS_BOX,
+               .radius = fabs(e[0][0]) + fabs(e[1][0]),
+               .sigma = 0.5 * softness->radius_x,
+               .x = -edges->reach_x - 1,
+               .whole = 1};
+  p.whole = share_left(&p, edges->reach_x + 1);
+  p.sum = 0;
+  return p;
 }
 
-celspan_status cs_soft_edges_init(celspan_context *context, double sigma_x, double sigma_y,
+/* What a line k + 1/2 rows away weighs. A Gaussian's tents have spread it already by 1/6. */
+static double weight_at(const cs_softness *softness, int32_t k) {
+  const double(*e)[2] = softness->edges;
+  double variance = 0.25 * softness->radius_y * softness->radius_y - 1.0 / 6, away = k + 0.5;
+  return softness->kind == CELSPAN_DEFOCUS_BOX
+             ? cs_number_clamp(fabs(e[0][1]) + fabs(e[1][1]) - k, 0, 1)
+             : cs_elementary_exp(-0.5 * away * away / variance);
+}
+
+static void fill_weights(cs_soft_edges *edges, const cs_softness *softness) {
+  double sum = 0;
+  for (int32_t k = edges->reach_y - 1; k >= 0; k--)
+    sum += 2 * weight_at(softness, k);
+  for (int32_t k = 0; k < edges->reach_y; k++)
+    edges->weights[k] = (float)(weight_at(softness, k) / sum);
+}
+
+celspan_status cs_soft_edges_init(celspan_context *context, const cs_softness *softness,
                                   cs_soft_edges *out) {
   cs_memory *memory = context->memory;
-  *out = (cs_soft_edges){.reach_x = cs_number_ceil(SIGMAS * sigma_x),
-                         .reach_y = cs_number_ceil(SIGMAS * sigma_y)};
+  const double(*e)[2] = softness->edges;
+  bool is_box = softness->kind == CELSPAN_DEFOCUS_BOX;
+  double reach_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : 0.5 * SIGMAS * softness->radius_x;
+  double reach_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : 0.5 * SIGMAS * softness->radius_y;
+  *out = (cs_soft_edges){.reach_x = cs_number_ceil(reach_x), .reach_y = cs_number_ceil(reach_y)};
   out->shares = cs_mem_array(memory, share_count(out), sizeof *out->shares);
   out->weights = cs_mem_array(memory, (size_t)out->reach_y, sizeof *out->weights);
   if (!out->shares || !out->weights)
     return cs_fail_memory(context);
-  fill_shares(out, sigma_x);
-  fill_weights(out, sigma_y);
+  fill_shares(out, find_profile(softness, out));
+  fill_weights(out, softness);
   return CELSPAN_OK;
 }
 

@@ -1,10 +1,12 @@
-/* A Gaussian over flat art: rows of boundaries, weighed along x, then lines of them along y.
+/* A Gaussian or an upright box over flat art: rows of boundaries, weighed along x, then lines of
+ * them along y.
  *
  *   trace of a row --each piece, by the integral of the kernel--> its share in the lines above
  *   and below it --weights by distance--> rows of nodes
  *
  * A line stands on the edge between two rows and sees both through a tent, so that neither axis
- * shows where in its cell an edge lies. The cost follows the pieces along x, and along y the nodes
+ * shows where in its cell an edge lies. That rounds the kinks that a box of radius r leaves, by
+ * 1/(12 r). The cost follows the pieces along x, and along y the nodes
  * that some piece comes near: blocks of columns that nothing reaches are one colour.
  */
 #ifndef CS_FILTER_SOFT_EDGES_H
@@ -15,13 +17,13 @@
 
 typedef struct cs_soft_edges {
   int32_t reach_x, reach_y; /* cells */
-  float *shares;  /* by phase and column: of the kernel left of an edge */
-  float *weights; /* reach_y: of lines k + 1/2 rows away */
+  float *shares;            /* by phase and column: of the kernel left of an edge */
+  float *weights;           /* reach_y: of lines k + 1/2 rows away */
 } cs_soft_edges;
 
-/* Deviations in cells. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_soft_edges_init(celspan_context *context, double sigma_x,
-                                                  double sigma_y, cs_soft_edges *out);
+/* Softness in cells: a Gaussian, or a box along the axes. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_soft_edges_init(celspan_context *context,
+                                                  const cs_softness *softness, cs_soft_edges *out);
 void cs_soft_edges_finish(cs_soft_edges *edges, cs_memory *memory);
 /* Fills the rows [first, end) of `columns` nodes each. scan: of the cells, of which reach_x columns
  * and reach_y rows lie before the first node's. Errors: of its rows. */

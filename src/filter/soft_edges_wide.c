@@ -18,8 +18,8 @@ static inline void weigh(const float *const *lines, const float *weights, int32_
     const float *above = lines[2 * k] + at, *below = lines[2 * k + 1] + at;
     cs_wide weight = cs_wide_all(weights[k]);
     for (int j = 0; j < count; j++)
-      sum[j] += weight * (cs_wide_load(above + j * CS_WIDE_LANES) +
-                          cs_wide_load(below + j * CS_WIDE_LANES));
+      sum[j] += weight *
+                (cs_wide_load(above + j * CS_WIDE_LANES) + cs_wide_load(below + j * CS_WIDE_LANES));
   }
   for (int j = 0; j < count; j++)
     cs_wide_store(nodes + at + j * CS_WIDE_LANES,

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-#define CELLS 4    /* in the lesser radius, where the factor allows */
-#define FACTOR 9   /* at most */
-#define STEPS 64   /* of the integral in a cell */
-#define TILE 128   /* nodes of a row summed at a time */
+#define CELLS 4  /* in the lesser radius, where the factor allows */
+#define FACTOR 9 /* at most */
+#define STEPS 64 /* of the integral in a cell */
+#define TILE 128 /* nodes of a row summed at a time */
 
 /* ---------------------------------------------------------------- weights */
 
@@ -76,10 +76,10 @@ typedef struct summing {
   cs_row *rows; /* of cells: those under all nodes of the band */
   size_t *from; /* by row: the first span that may meet the tile */
   int32_t row_count, band_rows, columns;
-  int32_t x0, x1;   /* nodes of the tile, */
+  int32_t x0, x1;    /* nodes of the tile, */
   int32_t low, high; /* and the cells under them */
-  cs_v4 *cells;     /* of one row */
-  cs_v4 *across;    /* summed along the rows: TILE nodes a row */
+  cs_v4 *cells;      /* of one row */
+  cs_v4 *across;     /* summed along the rows: TILE nodes a row */
 } summing;
 
 /* The one colour of a row's cells under the tile; false when there are more. */
@@ -90,8 +90,7 @@ static bool one_colour(summing *s, int32_t k, cs_v4 *out) {
     i++;
   s->from[k] = i;
   *out = cs_v4_load(row->spans[i].colour);
-  return row->spans[i].kind == CELSPAN_SPAN_SINGLE &&
-         row->spans[i].x1 >= s->high;
+  return row->spans[i].kind == CELSPAN_SPAN_SINGLE && row->spans[i].x1 >= s->high;
 }
 
 static void spread_cells(summing *s, int32_t k) {
@@ -156,8 +155,8 @@ static void sum_tile(summing *s, float (*nodes)[4]) {
     int32_t row = y * sums->factor + sums->reach_y + sums->factor / 2;
     const cs_v4 *centre = s->across + (size_t)row * TILE;
     for (int32_t x = s->x0; x < s->x1; x++) {
-      cs_v4 value = plain ? colour
-                          : sum_about(centre + (x - s->x0), TILE, sums->weights[1], sums->reach_y);
+      cs_v4 value =
+          plain ? colour : sum_about(centre + (x - s->x0), TILE, sums->weights[1], sums->reach_y);
       cs_v4_store(nodes[(size_t)y * columns + (size_t)x], value);
     }
   }

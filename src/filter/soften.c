@@ -12,7 +12,9 @@
 #define FINE_GAUSSIAN 16
 #define FINE_DISC 28
 #define FINE_BOX 64
-#define EDGES 3 /* cells; a Gaussian of a radius from here on is weighed line by line */
+/* Radii in cells from which on flat art is weighed line by line: a box when its kinks allow. */
+#define EDGES_GAUSSIAN 3
+#define EDGES_BOX 40
 #define BAND_BYTES (16 << 20)
 #define BAND_ROWS 128
 #define BAND_ROWS_LEAST 8
@@ -54,8 +56,11 @@ static cs_soften_way choose_way(const cs_softness *softness, bool varies) {
   bool is_gaussian = softness->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   if (varies)
     return is_gaussian ? CS_SOFTEN_SUMS : CS_SOFTEN_SLICES;
-  bool is_wide = fmin(softness->radius_x, softness->radius_y) >= EDGES;
-  return is_gaussian && is_wide ? CS_SOFTEN_EDGES : CS_SOFTEN_KERNEL;
+  double least = fmin(radius_along(softness, 0), radius_along(softness, 1));
+  bool has_lines = is_gaussian ? least >= EDGES_GAUSSIAN
+                               : softness->kind == CELSPAN_DEFOCUS_BOX &&
+                                     cs_softness_is_upright(softness) && least >= EDGES_BOX;
+  return has_lines ? CS_SOFTEN_EDGES : CS_SOFTEN_KERNEL;
 }
 
 celspan_status cs_soften_create(celspan_context *context, const cs_softness *softness, bool varies,
@@ -79,7 +84,7 @@ celspan_status cs_soften_create(celspan_context *context, const cs_softness *sof
   soften->way = choose_way(s, varies);
   celspan_status status = CELSPAN_OK;
   if (soften->way == CS_SOFTEN_EDGES)
-    status = cs_soft_edges_init(context, 0.5 * s->radius_x, 0.5 * s->radius_y, &soften->edges);
+    status = cs_soft_edges_init(context, s, &soften->edges);
   else if (soften->way == CS_SOFTEN_SUMS)
     status = cs_soft_sums_init(context, s->radius_x, s->radius_y, &soften->sums);
   else if (soften->way == CS_SOFTEN_SLICES)
@@ -232,8 +237,8 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
     return cs_fail_memory(context);
   band->node_count = count;
   for (int plane = 0; plane < soft->planes; plane++)
-    CS_TRY(fill_plane(soften, context, plane, first, end,
-                      band->nodes + (size_t)plane * plane_size));
+    CS_TRY(
+        fill_plane(soften, context, plane, first, end, band->nodes + (size_t)plane * plane_size));
   return is_thin(soften) ? cs_soft_band_thin(soft, context, end - first, band) : CELSPAN_OK;
 }
 

@@ -32,7 +32,7 @@ typedef struct cs_soften {
   cs_soft_edges edges;
   cs_soft_sums sums;
   cs_soft_slices slices;
-  cs_shot shots[2];         /* one a plane; made by render/compile.c */
+  cs_shot shots[2]; /* one a plane; made by render/compile.c */
   cs_hash key;
 } cs_soften;
 

@@ -54,11 +54,17 @@ void cs_boundary_sort(cs_boundary_set *set) {
 
 /* Ends the walk's segment at the vertex after its beginning. */
 static inline void set_end(const cs_boundary_set *set, cs_boundary_walk *walk) {
-  const cs_boundary_piece *piece = &set->pieces[walk->piece];
-  celspan_point end = cs_polyline_vertex(set, piece, walk->segment + 1);
-  walk->x1 = end.x;
-  walk->y1 = end.y;
-  walk->slope = end.y > walk->y0 ? (end.x - walk->x0) / (end.y - walk->y0) : 0;
+  if (walk->ahead == walk->ahead_count) {
+    const cs_boundary_piece *piece = &set->pieces[walk->piece];
+    uint32_t left = piece->segments - walk->segment;
+    walk->ahead = 0;
+    walk->ahead_count = left < CS_BOUNDARY_AHEAD ? left : CS_BOUNDARY_AHEAD;
+    cs_polyline_feet(set, piece, walk->segment, walk->ahead_count,
+                     (celspan_point){walk->x0, walk->y0}, &walk->feet);
+  }
+  walk->x1 = walk->feet.x[walk->ahead];
+  walk->y1 = walk->feet.y[walk->ahead];
+  walk->slope = walk->feet.slope[walk->ahead++];
 }
 
 bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk) {
@@ -112,6 +118,7 @@ void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
   const cs_boundary_piece *piece = &set->pieces[walk->piece];
   walk->segment = find_segment(set, piece, y);
   celspan_point begin = cs_polyline_vertex(set, piece, walk->segment);
+  walk->ahead = walk->ahead_count = 0;
   walk->x0 = begin.x;
   walk->y0 = begin.y;
   set_end(set, walk);

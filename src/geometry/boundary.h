@@ -21,6 +21,7 @@
 #include "geometry/outline.h"
 
 #define CS_BOUNDARY_TOLERANCE 0.02
+#define CS_BOUNDARY_AHEAD 4 /* vertices that are made at a time */
 
 /* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
@@ -69,6 +70,11 @@ CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boun
  * them, free of memory addresses. Call once, when all is added. */
 void cs_boundary_sort(cs_boundary_set *set);
 
+/* The feet of segments that follow one another, and their slopes. */
+typedef struct cs_boundary_feet {
+  double x[CS_BOUNDARY_AHEAD], y[CS_BOUNDARY_AHEAD], slope[CS_BOUNDARY_AHEAD];
+} cs_boundary_feet;
+
 /* Where a walk down one chain stands: on the segment from (x0, y0) to (x1, y1). */
 typedef struct cs_boundary_walk {
   double x0, y0, x1, y1;
@@ -76,6 +82,8 @@ typedef struct cs_boundary_walk {
   uint32_t chain;
   uint32_t piece;   /* index into pieces */
   uint32_t segment; /* of that piece */
+  uint32_t ahead, ahead_count; /* feet made already: the next one, and their number */
+  cs_boundary_feet feet;
 } cs_boundary_walk;
 
 /* Stands at the first segment whose y1 is below y (greater): needs y < chain's y1. */

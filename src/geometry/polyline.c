@@ -65,14 +65,6 @@ static curve_point at_vertex(const cs_boundary_set *set, const cs_boundary_piece
                          : at_rational(points, piece->degree, t);
 }
 
-/* Inner vertices share among them the displacement C'' h^2 / 12 of every segment; the ends take
- * none, so their neighbours take theirs. Source: prototype of the sweep; the area between a chord
- * and its curve is |C' x C''| h^3 / 12. */
-static double displacement_share(const cs_boundary_piece *piece, uint32_t vertex) {
-  double share = 1 + 0.5 * (vertex == 1) + 0.5 * (vertex + 1 == piece->segments);
-  return share * (1.0 / 12) * (piece->step * piece->step);
-}
-
 celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                  uint32_t vertex) {
   if (vertex == 0)
@@ -80,10 +72,34 @@ celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_p
   if (vertex == piece->segments)
     return (celspan_point){piece->x1, piece->y1};
   curve_point p = at_vertex(set, piece, vertex);
-  double share = displacement_share(piece, vertex);
+  double share = cs_polyline_share(piece, vertex);
   double lift = cs_number_clamp(share * p.bend_y, -piece->overhang, piece->overhang);
   return (celspan_point){cs_number_clamp(p.x - share * p.bend_x, piece->left, piece->right),
                          cs_number_clamp(p.y - lift, piece->y0, piece->y1)};
+}
+
+void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t first,
+                      uint32_t count, celspan_point top, cs_boundary_feet *out) {
+  cs_isa isa = cs_isa_best();
+  if (piece->is_power && count > 1) {
+    const cs_hpoint *p = set->points + piece->point;
+    const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
+    const double c[8] = {p[0].x, p[1].x, p[2].x, cubic.x, p[0].y, p[1].y, p[2].y, cubic.y};
+    CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, piece, first + 1, out);
+  } else {
+    for (uint32_t k = 0; k < count; k++) {
+      celspan_point foot = cs_polyline_vertex(set, piece, first + 1 + k);
+      out->x[k] = foot.x;
+      out->y[k] = foot.y;
+    }
+  }
+  if (first + count == piece->segments) {
+    out->x[count - 1] = piece->x1;
+    out->y[count - 1] = piece->y1;
+  }
+  if (count > 1)
+    CS_WIDE_CHOOSE(isa, cs_polyline_slopes)(out);
+  out->slope[0] = out->y[0] > top.y ? (out->x[0] - top.x) / (out->y[0] - top.y) : 0;
 }
 
 double cs_polyline_plain_y(const cs_boundary_set *set, const cs_boundary_piece *piece,
@@ -159,7 +175,7 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   double segments = fmin(fmax(2, ceil(sqrt(bend / (8 * CS_BOUNDARY_TOLERANCE)))), SEGMENT_LIMIT);
   piece->segments = (uint32_t)segments;
   piece->step = 1 / segments;
-  piece->overhang = bend * displacement_share(piece, 1);
+  piece->overhang = bend * cs_polyline_share(piece, 1);
   piece->is_power = is_polynomial && curve->degree <= 3;
   return store_points(context, set, curve, piece);
 }

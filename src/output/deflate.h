@@ -3,8 +3,8 @@
  * Parts are made each on its own, side by side if one likes, and joined in order between a header
  * and a trailer. Runs become literals and matches of the byte or the pixel before; the checksum
  * follows them in closed form; so their cost does not depend on their length. Plain bytes are
- * looked up at their last two occurrences within 32 KiB. The bytes that come out of a part depend
- * on the calls for it alone. Memory: about 1 MiB.
+ * looked up among the last 32 KiB (output/search.h). The bytes that come out of a part depend on
+ * the calls for it alone. Memory: about 850 KiB.
  */
 #ifndef CS_OUTPUT_DEFLATE_H
 #define CS_OUTPUT_DEFLATE_H

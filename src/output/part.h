@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Claims a temporary file that was just opened. false when somebody swept it away at that moment. */
+/* Claims a temporary file that was just opened. false: somebody swept it away at that moment. */
 bool cs_part_claim(int descriptor);
 /* Removes the temporary files, in the folder of `pattern`, of names for which `matches` is true and
  * whose writers are gone. What cannot be removed stays. */

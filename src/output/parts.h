@@ -30,7 +30,7 @@ typedef struct cs_parts {
   celspan_status (*join)(void *user, celspan_context *context, void *part, int32_t index);
 } cs_parts;
 
-/* Whether the sink, which has begun, takes rows in parts. A sink without `row` takes them anyhow. */
+/* Whether the sink, which has begun, takes rows in parts. One without `row` takes them anyhow. */
 bool cs_sink_parts(const celspan_sink *sink, cs_parts *out);
 
 /* Of the sinks that do: false when the sink is another. */

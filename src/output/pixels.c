@@ -260,6 +260,11 @@ static void code_spans(const celspan_coding *coding, const celspan_span *spans, 
 static inline void put_run_8(uint32_t pixel, size_t count, size_t room, cs_fill fill,
                              unsigned char *out) {
   uint32_t block[CS_FILL_BLOCK / 4];
+  if (count <= 2 && room >= 8) { /* most of what lies between long runs */
+    uint64_t two = pixel * (uint64_t)0x100000001;
+    memcpy(out, &two, sizeof two);
+    return;
+  }
   for (size_t i = 0; i < CS_FILL_BLOCK / 4; i++)
     block[i] = pixel;
   if (4 * count > CS_FILL_BLOCK)

@@ -1,3 +1,7 @@
+/* Two tables of places: of eight bytes, with all earlier places of a hash in a chain, because what
+ * filters leave is made of few values and four bytes of it are everywhere; and of four bytes, the
+ * latest place alone, for what is new.
+ */
 #include "output/search.h"
 
 #include <string.h>
@@ -7,9 +11,10 @@ enum {
   LONGEST = CS_BLOCK_LONGEST,
   SHORTEST = 4,
   REMEMBERED = 32, /* the longest match whose inner places are remembered */
-  CHAIN = 8,       /* earlier places looked at */
-  GOOD = 16,       /* a match that is hardly bettered a byte later */
-  LAZY = 64        /* one that is not tried to be */
+  CHAIN = 10,      /* earlier places looked at */
+  CHAIN_LATER = 3, /* those for a better match a byte later */
+  GOOD = 16,       /* a match that is hardly bettered: one place is looked at */
+  LAZY = 32        /* one that is not tried to be */
 };
 
 /* Places remembered from history that was given up are told by their distance. */
@@ -198,7 +203,7 @@ static void search_all(cs_search *search) {
     match best = find(search, next, CHAIN);
     size_t remembered = 1;
     while (best.length > 0 && best.length < LAZY && next + 1 < end) {
-      match later = find(search, next + 1, best.length < GOOD ? CHAIN : CHAIN / 8);
+      match later = find(search, next + 1, best.length < GOOD ? CHAIN_LATER : 1);
       remembered = 2;
       if (later.length <= best.length)
         break;

@@ -209,9 +209,7 @@ static celspan_status join_part(const pool *p, delivery *d, const band *b) {
   return report_progress(d);
 }
 
-static celspan_status deliver_band(pool *p, delivery *d, const band *b) {
-  if (atomic_load(&p->is_cancelled))
-    return stop(d);
+static celspan_status deliver_band(const pool *p, delivery *d, const band *b) {
   if (b->status != CELSPAN_OK)
     return cs_fail(d->context, b->status, "%s", b->error);
   if (p->has_parts)
@@ -235,6 +233,8 @@ static celspan_status look_up(pool *p, const delivery *d) {
  * let go while the sink works. */
 static celspan_status deliver_all(pool *p, delivery *d) {
   while (p->delivered < p->total) {
+    if (atomic_load(&p->is_cancelled))
+      return stop(d);
     band *next = &p->bands[p->delivered % p->band_count];
     if (next->index == p->delivered && next->is_done) {
       pthread_mutex_unlock(&p->mutex);

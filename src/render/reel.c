@@ -179,7 +179,11 @@ static celspan_status finish_first(run *r, slot *s) {
   celspan_status status = r->reel->finish(r->reel->user, s->frame, s->status);
   r->reel->release(r->reel->user, s->frame);
   atomic_store(&s->turn.share, 0);
+  pthread_mutex_lock(&r->lock);
   r->finished++;
+  if (r->claimed < r->finished) /* its slot will hold another frame */
+    r->claimed = r->finished;
+  pthread_mutex_unlock(&r->lock);
   return status == CELSPAN_OK ? tick_or_stop(r) : status;
 }
 

@@ -37,7 +37,7 @@ typedef struct cs_reel {
   /* status: of what came before, with its sentence in the context. What is returned ends the run
    * unless it is OK. */
   celspan_status (*finish)(void *user, void *frame, celspan_status status);
-  /* Lets go of what the frame carries: once for every frame that was to be built. Calling thread. */
+  /* Lets go of what the frame carries, once for each that was to be built. Calling thread. */
   void (*release)(void *user, void *frame);
   /* Called now and then; share: of the frames that are not finished yet, in frames. false ends the
    * run. Calling thread; may be NULL. */

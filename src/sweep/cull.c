@@ -43,7 +43,7 @@ typedef struct culler {
 
 static int32_t choose_rows(size_t leaves, int32_t height) {
   int32_t rows = 16;
-  while (rows < TILE_ROWS_MOST && (double)rows * rows < 16.0 * (double)leaves)
+  while (rows < TILE_ROWS_MOST && (double)rows * rows < 64.0 * (double)leaves)
     rows *= 2;
   while (rows > 1 && height / rows < TILE_HEIGHT_LEAST)
     rows /= 2;

@@ -47,33 +47,35 @@ function parts.png(runner, folder, is_quick)
   os.remove(folder .. "/oiio.png")
 end
 
+--- A cut of 4096 x 4096 pixels out of a span file to PNG, the whole process.
+local function cut(runner, scene, side, file, out)
+  local corner = ("%d,%d,4096,4096"):format(side * 6 // 10, side * 4 // 10)
+  return { command = Command(runner:program "launch", "all", runner.celspan, "convert", file, out,
+             "--crop", corner), part = "cut", scene = scene, side = side, output = "cut of 4096",
+           renderer = "celspan", workers = 2 }
+end
+
 function parts.span_file(runner, folder)
-  local drawing, file = folder .. "/100.txt", folder .. "/100.span"
+  local drawing, file, out = folder .. "/100.txt", folder .. "/100.span", folder .. "/cut.png"
   for _, antialias in ipairs { "none", "area" } do
     runner:measure(3, { written(runner, drawing, 1000000, antialias, file, 1) })
   end
+  runner:measure(3, { cut(runner, "100", 1000000, file, out) })
   os.remove(file)
+  os.remove(out)
 end
 
---- A cut out of the terapixel frame's span file.
+--- The terapixel frame as a span file, which takes minutes, and a cut out of it.
 function parts.cut(runner, folder, is_quick)
-  local side = is_quick and 100000 or 1000000
-  local file = folder .. "/terapixel.span"
-  local size = ("%dx%d"):format(side, side)
-  local launch = runner:program "launch"
-  local entry = { part = "cut", scene = "terapixel", side = side, renderer = "celspan" }
-  local function like(fields)
-    for key, value in pairs(entry) do fields[key] = value end
-    return fields
-  end
-  runner:measure(1, { like { output = "span", workers = 2, command = Command(launch, "all",
-    runner.celspan, "render", "scripts/terapixel.lua", "--size", size, "--antialias", "none",
-    "--progress", "none", "-o", file) } })
-  runner:measure(3, { like { output = "cut of 4096", workers = 2, command = Command(launch, "all",
-    runner.celspan, "convert", file, folder .. "/cut.png", "--crop",
-    ("%d,%d,4096,4096"):format(side * 6 // 10, side * 4 // 10)) } })
+  local side = is_quick and 30000 or 1000000
+  local file, out = folder .. "/terapixel.span", folder .. "/cut.png"
+  runner:measure(1, { { command = Command(runner:program "launch", "all", runner.celspan, "render",
+    "scripts/terapixel.lua", "--size", ("%dx%d"):format(side, side), "--antialias", "none",
+    "--progress", "none", "-o", file), part = "cut", scene = "terapixel", side = side,
+    output = "span", renderer = "celspan", workers = 2, limit = 300 } })
+  runner:measure(3, { cut(runner, "terapixel", side, file, out) })
   os.remove(file)
-  os.remove(folder .. "/cut.png")
+  os.remove(out)
 end
 
 return parts

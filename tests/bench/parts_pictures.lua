@@ -61,53 +61,35 @@ function parts.raster(runner, folder)
   end
 end
 
--- ---------------------------------------------------------------- scripts
+-- ---------------------------------------------------------------- figure 14, planes
 
---- The statistics of `celspan spans --stats` are its line; what the process took is the other.
-local function stats_line(lines)
-  local line = {}
-  for _, told in ipairs(lines) do
-    for key, value in pairs(told) do
-      if key == "seconds" then line.wall, line.best_wall = value, value
-      elseif key == "colour_evaluations" then line.colours = value
-      elseif not line[key] then line[key] = value end
-    end
-  end
-  return line
+--- Drawn shapes, or a picture of them, over a picture of 1000 x 1000.
+local function backed(runner, folder, what, sampling, side, output)
+  local front = what == "pictures" and "/foreground.png" or "/clovers.txt"
+  return { command = Command(runner:program "celspan", "backed", folder .. "/background.png",
+             sampling, side, output, folder .. front), part = "figure14",
+           scene = what .. " " .. sampling, side = side, output = output, renderer = "celspan",
+           workers = 1, limit = 60 }
 end
 
---- An entry that renders a script's frame inside one process.
-local function script(runner, part, scene, side, output, size, name, ...)
-  local pixels = output == "row" and { "--pixels", "8" } or {}
-  local words = { runner:program "launch", "all", runner.celspan, "spans", "tests/bench/scripts/"
-    .. name .. ".lua", "--stats", "--workers", "1", "--size", size }
-  table.move(pixels, 1, #pixels, #words + 1, words)
-  words[#words + 1] = "--"
-  table.move({ ... }, 1, select("#", ...), #words + 1, words)
-  return { command = Command(table.unpack(words)), part = part, scene = scene, side = side,
-           output = output, renderer = "celspan", workers = 1, take = stats_line, limit = 40 }
-end
-
-local function still(runner, name, out, size, ...)
-  assert(os.execute(Command(runner.celspan, "render", "tests/bench/scripts/" .. name .. ".lua",
-    "--progress", "none", "--size", size, "-o", out, "--", ...)))
+local function make_figure14(runner, folder)
+  local material = os.getenv "CELSPAN_MATERIAL" or ""
+  local photo = first_file(material .. "/photo/kodim23.png", "scripts/pictures/village.png")
+  local celspan = runner:program "celspan"
+  assert(runner:ask(Command(celspan, "backed", photo, "bilinear", 1000, "file", "-",
+    folder .. "/background.png")))
+  assert(runner:ask(Command(celspan, "backed", "-", "bilinear", 1000, "file",
+    folder .. "/clovers.txt", folder .. "/foreground.png")))
 end
 
 function parts.figure14(runner, folder, is_quick)
-  local material = os.getenv "CELSPAN_MATERIAL" or ""
-  local photo = first_file(material .. "/photo/kodim23.png", "scripts/pictures/village.png")
-  assert(os.execute(Command("cp", photo, folder .. "/photo.png")))
-  local there = folder:sub(1, 1) == "/" and folder or runner.root .. "/" .. folder
-  for _, name in ipairs { "background", "foreground" } do
-    still(runner, "figure14", folder .. "/" .. name .. ".png", "1000x1000", name, there)
-  end
-  for _, side in ipairs(is_quick and { 1000, 2000 } or { 1000, 4000, 10000, 30000 }) do
-    local size, entries = ("%dx%d"):format(side, side), {}
+  make_figure14(runner, folder)
+  for _, side in ipairs(is_quick and { 1000, 4000 } or { 1000, 4000, 10000, 30000 }) do
+    local entries = {}
     for _, what in ipairs { "pictures", "geometry" } do
       for _, sampling in ipairs { "nearest", "bilinear" } do
         for _, output in ipairs(side > 10000 and { "spans" } or { "spans", "row" }) do
-          entries[#entries + 1] = script(runner, "figure14", what .. " " .. sampling, side, output,
-            size, "figure14", what, there, sampling)
+          entries[#entries + 1] = backed(runner, folder, what, sampling, side, output)
         end
       end
     end
@@ -116,9 +98,9 @@ function parts.figure14(runner, folder, is_quick)
 end
 
 function parts.multiplane(runner)
-  local there = runner.root .. "/scripts/pictures"
-  runner:measure(3, {
-    script(runner, "multiplane", "twelve planes", 3840, "row", "3840x2160", "multiplane", there) })
+  runner:measure(3, { { command = Command(runner:program "celspan", "planes", "scripts/pictures",
+    "row"), part = "multiplane", scene = "twelve planes", side = 3840, output = "row",
+    renderer = "celspan", workers = 1 } })
 end
 
 -- ---------------------------------------------------------------- defocus
@@ -175,6 +157,36 @@ function parts.defocus(runner, folder, is_quick)
   end
 end
 
+--- The statistics of `celspan spans --stats` are its line; what the process took is the other.
+local function stats_line(lines)
+  local line = {}
+  for _, told in ipairs(lines) do
+    for key, value in pairs(told) do
+      if key == "seconds" then line.wall, line.best_wall = value, value
+      elseif key == "colour_evaluations" then line.colours = value
+      elseif not line[key] then line[key] = value end
+    end
+  end
+  return line
+end
+
+--- An entry that renders a script's frame inside one process.
+local function script(runner, part, scene, output, size, name, ...)
+  local pixels = output == "row" and { "--pixels", "8" } or {}
+  local words = { runner:program "launch", "all", runner.celspan, "spans", "tests/bench/scripts/"
+    .. name .. ".lua", "--stats", "--workers", "1", "--size", size }
+  table.move(pixels, 1, #pixels, #words + 1, words)
+  words[#words + 1] = "--"
+  table.move({ ... }, 1, select("#", ...), #words + 1, words)
+  return { command = Command(table.unpack(words)), part = part, scene = scene, side = side,
+           output = output, renderer = "celspan", workers = 1, take = stats_line, limit = 40 }
+end
+
+local function still(runner, name, out, size, ...)
+  assert(os.execute(Command(runner.celspan, "render", "tests/bench/scripts/" .. name .. ".lua",
+    "--progress", "none", "--size", size, "-o", out, "--", ...)))
+end
+
 --- Figure 11: three bands, radius a tenth of the width; the film is 22 wide.
 function parts.figure11(runner, folder, is_quick)
   local here = runner.root .. "/" .. folder
@@ -186,7 +198,7 @@ function parts.figure11(runner, folder, is_quick)
     local scene = "figure 11 radius " .. radius
     for _, kernel in ipairs { "gaussian", "box" } do
       for _, output in ipairs { "spans", "row" } do
-        local entry = script(runner, "defocus", scene, side, output, ("%dx%d"):format(side, side),
+        local entry = script(runner, "defocus", scene, output, ("%dx%d"):format(side, side),
           "figure11", units, kernel)
         entry.antialias = kernel
         entries[#entries + 1] = entry

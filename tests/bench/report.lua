@@ -302,8 +302,8 @@ plain_table("files", "Files", [[
 A hundred shapes into files; OpenImageIO is given the same pixels and only its writing is timed.]],
   { title = "bytes", of = bytes_of })
 plain_table("cut", "Out of a terapixel frame", [[
-`scripts/terapixel.lua` as a span file, and a cut of 4096 x 4096 pixels out of it to PNG: whole
-processes.]])
+A cut of 4096 x 4096 pixels to PNG out of span files of 1,000,000 x 1,000,000, of the 100 shapes and
+of `scripts/terapixel.lua`; the making of the latter: whole processes.]])
 plain_table("film png", "A frame of the demo film", [[
 celspan: the whole process, script, rendering and PNG; OpenImageIO: the same pixels' writing.]],
   { title = "bytes", of = bytes_of })

@@ -32,31 +32,51 @@ static celspan_object *make_shape(celspan_context *context, const bench_shape *s
   return object;
 }
 
-celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc) {
+celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc,
+                               bool is_backed) {
   celspan_cel *cel;
   celspan_rostrum *rostrum;
   bench_check(context, celspan_cel_create(context, cel_desc, &cel));
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.cels = &cel;
   desc.cel_count = 1;
-  desc.back = (celspan_light){1, 1, 1, 1};
+  if (is_backed)
+    desc.back = (celspan_light){1, 1, 1, 1};
   bench_check(context, celspan_rostrum_create(context, &desc, &rostrum));
   celspan_cel_unref(cel);
   return rostrum;
 }
 
-celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
-                             const celspan_cel_desc *cel) {
+/* All shapes of a drawing; the list and its objects are the caller's. */
+static celspan_object **make_shapes(celspan_context *context, const bench_drawing *drawing) {
   celspan_object **objects = calloc(drawing->shape_count, sizeof *objects);
   for (size_t i = 0; i < drawing->shape_count; i++)
     objects[i] = make_shape(context, &drawing->shapes[i]);
+  return objects;
+}
+
+static void free_shapes(celspan_object **objects, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    celspan_object_unref(objects[i]);
+  free(objects);
+}
+
+celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing) {
+  celspan_object **objects = make_shapes(context, drawing), *whole;
+  bench_check(context, celspan_object_create_boolean(context, CELSPAN_UNION, objects,
+                                                     drawing->shape_count, &whole));
+  free_shapes(objects, drawing->shape_count);
+  return whole;
+}
+
+celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
+                             const celspan_cel_desc *cel) {
+  celspan_object **objects = make_shapes(context, drawing);
   celspan_cel_desc desc = cel ? *cel : CELSPAN_CEL_DESC;
   desc.objects = objects;
   desc.object_count = drawing->shape_count;
-  celspan_rostrum *rostrum = bench_rostrum(context, &desc);
-  for (size_t i = 0; i < drawing->shape_count; i++)
-    celspan_object_unref(objects[i]);
-  free(objects);
+  celspan_rostrum *rostrum = bench_rostrum(context, &desc, true);
+  free_shapes(objects, drawing->shape_count);
   return rostrum;
 }
 

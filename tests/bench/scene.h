@@ -16,8 +16,11 @@ void bench_check(celspan_context *context, celspan_status status);
  * cel  what the cel is like but for its objects; may be NULL */
 celspan_rostrum *bench_scene(celspan_context *context, const bench_drawing *drawing,
                              const celspan_cel_desc *cel);
-/* One cel over white, as described. new */
-celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc);
+/* One cel as described; is_backed: over white. new */
+celspan_rostrum *bench_rostrum(celspan_context *context, const celspan_cel_desc *cel_desc,
+                               bool is_backed);
+/* All of a drawing as one object. new */
+celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing);
 
 /* One exposure of a film of 1 x 1 by one worker. The pointers are borrowed. */
 celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int height,

@@ -31,6 +31,25 @@ local function write_artwork(material, folder)
   end
 end
 
+--- Three clovers of four leaves: the drawn part of the paper's figure 14.
+local function clovers()
+  local list = {}
+  local leaf = { 0, 0, 0.24, -0.33, 0, -0.27, -0.24, -0.33 }
+  for _, clover in ipairs { { 0.43, 0.42, 1.5 }, { 0.76, 0.7, 0.8 }, { 0.23, 0.78, 0.6 } } do
+    for turn = 0, 3 do
+      local angle = math.rad(20 + 90 * turn)
+      local c, s = clover[3] * math.cos(angle), clover[3] * math.sin(angle)
+      local points = {}
+      for k = 1, 8, 2 do
+        points[k] = clover[1] + c * leaf[k] - s * leaf[k + 1]
+        points[k + 1] = clover[2] + s * leaf[k] + c * leaf[k + 1]
+      end
+      list[#list + 1] = { rgba = { 140, 8, 13, 204 }, points = points }
+    end
+  end
+  return list
+end
+
 --- Writes FOLDER/NAME.txt of each. Returns whether the material was there.
 function scenes.write(folder)
   local material = os.getenv "CELSPAN_MATERIAL"
@@ -45,6 +64,7 @@ function scenes.write(folder)
   write(shapes.with_alpha(all, function() return 255 end), "opaque")
   write(shapes.with_alpha(all, function() return random:whole(5, 20) end), "faint")
   write(shapes.small(10000, 1 / 20), "small")
+  write(clovers(), "clovers")
   if is_given then write_artwork(material, folder) end
   return is_given
 end

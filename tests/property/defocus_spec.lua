@@ -1,5 +1,5 @@
--- Defocused cels that hold pictures and gradients, against sums of many probes of the same cel without
--- defocus: at every radius from a twentieth of a pixel up, at rotated and enlarged placements.
+-- Defocused cels that hold pictures and gradients, against sums of many probes of the same cel
+-- without defocus: at every radius from a twentieth of a pixel up, rotated and enlarged.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 
@@ -58,12 +58,13 @@ end
 
 local points = { { 20, 20 }, { 17, 23 }, { 24, 18 }, { 22, 25 }, { 19, 16 } }
 
---- Compares the pixels at `points` of a defocused cel, and says by how much it differs from the sharp.
+--- Compares the pixels at `points` of a defocused cel; returns by how much it differs from the
+--- sharp one.
 local function compare(art, kernel, radius, antialias, n)
   local where = ("%s of radius %g under %s"):format(kernel, radius, antialias)
   local sharp = celspan.rostrum { celspan.cel { art }, antialias = antialias }
-  local soft = celspan.rostrum { celspan.cel { art, defocus = { radius = radius, kernel = kernel } },
-                                 antialias = antialias }
+  local cel = celspan.cel { art, defocus = { radius = radius, kernel = kernel } }
+  local soft = celspan.rostrum { cel, antialias = antialias }
   local image = assert(celspan.pixels(soft, { size = FILM }))
   local before = assert(celspan.pixels(sharp, { size = FILM }))
   -- Below a fifth of a pixel a kink of a hard picture may lie between the cells that are summed.
@@ -111,8 +112,8 @@ end)
 
 describe("a defocused gradient", function()
   it("is the mean under the kernel", function()
-    local ramp = celspan.linear { from = { 15, 12 }, to = { 25, 24 }, { 0, "#f00" }, { 0.5, "#fff" },
-                                  { 1, "#0044ff80" } }
+    local ramp = celspan.linear { from = { 15, 12 }, to = { 25, 24 },
+                                  { 0, "#f00" }, { 0.5, "#fff" }, { 1, "#0044ff80" } }
     local art = celspan.rect { 3, 2, 38, 38, texture = ramp }:rotate(10, 22, 22)
     for _, kernel in ipairs { "gaussian", "box", "disc" } do
       for _, radius in ipairs { 0.1, 0.6, 1, 1.9, 3.3 } do

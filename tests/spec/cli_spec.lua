@@ -1,47 +1,16 @@
 -- The command line: what it prints, where, and how it ends.
 
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local workbench = require "tests.support.workbench"
 
-local folder
+local BINARY = workbench.binary
 
-local function read(path)
-  local file = io.open(path, "rb")
-  if not file then
-    return nil
-  end
-  local text = file:read("a")
-  file:close()
-  return text
-end
+local bench, folder
 
-local function write(name, text)
-  local path = folder .. "/" .. name
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  return path
-end
-
--- Runs a shell command; answers its exit code (128 + n for signal n), standard output and error.
-local function shell(command)
-  local out, err = folder .. "/stdout", folder .. "/stderr"
-  local _, how, code = os.execute(("( %s ) >'%s' 2>'%s'"):format(command, out, err))
-  return how == "signal" and 128 + code or code, read(out), read(err)
-end
-
-local function celspan(arguments)
-  return shell(BINARY .. " " .. arguments)
-end
-
-local function files_in(path)
-  local names = {}
-  local list = assert(io.popen("ls -A '" .. path .. "' 2>/dev/null"))
-  for name in list:lines() do
-    names[#names + 1] = name
-  end
-  list:close()
-  return names
-end
+local function read(path) return bench:read(path) end
+local function write(name, text) return bench:write(name, text) end
+local function shell(command) return bench:shell(command) end
+local function celspan(arguments) return bench:shell(BINARY .. " " .. arguments) end
+local function files_in(path) return bench:files(path:sub(#folder + 2)) end
 
 -- Red on the left half, a quarter of blue on the right; frame n moves the edge by n - 1 pixels.
 local PLAIN = [[
@@ -82,15 +51,12 @@ describe("the command line", function()
   local plain
 
   before_each(function()
-    folder = os.tmpname()
-    os.remove(folder)
-    assert(os.execute("mkdir '" .. folder .. "'"))
+    bench = workbench.new()
+    folder = bench.folder
     plain = write("plain.lua", PLAIN)
   end)
 
-  after_each(function()
-    os.execute("rm -rf '" .. folder .. "'")
-  end)
+  after_each(function() bench:remove() end)
 
   describe("help", function()
     it("prints the version", function()

@@ -6,7 +6,7 @@
 #include "tests/support/scene.h"
 
 #define PI 3.14159265358979
-#define DISC 9 /* radius of the shape, pixels */
+#define DISC 9   /* radius of the shape, pixels */
 #define PLACES 4 /* of the shape in its pixel, along each axis */
 
 /* The sum of alpha over a square frame. */
@@ -130,8 +130,11 @@ static void check_kernels(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (size_t i = 0; i < 30; i++) {
     double radius = kept[i / 10].radii[i % 10];
-    celspan_filter_desc kernel = {.kernel = kept[i / 10].kernel, .has_radius = true,
-                                  .radius = radius, .function = tent, .function_user = &radius};
+    celspan_filter_desc kernel = {.kernel = kept[i / 10].kernel,
+                                  .has_radius = true,
+                                  .radius = radius,
+                                  .function = tent,
+                                  .function_user = &radius};
     look l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (int32_t)ceil(radius + DISC + 2), false);
     check_each(&found, kept[i / 10].name, radius);
@@ -146,8 +149,10 @@ static void check_signed(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int i = 0; i < 12; i++) {
-    celspan_filter_desc kernel = {.kernel = i % 2 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_MITCHELL,
-                                  .has_radius = true, .radius = radii[i / 2]};
+    celspan_filter_desc kernel = {.kernel =
+                                      i % 2 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_MITCHELL,
+                                  .has_radius = true,
+                                  .radius = radii[i / 2]};
     look l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (int32_t)ceil(kernel.radius + DISC + 2), true);
     check_each(&found, i % 2 ? "lanczos" : "mitchell", kernel.radius);
@@ -162,8 +167,11 @@ static void check_narrow(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int i = 0; i < 15; i++) {
     double radius = radii[i / 3];
-    celspan_filter_desc kernel = {.kernel = kept[i % 3].kernel, .has_radius = true,
-                                  .radius = radius, .function = tent, .function_user = &radius};
+    celspan_filter_desc kernel = {.kernel = kept[i % 3].kernel,
+                                  .has_radius = true,
+                                  .radius = radius,
+                                  .function = tent,
+                                  .function_user = &radius};
     look l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (DISC + 4), false);
     if (!CHECK_NEAR(found.mean, 1, 0.001))

@@ -231,6 +231,32 @@ static void check_cancel(studio *s) {
   }
 }
 
+static bool stop_third(void *user, int32_t rows_done, int32_t rows_total) {
+  (void)rows_done, (void)rows_total;
+  return ++*(int *)user < 3;
+}
+
+/* Workers that fill parts of the sink stop amid them. */
+static void check_cancel_parts(studio *s) {
+  celspan_exposure exposure = {random_rostrum(s, 18), 1};
+  celspan_frame_desc desc = frame_of(&exposure, NULL);
+  const celspan_sink nowhere = {.row = NULL};
+  desc.height = 5000;
+  desc.progress = stop_third;
+  for (desc.workers = 2; desc.workers <= 4; desc.workers++) {
+    int calls = 0;
+    desc.progress_user = &calls;
+    CHECK(celspan_frame_pixels(s->context, &desc, NULL, NULL, 0, NULL) == CELSPAN_CANCELLED);
+    CHECK(calls == 3 && strncmp(celspan_context_error(s->context), "stopped after ", 14) == 0);
+    calls = 0;
+    CHECK(celspan_frame_render(s->context, &desc, &nowhere, NULL) == CELSPAN_CANCELLED);
+    calls = -1000000;
+    celspan_statistics statistics;
+    studio_check(s, celspan_frame_render(s->context, &desc, &nowhere, &statistics));
+    CHECK(statistics.rows == 5000 && statistics.spans > 5000);
+  }
+}
+
 /* ---------------------------------------------------------------- refusals */
 
 static void check_refusals(studio *s) {
@@ -278,6 +304,7 @@ int main(void) {
   check_scenes(&s);
   check_sinks(&s);
   check_cancel(&s);
+  check_cancel_parts(&s);
   check_refusals(&s);
   check_nothing(&s);
   studio_finish(&s);

@@ -651,7 +651,8 @@ CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
 CELSPAN_API void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans,
                                     size_t span_count, void *pixels);
 
-/* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. */
+/* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. pixels NULL: rows
+ * are coded, each over the one before, and dropped: for measuring. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 const celspan_coding *coding,

@@ -1,0 +1,35 @@
+/* Frames of celspan as jobs to be measured.
+ *
+ * INVARIANT: between open and close a job has its pixels if its output asks for them.
+ */
+#ifndef CELSPAN_BENCH_FRAMES_H
+#define CELSPAN_BENCH_FRAMES_H
+
+#include "celspan/celspan.h"
+
+extern const celspan_coding bench_coded;   /* 8-bit sRGB */
+extern const celspan_coding bench_uncoded; /* values 0..1 as they are, which is what peers blend */
+
+typedef struct bench_frame_job {
+  celspan_context *context;
+  celspan_rostrum *rostrum; /* let go by close */
+  celspan_exposure exposure;
+  celspan_antialias_mode mode;
+  celspan_frame_desc desc;
+  celspan_statistics statistics; /* of the last frame */
+  const char *output, *file;
+  unsigned char *pixels;
+} bench_frame_job;
+
+/* output: spans, row (8-bit pixels into one row that is used again), whole (an image in memory) or
+ * file (job->file, by its ending). The film is 1 x 1; job->rostrum was set. borrowed */
+void bench_job_open(bench_frame_job *job, int width, int height, const char *antialias,
+                    const char *output, int workers);
+void bench_job_render(void *job);
+/* Measures frames and tells their statistics. */
+void bench_job_measure(bench_frame_job *job);
+/* Tells the picture's cells; the output is whole. */
+void bench_job_look(bench_frame_job *job);
+void bench_job_close(bench_frame_job *job);
+
+#endif

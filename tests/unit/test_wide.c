@@ -1,0 +1,115 @@
+/* The sweep's vector code gives the same bits whichever instructions it runs with. */
+#include "filter/edges.h"
+#include "geometry/polyline.h"
+#include "sweep/advance.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+#include <string.h>
+
+enum { MOST = 203, WIDTH = 640 };
+
+static bool same_doubles(const double *a, const double *b, size_t count) {
+  return memcmp(a, b, count * sizeof *a) == 0;
+}
+
+/* Columns left of the frame, in it, right of it, and on the edges of pixels. */
+static double random_x(test_random *random) {
+  double x = random_between(random, -8, WIDTH + 8);
+  return random_below(random, 4) ? x : (double)(int)x;
+}
+
+static void check_advance(cs_isa isa, test_random *random) {
+  double x0[MOST], y0[MOST], slope[MOST], y1[MOST], expected[MOST], found[MOST];
+  size_t count = (size_t)random_below(random, MOST);
+  for (size_t i = 0; i < count; i++) {
+    x0[i] = random_x(random);
+    y0[i] = random_between(random, 0, 10);
+    slope[i] = random_between(random, -100, 100);
+    y1[i] = y0[i] + random_between(random, 0, 40);
+  }
+  cs_segments segments = {x0, y0, slope, y1};
+  double y = random_between(random, 10, 12);
+  bool ends = cs_advance_to_any(&segments, count, y, expected);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found) == ends);
+  CHECK(same_doubles(expected, found, count));
+  bool is_over = false;
+  for (size_t i = 0; i < count; i++)
+    is_over |= y1[i] <= y;
+  CHECK(ends == is_over);
+}
+
+static void check_order(cs_isa isa, test_random *random) {
+  double x[MOST];
+  size_t count = 1 + (size_t)random_below(random, MOST - 1);
+  for (size_t i = 0; i < count; i++)
+    x[i] = (double)i;
+  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_rises)(x, count));
+  if (count < 2)
+    return;
+  size_t place = 1 + (size_t)random_below(random, (int)count - 1);
+  x[place] = x[place - 1]; /* equal is not rising */
+  CHECK(!CS_WIDE_CHOOSE(isa, cs_advance_rises)(x, count));
+}
+
+typedef struct room {
+  double low[MOST], high[MOST], area[MOST], rest[MOST];
+  int32_t first[MOST], end[MOST];
+} room;
+
+static void measure(cs_isa isa, room *r, const double *top, const double *foot, size_t count) {
+  cs_edges edges = {.low = r->low, .high = r->high, .area = r->area, .rest = r->rest,
+                    .first = r->first, .end = r->end};
+  CS_WIDE_CHOOSE(isa, cs_edges_straight)(&edges, top, foot, count, WIDTH);
+}
+
+static void check_edges(cs_isa isa, test_random *random) {
+  static room expected, found;
+  double top[MOST], foot[MOST];
+  size_t count = (size_t)random_below(random, MOST);
+  for (size_t i = 0; i < count; i++) {
+    top[i] = random_x(random);
+    foot[i] = random_below(random, 8) ? top[i] + random_between(random, -3, 3) : top[i];
+  }
+  measure(CS_ISA_ANY, &expected, top, foot, count);
+  measure(isa, &found, top, foot, count);
+  CHECK(same_doubles(expected.low, found.low, count));
+  CHECK(same_doubles(expected.high, found.high, count));
+  CHECK(memcmp(expected.first, found.first, count * sizeof *expected.first) == 0);
+  CHECK(memcmp(expected.end, found.end, count * sizeof *expected.end) == 0);
+  for (size_t i = 0; i < count; i++)
+    if (expected.end[i] - expected.first[i] <= 2) {
+      CHECK(same_doubles(&expected.area[i], &found.area[i], 1));
+      CHECK(same_doubles(&expected.rest[i], &found.rest[i], 1));
+    }
+}
+
+static void check_vertices(cs_isa isa, test_random *random) {
+  cs_boundary_feet expected, found;
+  double c[8];
+  for (int k = 0; k < 8; k++)
+    c[k] = random_between(random, -200, 200);
+  cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
+                             .right = 290, .overhang = 0.02, .segments = 20, .step = 0.05};
+  uint32_t first = 1 + (uint32_t)random_below(random, 18);
+  cs_polyline_powers_any(c, &piece, first, &expected);
+  cs_polyline_slopes_any(&expected);
+  CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, &piece, first, &found);
+  CS_WIDE_CHOOSE(isa, cs_polyline_slopes)(&found);
+  CHECK(same_doubles(expected.x, found.x, CS_BOUNDARY_AHEAD));
+  CHECK(same_doubles(expected.y, found.y, CS_BOUNDARY_AHEAD));
+  CHECK(same_doubles(expected.slope + 1, found.slope + 1, CS_BOUNDARY_AHEAD - 1));
+}
+
+int main(void) {
+  for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++) {
+    test_random random = {29};
+    for (int k = 0; k < 300; k++) {
+      check_advance((cs_isa)isa, &random);
+      check_order((cs_isa)isa, &random);
+      check_edges((cs_isa)isa, &random);
+      check_vertices((cs_isa)isa, &random);
+    }
+  }
+  return check_done();
+}
