@@ -1,8 +1,8 @@
 /* As many floats at once as a register holds, and which instructions to do it with.
  *
  * A file of kernels (wide_sources in the folder's meson.build) is compiled once for every set of
- * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is plain
- * IEEE arithmetic and nothing is fused, so the bits are the same whichever runs.
+ * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is
+ * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever runs.
  */
 #ifndef CS_BASE_WIDE_H
 #define CS_BASE_WIDE_H
@@ -40,7 +40,8 @@ static inline cs_isa cs_isa_best(void) { return CS_ISA_ANY; }
 #define CS_WIDE_EXPAND(name, isa) CS_WIDE_JOIN(name, isa)
 #define CS_WIDE(name) CS_WIDE_EXPAND(name, CS_WIDE_ISA)
 
-/* As many lanes as the make's registers have. Whole pixels: lane 4 k + c is channel c of pixel k. */
+/* As many lanes as the make's registers have. Whole pixels: lane 4 k + c is channel c of pixel k.
+ */
 #ifdef __AVX512F__
 #define CS_WIDE_LANES 16
 #define CS_WIDE_SPREAD(v, c)                                                                       \

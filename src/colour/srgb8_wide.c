@@ -2,9 +2,9 @@
  *
  *   colour --divided by alpha, held to 0..1--> x --curve--> y = 255 f(x) + 1/2 --> floor(y)
  *
- * x^(1/2.4) is the power of its octave, from a table that fits a register or two, times a polynomial
- * over the octave. y is then right within UNSURE, so its floor is right unless y lies within UNSURE of
- * a whole number: such pixels, one in a hundred and fifty, are coded one by one.
+ * x^(1/2.4) is the power of its octave, from a table that fits a register or two, times a
+ * polynomial over the octave. y is then right within UNSURE, so its floor is right unless y lies
+ * within UNSURE of a whole number: such pixels, one in a hundred and fifty, are coded one by one.
  */
 #include "colour/srgb8.h"
 
@@ -30,10 +30,22 @@ static void code_pixels(const float *rgba, size_t count, unsigned char *out) {
 
 /* 255 * 1.055 * 2^(e / 2.4), by the last four bits of the exponent e + 127 of a float from 2^-13 to
  * 1: what is smaller lies on the straight part of the curve. */
-static const float octave_powers[16] = {
-    0,              0,              0x1.931502p+2f, 0x1.0d0666p+3f, 0x1.671af4p+3f, 0x1.df591ap+3f,
-    0x1.3fed2cp+4f, 0x1.ab0cf2p+4f, 0x1.1d05a6p+5f, 0x1.7c7574p+5f, 0x1.fbda00p+5f, 0x1.52f344p+6f,
-    0x1.c471bep+6f, 0x1.2df86ap+7f, 0x1.931502p+7f, 0x1.0d0666p+8f};
+static const float octave_powers[16] = {0,
+                                        0,
+                                        0x1.931502p+2f,
+                                        0x1.0d0666p+3f,
+                                        0x1.671af4p+3f,
+                                        0x1.df591ap+3f,
+                                        0x1.3fed2cp+4f,
+                                        0x1.ab0cf2p+4f,
+                                        0x1.1d05a6p+5f,
+                                        0x1.7c7574p+5f,
+                                        0x1.fbda00p+5f,
+                                        0x1.52f344p+6f,
+                                        0x1.c471bep+6f,
+                                        0x1.2df86ap+7f,
+                                        0x1.931502p+7f,
+                                        0x1.0d0666p+8f};
 
 /* (1.5 + t)^(1/2.4), |t| <= 1/2, right within 2e-6 of itself. */
 static const float powers[6] = {0x1.2f1e0ep+0f, 0x1.50cc54p-2f,  -0x1.05932cp-4f,
@@ -41,9 +53,9 @@ static const float powers[6] = {0x1.2f1e0ep+0f, 0x1.50cc54p-2f,  -0x1.05932cp-4f
 
 /* One chunk on its way. */
 typedef struct chunk {
-  float values[LANES];  /* 0..1, colours straight */
-  float octaves[LANES]; /* the powers of their octaves */
-  unsigned char unsure[LANES];
+  float values[LANES];                    /* 0..1, colours straight */
+  float octaves[LANES];                   /* the powers of their octaves */
+  uint16_t unsure[LANES / CS_WIDE_LANES]; /* a bit a lane */
 } chunk;
 
 static inline int differs_from_one(const float *rgba) {
@@ -84,6 +96,15 @@ static inline void store_bytes(unsigned char *out, cs_wide_int numbers) {
 #endif
 }
 
+/* A mask as a bit a lane. */
+static inline int bits_of(cs_wide_int mask) {
+#ifdef __AVX512F__
+  return (int)_mm512_movepi32_mask((__m512i)mask);
+#else
+  return _mm256_movemask_ps((__m256)mask);
+#endif
+}
+
 /* Codes of the values, to be trusted where unsure is 0. */
 static inline void code_values(chunk *c, unsigned char *out) {
   const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
@@ -98,18 +119,14 @@ static inline void code_values(chunk *c, unsigned char *out) {
     cs_wide_int code = __builtin_convertvector(y, cs_wide_int);
     cs_wide rest = y - __builtin_convertvector(code, cs_wide);
     store_bytes(out + i, code);
-    store_bytes(c->unsure + i, ((rest < UNSURE) | (rest > 1 - UNSURE)) & 1);
+    c->unsure[i / CS_WIDE_LANES] = (uint16_t)bits_of((rest < UNSURE) | (rest > 1 - UNSURE));
   }
 }
 
-/* Two pixels at a time. */
 static inline void code_unsure(const float *rgba, const chunk *c, unsigned char *out) {
-  for (int i = 0; i < LANES; i += 8) {
-    uint64_t unsure;
-    memcpy(&unsure, c->unsure + i, sizeof unsure);
-    if (unsure)
-      code_pixels(rgba + i, 2, out + i);
-  }
+  for (int i = 0; i < LANES; i += CS_WIDE_LANES)
+    if (c->unsure[i / CS_WIDE_LANES])
+      code_pixels(rgba + i, CS_WIDE_LANES / 4, out + i);
 }
 
 /* Fills octaves. */

@@ -60,24 +60,25 @@ celspan_status cs_blend_reach(celspan_context *context, cs_arena *arena, cs_blen
 }
 
 void cs_blend_flat(cs_blend *blend, const cs_leaf *leaf) {
-  WIDE(blend, cs_blend_add_flat)(blend->level, blend->count, (const float *)&leaf->s,
-                                 (const float *)&leaf->t);
+  WIDE(blend, cs_blend_add_flat)
+  (blend->level, blend->count, (const float *)&leaf->s, (const float *)&leaf->t);
 }
 
 void cs_blend_picture(cs_blend *blend, const cs_leaf *leaf, celspan_picture_use use,
                       const float (*rgba)[4]) {
-  WIDE(blend, cs_blend_add_picture)(blend->level, blend->count, (const float *)&leaf->front,
-                                    leaf->fade, use == CELSPAN_PICTURE_GEL, rgba);
+  WIDE(blend, cs_blend_add_picture)
+  (blend->level, blend->count, (const float *)&leaf->front, leaf->fade, use == CELSPAN_PICTURE_GEL,
+   rgba);
 }
 
 void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
                      const float (*t)[4]) {
-  WIDE(blend, cs_blend_add_paints)(blend->level, blend->count, (const float *)&leaf->front,
-                                   leaf->fade, s, t);
+  WIDE(blend, cs_blend_add_paints)
+  (blend->level, blend->count, (const float *)&leaf->front, leaf->fade, s, t);
 }
 
-void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count,
-                   int32_t count, float (*rgba)[4]) {
+void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count, int32_t count,
+                   float (*rgba)[4]) {
   CS_WIDE_CHOOSE(isa, cs_blend_fold_bare)(layers, layer_count, count, rgba);
 }
 

@@ -23,7 +23,7 @@ typedef struct cs_blend_level {
 typedef struct cs_blend {
   const cs_stack *stack;
   cs_isa isa;
-  int32_t count;   /* pixels */
+  int32_t count; /* pixels */
   cs_blend_level *level;
   cs_blend_level *outer[CS_SCENE_DEPTH + 2]; /* of the faded groups around */
   uint32_t depth;
@@ -50,25 +50,25 @@ void cs_blend_end(cs_blend *blend, float (*rgba)[4]);
 
 /* The fold of pictures alone, none faded, lit white, in no group and before no back light: the same
  * bits at once. layers: samples from the front, room for a whole batch in each. */
-void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count,
-                   int32_t count, float (*rgba)[4]);
+void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count, int32_t count,
+                   float (*rgba)[4]);
 
 /* ---- blend_wide.c: loops over the pixels of a level */
 
-CS_WIDE_DECLARE(void, cs_blend_clear, (cs_blend_level *level, int32_t count));
+CS_WIDE_DECLARE(void, cs_blend_clear, (cs_blend_level * level, int32_t count));
 CS_WIDE_DECLARE(void, cs_blend_add_flat,
-                (cs_blend_level *level, int32_t count, const float s[4], const float t[4]));
+                (cs_blend_level * level, int32_t count, const float s[4], const float t[4]));
 CS_WIDE_DECLARE(void, cs_blend_add_picture,
-                (cs_blend_level *level, int32_t count, const float front[4], float fade,
+                (cs_blend_level * level, int32_t count, const float front[4], float fade,
                  bool is_gel, const float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_blend_add_paints,
-                (cs_blend_level *level, int32_t count, const float front[4], float fade,
+                (cs_blend_level * level, int32_t count, const float front[4], float fade,
                  const float (*s)[4], const float (*t)[4]));
 CS_WIDE_DECLARE(void, cs_blend_add_light,
-                (cs_blend_level *level, int32_t count, const float light[4]));
+                (cs_blend_level * level, int32_t count, const float light[4]));
 /* A faded group into what is around it. */
 CS_WIDE_DECLARE(void, cs_blend_add_group,
-                (cs_blend_level *outer, int32_t count, float fade, const cs_blend_level *inner));
+                (cs_blend_level * outer, int32_t count, float fade, const cs_blend_level *inner));
 CS_WIDE_DECLARE(void, cs_blend_fold_bare,
                 (const float (*const *layers)[4], uint32_t layer_count, int32_t count,
                  float (*rgba)[4]));

@@ -1,5 +1,5 @@
-/* The same arithmetic as the composer's fold of one cell, a register at a time. The last register of
- * a row of pixels may reach beyond them, never beyond the batch.
+/* The same arithmetic as the composer's fold of one cell, a register at a time. The last register
+ * of a row of pixels may reach beyond them, never beyond the batch.
  */
 #include "compose/blend.h"
 
@@ -59,8 +59,7 @@ void CS_WIDE(cs_blend_add_paints)(cs_blend_level *level, int32_t count, const fl
 void CS_WIDE(cs_blend_add_light)(cs_blend_level *level, int32_t count, const float light[4]) {
   cs_wide wide = four(light);
   for (int32_t i = 0; i < count; i += PIXELS)
-    cs_wide_store(level->e[i],
-                  cs_wide_load(level->e[i]) + cs_wide_load(level->t[i]) * wide);
+    cs_wide_store(level->e[i], cs_wide_load(level->e[i]) + cs_wide_load(level->t[i]) * wide);
 }
 
 void CS_WIDE(cs_blend_add_group)(cs_blend_level *outer, int32_t count, float fade,

@@ -47,7 +47,7 @@ typedef struct cs_strip {
 typedef struct cs_program {
   const cs_item *items;
   const cs_strip *strips; /* that items of SCANLINE leaves name */
-  uint32_t length;        /* above 0 */
+  uint32_t length;        /* 0: nothing shows but back lights */
 } cs_program;
 
 /* A picture leaf as this worker sees it: its header is read when the leaf is first reached. */

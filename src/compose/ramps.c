@@ -1,5 +1,5 @@
-/* A run is cut where a formula of its program bends or a texel begins, and each piece becomes one span
- * if it is straight enough, else it is halved. The colours of many pieces are taken at once.
+/* A run is cut where a formula of its program bends or a texel begins, and each piece becomes one
+ * span if it is straight enough, else it is halved. The colours of many pieces are taken at once.
  */
 #include "compose/ramps.h"
 
@@ -39,7 +39,8 @@ static int32_t quarter_column(int32_t x0, int32_t x1, int quarter) {
   return x0 + (int32_t)((int64_t)(x1 - 1 - x0) * quarter / 4);
 }
 
-/* Whether the line between the end columns of [x0, x1) is near the colours of the three quarters. */
+/* Whether the line between the end columns of [x0, x1) is near the colours of the three quarters.
+ */
 static bool is_straight(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, const float (*inner)[4]) {
   for (int quarter = 1; quarter <= 3 && x1 - x0 > 2; quarter++) {
     float u = (float)(quarter_column(x0, x1, quarter) - x0) / (float)(x1 - 1 - x0);
@@ -96,8 +97,8 @@ static int bend_of(const cs_composer *composer, const cs_leaf *leaf) {
   return composer->slides[leaf->detail].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
 }
 
-/* One leaf that varies as a line makes lines, since all that is done to it is linear; the product of
- * two does not. */
+/* One leaf that varies as a line makes lines, since all that is done to it is linear; the product
+ * of two does not. */
 static piece_shape shape_of(const cs_composer *composer, const cs_program *program) {
   int bends = 0;
   for (uint32_t i = 0; i < program->length; i++)
@@ -188,8 +189,8 @@ static celspan_status formula_breaks(cs_composer *composer, const cs_strip *stri
   return CELSPAN_OK;
 }
 
-/* Columns that end pieces, ascending, in room of the row's own arena (the scratch arena is used anew
- * for every colour). */
+/* Columns that end pieces, ascending, in room of the row's own arena (the scratch arena is used
+ * anew for every colour). */
 typedef struct ends {
   int32_t *columns, *other; /* other: room to merge into */
   size_t count;

@@ -24,9 +24,9 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
   celspan_picture_info info;
   CS_TRY(cs_picture_info(composer->context, texture->picture, &info));
   const celspan_box *box = &slide->box;
-  celspan_matrix to_picture = {
-      {info.width / box->width, 0, -box->x * info.width / box->width, 0, info.height / box->height,
-       -box->y * info.height / box->height, 0, 0, 1}};
+  celspan_matrix to_picture = {{info.width / box->width, 0, -box->x * info.width / box->width, 0,
+                                info.height / box->height, -box->y * info.height / box->height, 0,
+                                0, 1}};
   seen->sampler = (cs_sampler){.picture = texture->picture,
                                .inverse = celspan_matrix_then(slide->inverse, to_picture),
                                .width = info.width,
@@ -35,8 +35,8 @@ celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
                                .wrap = slide->wrap,
                                .isa = composer->isa};
   cs_sampler_prepare(&seen->sampler);
-  seen->is_opaque = !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT &&
-                    slide->wrap != CELSPAN_WRAP_CLEAR;
+  seen->is_opaque =
+      !info.has_alpha && texture->use == CELSPAN_PICTURE_PAINT && slide->wrap != CELSPAN_WRAP_CLEAR;
   seen->is_ready = true;
   return CELSPAN_OK;
 }
@@ -64,7 +64,7 @@ static double centre(const batch *b, int32_t k) {
 
 /* What leaves that vary paint in a batch of pixels. */
 typedef struct samples {
-  float rgba[CS_BLEND_BATCH][4];                     /* pictures */
+  float rgba[CS_BLEND_BATCH][4];                    /* pictures */
   float s[CS_BLEND_BATCH][4], t[CS_BLEND_BATCH][4]; /* all others; s is not lit */
 } samples;
 
@@ -77,10 +77,9 @@ static celspan_status sample_picture(cs_composer *composer, const cs_leaf *leaf,
                                      float (*rgba)[4]) {
   const cs_seen_slide *slide;
   CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
-  return b->columns ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y,
-                                    rgba)
-                    : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y,
-                                     rgba);
+  return b->columns
+             ? cs_sampler_at(composer->texels, &slide->sampler, b->columns, b->count, b->y, rgba)
+             : cs_sampler_run(composer->texels, &slide->sampler, b->x0, b->count, b->y, rgba);
 }
 
 static celspan_status blend_picture(cs_composer *composer, cs_blend *blend, const cs_leaf *leaf,
@@ -228,8 +227,8 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
   return CELSPAN_OK;
 }
 
-/* What shows over some columns: the items of a program without those that are clear there, up to the
- * first that is opaque. */
+/* What shows over some columns: the items of a program without those that are clear there, up to
+ * the first that is opaque. */
 typedef struct segment {
   uint32_t end;      /* of the items */
   uint64_t left_out; /* a bit each, of the first 64 */
@@ -252,8 +251,8 @@ static celspan_status run_copy(cs_composer *composer, const cs_program *shown, i
   const cs_leaf *leaf = &composer->stack->leaves[shown->items[0].leaf];
   unsigned char *codes;
   CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
-  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0,
-                          y, codes);
+  return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0, y,
+                          codes);
 }
 
 /* A program of what shows, and nothing else. */
@@ -275,10 +274,6 @@ static celspan_status run_shown(cs_composer *composer, const cs_program *shown, 
 
 /* ---------------------------------------------------------------- runs cut into segments */
 
-/* Columns looked at at a time, from the left edge of the frame on: what is known of them must not
- * depend on where a run begins. */
-#define LOOK 64
-
 /* What samples of an item have in common that lets it, or all behind it, be left out. */
 static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_t x0, int32_t x1,
                                    double y, cs_picture_look *out) {
@@ -299,13 +294,14 @@ static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_
   return CELSPAN_OK;
 }
 
-static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t x0,
-                                  double y, segment *out) {
-  int32_t left = x0 / LOOK * LOOK;
+/* What shows over the `step` columns around x. */
+static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t step,
+                                  int32_t x, double y, segment *out) {
+  int32_t left = x / step * step;
   *out = (segment){.end = program->length};
   for (uint32_t i = 0; i < program->length && i < 64; i++) {
     cs_picture_look look;
-    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + LOOK, y, &look));
+    CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + step, y, &look));
     if (look == CS_PICTURE_CLEAR)
       out->left_out |= (uint64_t)1 << i;
     if (look != CS_PICTURE_OPAQUE)
@@ -328,8 +324,7 @@ static celspan_status run_segment(cs_composer *composer, const cs_program *progr
   if (x1 <= x0)
     return CELSPAN_OK;
   if (part->left_out) {
-    cs_item *items =
-        cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
+    cs_item *items = cs_arena_take(composer->context, &row->colours, part->end * sizeof *items);
     if (!items)
       return CELSPAN_NO_MEMORY;
     shown = (cs_program){items, program->strips, 0};
@@ -347,33 +342,38 @@ static bool has_picture(const cs_composer *composer, const cs_program *program) 
   return false;
 }
 
-/* Whether all that may be looked at is known already to be opaque everywhere. */
-static bool is_uniform(const cs_composer *composer, const cs_program *program) {
+/* Columns looked at at a time, from the left edge of the frame on, since what is known of them must
+ * not depend on where a run begins: those of the picture that asks for fewest. */
+static celspan_status find_step(cs_composer *composer, const cs_program *program, int32_t *out) {
+  *out = INT32_MAX;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
-    const cs_seen_slide *slide = &composer->slides[leaf->detail];
-    if (leaf->kind == CS_LEAF_PICTURE && !(slide->is_ready && slide->is_opaque))
-      return false;
+    const cs_seen_slide *slide;
+    if (leaf->kind != CS_LEAF_PICTURE)
+      continue;
+    CS_TRY(cs_composer_slide(composer, leaf->detail, &slide));
+    if (!slide->is_opaque && slide->sampler.look_columns < *out)
+      *out = slide->sampler.look_columns;
   }
-  return true;
+  return CELSPAN_OK;
 }
 
-celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program,
-                                       int32_t x0, int32_t x1, double y, cs_row *row) {
+celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *program, int32_t x0,
+                                       int32_t x1, double y, cs_row *row) {
   segment current, next;
-  int32_t begun = x0;
+  int32_t begun = x0, step;
   if (x1 <= x0)
     return CELSPAN_OK;
   if (!has_picture(composer, program))
     return run_shown(composer, program, false, x0, x1, y, row);
-  CS_TRY(cut_segment(composer, program, x0, y, &current));
-  int32_t end = is_uniform(composer, program) ? x0 : x1;
-  for (int32_t x = (x0 / LOOK + 1) * LOOK; x < end; x += LOOK) {
-    CS_TRY(cut_segment(composer, program, x, y, &next));
+  CS_TRY(find_step(composer, program, &step));
+  CS_TRY(cut_segment(composer, program, step, x0, y, &current));
+  for (int64_t x = ((int64_t)x0 / step + 1) * step; x < x1; x += step) {
+    CS_TRY(cut_segment(composer, program, step, (int32_t)x, y, &next));
     if (is_same_segment(&current, &next))
       continue;
-    CS_TRY(run_segment(composer, program, &current, begun, x, y, row));
-    begun = x;
+    CS_TRY(run_segment(composer, program, &current, begun, (int32_t)x, y, row));
+    begun = (int32_t)x;
     current = next;
   }
   return run_segment(composer, program, &current, begun, x1, y, row);

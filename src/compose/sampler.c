@@ -40,9 +40,9 @@ static int taps_along(double length, int level) {
 static void plan_tilted(cs_sampler *s, const footprint *f) {
   double right = sqrt(f->ux * f->ux + f->vx * f->vx), below = sqrt(f->uy * f->uy + f->vy * f->vy);
   s->kernel = CS_SAMPLER_TILTED;
-  s->level = cs_sampler_level(s->level_count, right < below ? right : below,
-                              right < below ? below : right, CS_SAMPLER_TAP_TEXELS,
-                              CS_SAMPLER_MOST_TAPS);
+  s->level =
+      cs_sampler_level(s->level_count, right < below ? right : below, right < below ? below : right,
+                       CS_SAMPLER_TAP_TEXELS, CS_SAMPLER_MOST_TAPS);
   s->columns = taps_along(right, s->level);
   s->rows = taps_along(below, s->level);
 }
@@ -112,6 +112,15 @@ static double reach_of(const cs_sampler *s) {
   return INFINITY;
 }
 
+/* As many columns as lie on the texels of one block, a power of two. */
+static int32_t look_columns(const cs_sampler *s) {
+  double across = fmax(fabs(s->m[0]), fabs(s->m[3]));
+  int32_t columns = CS_PICTURE_BLOCK;
+  while (columns < 1 << 20 && 2 * columns * across <= CS_PICTURE_BLOCK)
+    columns *= 2;
+  return columns;
+}
+
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_texels_source_of(s->picture);
   s->level_count = cs_levels_count(s->width, s->height);
@@ -119,6 +128,7 @@ void cs_sampler_prepare(cs_sampler *s) {
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
     s->way = CS_SAMPLER_PERSPECTIVE;
     s->kernel = perspective_kernel(s->sampling);
+    s->look_columns = INT32_MAX;
     return;
   }
   for (int i = 0; i < 9; i++)
@@ -128,6 +138,7 @@ void cs_sampler_prepare(cs_sampler *s) {
   else
     plan_affine(s);
   s->reach = reach_of(s);
+  s->look_columns = look_columns(s);
 }
 
 /* ---------------------------------------------------------------- copies */
@@ -136,9 +147,8 @@ static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 
 /* Texel (x, y): as light, or as the 4 bytes of its code. */
 static const void *texel_at(const cs_sampling *run, int32_t x, int32_t y, bool is_code) {
-  const cs_texels_slot *slot =
-      cs_texels_slot_of(run->texels, &run->sampler->source, 0, x / CS_PICTURE_BLOCK,
-                        y / CS_PICTURE_BLOCK);
+  const cs_texels_slot *slot = cs_texels_slot_of(run->texels, &run->sampler->source, 0,
+                                                 x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   size_t at = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
   if (!slot->texels)
     return cs_texels_none;

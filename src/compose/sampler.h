@@ -11,8 +11,8 @@
  * CLEAR makes pixels whose centre lies outside the picture clear; inside, what a kernel wants
  * beyond the edge is the edge's, so a picture gets no soft border of its own.
  *
- * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor on
- * the instructions that make them.
+ * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor
+ * on the instructions that make them.
  */
 #ifndef CS_COMPOSE_SAMPLER_H
 #define CS_COMPOSE_SAMPLER_H
@@ -50,12 +50,14 @@ typedef struct cs_sampler {
   /* filled in by cs_sampler_prepare */
   cs_texels_source source;
   cs_sampler_way way;
-  cs_sampler_kernel kernel; /* PERSPECTIVE: CUBIC and TILTED where the picture is enlarged and shrunk */
-  double m[9];              /* inverse; where it is affine divided by its last */
+  cs_sampler_kernel
+      kernel;  /* PERSPECTIVE: CUBIC and TILTED where the picture is enlarged and shrunk */
+  double m[9]; /* inverse; where it is affine divided by its last */
   int level_count;
   int level;
-  int columns, rows; /* TILTED: taps across a pixel and down it */
-  double reach;      /* affine: how far from its centre a sample comes, at most, in picture pixels */
+  int columns, rows;    /* TILTED: taps across a pixel and down it */
+  int32_t look_columns; /* that are worth a look at a time; INT32_MAX: none tells anything */
+  double reach; /* affine: how far from its centre a sample comes, at most, in picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
 
@@ -76,16 +78,17 @@ CELSPAN_CHECKED celspan_status cs_sampler_at(cs_texels *texels, const cs_sampler
 CELSPAN_CHECKED celspan_status cs_sampler_codes(cs_texels *texels, const cs_sampler *sampler,
                                                 int32_t x0, int32_t count, double y,
                                                 unsigned char *codes);
-/* What the samples of the pixels [x0, x1) are known to have in common; MIXED where it is not known. */
+/* What the samples of the pixels [x0, x1) are known to have in common; MIXED where it is not known.
+ */
 CELSPAN_CHECKED celspan_status cs_sampler_look(cs_texels *texels, const cs_sampler *sampler,
                                                int32_t x0, int32_t x1, double y,
                                                cs_picture_look *out);
 
-/* Whether texels are some pixels wide and stand upright, so that a row of them is worth a span each:
- * of one colour (nearest), or straight from centre to centre. */
+/* Whether texels are some pixels wide and stand upright, so that a row of them is worth a span
+ * each: of one colour (nearest), or straight from centre to centre. */
 bool cs_sampler_is_grid(const cs_sampler *sampler);
-/* Of a grid: the columns inside (x0, x1) at which such spans begin, ascending; at most as many as the
- * limit says. Returns how many. */
+/* Of a grid: the columns inside (x0, x1) at which such spans begin, ascending; at most as many as
+ * the limit says. Returns how many. */
 size_t cs_sampler_steps(const cs_sampler *sampler, int32_t x0, int32_t x1, double y,
                         int32_t *columns);
 size_t cs_sampler_step_limit(const cs_sampler *sampler, int32_t x0, int32_t x1);

@@ -19,9 +19,9 @@ static inline double place_of(const cs_sampler *s, int32_t column, double y) {
   return s->kernel == CS_SAMPLER_NEAREST ? u + CS_SAMPLER_SAME : u - 0.5 + CS_SAMPLER_SAME;
 }
 
-/* Appends the columns inside (x0, x1) at which the texel is another; a texel is some columns wide. */
-static size_t walk_texels(const cs_sampler *s, int32_t x0, int32_t x1, double y,
-                          int32_t *columns) {
+/* Appends the columns inside (x0, x1) at which the texel is another; a texel is some columns wide.
+ */
+static size_t walk_texels(const cs_sampler *s, int32_t x0, int32_t x1, double y, int32_t *columns) {
   double start = place_of(s, x0, y), across = 1 / s->m[0];
   bool grows = s->m[0] > 0;
   double edge = floor(start) + grows; /* the next to be passed */

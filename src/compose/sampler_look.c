@@ -48,12 +48,27 @@ static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, co
   return look;
 }
 
+/* A quick answer, where there is one: that of the block in the middle, which is one of the area's. */
+static bool is_mixed_amid(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
+                          double y) {
+  const double *m = s->m;
+  double x = 0.5 * (x0 + x1), u = m[0] * x + m[1] * y + m[2], v = m[3] * x + m[4] * y + m[5];
+  if (!(u >= 0 && v >= 0 && u < s->width && v < s->height))
+    return false;
+  const cs_texels_slot *slot =
+      cs_texels_slot_of(texels, &s->source, s->level, (int32_t)u / CS_PICTURE_BLOCK >> s->level,
+                        (int32_t)v / CS_PICTURE_BLOCK >> s->level);
+  return !slot->texels || slot->look == CS_PICTURE_MIXED;
+}
+
 celspan_status cs_sampler_look(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
                                double y, cs_picture_look *out) {
   *out = CS_PICTURE_MIXED;
   texels->status = CELSPAN_OK;
   if (s->way == CS_SAMPLER_PERSPECTIVE)
     return CELSPAN_OK;
+  if (is_mixed_amid(texels, s, x0, x1, y))
+    return texels->status;
   area a = area_of(s, x0, x1, y);
   bool is_within_picture = is_within(s, &a);
   if (s->wrap == CELSPAN_WRAP_CLEAR && is_beyond(s, &a)) {

@@ -114,7 +114,8 @@ typedef struct cs_extent {
 
 void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
                            cs_extent *out);
-/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there. */
+/* The level at which `shorter` is `texels` or more, or a higher one if `longer` is too long there.
+ */
 int cs_sampler_level(int level_count, double shorter, double longer, double texels, double most);
 
 /* ---- sampler_wide.c: loops over `count` pixels */
@@ -159,6 +160,10 @@ CS_WIDE_DECLARE(void, cs_sampler_plan_taps,
 CS_WIDE_DECLARE(void, cs_sampler_move,
                 (const cs_sampler *sampler, cs_sampler_tap tap, int32_t from, int32_t count,
                  const cs_sampler_centres *centres, double *u, double *v));
+/* The centres of an affine map as taps at once, where the picture does not repeat. */
+CS_WIDE_DECLARE(void, cs_sampler_place_taps,
+                (const cs_sampler *sampler, int32_t x0, int32_t count, double y, double *u,
+                 double *v));
 CS_WIDE_DECLARE(void, cs_sampler_find_quads,
                 (const cs_sampler *sampler, int level, int32_t count, const double *u,
                  const double *v, cs_sampler_quads *quads));

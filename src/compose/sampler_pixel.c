@@ -61,8 +61,7 @@ static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]
   for (int32_t j = 0; j < down.count; j++)
     for (int32_t i = 0; i < across.count; i++) {
       float weight = across.weights[i] * down.weights[j];
-      cs_v4 texel =
-          cs_v4_load(cs_sampling_texel(run, s->level, across.first + i, down.first + j));
+      cs_v4 texel = cs_v4_load(cs_sampling_texel(run, s->level, across.first + i, down.first + j));
       if (i == 0 && j == 0)
         first = texel;
       sum += weight * (texel - first);

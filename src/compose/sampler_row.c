@@ -1,5 +1,5 @@
-/* Pictures whose rows stay rows: what a row of the frame needs of the picture's rows is made into one
- * line of texels first, and the pixels are looked up along it.
+/* Pictures whose rows stay rows: what a row of the frame needs of the picture's rows is made into
+ * one line of texels first, and the pixels are looked up along it.
  *
  *   nearest   the row of texels under the centre
  *   linear    the two rows about it, mixed
@@ -8,8 +8,8 @@
 #include "compose/sampler_parts.h"
 
 #define WIDE(run, name) CS_WIDE_CHOOSE((run)->sampler->isa, name)
-#define LINE 1024  /* texels */
-#define BOXES 16   /* pixels whose boxes are cut at a time */
+#define LINE 1024 /* texels */
+#define BOXES 16  /* pixels whose boxes are cut at a time */
 
 /* The line under some pixels: texels [first, first + count) of a level, wherever. */
 typedef struct line {
@@ -56,8 +56,8 @@ static void mix_in_blocks(const cs_sampling *run, int32_t y, float down, line *o
     part p = next_part(s, out, done);
     const float(*above)[4] =
         (const float(*)[4])cs_texels_at(run->texels, &s->source, s->level, p.x, y);
-    WIDE(run, cs_sampler_mix_rows)(above, above + CS_PICTURE_BLOCK, down, p.count,
-                                   out->texels + done);
+    WIDE(run, cs_sampler_mix_rows)
+    (above, above + CS_PICTURE_BLOCK, down, p.count, out->texels + done);
     done += p.count;
   }
 }
@@ -71,8 +71,8 @@ static void mix_line(const cs_sampling *run, double v, line *out) {
   }
   fetch_row(run, y, out, out->texels);
   fetch_row(run, y + 1, out, below);
-  WIDE(run, cs_sampler_mix_rows)((const float(*)[4])out->texels, (const float(*)[4])below, down,
-                                 out->count, out->texels);
+  WIDE(run, cs_sampler_mix_rows)
+  ((const float(*)[4])out->texels, (const float(*)[4])below, down, out->count, out->texels);
 }
 
 static void average_line(const cs_sampling *run, const cs_extent *down, line *out) {
@@ -81,8 +81,8 @@ static void average_line(const cs_sampling *run, const cs_extent *down, line *ou
   memset(out->texels, 0, (size_t)out->count * sizeof *out->texels);
   for (int32_t j = 1; j < down->count; j++) {
     fetch_row(run, down->first + j, out, next);
-    WIDE(run, cs_sampler_add_row)((const float(*)[4])next, (const float(*)[4])first,
-                                  down->weights[j], out->count, out->texels);
+    WIDE(run, cs_sampler_add_row)
+    ((const float(*)[4])next, (const float(*)[4])first, down->weights[j], out->count, out->texels);
     total += down->weights[j];
   }
   WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, total, out->count, out->texels);
@@ -137,8 +137,8 @@ static void look_up_linear(const cs_sampling *run, double v, int32_t count, cons
   for (int32_t i = 0, end; i < count; i = end) {
     end = reach_line(run, at, i, count, 2, &under);
     mix_line(run, v, &under);
-    WIDE(run, cs_sampler_mix_along)((const float(*)[4])under.texels, under.first, at + i,
-                                    across + i, end - i, rgba + i);
+    WIDE(run, cs_sampler_mix_along)
+    ((const float(*)[4])under.texels, under.first, at + i, across + i, end - i, rgba + i);
   }
 }
 

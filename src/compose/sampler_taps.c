@@ -23,18 +23,15 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
                       float rgba[4]) {
   cs_v4 quad[4], column[2];
   for (int k = 0; k < 4; k++)
-    quad[k] = cs_v4_load(
-        cs_sampling_texel(run, level, quads->x[i] + k % 2, quads->y[i] + k / 2));
+    quad[k] = cs_v4_load(cs_sampling_texel(run, level, quads->x[i] + k % 2, quads->y[i] + k / 2));
   for (int k = 0; k < 2; k++)
     column[k] = quad[k] + quads->down[i] * (quad[k + 2] - quad[k]);
   cs_v4_store(rgba, column[0] + quads->across[i] * (column[1] - column[0]));
 }
 
-/* Bytes from a quad to one that the row after the next mixes. */
-static ptrdiff_t reach_ahead(const cs_sampler *s, int level, const cs_sampler_centres *centres,
-                             int32_t i) {
-  double u = centres->u[i], v = centres->v[i];
-  double rows = ROWS_AHEAD * centres->near[i] / (double)((int64_t)1 << level);
+/* Bytes from a quad to one that the row after the next mixes. u, v, near: of a centre. */
+static ptrdiff_t reach_ahead(const cs_sampler *s, int level, double u, double v, double near) {
+  double rows = ROWS_AHEAD * near / (double)((int64_t)1 << level);
   double across = (s->m[1] - u * s->m[7]) * rows, down = (s->m[4] - v * s->m[7]) * rows;
   if (!(fabs(across) < CS_PICTURE_BLOCK && fabs(down) < CS_PICTURE_BLOCK))
     return 0;
@@ -55,8 +52,8 @@ static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_qu
     }
     while (end < count && quads->key[end] == key)
       end++;
-    const float *block = cs_texels_block(run->texels, &run->sampler->source, level, key & 0x7fff,
-                                         key >> 15);
+    const float *block =
+        cs_texels_block(run->texels, &run->sampler->source, level, key & 0x7fff, key >> 15);
     WIDE(run, cs_sampler_mix_quads)(block, quads, i, end - i, ahead, rgba + i);
   }
 }
@@ -71,7 +68,8 @@ static void tap_linear(const cs_sampling *run, int level, cs_sampler_tap tap, in
     bring_home(s, count, u, v);
   WIDE(run, cs_sampler_find_quads)(s, level, count, u, v, &quads);
   mix_stretches(run, level, &quads, centres->all_seen ? NULL : centres->seen + from, count,
-                reach_ahead(s, level, centres, from), rgba);
+                reach_ahead(s, level, centres->u[from], centres->v[from], centres->near[from]),
+                rgba);
 }
 
 static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_centres *centres,
@@ -110,8 +108,8 @@ static void tap_mean(const cs_sampling *run, int level, int columns, int rows, i
     cs_sampler_tap tap = {(k % columns + 0.5) / columns - 0.5, (k / columns + 0.5) / rows - 0.5};
     tap_linear(run, level, tap, from, count, centres, k ? next : first);
     if (k)
-      WIDE(run, cs_sampler_add_row)((const float(*)[4])next, (const float(*)[4])first, 1, count,
-                                    rgba);
+      WIDE(run, cs_sampler_add_row)
+      ((const float(*)[4])next, (const float(*)[4])first, 1, count, rgba);
   }
   WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, (float)taps, count, rgba);
 }
@@ -147,12 +145,29 @@ static void tap_batch(const cs_sampling *run, int32_t count, const cs_sampler_ce
     tap_mean(run, s->level, s->columns, s->rows, 0, count, centres, rgba);
 }
 
+/* The usual case, without the detour over centres: one tap a pixel, all of them seen. */
+static void tap_plainly(const cs_sampling *run, int32_t x0, int32_t count, double y,
+                        float (*rgba)[4]) {
+  const cs_sampler *s = run->sampler;
+  double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
+  cs_sampler_quads quads;
+  WIDE(run, cs_sampler_place_taps)(s, x0, count, y, u, v);
+  WIDE(run, cs_sampler_find_quads)(s, 0, count, u, v, &quads);
+  mix_stretches(run, 0, &quads, NULL, count, reach_ahead(s, 0, 0, 0, 1), rgba);
+}
+
 void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
                          float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   cs_sampler_centres centres;
+  bool is_plain =
+      s->way == CS_SAMPLER_TAPS && s->kernel == CS_SAMPLER_LINEAR && s->wrap == CELSPAN_WRAP_CLAMP;
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
+    if (is_plain) {
+      tap_plainly(run, x0 + done, batch, y, rgba + done);
+      continue;
+    }
     if (s->way == CS_SAMPLER_PERSPECTIVE)
       WIDE(run, cs_sampler_map_perspective)(s->m, x0 + done, batch, y, &centres);
     else

@@ -48,8 +48,8 @@ void CS_WIDE(cs_sampler_see)(const cs_sampler *sampler, int32_t count,
   }
   for (int32_t i = 0; i < count; i++) {
     double u = centres->u[i], v = centres->v[i];
-    centres->seen[i] = -(int32_t)((u >= last) & (u < right) & (v >= last) & (v < bottom) &
-                                  (centres->near[i] > 0));
+    centres->seen[i] =
+        -(int32_t)((u >= last) & (u < right) & (v >= last) & (v < bottom) & (centres->near[i] > 0));
   }
 }
 
@@ -138,6 +138,22 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
   }
 }
 
+static inline double held(double u) {
+  u = u > -1e9 ? u : -1e9;
+  return u < 1e9 ? u : 1e9;
+}
+
+void CS_WIDE(cs_sampler_place_taps)(const cs_sampler *sampler, int32_t x0, int32_t count, double y,
+                                    double *restrict u, double *restrict v) {
+  const double *m = sampler->m;
+  double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5], m0 = m[0], m3 = m[3];
+  for (int32_t i = 0; i < count; i++) {
+    double x = (double)(x0 + i) + 0.5;
+    u[i] = held(m0 * x + row_u);
+    v[i] = held(m3 * x + row_v);
+  }
+}
+
 void CS_WIDE(cs_sampler_mix_quads)(const float *restrict block, const cs_sampler_quads *quads,
                                    int32_t from, int32_t count, ptrdiff_t ahead,
                                    float (*restrict rgba)[4]) {
@@ -164,8 +180,9 @@ void CS_WIDE(cs_sampler_mix_rows)(const float (*a)[4], const float (*b)[4], floa
       out[i][c] = a[i][c] + share * (b[i][c] - a[i][c]);
 }
 
-void CS_WIDE(cs_sampler_add_row)(const float (*restrict texels)[4], const float (*restrict first)[4],
-                                 float weight, int32_t count, float (*restrict sum)[4]) {
+void CS_WIDE(cs_sampler_add_row)(const float (*restrict texels)[4],
+                                 const float (*restrict first)[4], float weight, int32_t count,
+                                 float (*restrict sum)[4]) {
   for (int32_t i = 0; i < count; i++)
     for (int c = 0; c < 4; c++)
       sum[i][c] += weight * (texels[i][c] - first[i][c]);
@@ -193,10 +210,8 @@ void CS_WIDE(cs_sampler_place_columns)(const cs_sampler *sampler, const int32_t 
 }
 
 void CS_WIDE(cs_sampler_hold_row)(int32_t count, double *u) {
-  for (int32_t i = 0; i < count; i++) {
-    double held = u[i] > -1e9 ? u[i] : -1e9;
-    u[i] = held < 1e9 ? held : 1e9;
-  }
+  for (int32_t i = 0; i < count; i++)
+    u[i] = held(u[i]);
 }
 
 void CS_WIDE(cs_sampler_floor_row)(const double *restrict u, int32_t count, int32_t *restrict at) {

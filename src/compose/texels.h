@@ -1,9 +1,9 @@
 /* Texels by their place, for one thread: blocks stay pinned while they are likely to be asked for
  * again, from run to run and from row to row.
  *
- * Invariant: at most CS_TEXELS_SLOTS blocks are pinned. Pairs of slots are found by the block's place,
- * so that neighbours on a row and those that a footprint touches do not fight for one; of a pair the
- * second is the one that was fetched before.
+ * Invariant: at most CS_TEXELS_SLOTS blocks are pinned. Pairs of slots are found by the block's
+ * place, so that neighbours on a row and those that a footprint touches do not fight for one; of a
+ * pair the second is the one that was fetched before.
  */
 #ifndef CS_COMPOSE_TEXELS_H
 #define CS_COMPOSE_TEXELS_H
@@ -75,8 +75,8 @@ static inline const float *cs_texels_block(cs_texels *texels, const cs_texels_so
 }
 
 /* Texel (x, y) of a level, inside the picture: four floats. */
-static inline const float *cs_texels_at(cs_texels *texels, const cs_texels_source *source, int level,
-                                        int32_t x, int32_t y) {
+static inline const float *cs_texels_at(cs_texels *texels, const cs_texels_source *source,
+                                        int level, int32_t x, int32_t y) {
   const float *block =
       cs_texels_block(texels, source, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   return block + 4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);

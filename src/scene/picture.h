@@ -30,7 +30,8 @@ CELSPAN_CHECKED celspan_status cs_picture_info(celspan_context *context, const c
  * `level` (texel = 2^level picture pixels, the mean in linear light), block (column, row). Texels
  * beyond the picture are clear. Pinned until released. Errors: INPUT, LIMIT, NO_MEMORY. */
 #define CS_PICTURE_BLOCK 64
-#define CS_PICTURE_BLOCK_BYTES ((size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK * 20) /* or little more */
+/* What a block takes: its texels and their codes. */
+#define CS_PICTURE_BLOCK_BYTES ((size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK * 20)
 
 typedef struct cs_picture_block cs_picture_block;
 CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,

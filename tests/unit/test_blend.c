@@ -32,7 +32,9 @@ static void fill(void) {
     }
   for (uint32_t i = 0; i < 6; i++) {
     leaves[i] = (cs_leaf){.fade = i == 5 ? 1 : random_unit(),
-                          .group = i == 0 || i == 5 ? CS_STACK_NONE : i < 2 || i == 4 ? 0 : 1,
+                          .group = i == 0 || i == 5  ? CS_STACK_NONE
+                                   : i < 2 || i == 4 ? 0
+                                                     : 1,
                           .front = {random_unit(), 1, 2 * random_unit(), 0},
                           .s = {0.1f, 0.2f, random_unit(), 0},
                           .t = {0.5f, random_unit(), 0.7f, 0}};
@@ -65,12 +67,13 @@ static double by_hand_alpha(int i) {
   double through[3] = {1, 1, 1}, inner[3] = {1, 1, 1}, innermost[3] = {1, 1, 1}, mean = 0;
   for (int c = 0; c < 3; c++) {
     const cs_leaf *l = leaves;
-    double alpha = (double)rgba[i][3], front = 1 - alpha; /* leaf 5 is a picture that is not faded */
+    double alpha = (double)rgba[i][3],
+           front = 1 - alpha; /* leaf 5 is a picture that is not faded */
     through[c] *= front;
     inner[c] *= 1 - (double)l[4].fade + (double)l[4].fade * (double)t[i][c];
     innermost[c] *= (double)l[3].t[c];
-    innermost[c] *= 1 - (double)l[2].fade +
-                    (double)l[2].fade * fmin(1, 1 - alpha + (double)rgba[i][c]);
+    innermost[c] *=
+        1 - (double)l[2].fade + (double)l[2].fade * fmin(1, 1 - alpha + (double)rgba[i][c]);
     inner[c] *= 1 - (double)groups[1].fade + (double)groups[1].fade * innermost[c];
     inner[c] *= 1 - (double)l[1].fade + (double)l[1].fade * (double)t[i][c];
     through[c] *= 1 - (double)groups[0].fade + (double)groups[0].fade * inner[c];

@@ -83,7 +83,8 @@ static void check_round_trip(void) {
   int wrong = 0;
   for (int alpha = 1; alpha < 256; alpha++)
     for (int code = 0; code < 256; code++) {
-      float a = (float)alpha / 255, light = cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)code / 255);
+      float a = (float)alpha / 255,
+            light = cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)code / 255);
       float rgba[4] = {light * a, light * a, light * a, a};
       wrong += cs_srgb8_pixel(rgba) != ((uint32_t)alpha << 24 | (uint32_t)code * 0x10101u);
     }
