@@ -82,7 +82,7 @@ local function ratios()
       end
       if #bars > 0 then
         local short = side >= 30000 and "30k" or side >= 4096 and "4k" or "1k"
-        groups[#groups + 1] = { name = name .. " at " .. short, bars = bars }
+        groups[#groups + 1] = { names = { short, name .. " shapes" }, bars = bars }
       end
     end
   end
