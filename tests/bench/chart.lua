@@ -89,7 +89,8 @@ function chart.lines(spec)
   return rostrum(list)
 end
 
---- groups: { { name, bars = { { name, colour, value }, ... } }, ... }; 1 is the base line.
+--- groups: { { names = { line, ... }, bars = { { name, colour, value }, ... } }, ... }. Bars stand
+--- on 1.
 function chart.bars(spec)
   local list, values, names = {}, { 1 }, {}
   for _, group in ipairs(spec.groups) do
@@ -119,7 +120,9 @@ function chart.bars(spec)
       list[#list + 1] = celspan.rect { from + (k - 1) * bar_width, upper, bar_width * 0.9,
         math.max(1, lower - upper), texture = bar.colour }
     end
-    strokes.text(list, group.name, from + pitch * 0.4, top + height + 22, 11, ink, 0.5)
+    for line, name in ipairs(group.names) do
+      strokes.text(list, name, from + pitch * 0.4, top + height + 4 + 18 * line, 11, ink, 0.5)
+    end
   end
   for i, bar in ipairs(names) do
     local y = top + 20 + 22 * i

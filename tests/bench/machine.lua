@@ -37,10 +37,6 @@ function machine.write(path, run)
   end
   put("shapes", run.has_material and "those of the material" or "made by the same rule")
   if run.is_quick then put("kind", "a quick run: a few points, each once") end
-  for _, same in ipairs(run.same or {}) do
-    put("decoded by " .. same.reader, ("%d pixels a side, %s"):format(same.side,
-      same.is_same and "the very pixels" or "other pixels"))
-  end
   for _, note in ipairs(run.notes) do put("note", note) end
   assert(file:close())
 end

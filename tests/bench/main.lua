@@ -71,6 +71,6 @@ end
 local csv = options.folder .. "/bench.csv"
 runner:write(csv)
 machine.write(options.folder .. "/machine.txt", { began = began, ended = os.time(),
-  notes = runner.notes, same = runner.same, has_material = runner.has_material,
+  notes = runner.notes, has_material = runner.has_material,
   is_quick = options.is_quick })
 print(("== %d measurements in %s, after %d seconds"):format(#runner.rows, csv, os.time() - began))

@@ -16,15 +16,15 @@ local function by_openimageio(runner, drawing, side, level, file)
            renderer = "OpenImageIO level " .. level, workers = 1 }
 end
 
---- Whether two readers that know nothing of celspan see the very pixels.
+--- Whether two readers that know nothing of celspan see the very pixels: a distance of 0.
 local function compare_readers(runner, drawing, side, file)
   local truth = runner:ask(Command(runner:program "celspan", "digest", drawing, side))
   for _, reader in ipairs { "oiio", "vips" } do
     local told = runner:has(reader) and runner:ask(Command(runner:program(reader), "read", file))
     if told then
       local is_same = told[1].digest == truth[1].digest
-      runner.same = runner.same or {}
-      runner.same[#runner.same + 1] = { reader = reader, side = side, is_same = is_same }
+      runner.rows[#runner.rows + 1] = { part = "readers", scene = "100", side = side,
+        output = "png", antialias = "area", renderer = reader, rms = is_same and 0.0 or 255.0 }
       print(("   the PNG of %d decoded by %s: %s"):format(side, reader,
         is_same and "the very pixels" or "OTHER PIXELS"))
     end

@@ -35,9 +35,9 @@ local function plot(name, ...)
   assert(os.execute("CELSPAN_PATH='./?.lua' " .. Runner.command(celspan, "render",
     "tests/bench/scripts/plot.lua", "--progress", "none", "-o", file, "--", folder .. "/bench.csv",
     ...)))
-  put("")
+  if out[#out] ~= "" then put "" end
   put("![](pictures/bench-", name, ".png)")
-  put("")
+  put ""
 end
 
 -- ---------------------------------------------------------------- the page's head
@@ -87,8 +87,8 @@ local function asked_and_measured()
   for _, line in ipairs(lines) do
     if line.is_met then met = met + 1 elseif line.is_met == false then missed = missed + 1 end
   end
-  put(("Of %d figures %d are met, %d are not, %d were not measured in this run."):format(#lines,
-    met, missed, #lines - met - missed))
+  put(("%d figures: %d met, %d not met, %d not measured in this run."):format(#lines, met, missed,
+    #lines - met - missed))
   put ""
   head { "asked", "measured", "met" }
   for _, line in ipairs(lines) do
@@ -305,7 +305,8 @@ plain_table("cut", "Out of a terapixel frame", [[
 A cut of 4096 x 4096 pixels to PNG out of span files of 1,000,000 x 1,000,000, of the 100 shapes and
 of `scripts/terapixel.lua`; the making of the latter: whole processes.]])
 plain_table("film png", "A frame of the demo film", [[
-celspan: the whole process, script, rendering and PNG; OpenImageIO: the same pixels' writing.]],
+celspan: the whole process, with script and rendering, to PNG and to pixels that are dropped;
+OpenImageIO: the writing of those pixels alone.]],
   { title = "bytes", of = bytes_of })
 plain_table("raster", "A picture over a picture", [[
 3840 x 2160 pixels, under a picture of 2048 x 1536 with a soft matte: turned by 7 degrees and shrunk

@@ -82,7 +82,8 @@ local function ratios()
       end
       if #bars > 0 then
         local short = side >= 30000 and "30k" or side >= 4096 and "4k" or "1k"
-        groups[#groups + 1] = { name = name .. " at " .. short, bars = bars }
+        local drawing = side == 4096 and name .. " shapes" or "" -- once, under the middle one
+        groups[#groups + 1] = { names = { short, drawing }, bars = bars }
       end
     end
   end
