@@ -269,6 +269,16 @@ static inline void pass(cs_glimpse *light, const cs_v4 e, const cs_v4 t) {
   light->t *= t;
 }
 
+static inline cs_glimpse fold_byte(const cs_leaf *leaves, unsigned present) {
+  cs_glimpse light = {cs_v4_all(0), cs_v4_all(1)};
+  while (present != 0) {
+    int highest = 31 - __builtin_clz(present);
+    present ^= 1u << highest;
+    pass(&light, leaves[highest].s, leaves[highest].t);
+  }
+  return light;
+}
+
 /* Brings what is known of a word up to date: neighbouring cells differ in few leaves, so few of its
  * bytes are folded anew. */
 static const cs_glimpse *fold_word(cs_word_fold *known, const cs_leaf *leaves, uint64_t word) {
@@ -276,22 +286,17 @@ static const cs_glimpse *fold_word(cs_word_fold *known, const cs_leaf *leaves, u
   uint64_t changed = known->word ^ word;
   if (changed == 0)
     return &known->all;
-  known->word = word;
-  known->all = clear;
+  cs_glimpse all = clear;
   for (int byte = 7; byte >= 0; byte--) {
     unsigned present = word >> 8 * byte & 255;
     if (present == 0)
       continue;
-    if (changed >> 8 * byte & 255) {
-      known->bytes[byte] = clear;
-      for (unsigned left = present; left != 0;) {
-        int highest = 31 - __builtin_clz(left);
-        left ^= 1u << highest;
-        pass(&known->bytes[byte], leaves[8 * byte + highest].s, leaves[8 * byte + highest].t);
-      }
-    }
-    pass(&known->all, known->bytes[byte].e, known->bytes[byte].t);
+    if (changed >> 8 * byte & 255)
+      known->bytes[byte] = fold_byte(leaves + 8 * byte, present);
+    pass(&all, known->bytes[byte].e, known->bytes[byte].t);
   }
+  known->word = word;
+  known->all = all;
   return &known->all;
 }
 
@@ -310,17 +315,25 @@ static void fold_last(fold *f, const cs_leaf *leaves, uint64_t word) {
  * lies behind the end does not count. */
 static void fold_words(cs_composer *composer, const uint64_t *set, fold *f) {
   const cs_leaf *leaves = composer->stack->leaves;
+  const cs_v4 opaque = cs_v4_all(CS_PAINT_OPAQUE);
+  cs_glimpse light = {cs_v4_all(0), cs_v4_all(1)};
   fold_begin(f, composer->stack);
   for (size_t i = cs_stack_words(composer->stack); i-- > 0;) {
     if (set[i] == 0)
       continue;
     const cs_glimpse *word = fold_word(&composer->words[i], leaves + 64 * i, set[i]);
-    if (!cs_v4_any_above(f->t * word->t, cs_v4_all(CS_PAINT_OPAQUE))) {
+    cs_v4 through = light.t * word->t;
+    if (!cs_v4_any_above(through, opaque)) {
+      f->e = light.e;
+      f->t = light.t;
       fold_last(f, leaves + 64 * i, set[i]);
       return;
     }
-    fold_paint(f, word->e, word->t);
+    light.e += light.t * word->e;
+    light.t = through;
   }
+  f->e = light.e;
+  f->t = light.t;
 }
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {

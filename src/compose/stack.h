@@ -13,6 +13,8 @@
 #ifndef CS_COMPOSE_STACK_H
 #define CS_COMPOSE_STACK_H
 
+#include <assert.h>
+
 #include "base/vector.h"
 #include "colour/paint.h"
 #include "compose/sampler.h"
@@ -31,14 +33,15 @@ typedef enum cs_leaf_kind {
 } cs_leaf_kind;
 
 typedef struct cs_leaf {
-  cs_leaf_kind kind;
-  bool is_opaque; /* lets nothing through, wherever it is present */
+  cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
+  cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
   uint32_t group;  /* innermost faded group, or CS_STACK_NONE */
   uint32_t detail; /* SHADED, PICTURE, SCANLINE, SOFT: index into the array of its kind */
   float fade;      /* of its paint, where that varies */
-  cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
-  cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
+  uint8_t kind;    /* a cs_leaf_kind */
+  bool is_opaque;  /* lets nothing through, wherever it is present */
 } cs_leaf;
+static_assert(sizeof(cs_leaf) == 64, "a leaf fills a line of the cache");
 
 /* What the walk along a row needs of a leaf. */
 typedef struct cs_mark {
