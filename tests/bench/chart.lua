@@ -41,20 +41,23 @@ local function spread(labels, gap)
   for i = 2, #labels do labels[i].y = math.max(labels[i].y, labels[i - 1].y + gap) end
 end
 
---- series: { { name, colour, points = { { x, y }, ... }, dash = }, ... }; ticks: the x that are
---- named.
-function chart.lines(spec)
-  local list, ys = {}, {}
+--- Where a point of data lies, for the axes of a chart of lines.
+local function placing(spec)
+  local values = {}
   for _, series in ipairs(spec.series) do
-    for _, point in ipairs(series.points) do ys[#ys + 1] = point[2] end
+    for _, point in ipairs(series.points) do values[#values + 1] = point[2] end
   end
   local x0, x1 = log10(spec.ticks[1]), log10(spec.ticks[#spec.ticks])
-  local y0, y1 = range(ys)
+  local y0, y1 = range(values)
   local width, height = spec.width - left - right, spec.height - top - bottom
   local function place(point)
     return { left + (log10(point[1]) - x0) / (x1 - x0) * width,
              top + height - (log10(point[2]) - y0) / (y1 - y0) * height }
   end
+  return place, width, height, y0, y1
+end
+
+local function draw_grid(list, spec, place, width, height, y0, y1)
   for _, tick in ipairs(spec.ticks) do
     local x = place { tick, 1 }[1]
     strokes.line(list, { { x, top }, { x, top + height } }, 1, pale)
@@ -65,40 +68,78 @@ function chart.lines(spec)
     strokes.line(list, { { left, y }, { left + width, y } }, 1, pale)
     strokes.text(list, seconds_name(exponent), left - 10, y + 5, 11, ink, 1)
   end
-  local labels = {}
-  for _, series in ipairs(spec.series) do
-    local points = {}
-    for i, point in ipairs(series.points) do points[i] = place(point) end
-    strokes.line(list, points, series.dash and 2 or 3, series.colour, series.dash and 7)
-    if not series.dash then
-      for _, point in ipairs(points) do
-        list[#list + 1] = celspan.circle { centre = point, radius = 4.5, texture = series.colour }
-      end
+end
+
+--- The curve of a series, dots where it was measured; returns its end.
+local function draw_series(list, series, place)
+  local points = {}
+  for i, point in ipairs(series.points) do points[i] = place(point) end
+  strokes.line(list, points, series.dash and 2 or 3, series.colour, series.dash and 7)
+  if not series.dash then
+    for _, point in ipairs(points) do
+      list[#list + 1] = celspan.circle { centre = point, radius = 4.5, texture = series.colour }
     end
-    labels[#labels + 1] = { y = points[#points][2], from = points[#points], series = series }
   end
+  return points[#points]
+end
+
+--- The names of the series at the right, each with a thin line to its end.
+local function draw_names(list, labels, x)
   spread(labels, 19)
   for _, label in ipairs(labels) do
-    local x = left + width + 26
-    strokes.line(list, { { label.from[1] + 8, label.from[2] }, { x - 6, label.y } }, 1,
-      label.series.colour)
-    strokes.text(list, label.series.name, x, label.y + 5, 11, label.series.colour)
+    local colour = label.series.colour
+    strokes.line(list, { { label.from[1] + 8, label.from[2] }, { x - 6, label.y } }, 1, colour)
+    strokes.text(list, label.series.name, x, label.y + 5, 11, colour)
   end
+end
+
+--- series: { { name, colour, points = { { x, y }, ... }, dash = }, ... }; ticks: the x that are
+--- named.
+function chart.lines(spec)
+  local list, labels = {}, {}
+  local place, width, height, y0, y1 = placing(spec)
+  draw_grid(list, spec, place, width, height, y0, y1)
+  for i, series in ipairs(spec.series) do
+    local last = draw_series(list, series, place)
+    labels[i] = { y = last[2], from = last, series = series }
+  end
+  draw_names(list, labels, left + width + 26)
   strokes.text(list, spec.title, left, 30, 15, ink)
   strokes.text(list, spec.x, left + width / 2, spec.height - 12, 11, ink, 0.5)
   return rostrum(list)
 end
 
+--- Bars beside one another from x on, in `width`, and the group's names below `foot`.
+local function draw_group(list, group, x, width, row, foot)
+  local pitch = width / #group.bars
+  for i, bar in ipairs(group.bars) do
+    local upper, lower = math.min(row(bar.value), row(1)), math.max(row(bar.value), row(1))
+    list[#list + 1] = celspan.rect { x + (i - 1) * pitch, upper, pitch * 0.9,
+      math.max(1, lower - upper), texture = bar.colour }
+  end
+  for line, name in ipairs(group.names) do
+    strokes.text(list, name, x + width / 2, foot + 4 + 18 * line, 11, ink, 0.5)
+  end
+end
+
+local function draw_legend(list, kinds, x)
+  for i, bar in ipairs(kinds) do
+    local y = top + 20 + 22 * i
+    list[#list + 1] = celspan.rect { x, y - 10, 14, 12, texture = bar.colour }
+    strokes.text(list, bar.name, x + 24, y, 11, ink)
+  end
+end
+
 --- groups: { { names = { line, ... }, bars = { { name, colour, value }, ... } }, ... }. Bars stand
 --- on 1.
 function chart.bars(spec)
-  local list, values, names = {}, { 1 }, {}
+  local list, values, kinds = {}, { 1 }, {}
   for _, group in ipairs(spec.groups) do
     for _, bar in ipairs(group.bars) do
       values[#values + 1] = bar.value
-      if not names[bar.name] then
-        names[bar.name] = true
-        names[#names + 1] = bar
+      if not kinds[bar.name] then
+        kinds[bar.name] = true
+        kinds[#kinds + 1] = bar
       end
     end
   end
@@ -113,22 +154,9 @@ function chart.bars(spec)
   end
   local pitch = width / #spec.groups
   for i, group in ipairs(spec.groups) do
-    local from = left + (i - 1) * pitch + pitch * 0.1
-    local bar_width = pitch * 0.8 / #group.bars
-    for k, bar in ipairs(group.bars) do
-      local upper, lower = math.min(row(bar.value), row(1)), math.max(row(bar.value), row(1))
-      list[#list + 1] = celspan.rect { from + (k - 1) * bar_width, upper, bar_width * 0.9,
-        math.max(1, lower - upper), texture = bar.colour }
-    end
-    for line, name in ipairs(group.names) do
-      strokes.text(list, name, from + pitch * 0.4, top + height + 4 + 18 * line, 11, ink, 0.5)
-    end
+    draw_group(list, group, left + (i - 0.9) * pitch, 0.8 * pitch, row, top + height)
   end
-  for i, bar in ipairs(names) do
-    local y = top + 20 + 22 * i
-    list[#list + 1] = celspan.rect { left + width + 26, y - 10, 14, 12, texture = bar.colour }
-    strokes.text(list, bar.name, left + width + 50, y, 11, ink)
-  end
+  draw_legend(list, kinds, left + width + 26)
   strokes.text(list, spec.title, left, 30, 15, ink)
   return rostrum(list)
 end
