@@ -58,9 +58,9 @@ typedef struct chunk {
   uint16_t unsure[LANES / CS_WIDE_LANES]; /* a bit a lane */
 } chunk;
 
-static inline int differs_from_one(const float *rgba) {
+static inline int differs_from_one(const float *rgba, int lanes) {
   cs_wide_int differ = {0};
-  for (int i = 0; i < LANES; i += CS_WIDE_LANES)
+  for (int i = 0; i < lanes; i += CS_WIDE_LANES)
     differ |= CS_WIDE_SPREAD(cs_wide_load(rgba + i), 3) != 1;
   int any = 0;
   for (int i = 0; i < CS_WIDE_LANES; i++)
@@ -69,11 +69,11 @@ static inline int differs_from_one(const float *rgba) {
 }
 
 /* Fills values. What is not a number counts as 0. */
-static inline void hold_values(const float *rgba, chunk *c) {
+static inline void hold_values(const float *rgba, int lanes, chunk *c) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
   const cs_wide none = {0}, one = cs_wide_all(1);
-  bool divides = differs_from_one(rgba);
-  for (int i = 0; i < LANES; i += CS_WIDE_LANES) {
+  bool divides = differs_from_one(rgba, lanes);
+  for (int i = 0; i < lanes; i += CS_WIDE_LANES) {
     cs_wide v = cs_wide_load(rgba + i);
     if (divides) {
       cs_wide alpha = CS_WIDE_SPREAD(v, 3);
@@ -106,10 +106,10 @@ static inline int bits_of(cs_wide_int mask) {
 }
 
 /* Codes of the values, to be trusted where unsure is 0. */
-static inline void code_values(chunk *c, unsigned char *out) {
+static inline void code_values(chunk *c, int lanes, unsigned char *out) {
   const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
   const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
-  for (int i = 0; i < LANES; i += CS_WIDE_LANES) {
+  for (int i = 0; i < lanes; i += CS_WIDE_LANES) {
     cs_wide x = cs_wide_load(c->values + i), octave = cs_wide_load(c->octaves + i);
     cs_wide t = (cs_wide)(((cs_wide_int)x & 0x7fffff) | 0x3f800000) - 1.5f;
     cs_wide power = powers[4] + t * powers[5];
@@ -123,23 +123,24 @@ static inline void code_values(chunk *c, unsigned char *out) {
   }
 }
 
-static inline void code_unsure(const float *rgba, const chunk *c, unsigned char *out) {
-  for (int i = 0; i < LANES; i += CS_WIDE_LANES)
+static inline void code_unsure(const float *rgba, const chunk *c, int lanes,
+                               unsigned char *out) {
+  for (int i = 0; i < lanes; i += CS_WIDE_LANES)
     if (c->unsure[i / CS_WIDE_LANES])
       code_pixels(rgba + i, CS_WIDE_LANES / 4, out + i);
 }
 
 /* Fills octaves. */
-static inline void find_octaves(chunk *c) {
+static inline void find_octaves(chunk *c, int lanes) {
 #ifdef __AVX512F__
   const __m512 table = _mm512_loadu_ps(octave_powers);
-  for (int i = 0; i < LANES; i += 16) {
+  for (int i = 0; i < lanes; i += 16) {
     __m512i bits = _mm512_loadu_si512(c->values + i);
     _mm512_storeu_ps(c->octaves + i, _mm512_permutexvar_ps(_mm512_srli_epi32(bits, 23), table));
   }
 #else
   const __m256 low = _mm256_loadu_ps(octave_powers), high = _mm256_loadu_ps(octave_powers + 8);
-  for (int i = 0; i < LANES; i += 8) {
+  for (int i = 0; i < lanes; i += 8) {
     __m256i bits = _mm256_loadu_si256((const __m256i *)(const void *)(c->values + i));
     __m256i octave = _mm256_srli_epi32(bits, 23);
     __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(octave, 28)); /* bit 3 as the sign */
@@ -150,26 +151,22 @@ static inline void find_octaves(chunk *c) {
 #endif
 }
 
-static void code_chunk(const float *rgba, unsigned char *out) {
+/* lanes: a multiple of 16, at most LANES. */
+static void code_chunk(const float *rgba, int lanes, unsigned char *out) {
   chunk c;
-  hold_values(rgba, &c);
-  find_octaves(&c);
-  code_values(&c, out);
-  code_unsure(rgba, &c, out);
+  hold_values(rgba, lanes, &c);
+  find_octaves(&c, lanes);
+  code_values(&c, lanes, out);
+  code_unsure(rgba, &c, lanes, out);
 }
 
 void CS_WIDE(cs_srgb8_code)(const float *rgba, size_t count, unsigned char *out) {
   for (; count >= CHUNK; count -= CHUNK, rgba += LANES, out += LANES)
-    code_chunk(rgba, out);
-  if (count < FEW) {
-    code_pixels(rgba, count, out);
-    return;
-  }
-  float rest[LANES] = {0};
-  unsigned char codes[LANES];
-  memcpy(rest, rgba, 4 * count * sizeof *rest);
-  code_chunk(rest, codes);
-  memcpy(out, codes, 4 * count);
+    code_chunk(rgba, LANES, out);
+  size_t whole = count < FEW ? 0 : 4 * (count / 4 * 4);
+  if (whole > 0)
+    code_chunk(rgba, (int)whole, out);
+  code_pixels(rgba + whole, count - whole / 4, out + whole);
 }
 
 #else

@@ -2,7 +2,7 @@
 
 #include "output/pixels.h"
 
-enum { AT_ONCE = 64 }; /* that vector code takes; the rest would be coded one by one */
+enum { AT_ONCE = 4 }; /* that vector code takes; the rest would be coded one by one */
 
 void cs_colours_code(cs_colours *colours, const celspan_coding *coding, const celspan_span *spans,
                      size_t count) {

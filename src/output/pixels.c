@@ -305,7 +305,8 @@ static void code_spans_8(const celspan_coding *coding, const celspan_span *spans
     size_t count = span_count - done < CHUNK ? span_count - done : CHUNK;
     for (size_t k = 0; k < count; k++)
       memcpy(rgba + 4 * k, spans[done + k].colour, sizeof spans[done + k].colour);
-    code(rgba, CHUNK, (unsigned char *)pixels); /* whole portions are quicker than odd ones */
+    /* Four are as quick as one: what is left of the portion before, or nothing, is coded too. */
+    code(rgba, (count + 3) / 4 * 4, (unsigned char *)pixels);
     put_spans_8(coding, spans + done, count, pixels, size, row);
   }
 }
