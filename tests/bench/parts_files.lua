@@ -47,9 +47,10 @@ function parts.png(runner, folder, is_quick)
   os.remove(folder .. "/oiio.png")
 end
 
---- A cut of 4096 x 4096 pixels out of a span file to PNG, the whole process.
+--- A cut of 4096 x 4096 pixels out of a span file to PNG, the whole process: of the terapixel
+--- frame, a house with its windows.
 local function cut(runner, scene, side, file, out)
-  local corner = ("%d,%d,4096,4096"):format(side * 6 // 10, side * 4 // 10)
+  local corner = ("%d,%d,4096,4096"):format(side * 441 // 1000, side * 698 // 1000)
   return { command = Command(runner:program "launch", "all", runner.celspan, "convert", file, out,
              "--crop", corner), part = "cut", scene = scene, side = side, output = "cut of 4096",
            renderer = "celspan", workers = 2 }
