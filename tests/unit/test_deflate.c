@@ -161,6 +161,41 @@ static void check_parts_are_alone(celspan_context *context) {
   free(plain.bytes);
 }
 
+/* Bytes of few values, so that whatever lies behind their end may match too. */
+static void add_few(cs_deflate *deflate, celspan_context *context, uint64_t seed) {
+  cs_deflate_sum sum;
+  random_state = seed;
+  cs_deflate_begin(deflate);
+  for (int i = 0; i < 20; i++) {
+    unsigned char *space = cs_deflate_space(deflate, context);
+    size_t size = 1 + random_below(128);
+    for (size_t k = 0; k < size; k++)
+      space[k] = (unsigned char)(40 * random_below(3));
+    CHECK(cs_deflate_take(deflate, space, size) == CELSPAN_OK);
+  }
+  CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
+}
+
+/* Nor do the last of them tell what stood behind them in its buffer. */
+static void check_ends_are_alone(celspan_context *context) {
+  for (uint64_t seed = 1; seed <= 40; seed++) {
+    store packed[2] = {{0}};
+    for (uint64_t others = 0; others < 2; others++) {
+      cs_deflate *deflate;
+      CHECK(cs_deflate_create(context, 4, write_store, &packed[others], &deflate) == CELSPAN_OK);
+      if (others > 0)
+        add_few(deflate, context, seed + 1000);
+      packed[others].size = 0;
+      add_few(deflate, context, seed);
+      cs_deflate_destroy(deflate, context);
+    }
+    CHECK(packed[0].size == packed[1].size &&
+          memcmp(packed[0].bytes, packed[1].bytes, packed[0].size) == 0);
+    free(packed[0].bytes);
+    free(packed[1].bytes);
+  }
+}
+
 /* 2^20 pixels of 255 over and over: the checksum's closed form at its largest. */
 static void check_long_white(celspan_context *context) {
   store plain = {0};
@@ -282,6 +317,7 @@ int main(void) {
   for (int style = 0; style < 6; style++)
     check_stream(context, style, style % 2 ? 8 : 4, 4000);
   check_parts_are_alone(context);
+  check_ends_are_alone(context);
   check_long_white(context);
   check_errors_stick(context);
   size_t bytes, peak;
