@@ -60,7 +60,7 @@ static inline cs_v4 hold(cs_v4 colour) {
 
 #define LONE_SPANS 4 /* that draw_lone writes at most */
 
-/* One fragment between flat cells: its ends, and a ramp where it crosses whole pixels. */
+/* One fragment that crosses columns, between flat cells: its ends, and a ramp where it crosses whole pixels. */
 static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
   cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
@@ -318,7 +318,7 @@ static celspan_status close_window(cs_window *window) {
   if (window->end > window->from) {
     if (window->varies)
       CS_TRY(close_varying(window));
-    else if (window->fragment_count == 1)
+    else if (window->fragment_count == 1 && window->fragments->end > window->fragments->first)
       CS_TRY(close_lone(window));
     else if (window->end - window->from <= NARROW)
       CS_TRY(close_narrow(window));

@@ -210,6 +210,24 @@ static void check_sinks(studio *s) {
   }
 }
 
+/* A corner that does not show comes down to the foot of its row on an upright side that does, which
+ * stands on a pixel's edge: at `x` it crosses no column, least of all the one right of the frame. */
+static void check_touching_corner(studio *s, double x) {
+  celspan_texture *ground = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
+  celspan_texture *shape = studio_paint(s, celspan_paint_rgb(0.3f, 0.7f, 0.1f, 1));
+  const celspan_point corner[3] = {{x - 1, 5.5}, {x, 6}, {x - 1, 8}};
+  celspan_object *objects[3] = {studio_rect(s, -5, 0, WIDTH + 10, HEIGHT, ground),
+                                studio_rect(s, 5, 0, x - 5, HEIGHT, shape),
+                                studio_polygon(s, corner, 3, CELSPAN_RULE_EVENODD, shape)};
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, 3);
+  celspan_exposure exposure = {studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), 1};
+  celspan_frame_desc desc = frame_of(&exposure, NULL);
+  tally t = {.fail_at = -1};
+  const celspan_sink sink = {&t, tally_begin, tally_row, tally_end, false};
+  studio_check(s, celspan_frame_render(s->context, &desc, &sink, NULL));
+  CHECK(t.is_tiled);
+}
+
 static bool stop_soon(void *user, int32_t rows_done, int32_t rows_total) {
   *(int32_t *)user = rows_done;
   return rows_done < rows_total / 2;
@@ -303,6 +321,8 @@ int main(void) {
   celspan_context_memory(s.context, &before, &peak, &allocations);
   check_scenes(&s);
   check_sinks(&s);
+  check_touching_corner(&s, 60);
+  check_touching_corner(&s, WIDTH);
   check_cancel(&s);
   check_cancel_parts(&s);
   check_refusals(&s);
