@@ -177,7 +177,7 @@ static celspan_status begin_chains(celspan_context *context, cs_active *active, 
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
-  cs_change change;
+  cs_change change = cs_change_none; /* nobody asks */
   for (size_t i = 0; i < active->count; i++)
     active->free_slots[active->free_count++] = active->slot[i];
   active->count = 0;
