@@ -19,9 +19,14 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   if (!block)
     return cs_fail_memory(context);
   cs_mem_free(context->memory, edges->block, edges->capacity * ITEM_SIZE);
-  *edges = (cs_edges){.isa = cs_isa_best(), .low = block, .high = block + wanted, .area = block + 2 * wanted,
-                      .rest = block + 3 * wanted, .first = (int32_t *)(block + 4 * wanted),
-                      .block = block, .capacity = wanted};
+  *edges = (cs_edges){.isa = cs_isa_best(),
+                      .low = block,
+                      .high = block + wanted,
+                      .area = block + 2 * wanted,
+                      .rest = block + 3 * wanted,
+                      .first = (int32_t *)(block + 4 * wanted),
+                      .block = block,
+                      .capacity = wanted};
   edges->end = edges->first + wanted;
   edges->is_bent = (bool *)(edges->end + wanted);
   return CELSPAN_OK;

@@ -60,7 +60,7 @@ static inline cs_v4 hold(cs_v4 colour) {
 
 #define LONE_SPANS 4 /* that draw_lone writes at most */
 
-/* One fragment that crosses columns, between flat cells: its ends, and a ramp where it crosses whole pixels. */
+/* One fragment that crosses columns, between flat cells: its ends, and a ramp between them. */
 static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
   cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;

@@ -354,8 +354,8 @@ static celspan_status take_room(culler *c) {
   c->by_leaf = cs_mem_array(memory, chains, sizeof *c->by_leaf);
   c->live = cs_mem_array(memory, rows, sizeof *c->live);
   c->through = cs_mem_array(memory, rows * CS_CULL_COLUMNS, sizeof *c->through);
-  if (!cull->bits || !cull->first_rows || !c->last_rows || !cull->toggle_starts || !cull->enter_starts || !c->leaf_starts ||
-      !c->by_leaf || !c->live || !c->through)
+  if (!cull->bits || !cull->first_rows || !c->last_rows || !cull->toggle_starts ||
+      !cull->enter_starts || !c->leaf_starts || !c->by_leaf || !c->live || !c->through)
     return cs_fail_memory(c->context);
   memset(c->live, 0xff, rows * sizeof *c->live);
   for (size_t i = 0; i < rows * CS_CULL_COLUMNS; i++)

@@ -541,7 +541,7 @@ typedef struct celspan_span {
   const unsigned char *codes;
 } celspan_span;
 
-/* The colour of one column of a span, x0 <= x < x1. Any thread. */
+/* The colour of one column of a span without codes, x0 <= x < x1. Any thread. */
 static inline void celspan_span_colour(const celspan_span *span, int32_t x, float rgba[4]) {
   for (int c = 0; c < 4; c++)
     rgba[c] = span->kind == CELSPAN_SPAN_ARRAY ? span->array[4 * (size_t)(x - span->x0) + c]
