@@ -42,11 +42,20 @@ static bool final_name(const char *temporary, char name[NAME_SIZE]) {
   return true;
 }
 
+/* Whether the name is still that of the open file: its writer may have finished, and another begun
+ * under the same name. */
+static bool is_named(int descriptor, int folder, const char *temporary) {
+  struct stat held, named;
+  return fstat(descriptor, &held) == 0 &&
+         fstatat(folder, temporary, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
+         held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+}
+
 static void sweep(int folder, const char *temporary) {
   int descriptor = openat(folder, temporary, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
     return;
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(descriptor, folder, temporary))
     unlinkat(folder, temporary, 0);
   close(descriptor);
 }
