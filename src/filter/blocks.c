@@ -288,10 +288,11 @@ static celspan_status add_events(cs_blocks *b) {
   for (size_t first = 0, end; first < b->event_count; first = end) {
     const cs_row_event *e = &b->events[first];
     range r = {e->low, e->high};
-    for (end = first + 1;
-         end < b->event_count && b->events[end].y == e->y && b->events[end].leaf == e->leaf; end++) {
-      r.low = b->events[end].low < r.low ? b->events[end].low : r.low;
-      r.high = b->events[end].high > r.high ? b->events[end].high : r.high;
+    for (end = first + 1; end < b->event_count; end++) {
+      const cs_row_event *next = &b->events[end];
+      if (next->y != e->y || next->leaf != e->leaf)
+        break;
+      r = join_ranges(r, (range){next->low, next->high});
     }
     cs_block at;
     CS_TRY(add_range(b, r, &at));

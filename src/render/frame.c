@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #define SIDE_LIMIT 1048576
-#define WORKER_LIMIT 256
+#define WORKER_LIMIT 1024
 
 /* ---------------------------------------------------------------- checking */
 

@@ -14,7 +14,6 @@ local asked = {
   { "vectors", "for f in avx512f avx2 sse4_1; do grep -m1 -o -w $f /proc/cpuinfo; done" },
   { "memory", "awk '/^MemTotal/ { printf \"%.0f GiB\", $2 / 1048576 }' /proc/meminfo" },
   { "system", "sed -n 's/^PRETTY_NAME=\"\\(.*\\)\"/\\1/p' /etc/os-release" },
-  { "kernel", "uname -r" },
   { "compiler", "cc --version" },
   { "celspan", "git log -1 --format=%h,\\ %cs" },
   { "Cairo", "pkg-config --modversion cairo" },
@@ -35,7 +34,7 @@ function machine.write(path, run)
     local value = first_line(line[2])
     if value then put(line[1], value) end
   end
-  put("shapes", run.has_material and "those of the material" or "made by the same rule")
+  put("shapes", run.has_material and "read from CELSPAN_MATERIAL" or "made by the same rule")
   if run.is_quick then put("kind", "a quick run: a few points, each once") end
   for _, note in ipairs(run.notes) do put("note", note) end
   assert(file:close())
