@@ -45,7 +45,8 @@ void cs_memory_unref(cs_memory *memory);
  * record an error: callers that report use cs_fail_memory. */
 void *cs_mem_resize(cs_memory *memory, void *block, size_t old_size, size_t new_size);
 void cs_mem_free(cs_memory *memory, void *block, size_t size);
-/* count items of item_size bytes, zeroed; NULL on overflow or without memory. count 0 gives NULL. */
+/* count items of item_size bytes, zeroed; NULL on overflow or without memory. count 0 gives
+ * NULL. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
 
 /* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are

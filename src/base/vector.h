@@ -1,5 +1,5 @@
-/* Four floats at once. The compiler's vector types: every lane is plain IEEE arithmetic, so the bits
- * do not depend on the instruction set. */
+/* Four floats at once. The compiler's vector types: every lane is plain IEEE arithmetic, so the
+ * bits do not depend on the instruction set. */
 #ifndef CS_BASE_VECTOR_H
 #define CS_BASE_VECTOR_H
 

@@ -210,9 +210,9 @@ static void push_position(lua_State *L) {
   lua_pushliteral(L, "");
 }
 
-/* Message handler: puts "frame 37: " (upvalue 1, may be "") after the position of the message, which
- * it finds out for a message without one, and keeps the traceback. A frame built inside a frame has
- * its name already. */
+/* Message handler: puts "frame 37: " (upvalue 1, may be "") after the position of the message,
+ * which it finds out for a message without one, and keeps the traceback. A frame built inside a
+ * frame has its name already. */
 static int handle_error(lua_State *L) {
   lua_settop(L, 1);
   const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;

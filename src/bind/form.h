@@ -90,8 +90,8 @@ double cs_form_part_number(const cs_form *form, int index, int part, const char 
 celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const char *what,
                                  int item);
 
-/* A plain argument of a function or method that must be a number within 1e12. Raises "function: name
- * must be a number, got ...". */
+/* A plain argument of a function or method that must be a number within 1e12. Raises "function:
+ * name must be a number, got ...". */
 double cs_form_argument(lua_State *L, int index, const char *function, const char *name);
 
 /* count items of `size` bytes, owned by Lua, pushed. */

@@ -7,9 +7,9 @@
  * KEY stands for all that decides how a frame comes out: scene, pictures as they were on the disk,
  * view, coding, version. CONTENTS is the hash of the file.
  *
- * INVARIANT  A line is added when its frame stands under its name. Lines are only added, each in one
- * write, so that several runs may share a record; one that was cut off is no line. A file whose head is
- * another, of another version, is no record: it begins anew.
+ * INVARIANT  A line is added when its frame stands under its name. Lines are only added, each in
+ * one write, so that several runs may share a record; one that was cut off is no line. A file whose
+ * head is another, of another version, is no record: it begins anew.
  */
 #ifndef CS_CLI_RECORD_H
 #define CS_CLI_RECORD_H

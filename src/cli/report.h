@@ -54,8 +54,8 @@ void cs_report_openjd(const char *name, const char *format, ...)
 /* Called before each line on standard error, to clear what stands there; NULL: nothing stands. */
 void cs_report_before_line(void (*clear)(void));
 
-/* Ends standard output. The outcome, or reported and CS_EXIT_OUTPUT where that was OK but not all of it
- * could be written. */
+/* Ends standard output. The outcome, or reported and CS_EXIT_OUTPUT where that was OK but not all
+ * of it could be written. */
 cs_exit cs_report_close_output(cs_exit outcome);
 
 #endif

@@ -14,8 +14,8 @@ static celspan_status make_cel(celspan_context *context, celspan_object *object,
   return celspan_cel_create(context, &desc, out);
 }
 
-/* Behind a picture without alpha is black, which is nowhere to be seen: so files can leave the alpha
- * out that the picture never had. */
+/* Behind a picture without alpha is black, which is nowhere to be seen: so files can leave the
+ * alpha out that the picture never had. */
 static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel, bool has_alpha,
                                    celspan_rostrum **out) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;

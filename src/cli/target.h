@@ -5,8 +5,8 @@
 #include "bind/sequence.h"
 #include "cli/shot.h"
 
-/* OK for what this version can write under the options; else reported: unknown formats, codings that
- * a format lacks, video, which is not built in. */
+/* OK for what this version can write under the options; else reported: unknown formats, codings
+ * that a format lacks, video, which is not built in. */
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request);
 /* The description of a file under the options, without a frame's own metadata. */
 celspan_file_desc cs_target_file(const cs_request *request);

@@ -1,8 +1,8 @@
 /* Paints as affine maps on light, the Beta colour model premultiplied.
  *
  * Light F from the front and I from behind leave a paint as S*F + T*I with S = beta * pigment and
- * T = (1 - beta) * medium. Invariant: 0 <= S <= beta, 0 <= T <= 1 - beta (pictures may exceed in S).
- * Opaque means T = 0, never beta = 1.
+ * T = (1 - beta) * medium. Invariant: 0 <= S <= beta, 0 <= T <= 1 - beta (pictures may exceed in
+ * S). Opaque means T = 0, never beta = 1.
  */
 #ifndef CS_COLOUR_PAINT_H
 #define CS_COLOUR_PAINT_H

@@ -11,8 +11,8 @@
 #include "compose/composer.h"
 #include "sweep/active.h"
 
-/* Crosses the toggles up to and at x: culled boundaries take effect there, unseen. A cell is composed
- * with the toggles at or left of its own left end, neither more nor fewer. */
+/* Crosses the toggles up to and at x: culled boundaries take effect there, unseen. A cell is
+ * composed with the toggles at or left of its own left end, neither more nor fewer. */
 static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_toggle *next,
                                                const cs_toggle *end, double x) {
   for (; next < end && next->x <= x; next++)
@@ -30,8 +30,8 @@ typedef struct cs_cells {
 
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
-/* Brings the cells up to date with the active boundaries. change: where they differ from those of the
- * last update. The composer stands left of all boundaries, before and after.
+/* Brings the cells up to date with the active boundaries. change: where they differ from those of
+ * the last update. The composer stands left of all boundaries, before and after.
  * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change);

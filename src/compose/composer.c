@@ -201,8 +201,8 @@ static bool leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf) {
          leaf->fade == 1;
 }
 
-/* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf that
- * varies and is not opaque counts as clear, so the stop comes late, never early. */
+/* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf
+ * that varies and is not opaque counts as clear, so the stop comes late, never early. */
 static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index) {
   const cs_leaf *leaf = &composer->stack->leaves[index];
   fold_reach(f, index, leaf->group);
@@ -230,8 +230,8 @@ static inline uint32_t leaf_below(const uint64_t *set, uint32_t end) {
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
 
-/* Where the walk goes on when nothing shines through any more: behind the group, which hides the rest
- * of itself, or nowhere. */
+/* Where the walk goes on when nothing shines through any more: behind the group, which hides the
+ * rest of itself, or nowhere. */
 static inline uint32_t end_behind(const fold *f) {
   return f->group == CS_STACK_NONE ? 0 : f->stack->groups[f->group].first;
 }

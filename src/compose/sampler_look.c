@@ -48,7 +48,8 @@ static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, co
   return look;
 }
 
-/* A quick answer, where there is one: that of the block in the middle, which is one of the area's. */
+/* A quick answer, where there is one: that of the block in the middle, which is one of the
+ * area's. */
 static bool is_mixed_amid(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
                           double y) {
   const double *m = s->m;

@@ -1,8 +1,8 @@
 /* Boolean trees on sets of leaves.
  *
  * Every operator yields the present operands one over the other, or nothing, so a tree only decides
- * which leaves contribute. Its leaves are a contiguous range of bits, so operators over leaves alone
- * are answered a word at a time, however many there are.
+ * which leaves contribute. Its leaves are a contiguous range of bits, so operators over leaves
+ * alone are answered a word at a time, however many there are.
  */
 #include "compose/stack.h"
 

@@ -3,8 +3,8 @@
  *   alone   a visible boundary that nothing happens to gives its fragments: one, or one a piece
  *   block   boundaries that swap, begin or end inside the row are replayed (cluster.c)
  *
- * A replay costs events times members, so a row in which very much begins and ends is cut into slices
- * of its height, each walked by itself into one window that is summed when all are done.
+ * A replay costs events times members, so a row in which very much begins and ends is cut into
+ * slices of its height, each walked by itself into one window that is summed when all are done.
  */
 #include "base/number.h"
 #include "filter/blocks.h"
@@ -26,8 +26,8 @@ typedef struct walk {
   size_t v; /* the next visible boundary */
 } walk;
 
-/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what comes
- * then lies at or right of column `next`. */
+/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what
+ * comes then lies at or right of column `next`. */
 static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
   cs_scan *scan = w->scan;
   const uint32_t *visible = scan->cells.visible;

@@ -78,8 +78,8 @@ static double boundary_x(const cs_blocks *b, size_t i, double y) {
   return above.x + (below.x - above.x) * ((y - above.y) / (below.y - above.y));
 }
 
-/* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or on
- * its right (+1). */
+/* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or
+ * on its right (+1). */
 static bool passes(const cs_blocks *b, const cs_bend *bend, size_t neighbour, int side) {
   const cs_active *active = &b->scan->active;
   range r = boundary_range(b, neighbour);
@@ -242,8 +242,8 @@ static unit unit_at(const cs_blocks *b, size_t i) {
                : (unit){i, i + 1, boundary_range(b, i)};
 }
 
-/* The block of the boundaries whose x-range meets that of something, or the place between two. Units
- * do not cross, so their ranges rise with their places. */
+/* The block of the boundaries whose x-range meets that of something, or the place between two.
+ * Units do not cross, so their ranges rise with their places. */
 static celspan_status add_range(cs_blocks *b, range r, cs_block *out) {
   const cs_active *active = &b->scan->active;
   size_t place = find_place(active, r.low), first = place, end = place;

@@ -1,7 +1,8 @@
 /* Blocks: which boundaries of a row must be replayed together.
  *
  *   knot    neighbours that cross, with all that they may cross on the way
- *   range   what begins and ends at one height in one leaf (its windings balance only together), all
+ *   range   what begins and ends at one height in one leaf (its windings balance only together),
+ * all
  *           between, and all it may meet further down
  *
  * A block is a knot or a range, or several that touch; blocks in which what begins could meet are
@@ -50,8 +51,8 @@ typedef struct cs_blocks {
 
 /* How many chains begin between the active boundaries' height and y1. */
 size_t cs_blocks_count_begins(const cs_active *active, double y1);
-/* Finds the blocks of the row the scan's active boundaries have reached through; scan, y0, y1 and the
- * strips are given. */
+/* Finds the blocks of the row the scan's active boundaries have reached through; scan, y0, y1 and
+ * the strips are given. */
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
 
 /* A chain as a member that stands at the top of its points. */

@@ -16,7 +16,8 @@ static inline int32_t first_column(double x, int32_t width) {
   return column < 0 ? 0 : column > width ? width : column;
 }
 
-/* Flat cells, from the first visible boundary on; returns how many boundaries lie behind the pen. */
+/* Flat cells, from the first visible boundary on; returns how many boundaries lie behind the
+ * pen. */
 static size_t draw_flats(const cs_scan *scan, cs_pen *pen, size_t v) {
   const cs_cells *cells = &scan->cells;
   const double *x = scan->active.x;

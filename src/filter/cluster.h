@@ -49,8 +49,8 @@ typedef struct cs_cluster {
  * again afterwards. members: room for count + begin_count. */
 CELSPAN_CHECKED celspan_status cs_cluster_replay(cs_cluster *cluster);
 
-/* The same for boundaries i and i + 1, straight through the row, that cross once: nearly all clusters
- * are that. left: of both; the composer stands there. */
+/* The same for boundaries i and i + 1, straight through the row, that cross once: nearly all
+ * clusters are that. left: of both; the composer stands there. */
 CELSPAN_CHECKED celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
                                                const cs_toggle *toggle,
                                                const cs_toggle *toggle_end);

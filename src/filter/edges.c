@@ -34,8 +34,8 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 
 /* ---------------------------------------------------------------- bent */
 
-/* Adds to two pixels, of which the first begins at `column`, the area right of a straight piece that
- * crosses no others. */
+/* Adds to two pixels, of which the first begins at `column`, the area right of a straight piece
+ * that crosses no others. */
 static inline void add_areas(celspan_point above, celspan_point below, int32_t column,
                              double areas[2]) {
   double split = column + 1.0, height = below.y - above.y;

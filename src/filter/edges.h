@@ -1,5 +1,5 @@
-/* The edges of a row: where every active boundary lies in it, and the area right of it in the pixels
- * it crosses, for all boundaries at once, several at a time.
+/* The edges of a row: where every active boundary lies in it, and the area right of it in the
+ * pixels it crosses, for all boundaries at once, several at a time.
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
  * 2^-28 (see window.h), of a whole row's height, and given where the boundary crosses at most two

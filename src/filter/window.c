@@ -122,7 +122,8 @@ static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
   change[2] += step * (f->height - f->rest);
 }
 
-/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of them. */
+/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of
+ * them. */
 static inline void draw_sums(cs_pen *p, int32_t p1, const sum4 *change, sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
@@ -171,8 +172,9 @@ static celspan_status close_narrow(cs_window *window) {
 /* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
  *
  * The window is worked off in tiles from left to right. A fragment takes area from the cell on its
- * left and gives it to the one on its right: pixel by pixel while it is crossed, and as a whole (the
- * cell's carry) for all tiles after. Areas add exactly, so a cell that is not there weighs 0. */
+ * left and gives it to the one on its right: pixel by pixel while it is crossed, and as a whole
+ * (the cell's carry) for all tiles after. Areas add exactly, so a cell that is not there weighs
+ * 0. */
 
 typedef struct seen_cell {
   const cs_cell *cell;
@@ -431,8 +433,8 @@ static celspan_status add_edge(cs_window *window, const cs_active *active, const
   return add_measured(window, active, edges, i, left);
 }
 
-/* Draws boundary i if it shares its pixels with no other and lies between flat cells: as most edges of
- * most rows. next: nothing that comes later lies left of this column. */
+/* Draws boundary i if it shares its pixels with no other and lies between flat cells: as most edges
+ * of most rows. next: nothing that comes later lies left of this column. */
 static inline bool draw_edge(cs_pen *p, const cs_active *active, const cs_edges *edges, size_t i,
                              const cs_cell *left, int32_t next, int32_t width) {
   int32_t first = edges->first[i], end = edges->end[i];

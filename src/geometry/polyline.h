@@ -15,8 +15,8 @@ CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boun
 /* Vertex 0..segments. */
 celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                  uint32_t vertex);
-/* The feet of the segments first..first + count - 1, at most CS_BOUNDARY_AHEAD; top: where the first of
- * them begins. */
+/* The feet of the segments first..first + count - 1, at most CS_BOUNDARY_AHEAD; top: where the
+ * first of them begins. */
 void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t first,
                       uint32_t count, celspan_point top, cs_boundary_feet *out);
 /* y before the vertex was displaced: rising with the number but for rounding. */

@@ -40,8 +40,8 @@ CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *
                                                 uint64_t offset, const void *bytes, size_t size);
 /* Bytes from the start to the end. */
 uint64_t cs_file_size(const cs_file *file);
-/* Hands everything written so far to the system, so that the temporary file can be read: its name is
- * *name, valid until the file ends. */
+/* Hands everything written so far to the system, so that the temporary file can be read: its name
+ * is *name, valid until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
 /* Both end the file, whatever they return. NULL is ignored by discard. */

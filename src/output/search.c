@@ -196,8 +196,8 @@ static inline size_t put_match(cs_search *search, size_t next, match found) {
   return length;
 }
 
-/* A short match gives way to a longer one a byte later. Words are read across the end: what is there
- * must not tell what the buffer held before. */
+/* A short match gives way to a longer one a byte later. Words are read across the end: what is
+ * there must not tell what the buffer held before. */
 static void search_all(cs_search *search) {
   size_t next = search->next, end = search->end;
   memset(search->buffer + end, 0, sizeof(uint64_t));

@@ -357,8 +357,8 @@ static void reverse_lights(cs_stack *stack) {
 
 /* ---------------------------------------------------------------- the cull */
 
-/* What a leaf lets through at most. One in a boolean tree may be present and yet not painted, one in
- * a faded group is weaker than its paint: they are taken to let everything through. */
+/* What a leaf lets through at most. One in a boolean tree may be present and yet not painted, one
+ * in a faded group is weaker than its paint: they are taken to let everything through. */
 static double leaf_through(const cs_leaf *leaf) {
   if (leaf->group != CS_STACK_NONE)
     return 1;

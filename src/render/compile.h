@@ -23,9 +23,9 @@ typedef struct cs_view {
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
                                           const celspan_rostrum *rostrum, const cs_view *view,
                                           const cs_antialias *antialias, cs_shot *out);
-/* One cel alone, without opacity, onto a raster of its own: `matrix` takes its units there. Lit from
- * the front alone, or (is_through) from behind alone, by white light. kernel: taken over; NULL: the
- * mean over each pixel. Errors: as above. */
+/* One cel alone, without opacity, onto a raster of its own: `matrix` takes its units there. Lit
+ * from the front alone, or (is_through) from behind alone, by white light. kernel: taken over;
+ * NULL: the mean over each pixel. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel,
                                               size_t cel_index, const celspan_matrix *matrix,
                                               int32_t width, int32_t height, bool is_through,

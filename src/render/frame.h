@@ -1,8 +1,8 @@
 /* A frame ready to be scanned: its description checked, every exposure compiled; and a lane, which
  * is what one worker needs to make its rows.
  *
- * Invariant: a frame does not change once made; lanes share it. A row of a lane depends on the frame
- * and the row's number alone.
+ * Invariant: a frame does not change once made; lanes share it. A row of a lane depends on the
+ * frame and the row's number alone.
  */
 #ifndef CS_RENDER_FRAME_H
 #define CS_RENDER_FRAME_H

@@ -1,4 +1,5 @@
-/* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by row. */
+/* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by
+ * row. */
 #include "output/pixels.h"
 #include "output/sink.h"
 #include "render/bands.h"

@@ -1,4 +1,5 @@
-/* The oracle: one point of a frame by direct evaluation of the tree, back to front. No sweep, no spans, no single precision but where the scene stores it.
+/* The oracle: one point of a frame by direct evaluation of the tree, back to front. No sweep, no
+ * spans, no single precision but where the scene stores it.
  *
  *   exposure -> cels, rear to front: L = S F + T (B + L) -> paint of a cel -> objects -> booleans
  */

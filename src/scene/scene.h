@@ -121,16 +121,16 @@ CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
                                                    const celspan_rostrum *rostrum,
                                                    size_t cel_index, double film_width,
                                                    double film_height, celspan_matrix *out);
-/* Its parts after the cel's own transform: viewport, then camera; and the camera alone, the identity
- * where there is none. Not checked. */
+/* Its parts after the cel's own transform: viewport, then camera; and the camera alone, the
+ * identity where there is none. Not checked. */
 celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
                              double film_width, double film_height);
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
                                double film_height);
 /* The front light of a cel: its own, the rostrum's, or white; brightness included. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
-/* What exposures show, whatever the view; two that hash alike show the same as long as neither holds
- * a procedure and their pictures' files do not change. */
+/* What exposures show, whatever the view; two that hash alike show the same as long as neither
+ * holds a procedure and their pictures' files do not change. */
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
 /* Whether a scan-line procedure takes part. */
 bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);

@@ -1,8 +1,8 @@
-/* A pen writes the end of a row, from left to right: what cs_row_single and cs_row_gradient append, with
- * the row's end kept at hand between calls.
+/* A pen writes the end of a row, from left to right: what cs_row_single and cs_row_gradient append,
+ * with the row's end kept at hand between calls.
  *
- * Invariant: between cs_pen_take and cs_pen_put nothing else appends to the row, and the row has room
- * for all that is written.
+ * Invariant: between cs_pen_take and cs_pen_put nothing else appends to the row, and the row has
+ * room for all that is written.
  */
 #ifndef CS_SPAN_PEN_H
 #define CS_SPAN_PEN_H

@@ -258,8 +258,8 @@ static void drop_ended(cs_active *active, cs_change *change) {
   active->count = kept + (old_count - from);
 }
 
-/* Takes the chains that the next row of tiles does not keep out of the order, and those that only it
- * keeps in. */
+/* Takes the chains that the next row of tiles does not keep out of the order, and those that only
+ * it keeps in. */
 static celspan_status change_tile_row(celspan_context *context, cs_active *active) {
   const cs_cull *cull = active->cull;
   size_t kept = 0;

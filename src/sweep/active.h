@@ -78,12 +78,12 @@ void cs_active_finish(cs_active *active, cs_memory *memory);
 /* Stands at height y, from nothing. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_active *active,
                                                double y);
-/* Looks down to height y, at or below the current one: fills x_next and bends; the order stays as it
- * is at the current height. Errors: NO_MEMORY. */
+/* Looks down to height y, at or below the current one: fills x_next and bends; the order stays as
+ * it is at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
                                                double y);
-/* Moves down to the height reached. *change: where boundaries began, ended or changed places; all of
- * the order when another row of tiles has begun.
+/* Moves down to the height reached. *change: where boundaries began, ended or changed places; all
+ * of the order when another row of tiles has begun.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
                                                 cs_change *change);

@@ -1,5 +1,5 @@
-/* What every row does to every boundary, in vector code: x at the next height, which segments end on
- * the way, and whether the order still holds. */
+/* What every row does to every boundary, in vector code: x at the next height, which segments end
+ * on the way, and whether the order still holds. */
 #ifndef CS_SWEEP_ADVANCE_H
 #define CS_SWEEP_ADVANCE_H
 

@@ -121,8 +121,8 @@ static void trace_chord(const culler *c, const chord *line, int32_t first, int32
   }
 }
 
-/* Walks a piece in chords as long as the slack allows: s segments of a piece lie within s^2 + 2 times
- * its overhang of their chord, displaced vertices included. */
+/* Walks a piece in chords as long as the slack allows: s segments of a piece lie within s^2 + 2
+ * times its overhang of their chord, displaced vertices included. */
 static void trace_piece(const culler *c, const cs_boundary_piece *piece, int32_t first,
                         int32_t last, reach *reaches) {
   double stride = piece->overhang > 0 ? sqrt(fmax(c->slack / piece->overhang - 2, 1)) : 1;

@@ -1,8 +1,8 @@
 /* The cull: which boundaries can be left out because nothing shines through to them.
  *
- * The frame is laid out in rows of tiles, 64 columns each, a machine word a row. The tiles are filled
- * leaf by leaf from the camera backwards; where the leaves that cover a whole tile let (almost)
- * nothing through, the tile is dead for all leaves behind. In a row of tiles
+ * The frame is laid out in rows of tiles, 64 columns each, a machine word a row. The tiles are
+ * filled leaf by leaf from the camera backwards; where the leaves that cover a whole tile let
+ * (almost) nothing through, the tile is dead for all leaves behind. In a row of tiles
  *
  *   a chain is kept if it touches a tile that is live for its leaf, or begins or ends there;
  *   else it becomes a toggle: its crossing happens at the left edge of its first tile, unseen.

@@ -129,8 +129,8 @@ static void check_row(celspan_coding coding, const celspan_span *spans, size_t c
   free(row);
 }
 
-/* Flat spans of every length at every place of the cache's lines, with bytes around that are not the
- * row's. */
+/* Flat spans of every length at every place of the cache's lines, with bytes around that are not
+ * the row's. */
 static void check_lengths(celspan_coding coding) {
   enum { MOST = 150, AROUND = 80 };
   size_t size = celspan_coding_pixel_size(&coding);

@@ -211,7 +211,8 @@ static void check_sinks(studio *s) {
 }
 
 /* A corner that does not show comes down to the foot of its row on an upright side that does, which
- * stands on a pixel's edge: at `x` it crosses no column, least of all the one right of the frame. */
+ * stands on a pixel's edge: at `x` it crosses no column, least of all the one right of the
+ * frame. */
 static void check_touching_corner(studio *s, double x) {
   celspan_texture *ground = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
   celspan_texture *shape = studio_paint(s, celspan_paint_rgb(0.3f, 0.7f, 0.1f, 1));

@@ -1,5 +1,6 @@
-/* A frame under a memory that fails: whatever allocation fails, the status says so, nothing is lost,
- * and the same context then makes the same frame. And one that has been seen: it allocates no more. */
+/* A frame under a memory that fails: whatever allocation fails, the status says so, nothing is
+ * lost, and the same context then makes the same frame. And one that has been seen: it allocates no
+ * more. */
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
