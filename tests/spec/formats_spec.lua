@@ -121,7 +121,7 @@ describe("PNG and Targa files", function()
 
   it_reads("are no larger than what OpenImageIO makes of the same pixels", function()
     local root = os.getenv("PWD")
-    for _, frame in ipairs { 1, 120, 240 } do
+    for _, frame in ipairs(os.getenv "CELSPAN_SCENES" and { 120 } or { 1, 120, 240 }) do
       local code, _, err = celspan(("render '%s/scripts/demo.lua' -o k.png --size 3840x2160 "
         .. "--frames %d --progress none"):format(root, frame))
       assert.are.equal(0, code, err)
@@ -130,10 +130,13 @@ describe("PNG and Targa files", function()
     end
   end)
 
+  -- Builds with sanitizers, for which CELSPAN_SCENES is set, take a hundred times as long.
+  local side = os.getenv "CELSPAN_SCENES" and 20000 or 1000000
+
   -- With the largest difference that the format's own numbers explain.
   local LONG = { span = 0, tif = 0, exr = 0.003, dpx = 0.004, bmp = 0.004, ppm = 0.004, hdr = 0.06 }
   it_reads_pictures("may be so long and thin in all formats that can hold them", function()
-    for _, size in ipairs { "1000000x1", "1x1000000" } do
+    for _, size in ipairs { side .. "x1", "1x" .. side } do
       assert.are.same({ 0, "", "" }, { render("g.png", true, "--size " .. size) })
       for format, difference in pairs(LONG) do
         assert.are.same({ 0, "", "" }, { render("g." .. format, true, "--size " .. size) })
