@@ -34,25 +34,7 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 
 /* ---------------------------------------------------------------- bent */
 
-/* Adds to two pixels, of which the first begins at `column`, the area right of a straight piece
- * that crosses no others. */
-static inline void add_areas(celspan_point above, celspan_point below, int32_t column,
-                             double areas[2]) {
-  double split = column + 1.0, height = below.y - above.y;
-  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
-  if (high <= split) {
-    areas[0] += height * (split - 0.5 * (low + high));
-    areas[1] += height;
-  } else if (low >= split) {
-    areas[1] += height * (split + 1 - 0.5 * (low + high));
-  } else {
-    double share = height / (2 * (high - low));
-    areas[0] += (split - low) * (split - low) * share;
-    areas[1] += height - (high - split) * (high - split) * share;
-  }
-}
-
-/* As measure_straight for a boundary with vertices in the row. */
+/* As cs_edges_straight for a boundary with vertices in the row. */
 static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend *bend,
                          int32_t width) {
   size_t i = bend->boundary;
@@ -66,16 +48,17 @@ static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend
     edges->end[i] = edges->first[i] + 3;
   if (edges->end[i] > edges->first[i] + 2)
     return;
-  celspan_point above = {active->x[i], active->y}, foot = {active->x_next[i], active->y_next};
-  double areas[2] = {0, 0};
-  for (uint32_t k = 0; k < bend->vertex_count; k++) {
-    celspan_point below = active->vertices[bend->vertex + k];
-    add_areas(above, below, edges->first[i], areas);
+  celspan_point above = {active->x[i], active->y};
+  edges->area[i] = edges->rest[i] = 0;
+  for (uint32_t k = 0; k <= bend->vertex_count; k++) {
+    celspan_point below = k < bend->vertex_count
+                              ? active->vertices[bend->vertex + k]
+                              : (celspan_point){active->x_next[i], active->y_next};
+    double height = cs_edges_round(below.y - active->y) - cs_edges_round(above.y - active->y);
+    edges->area[i] += cs_edges_cover(above.x, below.x, height, edges->first[i]);
+    edges->rest[i] += cs_edges_cover(above.x, below.x, height, edges->first[i] + 1);
     above = below;
   }
-  add_areas(above, foot, edges->first[i], areas);
-  edges->area[i] = cs_edges_round(areas[0]);
-  edges->rest[i] = cs_edges_round(areas[1]);
 }
 
 celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const cs_active *active,

@@ -9,6 +9,7 @@
 #ifndef CS_FILTER_EDGES_H
 #define CS_FILTER_EDGES_H
 
+#include "base/number.h"
 #include "base/wide.h"
 #include "sweep/active.h"
 
@@ -53,6 +54,22 @@ static inline bool cs_edges_is_inside(const cs_edges *edges, size_t i, int32_t w
 static inline double cs_edges_round(double x) {
   const double bias = 0x1.8p24;
   return (x + bias) - bias;
+}
+
+/* The integral, up to x, of the share of a piece's height at which it lies left. */
+static inline double cs_edges_passed(double low, double high, double x) {
+  return x <= low    ? 0
+         : x >= high ? (x - high) + 0.5 * (high - low)
+                     : (x - low) * (x - low) / (2 * (high - low));
+}
+
+/* The area right of a straight piece from xa to xb in the pixel of column p, 0..height. */
+static inline double cs_edges_cover(double xa, double xb, double height, int32_t p) {
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  if (low == high)
+    return cs_edges_round(height * cs_number_clamp(p + 1 - low, 0, 1));
+  return cs_edges_round(height *
+                        (cs_edges_passed(low, high, p + 1) - cs_edges_passed(low, high, p)));
 }
 
 #endif

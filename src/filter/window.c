@@ -33,21 +33,9 @@ void cs_window_free(cs_window *window, cs_memory *memory) {
   *window = (cs_window){0};
 }
 
-/* ---------------------------------------------------------------- coverage */
-
-/* The integral, up to x, of the share of the fragment's height at which the boundary lies left. */
-static inline double passed(double low, double high, double x) {
-  return x <= low    ? 0
-         : x >= high ? (x - high) + 0.5 * (high - low)
-                     : (x - low) * (x - low) / (2 * (high - low));
-}
-
 /* The area right of the fragment in the pixel of column p, 0..height. */
 static inline double cover(const cs_fragment *f, int32_t p) {
-  double low = f->xa < f->xb ? f->xa : f->xb, high = f->xa < f->xb ? f->xb : f->xa;
-  if (low == high)
-    return cs_edges_round(f->height * cs_number_clamp(p + 1 - low, 0, 1));
-  return cs_edges_round(f->height * (passed(low, high, p + 1) - passed(low, high, p)));
+  return cs_edges_cover(f->xa, f->xb, f->height, p);
 }
 
 /* ---------------------------------------------------------------- closing */

@@ -1,6 +1,9 @@
 /* Reading: header to facts, rectangles to RGBA floats.
  *
  *   file --Source--> ImageInput --rows or tiles--> channels chosen, window laid, turned upright
+ *
+ * One file, because a header's facts and the reading of rectangles share what they know of channels,
+ * windows and turns.
  */
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebufalgo.h>

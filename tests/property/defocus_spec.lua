@@ -1,31 +1,14 @@
 -- Defocused cels that hold pictures and gradients, against sums of many probes of the same cel
 -- without defocus: at every radius from a twentieth of a pixel up, rotated and enlarged.
 local celspan = require "celspan"
-local prng = require "tests.support.prng"
+local pieces = require "tests.support.pieces"
 
 local SIDE, FILM = 40, { 44, 44 }
-local folder, file
+local file, folder
 
---- A picture of rectangles, hard edges everywhere, some of them translucent, as a PNG.
-local function draw(path)
-  local random, list = prng.new(5), {}
-  for _ = 1, 120 do
-    list[#list + 1] = celspan.rect {
-      random:whole(-2, SIDE), random:whole(-2, SIDE), random:whole(1, 8), random:whole(1, 8),
-      texture = ("#%06x%02x"):format(random:whole(0, 0xffffff), random:pick { 255, 255, 128 }) }
-  end
-  assert(celspan.render(celspan.rostrum { celspan.cel(list) }, path, { size = { SIDE, SIDE } }))
-end
+setup(function() file, folder = pieces.draw({ SIDE, SIDE }, 120) end)
 
-setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
-  file = folder .. "/picture.png"
-  draw(file)
-end)
-
-teardown(function() os.execute("rm -rf " .. folder) end)
+teardown(function() pieces.remove(folder) end)
 
 --- The kernel's weight at an offset.
 local weights = {

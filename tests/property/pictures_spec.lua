@@ -1,6 +1,7 @@
 -- Pictures in scenes: seen as they are at their own size, never read when hidden, interpolated as
 -- the oracle does when enlarged.
 local celspan = require "celspan"
+local pieces = require "tests.support.pieces"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 
@@ -8,28 +9,11 @@ local ONLY = tonumber(os.getenv "CASE")
 local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 10
 local WIDTH, HEIGHT = 24, 18
 
-local folder, file
+local file, folder
 
---- A picture of rectangles, some of them translucent, as a PNG.
-local function draw(path)
-  local random, list = prng.new(5), {}
-  for _ = 1, 40 do
-    list[#list + 1] = celspan.rect {
-      random:whole(-2, WIDTH), random:whole(-2, HEIGHT), random:whole(1, 8), random:whole(1, 8),
-      texture = ("#%06x%02x"):format(random:whole(0, 0xffffff), random:pick { 255, 255, 128 }) }
-  end
-  assert(celspan.render(celspan.rostrum { celspan.cel(list) }, path, { size = { WIDTH, HEIGHT } }))
-end
+setup(function() file, folder = pieces.draw({ WIDTH, HEIGHT }, 40) end)
 
-setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
-  file = folder .. "/picture.png"
-  draw(file)
-end)
-
-teardown(function() os.execute("rm -rf " .. folder) end)
+teardown(function() pieces.remove(folder) end)
 
 local function pixels(exposures, options) return assert(celspan.pixels(exposures, options)) end
 
