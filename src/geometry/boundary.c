@@ -99,7 +99,7 @@ static uint32_t find_piece(const cs_boundary_set *set, const cs_boundary_chain *
  * is above y however it was displaced. */
 static uint32_t find_segment(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
   double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1));
-  double safe = y - piece->overhang - rounding;
+  double safe = y - piece->overhang - 0.5 - rounding; /* at most 0.5 to a whole height */
   uint32_t low = 1, high = piece->segments;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;

@@ -13,7 +13,8 @@
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
  *   - The polyline deviates from the curve by at most about CS_BOUNDARY_TOLERANCE pixels, its inner
- *     vertices displaced outwards (C'' h^2 / 12) so that the area left of it is kept.
+ *     vertices displaced outwards (C'' h^2 / 12) so that the area left of it is kept, and moved
+ *     along it to whole heights where one is near: a row then sees few of them.
  */
 #ifndef CS_GEOMETRY_BOUNDARY_H
 #define CS_GEOMETRY_BOUNDARY_H
@@ -27,7 +28,7 @@
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
   double left, right; /* no vertex lies outside them */
-  double overhang;    /* no vertex is displaced by more than this in y */
+  double overhang;    /* no vertex is displaced by more than this in y, but for whole heights */
   double step;        /* 1 / segments: of the parameter from vertex to vertex */
   uint32_t point;     /* its degree + 1 points; none where there is but one segment */
   uint32_t segments;

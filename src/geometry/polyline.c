@@ -3,34 +3,20 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/number.h"
-
 /* One chord must be this much better than the tolerance: its vertices are the ends, which cannot be
  * displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
 #define SEGMENT_LIMIT 1e9
+/* cs_polyline_share is below this times the square of a step: vertices move by a quarter of one. */
+#define OVERHANG 0.225
 /* What the second derivative may reach between samples of it. */
 #define SAMPLING_MARGIN 1.25
 
-/* A point of a curve and its second derivative by the parameter. */
-typedef struct curve_point {
-  double x, y, bend_x, bend_y;
-} curve_point;
-
 /* ---------------------------------------------------------------- evaluation */
-
-static curve_point at_power(const cs_hpoint *c, int degree, double t) {
-  if (degree == 2)
-    return (curve_point){(c[2].x * t + c[1].x) * t + c[0].x, (c[2].y * t + c[1].y) * t + c[0].y,
-                         2 * c[2].x, 2 * c[2].y};
-  return (curve_point){((c[3].x * t + c[2].x) * t + c[1].x) * t + c[0].x,
-                       ((c[3].y * t + c[2].y) * t + c[1].y) * t + c[0].y,
-                       6 * c[3].x * t + 2 * c[2].x, 6 * c[3].y * t + 2 * c[2].y};
-}
 
 /* De Casteljau down to three points, from which value and both derivatives follow; then the
  * quotient rule. */
-static curve_point at_rational(const cs_hpoint *points, int degree, double t) {
+static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double t) {
   cs_hpoint work[CS_BEZIER_DEGREE + 1];
   for (int i = 0; degree > 2 && i <= degree; i++)
     work[i] = points[i];
@@ -53,16 +39,31 @@ static curve_point at_rational(const cs_hpoint *points, int degree, double t) {
   double slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
   double x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
   double y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
-  return (curve_point){x, y, (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
-                       (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
+  return (cs_polyline_point){x, y, slope_x, slope_y, (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
+                             (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
 }
 
-static curve_point at_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                             uint32_t vertex) {
-  const cs_hpoint *points = set->points + piece->point;
-  double t = vertex * piece->step;
-  return piece->is_power ? at_power(points, piece->degree, t)
-                         : at_rational(points, piece->degree, t);
+/* 4 coefficients of x and 4 of y of a piece in powers. */
+static void take_powers(const cs_boundary_set *set, const cs_boundary_piece *piece, double c[8]) {
+  const cs_hpoint *p = set->points + piece->point;
+  for (int i = 0; i < 4; i++) {
+    c[i] = i <= piece->degree ? p[i].x : 0;
+    c[4 + i] = i <= piece->degree ? p[i].y : 0;
+  }
+}
+
+static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece *piece, double t) {
+  double c[8];
+  if (!piece->is_power)
+    return at_rational(set->points + piece->point, piece->degree, t);
+  take_powers(set, piece, c);
+  return cs_polyline_power(c, t);
+}
+
+static cs_polyline_seat seat_of(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                double vertex) {
+  cs_polyline_point p = at(set, piece, vertex * piece->step);
+  return cs_polyline_seat_of(piece, vertex, &p);
 }
 
 celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
@@ -71,20 +72,20 @@ celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_p
     return (celspan_point){piece->x0, piece->y0};
   if (vertex == piece->segments)
     return (celspan_point){piece->x1, piece->y1};
-  curve_point p = at_vertex(set, piece, vertex);
-  double share = cs_polyline_share(piece, vertex);
-  double lift = cs_number_clamp(share * p.bend_y, -piece->overhang, piece->overhang);
-  return (celspan_point){cs_number_clamp(p.x - share * p.bend_x, piece->left, piece->right),
-                         cs_number_clamp(p.y - lift, piece->y0, piece->y1)};
+  cs_polyline_seat seat = seat_of(set, piece, vertex);
+  double before = seat.t - seat_of(set, piece, vertex - 1.0).t;
+  double after = seat_of(set, piece, vertex + 1.0).t - seat.t;
+  double share = cs_polyline_share(piece, vertex, before, after);
+  cs_polyline_point p = at(set, piece, seat.t);
+  return cs_polyline_place(piece, share, &seat, &p);
 }
 
 void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t first,
                       uint32_t count, celspan_point top, cs_boundary_feet *out) {
   cs_isa isa = cs_isa_best();
   if (piece->is_power && count > 1) {
-    const cs_hpoint *p = set->points + piece->point;
-    const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
-    const double c[8] = {p[0].x, p[1].x, p[2].x, cubic.x, p[0].y, p[1].y, p[2].y, cubic.y};
+    double c[8];
+    take_powers(set, piece, c);
     CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, piece, first + 1, out);
   } else {
     for (uint32_t k = 0; k < count; k++) {
@@ -106,7 +107,7 @@ double cs_polyline_plain_y(const cs_boundary_set *set, const cs_boundary_piece *
                            uint32_t vertex) {
   return vertex == 0                 ? piece->y0
          : vertex == piece->segments ? piece->y1
-                                     : at_vertex(set, piece, vertex).y;
+                                     : at(set, piece, vertex * piece->step).y;
 }
 
 /* ---------------------------------------------------------------- fitting */
@@ -125,7 +126,7 @@ static double rational_bend(const cs_bezier *curve) {
   double largest = 0;
   int steps = 4 * curve->degree;
   for (int i = 0; i <= steps; i++) {
-    curve_point p = at_rational(curve->points, curve->degree, (double)i / steps);
+    cs_polyline_point p = at_rational(curve->points, curve->degree, (double)i / steps);
     largest = fmax(largest, p.bend_x * p.bend_x + p.bend_y * p.bend_y);
   }
   return SAMPLING_MARGIN * sqrt(largest);
@@ -175,7 +176,7 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   double segments = fmin(fmax(2, ceil(sqrt(bend / (8 * CS_BOUNDARY_TOLERANCE)))), SEGMENT_LIMIT);
   piece->segments = (uint32_t)segments;
   piece->step = 1 / segments;
-  piece->overhang = bend * cs_polyline_share(piece, 1);
+  piece->overhang = bend * OVERHANG * (piece->step * piece->step);
   piece->is_power = is_polynomial && curve->degree <= 3;
   return store_points(context, set, curve, piece);
 }

@@ -3,6 +3,7 @@
 #ifndef CS_GEOMETRY_POLYLINE_H
 #define CS_GEOMETRY_POLYLINE_H
 
+#include "base/number.h"
 #include "base/wide.h"
 #include "geometry/bezier.h"
 #include "geometry/boundary.h"
@@ -33,12 +34,63 @@ CS_WIDE_DECLARE(void, cs_polyline_powers,
 /* The slopes of all segments but the first, from their feet. */
 CS_WIDE_DECLARE(void, cs_polyline_slopes, (cs_boundary_feet *feet));
 
-/* Inner vertices share among them the displacement C'' h^2 / 12 of every segment; the ends take
- * none, so their neighbours take theirs. Source: prototype of the sweep; the area between a chord
- * and its curve is |C' x C''| h^3 / 12. */
-static inline double cs_polyline_share(const cs_boundary_piece *piece, double vertex) {
-  double share = 1 + (vertex == 1 ? 0.5 : 0) + (vertex + 1 == piece->segments ? 0.5 : 0);
-  return share * (1.0 / 12) * (piece->step * piece->step);
+/* A point of a curve with its first and second derivatives by the parameter. */
+typedef struct cs_polyline_point {
+  double x, y, slope_x, slope_y, bend_x, bend_y;
+} cs_polyline_point;
+
+/* Of a piece in powers, 4 coefficients of x and 4 of y. */
+static inline cs_polyline_point cs_polyline_power(const double c[8], double t) {
+  return (cs_polyline_point){((c[3] * t + c[2]) * t + c[1]) * t + c[0],
+                             ((c[7] * t + c[6]) * t + c[5]) * t + c[4],
+                             (3 * c[3] * t + 2 * c[2]) * t + c[1],
+                             (3 * c[7] * t + 2 * c[6]) * t + c[5],
+                             6 * c[3] * t + 2 * c[2],
+                             6 * c[7] * t + 2 * c[6]};
+}
+
+/* Where a vertex is to be: at a whole height, if the curve has one within a quarter of a segment,
+ * so that rows seldom bend; else where it was. */
+typedef struct cs_polyline_seat {
+  double t;
+  double y;     /* the whole height */
+  double whole; /* 1: it is to be there; 0: not */
+} cs_polyline_seat;
+
+/* p: of the curve at the vertex's step. Selections only, no branches, for vector code. */
+static inline cs_polyline_seat cs_polyline_seat_of(const cs_boundary_piece *piece, double vertex,
+                                                   const cs_polyline_point *p) {
+  const double bias = 0x1.8p52; /* sums with it are whole */
+  double t = vertex * piece->step;
+  double y = (p->y + bias) - bias, away = y > p->y ? y - p->y : p->y - y;
+  double rise = p->slope_y > 0 ? p->slope_y : 1, moved = t + (y - p->y) / rise;
+  double inner = vertex > 0 ? (vertex < piece->segments ? 1.0 : 0.0) : 0.0;
+  double inside = y > piece->y0 ? (y < piece->y1 ? inner : 0.0) : 0.0;
+  double whole = 4 * away <= p->slope_y * piece->step ? inside : 0.0;
+  return (cs_polyline_seat){whole > 0 ? moved : t, y, whole};
+}
+
+/* Of C'', how far a vertex is displaced: the area between a segment of length h and its curve is
+ * |C' x C''| h^3 / 12, and its two ends make up for half of it each; an end of the piece makes up
+ * for none. before, after: from the neighbours' parameters to its own. */
+static inline double cs_polyline_share(const cs_boundary_piece *piece, double vertex,
+                                       double before, double after) {
+  double above = (vertex == 1 ? 2.0 : 1.0) * (before * before * before);
+  double below = (vertex + 1 == piece->segments ? 2.0 : 1.0) * (after * after * after);
+  return (above + below) / (12 * (before + after));
+}
+
+/* The displaced vertex. p: of the curve at the seat's parameter, which is one step of Newton's from
+ * the height: what is missing to it is gone along the tangent. */
+static inline celspan_point cs_polyline_place(const cs_boundary_piece *piece, double share,
+                                              const cs_polyline_seat *seat,
+                                              const cs_polyline_point *p) {
+  double x = p->x - share * p->bend_x, y = p->y - share * p->bend_y;
+  double lift = cs_number_clamp(p->y - y, -piece->overhang, piece->overhang);
+  double free_y = cs_number_clamp(p->y - lift, piece->y0, piece->y1);
+  double run = seat->whole * p->slope_x / (p->slope_y > 0 ? p->slope_y : 1);
+  return (celspan_point){cs_number_clamp(x + (seat->y - y) * run, piece->left, piece->right),
+                         seat->whole > 0 ? seat->y : free_y};
 }
 
 #endif

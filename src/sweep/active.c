@@ -221,6 +221,8 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   if (!noted.ends)
     active->x_next[i] = cs_boundary_x(walk, y);
   widen(&noted, active->x_next[i]);
+  if (noted.vertex_count == 0 && !noted.ends) /* the joint lies at y */
+    return CELSPAN_OK;
   CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
                         active->bend_count + 1, sizeof *active->bends));
   active->bends[active->bend_count++] = noted;

@@ -121,13 +121,13 @@ static void trace_chord(const culler *c, const chord *line, int32_t first, int32
   }
 }
 
-/* Walks a piece in chords as long as the slack allows: s segments of a piece lie within s^2 + 2
- * times its overhang of their chord, displaced vertices included. */
+/* Walks a piece in chords as long as the slack allows: s segments of a piece, which may be s + 1/2
+ * long, lie within (s + 1/2)^2 + 4 times its overhang of their chord, displaced vertices included. */
 static void trace_piece(const culler *c, const cs_boundary_piece *piece, int32_t first,
                         int32_t last, reach *reaches) {
-  double stride = piece->overhang > 0 ? sqrt(fmax(c->slack / piece->overhang - 2, 1)) : 1;
+  double stride = piece->overhang > 0 ? sqrt(fmax(c->slack / piece->overhang - 4, 2.25)) - 0.5 : 1;
   uint32_t step = stride < piece->segments ? (uint32_t)stride : piece->segments;
-  chord line = {.slack = SLACK_LEAST + ((double)step * step + 2) * piece->overhang};
+  chord line = {.slack = SLACK_LEAST + ((step + 0.5) * (step + 0.5) + 4) * piece->overhang};
   line.top = cs_polyline_vertex(c->set, piece, 0);
   for (uint32_t vertex = 0; vertex < piece->segments; line.top = line.foot) {
     vertex = piece->segments - vertex > step ? vertex + step : piece->segments;
