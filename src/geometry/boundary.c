@@ -99,11 +99,11 @@ static uint32_t find_piece(const cs_boundary_set *set, const cs_boundary_chain *
  * is above y however it was displaced. */
 static uint32_t find_segment(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
   double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1));
-  double safe = y - piece->overhang - 0.5 - rounding; /* at most 0.5 to a whole height */
+  double safe = y - CS_POLYLINE_LIFT * piece->sag - 0.5 - rounding; /* 0.5: to a whole height */
   uint32_t low = 1, high = piece->segments;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
-    if (cs_polyline_plain_y(set, piece, middle) > safe)
+    if (cs_polyline_plain(set, piece, middle).y > safe)
       high = middle;
     else
       low = middle + 1;
@@ -116,12 +116,14 @@ void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
   walk->chain = chain;
   walk->piece = find_piece(set, &set->chains[chain], y);
   const cs_boundary_piece *piece = &set->pieces[walk->piece];
-  walk->segment = find_segment(set, piece, y);
-  celspan_point begin = cs_polyline_vertex(set, piece, walk->segment);
+  uint32_t segment = find_segment(set, piece, y);
+  walk->segment = segment > 0 ? segment - 1 : 0; /* left at once: its foot alone is right */
   walk->ahead = walk->ahead_count = 0;
-  walk->x0 = begin.x;
-  walk->y0 = begin.y;
+  walk->x0 = piece->x0;
+  walk->y0 = piece->y0;
   set_end(set, walk);
+  if (segment > 0)
+    cs_boundary_next(set, walk);
   while (walk->y1 <= y && cs_boundary_next(set, walk)) {
   }
 }

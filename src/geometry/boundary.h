@@ -28,7 +28,7 @@
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
   double left, right; /* no vertex lies outside them */
-  double overhang;    /* no vertex is displaced by more than this in y, but for whole heights */
+  double sag;         /* how far a segment of mean length may be from the curve */
   double step;        /* 1 / segments: of the parameter from vertex to vertex */
   uint32_t point;     /* its degree + 1 points; none where there is but one segment */
   uint32_t segments;

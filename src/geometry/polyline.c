@@ -7,8 +7,6 @@
  * displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
 #define SEGMENT_LIMIT 1e9
-/* cs_polyline_share is below this times the square of a step: vertices move by a quarter of one. */
-#define OVERHANG 0.225
 /* What the second derivative may reach between samples of it. */
 #define SAMPLING_MARGIN 1.25
 
@@ -44,12 +42,16 @@ static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double
 }
 
 /* 4 coefficients of x and 4 of y of a piece in powers. */
-static void take_powers(const cs_boundary_set *set, const cs_boundary_piece *piece, double c[8]) {
+static inline void take_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                               double c[8]) {
   const cs_hpoint *p = set->points + piece->point;
-  for (int i = 0; i < 4; i++) {
-    c[i] = i <= piece->degree ? p[i].x : 0;
-    c[4 + i] = i <= piece->degree ? p[i].y : 0;
+  const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
+  for (int i = 0; i < 3; i++) {
+    c[i] = p[i].x;
+    c[4 + i] = p[i].y;
   }
+  c[3] = cubic.x;
+  c[7] = cubic.y;
 }
 
 static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece *piece, double t) {
@@ -103,11 +105,14 @@ void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece
   out->slope[0] = out->y[0] > top.y ? (out->x[0] - top.x) / (out->y[0] - top.y) : 0;
 }
 
-double cs_polyline_plain_y(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                           uint32_t vertex) {
-  return vertex == 0                 ? piece->y0
-         : vertex == piece->segments ? piece->y1
-                                     : at(set, piece, vertex * piece->step).y;
+celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                uint32_t vertex) {
+  if (vertex == 0)
+    return (celspan_point){piece->x0, piece->y0};
+  if (vertex == piece->segments)
+    return (celspan_point){piece->x1, piece->y1};
+  cs_polyline_point p = at(set, piece, vertex * piece->step);
+  return (celspan_point){p.x, p.y};
 }
 
 /* ---------------------------------------------------------------- fitting */
@@ -176,7 +181,7 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   double segments = fmin(fmax(2, ceil(sqrt(bend / (8 * CS_BOUNDARY_TOLERANCE)))), SEGMENT_LIMIT);
   piece->segments = (uint32_t)segments;
   piece->step = 1 / segments;
-  piece->overhang = bend * OVERHANG * (piece->step * piece->step);
+  piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
   piece->is_power = is_polynomial && curve->degree <= 3;
   return store_points(context, set, curve, piece);
 }

@@ -8,6 +8,11 @@
 #include "geometry/bezier.h"
 #include "geometry/boundary.h"
 
+/* No vertex is displaced by more sags than this, but along the curve to a whole height: at most a
+ * quarter of a segment and half a pixel in y. cs_polyline_share is at most 0.221 h^2 then, the sag
+ * of a segment C'' h^2 / 8. */
+#define CS_POLYLINE_LIFT 1.8
+
 /* Chooses the segments of a piece whose ends and limits in x are set, and stores what its vertices
  * need. curve: runs as the piece does, weights > 0 and within a factor of about 2.
  * Errors: NO_MEMORY, LIMIT. */
@@ -20,9 +25,10 @@ celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_p
  * first of them begins. */
 void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t first,
                       uint32_t count, celspan_point top, cs_boundary_feet *out);
-/* y before the vertex was displaced: rising with the number but for rounding. */
-double cs_polyline_plain_y(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                           uint32_t vertex);
+/* Where the vertex would be if it were neither displaced nor moved: on the curve, in even steps of
+ * the parameter. y rises with the number but for rounding. */
+celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                                uint32_t vertex);
 
 /* ---- polyline_wide.c */
 
@@ -86,7 +92,7 @@ static inline celspan_point cs_polyline_place(const cs_boundary_piece *piece, do
                                               const cs_polyline_seat *seat,
                                               const cs_polyline_point *p) {
   double x = p->x - share * p->bend_x, y = p->y - share * p->bend_y;
-  double lift = cs_number_clamp(p->y - y, -piece->overhang, piece->overhang);
+  double most = CS_POLYLINE_LIFT * piece->sag, lift = cs_number_clamp(p->y - y, -most, most);
   double free_y = cs_number_clamp(p->y - lift, piece->y0, piece->y1);
   double run = seat->whole * p->slope_x / (p->slope_y > 0 ? p->slope_y : 1);
   return (celspan_point){cs_number_clamp(x + (seat->y - y) * run, piece->left, piece->right),

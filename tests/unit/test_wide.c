@@ -90,7 +90,7 @@ static void check_vertices(cs_isa isa, test_random *random) {
   for (int k = 0; k < 8; k++)
     c[k] = random_between(random, -200, 200);
   cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
-                             .right = 290, .overhang = 0.02, .segments = 20, .step = 0.05};
+                             .right = 290, .sag = 0.02, .segments = 20, .step = 0.05};
   uint32_t first = 1 + (uint32_t)random_below(random, 18);
   cs_polyline_powers_any(c, &piece, first, &expected);
   cs_polyline_slopes_any(&expected);
