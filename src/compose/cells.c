@@ -123,3 +123,17 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   cells->known = active->count + 1;
   return CELSPAN_OK;
 }
+
+void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
+                    const cs_cell *const *right) {
+  size_t boundaries = cells->known - 1, found = 0;
+  patch p = open_patch(cells, boundaries, (cs_change){low, boundaries - (low + count)});
+  for (size_t k = 0; k < count; k++) {
+    cs_cell *cell = &cells->cells[low + k + 1];
+    if (right[k] != cell)
+      *cell = *right[k];
+    if (!cs_composer_same(composer, cell, cell - 1))
+      cells->visible[p.visible + found++] = (uint32_t)(low + k);
+  }
+  close_patch(cells, &p, found);
+}

@@ -35,6 +35,9 @@ void cs_cells_finish(cs_cells *cells, cs_memory *memory);
  * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change);
+/* Puts copies of known cells right of the boundaries low..low + count - 1. */
+void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
+                    const cs_cell *const *right);
 /* Forgets every cell. */
 void cs_cells_forget(cs_cells *cells);
 

@@ -8,6 +8,7 @@
  */
 #include "base/number.h"
 #include "filter/blocks.h"
+#include "filter/carry.h"
 #include "filter/strips.h"
 
 #include <math.h>
@@ -132,6 +133,7 @@ static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
     CS_TRY(active_points(b, i, &points, &count));
     cs_member *member = &cluster.members[i - low];
     *member = cs_blocks_member(active, active->walks[active->slot[i]].chain, points, count);
+    member->place = (uint32_t)i;
     member->right = &b->cells[i + 1];
   }
   if (begin_count > 1)
@@ -143,6 +145,7 @@ static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
   cluster.toggle_end = b->toggle_end;
   CS_TRY(cs_window_reach(&scan->window, least));
   CS_TRY(cs_cluster_replay(&cluster));
+  CS_TRY(cs_carry_cluster(&cluster, low, high));
   cs_window_pass(&scan->window, &b->cells[high]);
   return CELSPAN_OK;
 }
@@ -162,7 +165,9 @@ static celspan_status walk_pair(cs_blocks *b, const cs_block *block) {
       cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, block->reach_low);
   b->toggle = toggle;
   CS_TRY(cs_window_reach(&scan->window, block->reach_low));
-  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, toggle, b->toggle_end));
+  const cs_cell *between;
+  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, toggle, b->toggle_end, &between));
+  CS_TRY(cs_carry_pair(scan, block->low, between));
   cs_window_pass(&scan->window, &b->cells[block->high]);
   return CELSPAN_OK;
 }
@@ -221,7 +226,7 @@ static celspan_status append_edges(cs_blocks *b, const cs_strip_edges *edges, do
     points[1] = (celspan_point){e->x, y1};
     strips[b->strip_count + k] =
         (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = e->leaf,
-                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0),
+                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0), .place = UINT32_MAX,
                     .direction = e->direction, .x = e->x, .y = y0, .foot = e->x};
     b->strips_low = e->x < b->strips_low ? e->x : b->strips_low;
     b->strips_high = e->x > b->strips_high ? e->x : b->strips_high;
@@ -285,6 +290,7 @@ static celspan_status next_slice(cs_scan *scan) {
 /* The row between two heights; the boundaries stand at the upper. */
 static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y0, double y1) {
   cs_blocks blocks = {.scan = scan, .cells = cells, .y0 = y0, .y1 = y1};
+  scan->carried = NULL;
   blocks.toggle = cs_active_toggles(&scan->active, &blocks.toggle_end);
   CS_TRY(cs_active_reach(scan->context, &scan->active, y1));
   if (!scan->window.is_held && cs_strips_meet(scan, (int32_t)y0))
@@ -307,6 +313,7 @@ static celspan_status walk_slices(cs_scan *scan, int32_t y, int slices, cs_row *
     }
     cs_window_pass(&scan->window, &cells[0]);
     CS_TRY(walk_heights(scan, cells, y + (double)k / slices, y + (k + 1.0) / slices));
+    CS_TRY(cs_carry_out(scan));
   }
   return cs_window_finish(&scan->window);
 }
@@ -318,5 +325,6 @@ celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out) {
   cs_window_begin(&scan->window, &scan->composer, &scan->arena, scan->shot->width, y,
                   scan->cells.cells, out);
   CS_TRY(walk_heights(scan, scan->cells.cells, y, y + 1.0));
-  return cs_window_finish(&scan->window);
+  CS_TRY(cs_window_finish(&scan->window));
+  return cs_carry_out(scan);
 }

@@ -16,6 +16,7 @@ cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspa
                      .leaf = c->leaf,
                      .strip = UINT32_MAX,
                      .order = chain,
+                     .place = UINT32_MAX,
                      .direction = c->direction,
                      .x = points[0].x,
                      .y = points[0].y,

@@ -307,15 +307,16 @@ static celspan_status draw(cs_scan *scan, celspan_point above, celspan_point bel
 
 /* The cell that boundary i + 1 opens when it is crossed first, at x. */
 static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_toggle *toggle,
-                                   const cs_toggle *toggle_end, cs_cell **out) {
+                                   const cs_toggle *toggle_end, const cs_cell **out) {
   cs_composer *composer = &scan->composer;
   cs_crossing second = scan->active.crossing[i + 1];
-  *out = cs_arena_take(scan->context, &scan->arena, sizeof **out);
-  if (!*out)
+  cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
+  if (!cell)
     return CELSPAN_NO_MEMORY;
   cs_composer_cross(composer, second.leaf, second.direction);
   const cs_toggle *passed = cs_cells_toggle(composer, toggle, toggle_end, x);
-  cs_composer_cell(composer, *out);
+  cs_composer_cell(composer, cell);
+  *out = cell;
   cs_composer_cross(composer, second.leaf, -second.direction);
   for (; passed > toggle; passed--)
     cs_composer_cross(composer, passed[-1].leaf, -passed[-1].direction);
@@ -323,7 +324,8 @@ static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_t
 }
 
 celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
-                               const cs_toggle *toggle, const cs_toggle *toggle_end) {
+                               const cs_toggle *toggle, const cs_toggle *toggle_end,
+                               const cs_cell **between) {
   const cs_active *active = &scan->active;
   celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
   celspan_point a_foot = {active->x_next[i], active->y_next};
@@ -333,10 +335,9 @@ celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
   celspan_point a_meets = {a.x + (a_foot.x - a.x) * u, y};
   celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
   const cs_cell *right = left + 2;
-  cs_cell *between;
   CS_TRY(draw(scan, a, a_meets, left, left + 1));
   CS_TRY(draw(scan, b, b_meets, left + 1, right));
-  CS_TRY(cell_between(scan, i, b_meets.x, toggle, toggle_end, &between));
-  CS_TRY(draw(scan, b_meets, b_foot, left, between));
-  return draw(scan, a_meets, a_foot, between, right);
+  CS_TRY(cell_between(scan, i, b_meets.x, toggle, toggle_end, between));
+  CS_TRY(draw(scan, b_meets, b_foot, left, *between));
+  return draw(scan, a_meets, a_foot, *between, right);
 }

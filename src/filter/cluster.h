@@ -24,6 +24,7 @@ typedef struct cs_member {
   uint32_t leaf;
   uint32_t strip; /* of a scan-line leaf; UINT32_MAX for a chain */
   uint32_t order; /* settles ties: the chain or the strip's edge */
+  uint32_t place; /* in the order at the top of the row; UINT32_MAX: it begins in the row */
   int32_t direction;
   double x, y;      /* up to where its fragments were given */
   double top, foot; /* x where the current band begins and ends */
@@ -50,9 +51,11 @@ typedef struct cs_cluster {
 CELSPAN_CHECKED celspan_status cs_cluster_replay(cs_cluster *cluster);
 
 /* The same for boundaries i and i + 1, straight through the row, that cross once: nearly all
- * clusters are that. left: of both; the composer stands there. */
+ * clusters are that. left: of both; the composer stands there. *between: the cell between them
+ * when they have crossed, good until the row is done. */
 CELSPAN_CHECKED celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
                                                const cs_toggle *toggle,
-                                               const cs_toggle *toggle_end);
+                                               const cs_toggle *toggle_end,
+                                               const cs_cell **between);
 
 #endif

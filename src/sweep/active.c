@@ -1,5 +1,6 @@
 #include "sweep/active.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* Bytes of one boundary over all arrays: six doubles, a crossing, two slots, a walk. */
@@ -105,6 +106,32 @@ static void insert_boundary(cs_active *active, size_t to, size_t from) {
   active->y1[to] = y1;
   active->crossing[to] = crossing;
   active->slot[to] = slot;
+}
+
+/* Items of 8 bytes. */
+static inline void permute_items(void *array, size_t low, size_t count, const uint32_t *places,
+                                 uint64_t *room) {
+  char *items = array;
+  for (size_t k = 0; k < count; k++)
+    memcpy(&room[k], items + places[k] * sizeof *room, sizeof *room);
+  for (size_t k = 0; k < count; k++)
+    memcpy(items + (low + k) * sizeof *room, &room[k], sizeof *room);
+}
+
+void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
+                       uint64_t *room) {
+  static_assert(sizeof(cs_crossing) == sizeof *room && sizeof(double) == sizeof *room, "");
+  permute_items(active->x, low, count, places, room);
+  permute_items(active->x_next, low, count, places, room);
+  permute_items(active->x0, low, count, places, room);
+  permute_items(active->y0, low, count, places, room);
+  permute_items(active->slope, low, count, places, room);
+  permute_items(active->y1, low, count, places, room);
+  permute_items(active->crossing, low, count, places, room);
+  for (size_t k = 0; k < count; k++)
+    room[k] = active->slot[places[k]];
+  for (size_t k = 0; k < count; k++)
+    active->slot[low + k] = (uint32_t)room[k];
 }
 
 /* ---------------------------------------------------------------- order */

@@ -82,6 +82,10 @@ CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_acti
  * it is at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
                                                double y);
+/* Puts boundary places[k] at place low + k, as it stands at both heights; between reach and settle.
+ * places: low..low + count - 1 in some order. room: for count numbers. */
+void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
+                       uint64_t *room);
 /* Moves down to the height reached. *change: where boundaries began, ended or changed places; all
  * of the order when another row of tiles has begun.
  * Errors: NO_MEMORY. */

@@ -1,0 +1,28 @@
+/* What is carried over to the next row: a block that has been replayed stands at the foot of the row
+ * in a known order, between known cells, so neither is sought anew.
+ *
+ * Invariant: after cs_carry_out the places of the carried blocks are as the sweep would have put
+ * them at the foot, and their cells look as it would have composed them there. Blocks in which
+ * something begins or ends are not carried: their places are no longer the same ones.
+ */
+#ifndef CS_FILTER_CARRY_H
+#define CS_FILTER_CARRY_H
+
+#include "filter/cluster.h"
+
+typedef struct cs_carried {
+  struct cs_carried *next;
+  size_t low, count;     /* places of the order */
+  const cs_cell **cells; /* for each: right of it, at the foot */
+  uint32_t *places;      /* for each: where its boundary stood at the top */
+} cs_carried;
+
+/* Notes that boundaries i and i + 1 have changed places, with a cell between them. */
+CELSPAN_CHECKED celspan_status cs_carry_pair(cs_scan *scan, size_t i, const cs_cell *between);
+/* Notes how a cluster of the boundaries [low, high) has ended, if it can be carried. */
+CELSPAN_CHECKED celspan_status cs_carry_cluster(const cs_cluster *cluster, size_t low,
+                                                size_t high);
+/* Brings the order and the cells of what has been noted to the foot of the row. */
+CELSPAN_CHECKED celspan_status cs_carry_out(cs_scan *scan);
+
+#endif
