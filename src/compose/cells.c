@@ -7,59 +7,46 @@ void cs_cells_init(cs_cells *cells) { *cells = (cs_cells){0}; }
 
 void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
   cs_mem_free(memory, cells->cells, cells->cell_capacity * sizeof *cells->cells);
+  cs_mem_free(memory, cells->is_visible, cells->flag_capacity * sizeof *cells->is_visible);
   cs_mem_free(memory, cells->visible, cells->visible_capacity * sizeof *cells->visible);
   *cells = (cs_cells){0};
 }
 
-void cs_cells_forget(cs_cells *cells) { cells->known = cells->visible_count = 0; }
+void cs_cells_forget(cs_cells *cells) {
+  cells->known = cells->visible_count = 0;
+  cells->is_listed = false;
+}
 
 static celspan_status make_room(cs_cells *cells, celspan_context *context, size_t count) {
   CS_TRY(cs_mem_reserve(context, (void **)&cells->cells, &cells->cell_capacity, count + 1,
                         sizeof *cells->cells));
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity, count + 1,
+                        sizeof *cells->is_visible));
   return cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity, count + 1,
                         sizeof *cells->visible);
 }
 
-/* The first visible boundary at or right of place i. */
-static size_t find_visible(const cs_cells *cells, size_t i) {
-  size_t low = 0, high = cells->visible_count;
-  while (low < high) {
-    size_t middle = (low + high) / 2;
-    if (cells->visible[middle] < i)
-      low = middle + 1;
-    else
-      high = middle;
+void cs_cells_list(cs_cells *cells) {
+  size_t found = 0, count = cells->known - 1;
+  const bool *is_visible = cells->is_visible;
+  uint32_t *visible = cells->visible;
+  if (cells->is_listed)
+    return;
+  for (size_t i = 0; i < count; i++) { /* which are visible cannot be foreseen: no branch */
+    visible[found] = (uint32_t)i;
+    found += is_visible[i];
   }
-  return low;
+  cells->visible_count = found;
+  cells->is_listed = true;
 }
 
-/* The boundaries [low, high) are to be looked at anew; in the last update high was old_high. */
-typedef struct patch {
-  size_t low, high, old_high;
-  size_t visible;      /* where the first visible one of them goes */
-  size_t visible_tail; /* those right of them */
-} patch;
-
-/* Opens a gap for the patch's cells and for as many visible boundaries as it may have. */
-static patch open_patch(cs_cells *cells, size_t count, cs_change change) {
-  size_t old_count = cells->known - 1;
-  patch p = {change.low, count - change.tail, old_count - change.tail, 0, 0};
-  if (p.high != p.old_high)
-    memmove(&cells->cells[p.high + 1], &cells->cells[p.old_high + 1],
-            change.tail * sizeof *cells->cells);
-  p.visible = find_visible(cells, p.low);
-  size_t from = find_visible(cells, p.old_high), to = p.visible + (p.high - p.low);
-  p.visible_tail = cells->visible_count - from;
-  memmove(&cells->visible[to], &cells->visible[from], p.visible_tail * sizeof *cells->visible);
-  for (size_t v = 0; p.high != p.old_high && v < p.visible_tail; v++)
-    cells->visible[to + v] += (uint32_t)(p.high - p.old_high);
-  return p;
-}
-
-static void close_patch(cs_cells *cells, const patch *p, size_t found) {
-  size_t from = p->visible + (p->high - p->low), to = p->visible + found;
-  memmove(&cells->visible[to], &cells->visible[from], p->visible_tail * sizeof *cells->visible);
-  cells->visible_count = to + p->visible_tail;
+/* Moves what belongs to the last `tail` boundaries to where they stand among `count`. */
+static void move_tail(cs_cells *cells, size_t count, size_t tail) {
+  size_t to = count - tail, from = cells->known - 1 - tail;
+  if (to == from)
+    return;
+  memmove(&cells->cells[to + 1], &cells->cells[from + 1], tail * sizeof *cells->cells);
+  memmove(&cells->is_visible[to], &cells->is_visible[from], tail * sizeof *cells->is_visible);
 }
 
 /* A walk along the order with the composer. */
@@ -109,16 +96,14 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
     make_cell(cells, &w, 0, 0);
   if (cells->known == 0)
     cells->known = 1; /* the one just made */
-  patch p = open_patch(cells, active->count, change);
-  size_t found = 0;
-  walk_to(&w, p.low);
-  for (size_t i = p.low; i < p.high; i++) {
+  move_tail(cells, active->count, change.tail);
+  walk_to(&w, change.low);
+  for (size_t i = change.low; i < active->count - change.tail; i++) {
     walk_to(&w, i + 1);
     make_cell(cells, &w, i + 1, active->x[i]);
-    if (!cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]))
-      cells->visible[p.visible + found++] = (uint32_t)i;
+    cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
   }
-  close_patch(cells, &p, found);
+  cells->is_listed = false;
   walk_home(&w);
   cells->known = active->count + 1;
   return CELSPAN_OK;
@@ -126,14 +111,11 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
 
 void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
                     const cs_cell *const *right) {
-  size_t boundaries = cells->known - 1, found = 0;
-  patch p = open_patch(cells, boundaries, (cs_change){low, boundaries - (low + count)});
   for (size_t k = 0; k < count; k++) {
     cs_cell *cell = &cells->cells[low + k + 1];
     if (right[k] != cell)
       *cell = *right[k];
-    if (!cs_composer_same(composer, cell, cell - 1))
-      cells->visible[p.visible + found++] = (uint32_t)(low + k);
+    cells->is_visible[low + k] = !cs_composer_same(composer, cell, cell - 1);
   }
-  close_patch(cells, &p, found);
+  cells->is_listed = false;
 }

@@ -1,7 +1,8 @@
 /* The cells between the active boundaries of a row, and which boundaries can be seen.
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
- * listed in `visible` iff the cells on its two sides look different. Cells belong to places in the
+ * visible iff the cells on its two sides look different, and then listed once the cells are asked
+ * for the list. Cells belong to places in the
  * order, not to boundaries: where the set of leaves at a place is the same as before, its cell is
  * kept; so a swap composes one cell and a row without events none.
  */
@@ -21,11 +22,13 @@ static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_t
 }
 
 typedef struct cs_cells {
-  cs_cell *cells; /* count + 1 in use */
-  uint32_t *visible;
+  cs_cell *cells;   /* count + 1 in use */
+  bool *is_visible; /* by boundary */
+  bool is_listed;
+  uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
   size_t known; /* cells that were made, from the left */
-  size_t cell_capacity, visible_capacity;
+  size_t cell_capacity, flag_capacity, visible_capacity;
 } cs_cells;
 
 void cs_cells_init(cs_cells *cells);
@@ -38,6 +41,8 @@ CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *com
 /* Puts copies of known cells right of the boundaries low..low + count - 1. */
 void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
                     const cs_cell *const *right);
+/* Lists the visible boundaries. */
+void cs_cells_list(cs_cells *cells);
 /* Forgets every cell. */
 void cs_cells_forget(cs_cells *cells);
 

@@ -284,6 +284,7 @@ static celspan_status next_slice(cs_scan *scan) {
   CS_TRY(cs_active_settle(scan->context, &scan->active, &change));
   if (!cs_change_is_none(change))
     CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
+  cs_cells_list(&scan->cells);
   return scan->composer.failure;
 }
 

@@ -14,7 +14,7 @@ static celspan_status note(cs_scan *scan, size_t low, size_t count, cs_carried *
 
 /* Whether boundary i is there at the foot. */
 static bool goes_on(const cs_active *active, size_t i) {
-  const cs_bend *bend = active->bend_count > 0 ? cs_active_bend(active, i) : NULL;
+  const cs_bend *bend = cs_active_bend(active, i);
   return !bend || !bend->ends;
 }
 

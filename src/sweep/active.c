@@ -3,9 +3,9 @@
 #include <assert.h>
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: six doubles, a crossing, two slots, a walk. */
+/* Bytes of one boundary over all arrays: six doubles, a crossing, four indices, a walk. */
 #define ITEM_SIZE                                                                                  \
-  (6 * sizeof(double) + sizeof(cs_crossing) + 2 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
+  (6 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
   *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
@@ -45,6 +45,8 @@ static celspan_status grow(celspan_context *context, cs_active *active) {
   active->crossing = carve(&at, active->crossing, old, wanted, sizeof *active->crossing);
   active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
   active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
+  active->bend_of = carve(&at, active->bend_of, old, wanted, sizeof *active->bend_of);
+  active->ended = carve(&at, active->ended, old, wanted, sizeof *active->ended);
   cs_mem_free(context->memory, active->block, old * ITEM_SIZE);
   active->block = block;
   active->capacity = wanted;
@@ -252,8 +254,22 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
     return CELSPAN_OK;
   CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
                         active->bend_count + 1, sizeof *active->bends));
+  active->bend_of[i] = (uint32_t)active->bend_count;
   active->bends[active->bend_count++] = noted;
   return CELSPAN_OK;
+}
+
+/* Lists the boundaries whose segments end at or above y: without a branch, for nobody can foresee
+ * which they are. */
+static size_t list_ended(cs_active *active, double y) {
+  const double *y1 = active->y1;
+  uint32_t *ended = active->ended;
+  size_t count = 0;
+  for (size_t i = 0; i < active->count; i++) {
+    ended[count] = (uint32_t)i;
+    count += y1[i] <= y;
+  }
+  return count;
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
@@ -262,9 +278,9 @@ celspan_status cs_active_reach(celspan_context *context, cs_active *active, doub
   active->bend_count = active->vertex_count = 0;
   if (!CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
     return CELSPAN_OK;
-  for (size_t i = 0; i < active->count; i++)
-    if (active->y1[i] <= y)
-      CS_TRY(bend(context, active, i, y));
+  size_t ended = list_ended(active, y);
+  for (size_t k = 0; k < ended; k++)
+    CS_TRY(bend(context, active, active->ended[k], y));
   return CELSPAN_OK;
 }
 

@@ -57,6 +57,7 @@ typedef struct cs_active {
   double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
   cs_crossing *crossing;
   uint32_t *slot;
+  uint32_t *ended; /* scratch */
   size_t count;
   /* by slot */
   cs_boundary_walk *walks;
@@ -68,6 +69,7 @@ typedef struct cs_active {
   double y;        /* the current height */
   double y_next;   /* the height reached */
   cs_bend *bends;  /* between the two, in order of their boundaries */
+  uint32_t *bend_of; /* by boundary: the only place in bends where its bend may be */
   celspan_point *vertices;
   size_t bend_count, bend_capacity;
   size_t vertex_count, vertex_capacity;
@@ -107,15 +109,8 @@ static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, 
 
 /* The bend of boundary i, or NULL. */
 static inline const cs_bend *cs_active_bend(const cs_active *active, size_t i) {
-  size_t low = 0, high = active->bend_count;
-  while (low < high) {
-    size_t middle = (low + high) / 2;
-    if (active->bends[middle].boundary < i)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < active->bend_count && active->bends[low].boundary == i ? &active->bends[low] : NULL;
+  uint32_t at = active->bend_of[i];
+  return at < active->bend_count && active->bends[at].boundary == i ? &active->bends[at] : NULL;
 }
 
 #endif
