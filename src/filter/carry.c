@@ -30,6 +30,22 @@ celspan_status cs_carry_pair(cs_scan *scan, size_t i, const cs_cell *between) {
   return CELSPAN_OK;
 }
 
+/* The cell right of boundary i: a copy where it is that of another place, which may be written to
+ * first. */
+static celspan_status keep_cell(cs_scan *scan, size_t i, const cs_cell *cell,
+                                const cs_cell **out) {
+  const cs_cell *cells = scan->cells.cells;
+  *out = cell;
+  if (cell < cells || cell >= cells + scan->cells.known || cell == &cells[i + 1])
+    return CELSPAN_OK;
+  cs_cell *copy = cs_arena_take(scan->context, &scan->arena, sizeof *copy);
+  if (!copy)
+    return CELSPAN_NO_MEMORY;
+  *copy = *cell;
+  *out = copy;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_carry_cluster(const cs_cluster *cluster, size_t low, size_t high) {
   cs_carried *carried;
   size_t count = high - low;
@@ -43,7 +59,7 @@ celspan_status cs_carry_cluster(const cs_cluster *cluster, size_t low, size_t hi
   CS_TRY(note(cluster->scan, low, count, &carried));
   for (size_t j = 0; j < count; j++) {
     carried->places[j] = cluster->members[j].place;
-    carried->cells[j] = cluster->members[j].right;
+    CS_TRY(keep_cell(cluster->scan, low + j, cluster->members[j].right, &carried->cells[j]));
   }
   return CELSPAN_OK;
 }
