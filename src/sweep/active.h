@@ -51,7 +51,7 @@ typedef struct cs_active {
   const cs_cull *cull;
   cs_isa isa;
   int32_t tile_row; /* that holds the current height */
-  /* arrays of like fields, `count` of each, in order */
+  /* arrays of like fields, `count` of each, in order; there is room for a multiple of 64 */
   double *x;     /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
   double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
