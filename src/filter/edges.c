@@ -5,9 +5,6 @@
 /* Bytes of one boundary over all arrays. */
 #define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
 
-/* Boundaries that vector code measures at a time, at most: some beyond the last are measured too. */
-#define BATCH 16
-
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
   *edges = (cs_edges){0};
@@ -93,12 +90,12 @@ static void measure_bent(cs_edges *edges, const cs_active *active, uint32_t at, 
 
 celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const cs_active *active,
                                 int32_t width) {
-  size_t padded = (active->count + BATCH - 1) / BATCH * BATCH;
-  CS_TRY(make_room(context, edges, padded));
+  size_t count = cs_advance_whole(active->count);
+  CS_TRY(make_room(context, edges, count));
   CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
-  (edges, active->x, active->x_next, padded, width);
-  if (padded > 0) /* else there is no room yet */
-    memset(edges->is_bent, 0, padded * sizeof *edges->is_bent);
+  (edges, active->x, active->x_next, count, width);
+  if (count > 0) /* else there is no room yet */
+    memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
   for (uint32_t k = 0; k < active->bend_count; k++)
     if (active->bends[k].vertex_count > 0)
       measure_bent(edges, active, k, width);

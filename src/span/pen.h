@@ -60,7 +60,7 @@ static inline void cs_pen_ramp(cs_pen *pen, int32_t to, cs_v4 colour, cs_v4 slop
   span->kind = CELSPAN_SPAN_GRADIENT;
   cs_v4_store(span->colour, colour);
   cs_v4_store(span->slope, slope);
-  pen->row->varied++;
+  pen->row->varied.gradients++;
   pen->colour = cs_pen_no_colour();
   pen->from = to;
 }
