@@ -449,8 +449,7 @@ static celspan_status add_strips(cs_blocks *b) {
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   size_t begins = cs_blocks_count_begins(active, b->y1) + b->strip_count;
-  if (begins + active->bend_count == 0 &&
-      CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(active->x_next, active->count))
+  if (begins + active->bend_count == 0 && active->rises)
     return CELSPAN_OK;
   CS_TRY(add_knots(b));
   if (begins > 0)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(int32_t) + sizeof(bool))
+#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
@@ -28,48 +28,76 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
                       .block = block,
                       .capacity = wanted};
   edges->end = edges->first + wanted;
-  edges->is_bent = (bool *)(edges->end + wanted);
+  edges->bend = (uint32_t *)(edges->end + wanted);
+  edges->is_bent = (bool *)(edges->bend + wanted);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- bent */
 
+/* What is right of a piece in the column that ends at `split`, and in the one after. */
+static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
+                      double height, double split) {
+  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
+  double middle = 0.5 * (low + high);
+  if (high <= split) {
+    *area += cs_edges_round(height * (split - middle));
+    *rest += height;
+  } else if (low >= split) {
+    *rest += cs_edges_round(height * (split + 1 - middle));
+  } else {
+    double by_twice = 0.5 / (high - low);
+    *area += cs_edges_round(height * ((split - low) * (split - low) * by_twice));
+    *rest += cs_edges_round(height * (1 - (high - split) * (high - split) * by_twice));
+  }
+}
+
+/* The areas of a bent boundary over at most two columns. */
+static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_bend *bend) {
+  size_t i = bend->boundary;
+  const celspan_point *vertices = &active->vertices[bend->vertex];
+  celspan_point above = {active->x[i], active->y};
+  double area = 0, rest = 0, split = edges->first[i] + 1, passed = 0;
+  for (uint32_t k = 0; k <= bend->vertex_count; k++) {
+    celspan_point below = k < bend->vertex_count
+                              ? vertices[k]
+                              : (celspan_point){active->x_next[i], active->y_next};
+    double reached = cs_edges_round(below.y - active->y);
+    add_piece(&area, &rest, above, below, reached - passed, split);
+    above = below;
+    passed = reached;
+  }
+  edges->area[i] = area;
+  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : area;
+}
+
 /* As cs_edges_straight for a boundary with vertices in the row. */
-static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend *bend,
-                         int32_t width) {
+static void measure_bent(cs_edges *edges, const cs_active *active, uint32_t at, int32_t width) {
+  const cs_bend *bend = &active->bends[at];
   size_t i = bend->boundary;
   edges->low[i] = bend->low;
   edges->high[i] = bend->high;
+  edges->bend[i] = at;
   edges->is_bent[i] = true;
   edges->first[i] = cs_edges_floor(bend->low, width);
   edges->end[i] = cs_edges_ceil(bend->high, width);
   bool leaves = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);
   if (leaves && edges->end[i] < edges->first[i] + 3)
     edges->end[i] = edges->first[i] + 3;
-  if (edges->end[i] > edges->first[i] + 2)
-    return;
-  celspan_point above = {active->x[i], active->y};
-  edges->area[i] = edges->rest[i] = 0;
-  for (uint32_t k = 0; k <= bend->vertex_count; k++) {
-    celspan_point below = k < bend->vertex_count
-                              ? active->vertices[bend->vertex + k]
-                              : (celspan_point){active->x_next[i], active->y_next};
-    double height = cs_edges_round(below.y - active->y) - cs_edges_round(above.y - active->y);
-    edges->area[i] += cs_edges_cover(above.x, below.x, height, edges->first[i]);
-    edges->rest[i] += cs_edges_cover(above.x, below.x, height, edges->first[i] + 1);
-    above = below;
-  }
+  if (edges->end[i] <= edges->first[i] + 2)
+    measure_pieces(edges, active, bend);
 }
 
 celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const cs_active *active,
                                 int32_t width) {
-  CS_TRY(make_room(context, edges, active->count));
+  size_t count = cs_advance_whole(active->count);
+  CS_TRY(make_room(context, edges, count));
   CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
-  (edges, active->x, active->x_next, active->count, width);
-  if (active->count > 0) /* else there is no room yet */
-    memset(edges->is_bent, 0, active->count * sizeof *edges->is_bent);
-  for (size_t k = 0; k < active->bend_count; k++)
+  (edges, active->x, active->x_next, count, width);
+  if (count > 0) /* else there is no room yet */
+    memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
+  for (uint32_t k = 0; k < active->bend_count; k++)
     if (active->bends[k].vertex_count > 0)
-      measure_bent(edges, active, &active->bends[k], width);
+      measure_bent(edges, active, k, width);
   return CELSPAN_OK;
 }

@@ -3,8 +3,8 @@
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
  * 2^-28 (see window.h), of a whole row's height, and given where the boundary crosses at most two
- * columns; `end` of one that leaves the frame sideways is at least first + 3, or first when it does
- * not enter it.
+ * columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways is at
+ * least first + 3, or first when it does not enter it.
  */
 #ifndef CS_FILTER_EDGES_H
 #define CS_FILTER_EDGES_H
@@ -16,8 +16,9 @@
 typedef struct cs_edges {
   cs_isa isa; /* what straight boundaries are measured with */
   double *low, *high;   /* least and greatest x in the row */
-  double *area, *rest;  /* right of it in its first column and in the one after; 1: all */
+  double *area, *rest;  /* right of it in its first column and in its last; 1: all */
   int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
+  uint32_t *bend;       /* which of the active boundaries' bends it is, where it is bent */
   bool *is_bent;        /* it has vertices in the row */
   void *block;          /* that holds the arrays */
   size_t capacity;      /* of each of them */

@@ -18,14 +18,15 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     double last = near_high + (near_high < held_high ? 1.0 : 0.0);
     double split = column + 1, by_twice = 0.5 / (b - a);
     double one = split - 0.5 * (a + b);
-    double two = (split - a) * (split - a) * by_twice;
-    double two_rest = 1 - (b - split) * (b - split) * by_twice;
+    double until = b - (last - 1);
+    double more = (split - a) * (split - a) * by_twice;
+    double more_rest = 1 - until * until * by_twice;
     double leaves = (a < 0 ? held_high : 0) + (b > right ? right - held : 0);
     double least = leaves > 0 ? column + 3 : last;
     low[i] = a;
     high[i] = b;
-    area[i] = cs_edges_round(b > split ? two : one);
-    rest[i] = cs_edges_round(b > split ? two_rest : 1);
+    area[i] = cs_edges_round(b > split ? more : one);
+    rest[i] = cs_edges_round(b > split ? more_rest : one);
     first[i] = (int32_t)column;
     end[i] = (int32_t)(last < least ? least : last);
   }

@@ -1,7 +1,7 @@
 #include "filter/window.h"
 
 #include "base/number.h"
-#include "span/pen.h"
+#include "filter/strokes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,12 +40,6 @@ static inline double cover(const cs_fragment *f, int32_t p) {
 
 /* ---------------------------------------------------------------- closing */
 
-/* Light is never negative and alpha at most 1: sums may miss that by a last bit. */
-static inline cs_v4 hold(cs_v4 colour) {
-  const cs_v4 most = {INFINITY, INFINITY, INFINITY, 1};
-  return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
-}
-
 #define LONE_SPANS 4 /* that draw_lone writes at most */
 
 /* One fragment that crosses columns, between flat cells: its ends, and a ramp between them. */
@@ -53,15 +47,15 @@ static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
   cs_v4 step = f->right->colour - f->left->colour;
   int32_t first = f->first, last = f->end - 1;
   cs_pen_to(p, first, base);
-  cs_pen_to(p, first + 1, hold(base + step * (float)cover(f, first)));
+  cs_pen_to(p, first + 1, cs_strokes_hold(base + step * (float)cover(f, first)));
   cs_v4 ramp = base + step * (float)cover(f, first + 1);
   double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
   cs_v4 slope = step * (float)(f->height / across);
   if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
     cs_pen_ramp(p, last, ramp, slope);
   else
-    cs_pen_to(p, last, hold(ramp));
-  cs_pen_to(p, last + 1, hold(base + step * (float)cover(f, last)));
+    cs_pen_to(p, last, cs_strokes_hold(ramp));
+  cs_pen_to(p, last + 1, cs_strokes_hold(base + step * (float)cover(f, last)));
 }
 
 static celspan_status close_lone(cs_window *window) {
@@ -84,14 +78,9 @@ static int32_t next_change(const cs_window *window, int32_t p) {
   return next;
 }
 
-/* Four doubles: the sums of colour steps. */
-typedef double sum4 __attribute__((vector_size(32)));
-
-#define WIDEN(v) __builtin_convertvector(v, sum4) /* a function would return it by the AVX rules */
-
 /* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
-static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *change) {
-  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
+static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
+  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
   double before = p > f->first ? cover(f, p - 1) : 0;
   for (; p <= end; p++) {
@@ -102,8 +91,8 @@ static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, sum4 *chan
 }
 
 /* As add_changes for a fragment over at most two columns, all from p0 on. */
-static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
-  sum4 step = WIDEN(f->right->colour) - WIDEN(f->left->colour);
+static inline void add_narrow(const cs_fragment *f, int32_t p0, cs_sum4 *change) {
+  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
   change += f->first - p0;
   change[0] += step * f->area;
   change[1] += step * (f->rest - f->area);
@@ -112,16 +101,16 @@ static inline void add_narrow(const cs_fragment *f, int32_t p0, sum4 *change) {
 
 /* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of
  * them. */
-static inline void draw_sums(cs_pen *p, int32_t p1, const sum4 *change, sum4 *sum) {
+static inline void draw_sums(cs_pen *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
-    cs_pen_to(p, p->from + 1, hold(__builtin_convertvector(*sum, cs_v4)));
+    cs_pen_to(p, p->from + 1, cs_strokes_hold(__builtin_convertvector(*sum, cs_v4)));
   }
 }
 
 /* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
 static celspan_status close_wide(cs_window *window) {
-  sum4 change[TILE], sum = WIDEN(window->base->colour);
+  cs_sum4 change[TILE], sum = CS_SUM4(window->base->colour);
   for (int32_t p0 = window->from; p0 < window->end;) {
     int32_t next = next_change(window, p0);
     int32_t stop = window->end - next < TILE ? window->end : next + TILE;
@@ -130,7 +119,7 @@ static celspan_status close_wide(cs_window *window) {
       add_changes(&window->fragments[i], next, stop, change);
     CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
     cs_pen p = cs_pen_take(window->out, window->from);
-    cs_pen_to(&p, next, hold(__builtin_convertvector(sum, cs_v4)));
+    cs_pen_to(&p, next, cs_strokes_hold(__builtin_convertvector(sum, cs_v4)));
     draw_sums(&p, stop, change, &sum);
     cs_pen_put(&p);
     window->from = p0 = stop;
@@ -141,7 +130,7 @@ static celspan_status close_wide(cs_window *window) {
 /* The same where the window is a few pixels wide, as nearly all are. */
 static celspan_status close_narrow(cs_window *window) {
   int32_t from = window->from, end = window->end;
-  sum4 change[NARROW + 3], sum = WIDEN(window->base->colour);
+  cs_sum4 change[NARROW + 3], sum = CS_SUM4(window->base->colour);
   memset(change, 0, (size_t)(end - from + 3) * sizeof *change);
   for (size_t i = 0; i < window->fragment_count; i++) {
     const cs_fragment *f = &window->fragments[i];
@@ -292,7 +281,7 @@ static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
   retire_crossings(b, p1);
   CS_TRY(cs_row_array(window->composer->context, window->out, p0, p1, &colours));
   for (int32_t k = 0; k < p1 - p0; k++)
-    cs_v4_store(colours + 4 * k, hold(sum[k]));
+    cs_v4_store(colours + 4 * k, cs_strokes_hold(sum[k]));
   return CELSPAN_OK;
 }
 
@@ -385,7 +374,8 @@ celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
 static celspan_status add_measured(cs_window *window, const cs_active *active,
                                    const cs_edges *edges, size_t i, const cs_cell *left) {
   cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1,
-                   .area = edges->area[i], .rest = edges->rest[i],
+                   .area = edges->area[i],
+                   .rest = edges->end[i] > edges->first[i] + 1 ? edges->rest[i] : 1,
                    .left = left, .right = left + 1,
                    .first = edges->first[i], .end = edges->end[i]};
   return add_fragment(window, &f);
@@ -421,47 +411,14 @@ static celspan_status add_edge(cs_window *window, const cs_active *active, const
   return add_measured(window, active, edges, i, left);
 }
 
-/* Draws boundary i if it shares its pixels with no other and lies between flat cells: as most edges
- * of most rows. next: nothing that comes later lies left of this column. */
-static inline bool draw_edge(cs_pen *p, const cs_active *active, const cs_edges *edges, size_t i,
-                             const cs_cell *left, int32_t next, int32_t width) {
-  int32_t first = edges->first[i], end = edges->end[i];
-  if (end > next || first < p->from || (left->length | left[1].length) != 0)
-    return false;
-  if (end - first > 2) {
-    if (edges->is_bent[i] || !cs_edges_is_inside(edges, i, width))
-      return false;
-    cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1, .left = left,
-                     .right = left + 1, .first = first, .end = end};
-    draw_lone(p, &f, left->colour);
-    return true;
-  }
-  cs_v4 base = left->colour, step = left[1].colour - base;
-  cs_pen_to(p, first, base);
-  if (end > first)
-    cs_pen_to(p, first + 1, hold(base + step * (float)edges->area[i]));
-  if (end > first + 1)
-    cs_pen_to(p, end, hold(base + step * (float)edges->rest[i]));
-  return true;
-}
-
 /* Draws the edges from the first on, up to one that cannot be. Returns how many. */
-static size_t draw_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
-                         const cs_cell *cells, const uint32_t *boundaries, size_t count,
-                         int32_t next) {
-  cs_pen p = cs_pen_take(window->out, window->from);
-  size_t done = 0;
-  while (done < count) {
-    size_t i = boundaries[done];
-    int32_t limit = done + 1 < count ? edges->first[boundaries[done + 1]] : next;
-    if (!draw_edge(&p, active, edges, i, &cells[i], limit, window->width))
-      break;
-    done++;
-  }
-  cs_pen_put(&p);
-  window->from = window->end = p.from;
+static size_t draw_edges(cs_window *window, const cs_strokes *strokes) {
+  cs_pen pen = cs_pen_take(window->out, window->from);
+  size_t done = CS_WIDE_CHOOSE(window->composer->isa, cs_strokes_draw)(strokes, &pen);
+  cs_pen_put(&pen);
+  window->from = window->end = pen.from;
   if (done > 0)
-    window->cell = &cells[boundaries[done - 1] + 1];
+    window->cell = &strokes->cells[strokes->boundaries[done - 1] + 1];
   return done;
 }
 
@@ -472,8 +429,11 @@ celspan_status cs_window_edges(cs_window *window, const cs_active *active, const
     if (window->is_open && !window->trace && edges->first[boundaries[done]] >= window->end)
       CS_TRY(close_window(window));
     if (!window->is_open && !window->trace) {
-      CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS * (count - done)));
-      done += draw_edges(window, active, edges, cells, boundaries + done, count - done, next);
+      cs_strokes strokes = {active, edges, cells, boundaries + done, count - done, next,
+                            window->width};
+      CS_TRY(cs_row_reserve(window->composer->context, window->out,
+                            CS_STROKES_EACH * strokes.count + CS_STROKES_TOGETHER + 1));
+      done += draw_edges(window, &strokes);
       if (done == count)
         break;
     }

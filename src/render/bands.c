@@ -55,23 +55,21 @@ struct delivery {
 
 /* ---------------------------------------------------------------- delivery */
 
-/* varied: spans that are not singles; where there are none they need not be looked at. */
+/* Spans are looked at only where there are arrays. */
 static void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count,
-                        size_t varied) {
+                        cs_varied varied) {
   statistics->rows++;
   statistics->spans += count;
-  statistics->single += count - varied;
-  for (size_t i = 0; varied > 0 && i < count; i++) {
-    statistics->gradient += spans[i].kind == CELSPAN_SPAN_GRADIENT;
-    if (spans[i].kind == CELSPAN_SPAN_ARRAY) {
-      statistics->array++;
+  statistics->single += count - varied.gradients - varied.arrays;
+  statistics->gradient += varied.gradients;
+  statistics->array += varied.arrays;
+  for (size_t i = 0; varied.arrays > 0 && i < count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_ARRAY)
       statistics->pixels_in_arrays += (uint64_t)(spans[i].x1 - spans[i].x0);
-    }
-  }
 }
 
 static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count,
-                                  size_t varied) {
+                                  cs_varied varied) {
   count_spans(d->statistics, spans, count, varied);
   int32_t y = d->rows_done++;
   return d->sink->row ? d->sink->row(d->sink->user, d->context, y, spans, count) : CELSPAN_OK;

@@ -31,6 +31,14 @@ static inline void cs_pen_put(const cs_pen *pen) {
   pen->row->count = (size_t)(pen->next - pen->row->spans);
 }
 
+/* Makes a span a single. */
+static inline void cs_pen_span(celspan_span *span, int32_t from, int32_t to, cs_v4 colour) {
+  span->x0 = span->origin = from;
+  span->x1 = to;
+  span->kind = CELSPAN_SPAN_SINGLE;
+  cs_v4_store(span->colour, colour);
+}
+
 /* One colour up to column `to`; nothing where the pen is there already. */
 static inline void cs_pen_to(cs_pen *pen, int32_t to, cs_v4 colour) {
   if (to <= pen->from)
@@ -38,11 +46,7 @@ static inline void cs_pen_to(cs_pen *pen, int32_t to, cs_v4 colour) {
   if (cs_v4_same(pen->colour, colour)) {
     pen->next[-1].x1 = to;
   } else {
-    celspan_span *span = pen->next++;
-    span->x0 = span->origin = pen->from;
-    span->x1 = to;
-    span->kind = CELSPAN_SPAN_SINGLE;
-    cs_v4_store(span->colour, colour);
+    cs_pen_span(pen->next++, pen->from, to, colour);
     pen->colour = colour;
   }
   pen->from = to;
@@ -56,7 +60,7 @@ static inline void cs_pen_ramp(cs_pen *pen, int32_t to, cs_v4 colour, cs_v4 slop
   span->kind = CELSPAN_SPAN_GRADIENT;
   cs_v4_store(span->colour, colour);
   cs_v4_store(span->slope, slope);
-  pen->row->varied++;
+  pen->row->varied.gradients++;
   pen->colour = cs_pen_no_colour();
   pen->from = to;
 }

@@ -32,7 +32,8 @@ static celspan_status copy_array(celspan_context *context, cs_roll *roll, celspa
 
 celspan_status cs_roll_add(celspan_context *context, cs_roll *roll, const celspan_span *spans,
                            size_t count) {
-  size_t first = spans_so_far(roll), varied = 0;
+  size_t first = spans_so_far(roll);
+  cs_varied varied = {0};
   CS_TRY(cs_mem_reserve(context, (void **)&roll->spans, &roll->span_capacity, first + count,
                         sizeof *roll->spans));
   CS_TRY(cs_mem_reserve(context, (void **)&roll->ends, &roll->end_capacity, roll->count + 1,
@@ -41,7 +42,7 @@ celspan_status cs_roll_add(celspan_context *context, cs_roll *roll, const celspa
   if (count > 0)
     memcpy(kept, spans, count * sizeof *spans);
   for (size_t i = 0; i < count; i++) {
-    varied += kept[i].kind != CELSPAN_SPAN_SINGLE;
+    cs_varied_count(&varied, kept[i].kind);
     if (kept[i].kind == CELSPAN_SPAN_ARRAY)
       CS_TRY(copy_array(context, roll, &kept[i]));
   }

@@ -11,7 +11,8 @@
 
 /* Up to the end of a row: how many spans there are, and how many of the row's are not singles. */
 typedef struct cs_roll_end {
-  size_t spans, varied;
+  size_t spans;
+  cs_varied varied;
 } cs_roll_end;
 
 typedef struct cs_roll {
@@ -24,7 +25,8 @@ typedef struct cs_roll {
 
 typedef struct cs_roll_row {
   const celspan_span *spans;
-  size_t count, varied;
+  size_t count;
+  cs_varied varied;
 } cs_roll_row;
 
 /* A zeroed roll is empty. */

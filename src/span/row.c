@@ -14,7 +14,8 @@ void cs_row_finish(cs_row *row, cs_memory *memory) {
 }
 
 void cs_row_clear(cs_row *row) {
-  row->count = row->varied = 0;
+  row->count = 0;
+  row->varied = (cs_varied){0};
   cs_arena_reset(&row->colours);
 }
 
@@ -27,7 +28,7 @@ static celspan_status append_varied(celspan_context *context, cs_row *row, celsp
   if (row->count == row->capacity)
     CS_TRY(cs_row_grow(context, row));
   row->spans[row->count++] = span;
-  row->varied++;
+  cs_varied_count(&row->varied, span.kind);
   return CELSPAN_OK;
 }
 
@@ -63,7 +64,7 @@ celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, i
 
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   size_t kept = 0;
-  row->varied = 0;
+  row->varied = (cs_varied){0};
   for (size_t i = 0; i < row->count; i++) {
     celspan_span span = row->spans[i];
     int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;
@@ -78,7 +79,7 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
     span.x1 = to - x0;
     span.origin -= x0;
     row->spans[kept++] = span;
-    row->varied += span.kind != CELSPAN_SPAN_SINGLE;
+    cs_varied_count(&row->varied, span.kind);
   }
   row->count = kept;
 }

@@ -9,10 +9,20 @@
 #include "base/arena.h"
 #include "base/vector.h"
 
+/* How many spans are not singles. */
+typedef struct cs_varied {
+  size_t gradients, arrays;
+} cs_varied;
+
+static inline void cs_varied_count(cs_varied *varied, celspan_span_kind kind) {
+  varied->gradients += kind == CELSPAN_SPAN_GRADIENT;
+  varied->arrays += kind == CELSPAN_SPAN_ARRAY;
+}
+
 typedef struct cs_row {
   celspan_span *spans;
   size_t count, capacity;
-  size_t varied; /* spans that are not singles */
+  cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   cs_arena colours;
 } cs_row;

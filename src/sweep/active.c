@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: six doubles, a crossing, four indices, a walk. */
+/* Bytes of one boundary over all arrays: six doubles, a crossing, two slots, two places, a walk. */
 #define ITEM_SIZE                                                                                  \
   (6 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
@@ -46,7 +46,7 @@ static celspan_status grow(celspan_context *context, cs_active *active) {
   active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
   active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
   active->bend_of = carve(&at, active->bend_of, old, wanted, sizeof *active->bend_of);
-  active->ended = carve(&at, active->ended, old, wanted, sizeof *active->ended);
+  active->ended = carve(&at, active->ended, 0, wanted, sizeof *active->ended);
   cs_mem_free(context->memory, active->block, old * ITEM_SIZE);
   active->block = block;
   active->capacity = wanted;
@@ -68,7 +68,7 @@ static void take_segment(cs_active *active, size_t i) {
 
 static celspan_status append(celspan_context *context, cs_active *active, uint32_t chain,
                              double y) {
-  if (active->count == active->capacity)
+  if (active->count + CS_ADVANCE_BATCH >= active->capacity)
     CS_TRY(grow(context, active));
   uint32_t slot = active->free_slots[--active->free_count];
   const cs_boundary_chain *c = &active->set->chains[chain];
@@ -166,10 +166,14 @@ static size_t find_place(const cs_active *active, size_t i) {
   return low;
 }
 
+static bool rises(const cs_active *active, const double *x) {
+  return CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count);
+}
+
 /* Brings the order about. */
 static void sort(cs_active *active, cs_change *change) {
   const double *x = active->x;
-  if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
+  if (rises(active, x))
     return;
   for (size_t i = 1; i < active->count; i++) {
     if (x[i - 1] < x[i]) /* equal x too: slopes and chains decide */
@@ -259,28 +263,25 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   return CELSPAN_OK;
 }
 
-/* Lists the boundaries whose segments end at or above y: without a branch, for nobody can foresee
- * which they are. */
-static size_t list_ended(cs_active *active, double y) {
-  const double *y1 = active->y1;
-  uint32_t *ended = active->ended;
-  size_t count = 0;
-  for (size_t i = 0; i < active->count; i++) {
-    ended[count] = (uint32_t)i;
-    count += y1[i] <= y;
+/* Steps the boundaries on whose segments end at or above y. */
+static celspan_status bend_ended(celspan_context *context, cs_active *active, double y) {
+  size_t found = 0;
+  for (size_t i = 0; i < active->count; i++) { /* without a branch that is hard to foretell */
+    active->ended[found] = (uint32_t)i;
+    found += active->y1[i] <= y;
   }
-  return count;
+  for (size_t k = 0; k < found; k++)
+    CS_TRY(bend(context, active, active->ended[k], y));
+  return CELSPAN_OK;
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
   cs_segments segments = {active->x0, active->y0, active->slope, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  if (!CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
-    return CELSPAN_OK;
-  size_t ended = list_ended(active, y);
-  for (size_t k = 0; k < ended; k++)
-    CS_TRY(bend(context, active, active->ended[k], y));
+  if (CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
+    CS_TRY(bend_ended(context, active, y));
+  active->rises = rises(active, active->x_next);
   return CELSPAN_OK;
 }
 
@@ -340,7 +341,9 @@ celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_
     active->tile_row = tile_row;
     CS_TRY(change_tile_row(context, active));
     *change = cs_change_all;
+    active->rises = false;
   }
-  sort(active, change);
+  if (!active->rises)
+    sort(active, change);
   return begin_chains(context, active, active->y, change);
 }

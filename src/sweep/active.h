@@ -51,18 +51,19 @@ typedef struct cs_active {
   const cs_cull *cull;
   cs_isa isa;
   int32_t tile_row; /* that holds the current height */
-  /* arrays of like fields, `count` of each, in order */
+  /* arrays of like fields, `count` of each, in order, with room for CS_ADVANCE_BATCH more */
   double *x;     /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
   double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
   cs_crossing *crossing;
   uint32_t *slot;
-  uint32_t *ended; /* scratch */
   size_t count;
+  bool rises; /* x_next is in order, no two alike */
   /* by slot */
   cs_boundary_walk *walks;
   uint32_t *free_slots;
   size_t free_count;
+  uint32_t *ended; /* scratch: whose segments end on the way */
   void *block;     /* that holds all the arrays above */
   size_t capacity; /* of each of them */
   size_t next;     /* the first chain of the set that has not begun */

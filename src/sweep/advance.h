@@ -7,6 +7,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Boundaries are taken so many at a time, at most, and some beyond the last with them: all arrays
+ * have room for CS_ADVANCE_BATCH more than the count. What is there does not matter. */
+#define CS_ADVANCE_BATCH 16
+
+/* The numbers [0, n) in whole batches. */
+static inline size_t cs_advance_whole(size_t n) {
+  return (n + CS_ADVANCE_BATCH - 1) / CS_ADVANCE_BATCH * CS_ADVANCE_BATCH;
+}
+
 /* Segments: their tops, slopes and feet, arrays of `count`. */
 typedef struct cs_segments {
   const double *x0, *y0, *slope, *y1;

@@ -3,19 +3,21 @@
 bool CS_WIDE(cs_advance_to)(const cs_segments *segments, size_t count, double y, double *x_next) {
   const double *x0 = segments->x0, *y0 = segments->y0;
   const double *slope = segments->slope, *y1 = segments->y1;
-  int64_t ended = 0;
+  int64_t ended = 0, whole = (int64_t)cs_advance_whole(count), there = (int64_t)count;
 #pragma omp simd reduction(+ : ended)
-  for (size_t i = 0; i < count; i++) {
+  for (int64_t i = 0; i < whole; i++) {
     x_next[i] = x0[i] + (y - y0[i]) * slope[i];
-    ended += y1[i] <= y;
+    ended += (y1[i] <= y) & (i < there);
   }
   return ended > 0;
 }
 
 bool CS_WIDE(cs_advance_rises)(const double *x, size_t count) {
-  int64_t falls = 0;
+  if (count < 2)
+    return true;
+  int64_t falls = 0, pairs = (int64_t)count - 1, whole = (int64_t)cs_advance_whole(count - 1);
 #pragma omp simd reduction(+ : falls)
-  for (size_t i = 1; i < count; i++)
-    falls += !(x[i - 1] < x[i]);
+  for (int64_t i = 0; i < whole; i++)
+    falls += !(x[i] < x[i + 1]) & (i < pairs);
   return falls == 0;
 }

@@ -23,9 +23,9 @@ static void test_merging(void) {
   CHECK(row.count == 1 && row.spans[0].x1 == 7);
   CHECK(cs_row_single(context, &row, 7, 8, grey(0.5f, 0.5f)) == CELSPAN_OK);
   CHECK(cs_row_gradient(context, &row, 8, 12, grey(0, 1), grey(0, 0)) == CELSPAN_OK);
-  CHECK(row.count == 3 && row.spans[2].kind == CELSPAN_SPAN_SINGLE && row.varied == 0);
+  CHECK(row.count == 3 && row.spans[2].kind == CELSPAN_SPAN_SINGLE && row.varied.gradients == 0);
   CHECK(cs_row_gradient(context, &row, 12, 16, grey(0, 1), grey(0.25f, 0)) == CELSPAN_OK);
-  CHECK(row.count == 4 && row.varied == 1);
+  CHECK(row.count == 4 && row.varied.gradients == 1);
   cs_row_finish(&row, context->memory);
 }
 
