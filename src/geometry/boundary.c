@@ -52,33 +52,39 @@ void cs_boundary_sort(cs_boundary_set *set) {
 
 /* ---------------------------------------------------------------- walks */
 
-/* Ends the walk's segment at the vertex after its beginning. */
-static inline void set_end(const cs_boundary_set *set, cs_boundary_walk *walk) {
-  if (walk->ahead == walk->ahead_count) {
-    const cs_boundary_piece *piece = &set->pieces[walk->piece];
-    uint32_t left = piece->segments - walk->segment;
-    walk->ahead = 0;
-    walk->ahead_count = left < CS_BOUNDARY_AHEAD ? left : CS_BOUNDARY_AHEAD;
-    cs_polyline_feet(set, piece, walk->segment, walk->ahead_count,
-                     (celspan_point){walk->x0, walk->y0}, &walk->feet);
-  }
-  walk->x1 = walk->feet.x[walk->ahead];
-  walk->y1 = walk->feet.y[walk->ahead];
-  walk->slope = walk->feet.slope[walk->ahead++];
+/* Stands on the segment the walk names, of a group that has been made. */
+static inline void take_segment(cs_boundary_walk *walk) {
+  const cs_boundary_group *made = &walk->made;
+  uint32_t at = walk->segment;
+  walk->x0 = made->x[at];
+  walk->y0 = made->y[at];
+  walk->x1 = made->x[at + 1];
+  walk->y1 = made->y[at + 1];
+  walk->slope = made->slope[at];
+  walk->curve = made->curve[at];
+}
+
+static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk) {
+  cs_polyline_group(set, &set->pieces[walk->piece], walk->group, &walk->made);
+  walk->segment = 0;
 }
 
 bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk) {
   const cs_boundary_chain *chain = &set->chains[walk->chain];
-  if (walk->segment + 1 < set->pieces[walk->piece].segments)
+  const cs_boundary_piece *piece = &set->pieces[walk->piece];
+  if (walk->segment + 1 < walk->made.count) {
     walk->segment++;
-  else if (walk->piece + 1 < chain->piece + chain->piece_count) {
+  } else if ((walk->group + 1) * piece->group < piece->chords) {
+    walk->group++;
+    begin_group(set, walk);
+  } else if (walk->piece + 1 < chain->piece + chain->piece_count) {
     walk->piece++;
-    walk->segment = 0;
-  } else
+    walk->group = 0;
+    begin_group(set, walk);
+  } else {
     return false;
-  walk->x0 = walk->x1;
-  walk->y0 = walk->y1;
-  set_end(set, walk);
+  }
+  take_segment(walk);
   return true;
 }
 
@@ -95,35 +101,28 @@ static uint32_t find_piece(const cs_boundary_set *set, const cs_boundary_chain *
   return low;
 }
 
-/* A segment of the piece at or before the first that ends below y: every vertex up to its beginning
- * is above y however it was displaced. */
-static uint32_t find_segment(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
-  double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1));
-  double safe = y - CS_POLYLINE_LIFT * piece->sag - 0.5 - rounding; /* 0.5: to a whole height */
-  uint32_t low = 1, high = piece->segments;
+/* A group of the piece at or before the first that ends below y: where one ends may have been moved
+ * by half a pixel, to a whole height. */
+static uint32_t find_group(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
+  double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1)), safe = y - 0.5 - rounding;
+  uint32_t low = 0, high = piece->chords / piece->group - 1;
   while (low < high) {
     uint32_t middle = low + (high - low) / 2;
-    if (cs_polyline_plain(set, piece, middle).y > safe)
+    if (cs_polyline_plain(set, piece, (middle + 1) * piece->group).y > safe)
       high = middle;
     else
       low = middle + 1;
   }
-  return low - 1;
+  return low;
 }
 
 void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
                        cs_boundary_walk *walk) {
   walk->chain = chain;
   walk->piece = find_piece(set, &set->chains[chain], y);
-  const cs_boundary_piece *piece = &set->pieces[walk->piece];
-  uint32_t segment = find_segment(set, piece, y);
-  walk->segment = segment > 0 ? segment - 1 : 0; /* left at once: its foot alone is right */
-  walk->ahead = walk->ahead_count = 0;
-  walk->x0 = piece->x0;
-  walk->y0 = piece->y0;
-  set_end(set, walk);
-  if (segment > 0)
-    cs_boundary_next(set, walk);
+  walk->group = find_group(set, &set->pieces[walk->piece], y);
+  begin_group(set, walk);
+  take_segment(walk);
   while (walk->y1 <= y && cs_boundary_next(set, walk)) {
   }
 }

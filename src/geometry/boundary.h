@@ -12,9 +12,11 @@
  *     direction, give the same bits.
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
- *   - The polyline deviates from the curve by at most about CS_BOUNDARY_TOLERANCE pixels, its inner
- *     vertices displaced outwards (C'' h^2 / 12) so that the area left of it is kept, and moved
- *     along it to whole heights where one is near: a row then sees few of them.
+ *   - The curve is walked in groups of chords, or in arcs where one is near enough to a group or to
+ *     half of it: x is of the second degree in y there. Both deviate from the curve by at most about
+ *     CS_BOUNDARY_TOLERANCE pixels and keep the area left of it, chords by vertices that are
+ *     displaced outwards (C'' h^2 / 12). Vertices are moved along the curve to whole heights where
+ *     one is near: a row then sees few of them.
  */
 #ifndef CS_GEOMETRY_BOUNDARY_H
 #define CS_GEOMETRY_BOUNDARY_H
@@ -22,16 +24,17 @@
 #include "geometry/outline.h"
 
 #define CS_BOUNDARY_TOLERANCE 0.02
-#define CS_BOUNDARY_AHEAD 4 /* vertices that are made at a time */
+#define CS_BOUNDARY_GROUP 7 /* chords whose vertices are made at a time, at most */
 
 /* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
   double left, right; /* no vertex lies outside them */
-  double sag;         /* how far a segment of mean length may be from the curve */
-  double step;        /* 1 / segments: of the parameter from vertex to vertex */
-  uint32_t point;     /* its degree + 1 points; none where there is but one segment */
-  uint32_t segments;
+  double sag;         /* how far a chord of mean length may be from the curve */
+  double step;        /* 1 / chords: of the parameter from vertex to vertex */
+  uint32_t point;     /* its degree + 1 points; none where there is but one chord */
+  uint32_t chords;    /* a multiple of group */
+  uint8_t group, half; /* in chords: of a group, and of what it is cut into; half: may be all */
   uint8_t degree;
   bool is_power; /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
@@ -71,20 +74,23 @@ CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boun
  * them, free of memory addresses. Call once, when all is added. */
 void cs_boundary_sort(cs_boundary_set *set);
 
-/* The feet of segments that follow one another, and their slopes. */
-typedef struct cs_boundary_feet {
-  double x[CS_BOUNDARY_AHEAD], y[CS_BOUNDARY_AHEAD], slope[CS_BOUNDARY_AHEAD];
-} cs_boundary_feet;
+/* What a group is walked in: segments from vertex to vertex, from the top. */
+typedef struct cs_boundary_group {
+  double x[CS_BOUNDARY_GROUP + 1], y[CS_BOUNDARY_GROUP + 1];
+  double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 when it has no height */
+  double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
+  uint32_t count;                      /* of segments: an arc is one */
+} cs_boundary_group;
 
 /* Where a walk down one chain stands: on the segment from (x0, y0) to (x1, y1). */
 typedef struct cs_boundary_walk {
   double x0, y0, x1, y1;
-  double slope; /* dx/dy, always taken downwards; 0 when y1 <= y0 */
+  double slope, curve; /* as in cs_boundary_group */
   uint32_t chain;
   uint32_t piece;   /* index into pieces */
-  uint32_t segment; /* of that piece */
-  uint32_t ahead, ahead_count; /* feet made already: the next one, and their number */
-  cs_boundary_feet feet;
+  uint32_t group;   /* of that piece */
+  uint32_t segment; /* of that group */
+  cs_boundary_group made;
 } cs_boundary_walk;
 
 /* Stands at the first segment whose y1 is below y (greater): needs y < chain's y1. */
@@ -95,7 +101,8 @@ bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk);
 
 /* x at a height on the walk's segment. */
 static inline double cs_boundary_x(const cs_boundary_walk *walk, double y) {
-  return walk->x0 + (y - walk->y0) * walk->slope;
+  double down = y - walk->y0;
+  return walk->x0 + down * (walk->slope + down * walk->curve);
 }
 
 #endif

@@ -46,7 +46,9 @@ static celspan_status add_part(builder *b, const cs_bezier *curve, celspan_point
                             .y1 = to.y,
                             .left = b->frame->left,
                             .right = b->frame->right,
-                            .segments = 1,
+                            .chords = 1,
+                            .group = 1,
+                            .half = 1,
                             .degree = 1}};
   if (curve)
     CS_TRY(cs_polyline_fit(b->context, b->set, curve, &added->piece));
@@ -328,7 +330,7 @@ static bool joins(const part *a, const part *b) {
 }
 
 static bool is_vertical(const cs_boundary_piece *piece) {
-  return piece->segments == 1 && piece->x0 == piece->x1;
+  return piece->chords == 1 && piece->x0 == piece->x1;
 }
 
 /* Appends a piece below the last of the chain; two vertical lines become one. */

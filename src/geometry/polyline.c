@@ -6,7 +6,13 @@
 /* One chord must be this much better than the tolerance: its vertices are the ends, which cannot be
  * displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
-#define SEGMENT_LIMIT 1e9
+/* 4 times how far an arc may be from its chord in a row: pixels. */
+#define ARC_CURVE 0.02
+/* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
+#define HALVES_LEAST 6
+/* Of chords of mean length: those that end at moved vertices are up to 1.5 times as long. */
+#define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
+#define CHORD_LIMIT 1e9
 /* What the second derivative may reach between samples of it. */
 #define SAMPLING_MARGIN 1.25
 
@@ -62,54 +68,115 @@ static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece 
   return cs_polyline_power(c, t);
 }
 
-static cs_polyline_seat seat_of(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                                double vertex) {
-  cs_polyline_point p = at(set, piece, vertex * piece->step);
-  return cs_polyline_seat_of(piece, vertex, &p);
+static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                          uint32_t first, cs_polyline_vertices *out) {
+  cs_polyline_seat seats[CS_POLYLINE_ROOM];
+  cs_polyline_point points[CS_POLYLINE_ROOM];
+  double t[CS_POLYLINE_ROOM + 2] = {0}; /* the ends have no neighbour, nor a use for one */
+  for (int k = 0; k <= piece->group; k++) {
+    cs_polyline_point p = at(set, piece, ((double)first + k) * piece->step);
+    seats[k] = cs_polyline_seat_of(piece, first, k, &p);
+    points[k] = at(set, piece, seats[k].t);
+    t[k + 1] = seats[k].t;
+  }
+  for (int k = 0; k <= piece->group; k++) {
+    double before = t[k + 1] - t[k], after = t[k + 2] - t[k + 1];
+    double share = cs_polyline_share(piece, k, before, after);
+    celspan_point on = cs_polyline_place(piece, 0, &seats[k], &points[k]);
+    celspan_point beside = cs_polyline_place(piece, share, &seats[k], &points[k]);
+    out->on_x[k] = on.x;
+    out->on_y[k] = on.y;
+    out->x[k] = beside.x;
+    out->y[k] = beside.y;
+  }
 }
 
-celspan_point cs_polyline_vertex(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                                 uint32_t vertex) {
-  if (vertex == 0)
-    return (celspan_point){piece->x0, piece->y0};
-  if (vertex == piece->segments)
-    return (celspan_point){piece->x1, piece->y1};
-  cs_polyline_seat seat = seat_of(set, piece, vertex);
-  double before = seat.t - seat_of(set, piece, vertex - 1.0).t;
-  double after = seat_of(set, piece, vertex + 1.0).t - seat.t;
-  double share = cs_polyline_share(piece, vertex, before, after);
-  cs_polyline_point p = at(set, piece, seat.t);
-  return cs_polyline_place(piece, share, &seat, &p);
+/* ---------------------------------------------------------------- groups */
+
+/* An end of the piece, exactly. */
+static void set_end(cs_polyline_vertices *v, int k, double x, double y) {
+  v->on_x[k] = v->x[k] = x;
+  v->on_y[k] = v->y[k] = y;
 }
 
-void cs_polyline_feet(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t first,
-                      uint32_t count, celspan_point top, cs_boundary_feet *out) {
-  cs_isa isa = cs_isa_best();
-  if (piece->is_power && count > 1) {
+/* The vertices of a group, its ends on the curve. */
+static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                          uint32_t first, cs_polyline_vertices *v) {
+  if (piece->degree > 1 && piece->is_power) {
     double c[8];
     take_powers(set, piece, c);
-    CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, piece, first + 1, out);
-  } else {
-    for (uint32_t k = 0; k < count; k++) {
-      celspan_point foot = cs_polyline_vertex(set, piece, first + 1 + k);
-      out->x[k] = foot.x;
-      out->y[k] = foot.y;
-    }
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, v);
+  } else if (piece->degree > 1) {
+    find_vertices(set, piece, first, v);
   }
-  if (first + count == piece->segments) {
-    out->x[count - 1] = piece->x1;
-    out->y[count - 1] = piece->y1;
+  if (first == 0)
+    set_end(v, 0, piece->x0, piece->y0);
+  if (first + piece->group == piece->chords)
+    set_end(v, piece->group, piece->x1, piece->y1);
+}
+
+/* The arc through vertices first and end that has the area of the chords between them. */
+static cs_polyline_arc fit_arc(const cs_polyline_vertices *v, int first, int end) {
+  double x = v->x[first], y = v->y[first], height = v->y[end] - y, width = v->x[end] - x;
+  double area = 0; /* twice that of the chords, left of them */
+  for (int k = first; k < end; k++)
+    area += ((v->x[k] - x) + (v->x[k + 1] - x)) * (v->y[k + 1] - v->y[k]);
+  double curve = 3 * (width * height - area) / (height * height * height);
+  return (cs_polyline_arc){x, y, height, width / height, curve};
+}
+
+/* Whether a row's chord is near the arc, of which the row sees no more. */
+static bool is_straight(const cs_polyline_arc *a) {
+  double top = a->mean - a->curve * a->height, foot = a->mean + a->curve * a->height;
+  double gentlest = top < 0 ? -foot : foot, other = top < 0 ? -top : top;
+  gentlest = other < gentlest ? other : gentlest; /* less than 0 where x turns back */
+  return fabs(a->curve) <= ARC_CURVE * (gentlest > 1 ? gentlest : 1);
+}
+
+/* Adds one arc for the chords from vertex first to end, if it is near the curve. */
+static bool add_arc(const cs_polyline_vertices *v, int first, int end, cs_boundary_group *out) {
+  cs_polyline_arc a = fit_arc(v, first, end);
+  if (end - first < 2 || !(a.height > 0) || !is_straight(&a) ||
+      CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_strays)(&a, v, first, end))
+    return false;
+  out->x[out->count] = a.x;
+  out->y[out->count] = a.y;
+  out->slope[out->count] = a.mean - a.curve * a.height;
+  out->curve[out->count++] = a.curve;
+  return true;
+}
+
+static void add_chords(const cs_polyline_vertices *v, int first, int end, cs_boundary_group *out) {
+  for (int k = first; k < end; k++) {
+    double height = v->y[k + 1] - v->y[k];
+    out->x[out->count] = v->x[k];
+    out->y[out->count] = v->y[k];
+    out->slope[out->count] = height > 0 ? (v->x[k + 1] - v->x[k]) / height : 0;
+    out->curve[out->count++] = 0;
   }
-  if (count > 1)
-    CS_WIDE_CHOOSE(isa, cs_polyline_slopes)(out);
-  out->slope[0] = out->y[0] > top.y ? (out->x[0] - top.x) / (out->y[0] - top.y) : 0;
+}
+
+void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                       cs_boundary_group *out) {
+  cs_polyline_vertices v;
+  int half = piece->half, count = piece->group;
+  make_vertices(set, piece, group * piece->group, &v);
+  out->count = 0;
+  if (!add_arc(&v, 0, count, out)) {
+    if (!add_arc(&v, 0, half, out))
+      add_chords(&v, 0, half, out);
+    if (half < count && !add_arc(&v, half, count, out))
+      add_chords(&v, half, count, out);
+  }
+  out->x[out->count] = v.x[count];
+  out->y[out->count] = v.y[count];
 }
 
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                 uint32_t vertex) {
   if (vertex == 0)
     return (celspan_point){piece->x0, piece->y0};
-  if (vertex == piece->segments)
+  if (vertex == piece->chords)
     return (celspan_point){piece->x1, piece->y1};
   cs_polyline_point p = at(set, piece, vertex * piece->step);
   return (celspan_point){p.x, p.y};
@@ -174,13 +241,16 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
                                const cs_bezier *curve, cs_boundary_piece *piece) {
   bool is_polynomial = cs_bezier_is_polynomial(curve);
   double bend = is_polynomial ? polynomial_bend(curve) : rational_bend(curve);
-  piece->segments = 1;
+  piece->chords = 1;
   piece->degree = 1;
   if (!(bend > 8 * ONE_CHORD))
     return CELSPAN_OK;
-  double segments = fmin(fmax(2, ceil(sqrt(bend / (8 * CS_BOUNDARY_TOLERANCE)))), SEGMENT_LIMIT);
-  piece->segments = (uint32_t)segments;
-  piece->step = 1 / segments;
+  double chords = fmin(fmax(2, ceil(sqrt(bend / (8 * CHORD_SAG)))), CHORD_LIMIT);
+  double groups = ceil(chords / CS_BOUNDARY_GROUP);
+  piece->group = (uint8_t)ceil(chords / groups);
+  piece->half = piece->group >= HALVES_LEAST ? piece->group / 2 : piece->group;
+  piece->chords = piece->group * (uint32_t)groups;
+  piece->step = 1.0 / piece->chords;
   piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
   piece->is_power = is_polynomial && curve->degree <= 3;
   return store_points(context, set, curve, piece);

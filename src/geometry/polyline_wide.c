@@ -1,53 +1,65 @@
-/* As cs_polyline_vertex, for many vertices at once. */
+/* As find_vertices of polyline.c, for a piece in powers. */
 #include "geometry/polyline.h"
 
-/* The seats of a vertex before the wanted ones, of those, and of one after; the rest is room. */
-#define SEATS (CS_BOUNDARY_AHEAD + 4)
-static const double offsets[SEATS] = {-1, 0, 1, 2, 3, 4, 5, 6};
+#define ARC_TOLERANCE 0.01 /* pixels */
+
+static const double numbers[CS_POLYLINE_ROOM] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 /* Functions of their own: structures in the body of a simd loop would keep it from becoming
  * vectors. */
-static inline void find_seat(const double c[8], const cs_boundary_piece *piece, double vertex,
-                             double *t, double *y, double *whole) {
-  cs_polyline_point p = cs_polyline_power(c, vertex * piece->step);
-  cs_polyline_seat seat = cs_polyline_seat_of(piece, vertex, &p);
+static inline void find_seat(const double c[8], const cs_boundary_piece *piece, double first,
+                             double k, double *t, double *y, double *whole) {
+  cs_polyline_point p = cs_polyline_power(c, (first + k) * piece->step);
+  cs_polyline_seat seat = cs_polyline_seat_of(piece, first, k, &p);
   *t = seat.t;
   *y = seat.y;
   *whole = seat.whole;
 }
 
-static inline void place_vertex(const double c[8], const cs_boundary_piece *piece, double vertex,
-                                const double *t, double seat_y, double whole, double *x,
-                                double *y) {
-  cs_polyline_seat seat = {t[1], seat_y, whole};
-  cs_polyline_point p = cs_polyline_power(c, seat.t);
-  double share = cs_polyline_share(piece, vertex, t[1] - t[0], t[2] - t[1]);
-  celspan_point foot = cs_polyline_place(piece, share, &seat, &p);
-  *x = foot.x;
-  *y = foot.y;
+/* t: of the vertex, its neighbours' beside it. */
+static inline void place_vertex(const double c[8], const cs_boundary_piece *piece, double k,
+                                const double *t, double seat_y, double whole, double *on_x,
+                                double *on_y, double *x, double *y) {
+  cs_polyline_seat seat = {t[0], seat_y, whole};
+  cs_polyline_point p = cs_polyline_power(c, t[0]);
+  celspan_point on = cs_polyline_place(piece, 0, &seat, &p);
+  double share = cs_polyline_share(piece, k, t[0] - t[-1], t[1] - t[0]);
+  celspan_point beside = cs_polyline_place(piece, share, &seat, &p);
+  *on_x = on.x;
+  *on_y = on.y;
+  *x = beside.x;
+  *y = beside.y;
 }
 
 void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece,
-                                 uint32_t first, cs_boundary_feet *restrict out) {
+                                 uint32_t first, cs_polyline_vertices *restrict out) {
   const cs_boundary_piece fixed = *piece; /* what is written cannot be the piece */
   const double start = first;
-  double t[SEATS], y[SEATS], whole[SEATS];
+  double t[CS_POLYLINE_ROOM + 2], y[CS_POLYLINE_ROOM], whole[CS_POLYLINE_ROOM];
+  t[0] = t[CS_POLYLINE_ROOM + 1] = 0; /* the ends have no neighbour, nor a use for one */
 #pragma omp simd
-  for (size_t k = 0; k < SEATS; k++) /* a counter as wide as a double, or lanes are left empty */
-    find_seat(c, &fixed, start + offsets[k], &t[k], &y[k], &whole[k]);
+  for (size_t k = 0; k < CS_POLYLINE_ROOM; k++) /* a counter as wide as a double fills all lanes */
+    find_seat(c, &fixed, start, numbers[k], &t[k + 1], &y[k], &whole[k]);
 #pragma omp simd
-  for (size_t k = 0; k < CS_BOUNDARY_AHEAD; k++)
-    place_vertex(c, &fixed, start + offsets[k + 1], &t[k], y[k + 1], whole[k + 1], &out->x[k],
-                 &out->y[k]);
+  for (size_t k = 0; k < CS_POLYLINE_ROOM; k++)
+    place_vertex(c, &fixed, numbers[k], &t[k + 1], y[k], whole[k], &out->on_x[k], &out->on_y[k],
+                 &out->x[k], &out->y[k]);
 }
 
-void CS_WIDE(cs_polyline_slopes)(cs_boundary_feet *feet) {
-  double rise[CS_BOUNDARY_AHEAD], run[CS_BOUNDARY_AHEAD];
-  for (int k = 1; k < CS_BOUNDARY_AHEAD; k++) {
-    run[k] = feet->x[k] - feet->x[k - 1];
-    rise[k] = feet->y[k] - feet->y[k - 1];
+bool CS_WIDE(cs_polyline_strays)(const cs_polyline_arc *arc, const cs_polyline_vertices *vertices,
+                                 int first, int end) {
+  const cs_polyline_arc a = *arc;
+  const double low = first, high = end;
+  const double *on_x = vertices->on_x, *on_y = vertices->on_y;
+  double strays = 0;
+#pragma omp simd reduction(+ : strays)
+  for (size_t k = 0; k < CS_POLYLINE_ROOM; k++) {
+    double down = on_y[k] - a.y;
+    double away = (on_x[k] - a.x) - down * (a.mean + a.curve * (down - a.height));
+    double slope = a.mean + a.curve * (2 * down - a.height), steep = slope < 0 ? -slope : slope;
+    double across = steep > 1 ? steep : 1; /* x runs that much faster than what is seen of it */
+    double near = (away < 0 ? -away : away) <= ARC_TOLERANCE * across ? 0.0 : 1.0;
+    strays += numbers[k] >= low ? (numbers[k] <= high ? near : 0.0) : 0.0;
   }
-#pragma omp simd
-  for (int k = 1; k < CS_BOUNDARY_AHEAD; k++)
-    feet->slope[k] = rise[k] > 0 ? run[k] / rise[k] : 0;
+  return strays > 0;
 }

@@ -3,9 +3,9 @@
 #include <assert.h>
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: six doubles, a crossing, two slots, two places, a walk. */
+/* Bytes of one boundary over all arrays: seven doubles, a crossing, two slots, two places, a walk. */
 #define ITEM_SIZE                                                                                  \
-  (6 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
+  (7 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
   *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
@@ -41,6 +41,7 @@ static celspan_status grow(celspan_context *context, cs_active *active) {
   active->x0 = carve(&at, active->x0, old, wanted, sizeof *active->x0);
   active->y0 = carve(&at, active->y0, old, wanted, sizeof *active->y0);
   active->slope = carve(&at, active->slope, old, wanted, sizeof *active->slope);
+  active->curve = carve(&at, active->curve, old, wanted, sizeof *active->curve);
   active->y1 = carve(&at, active->y1, old, wanted, sizeof *active->y1);
   active->crossing = carve(&at, active->crossing, old, wanted, sizeof *active->crossing);
   active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
@@ -63,6 +64,7 @@ static void take_segment(cs_active *active, size_t i) {
   active->x0[i] = walk->x0;
   active->y0[i] = walk->y0;
   active->slope[i] = walk->slope;
+  active->curve[i] = walk->curve;
   active->y1[i] = walk->y1;
 }
 
@@ -89,6 +91,7 @@ static void move_boundaries(cs_active *active, size_t to, size_t from, size_t co
   memmove(active->x0 + to, active->x0 + from, count * sizeof *active->x0);
   memmove(active->y0 + to, active->y0 + from, count * sizeof *active->y0);
   memmove(active->slope + to, active->slope + from, count * sizeof *active->slope);
+  memmove(active->curve + to, active->curve + from, count * sizeof *active->curve);
   memmove(active->y1 + to, active->y1 + from, count * sizeof *active->y1);
   memmove(active->crossing + to, active->crossing + from, count * sizeof *active->crossing);
   memmove(active->slot + to, active->slot + from, count * sizeof *active->slot);
@@ -97,7 +100,7 @@ static void move_boundaries(cs_active *active, size_t to, size_t from, size_t co
 /* Moves boundary `from` left to place `to`; those between make room. */
 static void insert_boundary(cs_active *active, size_t to, size_t from) {
   double x = active->x[from], x0 = active->x0[from], y0 = active->y0[from];
-  double slope = active->slope[from], y1 = active->y1[from];
+  double slope = active->slope[from], curve = active->curve[from], y1 = active->y1[from];
   cs_crossing crossing = active->crossing[from];
   uint32_t slot = active->slot[from];
   move_boundaries(active, to + 1, to, from - to);
@@ -105,6 +108,7 @@ static void insert_boundary(cs_active *active, size_t to, size_t from) {
   active->x0[to] = x0;
   active->y0[to] = y0;
   active->slope[to] = slope;
+  active->curve[to] = curve;
   active->y1[to] = y1;
   active->crossing[to] = crossing;
   active->slot[to] = slot;
@@ -128,6 +132,7 @@ void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32
   permute_items(active->x0, low, count, places, room);
   permute_items(active->y0, low, count, places, room);
   permute_items(active->slope, low, count, places, room);
+  permute_items(active->curve, low, count, places, room);
   permute_items(active->y1, low, count, places, room);
   permute_items(active->crossing, low, count, places, room);
   for (size_t k = 0; k < count; k++)
@@ -138,12 +143,18 @@ void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32
 
 /* ---------------------------------------------------------------- order */
 
+/* dx/dy at the current height. */
+static inline double slope_at(const cs_active *active, size_t i) {
+  return active->slope[i] + 2 * active->curve[i] * (active->y - active->y0[i]);
+}
+
 /* Whether boundary i belongs right of boundary j. */
 static inline bool is_right(const cs_active *active, size_t i, size_t j) {
   if (active->x[i] != active->x[j])
     return active->x[i] > active->x[j];
-  if (active->slope[i] != active->slope[j])
-    return active->slope[i] > active->slope[j];
+  double slope_i = slope_at(active, i), slope_j = slope_at(active, j);
+  if (slope_i != slope_j)
+    return slope_i > slope_j;
   return active->walks[active->slot[i]].chain > active->walks[active->slot[j]].chain;
 }
 
@@ -276,7 +287,7 @@ static celspan_status bend_ended(celspan_context *context, cs_active *active, do
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
-  cs_segments segments = {active->x0, active->y0, active->slope, active->y1};
+  cs_segments segments = {active->x0, active->y0, active->slope, active->curve, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
   if (CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))

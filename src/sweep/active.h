@@ -54,7 +54,7 @@ typedef struct cs_active {
   /* arrays of like fields, `count` of each, in order, with room for CS_ADVANCE_BATCH more */
   double *x;     /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
-  double *x0, *y0, *slope, *y1; /* the segment: its top, dx/dy and bottom */
+  double *x0, *y0, *slope, *curve, *y1; /* the segment: its top, how x goes on, its bottom */
   cs_crossing *crossing;
   uint32_t *slot;
   size_t count;

@@ -16,9 +16,9 @@ static inline size_t cs_advance_whole(size_t n) {
   return (n + CS_ADVANCE_BATCH - 1) / CS_ADVANCE_BATCH * CS_ADVANCE_BATCH;
 }
 
-/* Segments: their tops, slopes and feet, arrays of `count`. */
+/* Segments: their tops, how x goes on from there, their feet; arrays of `count`. */
 typedef struct cs_segments {
-  const double *x0, *y0, *slope, *y1;
+  const double *x0, *y0, *slope, *curve, *y1;
 } cs_segments;
 
 /* Fills x_next with x at height y. Returns whether a segment ends at or above y. */

@@ -2,11 +2,12 @@
 
 bool CS_WIDE(cs_advance_to)(const cs_segments *segments, size_t count, double y, double *x_next) {
   const double *x0 = segments->x0, *y0 = segments->y0;
-  const double *slope = segments->slope, *y1 = segments->y1;
+  const double *slope = segments->slope, *curve = segments->curve, *y1 = segments->y1;
   int64_t ended = 0, whole = (int64_t)cs_advance_whole(count), there = (int64_t)count;
 #pragma omp simd reduction(+ : ended)
   for (int64_t i = 0; i < whole; i++) {
-    x_next[i] = x0[i] + (y - y0[i]) * slope[i];
+    double down = y - y0[i];
+    x_next[i] = x0[i] + down * (slope[i] + down * curve[i]);
     ended += (y1[i] <= y) & (i < there);
   }
   return ended > 0;

@@ -121,18 +121,18 @@ static void trace_chord(const culler *c, const chord *line, int32_t first, int32
   }
 }
 
-/* Walks a piece in chords as long as the slack allows: s segments of its curve lie within s^2 sags
- * of their chord; its polyline, of segments at most 1.5 times as long, within 2.25 sags of the curve
- * and its displaced vertices. */
+/* Walks a piece in chords as long as the slack allows: s of the piece's own lie within s^2 sags of
+ * theirs; what is walked in the end, in steps at most 1.5 times as long, within 2.25 sags of the
+ * curve and its displaced vertices. */
 static void trace_piece(const culler *c, const cs_boundary_piece *piece, int32_t first,
                         int32_t last, reach *reaches) {
   const double near = 2.25 + CS_POLYLINE_LIFT;
   double stride = piece->sag > 0 ? sqrt(fmax(c->slack / piece->sag - near, 1)) : 1;
-  uint32_t step = stride < piece->segments ? (uint32_t)stride : piece->segments;
+  uint32_t step = stride < piece->chords ? (uint32_t)stride : piece->chords;
   chord line = {.slack = SLACK_LEAST + ((double)step * step + near) * piece->sag};
   line.top = cs_polyline_plain(c->set, piece, 0);
-  for (uint32_t vertex = 0; vertex < piece->segments; line.top = line.foot) {
-    vertex = piece->segments - vertex > step ? vertex + step : piece->segments;
+  for (uint32_t vertex = 0; vertex < piece->chords; line.top = line.foot) {
+    vertex = piece->chords - vertex > step ? vertex + step : piece->chords;
     line.foot = cs_polyline_plain(c->set, piece, vertex);
     trace_chord(c, &line, first, last, reaches);
   }

@@ -26,16 +26,18 @@ static void fill_with_rubbish(double array[ROOM]) {
 }
 
 static void check_advance(cs_isa isa, test_random *random) {
-  double x0[ROOM], y0[ROOM], slope[ROOM], y1[ROOM], expected[ROOM], found[ROOM];
-  fill_with_rubbish(x0), fill_with_rubbish(y0), fill_with_rubbish(slope), fill_with_rubbish(y1);
+  double x0[ROOM], y0[ROOM], slope[ROOM], curve[ROOM], y1[ROOM], expected[ROOM], found[ROOM];
+  fill_with_rubbish(x0), fill_with_rubbish(y0), fill_with_rubbish(slope), fill_with_rubbish(curve);
+  fill_with_rubbish(y1);
   size_t count = (size_t)random_below(random, MOST);
   for (size_t i = 0; i < count; i++) {
     x0[i] = random_x(random);
     y0[i] = random_between(random, 0, 10);
     slope[i] = random_between(random, -100, 100);
+    curve[i] = random_below(random, 2) ? random_between(random, -1, 1) : 0;
     y1[i] = y0[i] + random_between(random, 0, 40);
   }
-  cs_segments segments = {x0, y0, slope, y1};
+  cs_segments segments = {x0, y0, slope, curve, y1};
   double y = random_between(random, 10, 12);
   bool ends = cs_advance_to_any(&segments, count, y, expected);
   CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found) == ends);
@@ -92,21 +94,47 @@ static void check_edges(cs_isa isa, test_random *random) {
     }
 }
 
+static cs_boundary_piece random_piece(test_random *random) {
+  cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
+                             .right = 290, .sag = 0.02};
+  piece.group = (uint8_t)(1 + random_below(random, CS_BOUNDARY_GROUP));
+  piece.half = piece.group > 5 ? piece.group / 2 : piece.group;
+  piece.chords = 3u * piece.group;
+  piece.step = 1.0 / piece.chords;
+  return piece;
+}
+
 static void check_vertices(cs_isa isa, test_random *random) {
-  cs_boundary_feet expected, found;
+  cs_polyline_vertices expected, found;
   double c[8];
   for (int k = 0; k < 8; k++)
     c[k] = random_between(random, -200, 200);
-  cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
-                             .right = 290, .sag = 0.02, .segments = 20, .step = 0.05};
-  uint32_t first = 1 + (uint32_t)random_below(random, 18);
+  cs_boundary_piece piece = random_piece(random);
+  uint32_t first = (uint32_t)random_below(random, 3) * piece.group;
   cs_polyline_powers_any(c, &piece, first, &expected);
-  cs_polyline_slopes_any(&expected);
   CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, &piece, first, &found);
-  CS_WIDE_CHOOSE(isa, cs_polyline_slopes)(&found);
-  CHECK(same_doubles(expected.x, found.x, CS_BOUNDARY_AHEAD));
-  CHECK(same_doubles(expected.y, found.y, CS_BOUNDARY_AHEAD));
-  CHECK(same_doubles(expected.slope + 1, found.slope + 1, CS_BOUNDARY_AHEAD - 1));
+  size_t count = piece.group + 1u;
+  CHECK(same_doubles(expected.on_x, found.on_x, count));
+  CHECK(same_doubles(expected.on_y, found.on_y, count));
+  CHECK(same_doubles(expected.x, found.x, count));
+  CHECK(same_doubles(expected.y, found.y, count));
+}
+
+/* Vertices near an arc, one of them perhaps too far from it; what lies beyond them must not tell. */
+static void check_strays(cs_isa isa, test_random *random) {
+  cs_polyline_arc arc = {random_x(random), random_x(random), random_between(random, 5, 50),
+                         random_between(random, -2, 2), random_between(random, -0.03, 0.03)};
+  cs_polyline_vertices v;
+  int first = random_below(random, 4), end = first + 2 + random_below(random, 3);
+  int odd = random_below(random, CS_POLYLINE_ROOM);
+  for (int k = 0; k < CS_POLYLINE_ROOM; k++) {
+    double down = arc.height * (k - first) / (end - first);
+    v.on_y[k] = arc.y + down;
+    v.on_x[k] = arc.x + down * (arc.mean + arc.curve * (down - arc.height)) + (k == odd ? 10 : 0);
+  }
+  bool strays = cs_polyline_strays_any(&arc, &v, first, end);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_polyline_strays)(&arc, &v, first, end) == strays);
+  CHECK(strays || odd < first || odd > end);
 }
 
 int main(void) {
@@ -117,6 +145,7 @@ int main(void) {
       check_order((cs_isa)isa, &random);
       check_edges((cs_isa)isa, &random);
       check_vertices((cs_isa)isa, &random);
+      check_strays((cs_isa)isa, &random);
     }
   }
   return check_done();
