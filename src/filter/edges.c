@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
+#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
@@ -24,9 +24,11 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
                       .high = block + wanted,
                       .area = block + 2 * wanted,
                       .rest = block + 3 * wanted,
-                      .first = (int32_t *)(block + 4 * wanted),
+                      .one = (float *)(block + 4 * wanted),
                       .block = block,
                       .capacity = wanted};
+  edges->two = edges->one + wanted;
+  edges->first = (int32_t *)(edges->two + wanted);
   edges->end = edges->first + wanted;
   edges->bend = (uint32_t *)(edges->end + wanted);
   edges->is_bent = (bool *)(edges->bend + wanted);
@@ -68,7 +70,9 @@ static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_be
     passed = reached;
   }
   edges->area[i] = area;
-  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : area;
+  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : 1;
+  edges->one[i] = (float)edges->area[i];
+  edges->two[i] = (float)edges->rest[i];
 }
 
 /* As cs_edges_straight for a boundary with vertices in the row. */

@@ -374,8 +374,7 @@ celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
 static celspan_status add_measured(cs_window *window, const cs_active *active,
                                    const cs_edges *edges, size_t i, const cs_cell *left) {
   cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1,
-                   .area = edges->area[i],
-                   .rest = edges->end[i] > edges->first[i] + 1 ? edges->rest[i] : 1,
+                   .area = edges->area[i], .rest = edges->rest[i],
                    .left = left, .right = left + 1,
                    .first = edges->first[i], .end = edges->end[i]};
   return add_fragment(window, &f);

@@ -62,12 +62,13 @@ static void check_order(cs_isa isa, test_random *random) {
 
 typedef struct room {
   double low[MOST], high[MOST], area[MOST], rest[MOST];
+  float one[MOST], two[MOST];
   int32_t first[MOST], end[MOST];
 } room;
 
 static void measure(cs_isa isa, room *r, const double *top, const double *foot, size_t count) {
   cs_edges edges = {.low = r->low, .high = r->high, .area = r->area, .rest = r->rest,
-                    .first = r->first, .end = r->end};
+                    .one = r->one, .two = r->two, .first = r->first, .end = r->end};
   CS_WIDE_CHOOSE(isa, cs_edges_straight)(&edges, top, foot, count, WIDTH);
 }
 
@@ -89,6 +90,7 @@ static void check_edges(cs_isa isa, test_random *random) {
     if (expected.end[i] - expected.first[i] <= 2) {
       CHECK(same_doubles(&expected.area[i], &found.area[i], 1));
       CHECK(same_doubles(&expected.rest[i], &found.rest[i], 1));
+      CHECK(found.one[i] == (float)found.area[i] && found.two[i] == (float)found.rest[i]);
     }
 }
 
