@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
+#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
@@ -28,7 +28,9 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
                       .block = block,
                       .capacity = wanted};
   edges->two = edges->one + wanted;
-  edges->first = (int32_t *)(edges->two + wanted);
+  edges->second = edges->two + wanted;
+  edges->fall = edges->second + wanted;
+  edges->first = (int32_t *)(edges->fall + wanted);
   edges->end = edges->first + wanted;
   edges->bend = (uint32_t *)(edges->end + wanted);
   edges->is_bent = (bool *)(edges->bend + wanted);
@@ -83,6 +85,7 @@ static void measure_bent(cs_edges *edges, const cs_active *active, uint32_t at, 
   edges->high[i] = bend->high;
   edges->bend[i] = at;
   edges->is_bent[i] = true;
+  edges->fall[i] = 0;
   edges->first[i] = cs_edges_floor(bend->low, width);
   edges->end[i] = cs_edges_ceil(bend->high, width);
   bool leaves = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);

@@ -6,6 +6,7 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
   double *restrict low = edges->low, *restrict high = edges->high;
   double *restrict area = edges->area, *restrict rest = edges->rest;
   float *restrict one = edges->one, *restrict two = edges->two;
+  float *restrict second = edges->second, *restrict fall = edges->fall;
   int32_t *restrict first = edges->first, *restrict end = edges->end;
   const double right = width, whole = 0x1p52; /* above it doubles are whole numbers */
 #pragma omp simd
@@ -30,6 +31,8 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     rest[i] = cs_edges_round(b > split ? more_rest : 1);
     one[i] = (float)area[i];
     two[i] = (float)rest[i];
+    second[i] = (float)cs_edges_round((2 * (split - a) + 1) * by_twice);
+    fall[i] = (float)(leaves > 0 ? 0 : 2 * by_twice);
     first[i] = (int32_t)column;
     end[i] = (int32_t)(last < least ? least : last);
   }

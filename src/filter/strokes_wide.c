@@ -75,13 +75,10 @@ static inline void draw_short(cs_pen *pen, const cs_edges *edges, size_t i, cons
 /* Straight and over more columns: its ends, and a ramp between them. */
 static inline void draw_long(cs_pen *pen, const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t first = edges->first[i], last = edges->end[i] - 1;
-  double low = edges->low[i], by_twice = 0.5 / (edges->high[i] - low), split = first + 1;
   cs_v4 base = left->colour, step = left[1].colour - base;
+  cs_v4 ramp = base + step * edges->second[i], slope = step * edges->fall[i];
   cs_pen_to(pen, first, base);
   cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * edges->one[i]));
-  double second = cs_edges_round((2 * (split - low) + 1) * by_twice);
-  cs_v4 ramp = base + step * (float)second;
-  cs_v4 slope = step * (float)(2 * by_twice);
   if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
     cs_pen_ramp(pen, last, ramp, slope);
   else
@@ -205,8 +202,7 @@ static inline size_t draw_next(cs_pen *pen, const cs_strokes *s, const cs_edges 
   const cs_cell *left = &s->cells[i];
   if (first < pen->from || (left->length | left[1].length) != 0)
     return 0;
-  if (end > next || (end - first > 2 && (edges->is_bent[i] ||
-                                         !cs_edges_is_inside(edges, i, s->width))))
+  if (end > next || (end - first > 2 && !(edges->fall[i] > 0)))
     return try_group(pen, s, done);
   if (end - first > 2)
     draw_long(pen, edges, i, left);

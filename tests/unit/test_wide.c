@@ -62,19 +62,20 @@ static void check_order(cs_isa isa, test_random *random) {
 
 typedef struct room {
   double low[MOST], high[MOST], area[MOST], rest[MOST];
-  float one[MOST], two[MOST];
+  float one[MOST], two[MOST], second[MOST], fall[MOST];
   int32_t first[MOST], end[MOST];
 } room;
 
 static void measure(cs_isa isa, room *r, const double *top, const double *foot, size_t count) {
   cs_edges edges = {.low = r->low, .high = r->high, .area = r->area, .rest = r->rest,
-                    .one = r->one, .two = r->two, .first = r->first, .end = r->end};
+                    .one = r->one, .two = r->two, .second = r->second, .fall = r->fall,
+                    .first = r->first, .end = r->end};
   CS_WIDE_CHOOSE(isa, cs_edges_straight)(&edges, top, foot, count, WIDTH);
 }
 
 static void check_edges(cs_isa isa, test_random *random) {
   static room expected, found;
-  double top[MOST], foot[MOST];
+  double top[MOST] = {0}, foot[MOST] = {0};
   size_t count = (size_t)random_below(random, MOST);
   for (size_t i = 0; i < count; i++) {
     top[i] = random_x(random);
