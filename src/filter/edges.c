@@ -5,8 +5,13 @@
 /* Bytes of one boundary over all arrays. */
 #define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
 
+/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
+static size_t block_size(size_t capacity) {
+  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+}
+
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
-  cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
+  cs_mem_free(memory, edges->block, block_size(edges->capacity));
   *edges = (cs_edges){0};
 }
 
@@ -15,16 +20,17 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   if (count <= edges->capacity)
     return CELSPAN_OK;
   size_t wanted = 2 * count;
-  double *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  void *block = cs_mem_resize(context->memory, NULL, 0, block_size(wanted));
   if (!block)
     return cs_fail_memory(context);
-  cs_mem_free(context->memory, edges->block, edges->capacity * ITEM_SIZE);
+  double *doubles = cs_wide_align(block);
+  cs_mem_free(context->memory, edges->block, block_size(edges->capacity));
   *edges = (cs_edges){.isa = cs_isa_best(),
-                      .low = block,
-                      .high = block + wanted,
-                      .area = block + 2 * wanted,
-                      .rest = block + 3 * wanted,
-                      .one = (float *)(block + 4 * wanted),
+                      .low = doubles,
+                      .high = doubles + wanted,
+                      .area = doubles + 2 * wanted,
+                      .rest = doubles + 3 * wanted,
+                      .one = (float *)(doubles + 4 * wanted),
                       .block = block,
                       .capacity = wanted};
   edges->two = edges->one + wanted;

@@ -27,10 +27,12 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     double least = leaves > 0 ? column + 3 : last;
     low[i] = a;
     high[i] = b;
-    area[i] = cs_edges_round(b > split ? more : less);
-    rest[i] = cs_edges_round(b > split ? more_rest : 1);
-    one[i] = (float)area[i];
-    two[i] = (float)rest[i];
+    double in_first = cs_edges_round(b > split ? more : less);
+    double in_last = cs_edges_round(b > split ? more_rest : 1);
+    area[i] = in_first;
+    rest[i] = in_last;
+    one[i] = (float)in_first;
+    two[i] = (float)in_last;
     second[i] = (float)cs_edges_round((2 * (split - a) + 1) * by_twice);
     fall[i] = (float)(leaves > 0 ? 0 : 2 * by_twice);
     first[i] = (int32_t)column;

@@ -1,14 +1,19 @@
 #include "sweep/advance.h"
 
-bool CS_WIDE(cs_advance_to)(const cs_segments *segments, size_t count, double y, double *x_next) {
+bool CS_WIDE(cs_advance_to)(const cs_segments *segments, size_t count, double y, double *x_next,
+                            bool *rises) {
   const double *x0 = segments->x0, *y0 = segments->y0;
   const double *slope = segments->slope, *y1 = segments->y1;
-  int64_t ended = 0, whole = (int64_t)cs_advance_whole(count), there = (int64_t)count;
-#pragma omp simd reduction(+ : ended)
+  int64_t ended = 0, falls = 0, whole = (int64_t)cs_advance_whole(count), there = (int64_t)count;
+#pragma omp simd reduction(+ : ended, falls)
   for (int64_t i = 0; i < whole; i++) {
-    x_next[i] = x0[i] + (y - y0[i]) * slope[i];
+    double x = x0[i] + (y - y0[i]) * slope[i];
+    double after = x0[i + 1] + (y - y0[i + 1]) * slope[i + 1]; /* again: it is not stored yet */
+    x_next[i] = x;
     ended += (y1[i] <= y) & (i < there);
+    falls += !(x < after) & (i + 1 < there);
   }
+  *rises = falls == 0;
   return ended > 0;
 }
 

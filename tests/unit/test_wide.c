@@ -37,8 +37,11 @@ static void check_advance(cs_isa isa, test_random *random) {
   }
   cs_segments segments = {x0, y0, slope, y1};
   double y = random_between(random, 10, 12);
-  bool ends = cs_advance_to_any(&segments, count, y, expected);
-  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found) == ends);
+  bool expected_rises, rises;
+  bool ends = cs_advance_to_any(&segments, count, y, expected, &expected_rises);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found, &rises) == ends);
+  CHECK(rises == expected_rises);
+  CHECK(rises == CS_WIDE_CHOOSE(isa, cs_advance_rises)(found, count));
   CHECK(same_doubles(expected, found, count));
   bool is_over = false;
   for (size_t i = 0; i < count; i++)
