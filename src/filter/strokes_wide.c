@@ -86,22 +86,13 @@ static inline void draw_long(cs_pen *pen, const cs_edges *edges, size_t i, const
   cs_pen_to(pen, last + 1, cs_strokes_hold(base + step * edges->two[i]));
 }
 
-/* ---------------------------------------------------------------- together
- *
- * change[k] is what the sum of colour steps changes by from the column before to column k. */
+/* ---------------------------------------------------------------- together */
 
-/* A straight piece of an edge. */
 static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspan_point below,
                       double height, int32_t width, const cs_sum4 *step) {
-  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
-  int32_t first = cs_edges_floor(low, width), end = cs_edges_ceil(high, width);
-  double before = 0;
-  for (int32_t p = first; p < end; p++) {
-    double area = cs_edges_cover(above.x, below.x, height, p);
-    change[p - from] += *step * (area - before);
-    before = area;
-  }
-  change[end - from] += *step * (height - before);
+  double low = cs_number_least(above.x, below.x), high = cs_number_most(above.x, below.x);
+  cs_strokes_add(change, from, above.x, below.x, height, cs_edges_floor(low, width),
+                 cs_edges_ceil(high, width), step);
 }
 
 static void add_pieces(cs_sum4 *change, int32_t from, const cs_strokes *s, size_t i,
