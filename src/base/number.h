@@ -10,6 +10,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 #define CS_NUMBER_LIMIT 1e12
 
@@ -29,6 +32,24 @@ static inline int32_t cs_number_first_centre(double x) { return cs_number_ceil(x
 
 static inline double cs_number_clamp(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
+}
+
+/* The lesser and the greater of two numbers without a branch, for where none can be foreseen; b
+ * where one is not a number. */
+static inline double cs_number_least(double a, double b) {
+#ifdef __SSE2__
+  return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(a), _mm_set_sd(b)));
+#else
+  return a < b ? a : b;
+#endif
+}
+
+static inline double cs_number_most(double a, double b) {
+#ifdef __SSE2__
+  return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(a), _mm_set_sd(b)));
+#else
+  return a > b ? a : b;
+#endif
 }
 
 static inline float cs_number_clampf(float x, float low, float high) {

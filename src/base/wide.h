@@ -40,6 +40,13 @@ static inline cs_isa cs_isa_best(void) { return CS_ISA_ANY; }
 #define CS_WIDE_EXPAND(name, isa) CS_WIDE_JOIN(name, isa)
 #define CS_WIDE(name) CS_WIDE_EXPAND(name, CS_WIDE_ISA)
 
+/* Arrays that kernels go through begin on a line of the cache: what lies across two costs twice. */
+#define CS_WIDE_LINE 64
+
+static inline void *cs_wide_align(void *block) {
+  return (char *)block + (-(uintptr_t)block & (CS_WIDE_LINE - 1));
+}
+
 /* As many lanes as the make's registers have. Whole pixels: lane 4 k + c is channel c of pixel k.
  */
 #ifdef __AVX512F__

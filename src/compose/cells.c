@@ -58,21 +58,19 @@ typedef struct walk {
 } walk;
 
 static void walk_to(walk *w, size_t place) {
-  const cs_crossing *crossing = w->active->crossing;
-  for (; w->place < place; w->place++)
-    cs_composer_cross(w->composer, crossing[w->place].leaf, crossing[w->place].direction);
+  if (w->place < place)
+    cs_cells_cross(w->composer, w->active, w->place, place, 1);
+  w->place = place;
 }
 
 /* Leaves the composer with nothing present: on to the right end, or back, whichever is nearer. */
 static void walk_home(walk *w) {
-  const cs_crossing *crossing = w->active->crossing;
   if (w->place > w->active->count / 2) {
     walk_to(w, w->active->count);
     cs_cells_toggle(w->composer, w->next, w->end, INFINITY);
     return;
   }
-  for (; w->place > 0; w->place--)
-    cs_composer_cross(w->composer, crossing[w->place - 1].leaf, -crossing[w->place - 1].direction);
+  cs_cells_cross(w->composer, w->active, 0, w->place, -1);
   for (; w->next > w->first; w->next--)
     cs_composer_cross(w->composer, w->next[-1].leaf, -w->next[-1].direction);
 }

@@ -21,6 +21,18 @@ static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_t
   return next;
 }
 
+/* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
+static inline void cs_cells_cross(cs_composer *composer, const cs_active *active, size_t low,
+                                  size_t high, int32_t sign) {
+  const cs_crossing *crossing = active->crossing;
+  cs_presence *presences = composer->presences;
+  uint64_t *set = composer->set;
+  cs_set_hash hash = composer->hash; /* in registers on the way */
+  for (size_t i = low; i < high; i++)
+    cs_composer_turn(presences, set, &hash, crossing[i].leaf, sign * crossing[i].direction);
+  composer->hash = hash;
+}
+
 typedef struct cs_cells {
   cs_cell *cells;   /* count + 1 in use */
   bool *is_visible; /* by boundary */

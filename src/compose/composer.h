@@ -115,17 +115,23 @@ bool cs_composer_begin_row(cs_composer *composer);
 /* Puts the walk back to where nothing is present, from wherever a failure left it. */
 void cs_composer_restart(cs_composer *composer);
 
-/* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
-static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  cs_presence *presence = &composer->presences[leaf];
+/* What crossing a boundary of `leaf` does to its presence, the set and the set's hash. */
+static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, cs_set_hash *hash,
+                                    uint32_t leaf, int32_t direction) {
+  cs_presence *presence = &presences[leaf];
   const cs_mark *mark = &presence->mark;
   int32_t before = presence->winding, after = before + direction;
   presence->winding = after;
   /* Whether it flips can hardly be foreseen, so nothing here is a branch. */
   uint64_t flips = ((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0);
-  composer->set[leaf / 64] ^= flips << (leaf % 64);
-  composer->hash.a ^= mark->key[0] & -flips;
-  composer->hash.b ^= mark->key[1] & -flips;
+  set[leaf / 64] ^= flips << (leaf % 64);
+  hash->a ^= mark->key[0] & -flips;
+  hash->b ^= mark->key[1] & -flips;
+}
+
+/* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
+static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
+  cs_composer_turn(composer->presences, composer->set, &composer->hash, leaf, direction);
 }
 
 /* Enters (+1) or leaves (-1) a strip of a scan-line leaf. */

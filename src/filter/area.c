@@ -27,16 +27,24 @@ typedef struct walk {
   size_t v; /* the next visible boundary */
 } walk;
 
+/* The first visible boundary from v on that is not left of boundary `end`. */
+static size_t find_visible(const cs_scan *scan, size_t v, size_t end) {
+  const cs_cells *cells = &scan->cells;
+  if (end == scan->active.count)
+    return cells->visible_count;
+  while (v < cells->visible_count && cells->visible[v] < end)
+    v++;
+  return v;
+}
+
 /* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what
  * comes then lies at or right of column `next`. */
 static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
   cs_scan *scan = w->scan;
-  const uint32_t *visible = scan->cells.visible;
   size_t first = w->v;
-  while (w->v < scan->cells.visible_count && visible[w->v] < end)
-    w->v++;
-  return cs_window_edges(&scan->window, &scan->active, &scan->edges, w->cells, visible + first,
-                         w->v - first, next);
+  w->v = find_visible(scan, first, end);
+  return cs_window_edges(&scan->window, &scan->active, &scan->edges, w->cells,
+                         scan->cells.visible + first, w->v - first, next);
 }
 
 /* The same in a slice of a row. */
@@ -172,17 +180,19 @@ static celspan_status walk_pair(cs_blocks *b, const cs_block *block) {
   return CELSPAN_OK;
 }
 
-/* Crosses the boundaries [low, high). */
-static void cross(cs_scan *scan, size_t low, size_t high) {
-  const cs_crossing *crossing = scan->active.crossing;
-  for (size_t i = low; i < high; i++)
-    cs_composer_cross(&scan->composer, crossing[i].leaf, crossing[i].direction);
-}
-
-/* On to the right end of the row, where nothing is present any more. */
-static void cross_rest(cs_blocks *b, size_t crossed) {
-  cross(b->scan, crossed, b->scan->active.count);
-  cs_cells_toggle(&b->scan->composer, b->toggle, b->toggle_end, INFINITY);
+/* To where nothing is present: on to the right end of the row, or back, whichever is nearer. */
+static void cross_home(cs_blocks *b, size_t crossed) {
+  const cs_active *active = &b->scan->active;
+  cs_composer *composer = &b->scan->composer;
+  if (crossed > active->count / 2) {
+    cs_cells_cross(composer, active, crossed, active->count, 1);
+    cs_cells_toggle(composer, b->toggle, b->toggle_end, INFINITY);
+    return;
+  }
+  cs_cells_cross(composer, active, 0, crossed, -1);
+  const cs_toggle *end, *first = cs_active_toggles(active, &end);
+  for (const cs_toggle *toggle = b->toggle; toggle > first; toggle--)
+    cs_composer_cross(composer, toggle[-1].leaf, -toggle[-1].direction);
 }
 
 static celspan_status walk_to(walk *w, size_t end, int32_t next) {
@@ -197,15 +207,14 @@ static celspan_status walk_row(cs_blocks *b) {
   for (size_t k = 0; k < b->count; k++) {
     const cs_block *block = &b->blocks[k];
     CS_TRY(walk_to(&w, block->low, cs_edges_floor(block->reach_low, scan->shot->width)));
-    while (w.v < scan->cells.visible_count && scan->cells.visible[w.v] < block->high)
-      w.v++;
-    cross(scan, crossed, block->low);
+    w.v = find_visible(scan, w.v, block->high);
+    cs_cells_cross(&scan->composer, &scan->active, crossed, block->low, 1);
     CS_TRY(is_pair(b, block) ? walk_pair(b, block) : walk_block(b, block));
     crossed = block->low;
   }
   CS_TRY(walk_to(&w, scan->active.count, scan->shot->width));
   if (b->count > 0)
-    cross_rest(b, crossed);
+    cross_home(b, crossed);
   return CELSPAN_OK;
 }
 

@@ -3,10 +3,15 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
+#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
+
+/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
+static size_t block_size(size_t capacity) {
+  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+}
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
-  cs_mem_free(memory, edges->block, edges->capacity * ITEM_SIZE);
+  cs_mem_free(memory, edges->block, block_size(edges->capacity));
   *edges = (cs_edges){0};
 }
 
@@ -15,18 +20,23 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   if (count <= edges->capacity)
     return CELSPAN_OK;
   size_t wanted = 2 * count;
-  double *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  void *block = cs_mem_resize(context->memory, NULL, 0, block_size(wanted));
   if (!block)
     return cs_fail_memory(context);
-  cs_mem_free(context->memory, edges->block, edges->capacity * ITEM_SIZE);
+  double *doubles = cs_wide_align(block);
+  cs_mem_free(context->memory, edges->block, block_size(edges->capacity));
   *edges = (cs_edges){.isa = cs_isa_best(),
-                      .low = block,
-                      .high = block + wanted,
-                      .area = block + 2 * wanted,
-                      .rest = block + 3 * wanted,
-                      .first = (int32_t *)(block + 4 * wanted),
+                      .low = doubles,
+                      .high = doubles + wanted,
+                      .area = doubles + 2 * wanted,
+                      .rest = doubles + 3 * wanted,
+                      .one = (float *)(doubles + 4 * wanted),
                       .block = block,
                       .capacity = wanted};
+  edges->two = edges->one + wanted;
+  edges->second = edges->two + wanted;
+  edges->fall = edges->second + wanted;
+  edges->first = (int32_t *)(edges->fall + wanted);
   edges->end = edges->first + wanted;
   edges->bend = (uint32_t *)(edges->end + wanted);
   edges->is_bent = (bool *)(edges->bend + wanted);
@@ -68,7 +78,9 @@ static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_be
     passed = reached;
   }
   edges->area[i] = area;
-  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : area;
+  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : 1;
+  edges->one[i] = (float)edges->area[i];
+  edges->two[i] = (float)edges->rest[i];
 }
 
 /* As cs_edges_straight for a boundary with vertices in the row. */
@@ -79,6 +91,7 @@ static void measure_bent(cs_edges *edges, const cs_active *active, uint32_t at, 
   edges->high[i] = bend->high;
   edges->bend[i] = at;
   edges->is_bent[i] = true;
+  edges->fall[i] = 0;
   edges->first[i] = cs_edges_floor(bend->low, width);
   edges->end[i] = cs_edges_ceil(bend->high, width);
   bool leaves = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);

@@ -17,6 +17,9 @@ typedef struct cs_edges {
   cs_isa isa; /* what straight boundaries are measured with */
   double *low, *high;   /* least and greatest x in the row */
   double *area, *rest;  /* right of it in its first column and in its last; 1: all */
+  float *one, *two;     /* area and rest again, as colours are weighted by them */
+  float *second, *fall; /* over more than two columns: the area in its second, and what each column
+                           after that has more; fall is 0 where areas are not given */
   int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
   uint32_t *bend;       /* which of the active boundaries' bends it is, where it is bent */
   bool *is_bent;        /* it has vertices in the row */

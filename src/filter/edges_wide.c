@@ -5,6 +5,8 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
                                 const double *restrict foot, size_t count, int32_t width) {
   double *restrict low = edges->low, *restrict high = edges->high;
   double *restrict area = edges->area, *restrict rest = edges->rest;
+  float *restrict one = edges->one, *restrict two = edges->two;
+  float *restrict second = edges->second, *restrict fall = edges->fall;
   int32_t *restrict first = edges->first, *restrict end = edges->end;
   const double right = width, whole = 0x1p52; /* above it doubles are whole numbers */
 #pragma omp simd
@@ -17,7 +19,7 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     double column = near - (near > held ? 1.0 : 0.0);
     double last = near_high + (near_high < held_high ? 1.0 : 0.0);
     double split = column + 1, by_twice = 0.5 / (b - a);
-    double one = split - 0.5 * (a + b);
+    double less = split - 0.5 * (a + b);
     double until = b - (last - 1);
     double more = (split - a) * (split - a) * by_twice;
     double more_rest = 1 - until * until * by_twice;
@@ -25,8 +27,14 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     double least = leaves > 0 ? column + 3 : last;
     low[i] = a;
     high[i] = b;
-    area[i] = cs_edges_round(b > split ? more : one);
-    rest[i] = cs_edges_round(b > split ? more_rest : one);
+    double in_first = cs_edges_round(b > split ? more : less);
+    double in_last = cs_edges_round(b > split ? more_rest : 1);
+    area[i] = in_first;
+    rest[i] = in_last;
+    one[i] = (float)in_first;
+    two[i] = (float)in_last;
+    second[i] = (float)cs_edges_round((2 * (split - a) + 1) * by_twice);
+    fall[i] = (float)(leaves > 0 ? 0 : 2 * by_twice);
     first[i] = (int32_t)column;
     end[i] = (int32_t)(last < least ? least : last);
   }

@@ -38,10 +38,44 @@ static inline cs_v4 cs_strokes_hold(cs_v4 colour) {
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
-/* Four doubles: sums of colour steps. */
-typedef double cs_sum4 __attribute__((vector_size(32)));
+/* Four doubles: sums of colour steps. Aligned as memory is that nobody aligned. */
+typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 
 /* A function would return it by the rules of AVX. */
 #define CS_SUM4(v) __builtin_convertvector(v, cs_sum4)
+
+/* Adds to change[k] what a straight piece, from xa to xb over a share of the row's height, adds to
+ * the sum from column `from` + k - 1 to the next. It crosses the columns [first, end); step: of
+ * colour, from its left to its right. Which columns a piece crosses cannot be foreseen: nothing
+ * here is a branch but whether they are more than two. */
+static inline void cs_strokes_add(cs_sum4 *change, int32_t from, double xa, double xb,
+                                  double height, int32_t first, int32_t end,
+                                  const cs_sum4 *step) {
+  const double thin = 0x1p-100; /* at least: of 0 width it is 0 from 0, all in one column */
+  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
+  double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;
+  change += first - from;
+  if (end - first <= 2 && low >= first && high <= end) { /* as nearly all */
+    double split = first + 1, until = cs_number_least(high, split) - low;
+    double beyond = cs_number_most(high - split, 0), short_of = cs_number_most(split - high, 0);
+    double area = cs_edges_round(height * (until * until * by_twice + short_of));
+    double rest = cs_edges_round(height * (1 - beyond * beyond * by_twice));
+    change[0] += *step * area;
+    change[1] += *step * (rest - area);
+    change[2] += *step * (height - rest);
+    return;
+  }
+  double passed = cs_number_most(cs_number_least(first, high) - low, 0);
+  double sum = passed * passed * by_twice + cs_number_most(first - high, 0);
+  for (int32_t p = first; p < end; p++) {
+    double last = sum;
+    passed = cs_number_most(cs_number_least(p + 1, high) - low, 0);
+    sum = passed * passed * by_twice + cs_number_most(p + 1 - high, 0);
+    double area = cs_edges_round(height * (sum - last));
+    *change++ += *step * (area - before);
+    before = area;
+  }
+  *change += *step * (height - before);
+}
 
 #endif

@@ -19,71 +19,80 @@ static inline void put_single(celspan_span *span, head at, cs_v4 colour) {
   cs_v4_store(span->colour, colour);
 }
 
-/* Over at most two columns, where no neighbouring spans look the same and the cell on the left
- * shows: without a branch on how many columns there are. Returns whether that was so. */
-static inline bool draw_plain(cs_pen *pen, int32_t first, int32_t end, cs_v4 base, cs_v4 one,
-                              cs_v4 two) {
-  bool has_two = end - first > 1;
-  if (first <= pen->from || end == first || cs_v4_same(pen->colour, base) ||
-      cs_v4_same(base, one) || (cs_v4_same(one, two) & has_two))
-    return false;
-  head from = head_at(pen->from), at = head_at(first);
-  put_single(pen->next, (from & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
-  put_single(pen->next + 1, at + (head){0, 1, 0, 0}, one);
-  put_single(pen->next + 2, at + (head){1, 2, 0, 1}, two);
-  pen->next += 2 + has_two;
-  pen->colour = two;
-  pen->from = end;
-  return true;
+/* Draws from the first boundary on while all is plain: one or two columns, pixels of its own, flat
+ * cells that show, no two neighbouring spans alike. The spans of both columns are written, and there
+ * is no branch on whether the second counts. Returns how many; at least the last is left. */
+static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges *edges,
+                                size_t done) {
+  const uint32_t *boundaries = s->boundaries + done;
+  size_t n = 0, last = s->count - done - 1, i = boundaries[0];
+  int32_t first = edges->first[i], from = pen->from;
+  celspan_span *span = pen->next;
+  if (span == pen->row->spans)
+    return 0;
+  head start = head_at(from);
+  while (n < last) {
+    size_t i_next = boundaries[n + 1];
+    int32_t end = edges->end[i], first_next = edges->first[i_next];
+    const cs_cell *left = &s->cells[i];
+    if (end > first_next || (uint32_t)(end - first - 1) > 1 || first <= from ||
+        (left->length | left[1].length) != 0)
+      break;
+    cs_v4 base = left->colour, step = left[1].colour - base;
+    cs_v4 one = cs_strokes_hold(base + step * edges->one[i]);
+    cs_v4 two = cs_strokes_hold(base + step * edges->two[i]);
+    if (cs_v4_same(cs_v4_load(span[-1].colour), base) || cs_v4_same(base, one) ||
+        cs_v4_same(one, two))
+      break;
+    head at = head_at(first);
+    put_single(span, (start & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
+    put_single(span + 1, at + (head){0, 1, 0, 0}, one);
+    put_single(span + 2, at + (head){1, 2, 0, 1}, two);
+    span += end - first + 1;
+    start = head_at(from = end);
+    i = i_next;
+    first = first_next;
+    n++;
+  }
+  if (n > 0)
+    pen->colour = cs_v4_load(span[-1].colour);
+  pen->next = span;
+  pen->from = from;
+  return n;
 }
 
+/* Over at most two columns. */
 static inline void draw_short(cs_pen *pen, const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t first = edges->first[i], end = edges->end[i];
   cs_v4 base = left->colour, step = left[1].colour - base;
-  cs_v4 one = cs_strokes_hold(base + step * (float)edges->area[i]);
-  cs_v4 two = cs_strokes_hold(base + step * (float)edges->rest[i]);
-  if (draw_plain(pen, first, end, base, one, two))
-    return;
   cs_pen_to(pen, first, base);
   if (end > first)
-    cs_pen_to(pen, first + 1, one);
+    cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * edges->one[i]));
   if (end > first + 1)
-    cs_pen_to(pen, end, two);
+    cs_pen_to(pen, end, cs_strokes_hold(base + step * edges->two[i]));
 }
 
 /* Straight and over more columns: its ends, and a ramp between them. */
 static inline void draw_long(cs_pen *pen, const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t first = edges->first[i], last = edges->end[i] - 1;
-  double low = edges->low[i], by_twice = 0.5 / (edges->high[i] - low), split = first + 1;
   cs_v4 base = left->colour, step = left[1].colour - base;
+  cs_v4 ramp = base + step * edges->second[i], slope = step * edges->fall[i];
   cs_pen_to(pen, first, base);
-  cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * (float)edges->area[i]));
-  double second = cs_edges_round((2 * (split - low) + 1) * by_twice);
-  cs_v4 ramp = base + step * (float)second;
-  cs_v4 slope = step * (float)(2 * by_twice);
+  cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * edges->one[i]));
   if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
     cs_pen_ramp(pen, last, ramp, slope);
   else
     cs_pen_to(pen, last, cs_strokes_hold(ramp));
-  cs_pen_to(pen, last + 1, cs_strokes_hold(base + step * (float)edges->rest[i]));
+  cs_pen_to(pen, last + 1, cs_strokes_hold(base + step * edges->two[i]));
 }
 
-/* ---------------------------------------------------------------- together
- *
- * change[k] is what the sum of colour steps changes by from the column before to column k. */
+/* ---------------------------------------------------------------- together */
 
-/* A straight piece of an edge. */
 static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspan_point below,
                       double height, int32_t width, const cs_sum4 *step) {
-  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
-  int32_t first = cs_edges_floor(low, width), end = cs_edges_ceil(high, width);
-  double before = 0;
-  for (int32_t p = first; p < end; p++) {
-    double area = cs_edges_cover(above.x, below.x, height, p);
-    change[p - from] += *step * (area - before);
-    before = area;
-  }
-  change[end - from] += *step * (height - before);
+  double low = cs_number_least(above.x, below.x), high = cs_number_most(above.x, below.x);
+  cs_strokes_add(change, from, above.x, below.x, height, cs_edges_floor(low, width),
+                 cs_edges_ceil(high, width), step);
 }
 
 static void add_pieces(cs_sum4 *change, int32_t from, const cs_strokes *s, size_t i,
@@ -113,7 +122,7 @@ static inline void add_edge(cs_sum4 *change, int32_t from, const cs_strokes *s, 
     add_pieces(change, from, s, i, &step);
     return;
   }
-  double area = end > first ? edges->area[i] : 1, rest = end > first + 1 ? edges->rest[i] : 1;
+  double area = end > first ? edges->area[i] : 1, rest = edges->rest[i];
   change += first - from;
   change[0] += step * area;
   change[1] += step * (rest - area);
@@ -175,28 +184,32 @@ static inline size_t try_group(cs_pen *pen, const cs_strokes *s, size_t done) {
   return drawn;
 }
 
+/* Draws the first boundary, and those that share its pixels. Returns how many, or 0. */
+static inline size_t draw_next(cs_pen *pen, const cs_strokes *s, const cs_edges *edges,
+                               size_t done) {
+  size_t i = s->boundaries[done];
+  int32_t first = edges->first[i], end = edges->end[i];
+  int32_t next = done + 1 < s->count ? edges->first[s->boundaries[done + 1]] : s->next;
+  const cs_cell *left = &s->cells[i];
+  if (first < pen->from || (left->length | left[1].length) != 0)
+    return 0;
+  if (end > next || (end - first > 2 && !(edges->fall[i] > 0)))
+    return try_group(pen, s, done);
+  if (end - first > 2)
+    draw_long(pen, edges, i, left);
+  else
+    draw_short(pen, edges, i, left);
+  return 1;
+}
+
 size_t CS_WIDE(cs_strokes_draw)(const cs_strokes *strokes, cs_pen *out) {
-  const cs_edges edges = *strokes->edges; /* at hand, whatever is written */
-  const cs_cell *cells = strokes->cells;
-  const uint32_t *boundaries = strokes->boundaries;
-  size_t done = 0, count = strokes->count;
+  const cs_strokes s = *strokes; /* at hand, whatever is written */
+  const cs_edges edges = *strokes->edges;
   cs_pen pen = *out;
-  while (done < count) {
-    size_t i = boundaries[done];
-    int32_t first = edges.first[i], end = edges.end[i];
-    int32_t next = done + 1 < count ? edges.first[boundaries[done + 1]] : strokes->next;
-    const cs_cell *left = &cells[i];
-    if (first < pen.from || (left->length | left[1].length) != 0)
-      break;
-    size_t drawn = 1;
-    if (end <= next && end - first <= 2)
-      draw_short(&pen, &edges, i, left);
-    else if (end <= next && !edges.is_bent[i] && cs_edges_is_inside(&edges, i, strokes->width))
-      draw_long(&pen, &edges, i, left);
-    else
-      drawn = try_group(&pen, strokes, done);
-    if (drawn == 0)
-      break;
+  size_t done = 0, drawn = 1;
+  while (done < s.count && drawn > 0) {
+    done += draw_plain(&pen, &s, &edges, done);
+    drawn = draw_next(&pen, strokes, &edges, done);
     done += drawn;
   }
   *out = pen;

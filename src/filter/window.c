@@ -6,11 +6,19 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TILE 256  /* pixels summed at a time */
-#define NARROW 32 /* and where a window is not wider */
+#define TILE 256 /* pixels summed at a time */
+
+/* Forgets what has been summed of the open window. */
+static void clear_change(cs_window *window) {
+  int32_t columns = window->end - window->from;
+  columns = columns < CS_WINDOW_NARROW ? columns : CS_WINDOW_NARROW;
+  memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
+}
 
 void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
                      int32_t y, const cs_cell *leftmost, cs_row *out) {
+  if (window->is_open) /* a row failed */
+    clear_change(window);
   window->composer = composer;
   window->arena = arena;
   window->out = out;
@@ -90,15 +98,6 @@ static void add_changes(const cs_fragment *f, int32_t p0, int32_t p1, cs_sum4 *c
   }
 }
 
-/* As add_changes for a fragment over at most two columns, all from p0 on. */
-static inline void add_narrow(const cs_fragment *f, int32_t p0, cs_sum4 *change) {
-  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
-  change += f->first - p0;
-  change[0] += step * f->area;
-  change[1] += step * (f->rest - f->area);
-  change[2] += step * (f->height - f->rest);
-}
-
 /* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of
  * them. */
 static inline void draw_sums(cs_pen *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
@@ -127,21 +126,13 @@ static celspan_status close_wide(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* The same where the window is a few pixels wide, as nearly all are. */
+/* The same where the window is a few pixels wide, as nearly all are: summed already. */
 static celspan_status close_narrow(cs_window *window) {
-  int32_t from = window->from, end = window->end;
-  cs_sum4 change[NARROW + 3], sum = CS_SUM4(window->base->colour);
-  memset(change, 0, (size_t)(end - from + 3) * sizeof *change);
-  for (size_t i = 0; i < window->fragment_count; i++) {
-    const cs_fragment *f = &window->fragments[i];
-    if (f->end - f->first <= 2)
-      add_narrow(f, from, change);
-    else
-      add_changes(f, from, end, change);
-  }
-  CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(end - from)));
+  cs_sum4 sum = CS_SUM4(window->base->colour);
+  CS_TRY(cs_row_reserve(window->composer->context, window->out,
+                        (size_t)(window->end - window->from)));
   cs_pen p = cs_pen_take(window->out, window->from);
-  draw_sums(&p, end, change, &sum);
+  draw_sums(&p, window->end, window->change, &sum);
   cs_pen_put(&p);
   return CELSPAN_OK;
 }
@@ -293,17 +284,21 @@ static celspan_status close_varying(cs_window *window) {
   return CELSPAN_OK;
 }
 
+static celspan_status draw_window(cs_window *window) {
+  if (window->varies)
+    return close_varying(window);
+  if (window->fragment_count == 1 && window->fragments->end > window->fragments->first)
+    return close_lone(window);
+  return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window)
+                                                        : close_wide(window);
+}
+
 static celspan_status close_window(cs_window *window) {
-  if (window->end > window->from) {
-    if (window->varies)
-      CS_TRY(close_varying(window));
-    else if (window->fragment_count == 1 && window->fragments->end > window->fragments->first)
-      CS_TRY(close_lone(window));
-    else if (window->end - window->from <= NARROW)
-      CS_TRY(close_narrow(window));
-    else
-      CS_TRY(close_wide(window));
-  }
+  int32_t from = window->from;
+  if (window->end > from)
+    CS_TRY(draw_window(window));
+  window->from = from;
+  clear_change(window);
   window->from = window->end;
   window->fragment_count = 0;
   window->is_open = window->varies = false;
@@ -331,54 +326,38 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
-/* Rounding put a fragment left of what is written: it begins where that ends. */
-static void cut_fragment(cs_fragment *f, int32_t from) {
-  f->first = from;
-  f->end = f->end > from ? f->end : from;
-  f->area = f->end > from ? cover(f, from) : f->height;
-  f->rest = f->end > from + 1 ? cover(f, from + 1) : f->height;
-}
-
-static celspan_status add_fragment(cs_window *window, const cs_fragment *fragment) {
-  if (window->fragment_count == window->fragment_capacity)
-    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
-                          &window->fragment_capacity, window->fragment_count + 1,
-                          sizeof *window->fragments));
-  cs_fragment *added = &window->fragments[window->fragment_count++];
-  *added = *fragment;
-  if (added->first < window->from)
-    cut_fragment(added, window->from);
-  if (fragment->end > window->end)
-    window->end = fragment->end;
-  window->varies |= fragment->left->length > 0 || fragment->right->length > 0;
-  return CELSPAN_OK;
+/* Takes a fragment into the window's columns and, where it is flat and they are few, their sums. */
+static void note_fragment(cs_window *window, cs_fragment *f) {
+  if (f->first < window->from) { /* by rounding: it begins where what is written ends */
+    f->first = window->from;
+    f->end = f->end > f->first ? f->end : f->first;
+  }
+  window->end = f->end > window->end ? f->end : window->end;
+  if ((f->left->length | f->right->length) != 0) {
+    window->varies = true;
+  } else if (f->end - window->from <= CS_WINDOW_NARROW) {
+    cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+    cs_strokes_add(window->change, window->from, f->xa, f->xb, f->height, f->first, f->end, &step);
+  }
 }
 
 celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
                              const cs_cell *left, const cs_cell *right) {
   if (window->trace)
     return cs_trace_add(window->trace, window->composer, xa, ya, xb, yb, left, right);
-  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa, top = window->centre - 0.5;
-  double height = cs_edges_round(yb - top) - cs_edges_round(ya - top);
-  cs_fragment f = {.xa = xa, .xb = xb, .height = height, .left = left, .right = right,
-                   .first = cs_edges_floor(low, window->width),
-                   .end = cs_edges_ceil(high, window->width)};
-  if (f.end - f.first <= 2) {
-    f.area = f.end > f.first ? cover(&f, f.first) : height;
-    f.rest = f.end > f.first + 1 ? cover(&f, f.first + 1) : height;
-  }
-  return add_fragment(window, &f);
-}
-
-/* A straight edge and its areas, as they have been measured. */
-static celspan_status add_measured(cs_window *window, const cs_active *active,
-                                   const cs_edges *edges, size_t i, const cs_cell *left) {
-  cs_fragment f = {.xa = active->x[i], .xb = active->x_next[i], .height = 1,
-                   .area = edges->area[i],
-                   .rest = edges->end[i] > edges->first[i] + 1 ? edges->rest[i] : 1,
-                   .left = left, .right = left + 1,
-                   .first = edges->first[i], .end = edges->end[i]};
-  return add_fragment(window, &f);
+  if (window->fragment_count == window->fragment_capacity)
+    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->fragments,
+                          &window->fragment_capacity, window->fragment_count + 1,
+                          sizeof *window->fragments));
+  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
+  double top = window->centre - 0.5;
+  cs_fragment *f = &window->fragments[window->fragment_count++];
+  *f = (cs_fragment){.xa = xa, .xb = xb, .left = left, .right = right,
+                     .height = cs_edges_round(yb - top) - cs_edges_round(ya - top),
+                     .first = cs_edges_floor(low, window->width),
+                     .end = cs_edges_ceil(high, window->width)};
+  note_fragment(window, f);
+  return CELSPAN_OK;
 }
 
 static celspan_status add_bent(cs_window *window, const cs_active *active, size_t i,
@@ -399,16 +378,6 @@ celspan_status cs_window_slice(cs_window *window, const cs_active *active, const
   return edges->is_bent[i] ? add_bent(window, active, i, left)
                            : cs_window_add(window, active->x[i], active->y, active->x_next[i],
                                            active->y_next, left, left + 1);
-}
-
-/* An edge that shares its pixels with others, or lies between cells that vary. */
-static celspan_status add_edge(cs_window *window, const cs_active *active, const cs_edges *edges,
-                               size_t i, const cs_cell *left) {
-  CS_TRY(cs_window_reach(window, edges->low[i]));
-  if (edges->is_bent[i] || window->trace || !cs_edges_is_inside(edges, i, window->width))
-    return cs_window_slice(window, active, edges, i, left);
-  cs_window_pass(window, left + 1);
-  return add_measured(window, active, edges, i, left);
 }
 
 /* Draws the edges from the first on, up to one that cannot be. Returns how many. */
@@ -438,7 +407,8 @@ celspan_status cs_window_edges(cs_window *window, const cs_active *active, const
         break;
     }
     size_t i = boundaries[done];
-    CS_TRY(add_edge(window, active, edges, i, &cells[i]));
+    CS_TRY(cs_window_reach(window, edges->low[i]));
+    CS_TRY(cs_window_slice(window, active, edges, i, &cells[i]));
   }
   return CELSPAN_OK;
 }

@@ -10,18 +10,19 @@
  *
  * Invariants: a window's pixels are summed from its own fragments only, starting from the exact
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
- * clusters) come from left to right.
+ * clusters) come from left to right. Between windows `change` is all 0.
  */
 #ifndef CS_FILTER_WINDOW_H
 #define CS_FILTER_WINDOW_H
 
-#include "filter/edges.h"
+#include "filter/strokes.h"
 #include "filter/trace.h"
+
+#define CS_WINDOW_NARROW CS_STROKES_TOGETHER /* columns of nearly all windows */
 
 typedef struct cs_fragment {
   double xa, xb; /* at its top and at its bottom */
   double height; /* of the row: 0..1, a multiple of 2^-28 */
-  double area, rest; /* right of it in its first column and in the next, if it crosses no more */
   const cs_cell *left, *right;
   int32_t first, end; /* the columns it crosses; empty when it stands on a pixel's edge */
 } cs_fragment;
@@ -39,6 +40,8 @@ typedef struct cs_window {
   cs_fragment *fragments;
   size_t fragment_count, fragment_capacity;
   bool is_open, varies;
+  /* what flat fragments that end so near its left end add to the sum from column to column */
+  cs_sum4 change[CS_WINDOW_NARROW + 3];
   bool is_held; /* the whole row is one window: items may come in any order */
   cs_arena tiles; /* of one tile's weights; the window's own */
   cs_trace *trace; /* not NULL: fragments are kept there, and no pixels made */

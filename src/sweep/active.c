@@ -7,12 +7,17 @@
 #define ITEM_SIZE                                                                                  \
   (7 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
+/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
+static size_t block_size(size_t capacity) {
+  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+}
+
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
   *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
-  cs_mem_free(memory, active->block, active->capacity * ITEM_SIZE);
+  cs_mem_free(memory, active->block, block_size(active->capacity));
   cs_mem_free(memory, active->bends, active->bend_capacity * sizeof *active->bends);
   cs_mem_free(memory, active->vertices, active->vertex_capacity * sizeof *active->vertices);
   *active = (cs_active){0};
@@ -32,9 +37,10 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
 /* All arrays lie in one block: the wider items first, so that each is aligned. */
 static celspan_status grow(celspan_context *context, cs_active *active) {
   size_t old = active->capacity, wanted = old ? 2 * old : 64;
-  unsigned char *block = cs_mem_array(context->memory, wanted, ITEM_SIZE), *at = block;
+  void *block = cs_mem_resize(context->memory, NULL, 0, block_size(wanted));
   if (!block)
     return cs_fail_memory(context);
+  unsigned char *at = cs_wide_align(block);
   active->walks = carve(&at, active->walks, old, wanted, sizeof *active->walks);
   active->x = carve(&at, active->x, old, wanted, sizeof *active->x);
   active->x_next = carve(&at, active->x_next, old, wanted, sizeof *active->x_next);
@@ -48,7 +54,7 @@ static celspan_status grow(celspan_context *context, cs_active *active) {
   active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
   active->bend_of = carve(&at, active->bend_of, old, wanted, sizeof *active->bend_of);
   active->ended = carve(&at, active->ended, 0, wanted, sizeof *active->ended);
-  cs_mem_free(context->memory, active->block, old * ITEM_SIZE);
+  cs_mem_free(context->memory, active->block, block_size(old));
   active->block = block;
   active->capacity = wanted;
   for (size_t slot = wanted; slot-- > old;)
@@ -290,9 +296,11 @@ celspan_status cs_active_reach(celspan_context *context, cs_active *active, doub
   cs_segments segments = {active->x0, active->y0, active->slope, active->curve, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  if (CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next))
+  if (CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next,
+                                                 &active->rises)) {
     CS_TRY(bend_ended(context, active, y));
-  active->rises = rises(active, active->x_next);
+    active->rises = rises(active, active->x_next);
+  }
   return CELSPAN_OK;
 }
 

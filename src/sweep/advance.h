@@ -21,9 +21,11 @@ typedef struct cs_segments {
   const double *x0, *y0, *slope, *curve, *y1;
 } cs_segments;
 
-/* Fills x_next with x at height y. Returns whether a segment ends at or above y. */
+/* Fills x_next with x at height y. *rises: whether each of them is less than the one after it.
+ * Returns whether a segment ends at or above y. */
 CS_WIDE_DECLARE(bool, cs_advance_to,
-                (const cs_segments *segments, size_t count, double y, double *x_next));
+                (const cs_segments *segments, size_t count, double y, double *x_next,
+                 bool *rises));
 /* Whether each of x is less than the one after it. */
 CS_WIDE_DECLARE(bool, cs_advance_rises, (const double *x, size_t count));
 

@@ -39,8 +39,11 @@ static void check_advance(cs_isa isa, test_random *random) {
   }
   cs_segments segments = {x0, y0, slope, curve, y1};
   double y = random_between(random, 10, 12);
-  bool ends = cs_advance_to_any(&segments, count, y, expected);
-  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found) == ends);
+  bool expected_rises, rises;
+  bool ends = cs_advance_to_any(&segments, count, y, expected, &expected_rises);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_advance_to)(&segments, count, y, found, &rises) == ends);
+  CHECK(rises == expected_rises);
+  CHECK(rises == CS_WIDE_CHOOSE(isa, cs_advance_rises)(found, count));
   CHECK(same_doubles(expected, found, count));
   bool is_over = false;
   for (size_t i = 0; i < count; i++)
@@ -64,18 +67,20 @@ static void check_order(cs_isa isa, test_random *random) {
 
 typedef struct room {
   double low[MOST], high[MOST], area[MOST], rest[MOST];
+  float one[MOST], two[MOST], second[MOST], fall[MOST];
   int32_t first[MOST], end[MOST];
 } room;
 
 static void measure(cs_isa isa, room *r, const double *top, const double *foot, size_t count) {
   cs_edges edges = {.low = r->low, .high = r->high, .area = r->area, .rest = r->rest,
+                    .one = r->one, .two = r->two, .second = r->second, .fall = r->fall,
                     .first = r->first, .end = r->end};
   CS_WIDE_CHOOSE(isa, cs_edges_straight)(&edges, top, foot, count, WIDTH);
 }
 
 static void check_edges(cs_isa isa, test_random *random) {
   static room expected, found;
-  double top[MOST], foot[MOST];
+  double top[MOST] = {0}, foot[MOST] = {0};
   size_t count = (size_t)random_below(random, MOST);
   for (size_t i = 0; i < count; i++) {
     top[i] = random_x(random);
@@ -91,6 +96,7 @@ static void check_edges(cs_isa isa, test_random *random) {
     if (expected.end[i] - expected.first[i] <= 2) {
       CHECK(same_doubles(&expected.area[i], &found.area[i], 1));
       CHECK(same_doubles(&expected.rest[i], &found.rest[i], 1));
+      CHECK(found.one[i] == (float)found.area[i] && found.two[i] == (float)found.rest[i]);
     }
 }
 
