@@ -12,6 +12,7 @@
 #include "colour/srgb8.h"
 #include "colour/transfer.h"
 #include "output/fill.h"
+#include "output/pixels8.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
 
@@ -172,20 +173,6 @@ void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pix
 
 /* ---------------------------------------------------------------- spans */
 
-/* Repeats the first pixel of out until `size` bytes are filled; `room` bytes, no less, may be
- * written: what is beyond the run belongs to spans that are not written yet. */
-static inline void repeat(unsigned char *out, size_t pixel_size, size_t size, size_t room,
-                          cs_fill fill) {
-  unsigned char block[CS_FILL_BLOCK];
-  memcpy(block, out, pixel_size);
-  for (size_t done = pixel_size; done < sizeof block; done *= 2)
-    memcpy(block + done, block, done);
-  if (size >= sizeof block)
-    fill(out, size, pixel_size, block);
-  else
-    memcpy(out, block, room < sizeof block ? size : sizeof block);
-}
-
 /* Ramps that follow one another, on their way to be coded together: they may be short. */
 typedef struct ramps {
   float rgba[CHUNK][4];
@@ -217,104 +204,41 @@ static void put_gradient(ramps *waiting, const celspan_coding *coding, coder cod
 
 /* Arrays and flat spans. */
 static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
-                      size_t pixel_size, size_t room, cs_fill fill, unsigned char *out) {
+                      size_t pixel_size, unsigned char *out) {
   size_t count = (size_t)(span->x1 - span->x0);
-  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes) {
-    memcpy(out, span->codes, 4 * count);
-    return;
-  }
   if (span->kind == CELSPAN_SPAN_ARRAY) {
     code(coding, span->array, count, out);
     return;
   }
-  code(coding, span->colour, 1, out);
-  if (count > 1)
-    repeat(out, pixel_size, count * pixel_size, room, fill);
+  unsigned char pixel[16];
+  code(coding, span->colour, 1, pixel);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_fill_run)(out, count * pixel_size, pixel, pixel_size);
 }
 
 static void code_spans(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                        unsigned char *row) {
   coder code = choose_coder(coding);
-  cs_fill fill = cs_fill_choose();
   size_t pixel_size = celspan_coding_pixel_size(coding);
-  size_t size = (size_t)spans[span_count - 1].x1 * pixel_size;
   ramps waiting;
   waiting.count = 0;
   for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    size_t at = (size_t)span->x0 * pixel_size;
+    unsigned char *out = row + (size_t)span->x0 * pixel_size;
     if (span->kind == CELSPAN_SPAN_GRADIENT) {
-      put_gradient(&waiting, coding, code, span, pixel_size, row + at);
+      put_gradient(&waiting, coding, code, span, pixel_size, out);
       continue;
     }
     flush(&waiting, coding, code);
-    code_span(coding, code, span, pixel_size, size - at, fill, row + at);
+    code_span(coding, code, span, pixel_size, out);
   }
   flush(&waiting, coding, code);
 }
 
-/* ---------------------------------------------------------------- rows of the usual coding
- *
- * A frame may have a thousand million pixels in them. The colours of many flat spans are coded
- * together; a run then begins with a block over whatever comes next, for that is written later. */
-
-static inline void put_run_8(uint32_t pixel, size_t count, size_t room, cs_fill fill,
-                             unsigned char *out) {
-  uint32_t block[CS_FILL_BLOCK / 4];
-  if (count <= 2 && room >= 8) { /* most of what lies between long runs */
-    uint64_t two = pixel * (uint64_t)0x100000001;
-    memcpy(out, &two, sizeof two);
-    return;
-  }
-  for (size_t i = 0; i < CS_FILL_BLOCK / 4; i++)
-    block[i] = pixel;
-  if (4 * count > CS_FILL_BLOCK)
-    fill(out, 4 * count, 4, (unsigned char *)block);
-  else
-    memcpy(out, block, room < CS_FILL_BLOCK ? 4 * count : CS_FILL_BLOCK);
-}
-
-/* Spans whose colours, where they are flat, have been coded. */
-static void put_spans_8(const celspan_coding *coding, const celspan_span *spans, size_t count,
-                        const uint32_t *pixels, size_t size, unsigned char *row) {
-  cs_fill fill = cs_fill_choose();
-  ramps waiting;
-  waiting.count = 0;
-  for (size_t k = 0; k < count; k++) {
-    const celspan_span *span = &spans[k];
-    size_t at = 4 * (size_t)span->x0;
-    if (span->kind == CELSPAN_SPAN_GRADIENT) {
-      put_gradient(&waiting, coding, code_8_srgb_straight, span, 4, row + at);
-      continue;
-    }
-    flush(&waiting, coding, code_8_srgb_straight);
-    if (span->kind == CELSPAN_SPAN_SINGLE)
-      put_run_8(pixels[k], (size_t)(span->x1 - span->x0), size - at, fill, row + at);
-    else
-      code_span(coding, code_8_srgb_straight, span, 4, size - at, fill, row + at);
-  }
-  flush(&waiting, coding, code_8_srgb_straight);
-}
-
-static void code_spans_8(const celspan_coding *coding, const celspan_span *spans,
-                         size_t span_count, unsigned char *row) {
-  cs_srgb8 code = cs_srgb8_choose(cs_isa_best());
-  float rgba[4 * CHUNK] = {0};
-  uint32_t pixels[CHUNK];
-  size_t size = 4 * (size_t)spans[span_count - 1].x1;
-  for (size_t done = 0; done < span_count; done += CHUNK) {
-    size_t count = span_count - done < CHUNK ? span_count - done : CHUNK;
-    for (size_t k = 0; k < count; k++)
-      memcpy(rgba + 4 * k, spans[done + k].colour, sizeof spans[done + k].colour);
-    /* Four are as quick as one: what is left of the portion before, or nothing, is coded too. */
-    code(rgba, (count + 3) / 4 * 4, (unsigned char *)pixels);
-    put_spans_8(coding, spans + done, count, pixels, size, row);
-  }
-}
-
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row) {
-  if (span_count >= CHUNK / 4 && choose_coder(coding) == code_8_srgb_straight)
-    code_spans_8(coding, spans, span_count, row);
-  else if (span_count > 0)
+  if (span_count == 0)
+    return;
+  if (cs_pixels_takes_codes(coding))
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_pixels8_row)(spans, span_count, row);
+  else
     code_spans(coding, spans, span_count, row);
 }

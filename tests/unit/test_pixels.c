@@ -3,9 +3,12 @@
 
 #include <stdlib.h>
 
+#include "colour/srgb8.h"
 #include "colour/transfer.h"
+#include "output/pixels8.h"
 #include "output/sink.h"
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 static float half_value(uint16_t half) {
   int exponent = half >> 10 & 31, mantissa = half & 1023;
@@ -168,6 +171,66 @@ static void check_rows(void) {
                   spans, count);
 }
 
+/* ---------------------------------------------------------------- the usual coding */
+
+/* Runs as frames have them: most a pixel long, some long, a few very long. */
+static int32_t random_length(test_random *random, int32_t most) {
+  static const int32_t lengths[] = {1, 1, 1, 2, 16, 16, 40, 1100};
+  int32_t length = 1 + random_below(random, lengths[random_below(random, 8)]);
+  length *= random_below(random, 500) ? 1 : 40;
+  return length < most ? length : most;
+}
+
+static size_t random_row(test_random *random, celspan_span *spans, int32_t width) {
+  size_t count = 0;
+  for (int32_t x = 0; x < width; count++) {
+    celspan_span *span = &spans[count];
+    *span = (celspan_span){.x0 = x, .x1 = x + random_length(random, width - x), .origin = x - 3};
+    span->array = colours;
+    if (random_below(random, 8) == 0 && span->x1 - x <= WIDTH)
+      span->kind = (celspan_span_kind)(1 + random_below(random, 2));
+    for (int c = 0; c < 4; c++) {
+      span->colour[c] = (float)random_between(random, 0, 1.1);
+      span->slope[c] = (float)random_between(random, -0.01, 0.01);
+    }
+    x = span->x1;
+  }
+  return count;
+}
+
+static int count_wrong(const celspan_span *spans, size_t count, const unsigned char *row) {
+  int wrong = 0;
+  for (size_t i = 0; i < count; i++)
+    for (int32_t x = spans[i].x0; x < spans[i].x1; x++) {
+      float rgba[4];
+      celspan_span_colour(&spans[i], x, rgba);
+      uint32_t wanted = cs_srgb8_pixel(rgba);
+      wrong += memcmp(&wanted, row + 4 * (size_t)x, sizeof wanted) != 0;
+    }
+  return wrong;
+}
+
+/* Whichever instructions write it, a row is right wherever it lies, and ends where it ends. */
+static void check_usual_rows(cs_isa isa) {
+  enum { MOST = 60000, AROUND = 128 };
+  static celspan_span spans[MOST];
+  static unsigned char room[4 * MOST + 2 * AROUND];
+  test_random random = {31};
+  int wrong = 0;
+  for (int k = 0; k < 300; k++) {
+    int32_t width = 1 + random_below(&random, k % 2 ? 300 : MOST);
+    size_t count = random_row(&random, spans, width), at = AROUND - (size_t)(k % 64);
+    unsigned char *row = room + at, *end = row + 4 * (size_t)width;
+    memset(room, 77, at);
+    memset(end, 77, AROUND);
+    CS_WIDE_CHOOSE(isa, cs_pixels8_row)(spans, count, row);
+    wrong += count_wrong(spans, count, row);
+    for (size_t i = 0; i < AROUND; i++)
+      wrong += end[i] != 77 || (i < at && room[i] != 77);
+  }
+  CHECK(wrong == 0);
+}
+
 /* ---------------------------------------------------------------- sinks */
 
 static celspan_status feed(celspan_context *context, celspan_sink *sink, const celspan_span *spans,
@@ -234,6 +297,8 @@ int main(void) {
       (celspan_coding){CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT});
   check_lengths(
       (celspan_coding){CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_PREMULTIPLIED});
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+    check_usual_rows(isa);
   check_memory_sink(context, same);
   check_digest_sink(context, same);
   check_digest_sink(context, different);

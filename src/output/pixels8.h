@@ -1,0 +1,12 @@
+/* Rows of what nearly every frame is written as: 8 bits, sRGB, straight. */
+#ifndef CS_OUTPUT_PIXELS8_H
+#define CS_OUTPUT_PIXELS8_H
+
+#include "base/wide.h"
+#include "celspan/celspan.h"
+
+/* The spans, one at least, cover [0, width) without gap. */
+CS_WIDE_DECLARE(void, cs_pixels8_row,
+                (const celspan_span *spans, size_t count, unsigned char *row));
+
+#endif
