@@ -57,8 +57,10 @@ static celspan_status reach_row(cs_scan *scan, int32_t y) {
     cs_cells_forget(&scan->cells);
     change = cs_change_all;
   }
-  if (!cs_change_is_none(change))
+  if (!cs_change_is_none(change)) {
+    scan->looks++;
     CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
+  }
   cs_cells_list(&scan->cells);
   return scan->composer.failure;
 }
@@ -75,18 +77,20 @@ celspan_status cs_scan_trace(cs_scan *scan, int32_t row, cs_trace *trace) {
 }
 
 static celspan_status make_row(cs_scan *scan, int32_t y, cs_row *out) {
+  bool is_centre = scan->shot->antialias == CELSPAN_ANTIALIAS_NONE;
+  if (!is_centre)
+    cs_row_clear(out);
   if (scan->shot->kernel)
     return cs_traces_row(scan, y, out);
   CS_TRY(reach_row(scan, y));
   scan->row = y;
-  if (scan->shot->antialias == CELSPAN_ANTIALIAS_NONE)
+  if (is_centre)
     return cs_centre_row(scan, y, out);
   CS_TRY(cs_area_row(scan, y, out));
   return scan->composer.failure;
 }
 
 celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out) {
-  cs_row_clear(out);
   cs_arena_reset(&scan->arena);
   celspan_status status = make_row(scan, y, out);
   if (status != CELSPAN_OK) {

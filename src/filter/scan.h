@@ -38,6 +38,7 @@ typedef struct cs_scan {
   cs_arena arena; /* of the current row */
   celspan_scanline_output output; /* room for what procedures return */
   struct cs_carried *carried; /* of the current row: see carry.h */
+  uint64_t looks; /* how often the cells have changed */
   int32_t row;    /* the active boundaries stand at this row's height, or NOWHERE */
   cs_trace *traces; /* FILTER: of rows seen, row y in place y modulo the count */
   const cs_trace **under; /* those under the kernel */
@@ -48,13 +49,14 @@ typedef struct cs_scan {
 CELSPAN_CHECKED celspan_status cs_scan_init(cs_scan *scan, celspan_context *context,
                                             const cs_shot *shot);
 void cs_scan_finish(cs_scan *scan);
-/* The spans of row y, 0 <= y < height: they cover [0, width). out is cleared first.
+/* The spans of row y, 0 <= y < height: they cover [0, width). What out holds is given up, or made
+ * this row where little changed since this scan made it.
  * Errors: NO_MEMORY, INPUT, LIMIT, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out);
 
 /* ---- the three ways from cells to pixels */
 
-/* Pixel centres: the boundaries stand at y + 1/2. */
+/* Pixel centres: the boundaries stand at y + 1/2. Clears out, or patches what it made of it. */
 CELSPAN_CHECKED celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out);
 /* The exact mean over each pixel: the boundaries stand at y, and at y + 1 when it returns. */
 CELSPAN_CHECKED celspan_status cs_area_row(cs_scan *scan, int32_t y, cs_row *out);

@@ -25,6 +25,9 @@ typedef struct cs_row {
   cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   cs_arena colours;
+  /* Kept by the scan that made it, and forgotten when another hand is at it: filter/centre.c. */
+  const void *drawn_by;
+  uint64_t drawn_as;
 } cs_row;
 
 void cs_row_init(cs_row *row);
@@ -41,11 +44,15 @@ CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *ro
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
+/* Room for `count` spans in all. */
+static inline CELSPAN_CHECKED celspan_status cs_row_room(celspan_context *context, cs_row *row,
+                                                         size_t count) {
+  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, count, sizeof *row->spans);
+}
 /* Room for `more` spans after those that are there. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,
                                                             size_t more) {
-  return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, row->count + more,
-                        sizeof *row->spans);
+  return cs_row_room(context, row, row->count + more);
 }
 
 static inline celspan_status cs_row_single(celspan_context *context, cs_row *row, int32_t x0,
