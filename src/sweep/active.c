@@ -183,14 +183,10 @@ static size_t find_place(const cs_active *active, size_t i) {
   return low;
 }
 
-static bool rises(const cs_active *active, const double *x) {
-  return CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count);
-}
-
 /* Brings the order about. */
 static void sort(cs_active *active, cs_change *change) {
   const double *x = active->x;
-  if (rises(active, x))
+  if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
     return;
   for (size_t i = 1; i < active->count; i++) {
     if (x[i - 1] < x[i]) /* equal x too: slopes and chains decide */
@@ -280,27 +276,25 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   return CELSPAN_OK;
 }
 
-/* Steps the boundaries on whose segments end at or above y. */
-static celspan_status bend_ended(celspan_context *context, cs_active *active, double y) {
-  size_t found = 0;
-  for (size_t i = 0; i < active->count; i++) { /* without a branch that is hard to foretell */
-    active->ended[found] = (uint32_t)i;
-    found += active->y1[i] <= y;
-  }
-  for (size_t k = 0; k < found; k++)
-    CS_TRY(bend(context, active, active->ended[k], y));
-  return CELSPAN_OK;
+/* How many neighbours of boundary i are out of order with it at the height reached. */
+static size_t count_falls(const cs_active *active, size_t i) {
+  const double *x = active->x_next;
+  return (i > 0 && !(x[i - 1] < x[i])) + (i + 1 < active->count && !(x[i] < x[i + 1]));
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
   cs_segments segments = {active->x0, active->y0, active->slope, active->curve, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  if (CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y, active->x_next,
-                                                 &active->rises)) {
-    CS_TRY(bend_ended(context, active, y));
-    active->rises = rises(active, active->x_next);
+  cs_advanced found = CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y,
+                                                                 active->x_next, active->ended);
+  for (size_t k = 0; k < found.ended; k++) {
+    size_t i = active->ended[k];
+    found.falls -= count_falls(active, i);
+    CS_TRY(bend(context, active, i, y));
+    found.falls += count_falls(active, i);
   }
+  active->rises = found.falls == 0;
   return CELSPAN_OK;
 }
 

@@ -21,11 +21,16 @@ typedef struct cs_segments {
   const double *x0, *y0, *slope, *curve, *y1;
 } cs_segments;
 
-/* Fills x_next with x at height y. *rises: whether each of them is less than the one after it.
- * Returns whether a segment ends at or above y. */
-CS_WIDE_DECLARE(bool, cs_advance_to,
+/* How many segments end at or above the height reached, and how many boundaries do not lie right of
+ * the one before them there. */
+typedef struct cs_advanced {
+  size_t ended, falls;
+} cs_advanced;
+
+/* Fills x_next with x at height y, and `ended` with the numbers of those that end. */
+CS_WIDE_DECLARE(cs_advanced, cs_advance_to,
                 (const cs_segments *segments, size_t count, double y, double *x_next,
-                 bool *rises));
+                 uint32_t *ended));
 /* Whether each of x is less than the one after it. */
 CS_WIDE_DECLARE(bool, cs_advance_rises, (const double *x, size_t count));
 
