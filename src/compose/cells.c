@@ -20,8 +20,8 @@ void cs_cells_forget(cs_cells *cells) {
 static celspan_status make_room(cs_cells *cells, celspan_context *context, size_t count) {
   CS_TRY(cs_mem_reserve(context, (void **)&cells->cells, &cells->cell_capacity, count + 1,
                         sizeof *cells->cells));
-  CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity, count + 1,
-                        sizeof *cells->is_visible));
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity,
+                        count + CS_ADVANCE_BATCH, sizeof *cells->is_visible));
   return cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity, count + 1,
                         sizeof *cells->visible);
 }

@@ -35,7 +35,7 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_active *active
 
 typedef struct cs_cells {
   cs_cell *cells;   /* count + 1 in use */
-  bool *is_visible; /* by boundary */
+  bool *is_visible; /* by boundary; room for whole batches (sweep/advance.h) */
   bool is_listed;
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;

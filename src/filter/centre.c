@@ -13,17 +13,15 @@
  * the scan's arena. NULL without memory. */
 static int32_t *find_ends(cs_scan *scan) {
   const cs_cells *cells = &scan->cells;
-  size_t count = scan->active.count, visible = cells->visible_count;
-  size_t numbers = count + CS_ADVANCE_BATCH + visible + 2 + CS_CENTRE_BATCH;
-  int32_t *ends = cs_arena_take(scan->context, &scan->arena, numbers * sizeof *ends);
+  size_t count = scan->active.count, room = 2 + cells->visible_count + CS_ADVANCE_BATCH;
+  int32_t *ends = cs_arena_take(scan->context, &scan->arena, room * sizeof *ends);
   if (!ends)
     return NULL;
-  int32_t *columns = ends + visible + 2 + CS_CENTRE_BATCH, width = scan->shot->width;
-  CS_WIDE_CHOOSE(scan->active.isa, cs_centre_columns)(scan->active.x, count, width, columns);
+  int32_t width = scan->shot->width;
   ends[0] = 0;
-  for (size_t v = 0; v < visible; v++)
-    ends[v + 1] = columns[cells->visible[v]];
-  ends[visible + 1] = width;
+  CS_WIDE_CHOOSE(scan->active.isa, cs_centre_ends)
+  (scan->active.x, cells->is_visible, count, width, ends + 1);
+  ends[cells->visible_count + 1] = width;
   return ends;
 }
 

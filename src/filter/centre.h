@@ -5,10 +5,11 @@
 #include "celspan/celspan.h"
 #include "sweep/advance.h"
 
-/* Fills columns[i] with the first column whose centre lies at or right of x[i], held to 0..width.
- * In whole batches: see sweep/advance.h. */
-CS_WIDE_DECLARE(void, cs_centre_columns,
-                (const double *x, size_t count, int32_t width, int32_t *columns));
+/* Appends to `ends`, for every visible boundary, the first column whose centre lies at or right of x,
+ * held to 0..width; returns how many there are. In whole batches: see sweep/advance.h; of ends too. */
+CS_WIDE_DECLARE(size_t, cs_centre_ends,
+                (const double *x, const bool *is_visible, size_t count, int32_t width,
+                 int32_t *ends));
 
 /* Spans are placed so many at a time: there is room for CS_CENTRE_BATCH more than `count`, of spans
  * and of ends. */

@@ -1,16 +1,50 @@
 #include "filter/centre.h"
 
-void CS_WIDE(cs_centre_columns)(const double *restrict x, size_t count, int32_t width,
-                                int32_t *restrict columns) {
-  int64_t whole = (int64_t)cs_advance_whole(count);
-#pragma omp simd
-  for (int64_t i = 0; i < whole; i++) {
-    double centre = x[i] - 0.5;
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+enum { BATCH = CS_ADVANCE_BATCH };
+
+static inline void find_columns(const double *x, int32_t width, int32_t columns[BATCH]) {
+  for (int k = 0; k < BATCH; k++) {
+    double centre = x[k] - 0.5;
     int32_t column = (int32_t)centre;
     column += centre > column;
     column = column > 0 ? column : 0;
-    columns[i] = column < width ? column : width;
+    columns[k] = column < width ? column : width;
   }
+}
+
+/* Puts those of a batch that are visible one after the other; returns how many. */
+static inline size_t pack(const int32_t columns[BATCH], const bool *is_visible, size_t count,
+                          int32_t *ends) {
+#ifdef __AVX512F__
+  __m128i flags = _mm_loadu_si128((const __m128i *)(const void *)is_visible);
+  unsigned visible = _mm_test_epi8_mask(flags, flags);
+  visible &= count < BATCH ? (1u << count) - 1 : UINT16_MAX;
+  __m512i packed = _mm512_maskz_compress_epi32((__mmask16)visible, _mm512_loadu_si512(columns));
+  _mm512_storeu_si512(ends, packed);
+  return (size_t)__builtin_popcount(visible);
+#else
+  size_t found = 0;
+  for (size_t k = 0; k < BATCH && k < count; k++) {
+    ends[found] = columns[k];
+    found += is_visible[k];
+  }
+  return found;
+#endif
+}
+
+size_t CS_WIDE(cs_centre_ends)(const double *x, const bool *is_visible, size_t count, int32_t width,
+                               int32_t *ends) {
+  size_t found = 0;
+  for (size_t i = 0; i < count; i += BATCH) {
+    int32_t columns[BATCH];
+    find_columns(x + i, width, columns);
+    found += pack(columns, is_visible + i, count - i, ends + found);
+  }
+  return found;
 }
 
 typedef int32_t quad __attribute__((vector_size(16)));

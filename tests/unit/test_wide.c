@@ -1,10 +1,12 @@
 /* The sweep's vector code gives the same bits whichever instructions it runs with. */
+#include "filter/centre.h"
 #include "filter/edges.h"
 #include "geometry/polyline.h"
 #include "sweep/advance.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST = 203, ROOM = MOST + CS_ADVANCE_BATCH, WIDTH = 640 };
@@ -102,6 +104,35 @@ static void check_edges(cs_isa isa, test_random *random) {
     }
 }
 
+/* Where visible cells begin under pixel centres, and the spans that are made of it. */
+static void check_centres(cs_isa isa, test_random *random) {
+  double x[ROOM];
+  bool is_visible[ROOM] = {false};
+  int32_t ends[ROOM + 1] = {0}, wrong = 0;
+  static celspan_span spans[ROOM];
+  size_t count = (size_t)random_below(random, MOST), found = 0;
+  fill_with_rubbish(x);
+  for (size_t i = 0; i < count; i++) {
+    x[i] = random_below(random, 40) ? (WIDTH - 8) * (double)(i + 1) / MOST : random_x(random);
+    is_visible[i] = random_below(random, 3) > 0;
+  }
+  size_t seen = CS_WIDE_CHOOSE(isa, cs_centre_ends)(x, is_visible, count, WIDTH, ends + 1);
+  bool has_empty = false;
+  for (size_t i = 0; i < count; i++)
+    if (is_visible[i]) {
+      double first = ceil(x[i] - 0.5), held = first < 0 ? 0 : first > WIDTH ? WIDTH : first;
+      wrong += ends[++found] != (int32_t)held;
+      has_empty |= ends[found] <= ends[found - 1];
+    }
+  CHECK(wrong == 0 && seen == found);
+  memset(spans, 1, sizeof spans);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_centre_place)(spans, ends, found) == !has_empty);
+  for (size_t k = 0; k < found && !has_empty; k++)
+    wrong += spans[k].x0 != ends[k] || spans[k].x1 != ends[k + 1] || spans[k].origin != ends[k] ||
+             spans[k].kind != CELSPAN_SPAN_SINGLE || memcmp(spans[k].colour, "\1\1\1\1", 4) != 0;
+  CHECK(wrong == 0);
+}
+
 static cs_boundary_piece random_piece(test_random *random) {
   cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
                              .right = 290, .sag = 0.02};
@@ -152,6 +183,7 @@ int main(void) {
       check_advance((cs_isa)isa, &random);
       check_order((cs_isa)isa, &random);
       check_edges((cs_isa)isa, &random);
+      check_centres((cs_isa)isa, &random);
       check_vertices((cs_isa)isa, &random);
       check_strays((cs_isa)isa, &random);
     }
