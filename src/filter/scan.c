@@ -6,6 +6,7 @@
 celspan_status cs_scan_init(cs_scan *scan, celspan_context *context, const cs_shot *shot) {
   *scan = (cs_scan){.context = context, .shot = shot, .row = CS_SCAN_NOWHERE};
   cs_active_init(&scan->active, &shot->boundaries, &shot->cull);
+  scan->active.notes_bends = shot->antialias != CELSPAN_ANTIALIAS_NONE;
   cs_cells_init(&scan->cells);
   cs_arena_init(&scan->arena);
   cs_scanline_init(&scan->output);

@@ -13,7 +13,7 @@ static size_t block_size(size_t capacity) {
 }
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
-  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best()};
+  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best(), .notes_bends = true};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
@@ -246,8 +246,28 @@ static void widen(cs_bend *noted, double x) {
   noted->high = x > noted->high ? x : noted->high;
 }
 
-/* Steps boundary i on until its segment holds y or its chain ends, noting the vertices passed.
- * Displaced vertices may run back a little; those hold no height and are not noted. */
+static celspan_status note_bend(celspan_context *context, cs_active *active, const cs_bend *noted) {
+  CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
+                        active->bend_count + 1, sizeof *active->bends));
+  active->bend_of[noted->boundary] = (uint32_t)active->bend_count;
+  active->bends[active->bend_count++] = *noted;
+  return CELSPAN_OK;
+}
+
+/* Steps boundary i on until its segment holds y or its chain ends. */
+static celspan_status step(celspan_context *context, cs_active *active, size_t i, double y) {
+  cs_boundary_walk *walk = &active->walks[active->slot[i]];
+  bool goes_on = true;
+  while (walk->y1 <= y && goes_on)
+    goes_on = cs_boundary_next(active->set, walk);
+  take_segment(active, i);
+  active->x_next[i] = goes_on ? cs_boundary_x(walk, y) : walk->x1;
+  return goes_on ? CELSPAN_OK
+                 : note_bend(context, active, &(cs_bend){.boundary = (uint32_t)i, .ends = true});
+}
+
+/* The same, noting the vertices passed. Displaced vertices may run back a little; those hold no
+ * height and are not noted. */
 static celspan_status bend(celspan_context *context, cs_active *active, size_t i, double y) {
   cs_boundary_walk *walk = &active->walks[active->slot[i]];
   cs_bend noted = {.boundary = (uint32_t)i, .vertex = (uint32_t)active->vertex_count};
@@ -269,11 +289,7 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   widen(&noted, active->x_next[i]);
   if (noted.vertex_count == 0 && !noted.ends) /* the joint lies at y */
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(context, (void **)&active->bends, &active->bend_capacity,
-                        active->bend_count + 1, sizeof *active->bends));
-  active->bend_of[i] = (uint32_t)active->bend_count;
-  active->bends[active->bend_count++] = noted;
-  return CELSPAN_OK;
+  return note_bend(context, active, &noted);
 }
 
 /* How many neighbours of boundary i are out of order with it at the height reached. */
@@ -291,7 +307,7 @@ celspan_status cs_active_reach(celspan_context *context, cs_active *active, doub
   for (size_t k = 0; k < found.ended; k++) {
     size_t i = active->ended[k];
     found.falls -= count_falls(active, i);
-    CS_TRY(bend(context, active, i, y));
+    CS_TRY(active->notes_bends ? bend(context, active, i, y) : step(context, active, i, y));
     found.falls += count_falls(active, i);
   }
   active->rises = found.falls == 0;

@@ -59,6 +59,7 @@ typedef struct cs_active {
   uint32_t *slot;
   size_t count;
   bool rises; /* x_next is in order, no two alike */
+  bool notes_bends; /* false: only where boundaries stand counts, bends hold those that end */
   /* by slot */
   cs_boundary_walk *walks;
   uint32_t *free_slots;
