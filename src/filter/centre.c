@@ -9,34 +9,18 @@
 #include "filter/strips.h"
 #include "span/pen.h"
 
-/* Where the visible cells of a row begin, from left to right, and where the last one ends; room in
- * the scan's arena. NULL without memory. */
-static int32_t *find_ends(cs_scan *scan) {
-  const cs_cells *cells = &scan->cells;
-  size_t count = scan->active.count, room = 2 + cells->visible_count + CS_ADVANCE_BATCH;
-  int32_t *ends = cs_arena_take(scan->context, &scan->arena, room * sizeof *ends);
-  if (!ends)
-    return NULL;
-  int32_t width = scan->shot->width;
-  ends[0] = 0;
-  CS_WIDE_CHOOSE(scan->active.isa, cs_centre_ends)
-  (scan->active.x, cells->is_visible, count, width, ends + 1);
-  ends[cells->visible_count + 1] = width;
-  return ends;
-}
-
 /* Right of the v-th visible boundary from the left; the leftmost, where v is 0. */
 static const cs_cell *visible_cell(const cs_cells *cells, size_t v) {
   return v > 0 ? &cells->cells[cells->visible[v - 1] + 1] : cells->cells;
 }
 
-/* Flat cells, from visible cell v on; returns the first that is not flat. */
+/* Flat cells, from visible cell v on, up to their ends; returns the first that is not flat. */
 static size_t draw_flats(const cs_cells *cells, const int32_t *ends, cs_pen *pen, size_t v) {
   for (; v <= cells->visible_count; v++) {
     const cs_cell *cell = visible_cell(cells, v);
     if (cell->length > 0)
       break;
-    cs_pen_to(pen, ends[v + 1], cell->colour);
+    cs_pen_to(pen, ends[v], cell->colour);
   }
   return v;
 }
@@ -53,7 +37,7 @@ static celspan_status draw_row(cs_scan *scan, int32_t y, const int32_t *ends, cs
     from = pen.from;
     if (v == count)
       break;
-    int32_t to = ends[v + 1] > from ? ends[v + 1] : from;
+    int32_t to = ends[v] > from ? ends[v] : from;
     CS_TRY(cs_composer_run(&scan->composer, visible_cell(cells, v), from, to, y + 0.5, out));
     from = to;
   }
@@ -72,34 +56,33 @@ static bool put_colours(const cs_cells *cells, celspan_span *spans) {
 }
 
 /* Where all visible cells are flat and none is empty, each is a span: of neighbours with one colour
- * neither is visible. False, and nothing done that counts, where not. */
-static bool draw_all(cs_scan *scan, const int32_t *ends, cs_row *out) {
-  const size_t count = scan->cells.visible_count + 1;
+ * neither is visible. False where not; the row is to be drawn then. Fills ends in any case. */
+static bool draw_all(cs_scan *scan, cs_row *out, int32_t *ends) {
+  const cs_cells *cells = &scan->cells;
+  const cs_active *active = &scan->active;
   bool is_drawn = out->drawn_by == scan && out->drawn_as == scan->looks;
-  if (!CS_WIDE_CHOOSE(scan->active.isa, cs_centre_place)(out->spans, ends, count))
-    return false;
-  if (is_drawn)
+  bool is_full = CS_WIDE_CHOOSE(active->isa, cs_centre_place)(
+      active->x, cells->is_visible, active->count, scan->shot->width, out->spans, ends);
+  if (is_full && is_drawn)
     return true;
   cs_row_clear(out);
-  if (!put_colours(&scan->cells, out->spans))
+  if (!is_full || !put_colours(cells, out->spans))
     return false;
-  out->count = count;
+  out->count = cells->visible_count + 1;
   out->drawn_by = scan;
   out->drawn_as = scan->looks;
   return true;
 }
 
 celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
+  size_t most = scan->cells.visible_count + 1 + CS_ADVANCE_BATCH;
   if (cs_strips_meet(scan, y)) {
     cs_row_clear(out);
     return cs_strips_centre_row(scan, y, out);
   }
-  const int32_t *ends = find_ends(scan);
+  int32_t *ends = cs_arena_take(scan->context, &scan->arena, most * sizeof *ends);
   if (!ends)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(cs_row_room(scan->context, out, scan->cells.visible_count + 1 + CS_CENTRE_BATCH));
-  if (draw_all(scan, ends, out))
-    return CELSPAN_OK;
-  cs_row_clear(out);
-  return draw_row(scan, y, ends, out);
+  CS_TRY(cs_row_room(scan->context, out, most));
+  return draw_all(scan, out, ends) ? CELSPAN_OK : draw_row(scan, y, ends, out);
 }

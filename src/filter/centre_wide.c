@@ -1,10 +1,27 @@
 #include "filter/centre.h"
 
+#include <stddef.h>
+
 #ifdef __AVX512F__
 #include <immintrin.h>
 #endif
 
 enum { BATCH = CS_ADVANCE_BATCH };
+
+/* The fields that begin a span. */
+typedef struct place {
+  int32_t x0, x1, kind, origin;
+} place;
+
+_Static_assert(offsetof(celspan_span, x1) == offsetof(place, x1) &&
+                   offsetof(celspan_span, kind) == offsetof(place, kind) &&
+                   offsetof(celspan_span, origin) == offsetof(place, origin) &&
+                   CELSPAN_SPAN_SINGLE == 0,
+               "places are written as a whole");
+
+static inline void put_place(celspan_span *span, int32_t from, int32_t to) {
+  memcpy(span, &(place){from, to, CELSPAN_SPAN_SINGLE, from}, sizeof(place));
+}
 
 static inline void find_columns(const double *x, int32_t width, int32_t columns[BATCH]) {
   for (int k = 0; k < BATCH; k++) {
@@ -16,75 +33,69 @@ static inline void find_columns(const double *x, int32_t width, int32_t columns[
   }
 }
 
-/* Puts those of a batch that are visible one after the other; returns how many. */
-static inline size_t pack(const int32_t columns[BATCH], const bool *is_visible, size_t count,
-                          int32_t *ends) {
+/* How far a row has been written. */
+typedef struct progress {
+  size_t found; /* ends */
+  int32_t last; /* of them */
+  bool has_empty;
+} progress;
+
 #ifdef __AVX512F__
+
+/* Spans from[k]..to[k]. */
+static inline void put_places(celspan_span *spans, __m512i from, __m512i to) {
+  const __m512i four = _mm512_set1_epi32(4);
+  __m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);
+  for (int k = 0; k < BATCH; k += 4, order = _mm512_add_epi32(order, four)) {
+    __m512i places = _mm512_maskz_permutex2var_epi32(0xbbbb, from, order, to);
+    _mm_storeu_si128((__m128i *)(void *)&spans[k], _mm512_castsi512_si128(places));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 1], _mm512_extracti32x4_epi32(places, 1));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 2], _mm512_extracti32x4_epi32(places, 2));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 3], _mm512_extracti32x4_epi32(places, 3));
+  }
+}
+
+static inline void place_batch(progress *p, const int32_t columns[BATCH], const bool *is_visible,
+                               size_t count, celspan_span *spans, int32_t *ends) {
   __m128i flags = _mm_loadu_si128((const __m128i *)(const void *)is_visible);
   unsigned visible = _mm_test_epi8_mask(flags, flags);
   visible &= count < BATCH ? (1u << count) - 1 : UINT16_MAX;
-  __m512i packed = _mm512_maskz_compress_epi32((__mmask16)visible, _mm512_loadu_si512(columns));
-  _mm512_storeu_si512(ends, packed);
-  return (size_t)__builtin_popcount(visible);
-#else
-  size_t found = 0;
-  for (size_t k = 0; k < BATCH && k < count; k++) {
-    ends[found] = columns[k];
-    found += is_visible[k];
-  }
-  return found;
-#endif
+  unsigned found = (unsigned)__builtin_popcount(visible);
+  __m512i to = _mm512_maskz_compress_epi32((__mmask16)visible, _mm512_loadu_si512(columns));
+  __m512i from = _mm512_alignr_epi32(to, _mm512_set1_epi32(p->last), 15);
+  p->has_empty |= (_mm512_cmple_epi32_mask(to, from) & ((1u << found) - 1)) != 0;
+  _mm512_storeu_si512(ends + p->found, to);
+  put_places(spans + p->found, from, to);
+  __m512i all = _mm512_permutexvar_epi32(_mm512_set1_epi32((int)found - 1), to);
+  p->last = found > 0 ? _mm_cvtsi128_si32(_mm512_castsi512_si128(all)) : p->last;
+  p->found += found;
 }
 
-size_t CS_WIDE(cs_centre_ends)(const double *x, const bool *is_visible, size_t count, int32_t width,
-                               int32_t *ends) {
-  size_t found = 0;
+#else
+
+/* Every boundary is written, and those that are not visible written over. */
+static inline void place_batch(progress *p, const int32_t columns[BATCH], const bool *is_visible,
+                               size_t count, celspan_span *spans, int32_t *ends) {
+  for (size_t k = 0; k < BATCH && k < count; k++) {
+    ends[p->found] = columns[k];
+    put_place(&spans[p->found], p->last, columns[k]);
+    p->has_empty |= is_visible[k] & (columns[k] <= p->last);
+    p->last = is_visible[k] ? columns[k] : p->last;
+    p->found += is_visible[k];
+  }
+}
+
+#endif
+
+bool CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count, int32_t width,
+                              celspan_span *spans, int32_t *ends) {
+  progress p = {0, 0, false};
   for (size_t i = 0; i < count; i += BATCH) {
     int32_t columns[BATCH];
     find_columns(x + i, width, columns);
-    found += pack(columns, is_visible + i, count - i, ends + found);
+    place_batch(&p, columns, is_visible + i, count - i, spans, ends);
   }
-  return found;
-}
-
-typedef int32_t quad __attribute__((vector_size(16)));
-
-static inline quad load_quad(const int32_t *from) {
-  quad v;
-  memcpy(&v, from, sizeof v);
-  return v;
-}
-
-/* The fields that a place is made of, which begin a span. */
-static inline void store_place(celspan_span *span, quad place) {
-  _Static_assert(offsetof(celspan_span, x1) == 4 && offsetof(celspan_span, kind) == 8 &&
-                     offsetof(celspan_span, origin) == 12 && sizeof span->kind == 4,
-                 "");
-  memcpy(span, &place, sizeof place);
-}
-
-static inline bool rises(const int32_t *ends, size_t count) {
-  int32_t falls = 0;
-#pragma omp simd reduction(| : falls)
-  for (size_t k = 0; k < count; k++)
-    falls |= ends[k] >= ends[k + 1];
-  return !falls;
-}
-
-bool CS_WIDE(cs_centre_place)(celspan_span *spans, const int32_t *ends, size_t count) {
-  const quad single = {CELSPAN_SPAN_SINGLE, CELSPAN_SPAN_SINGLE};
-  if (!rises(ends, count))
-    return false;
-  for (size_t k = 0; k < count; k += CS_CENTRE_BATCH) {
-    quad from = load_quad(ends + k), to = load_quad(ends + k + 1);
-    quad low = __builtin_shufflevector(from, to, 0, 4, 1, 5);
-    quad high = __builtin_shufflevector(from, to, 2, 6, 3, 7);
-    quad low_rest = __builtin_shufflevector(single, from, 0, 4, 0, 5);
-    quad high_rest = __builtin_shufflevector(single, from, 0, 6, 0, 7);
-    store_place(&spans[k], __builtin_shufflevector(low, low_rest, 0, 1, 4, 5));
-    store_place(&spans[k + 1], __builtin_shufflevector(low, low_rest, 2, 3, 6, 7));
-    store_place(&spans[k + 2], __builtin_shufflevector(high, high_rest, 0, 1, 4, 5));
-    store_place(&spans[k + 3], __builtin_shufflevector(high, high_rest, 2, 3, 6, 7));
-  }
-  return true;
+  ends[p.found] = width;
+  put_place(&spans[p.found], p.last, width);
+  return !p.has_empty && p.last < width;
 }
