@@ -114,7 +114,11 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
   }
   mark_lines(spans, longs, long_count, first, owners);
   unsigned char *out = row->pixels + 4 * (size_t)first;
-  for (size_t line = 0; line < lines; line++, out += CS_FILL_BLOCK)
+  size_t line = 0;
+  for (; line + 4 <= lines; line += 4, out += 4 * CS_FILL_BLOCK)
+    for (size_t k = 0; k < 4; k++)
+      cs_fill_store(out + k * CS_FILL_BLOCK, all_of(codes[owners[line + k]]));
+  for (; line < lines; line++, out += CS_FILL_BLOCK)
     cs_fill_store(out, all_of(codes[owners[line]]));
 }
 
