@@ -56,7 +56,7 @@ struct delivery {
 /* ---------------------------------------------------------------- delivery */
 
 /* Spans are looked at only where there are arrays. */
-static void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count,
+static inline void count_spans(celspan_statistics *statistics, const celspan_span *spans, size_t count,
                         cs_varied varied) {
   statistics->rows++;
   statistics->spans += count;
@@ -68,7 +68,7 @@ static void count_spans(celspan_statistics *statistics, const celspan_span *span
       statistics->pixels_in_arrays += (uint64_t)(spans[i].x1 - spans[i].x0);
 }
 
-static celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count,
+static inline celspan_status deliver_row(delivery *d, const celspan_span *spans, size_t count,
                                   cs_varied varied) {
   count_spans(d->statistics, spans, count, varied);
   int32_t y = d->rows_done++;

@@ -1,6 +1,7 @@
 #include "sweep/active.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 /* Bytes of one boundary over all arrays: seven doubles, a crossing, two slots, two places, a walk. */
@@ -201,6 +202,17 @@ static void sort(cs_active *active, cs_change *change) {
 
 /* ---------------------------------------------------------------- heights */
 
+/* Above this height no chain begins and no other row of tiles does. */
+static double find_calm(const cs_active *active) {
+  const cs_cull *cull = active->cull;
+  const cs_boundary_set *set = active->set;
+  double begin = active->next < set->chain_count ? set->chains[active->next].y0 : INFINITY;
+  if (active->tile_row + 1 >= cull->tile_rows)
+    return begin;
+  double rounding = 1 - 0x1p-40, foot = (active->tile_row + 1) * cull->tile_height * rounding;
+  return begin < foot ? begin : foot;
+}
+
 static int32_t tile_row_of(const cs_active *active, double y) {
   return active->cull->tile_rows > 0 ? cs_cull_row(active->cull, y) : 0;
 }
@@ -231,7 +243,9 @@ celspan_status cs_active_start(celspan_context *context, cs_active *active, doub
   active->y = active->y_next = y;
   active->bend_count = active->vertex_count = 0;
   active->tile_row = tile_row_of(active, y);
-  return begin_chains(context, active, y, &change);
+  CS_TRY(begin_chains(context, active, y, &change));
+  active->calm_until = find_calm(active);
+  return CELSPAN_OK;
 }
 
 static celspan_status note_vertex(celspan_context *context, cs_active *active, double x, double y) {
@@ -353,15 +367,22 @@ static celspan_status change_tile_row(celspan_context *context, cs_active *activ
   return CELSPAN_OK;
 }
 
-celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_change *change) {
-  int32_t tile_row = tile_row_of(active, active->y_next);
-  *change = cs_change_all;
-  if (tile_row > active->tile_row + 1)
-    return cs_active_start(context, active, active->y_next);
+/* Makes the height reached the current one. */
+static void take_next(cs_active *active) {
   double *left_behind = active->x;
   active->x = active->x_next;
   active->x_next = left_behind;
   active->y = active->y_next;
+}
+
+/* Lets in, takes out and puts in order what the height reached asks for. */
+static celspan_status settle_events(celspan_context *context, cs_active *active,
+                                    cs_change *change) {
+  int32_t tile_row = tile_row_of(active, active->y_next);
+  *change = cs_change_all;
+  if (tile_row > active->tile_row + 1)
+    return cs_active_start(context, active, active->y_next);
+  take_next(active);
   *change = cs_change_none;
   if (active->bend_count > 0)
     drop_ended(active, change);
@@ -374,5 +395,15 @@ celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_
   }
   if (!active->rises)
     sort(active, change);
-  return begin_chains(context, active, active->y, change);
+  CS_TRY(begin_chains(context, active, active->y, change));
+  active->calm_until = find_calm(active);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_change *change) {
+  if (!active->rises || active->bend_count > 0 || active->y_next >= active->calm_until)
+    return settle_events(context, active, change);
+  take_next(active);
+  *change = cs_change_none;
+  return CELSPAN_OK;
 }

@@ -70,6 +70,7 @@ typedef struct cs_active {
   size_t next;     /* the first chain of the set that has not begun */
   double y;        /* the current height */
   double y_next;   /* the height reached */
+  double calm_until; /* above this height no chain begins, and no other row of tiles */
   cs_bend *bends;  /* between the two, in order of their boundaries */
   uint32_t *bend_of; /* by boundary: the only place in bends where its bend may be */
   celspan_point *vertices;
