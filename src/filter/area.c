@@ -293,12 +293,12 @@ static celspan_status next_slice(cs_scan *scan) {
   CS_TRY(cs_active_settle(scan->context, &scan->active, &change));
   if (!cs_change_is_none(change))
     CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
-  cs_cells_list(&scan->cells);
   return scan->composer.failure;
 }
 
 /* The row between two heights; the boundaries stand at the upper. */
 static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y0, double y1) {
+  cs_cells_list(&scan->cells);
   cs_blocks blocks = {.scan = scan, .cells = cells, .y0 = y0, .y1 = y1};
   scan->carried = NULL;
   blocks.toggle = cs_active_toggles(&scan->active, &blocks.toggle_end);

@@ -44,14 +44,24 @@ static celspan_status draw_row(cs_scan *scan, int32_t y, const int32_t *ends, cs
   return CELSPAN_OK;
 }
 
-/* Gives every visible cell's colour to the span of the same number; false where one is not flat. */
-static bool put_colours(const cs_cells *cells, celspan_span *spans) {
-  uint32_t varied = 0;
-  for (size_t v = 0; v <= cells->visible_count; v++) {
-    const cs_cell *cell = visible_cell(cells, v);
-    cs_v4_store(spans[v].colour, cell->colour);
-    varied |= cell->length;
+static size_t count_visible(const bool *is_visible, size_t count) {
+  size_t visible = 0;
+  for (size_t i = 0; i < count; i++)
+    visible += is_visible[i];
+  return visible;
+}
+
+/* Gives the colours of the visible cells that boundaries [low, high) lie between to their spans;
+ * false where one is not flat. */
+static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_span *spans) {
+  celspan_span *span = spans + count_visible(cells->is_visible, low);
+  uint32_t varied = cells->cells[high].length;
+  for (size_t i = low; i < high; i++) { /* cells that look alike write the same */
+    cs_v4_store(span->colour, cells->cells[i].colour);
+    varied |= cells->cells[i].length;
+    span += cells->is_visible[i];
   }
+  cs_v4_store(span->colour, cells->cells[high].colour);
   return varied == 0;
 }
 
@@ -60,22 +70,27 @@ static bool put_colours(const cs_cells *cells, celspan_span *spans) {
 static bool draw_all(cs_scan *scan, cs_row *out, int32_t *ends) {
   const cs_cells *cells = &scan->cells;
   const cs_active *active = &scan->active;
-  bool is_drawn = out->drawn_by == scan && out->drawn_as == scan->looks;
-  bool is_full = CS_WIDE_CHOOSE(active->isa, cs_centre_place)(
+  size_t low = 0, high = active->count;
+  size_t count = CS_WIDE_CHOOSE(active->isa, cs_centre_place)(
       active->x, cells->is_visible, active->count, scan->shot->width, out->spans, ends);
-  if (is_full && is_drawn)
+  bool is_ours = out->drawn_by == scan && out->count == count;
+  if (is_ours && out->drawn_as == scan->looks)
     return true;
+  if (is_ours && out->drawn_as + 1 == scan->looks) {
+    low = scan->change.low;
+    high -= scan->change.tail;
+  }
   cs_row_clear(out);
-  if (!is_full || !put_colours(cells, out->spans))
+  if (count == 0 || !put_colours(cells, low, high, out->spans))
     return false;
-  out->count = cells->visible_count + 1;
+  out->count = count;
   out->drawn_by = scan;
   out->drawn_as = scan->looks;
   return true;
 }
 
 celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
-  size_t most = scan->cells.visible_count + 1 + CS_ADVANCE_BATCH;
+  size_t most = scan->active.count + 1 + CS_ADVANCE_BATCH;
   if (cs_strips_meet(scan, y)) {
     cs_row_clear(out);
     return cs_strips_centre_row(scan, y, out);
@@ -84,5 +99,8 @@ celspan_status cs_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
   if (!ends)
     return CELSPAN_NO_MEMORY;
   CS_TRY(cs_row_room(scan->context, out, most));
-  return draw_all(scan, out, ends) ? CELSPAN_OK : draw_row(scan, y, ends, out);
+  if (draw_all(scan, out, ends))
+    return CELSPAN_OK;
+  cs_cells_list(&scan->cells);
+  return draw_row(scan, y, ends, out);
 }

@@ -87,7 +87,7 @@ static inline void place_batch(progress *p, const int32_t columns[BATCH], const 
 
 #endif
 
-bool CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count, int32_t width,
+size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count, int32_t width,
                               celspan_span *spans, int32_t *ends) {
   progress p = {0, 0, false};
   for (size_t i = 0; i < count; i += BATCH) {
@@ -97,5 +97,5 @@ bool CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t co
   }
   ends[p.found] = width;
   put_place(&spans[p.found], p.last, width);
-  return !p.has_empty && p.last < width;
+  return p.has_empty || p.last >= width ? 0 : p.found + 1;
 }

@@ -60,9 +60,9 @@ static celspan_status reach_row(cs_scan *scan, int32_t y) {
   }
   if (!cs_change_is_none(change)) {
     scan->looks++;
+    scan->change = change;
     CS_TRY(cs_cells_update(&scan->cells, &scan->composer, &scan->active, change));
   }
-  cs_cells_list(&scan->cells);
   return scan->composer.failure;
 }
 

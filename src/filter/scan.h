@@ -38,7 +38,8 @@ typedef struct cs_scan {
   cs_arena arena; /* of the current row */
   celspan_scanline_output output; /* room for what procedures return */
   struct cs_carried *carried; /* of the current row: see carry.h */
-  uint64_t looks; /* how often the cells have changed */
+  uint64_t looks;   /* how often the cells have changed */
+  cs_change change; /* where they did last */
   int32_t row;    /* the active boundaries stand at this row's height, or NOWHERE */
   cs_trace *traces; /* FILTER: of rows seen, row y in place y modulo the count */
   const cs_trace **under; /* those under the kernel */
