@@ -15,12 +15,13 @@ void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   *edges = (cs_edges){0};
 }
 
-/* The wider items first, so that each is aligned. */
+/* The wider items first, so that each is aligned. Vector code goes beyond the count: zeros are quick
+ * there, what happens to lie in memory may be denormal numbers, which are not. */
 static celspan_status make_room(celspan_context *context, cs_edges *edges, size_t count) {
   if (count <= edges->capacity)
     return CELSPAN_OK;
   size_t wanted = 2 * count;
-  void *block = cs_mem_resize(context->memory, NULL, 0, block_size(wanted));
+  void *block = cs_mem_array(context->memory, 1, block_size(wanted));
   if (!block)
     return cs_fail_memory(context);
   double *doubles = cs_wide_align(block);

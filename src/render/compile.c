@@ -9,6 +9,7 @@
 typedef struct compiler {
   celspan_context *context;
   cs_shot *shot;
+  int workers; /* threads at most */
   cs_boundary_frame frame;
   double first_height, end_height; /* of the rows that will be asked for, margin included */
   size_t cel; /* from 1: for messages */
@@ -383,7 +384,7 @@ static celspan_status cull(compiler *c) {
   celspan_status status =
       cs_cull_create(c->context, &c->shot->boundaries, leaves, stack->leaf_count, c->shot->width,
                      c->shot->height, c->shot->margin, (double)CS_PAINT_OPAQUE * 0.999,
-                     &c->shot->cull);
+                     c->workers, &c->shot->cull);
   cs_mem_free(c->context->memory, leaves, stack->leaf_count * sizeof *leaves);
   return status;
 }
@@ -413,7 +414,8 @@ static void begin(compiler *c, celspan_context *context, cs_shot *shot, int32_t 
 }
 
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
-                          const cs_view *view, const cs_antialias *antialias, cs_shot *out) {
+                          const cs_view *view, const cs_antialias *antialias, int workers,
+                          cs_shot *out) {
   cs_shot shot = {.width = view->width, .height = view->height, .antialias = antialias->mode};
   if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
     CS_TRY(cs_kernel_create(context, antialias, &shot.kernel));
@@ -421,6 +423,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   }
   compiler c;
   begin(&c, context, &shot, view->first_row, view->end_row);
+  c.workers = workers;
   celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
   if (status == CELSPAN_OK)
     *out = shot;
@@ -450,6 +453,7 @@ celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, 
                   .kernel = kernel};
   compiler c;
   begin(&c, context, &shot, 0, height);
+  c.workers = 1;
   c.cel = cel_index + 1;
   celspan_status status = compile_alone(&c, cel, matrix, is_through);
   if (status == CELSPAN_OK)

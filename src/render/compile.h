@@ -18,11 +18,12 @@ typedef struct cs_view {
   int32_t first_row, end_row;
 } cs_view;
 
-/* Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera, for a rotated scan-line
- * primitive and for what is not built in, naming the cel. */
+/* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera,
+ * for a rotated scan-line primitive and for what is not built in, naming the cel. */
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
                                           const celspan_rostrum *rostrum, const cs_view *view,
-                                          const cs_antialias *antialias, cs_shot *out);
+                                          const cs_antialias *antialias, int workers,
+                                          cs_shot *out);
 /* One cel alone, without opacity, onto a raster of its own: `matrix` takes its units there. Lit
  * from the front alone, or (is_through) from behind alone, by white light. kernel: taken over;
  * NULL: the mean over each pixel. Errors: as above. */

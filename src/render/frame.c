@@ -110,7 +110,7 @@ static celspan_status compile_exposure(celspan_context *context, const celspan_f
                   .end_row = frame->crop_y + frame->crop_height};
   CS_TRY(cs_compile(context, exposure->rostrum, &view,
                     antialias ? antialias : &exposure->rostrum->antialias,
-                    &frame->shots[frame->count]));
+                    cs_frame_workers(desc->workers), &frame->shots[frame->count]));
   frame->weights[frame->count++] = (float)exposure->weight;
   return CELSPAN_OK;
 }

@@ -35,10 +35,12 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
   return array;
 }
 
-/* All arrays lie in one block: the wider items first, so that each is aligned. */
+/* All arrays lie in one block: the wider items first, so that each is aligned. Vector code goes beyond
+ * the count: zeros are quick there, what happens to lie in memory may be denormal numbers, which are
+ * not. */
 static celspan_status grow(celspan_context *context, cs_active *active) {
   size_t old = active->capacity, wanted = old ? 2 * old : 64;
-  void *block = cs_mem_resize(context->memory, NULL, 0, block_size(wanted));
+  void *block = cs_mem_array(context->memory, 1, block_size(wanted));
   if (!block)
     return cs_fail_memory(context);
   unsigned char *at = cs_wide_align(block);

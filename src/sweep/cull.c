@@ -1,5 +1,6 @@
 #include "sweep/cull.h"
 
+#include "base/crew.h"
 #include "base/number.h"
 #include "geometry/polyline.h"
 
@@ -13,11 +14,24 @@
  * boundary that is taken for wider hides less. */
 #define SLACK_TILES 0.25
 #define SLACK_LEAST 0x1p-8 /* pixels: more than all rounding */
+/* What is done at a time, by whichever thread is free. */
+#define SLICE_CHAINS 256
+#define SLICE_ROWS 16
 
 /* The columns a chain touches in one row of tiles. */
 typedef struct reach {
   uint8_t low, high;
 } reach;
+
+/* Some rows of tiles that follow one another. */
+typedef struct slice {
+  celspan_context context; /* a branch */
+  celspan_status status;
+  int32_t first, end;
+  cs_toggle *toggles; /* in the order they were found */
+  uint32_t *toggle_rows;
+  size_t toggle_count, toggle_capacity, toggle_row_capacity;
+} slice;
 
 typedef struct culler {
   celspan_context *context;
@@ -26,17 +40,17 @@ typedef struct culler {
   size_t leaf_count;
   double width, height, margin, opaque;
   double slack; /* pixels */
+  double columns_a_pixel;
+  int workers;
   cs_cull *cull;
   int32_t *last_rows;    /* by chain: of tiles; less than the first where it is nowhere near */
-  reach *reaches;        /* one a kept bit */
-  size_t reach_count;
+  reach *reaches;        /* as cull->kept */
   uint32_t *leaf_starts; /* leaf_count + 1, into by_leaf */
   uint32_t *by_leaf;     /* chains of each leaf */
   uint64_t *live;        /* one a row of tiles */
   double *through;       /* one a tile */
-  cs_toggle *toggles;    /* in the order they were found */
-  uint32_t *toggle_rows;
-  size_t toggle_count, toggle_capacity, toggle_row_capacity;
+  slice *slices;
+  int32_t slice_count;
 } culler;
 
 /* ---------------------------------------------------------------- the grid */
@@ -69,9 +83,11 @@ static void find_rows(culler *c) {
   }
 }
 
-static uint8_t column(const culler *c, double x) {
-  double at = x * CS_CULL_COLUMNS / c->width;
-  return at <= 0 ? 0 : at >= CS_CULL_COLUMNS - 1 ? CS_CULL_COLUMNS - 1 : (uint8_t)at;
+/* Rounding may err by less than the slack that x has been given. */
+static inline uint8_t column(const culler *c, double x) {
+  const double most = CS_CULL_COLUMNS - 1;
+  double at = x * c->columns_a_pixel, held = at > 0 ? at : 0; /* what is no number counts as 0 */
+  return (uint8_t)(held < most ? held : most);
 }
 
 static double column_edge(const culler *c, uint8_t index) {
@@ -97,13 +113,9 @@ typedef struct chord {
 } chord;
 
 /* x of the chord at a height, held to its ends. */
-static double chord_x(const chord *line, double y) {
-  if (y <= line->top.y)
-    return line->top.x;
-  if (y >= line->foot.y)
-    return line->foot.x;
-  return line->top.x +
-         (line->foot.x - line->top.x) * ((y - line->top.y) / (line->foot.y - line->top.y));
+static inline double chord_x(const chord *line, double slope, double y) {
+  double below = y < line->foot.y ? y : line->foot.y, held = below > line->top.y ? below : line->top.y;
+  return line->top.x + (held - line->top.y) * slope;
 }
 
 /* Notes the columns that a chord touches in the rows first..last. */
@@ -113,9 +125,11 @@ static void trace_chord(const culler *c, const chord *line, int32_t first, int32
   int32_t to = cs_cull_row(c->cull, line->foot.y + line->slack);
   from = from > first ? from : first;
   to = to < last ? to : last;
+  double height = line->foot.y - line->top.y;
+  double slope = height > 0 ? (line->foot.x - line->top.x) / height : 0;
   for (int32_t row = from; row <= to; row++) {
-    double top = chord_x(line, row_top(c, row) - line->slack);
-    double foot = chord_x(line, row_foot(c, row) + line->slack);
+    double top = chord_x(line, slope, row_top(c, row) - line->slack);
+    double foot = chord_x(line, slope, row_foot(c, row) + line->slack);
     widen(&reaches[row - first], column(c, (top < foot ? top : foot) - line->slack));
     widen(&reaches[row - first], column(c, (top < foot ? foot : top) + line->slack));
   }
@@ -147,34 +161,39 @@ static void trace_chain(const culler *c, uint32_t chain, reach *reaches) {
     trace_piece(c, &c->set->pieces[ch->piece + k], first, last, reaches);
 }
 
+static void trace_slice(void *user, int32_t number) {
+  const culler *c = user;
+  size_t first = (size_t)number * SLICE_CHAINS, end = first + SLICE_CHAINS;
+  for (size_t chain = first; chain < end && chain < c->set->chain_count; chain++)
+    trace_chain(c, (uint32_t)chain, c->reaches + c->cull->places[chain]);
+}
+
 static celspan_status trace_chains(culler *c) {
   cs_cull *cull = c->cull;
-  size_t chains = c->set->chain_count, bits = 0;
+  size_t chains = c->set->chain_count, places = 0;
   for (uint32_t chain = 0; chain < chains; chain++) {
-    cull->bits[chain] = bits;
-    bits += (size_t)(c->last_rows[chain] - cull->first_rows[chain] + 1);
+    cull->places[chain] = places;
+    places += (size_t)(c->last_rows[chain] - cull->first_rows[chain] + 1);
   }
-  c->reach_count = bits;
-  cull->kept_words = bits / 64 + 1;
-  c->reaches = cs_mem_array(c->context->memory, bits, sizeof *c->reaches);
-  cull->kept = cs_mem_array(c->context->memory, cull->kept_words, sizeof *cull->kept);
-  if ((bits > 0 && !c->reaches) || !cull->kept)
+  cull->kept_count = places;
+  c->reaches = cs_mem_array(c->context->memory, places, sizeof *c->reaches);
+  cull->kept = cs_mem_array(c->context->memory, places, sizeof *cull->kept);
+  if (places > 0 && (!c->reaches || !cull->kept))
     return cs_fail_memory(c->context);
-  for (uint32_t chain = 0; chain < chains; chain++)
-    trace_chain(c, chain, c->reaches + cull->bits[chain]);
+  cs_crew_run(c->workers, (int32_t)((chains + SLICE_CHAINS - 1) / SLICE_CHAINS), trace_slice, c);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- one leaf */
 
-static celspan_status note_toggle(culler *c, int32_t row, double x,
+static celspan_status note_toggle(slice *s, int32_t row, double x,
                                   const cs_boundary_chain *chain) {
-  CS_TRY(cs_mem_reserve(c->context, (void **)&c->toggles, &c->toggle_capacity, c->toggle_count + 1,
-                        sizeof *c->toggles));
-  CS_TRY(cs_mem_reserve(c->context, (void **)&c->toggle_rows, &c->toggle_row_capacity,
-                        c->toggle_count + 1, sizeof *c->toggle_rows));
-  c->toggle_rows[c->toggle_count] = (uint32_t)row;
-  c->toggles[c->toggle_count++] = (cs_toggle){x, chain->leaf, chain->direction};
+  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->toggles, &s->toggle_capacity,
+                        s->toggle_count + 1, sizeof *s->toggles));
+  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->toggle_rows, &s->toggle_row_capacity,
+                        s->toggle_count + 1, sizeof *s->toggle_rows));
+  s->toggle_rows[s->toggle_count] = (uint32_t)row;
+  s->toggles[s->toggle_count++] = (cs_toggle){x, chain->leaf, chain->direction};
   return CELSPAN_OK;
 }
 
@@ -193,11 +212,12 @@ static void cross_column(footprint *f, uint8_t index, int32_t direction) {
   f->crossed |= bit;
 }
 
-static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footprint *f) {
+static celspan_status place_chain(const culler *c, slice *s, uint32_t chain, int32_t row,
+                                  footprint *f) {
   const cs_boundary_chain *ch = &c->set->chains[chain];
   double top = row_top(c, row), foot = row_foot(c, row);
-  size_t bit = c->cull->bits[chain] + (size_t)(row - c->cull->first_rows[chain]);
-  reach r = c->reaches[bit];
+  size_t place = c->cull->places[chain] + (size_t)(row - c->cull->first_rows[chain]);
+  reach r = c->reaches[place];
   f->touched |= column_mask(r);
   if (ch->y0 <= top)
     cross_column(f, r.low, ch->direction);
@@ -209,11 +229,10 @@ static celspan_status place_chain(culler *c, uint32_t chain, int32_t row, footpr
     f->turns = true;
   }
   if (turns || (column_mask(r) & c->live[row])) {
-    c->cull->kept[bit / 64] |= (uint64_t)1 << (bit % 64);
-    f->keeps = true;
+    c->cull->kept[place] = f->keeps = true;
     return CELSPAN_OK;
   }
-  return note_toggle(c, row, column_edge(c, r.low), ch);
+  return note_toggle(s, row, column_edge(c, r.low), ch);
 }
 
 /* The columns that lie wholly inside the leaf through the row of tiles. */
@@ -232,7 +251,7 @@ static uint64_t inside_mask(const footprint *f, int32_t winding_mask) {
 }
 
 /* Darkens the tiles that the leaf covers. */
-static void cover(culler *c, int32_t row, uint64_t inside, double through) {
+static void cover(const culler *c, int32_t row, uint64_t inside, double through) {
   for (uint64_t left = inside & c->live[row]; left; left &= left - 1) {
     int index = __builtin_ctzll(left);
     double *tile = &c->through[(size_t)row * CS_CULL_COLUMNS + (size_t)index];
@@ -242,34 +261,63 @@ static void cover(culler *c, int32_t row, uint64_t inside, double through) {
   }
 }
 
-static celspan_status cull_leaf_row(culler *c, uint32_t leaf, int32_t row) {
+static celspan_status cull_leaf_row(const culler *c, slice *s, uint32_t leaf, int32_t row) {
   footprint f;
   f.touched = f.crossed = 0;
   f.turning = (reach){0, 0};
   f.turns = f.keeps = false;
-  size_t toggles = c->toggle_count;
+  size_t toggles = s->toggle_count;
   for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
     uint32_t chain = c->by_leaf[k];
     if (row >= c->cull->first_rows[chain] && row <= c->last_rows[chain])
-      CS_TRY(place_chain(c, chain, row, &f));
+      CS_TRY(place_chain(c, s, chain, row, &f));
   }
   uint64_t inside = f.touched ? inside_mask(&f, c->leaves[leaf].winding_mask) : 0;
   if (!f.keeps && !(inside & c->live[row]))
-    c->toggle_count = toggles; /* it is nowhere to be seen in this row of tiles */
+    s->toggle_count = toggles; /* it is nowhere to be seen in this row of tiles */
   if (c->leaves[leaf].through < 1)
     cover(c, row, inside, c->leaves[leaf].through);
   return CELSPAN_OK;
 }
 
-static celspan_status cull_leaf(culler *c, uint32_t leaf) {
-  int32_t top = c->cull->tile_rows, bottom = -1;
+static celspan_status cull_leaf(const culler *c, slice *s, uint32_t leaf) {
+  int32_t top = s->end, bottom = s->first - 1;
   for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
     int32_t first = c->cull->first_rows[c->by_leaf[k]], last = c->last_rows[c->by_leaf[k]];
     top = first <= last && first < top ? first : top;
     bottom = last > bottom ? last : bottom;
   }
+  top = top > s->first ? top : s->first;
+  bottom = bottom < s->end ? bottom : s->end - 1;
   for (int32_t row = top; row <= bottom; row++)
-    CS_TRY(cull_leaf_row(c, leaf, row));
+    CS_TRY(cull_leaf_row(c, s, leaf, row));
+  return CELSPAN_OK;
+}
+
+static void cull_slice(void *user, int32_t number) {
+  const culler *c = user;
+  slice *s = &c->slices[number];
+  for (size_t leaf = c->leaf_count; leaf-- > 0 && s->status == CELSPAN_OK;)
+    s->status = cull_leaf(c, s, (uint32_t)leaf);
+}
+
+/* From the camera backwards, in slices: a row of tiles knows nothing of the others. */
+static celspan_status cull_leaves(culler *c) {
+  int32_t count = (c->cull->tile_rows + SLICE_ROWS - 1) / SLICE_ROWS;
+  c->slices = cs_mem_array(c->context->memory, (size_t)count, sizeof *c->slices);
+  if (!c->slices)
+    return cs_fail_memory(c->context);
+  c->slice_count = count;
+  for (int32_t i = 0; i < count; i++) {
+    slice *s = &c->slices[i];
+    cs_context_branch(&s->context, c->context);
+    s->first = i * SLICE_ROWS;
+    s->end = i + 1 < count ? s->first + SLICE_ROWS : c->cull->tile_rows;
+  }
+  cs_crew_run(c->workers, count, cull_slice, c);
+  for (int32_t i = 0; i < count; i++)
+    if (c->slices[i].status != CELSPAN_OK)
+      return cs_fail(c->context, c->slices[i].status, "%s", c->slices[i].context.error);
   return CELSPAN_OK;
 }
 
@@ -289,28 +337,37 @@ static void group_by_leaf(culler *c) {
 
 /* ---------------------------------------------------------------- by row of tiles */
 
+static size_t toggle_key(const culler *c, const slice *s, size_t i) {
+  return s->toggle_rows[i] * CS_CULL_COLUMNS + column(c, s->toggles[i].x);
+}
+
+/* Puts the toggles in their places; starts: by key, the first of its places. */
+static void place_toggles(const culler *c, uint32_t *starts) {
+  for (int32_t k = 0; k < c->slice_count; k++)
+    for (size_t i = 0; i < c->slices[k].toggle_count; i++)
+      c->cull->toggles[starts[toggle_key(c, &c->slices[k], i)]++] = c->slices[k].toggles[i];
+}
+
 /* Sorts the toggles by row of tiles, then column: counting, so that equal ones keep their order. */
 static celspan_status sort_toggles(culler *c) {
   cs_cull *cull = c->cull;
   size_t keys = (size_t)cull->tile_rows * CS_CULL_COLUMNS;
   uint32_t *starts = cs_mem_array(c->context->memory, keys + 1, sizeof *starts);
-  cull->toggles = cs_mem_array(c->context->memory, c->toggle_count, sizeof *cull->toggles);
-  cull->toggle_count = c->toggle_count;
-  if (!starts || (c->toggle_count > 0 && !cull->toggles)) {
-    cs_mem_free(c->context->memory, starts, (keys + 1) * sizeof *starts);
+  if (!starts)
     return cs_fail_memory(c->context);
-  }
-  for (size_t i = 0; i < c->toggle_count; i++)
-    starts[c->toggle_rows[i] * CS_CULL_COLUMNS + column(c, c->toggles[i].x) + 1]++;
+  for (int32_t k = 0; k < c->slice_count; k++)
+    for (size_t i = 0; i < c->slices[k].toggle_count; i++)
+      starts[toggle_key(c, &c->slices[k], i) + 1]++;
   for (size_t key = 0; key < keys; key++)
     starts[key + 1] += starts[key];
   for (int32_t row = 0; row <= cull->tile_rows; row++)
     cull->toggle_starts[row] = starts[(size_t)row * CS_CULL_COLUMNS];
-  for (size_t i = 0; i < c->toggle_count; i++)
-    cull->toggles[starts[c->toggle_rows[i] * CS_CULL_COLUMNS + column(c, c->toggles[i].x)]++] =
-        c->toggles[i];
+  cull->toggle_count = starts[keys];
+  cull->toggles = cs_mem_array(c->context->memory, cull->toggle_count, sizeof *cull->toggles);
+  if (cull->toggles)
+    place_toggles(c, starts);
   cs_mem_free(c->context->memory, starts, (keys + 1) * sizeof *starts);
-  return CELSPAN_OK;
+  return cull->toggle_count > 0 && !cull->toggles ? cs_fail_memory(c->context) : CELSPAN_OK;
 }
 
 /* Calls for every row of tiles of every chain below its first in which it is kept and was not. */
@@ -347,7 +404,7 @@ static celspan_status take_room(culler *c) {
   cs_memory *memory = c->context->memory;
   cs_cull *cull = c->cull;
   size_t rows = (size_t)cull->tile_rows, chains = c->set->chain_count;
-  cull->bits = cs_mem_array(memory, chains, sizeof *cull->bits);
+  cull->places = cs_mem_array(memory, chains, sizeof *cull->places);
   cull->first_rows = cs_mem_array(memory, chains, sizeof *cull->first_rows);
   c->last_rows = cs_mem_array(memory, chains, sizeof *c->last_rows);
   cull->toggle_starts = cs_mem_array(memory, rows + 1, sizeof *cull->toggle_starts);
@@ -356,7 +413,7 @@ static celspan_status take_room(culler *c) {
   c->by_leaf = cs_mem_array(memory, chains, sizeof *c->by_leaf);
   c->live = cs_mem_array(memory, rows, sizeof *c->live);
   c->through = cs_mem_array(memory, rows * CS_CULL_COLUMNS, sizeof *c->through);
-  if (!cull->bits || !cull->first_rows || !c->last_rows || !cull->toggle_starts ||
+  if (!cull->places || !cull->first_rows || !c->last_rows || !cull->toggle_starts ||
       !cull->enter_starts || !c->leaf_starts || !c->by_leaf || !c->live || !c->through)
     return cs_fail_memory(c->context);
   memset(c->live, 0xff, rows * sizeof *c->live);
@@ -368,14 +425,18 @@ static celspan_status take_room(culler *c) {
 static void give_room_back(culler *c) {
   cs_memory *memory = c->context->memory;
   size_t rows = (size_t)c->cull->tile_rows;
-  cs_mem_free(memory, c->reaches, c->reach_count * sizeof *c->reaches);
+  for (int32_t i = 0; i < c->slice_count; i++) {
+    slice *s = &c->slices[i];
+    cs_mem_free(memory, s->toggles, s->toggle_capacity * sizeof *s->toggles);
+    cs_mem_free(memory, s->toggle_rows, s->toggle_row_capacity * sizeof *s->toggle_rows);
+  }
+  cs_mem_free(memory, c->slices, (size_t)c->slice_count * sizeof *c->slices);
+  cs_mem_free(memory, c->reaches, c->cull->kept_count * sizeof *c->reaches);
   cs_mem_free(memory, c->last_rows, c->set->chain_count * sizeof *c->last_rows);
   cs_mem_free(memory, c->leaf_starts, (c->leaf_count + 1) * sizeof *c->leaf_starts);
   cs_mem_free(memory, c->by_leaf, c->set->chain_count * sizeof *c->by_leaf);
   cs_mem_free(memory, c->live, rows * sizeof *c->live);
   cs_mem_free(memory, c->through, rows * CS_CULL_COLUMNS * sizeof *c->through);
-  cs_mem_free(memory, c->toggles, c->toggle_capacity * sizeof *c->toggles);
-  cs_mem_free(memory, c->toggle_rows, c->toggle_row_capacity * sizeof *c->toggle_rows);
 }
 
 static celspan_status cull_all(culler *c) {
@@ -383,15 +444,15 @@ static celspan_status cull_all(culler *c) {
   find_rows(c);
   CS_TRY(trace_chains(c));
   group_by_leaf(c);
-  for (size_t leaf = c->leaf_count; leaf-- > 0;)
-    CS_TRY(cull_leaf(c, (uint32_t)leaf));
+  CS_TRY(cull_leaves(c));
   CS_TRY(sort_toggles(c));
   return find_enters(c);
 }
 
 celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
                               const cs_cull_leaf *leaves, size_t leaf_count, int32_t width,
-                              int32_t height, int32_t margin, double opaque, cs_cull *out) {
+                              int32_t height, int32_t margin, double opaque, int workers,
+                              cs_cull *out) {
   *out = (cs_cull){.chain_count = set->chain_count};
   if (leaf_count < LEAVES_LEAST || set->chain_count == 0)
     return CELSPAN_OK;
@@ -400,7 +461,9 @@ celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *s
   cull.tile_height = (int32_t)(((int64_t)height + rows - 1) / rows);
   cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
   culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
-              .width = width, .height = height, .margin = margin, .opaque = opaque, .cull = &cull};
+              .width = width, .height = height, .margin = margin, .opaque = opaque, .workers = workers,
+              .cull = &cull};
+  c.columns_a_pixel = CS_CULL_COLUMNS / c.width;
   c.slack = SLACK_TILES * fmin((double)width / CS_CULL_COLUMNS, cull.tile_height);
   celspan_status status = cull_all(&c);
   give_room_back(&c);
@@ -417,8 +480,8 @@ void cs_cull_free(cs_cull *cull, cs_memory *memory) {
   cs_mem_free(memory, cull->toggle_starts, rows * sizeof *cull->toggle_starts);
   cs_mem_free(memory, cull->enters, cull->enter_count * sizeof *cull->enters);
   cs_mem_free(memory, cull->enter_starts, rows * sizeof *cull->enter_starts);
-  cs_mem_free(memory, cull->kept, cull->kept_words * sizeof *cull->kept);
-  cs_mem_free(memory, cull->bits, cull->chain_count * sizeof *cull->bits);
+  cs_mem_free(memory, cull->kept, cull->kept_count * sizeof *cull->kept);
+  cs_mem_free(memory, cull->places, cull->chain_count * sizeof *cull->places);
   cs_mem_free(memory, cull->first_rows, cull->chain_count * sizeof *cull->first_rows);
   *cull = (cs_cull){0};
 }

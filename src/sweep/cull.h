@@ -38,18 +38,19 @@ typedef struct cs_cull {
   uint32_t *toggle_starts; /* tile_rows + 1 */
   uint32_t *enters; /* by row of tiles: chains kept there that were not in the row above it */
   uint32_t *enter_starts;
-  uint64_t *kept; /* a bit for every row of tiles of every chain */
-  size_t *bits;   /* by chain: its first bit */
-  int32_t *first_rows; /* by chain: the row of tiles that bit stands for */
-  size_t toggle_count, enter_count, kept_words, chain_count;
+  bool *kept; /* for every row of tiles of every chain */
+  size_t *places;      /* by chain: of its first row of tiles in `kept` */
+  int32_t *first_rows; /* by chain: which row of tiles that is */
+  size_t toggle_count, enter_count, kept_count, chain_count;
 } cs_cull;
 
 /* Culls a set in its final order, for heights from -margin to height + margin; the outermost tiles
- * reach into the margin. opaque: what counts as nothing shining through. Errors: NO_MEMORY. */
+ * reach into the margin. opaque: what counts as nothing shining through. workers: threads at most.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
                                               const cs_cull_leaf *leaves, size_t leaf_count,
                                               int32_t width, int32_t height, int32_t margin,
-                                              double opaque, cs_cull *out);
+                                              double opaque, int workers, cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);
 
 /* The row of tiles that holds a height; the first or last for heights beyond the frame. */
@@ -62,8 +63,7 @@ static inline int32_t cs_cull_row(const cs_cull *cull, double y) {
 static inline bool cs_cull_keeps(const cs_cull *cull, uint32_t chain, int32_t row) {
   if (cull->tile_rows == 0)
     return true;
-  size_t bit = cull->bits[chain] + (size_t)(row - cull->first_rows[chain]);
-  return cull->kept[bit / 64] >> (bit % 64) & 1;
+  return cull->kept[cull->places[chain] + (size_t)(row - cull->first_rows[chain])];
 }
 
 #endif
