@@ -14,9 +14,10 @@
  * boundary that is taken for wider hides less. */
 #define SLACK_TILES 0.25
 #define SLACK_LEAST 0x1p-8 /* pixels: more than all rounding */
-/* What is done at a time, by whichever thread is free. */
+/* What is done at a time, by whichever thread is free; a worker gets so many slices of the rows of
+ * tiles, where there are several workers. */
 #define SLICE_CHAINS 256
-#define SLICE_ROWS 16
+#define SLICES_A_WORKER 4
 
 /* The columns a chain touches in one row of tiles. */
 typedef struct reach {
@@ -303,7 +304,8 @@ static void cull_slice(void *user, int32_t number) {
 
 /* From the camera backwards, in slices: a row of tiles knows nothing of the others. */
 static celspan_status cull_leaves(culler *c) {
-  int32_t count = (c->cull->tile_rows + SLICE_ROWS - 1) / SLICE_ROWS;
+  int32_t rows = c->cull->tile_rows, wanted = c->workers > 1 ? SLICES_A_WORKER * c->workers : 1;
+  int32_t count = wanted < rows ? wanted : rows;
   c->slices = cs_mem_array(c->context->memory, (size_t)count, sizeof *c->slices);
   if (!c->slices)
     return cs_fail_memory(c->context);
@@ -311,8 +313,8 @@ static celspan_status cull_leaves(culler *c) {
   for (int32_t i = 0; i < count; i++) {
     slice *s = &c->slices[i];
     cs_context_branch(&s->context, c->context);
-    s->first = i * SLICE_ROWS;
-    s->end = i + 1 < count ? s->first + SLICE_ROWS : c->cull->tile_rows;
+    s->first = (int32_t)((int64_t)rows * i / count);
+    s->end = (int32_t)((int64_t)rows * (i + 1) / count);
   }
   cs_crew_run(c->workers, count, cull_slice, c);
   for (int32_t i = 0; i < count; i++)
