@@ -51,11 +51,10 @@ static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXE
 
 /* codes: room for a portion. Those of spans that are not flat mean nothing. */
 static inline void code_colours(const celspan_span *spans, size_t count, uint32_t *codes) {
-  const celspan_span *together[CS_SRGB8_PIXELS];
   for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
-    bool is_whole = k + CS_SRGB8_PIXELS <= count;
+    const celspan_span *together[CS_SRGB8_PIXELS];
     for (size_t i = 0; i < CS_SRGB8_PIXELS; i++)
-      together[i] = &spans[is_whole || k + i < count ? k + i : k];
+      together[i] = &spans[k + i < count ? k + i : k];
     cs_srgb8_lanes(load_colours(together), (unsigned char *)(codes + k));
   }
 }
