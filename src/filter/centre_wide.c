@@ -87,8 +87,8 @@ static inline void place_batch(progress *p, const int32_t columns[BATCH], const 
 
 #endif
 
-size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count, int32_t width,
-                              celspan_span *spans, int32_t *ends) {
+size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count,
+                                int32_t width, celspan_span *spans, int32_t *ends) {
   progress p = {0, 0, false};
   for (size_t i = 0; i < count; i += BATCH) {
     int32_t columns[BATCH];
