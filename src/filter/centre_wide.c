@@ -73,22 +73,24 @@ static inline void place_batch(progress *p, const int32_t columns[BATCH], const 
 
 #else
 
-/* Every boundary is written, and those that are not visible written over. */
 static inline void place_batch(progress *p, const int32_t columns[BATCH], const bool *is_visible,
                                size_t count, celspan_span *spans, int32_t *ends) {
-  for (size_t k = 0; k < BATCH && k < count; k++) {
+  size_t first = p->found;
+  for (size_t k = 0; k < BATCH && k < count; k++) { /* all are written, and some written over */
     ends[p->found] = columns[k];
-    put_place(&spans[p->found], p->last, columns[k]);
-    p->has_empty |= is_visible[k] & (columns[k] <= p->last);
-    p->last = is_visible[k] ? columns[k] : p->last;
     p->found += is_visible[k];
+  }
+  for (size_t k = first; k < p->found; k++) {
+    put_place(&spans[k], p->last, ends[k]);
+    p->has_empty |= ends[k] <= p->last;
+    p->last = ends[k];
   }
 }
 
 #endif
 
-size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count, int32_t width,
-                              celspan_span *spans, int32_t *ends) {
+size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count,
+                                int32_t width, celspan_span *spans, int32_t *ends) {
   progress p = {0, 0, false};
   for (size_t i = 0; i < count; i += BATCH) {
     int32_t columns[BATCH];

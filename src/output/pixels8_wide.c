@@ -14,8 +14,12 @@
 #include "colour/srgb8_lanes.h"
 #include "output/fill.h"
 
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
 enum {
-  PORTION = 64, /* spans */
+  PORTION = 64, /* spans: a bit each */
   LINES = 1024, /* of a portion whose runs are filled together */
   LINE_PIXELS = CS_FILL_BLOCK / 4
 };
@@ -57,30 +61,57 @@ static inline void code_colours(const celspan_span *spans, size_t count, uint32_
 
 /* ---------------------------------------------------------------- lines of long runs */
 
-/* The spans that go beyond their heads, by number; returns how many. */
-static inline size_t find_long(const celspan_span *spans, size_t count, unsigned char *longs) {
-  size_t found = 0;
-  for (size_t k = 0; k < count; k++) {
-    longs[found] = (unsigned char)k;
-    found += spans[k].x1 - spans[k].x0 > LINE_PIXELS;
-  }
-  return found;
+typedef int32_t quad __attribute__((vector_size(16)));
+
+static inline quad load_place(const celspan_span *span) {
+  quad place; /* x0 and x1, and two fields that do not count here */
+  memcpy(&place, span, sizeof place);
+  return place;
+}
+
+static inline bool is_long(const celspan_span *span) { return span->x1 - span->x0 > LINE_PIXELS; }
+
+/* Which of four spans go beyond their heads, a bit each. */
+static inline uint64_t are_long(const celspan_span *spans) {
+#ifdef __SSE2__
+  quad low = __builtin_shufflevector(load_place(spans), load_place(spans + 1), 0, 4, 1, 5);
+  quad high = __builtin_shufflevector(load_place(spans + 2), load_place(spans + 3), 0, 4, 1, 5);
+  quad x0 = __builtin_shufflevector(low, high, 0, 1, 4, 5);
+  quad x1 = __builtin_shufflevector(low, high, 2, 3, 6, 7);
+  return (uint64_t)_mm_movemask_ps((__m128)(x1 - x0 > LINE_PIXELS));
+#else
+  uint64_t bits = 0;
+  for (int k = 0; k < 4; k++)
+    bits |= (uint64_t)is_long(&spans[k]) << k;
+  return bits;
+#endif
+}
+
+/* The same of up to 64. */
+static inline uint64_t find_long(const celspan_span *spans, size_t count) {
+  uint64_t longs = 0;
+  size_t k = 0;
+  for (; k + 4 <= count; k += 4)
+    longs |= are_long(spans + k) << k;
+  for (; k < count; k++)
+    longs |= (uint64_t)is_long(&spans[k]) << k;
+  return longs;
 }
 
 /* How many lines begin left of a column, from the one on that begins at column `first`. */
 static inline size_t lines_before(int32_t x, int32_t first) {
-  return (size_t)(x - first + LINE_PIXELS - 1) / LINE_PIXELS;
+  return (uint32_t)(x - (first - (LINE_PIXELS - 1))) / LINE_PIXELS;
 }
 
 /* Whose every line is, of those that a long run covers the beginning of; anybody's, the others. */
-static inline void mark_lines(const celspan_span *spans, const unsigned char *longs,
-                              size_t long_count, int32_t first, unsigned char *owners) {
+static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
+                              unsigned char *owners) {
   for (size_t line = 0; line < LINES; line += CS_FILL_BLOCK)
     cs_fill_store(owners + line, all_of(0));
-  for (size_t j = 0; j < long_count; j++) {
-    const celspan_span *span = &spans[longs[j]];
-    cs_wide_int mark = all_of(longs[j] * 0x01010101u);
-    size_t line = lines_before(span->x0, first), end = lines_before(span->x1, first);
+  for (; longs != 0; longs &= longs - 1) {
+    uint32_t k = (uint32_t)__builtin_ctzll(longs);
+    cs_wide_int mark = all_of(k * 0x01010101u);
+    size_t line = lines_before(spans[k].x0, first), end = lines_before(spans[k].x1, first);
     do {
       cs_fill_store(owners + line, mark);
       line += CS_FILL_BLOCK;
@@ -89,30 +120,30 @@ static inline void mark_lines(const celspan_span *spans, const unsigned char *lo
 }
 
 /* Run by run: where there are few and very long ones. */
-static inline void fill_runs(const target *row, const celspan_span *spans,
-                             const unsigned char *longs, size_t long_count, const uint32_t *codes) {
-  for (size_t j = 0; j < long_count; j++) {
-    const celspan_span *span = &spans[longs[j]];
-    cs_fill_lines(row->pixels + 4 * (size_t)span->x0, row->pixels + 4 * (size_t)span->x1,
-                  all_of(codes[longs[j]]), row->phase);
+static inline void fill_runs(const target *row, const celspan_span *spans, uint64_t longs,
+                             const uint32_t *codes) {
+  for (; longs != 0; longs &= longs - 1) {
+    size_t k = (size_t)__builtin_ctzll(longs);
+    cs_fill_lines(row->pixels + 4 * (size_t)spans[k].x0, row->pixels + 4 * (size_t)spans[k].x1,
+                  all_of(codes[k]), row->phase);
   }
 }
 
 static inline void fill_lines(const target *row, const celspan_span *spans, size_t count,
                               const uint32_t *codes) {
-  unsigned char longs[PORTION], owners[LINES + 2 * CS_FILL_BLOCK];
-  size_t long_count = find_long(spans, count, longs);
-  if (long_count == 0)
+  unsigned char owners[LINES + 2 * CS_FILL_BLOCK];
+  uint64_t longs = find_long(spans, count);
+  if (longs == 0)
     return;
   uintptr_t over = ((uintptr_t)row->pixels - row->phase) % CS_FILL_BLOCK;
   int32_t first = over > 0 ? (int32_t)(CS_FILL_BLOCK - over) / 4 : 0;
-  first += LINE_PIXELS * (int32_t)lines_before(spans[longs[0]].x0, first);
-  size_t lines = lines_before(spans[longs[long_count - 1]].x1, first);
+  first += LINE_PIXELS * (int32_t)lines_before(spans[__builtin_ctzll(longs)].x0, first);
+  size_t lines = lines_before(spans[63 - __builtin_clzll(longs)].x1, first);
   if (lines > LINES) {
-    fill_runs(row, spans, longs, long_count, codes);
+    fill_runs(row, spans, longs, codes);
     return;
   }
-  mark_lines(spans, longs, long_count, first, owners);
+  mark_lines(spans, longs, first, owners);
   unsigned char *out = row->pixels + 4 * (size_t)first;
   size_t line = 0;
   for (; line + 4 <= lines; line += 4, out += 4 * CS_FILL_BLOCK)
@@ -125,10 +156,13 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
 /* ---------------------------------------------------------------- gradients and arrays */
 
 static inline cs_wide repeat_pixel(const float rgba[4]) {
-  float lanes[CS_WIDE_LANES];
-  for (int k = 0; k < CS_SRGB8_PIXELS; k++)
-    memcpy(lanes + 4 * k, rgba, 4 * sizeof *rgba);
-  return cs_wide_load(lanes);
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_broadcast_f32x4(_mm_loadu_ps(rgba));
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_broadcast_ps((const __m128 *)(const void *)rgba);
+#else
+  return cs_wide_load(rgba);
+#endif
 }
 
 /* 0 for every lane of the first pixel, 1 for those of the second... */
