@@ -67,6 +67,14 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
 #endif
 }
 
+/* One of two, without a branch. */
+static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
+  typedef int lanes __attribute__((vector_size(16)));
+  int all = -(condition != 0);
+  lanes mask = {all, all, all, all};
+  return (cs_v4)(((lanes)one & mask) | ((lanes)other & ~mask));
+}
+
 /* Whether a lane of a is greater than that of b. */
 static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
   typedef long long words __attribute__((vector_size(16)));

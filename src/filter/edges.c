@@ -3,7 +3,7 @@
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
-#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(uint32_t) + sizeof(bool))
+#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
 
 /* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
 static size_t block_size(size_t capacity) {
@@ -39,8 +39,7 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   edges->fall = edges->second + wanted;
   edges->first = (int32_t *)(edges->fall + wanted);
   edges->end = edges->first + wanted;
-  edges->bend = (uint32_t *)(edges->end + wanted);
-  edges->is_bent = (bool *)(edges->bend + wanted);
+  edges->is_bent = (bool *)(edges->end + wanted);
   return CELSPAN_OK;
 }
 
@@ -85,12 +84,11 @@ static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_be
 }
 
 /* As cs_edges_straight for a boundary with vertices in the row. */
-static void measure_bent(cs_edges *edges, const cs_active *active, uint32_t at, int32_t width) {
-  const cs_bend *bend = &active->bends[at];
+static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend *bend,
+                         int32_t width) {
   size_t i = bend->boundary;
   edges->low[i] = bend->low;
   edges->high[i] = bend->high;
-  edges->bend[i] = at;
   edges->is_bent[i] = true;
   edges->fall[i] = 0;
   edges->first[i] = cs_edges_floor(bend->low, width);
@@ -110,8 +108,8 @@ celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const
   (edges, active->x, active->x_next, count, width);
   if (count > 0) /* else there is no room yet */
     memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
-  for (uint32_t k = 0; k < active->bend_count; k++)
+  for (size_t k = 0; k < active->bend_count; k++)
     if (active->bends[k].vertex_count > 0)
-      measure_bent(edges, active, k, width);
+      measure_bent(edges, active, &active->bends[k], width);
   return CELSPAN_OK;
 }

@@ -21,7 +21,6 @@ typedef struct cs_edges {
   float *second, *fall; /* over more than two columns: the area in its second, and what each column
                            after that has more; fall is 0 where areas are not given */
   int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
-  uint32_t *bend;       /* which of the active boundaries' bends it is, where it is bent */
   bool *is_bent;        /* it has vertices in the row */
   void *block;          /* that holds the arrays */
   size_t capacity;      /* of each of them */

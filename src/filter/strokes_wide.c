@@ -4,28 +4,43 @@
 
 /* ---------------------------------------------------------------- alone */
 
-/* The head of a single: where it begins, where it ends, its kind, and where it begins. */
+/* The head of a span: where it begins, where it ends, its kind, and where it begins. */
 typedef int32_t head __attribute__((vector_size(16)));
 
 _Static_assert(offsetof(celspan_span, x0) == 0 && offsetof(celspan_span, x1) == 4 &&
                    offsetof(celspan_span, kind) == 8 && offsetof(celspan_span, origin) == 12 &&
-                   sizeof(celspan_span_kind) == 4 && CELSPAN_SPAN_SINGLE == 0,
+                   sizeof(celspan_span_kind) == 4 && CELSPAN_SPAN_SINGLE == 0 &&
+                   CELSPAN_SPAN_GRADIENT == 1,
                "a span begins as a head does");
 
 static inline head head_at(int32_t x) { return (head){x, x, x, x} & (head){-1, -1, 0, -1}; }
 
-static inline void put_single(celspan_span *span, head at, cs_v4 colour) {
+static inline void put_span(celspan_span *span, head at, cs_v4 colour) {
   memcpy(span, &at, sizeof at);
   cs_v4_store(span->colour, colour);
 }
 
-/* Draws from the first boundary on while all is plain: one or two columns, pixels of its own, flat
- * cells that show, no two neighbouring spans alike. The spans of both columns are written, and there
- * is no branch on whether the second counts. Returns how many; at least the last is left. */
+/* The span between the ends of a straight edge over more than two columns: a ramp, or one pixel of
+ * it. Returns false where it might look as its neighbours do, or has no slope. */
+static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v4 ramp,
+                              cs_v4 slope, cs_v4 one, cs_v4 two) {
+  bool is_ramp = columns > 3;
+  cs_v4 middle = cs_v4_choose(is_ramp, ramp, cs_strokes_hold(ramp));
+  if (cs_v4_same(slope, cs_v4_all(0)) || cs_v4_same(one, middle) || cs_v4_same(middle, two))
+    return false;
+  put_span(span, at + (head){1, columns - 1, is_ramp, 1}, middle);
+  cs_v4_store(span->slope, slope); /* a single has none, and nobody looks */
+  return true;
+}
+
+/* Draws from the first boundary on while all is plain: straight or over one or two columns, pixels
+ * of its own, flat cells that show, no two neighbouring spans alike. Of one or two columns the spans
+ * of both are written, and there is no branch on whether the second counts. Returns how many; at
+ * least the last is left. */
 static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges *edges,
                                 size_t done) {
   const uint32_t *boundaries = s->boundaries + done;
-  size_t n = 0, last = s->count - done - 1, i = boundaries[0];
+  size_t n = 0, last = s->count - done - 1, i = boundaries[0], ramps = 0;
   int32_t first = edges->first[i], from = pen->from;
   celspan_span *span = pen->next;
   if (span == pen->row->spans)
@@ -33,10 +48,9 @@ static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges
   head start = head_at(from);
   while (n < last) {
     size_t i_next = boundaries[n + 1];
-    int32_t end = edges->end[i], first_next = edges->first[i_next];
+    int32_t end = edges->end[i], first_next = edges->first[i_next], columns = end - first;
     const cs_cell *left = &s->cells[i];
-    if (end > first_next || (uint32_t)(end - first - 1) > 1 || first <= from ||
-        (left->length | left[1].length) != 0)
+    if (end > first_next || columns == 0 || first <= from || (left->length | left[1].length) != 0)
       break;
     cs_v4 base = left->colour, step = left[1].colour - base;
     cs_v4 one = cs_strokes_hold(base + step * edges->one[i]);
@@ -45,10 +59,20 @@ static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges
         cs_v4_same(one, two))
       break;
     head at = head_at(first);
-    put_single(span, (start & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
-    put_single(span + 1, at + (head){0, 1, 0, 0}, one);
-    put_single(span + 2, at + (head){1, 2, 0, 1}, two);
-    span += end - first + 1;
+    put_span(span, (start & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
+    put_span(span + 1, at + (head){0, 1, 0, 0}, one);
+    if (columns <= 2) {
+      put_span(span + 2, at + (head){1, 2, 0, 1}, two);
+      span += columns + 1;
+    } else {
+      float fall = edges->fall[i];
+      if (!(fall > 0) || !put_middle(span + 2, at, columns, base + step * edges->second[i],
+                                     step * fall, one, two))
+        break;
+      put_span(span + 3, at + (head){columns - 1, columns, 0, columns - 1}, two);
+      span += 4;
+      ramps += columns > 3;
+    }
     start = head_at(from = end);
     i = i_next;
     first = first_next;
@@ -56,6 +80,7 @@ static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges
   }
   if (n > 0)
     pen->colour = cs_v4_load(span[-1].colour);
+  pen->row->varied.gradients += ramps;
   pen->next = span;
   pen->from = from;
   return n;
@@ -101,7 +126,7 @@ static void add_pieces(cs_sum4 *change, int32_t from, const cs_strokes *s, size_
   celspan_point above = {active->x[i], active->y}, foot = {active->x_next[i], active->y_next};
   double passed = 0;
   if (s->edges->is_bent[i]) {
-    const cs_bend *bend = &active->bends[s->edges->bend[i]];
+    const cs_bend *bend = cs_active_bend(active, i);
     for (uint32_t k = 0; k < bend->vertex_count; k++) {
       celspan_point below = active->vertices[bend->vertex + k];
       double reached = cs_edges_round(below.y - active->y);
