@@ -38,7 +38,7 @@ static inline double cs_number_clamp(double x, double low, double high) {
  * where one is not a number. */
 static inline double cs_number_least(double a, double b) {
 #ifdef __SSE2__
-  return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(a), _mm_set_sd(b)));
+  return _mm_cvtsd_f64(_mm_min_sd(_mm_set1_pd(a), _mm_set1_pd(b)));
 #else
   return a < b ? a : b;
 #endif
@@ -46,7 +46,7 @@ static inline double cs_number_least(double a, double b) {
 
 static inline double cs_number_most(double a, double b) {
 #ifdef __SSE2__
-  return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(a), _mm_set_sd(b)));
+  return _mm_cvtsd_f64(_mm_max_sd(_mm_set1_pd(a), _mm_set1_pd(b)));
 #else
   return a > b ? a : b;
 #endif
