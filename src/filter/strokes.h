@@ -38,6 +38,25 @@ static inline cs_v4 cs_strokes_hold(cs_v4 colour) {
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
+/* What is right of a straight edge in the pixels of a row, as colours are weighted by it: in the
+ * first column it crosses, in the second and the last, and what each column between has more. */
+typedef struct cs_stroke {
+  float one, second, two, fall;
+} cs_stroke;
+
+/* Draws one over more than two columns, [first, last]: its ends, and a ramp between them. */
+static inline void cs_strokes_ramp(cs_pen *pen, int32_t first, int32_t last, cs_v4 base, cs_v4 step,
+                                   cs_stroke stroke) {
+  cs_v4 ramp = base + step * stroke.second, slope = step * stroke.fall;
+  cs_pen_to(pen, first, base);
+  cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * stroke.one));
+  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
+    cs_pen_ramp(pen, last, ramp, slope);
+  else
+    cs_pen_to(pen, last, cs_strokes_hold(ramp));
+  cs_pen_to(pen, last + 1, cs_strokes_hold(base + step * stroke.two));
+}
+
 /* Four doubles: sums of colour steps. Aligned as memory is that nobody aligned. */
 typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 

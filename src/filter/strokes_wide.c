@@ -97,20 +97,6 @@ static inline void draw_short(cs_pen *pen, const cs_edges *edges, size_t i, cons
     cs_pen_to(pen, end, cs_strokes_hold(base + step * edges->two[i]));
 }
 
-/* Straight and over more columns: its ends, and a ramp between them. */
-static inline void draw_long(cs_pen *pen, const cs_edges *edges, size_t i, const cs_cell *left) {
-  int32_t first = edges->first[i], last = edges->end[i] - 1;
-  cs_v4 base = left->colour, step = left[1].colour - base;
-  cs_v4 ramp = base + step * edges->second[i], slope = step * edges->fall[i];
-  cs_pen_to(pen, first, base);
-  cs_pen_to(pen, first + 1, cs_strokes_hold(base + step * edges->one[i]));
-  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
-    cs_pen_ramp(pen, last, ramp, slope);
-  else
-    cs_pen_to(pen, last, cs_strokes_hold(ramp));
-  cs_pen_to(pen, last + 1, cs_strokes_hold(base + step * edges->two[i]));
-}
-
 /* ---------------------------------------------------------------- together */
 
 static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspan_point below,
@@ -221,7 +207,8 @@ static inline size_t draw_next(cs_pen *pen, const cs_strokes *s, const cs_edges 
   if (end > next || (end - first > 2 && !(edges->fall[i] > 0)))
     return try_group(pen, s, done);
   if (end - first > 2)
-    draw_long(pen, edges, i, left);
+    cs_strokes_ramp(pen, first, end - 1, left->colour, left[1].colour - left->colour,
+                    (cs_stroke){edges->one[i], edges->second[i], edges->two[i], edges->fall[i]});
   else
     draw_short(pen, edges, i, left);
   return 1;

@@ -48,28 +48,17 @@ static inline double cover(const cs_fragment *f, int32_t p) {
 
 /* ---------------------------------------------------------------- closing */
 
-#define LONE_SPANS 4 /* that draw_lone writes at most */
-
-/* One fragment that crosses columns, between flat cells: its ends, and a ramp between them. */
-static void draw_lone(cs_pen *p, const cs_fragment *f, cs_v4 base) {
-  cs_v4 step = f->right->colour - f->left->colour;
-  int32_t first = f->first, last = f->end - 1;
-  cs_pen_to(p, first, base);
-  cs_pen_to(p, first + 1, cs_strokes_hold(base + step * (float)cover(f, first)));
-  cs_v4 ramp = base + step * (float)cover(f, first + 1);
-  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
-  cs_v4 slope = step * (float)(f->height / across);
-  if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
-    cs_pen_ramp(p, last, ramp, slope);
-  else
-    cs_pen_to(p, last, cs_strokes_hold(ramp));
-  cs_pen_to(p, last + 1, cs_strokes_hold(base + step * (float)cover(f, last)));
-}
-
+/* One fragment that crosses columns, between flat cells. */
 static celspan_status close_lone(cs_window *window) {
-  CS_TRY(cs_row_reserve(window->composer->context, window->out, LONE_SPANS));
+  const cs_fragment *f = &window->fragments[0];
+  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+  int32_t last = f->end - 1;
+  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+  cs_stroke stroke = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
+                      (float)cover(f, last), (float)(f->height / across)};
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, CS_STROKES_EACH));
   cs_pen p = cs_pen_take(window->out, window->from);
-  draw_lone(&p, &window->fragments[0], window->base->colour);
+  cs_strokes_ramp(&p, f->first, last, base, step, stroke);
   cs_pen_put(&p);
   return CELSPAN_OK;
 }
