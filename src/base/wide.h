@@ -7,8 +7,13 @@
 #ifndef CS_BASE_WIDE_H
 #define CS_BASE_WIDE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 
 /* From the narrowest on. */
 typedef enum cs_isa { CS_ISA_ANY, CS_ISA_AVX2, CS_ISA_AVX512 } cs_isa;
@@ -79,9 +84,32 @@ static inline void cs_wide_store(float *to, cs_wide v) { memcpy(to, &v, sizeof v
 
 static inline cs_wide cs_wide_all(float x) { return (cs_wide){0} + x; }
 
+/* Whether a mask is set in any lane. */
+static inline bool cs_wide_any(cs_wide_int mask) {
+#ifdef __AVX512F__
+  return _mm512_movepi32_mask((__m512i)mask) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_ps((__m256)mask) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
+
 /* Lane by lane, where a mask is set the one, else the other. */
 static inline cs_wide cs_wide_choose(cs_wide_int mask, cs_wide one, cs_wide other) {
   return (cs_wide)(((cs_wide_int)one & mask) | ((cs_wide_int)other & ~mask));
+}
+
+/* Held to 0..1; what is not a number stays. */
+static inline cs_wide cs_wide_unit(cs_wide v) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_min_ps(_mm512_set1_ps(1), _mm512_max_ps(_mm512_setzero_ps(), (__m512)v));
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_min_ps(_mm256_set1_ps(1), _mm256_max_ps(_mm256_setzero_ps(), (__m256)v));
+#else
+  v = cs_wide_choose(v < 0, cs_wide_all(0), v);
+  return cs_wide_choose(v > 1, cs_wide_all(1), v);
+#endif
 }
 
 #endif

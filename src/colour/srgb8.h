@@ -26,6 +26,23 @@ static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
          (uint32_t)cs_transfer_srgb8(b) << 16 | a << 24;
 }
 
+/* The light of every code. */
+typedef struct cs_srgb8_curve {
+  float light[256];
+  unsigned char bytes[4][256]; /* of those floats, the lowest first */
+} cs_srgb8_curve;
+
+void cs_srgb8_make_curve(cs_srgb8_curve *out);
+
+/* The premultiplied linear colour that a pixel stands for. */
+static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned char pixel[4],
+                                   float rgba[4]) {
+  float alpha = (float)pixel[3] * (1.0f / 255);
+  for (int c = 0; c < 3; c++)
+    rgba[c] = curve->light[pixel[c]] * alpha;
+  rgba[3] = alpha;
+}
+
 typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
 cs_srgb8 cs_srgb8_choose(cs_isa isa);
 

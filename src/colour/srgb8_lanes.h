@@ -128,21 +128,31 @@ static inline void cs_srgb8_settle(cs_wide rgba, unsigned unsure, unsigned char 
   }
 }
 
-/* CS_SRGB8_PIXELS premultiplied linear colours as pixels. */
-static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
-  const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
-  const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
-  cs_wide x = cs_srgb8_straight(rgba);
+/* 255 f(x): x * slope up to the knee, then the curve. */
+static inline cs_wide cs_srgb8_coded(cs_wide x, cs_wide slope, cs_wide knee) {
   cs_wide t = (cs_wide)(((cs_wide_int)x & 0x7fffff) | 0x3f800000) - 1.5f;
   cs_wide power = cs_srgb8_powers[5] + t * cs_srgb8_powers[6];
   for (int k = 4; k >= 0; k--)
     power = cs_srgb8_powers[k] + t * power;
   cs_wide curved = cs_srgb8_octave(x) * power - 255 * 0.055f;
-  cs_wide y = cs_srgb8_either(x, knee, x * slope, curved);
+  return cs_srgb8_either(x, knee, x * slope, curved);
+}
+
+/* Rounded; lanes of which that is not sure are added to `unsure`. */
+static inline cs_wide_int cs_srgb8_round(cs_wide y, unsigned *unsure) {
   cs_wide_int least = __builtin_convertvector(y + (0.5f - CS_SRGB8_UNSURE), cs_wide_int);
   cs_wide_int most = __builtin_convertvector(y + (0.5f + CS_SRGB8_UNSURE), cs_wide_int);
-  cs_srgb8_store(out, least);
-  unsigned unsure = cs_srgb8_differ(least, most);
+  *unsure |= cs_srgb8_differ(least, most);
+  return least;
+}
+
+/* CS_SRGB8_PIXELS premultiplied linear colours as pixels. */
+static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
+  const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
+  const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
+  unsigned unsure = 0;
+  cs_srgb8_store(out,
+                 cs_srgb8_round(cs_srgb8_coded(cs_srgb8_straight(rgba), slope, knee), &unsure));
   if (__builtin_expect(unsure != 0, 0))
     cs_srgb8_settle(rgba, unsure, out);
 }
@@ -154,6 +164,51 @@ static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
   cs_wide_store(colour, rgba);
   uint32_t pixel = cs_srgb8_pixel(colour);
   memcpy(out, &pixel, sizeof pixel);
+}
+
+#endif
+
+#ifdef __AVX512F__
+
+/* A channel each of sixteen pixels, each red, green, blue and alpha. */
+typedef struct cs_srgb8_planes {
+  cs_wide channels[4];
+} cs_srgb8_planes;
+
+/* Codes anew the pixels that are unsure. */
+static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, unsigned unsure,
+                                                 cs_wide_int pixels) {
+  for (; unsure; unsure &= unsure - 1) {
+    int k = __builtin_ctz(unsure);
+    const float rgba[4] = {colours->channels[0][k], colours->channels[1][k],
+                           colours->channels[2][k], colours->channels[3][k]};
+    pixels[k] = (int32_t)cs_srgb8_pixel(rgba);
+  }
+  return pixels;
+}
+
+/* A pixel a lane. An alpha of 1, the usual case, costs next to nothing. */
+static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
+  const cs_wide one = cs_wide_all(1), slope = cs_wide_all(255 * 12.92f);
+  const cs_wide knee = cs_wide_all(0.0031308f);
+  cs_wide alpha = colours->channels[3];
+  unsigned unsure = 0;
+  bool divides = cs_srgb8_differ((cs_wide_int)alpha, (cs_wide_int)one) != 0;
+  cs_wide_int is_seen = alpha > 0, pixels = {0};
+  pixels += 255;
+  if (divides) {
+    pixels = cs_srgb8_round(cs_srgb8_held(alpha) * 255, &unsure);
+    alpha = cs_wide_choose(is_seen, alpha, one);
+  }
+  for (int c = 2; c >= 0; c--) {
+    cs_wide v = colours->channels[c];
+    if (divides)
+      v = cs_wide_choose(is_seen, v / alpha, (cs_wide){0});
+    pixels = pixels << 8 | cs_srgb8_round(cs_srgb8_coded(cs_srgb8_held(v), slope, knee), &unsure);
+  }
+  if (__builtin_expect(unsure != 0, 0))
+    pixels = cs_srgb8_settle_planes(colours, unsure, pixels);
+  return pixels;
 }
 
 #endif

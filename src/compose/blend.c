@@ -77,9 +77,34 @@ void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
   (blend->level, blend->count, (const float *)&leaf->front, leaf->fade, s, t);
 }
 
-void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count, int32_t count,
-                   float (*rgba)[4]) {
-  CS_WIDE_CHOOSE(isa, cs_blend_fold_bare)(layers, layer_count, count, rgba);
+cs_blend_part cs_blend_bare(cs_isa isa, bool is_first, const float (*rgba)[4], cs_blend_part part,
+                            float (*folded)[4]) {
+  return CS_WIDE_CHOOSE(isa, cs_blend_fold_bare)(is_first, rgba, part, folded);
+}
+
+/* Elsewhere nothing of it is seen. */
+static const cs_back_light *finish_layers(const cs_stack *stack, cs_blend_layers *layers) {
+  static const cs_back_light none = {.keep = 1};
+  const cs_blend_part *part = &layers->part;
+  memset(layers->rgba, 0, (size_t)part->first * sizeof *layers->rgba);
+  memset(layers->rgba + part->end, 0, (size_t)(layers->count - part->end) * sizeof *layers->rgba);
+  return stack->light_count > 0 ? stack->lights : &none;
+}
+
+void cs_blend_bare_end(cs_isa isa, const cs_stack *stack, cs_blend_layers *layers,
+                       float (*rgba)[4]) {
+  const cs_back_light *behind = finish_layers(stack, layers);
+  CS_WIDE_CHOOSE(isa, cs_blend_end_bare)
+  (behind, layers->is_first, (const float(*)[4])layers->rgba, layers->count,
+   (const float(*)[4])layers->folded, rgba);
+}
+
+void cs_blend_bare_codes(cs_isa isa, const cs_stack *stack, cs_blend_layers *layers,
+                         unsigned char *codes) {
+  const cs_back_light *behind = finish_layers(stack, layers);
+  CS_WIDE_CHOOSE(isa, cs_blend_code_bare)
+  (behind, layers->is_first, (const float(*)[4])layers->rgba, layers->count,
+   (const float(*)[4])layers->folded, codes);
 }
 
 void cs_blend_end(cs_blend *blend, float (*rgba)[4]) {

@@ -48,10 +48,31 @@ void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
 /* Premultiplied RGBA of the pixels. */
 void cs_blend_end(cs_blend *blend, float (*rgba)[4]);
 
-/* The fold of pictures alone, none faded, lit white, in no group and before no back light: the same
- * bits at once. layers: samples from the front, room for a whole batch in each. */
-void cs_blend_bare(cs_isa isa, const float (*const *layers)[4], uint32_t layer_count, int32_t count,
-                   float (*rgba)[4]);
+/* The fold of pictures alone, none faded, lit white, in no group and before the one back light
+ * that there may be: the same bits at once. A folded pixel is light gathered and, in lane 3, what
+ * still shines through. */
+typedef struct cs_blend_part {
+  int32_t first, end; /* pixels of the batch */
+} cs_blend_part;
+
+/* Folds a picture's samples of some pixels behind what was folded; is_first: nothing was. Returns
+ * the pixels that something shines through, and some between and beside them: multiples of what a
+ * register holds, but for the end of the batch. All arrays are whole batches. */
+cs_blend_part cs_blend_bare(cs_isa isa, bool is_first, const float (*rgba)[4], cs_blend_part part,
+                            float (*folded)[4]);
+/* Pictures as they were folded, but for the last: its samples of the pixels that it shows in. */
+typedef struct cs_blend_layers {
+  float rgba[CS_BLEND_BATCH][4], folded[CS_BLEND_BATCH][4];
+  cs_blend_part part;
+  int32_t count; /* pixels */
+  bool is_first; /* the last is the only one */
+} cs_blend_layers;
+
+/* Those and the light behind them, which may be none: premultiplied RGBA, or codes. */
+void cs_blend_bare_end(cs_isa isa, const cs_stack *stack, cs_blend_layers *layers,
+                       float (*rgba)[4]);
+void cs_blend_bare_codes(cs_isa isa, const cs_stack *stack, cs_blend_layers *layers,
+                         unsigned char *codes);
 
 /* ---- blend_wide.c: loops over the pixels of a level */
 
@@ -69,9 +90,15 @@ CS_WIDE_DECLARE(void, cs_blend_add_light,
 /* A faded group into what is around it. */
 CS_WIDE_DECLARE(void, cs_blend_add_group,
                 (cs_blend_level * outer, int32_t count, float fade, const cs_blend_level *inner));
-CS_WIDE_DECLARE(void, cs_blend_fold_bare,
-                (const float (*const *layers)[4], uint32_t layer_count, int32_t count,
-                 float (*rgba)[4]));
+CS_WIDE_DECLARE(cs_blend_part, cs_blend_fold_bare,
+                (bool is_first, const float (*rgba)[4], cs_blend_part part, float (*folded)[4]));
+CS_WIDE_DECLARE(void, cs_blend_end_bare,
+                (const cs_back_light *behind, bool is_first, const float (*rgba)[4], int32_t count,
+                 const float (*folded)[4], float (*out)[4]));
+/* The same, coded. */
+CS_WIDE_DECLARE(void, cs_blend_code_bare,
+                (const cs_back_light *behind, bool is_first, const float (*rgba)[4], int32_t count,
+                 const float (*folded)[4], unsigned char *out));
 CS_WIDE_DECLARE(void, cs_blend_to_rgba,
                 (const cs_blend_level *level, int32_t count, float keep, float (*rgba)[4]));
 

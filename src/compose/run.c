@@ -4,6 +4,7 @@
 #include "compose/composer.h"
 
 #include "base/number.h"
+#include "colour/srgb8.h"
 #include "compose/blend.h"
 #include "compose/ramps.h"
 #include "compose/shade.h"
@@ -133,30 +134,40 @@ static bool is_bare(const cs_leaf *leaf) {
          leaf->front[0] == 1 && leaf->front[1] == 1 && leaf->front[2] == 1;
 }
 
-#define BARE_LAYERS 8
+/* Whether the item is reached before any back light is met. */
+static bool is_before_lights(const cs_stack *stack, cs_item item) {
+  return stack->light_count == 0 || stack->lights[0].below <= item.leaf;
+}
 
 static bool is_all_bare(const cs_stack *stack, const cs_program *program) {
-  bool bare = stack->light_count == 0 && program->length <= BARE_LAYERS;
+  bool bare = program->length > 0 && stack->light_count <= 1;
   for (uint32_t i = 0; i < program->length && bare; i++) {
     const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
-    bare = is_bare(leaf) && stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_PAINT;
+    bare = is_bare(leaf) && stack->slides[leaf->detail].texture->use == CELSPAN_PICTURE_PAINT &&
+           is_before_lights(stack, program->items[i]);
   }
   return bare;
 }
 
-static celspan_status bare_batch(cs_composer *composer, const cs_program *program, const batch *b,
-                                 float (*rgba)[4]) {
-  const float(*layers[BARE_LAYERS])[4];
-  for (uint32_t i = 0; i < program->length; i++) {
+/* Pictures alone: of each only the pixels are sampled that shine through those before it. */
+static celspan_status fold_bare(cs_composer *composer, const cs_program *program, const batch *b,
+                                cs_blend_layers *out) {
+  cs_blend_part *shown = &out->part;
+  uint32_t i = 0;
+  *shown = (cs_blend_part){0, b->count};
+  out->count = b->count;
+  while (shown->first < shown->end) {
     const cs_leaf *leaf = &composer->stack->leaves[program->items[i].leaf];
-    float(*room)[4] =
-        cs_arena_take(composer->context, &composer->scratch, CS_BLEND_BATCH * sizeof *room);
-    if (!room)
-      return CELSPAN_NO_MEMORY;
-    CS_TRY(sample_picture(composer, leaf, b, room));
-    layers[i] = (const float(*)[4])room;
+    batch part = {b->columns ? b->columns + shown->first : NULL, b->x0 + shown->first,
+                  shown->end - shown->first, b->y};
+    CS_TRY(sample_picture(composer, leaf, &part, out->rgba + shown->first));
+    if (i + 1 == program->length)
+      break;
+    *shown =
+        cs_blend_bare(composer->isa, i == 0, (const float(*)[4])out->rgba, *shown, out->folded);
+    i++;
   }
-  cs_blend_bare(composer->isa, layers, program->length, b->count, rgba);
+  out->is_first = i == 0;
   return CELSPAN_OK;
 }
 
@@ -167,8 +178,12 @@ static celspan_status colours_batch(cs_composer *composer, const cs_program *pro
   cs_blend blend;
   cs_arena_reset(scratch);
   composer->evaluations += (uint64_t)b->count;
-  if (is_all_bare(composer->stack, program))
-    return bare_batch(composer, program, b, rgba);
+  if (is_all_bare(composer->stack, program)) {
+    cs_blend_layers layers;
+    CS_TRY(fold_bare(composer, program, b, &layers));
+    cs_blend_bare_end(composer->isa, composer->stack, &layers, rgba);
+    return CELSPAN_OK;
+  }
   samples *room = cs_arena_take(context, scratch, sizeof *room);
   if (!room)
     return CELSPAN_NO_MEMORY;
@@ -232,17 +247,18 @@ static celspan_status needs_array(cs_composer *composer, const cs_program *progr
 typedef struct segment {
   uint32_t end;      /* of the items */
   uint64_t left_out; /* a bit each, of the first 64 */
-  bool ends_opaque;
+  bool ends_opaque, is_sure;
 } segment;
+
+#define STEPS 8 /* looked at at once, in the hope of one answer */
 
 /* Whether all that shows is one opaque picture, texel by pixel. */
 static bool is_copy(const cs_composer *composer, const cs_program *shown, bool ends_opaque) {
   if (!ends_opaque || shown->length != 1)
     return false;
   const cs_stack *stack = composer->stack;
-  uint32_t index = shown->items[0].leaf;
-  const cs_leaf *leaf = &stack->leaves[index];
-  return is_bare(leaf) && (stack->light_count == 0 || stack->lights[0].below <= index) &&
+  const cs_leaf *leaf = &stack->leaves[shown->items[0].leaf];
+  return is_bare(leaf) && is_before_lights(stack, shown->items[0]) &&
          composer->slides[leaf->detail].sampler.way == CS_SAMPLER_COPY;
 }
 
@@ -253,6 +269,33 @@ static celspan_status run_copy(cs_composer *composer, const cs_program *shown, i
   CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
   return cs_sampler_codes(composer->texels, &composer->slides[leaf->detail].sampler, x0, x1 - x0, y,
                           codes);
+}
+
+static celspan_status codes_batch(cs_composer *composer, const cs_program *shown, const batch *b,
+                                  unsigned char *codes) {
+  if (is_all_bare(composer->stack, shown)) {
+    cs_blend_layers layers;
+    composer->evaluations += (uint64_t)b->count;
+    CS_TRY(fold_bare(composer, shown, b, &layers));
+    cs_blend_bare_codes(composer->isa, composer->stack, &layers, codes);
+    return CELSPAN_OK;
+  }
+  float rgba[CS_BLEND_BATCH][4];
+  CS_TRY(colours_batch(composer, shown, b, rgba));
+  cs_srgb8_choose(composer->isa)(rgba[0], (size_t)b->count, codes);
+  return CELSPAN_OK;
+}
+
+/* Pixels coded while they are in the cache. */
+static celspan_status run_codes(cs_composer *composer, const cs_program *shown, int32_t x0,
+                                int32_t x1, double y, cs_row *row) {
+  unsigned char *codes;
+  CS_TRY(cs_row_codes(composer->context, row, x0, x1, &codes));
+  for (int32_t x = x0; x < x1; x += CS_BLEND_BATCH) {
+    int32_t count = x1 - x < CS_BLEND_BATCH ? x1 - x : CS_BLEND_BATCH;
+    CS_TRY(codes_batch(composer, shown, &(batch){NULL, x, count, y}, codes + 4 * (size_t)(x - x0)));
+  }
+  return CELSPAN_OK;
 }
 
 /* A program of what shows, and nothing else. */
@@ -268,6 +311,8 @@ static celspan_status run_shown(cs_composer *composer, const cs_program *shown, 
   CS_TRY(needs_array(composer, shown, &is_array));
   if (!is_array)
     return cs_ramps_run(composer, shown, x0, x1, y, row);
+  if (row->takes_codes)
+    return run_codes(composer, shown, x0, x1, y, row);
   CS_TRY(cs_row_array(composer->context, row, x0, x1, &colours));
   return cs_composer_program_colours(composer, shown, x0, x1, y, (float(*)[4])colours);
 }
@@ -294,14 +339,16 @@ static celspan_status look_at_item(cs_composer *composer, uint32_t index, int32_
   return CELSPAN_OK;
 }
 
-/* What shows over the `step` columns around x. */
+/* What shows over the `step` columns around x; out->is_sure: and over each part of them. */
 static celspan_status cut_segment(cs_composer *composer, const cs_program *program, int32_t step,
                                   int32_t x, double y, segment *out) {
   int32_t left = x / step * step;
-  *out = (segment){.end = program->length};
+  *out = (segment){.end = program->length, .is_sure = true};
   for (uint32_t i = 0; i < program->length && i < 64; i++) {
     cs_picture_look look;
     CS_TRY(look_at_item(composer, program->items[i].leaf, left, left + step, y, &look));
+    if (look == CS_PICTURE_MIXED)
+      out->is_sure = false;
     if (look == CS_PICTURE_CLEAR)
       out->left_out |= (uint64_t)1 << i;
     if (look != CS_PICTURE_OPAQUE)
@@ -311,6 +358,21 @@ static celspan_status cut_segment(cs_composer *composer, const cs_program *progr
     break;
   }
   return CELSPAN_OK;
+}
+
+/* What shows from x on, and where that is told up to: many steps at once, if the run covers them
+ * and they have one answer, as they mostly have. */
+static celspan_status cut_next(cs_composer *composer, const cs_program *program, int32_t step,
+                               int32_t x, int32_t x1, double y, segment *out, int64_t *end) {
+  int64_t many = (int64_t)STEPS * step;
+  if (x % many == 0 && x + many <= x1) {
+    *end = x + many;
+    CS_TRY(cut_segment(composer, program, (int32_t)many, x, y, out));
+    if (out->is_sure)
+      return CELSPAN_OK;
+  }
+  *end = ((int64_t)x / step + 1) * step;
+  return cut_segment(composer, program, step, x, y, out);
 }
 
 static bool is_same_segment(const segment *a, const segment *b) {
@@ -362,18 +424,20 @@ celspan_status cs_composer_run_program(cs_composer *composer, const cs_program *
                                        int32_t x1, double y, cs_row *row) {
   segment current, next;
   int32_t begun = x0, step;
+  int64_t end;
   if (x1 <= x0)
     return CELSPAN_OK;
   if (!has_picture(composer, program))
     return run_shown(composer, program, false, x0, x1, y, row);
   CS_TRY(find_step(composer, program, &step));
-  CS_TRY(cut_segment(composer, program, step, x0, y, &current));
-  for (int64_t x = ((int64_t)x0 / step + 1) * step; x < x1; x += step) {
-    CS_TRY(cut_segment(composer, program, step, (int32_t)x, y, &next));
+  CS_TRY(cut_next(composer, program, step, x0, x1, y, &current, &end));
+  while (end < x1) {
+    int32_t x = (int32_t)end;
+    CS_TRY(cut_next(composer, program, step, x, x1, y, &next, &end));
     if (is_same_segment(&current, &next))
       continue;
-    CS_TRY(run_segment(composer, program, &current, begun, (int32_t)x, y, row));
-    begun = (int32_t)x;
+    CS_TRY(run_segment(composer, program, &current, begun, x, y, row));
+    begun = x;
     current = next;
   }
   return run_segment(composer, program, &current, begun, x1, y, row);

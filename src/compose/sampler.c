@@ -123,6 +123,7 @@ static int32_t look_columns(const cs_sampler *s) {
 
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_texels_source_of(s->picture);
+  s->reads_codes = cs_sampler_decodes(s->isa);
   s->level_count = cs_levels_count(s->width, s->height);
   memcpy(s->m, s->inverse.m, sizeof s->m);
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
@@ -145,21 +146,36 @@ void cs_sampler_prepare(cs_sampler *s) {
 
 static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 
-/* Texel (x, y): as light, or as the 4 bytes of its code. */
-static const void *texel_at(const cs_sampling *run, int32_t x, int32_t y, bool is_code) {
-  const cs_texels_slot *slot = cs_texels_slot_of(run->texels, &run->sampler->source, 0,
-                                                 x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
-  size_t at = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK);
-  if (!slot->texels)
-    return cs_texels_none;
-  return is_code ? (const void *)(cs_picture_codes(slot->block) + at) : slot->texels + at;
+/* What a row of texels is copied as. */
+typedef enum copied { LIGHT, CODES } copied;
+
+/* `count` texels from (x, y) on, which lie in one block. */
+static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
+                      unsigned char *out) {
+  const cs_sampler *s = run->sampler;
+  const cs_texels_slot *slot =
+      cs_texels_slot_of(run->texels, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
+  bool reads_codes = slot->texels && (what == CODES || (slot->codes && s->reads_codes));
+  size_t texel = reads_codes ? 4 : 4 * sizeof(float), size = (size_t)count * texel;
+  size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
+  const char *from = !slot->texels ? (const char *)cs_texels_none
+                     : reads_codes ? (const char *)cs_picture_codes(slot->block)
+                                   : (const char *)slot->texels;
+  from += (size_t)(y % CS_PICTURE_BLOCK) * row + (size_t)(x % CS_PICTURE_BLOCK) * texel;
+  if (reads_codes && what == LIGHT)
+    CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)
+  (run->texels->curve, (const unsigned char *)from, count, (float(*)[4])(void *)out);
+  else memcpy(out, from, size);
+  /* The row below follows in the block: fetched now, it is there in time. */
+  for (size_t ahead = 0; ahead < size; ahead += 64)
+    __builtin_prefetch(from + row + ahead);
 }
 
 /* `count` texels of row v from u on, both wherever. */
-static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, bool is_code,
+static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, copied what,
                         unsigned char *out) {
   const cs_sampler *s = run->sampler;
-  const size_t size = is_code ? 4 : 4 * sizeof(float);
+  const size_t size = what == CODES ? 4 : 4 * sizeof(float);
   bool is_clear = s->wrap == CELSPAN_WRAP_CLEAR, repeats = s->wrap == CELSPAN_WRAP_REPEAT;
   if (repeats)
     v = ((v % s->height) + s->height) % s->height;
@@ -178,24 +194,20 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
     int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
     if (is_inside)
       part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
-    const char *from = texel_at(run, x, y, is_code);
-    memcpy(out, from, (size_t)part * size);
-    /* The row below follows in the block: fetched now, it is there in time. */
-    for (size_t ahead = 0; ahead < (size_t)part * size; ahead += 64)
-      __builtin_prefetch(from + CS_PICTURE_BLOCK * size + ahead);
+    copy_part(run, x, y, part, what, out);
   }
 }
 
-static void copy_run(const cs_sampling *run, int32_t x0, int32_t count, double y, bool is_code,
+static void copy_run(const cs_sampling *run, int32_t x0, int32_t count, double y, copied what,
                      void *out) {
   const double *m = run->sampler->m;
-  copy_texels(run, x0 + (int64_t)rint(m[2]), (int64_t)floor(y + rint(m[5])), count, is_code, out);
+  copy_texels(run, x0 + (int64_t)rint(m[2]), (int64_t)floor(y + rint(m[5])), count, what, out);
 }
 
 celspan_status cs_sampler_codes(cs_texels *texels, const cs_sampler *sampler, int32_t x0,
                                 int32_t count, double y, unsigned char *codes) {
   texels->status = CELSPAN_OK;
-  copy_run(&(cs_sampling){sampler, texels}, x0, count, y, true, codes);
+  copy_run(&(cs_sampling){sampler, texels}, x0, count, y, CODES, codes);
   return texels->status;
 }
 
@@ -207,7 +219,7 @@ celspan_status cs_sampler_run(cs_texels *texels, const cs_sampler *sampler, int3
   texels->status = CELSPAN_OK;
   switch (sampler->way) {
   case CS_SAMPLER_COPY:
-    copy_run(&run, x0, count, y, false, rgba);
+    copy_run(&run, x0, count, y, LIGHT, rgba);
     break;
   case CS_SAMPLER_ROW:
     cs_sampler_row_run(&run, x0, count, y, rgba);

@@ -57,6 +57,7 @@ typedef struct cs_sampler {
   int level;
   int columns, rows;    /* TILTED: taps across a pixel and down it */
   int32_t look_columns; /* that are worth a look at a time; INT32_MAX: none tells anything */
+  bool reads_codes;     /* of blocks that are coded: they are decoded in registers */
   double reach; /* affine: how far from its centre a sample comes, at most, in picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;

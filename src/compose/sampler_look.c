@@ -1,6 +1,10 @@
+/* An answer holds as long as the same blocks are asked, which is for many rows: it is kept with the
+ * heights between which they surely are. So it depends on nothing but the columns and the row.
+ */
 #include "compose/sampler_parts.h"
 
-#define MOST_BLOCKS 12 /* looked at for one answer */
+#define MOST_BLOCKS 12 /* looked at for as many columns as the sampler wants looked at */
+#define SURELY 1e-3    /* of a row: what rounding may move an edge of a block */
 
 /* A rectangle of the picture, in its pixels. */
 typedef struct area {
@@ -30,10 +34,11 @@ static int32_t block_at(const cs_sampler *s, double u, int32_t size) {
   return (int32_t)cs_number_clamp(u, 0, size - 1) / CS_PICTURE_BLOCK >> s->level;
 }
 
-static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, const area *a) {
+static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, const area *a,
+                                      int64_t most) {
   int32_t left = block_at(s, a->u0, s->width), right = block_at(s, a->u1, s->width);
   int32_t top = block_at(s, a->v0, s->height), bottom = block_at(s, a->v1, s->height);
-  if ((int64_t)(right - left + 1) * (bottom - top + 1) > MOST_BLOCKS)
+  if ((int64_t)(right - left + 1) * (bottom - top + 1) > most)
     return CS_PICTURE_MIXED;
   cs_picture_look look = CS_PICTURE_MIXED;
   for (int32_t row = top; row <= bottom; row++)
@@ -50,10 +55,8 @@ static cs_picture_look look_at_blocks(cs_texels *texels, const cs_sampler *s, co
 
 /* A quick answer, where there is one: that of the block in the middle, which is one of the
  * area's. */
-static bool is_mixed_amid(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
-                          double y) {
-  const double *m = s->m;
-  double x = 0.5 * (x0 + x1), u = m[0] * x + m[1] * y + m[2], v = m[3] * x + m[4] * y + m[5];
+static bool is_mixed_amid(cs_texels *texels, const cs_sampler *s, const area *a) {
+  double u = 0.5 * (a->u0 + a->u1), v = 0.5 * (a->v0 + a->v1);
   if (!(u >= 0 && v >= 0 && u < s->width && v < s->height))
     return false;
   const cs_texels_slot *slot =
@@ -62,24 +65,62 @@ static bool is_mixed_amid(cs_texels *texels, const cs_sampler *s, int32_t x0, in
   return !slot->texels || slot->look == CS_PICTURE_MIXED;
 }
 
+static cs_picture_look look_at(cs_texels *texels, const cs_sampler *s, const area *a,
+                               int64_t most) {
+  if (is_mixed_amid(texels, s, a))
+    return CS_PICTURE_MIXED;
+  bool is_clear = s->wrap == CELSPAN_WRAP_CLEAR, is_within_picture = is_within(s, a);
+  if (is_clear && is_beyond(s, a))
+    return CS_PICTURE_CLEAR;
+  if (!is_within_picture && s->wrap == CELSPAN_WRAP_REPEAT)
+    return CS_PICTURE_MIXED;
+  cs_picture_look look = look_at_blocks(texels, s, a, most);
+  return look == CS_PICTURE_OPAQUE && !is_within_picture && is_clear ? CS_PICTURE_MIXED : look;
+}
+
+/* Narrows the rows until an edge of an area, which moves by `step` a row, meets the edge of a block
+ * or of the picture. */
+static void narrow(const cs_sampler *s, double edge, double step, int32_t size, double y,
+                   cs_texels_look *out) {
+  double block = (double)CS_PICTURE_BLOCK * (double)((int64_t)1 << s->level);
+  double below = edge < 0 ? -INFINITY : edge >= size ? size : floor(edge / block) * block;
+  double above = edge < 0 ? 0 : edge >= size ? INFINITY : fmin(below + block, size);
+  if (step == 0)
+    return;
+  double before = (below - edge) / step, after = (above - edge) / step;
+  out->from = fmax(out->from, y + fmin(before, after) + SURELY);
+  out->to = fmin(out->to, y + fmax(before, after) - SURELY);
+}
+
+static void look_anew(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1, double y,
+                      cs_texels_look *out) {
+  area a = area_of(s, x0, x1, y);
+  int64_t parts = (x1 - x0) / s->look_columns, most = MOST_BLOCKS * (parts > 1 ? parts : 1);
+  cs_texels_look found = {.sampler = s,
+                          .x0 = x0,
+                          .x1 = x1,
+                          .from = -INFINITY,
+                          .to = INFINITY,
+                          .look = look_at(texels, s, &a, most)};
+  narrow(s, a.u0, s->m[1], s->width, y, &found);
+  narrow(s, a.u1, s->m[1], s->width, y, &found);
+  narrow(s, a.v0, s->m[4], s->height, y, &found);
+  narrow(s, a.v1, s->m[4], s->height, y, &found);
+  *out = found;
+}
+
 celspan_status cs_sampler_look(cs_texels *texels, const cs_sampler *s, int32_t x0, int32_t x1,
                                double y, cs_picture_look *out) {
+  uint32_t place = (uint32_t)(x0 / s->look_columns) + 333 * (uint32_t)(x1 - x0 > s->look_columns);
+  cs_texels_look *kept = &texels->looks[(place + s->source.salt) % CS_TEXELS_LOOKS];
   *out = CS_PICTURE_MIXED;
   texels->status = CELSPAN_OK;
   if (s->way == CS_SAMPLER_PERSPECTIVE)
     return CELSPAN_OK;
-  if (is_mixed_amid(texels, s, x0, x1, y))
-    return texels->status;
-  area a = area_of(s, x0, x1, y);
-  bool is_within_picture = is_within(s, &a);
-  if (s->wrap == CELSPAN_WRAP_CLEAR && is_beyond(s, &a)) {
-    *out = CS_PICTURE_CLEAR;
-    return CELSPAN_OK;
-  }
-  if (!is_within_picture && s->wrap == CELSPAN_WRAP_REPEAT)
-    return CELSPAN_OK;
-  *out = look_at_blocks(texels, s, &a);
-  if (*out == CS_PICTURE_OPAQUE && !is_within_picture && s->wrap == CELSPAN_WRAP_CLEAR)
-    *out = CS_PICTURE_MIXED;
+  if (!(kept->sampler == s && kept->x0 == x0 && kept->x1 == x1 && y >= kept->from && y < kept->to))
+    look_anew(texels, s, x0, x1, y, kept);
+  *out = kept->look;
+  if (texels->status != CELSPAN_OK)
+    kept->sampler = NULL;
   return texels->status;
 }

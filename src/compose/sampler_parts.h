@@ -7,6 +7,7 @@
  *   sampler_pixel.c  kernels that are taken one by one
  *   sampler_look.c   what samples have in common, by the blocks of texels they come from
  *   sampler_wide.c   the loops over pixels, compiled for every set of instructions
+ *   sampler_codes_wide.c   those over texels that are coded
  *
  * All sums are taken about one texel, so a constant picture stays what it is to the bit.
  */
@@ -118,7 +119,16 @@ void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double widt
  */
 int cs_sampler_level(int level_count, double shorter, double longer, double texels, double most);
 
-/* ---- sampler_wide.c: loops over `count` pixels */
+/* Whether codes are decoded in registers, which is quicker than to fetch four times as much. */
+static inline bool cs_sampler_decodes(cs_isa isa) {
+#ifdef __x86_64__
+  return isa == CS_ISA_AVX512 && __builtin_cpu_supports("avx512vbmi");
+#else
+  return false;
+#endif
+}
+
+/* ---- sampler_wide.c, sampler_codes_wide.c: loops over `count` pixels */
 
 /* Where the centres of pixels lie on the picture. */
 typedef struct cs_sampler_centres {
@@ -135,6 +145,35 @@ typedef struct cs_sampler_quads {
   int32_t key[CS_SAMPLER_BATCH];    /* of the block that holds all four; -1 where none does */
   int32_t offset[CS_SAMPLER_BATCH]; /* of the first in it, in texels */
 } cs_sampler_quads;
+
+#define CS_SAMPLER_TILES 16
+
+/* Coded blocks of level 0 that lie under some pixels: so many columns, from a block on. */
+typedef struct cs_sampler_tiles {
+  int32_t column, row, columns;
+  bool are_opaque;                              /* those that are touched */
+  const unsigned char *codes[CS_SAMPLER_TILES]; /* of those that are touched */
+} cs_sampler_tiles;
+
+/* Quads held to the picture: beyond an edge their share is 0. */
+typedef struct cs_sampler_held {
+  int32_t x[CS_SAMPLER_BATCH], y[CS_SAMPLER_BATCH];
+  float across[CS_SAMPLER_BATCH], down[CS_SAMPLER_BATCH];
+  int32_t left, top, right, bottom; /* the least and the greatest x and y */
+  /* Where the codes of its upper and lower pair are: tile << 16 | bytes. */
+  int32_t above[CS_SAMPLER_BATCH], below[CS_SAMPLER_BATCH];
+} cs_sampler_held;
+
+/* False if they are too many. */
+static inline bool cs_sampler_lay_tiles(const cs_sampler *sampler, const cs_sampler_held *held,
+                                        cs_sampler_tiles *tiles) {
+  int32_t bottom = held->bottom + (held->bottom + 1 < sampler->height);
+  tiles->column = held->left / CS_PICTURE_BLOCK;
+  tiles->row = held->top / CS_PICTURE_BLOCK;
+  tiles->columns = held->right / CS_PICTURE_BLOCK - tiles->column + 1;
+  int64_t rows = bottom / CS_PICTURE_BLOCK - tiles->row + 1;
+  return rows * tiles->columns <= CS_SAMPLER_TILES;
+}
 
 /* Where taps are on the picture, relative to a pixel's centre, in pixels of the frame. */
 typedef struct cs_sampler_tap {
@@ -172,6 +211,26 @@ CS_WIDE_DECLARE(void, cs_sampler_find_quads,
 CS_WIDE_DECLARE(void, cs_sampler_mix_quads,
                 (const float *block, const cs_sampler_quads *quads, int32_t from, int32_t count,
                  ptrdiff_t ahead, float (*rgba)[4]));
+/* Fills x, y and the shares, and the bounds. */
+CS_WIDE_DECLARE(void, cs_sampler_hold_quads,
+                (const cs_sampler *sampler, int32_t count, const double *u, const double *v,
+                 cs_sampler_held *held));
+/* Fills above and below; returns a bit each of the tiles that are touched. */
+CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
+                (const cs_sampler *sampler, const cs_sampler_tiles *tiles, int32_t count,
+                 cs_sampler_held *held));
+/* The same, and the shares, of the centres of an affine map, where all quads lie in the picture. */
+CS_WIDE_DECLARE(uint32_t, cs_sampler_place_quads,
+                (const cs_sampler *sampler, int32_t x0, int32_t count, double y,
+                 const cs_sampler_tiles *tiles, cs_sampler_held *held));
+/* ahead: bytes. */
+CS_WIDE_DECLARE(void, cs_sampler_mix_codes,
+                (const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
+                 const cs_sampler_held *held, int32_t count, ptrdiff_t ahead, float (*rgba)[4]));
+/* The texels of `count` codes that follow one another. */
+CS_WIDE_DECLARE(void, cs_sampler_decode_codes,
+                (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
+                 float (*rgba)[4]));
 /* out = a + share (b - a); out may be a. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_rows,
                 (const float (*a)[4], const float (*b)[4], float share, int32_t count,

@@ -17,15 +17,29 @@ typedef struct cs_texels_slot {
   int level;
   int32_t column, row;
   cs_picture_look look;
-  const float *texels; /* NULL: empty */
+  const float *texels;        /* NULL: empty */
+  const unsigned char *codes; /* of the texels, where these tell all; else NULL */
   cs_picture_block *block;
 } cs_texels_slot;
 
+/* What some columns of a picture have in common, on rows from one height to another. */
+typedef struct cs_texels_look {
+  const void *sampler; /* of the picture as it lies; NULL: nothing yet */
+  int32_t x0, x1;
+  double from, to;
+  cs_picture_look look;
+} cs_texels_look;
+
+#define CS_TEXELS_LOOKS 1024
+
 typedef struct cs_texels {
   celspan_context *context;
-  celspan_status status; /* of the first block that could not be had; texels are clear then */
-  uint32_t pairs;        /* in use, a power of two: fewer where memory is short */
+  celspan_status status;       /* of the first block that could not be had; texels are clear then */
+  const cs_srgb8_curve *curve; /* of all blocks; NULL until there is one */
+  uint32_t fetches;            /* so far */
+  uint32_t pairs;              /* in use, a power of two: fewer where memory is short */
   cs_texels_slot slots[CS_TEXELS_SLOTS];
+  cs_texels_look looks[CS_TEXELS_LOOKS]; /* the last of each part of a row */
 } cs_texels;
 
 /* A picture as its texels are asked for. */

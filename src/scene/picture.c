@@ -136,7 +136,13 @@ const float *cs_picture_texels(const cs_picture_block *block) { return block->te
 
 cs_picture_look cs_picture_block_look(const cs_picture_block *block) { return block->look; }
 
-const unsigned char *cs_picture_codes(const cs_picture_block *block) { return block->codes; }
+const unsigned char *cs_picture_codes(const cs_picture_block *block) { return block->codes[0]; }
+
+bool cs_picture_is_coded(const cs_picture_block *block) { return block->is_coded; }
+
+const cs_srgb8_curve *cs_picture_curve(const cs_picture_block *block) {
+  return block->entry->curve;
+}
 
 void cs_picture_release(celspan_context *context, cs_picture_block *block) {
   cs_store_unpin((cs_picture_store *)context->root->pictures, block);

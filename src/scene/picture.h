@@ -11,6 +11,7 @@
 
 #include "base/context.h"
 #include "base/hash.h"
+#include "colour/srgb8.h"
 
 typedef struct cs_picture cs_picture;
 
@@ -30,8 +31,11 @@ CELSPAN_CHECKED celspan_status cs_picture_info(celspan_context *context, const c
  * `level` (texel = 2^level picture pixels, the mean in linear light), block (column, row). Texels
  * beyond the picture are clear. Pinned until released. Errors: INPUT, LIMIT, NO_MEMORY. */
 #define CS_PICTURE_BLOCK 64
+/* Codes of a row of a block: its own, and that of the texel right of it. */
+#define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
 /* What a block takes: its texels and their codes. */
-#define CS_PICTURE_BLOCK_BYTES ((size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK * 20)
+#define CS_PICTURE_BLOCK_BYTES                                                                     \
+  ((size_t)CS_PICTURE_BLOCK * (16 * CS_PICTURE_BLOCK + 4 * CS_PICTURE_CODES_ROW))
 
 typedef struct cs_picture_block cs_picture_block;
 CELSPAN_CHECKED celspan_status cs_picture_acquire(celspan_context *context,
@@ -46,8 +50,14 @@ typedef enum cs_picture_look {
   CS_PICTURE_CLEAR   /* all is 0 */
 } cs_picture_look;
 cs_picture_look cs_picture_block_look(const cs_picture_block *block);
-/* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them. */
+/* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them, in rows
+ * of CS_PICTURE_CODES_ROW. */
 const unsigned char *cs_picture_codes(const cs_picture_block *block);
+/* Whether the codes tell all: cs_srgb8_colour makes the very texels of them, and those right of the
+ * block unless the picture ends there. */
+bool cs_picture_is_coded(const cs_picture_block *block);
+/* The light of all codes. */
+const cs_srgb8_curve *cs_picture_curve(const cs_picture_block *block);
 void cs_picture_release(celspan_context *context, cs_picture_block *block);
 
 #endif

@@ -8,7 +8,6 @@
  */
 #include <string.h>
 
-#include "colour/srgb8.h"
 #include "scene/picture_store.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
@@ -188,6 +187,17 @@ static int look_along(const float *texels, int32_t count) {
   return look;
 }
 
+static bool is_decoded(const cs_picture_block *block) {
+  const cs_srgb8_curve *curve = block->entry->curve;
+  bool is_same = true;
+  for (size_t i = 0; i < (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK && is_same; i++) {
+    float rgba[4];
+    cs_srgb8_colour(curve, block->codes[i / CS_PICTURE_BLOCK] + 4 * (i % CS_PICTURE_BLOCK), rgba);
+    is_same = memcmp(rgba, block->texels + 4 * i, sizeof rgba) == 0;
+  }
+  return is_same;
+}
+
 /* A block whose texels are complete. */
 static void describe(cs_picture_block *block) {
   const celspan_picture_info *info = &block->entry->header.info;
@@ -198,21 +208,35 @@ static void describe(cs_picture_block *block) {
     look &= look_along(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
                        least(width, CS_PICTURE_BLOCK));
   block->look = look & 1 ? CS_PICTURE_OPAQUE : look & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
-  if (block->level == 0)
-    cs_srgb8_choose(cs_isa_best())(block->texels, (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK,
-                                   block->codes);
+  if (block->level != 0)
+    return;
+  for (size_t y = 0; y < CS_PICTURE_BLOCK; y++)
+    cs_srgb8_choose(cs_isa_best())(block->texels + 4 * y * CS_PICTURE_BLOCK, CS_PICTURE_BLOCK,
+                                   block->codes[y]);
+  block->is_coded = is_decoded(block);
 }
 
 /* ---------------------------------------------------------------- a pass from start to end */
 
+/* Beside each row of codes the next of the block on the right. */
+static void join(const file_pass *pass, cs_picture_block *block, const cs_picture_block *right) {
+  if (pass->level != 0 || block->column + 1 == columns_of(pass->entry, 0))
+    return;
+  block->is_coded = block->is_coded && right && right->is_coded;
+  for (size_t y = 0; y < CS_PICTURE_BLOCK && block->is_coded; y++)
+    memcpy(block->codes[y] + 4 * CS_PICTURE_BLOCK, right->codes[y], 4);
+}
+
 /* Hands the blocks to the store; the one that was asked for comes back with a pin. */
 static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
+  for (size_t i = 0; i < block_count(pass); i++)
+    describe(pass->blocks[i]);
   for (size_t i = 0; i < block_count(pass); i++) {
     cs_picture_block *block = pass->blocks[i];
     bool is_wanted = block->column == column && block->row == row;
     pass->blocks[i] = NULL;
-    describe(block);
+    join(pass, block, (i + 1) % (size_t)pass->columns ? pass->blocks[i + 1] : NULL);
     block = cs_store_insert(pass->store, block, is_wanted);
     if (is_wanted)
       wanted = block;

@@ -59,6 +59,7 @@ celspan_status cs_store_get(celspan_context *context, cs_picture_store **out) {
     store->service = (cs_service){destroy_store, trim_store};
     store->memory = context->memory;
     store->budget = root->picture_bytes;
+    cs_srgb8_make_curve(&store->curve);
     pthread_mutex_init(&store->lock, NULL);
     /* Another thread may have been first. */
     if (__atomic_compare_exchange_n(&root->pictures, &held, &store->service, false,
@@ -338,6 +339,7 @@ static celspan_status open_entry(celspan_context *context, cs_picture_store *sto
   pthread_mutex_init(&entry->reading, NULL);
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
   entry->hash = picture->hash;
+  entry->curve = &store->curve;
   *out = entry;
   return CELSPAN_OK;
 }

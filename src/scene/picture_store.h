@@ -34,8 +34,9 @@ struct cs_picture_block {
   cs_picture_block *next;          /* in its bucket */
   cs_picture_block *older, *newer; /* while it has no pins */
   cs_picture_look look;
+  bool is_coded;
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
-  unsigned char codes[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK]; /* of level 0 */
+  unsigned char codes[CS_PICTURE_BLOCK][4 * CS_PICTURE_CODES_ROW]; /* of level 0 */
 };
 
 struct cs_picture_entry {
@@ -45,6 +46,7 @@ struct cs_picture_entry {
   cs_picture *picture; /* kept */
   cs_picture_header header;
   cs_levels_decoder decoder;
+  const cs_srgb8_curve *curve; /* the store's */
   int level_count;
   /* The first level of which all blocks fit `share`. Levels below it are read from the file in
    * rows, those above are made from it. */
@@ -68,6 +70,7 @@ struct cs_picture_store {
   size_t bucket_count, block_count;
   cs_picture_block *oldest, *newest;
   float *tables[8][17]; /* light by code: of a transfer, for codes of so many bits */
+  cs_srgb8_curve curve;
 };
 
 /* The context's store, made on first use. Errors: NO_MEMORY. */

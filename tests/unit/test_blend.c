@@ -1,6 +1,7 @@
 /* compose/blend.c: every set of instructions folds alike, and every pixel by itself. */
 #include "compose/blend.h"
 
+#include "colour/srgb8.h"
 #include "tests/support/check.h"
 
 static uint32_t state = 11;
@@ -83,6 +84,64 @@ static double by_hand_alpha(int i) {
   return 1 - (double)lights[0].keep * (double)lights[1].keep * mean;
 }
 
+/* Pictures alone: what the general fold makes of them. */
+static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack *bare, cs_isa isa,
+                       int32_t count) {
+  static cs_blend_layers layers;
+  static float wanted[CS_BLEND_BATCH][4], made[CS_BLEND_BATCH][4];
+  static unsigned char codes[4 * CS_BLEND_BATCH + 4];
+  cs_blend blend;
+  cs_arena_reset(arena);
+  CHECK(cs_blend_begin(context, arena, bare, CS_ISA_ANY, count, &blend) == CELSPAN_OK);
+  layers.part = (cs_blend_part){0, count};
+  layers.count = count;
+  const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
+  for (uint32_t i = 0; i < 2; i++) {
+    CHECK(cs_blend_reach(context, arena, &blend, 5 - i) == CELSPAN_OK);
+    cs_blend_picture(&blend, &leaves[5], CELSPAN_PICTURE_PAINT, samples[i]);
+    for (int32_t k = layers.part.first; k < layers.part.end; k++)
+      memcpy(layers.rgba[k], samples[i][k], sizeof *layers.rgba);
+    if (i == 0)
+      layers.part =
+          cs_blend_bare(isa, true, (const float(*)[4])layers.rgba, layers.part, layers.folded);
+  }
+  cs_blend_end(&blend, wanted);
+  codes[4 * count] = 77;
+  cs_blend_bare_codes(isa, bare, &layers, codes);
+  cs_blend_bare_end(isa, bare, &layers, made);
+  CHECK(memcmp(made, wanted, (size_t)count * sizeof *made) == 0);
+  for (int32_t k = 0; k < count; k++) {
+    uint32_t pixel = cs_srgb8_pixel(wanted[k]);
+    CHECK(memcmp(codes + 4 * k, &pixel, sizeof pixel) == 0);
+  }
+  CHECK(codes[4 * count] == 77);
+}
+
+/* Where the first picture is opaque nothing of the second is asked for. */
+static void test_bare(celspan_context *context, cs_arena *arena) {
+  const cs_stack unlit = {.leaves = leaves, .leaf_count = 6};
+  const cs_stack lit = {.leaves = leaves, .leaf_count = 6, .lights = lights + 1, .light_count = 1};
+  leaves[4] = leaves[5] = (cs_leaf){.fade = 1, .group = CS_STACK_NONE, .front = {1, 1, 1, 0}};
+  for (int opaque = 0; opaque <= CS_BLEND_BATCH; opaque += 61) {
+    fill();
+    leaves[4] = leaves[5] = (cs_leaf){.fade = 1, .group = CS_STACK_NONE, .front = {1, 1, 1, 0}};
+    for (int i = 0; i < CS_BLEND_BATCH; i++) {
+      rgba[i][3] = i < opaque ? 1 : rgba[i][3];
+      s[i][3] = opaque % 2 == 0 ? 1 : 0.7f;
+    }
+    for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+      for (int32_t count = 1; count <= CS_BLEND_BATCH; count += 51) {
+        check_bare(context, arena, &unlit, isa, count);
+        check_bare(context, arena, &lit, isa, count);
+        cs_blend_part all = {0, count};
+        float folded[CS_BLEND_BATCH][4];
+        cs_blend_part left = cs_blend_bare(isa, true, (const float(*)[4])rgba, all, folded);
+        CHECK(opaque < count ? left.first <= opaque && left.first > opaque - 4 && left.end == count
+                             : left.first >= left.end);
+      }
+  }
+}
+
 int main(void) {
   celspan_context *context;
   cs_arena arena;
@@ -106,6 +165,7 @@ int main(void) {
     for (int i = 0; i < CS_BLEND_BATCH; i += 17)
       CHECK_NEAR((double)wanted[i][3], by_hand_alpha(i), 1e-6);
   }
+  test_bare(context, &arena);
   cs_arena_finish(&arena, context->memory);
   celspan_context_destroy(context);
   return check_done();

@@ -1,14 +1,14 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
  */
 #include "colour/srgb8.h"
-#include "compose/sampler.h"
+#include "compose/sampler_parts.h"
 #include "tests/support/picture.h"
 
 #define SIDE 200
 
 static celspan_context *context;
 static cs_texels texels;
-static cs_picture *noise_picture, *check_picture, *zone_picture;
+static cs_picture *noise_picture, *check_picture, *zone_picture, *coded_picture;
 static float noise[SIDE][SIDE][4];
 
 /* ---------------------------------------------------------------- the pictures */
@@ -35,9 +35,17 @@ static void paint_zone(int x, int y, float rgba[4]) {
   rgba[3] = 1;
 }
 
+/* Of 8-bit codes; its right half is opaque. */
+static void paint_coded(int x, int y, float rgba[4]) {
+  paint_noise(x, y, rgba);
+  rgba[3] = x >= SIDE / 2 ? 1 : rgba[3];
+  for (int c = 0; c < 3; c++)
+    rgba[c] *= rgba[3];
+}
+
 static cs_picture *make_picture(const char *name, int width, int height, picture_paint paint) {
   const char *path = picture_path(name);
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  celspan_coding coding = {.depth = paint == paint_coded ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_FLOAT};
   cs_picture *picture = NULL;
   celspan_picture_info info;
   CHECK(picture_write(context, path, &coding, width, height, paint) == CELSPAN_OK);
@@ -433,12 +441,12 @@ enum { PLACEMENTS = sizeof all_placements / sizeof *all_placements, RUN = 150 };
 typedef void (*try_sampler)(cs_sampler *sampler, double y);
 
 /* Every placement, kernel and wrap. */
-static void try_all(try_sampler try) {
+static void try_all(const cs_picture *picture, try_sampler try) {
   for (int p = 0; p < PLACEMENTS; p++)
     for (int sampling = 0; sampling <= CELSPAN_SAMPLING_BICUBIC; sampling++)
       for (int wrap = 0; wrap <= CELSPAN_WRAP_REPEAT; wrap++)
         for (int y = -4; y < 120; y += 31) {
-          cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, all_placements[p],
+          cs_sampler s = make_sampler(picture, SIDE, SIDE, all_placements[p],
                                       (celspan_sampling)sampling, (celspan_wrap)wrap);
           try(&s, y + 0.5);
         }
@@ -447,9 +455,11 @@ static void try_all(try_sampler try) {
 static void try_instructions(cs_sampler *s, double y) {
   float wanted[RUN][4], made[RUN][4];
   s->isa = CS_ISA_ANY;
+  s->reads_codes = false;
   CHECK(cs_sampler_run(&texels, s, -20, RUN, y, wanted) == CELSPAN_OK);
-  for (cs_isa isa = CS_ISA_AVX2; isa <= cs_isa_best(); isa++) {
-    s->isa = isa;
+  for (int k = 0; k < 2 * ((int)cs_isa_best() + 1); k++) {
+    s->isa = (cs_isa)(k / 2);
+    s->reads_codes = k % 2 == 1 && (s->isa != CS_ISA_AVX512 || cs_sampler_decodes(s->isa));
     CHECK(cs_sampler_run(&texels, s, -20, RUN, y, made) == CELSPAN_OK);
     CHECK(memcmp(made, wanted, sizeof made) == 0);
   }
@@ -549,6 +559,33 @@ static void test_looks(void) {
   remove_picture("tiles.exr", tiles);
 }
 
+/* Blocks of a picture of 8-bit codes are those codes, with the next texel beside each row. */
+static void test_coded(void) {
+  cs_srgb8_curve curve;
+  cs_srgb8_make_curve(&curve);
+  for (int column = 0; column <= SIDE / CS_PICTURE_BLOCK; column++) {
+    const bool is_last = column == SIDE / CS_PICTURE_BLOCK;
+    int wrong = 0, width = is_last ? SIDE % CS_PICTURE_BLOCK : CS_PICTURE_BLOCK + 1;
+    cs_picture_block *block, *floats;
+    CHECK(cs_picture_acquire(context, coded_picture, 0, column, 1, &block) == CELSPAN_OK);
+    CHECK(cs_picture_is_coded(block));
+    for (int y = 0; y < CS_PICTURE_BLOCK; y++)
+      for (int x = 0; x < width; x++) {
+        float light[4], wanted[4];
+        cs_srgb8_colour(&curve, cs_picture_codes(block) + 4 * (y * CS_PICTURE_CODES_ROW + x),
+                        light);
+        CHECK(picture_texel(context, coded_picture, 0, column * CS_PICTURE_BLOCK + x,
+                            CS_PICTURE_BLOCK + y, wanted) == CELSPAN_OK);
+        wrong += memcmp(light, wanted, sizeof light) != 0;
+      }
+    CHECK(wrong == 0);
+    cs_picture_release(context, block);
+    CHECK(cs_picture_acquire(context, noise_picture, 0, column, 1, &floats) == CELSPAN_OK);
+    CHECK(!cs_picture_is_coded(floats));
+    cs_picture_release(context, floats);
+  }
+}
+
 static void test_errors(void) {
   celspan_picture_desc desc = {.file = "/nonexistent/picture.png"};
   cs_picture *picture;
@@ -574,7 +611,8 @@ int main(void) {
   noise_picture = make_picture("noise.exr", SIDE, SIDE, paint_noise);
   check_picture = make_picture("check.exr", 256, 256, paint_check);
   zone_picture = make_picture("zone.exr", 256, 256, paint_zone);
-  if (noise_picture && check_picture && zone_picture) {
+  coded_picture = make_picture("coded.png", SIDE, SIDE, paint_coded);
+  if (noise_picture && check_picture && zone_picture && coded_picture) {
     test_copy();
     test_quarter_turns();
     test_half_pixel();
@@ -588,10 +626,13 @@ int main(void) {
     test_perspective();
     test_horizon();
     test_cubic();
-    try_all(try_instructions);
-    try_all(try_columns);
-    try_all(try_steps);
-    try_all(try_codes);
+    try_all(noise_picture, try_instructions);
+    try_all(coded_picture, try_instructions);
+    try_all(noise_picture, try_columns);
+    try_all(noise_picture, try_steps);
+    try_all(noise_picture, try_codes);
+    try_all(coded_picture, try_codes);
+    test_coded();
     test_looks();
     test_errors();
   }
@@ -599,6 +640,7 @@ int main(void) {
   remove_picture("noise.exr", noise_picture);
   remove_picture("check.exr", check_picture);
   remove_picture("zone.exr", zone_picture);
+  remove_picture("coded.png", coded_picture);
   celspan_context_destroy(context);
   return check_done();
 }
