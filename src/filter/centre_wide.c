@@ -23,16 +23,6 @@ static inline void put_place(celspan_span *span, int32_t from, int32_t to) {
   memcpy(span, &(place){from, to, CELSPAN_SPAN_SINGLE, from}, sizeof(place));
 }
 
-static inline void find_columns(const double *x, int32_t width, int32_t columns[BATCH]) {
-  for (int k = 0; k < BATCH; k++) {
-    double centre = x[k] - 0.5;
-    int32_t column = (int32_t)centre;
-    column += centre > column;
-    column = column > 0 ? column : 0;
-    columns[k] = column < width ? column : width;
-  }
-}
-
 /* How far a row has been written. */
 typedef struct progress {
   size_t found; /* ends */
@@ -41,6 +31,18 @@ typedef struct progress {
 } progress;
 
 #ifdef __AVX512F__
+
+static inline __m256i find_eight(const double *x) {
+  __m512d centres = _mm512_sub_pd(_mm512_loadu_pd(x), _mm512_set1_pd(0.5));
+  return _mm512_cvt_roundpd_epi32(centres, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+}
+
+static inline __m512i find_columns(const double *x, int32_t width) {
+  __m512i columns = _mm512_castsi256_si512(find_eight(x));
+  columns = _mm512_inserti64x4(columns, find_eight(x + BATCH / 2), 1);
+  columns = _mm512_max_epi32(columns, _mm512_setzero_si512());
+  return _mm512_min_epi32(columns, _mm512_set1_epi32(width));
+}
 
 /* Spans from[k]..to[k]. */
 static inline void put_places(celspan_span *spans, __m512i from, __m512i to) {
@@ -55,13 +57,13 @@ static inline void put_places(celspan_span *spans, __m512i from, __m512i to) {
   }
 }
 
-static inline void place_batch(progress *p, const int32_t columns[BATCH], const bool *is_visible,
-                               size_t count, celspan_span *spans, int32_t *ends) {
+static inline void place_batch(progress *p, const double *x, const bool *is_visible, size_t count,
+                               int32_t width, celspan_span *spans, int32_t *ends) {
   __m128i flags = _mm_loadu_si128((const __m128i *)(const void *)is_visible);
   unsigned visible = _mm_test_epi8_mask(flags, flags);
   visible &= count < BATCH ? (1u << count) - 1 : UINT16_MAX;
   unsigned found = (unsigned)__builtin_popcount(visible);
-  __m512i to = _mm512_maskz_compress_epi32((__mmask16)visible, _mm512_loadu_si512(columns));
+  __m512i to = _mm512_maskz_compress_epi32((__mmask16)visible, find_columns(x, width));
   __m512i from = _mm512_alignr_epi32(to, _mm512_set1_epi32(p->last), 15);
   p->has_empty |= (_mm512_cmple_epi32_mask(to, from) & ((1u << found) - 1)) != 0;
   _mm512_storeu_si512(ends + p->found, to);
@@ -73,9 +75,21 @@ static inline void place_batch(progress *p, const int32_t columns[BATCH], const 
 
 #else
 
-static inline void place_batch(progress *p, const int32_t columns[BATCH], const bool *is_visible,
-                               size_t count, celspan_span *spans, int32_t *ends) {
+static inline void find_columns(const double *x, int32_t width, int32_t columns[BATCH]) {
+  for (int k = 0; k < BATCH; k++) {
+    double centre = x[k] - 0.5;
+    int32_t column = (int32_t)centre;
+    column += centre > column;
+    column = column > 0 ? column : 0;
+    columns[k] = column < width ? column : width;
+  }
+}
+
+static inline void place_batch(progress *p, const double *x, const bool *is_visible, size_t count,
+                               int32_t width, celspan_span *spans, int32_t *ends) {
+  int32_t columns[BATCH];
   size_t first = p->found;
+  find_columns(x, width, columns);
   for (size_t k = 0; k < BATCH && k < count; k++) { /* all are written, and some written over */
     ends[p->found] = columns[k];
     p->found += is_visible[k];
@@ -92,11 +106,8 @@ static inline void place_batch(progress *p, const int32_t columns[BATCH], const 
 size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count,
                                 int32_t width, celspan_span *spans, int32_t *ends) {
   progress p = {0, 0, false};
-  for (size_t i = 0; i < count; i += BATCH) {
-    int32_t columns[BATCH];
-    find_columns(x + i, width, columns);
-    place_batch(&p, columns, is_visible + i, count - i, spans, ends);
-  }
+  for (size_t i = 0; i < count; i += BATCH)
+    place_batch(&p, x + i, is_visible + i, count - i, width, spans, ends);
   ends[p.found] = width;
   put_place(&spans[p.found], p.last, width);
   return p.has_empty || p.last >= width ? 0 : p.found + 1;
