@@ -138,11 +138,11 @@ static inline cs_wide cs_srgb8_coded(cs_wide x, cs_wide slope, cs_wide knee) {
   return cs_srgb8_either(x, knee, x * slope, curved);
 }
 
-/* Rounded; lanes of which that is not sure are added to `unsure`. */
-static inline cs_wide_int cs_srgb8_round(cs_wide y, unsigned *unsure) {
+/* Rounded; `unsure` becomes other than 0 in lanes of which that is not sure. */
+static inline cs_wide_int cs_srgb8_round(cs_wide y, cs_wide_int *unsure) {
   cs_wide_int least = __builtin_convertvector(y + (0.5f - CS_SRGB8_UNSURE), cs_wide_int);
   cs_wide_int most = __builtin_convertvector(y + (0.5f + CS_SRGB8_UNSURE), cs_wide_int);
-  *unsure |= cs_srgb8_differ(least, most);
+  *unsure |= least ^ most;
   return least;
 }
 
@@ -150,9 +150,10 @@ static inline cs_wide_int cs_srgb8_round(cs_wide y, unsigned *unsure) {
 static inline void cs_srgb8_lanes(cs_wide rgba, unsigned char *out) {
   const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
   const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
-  unsigned unsure = 0;
-  cs_srgb8_store(out,
-                 cs_srgb8_round(cs_srgb8_coded(cs_srgb8_straight(rgba), slope, knee), &unsure));
+  const cs_wide_int none = {0};
+  cs_wide_int doubt = {0};
+  cs_srgb8_store(out, cs_srgb8_round(cs_srgb8_coded(cs_srgb8_straight(rgba), slope, knee), &doubt));
+  unsigned unsure = cs_srgb8_differ(doubt, none);
   if (__builtin_expect(unsure != 0, 0))
     cs_srgb8_settle(rgba, unsure, out);
 }
@@ -175,14 +176,14 @@ typedef struct cs_srgb8_planes {
   cs_wide channels[4];
 } cs_srgb8_planes;
 
-/* Codes anew the pixels that are unsure. */
+/* Codes anew the pixels of which a lane is unsure, a bit each. */
 static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, unsigned unsure,
                                                  cs_wide_int pixels) {
-  for (; unsure; unsure &= unsure - 1) {
-    int k = __builtin_ctz(unsure);
+  for (int k = 0; k < CS_WIDE_LANES; k++, unsure >>= 1) {
     const float rgba[4] = {colours->channels[0][k], colours->channels[1][k],
                            colours->channels[2][k], colours->channels[3][k]};
-    pixels[k] = (int32_t)cs_srgb8_pixel(rgba);
+    if (unsure & 1)
+      pixels[k] = (int32_t)cs_srgb8_pixel(rgba);
   }
   return pixels;
 }
@@ -191,21 +192,21 @@ static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours,
 static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours) {
   const cs_wide one = cs_wide_all(1), slope = cs_wide_all(255 * 12.92f);
   const cs_wide knee = cs_wide_all(0.0031308f);
+  const cs_wide_int none = {0};
   cs_wide alpha = colours->channels[3];
-  unsigned unsure = 0;
   bool divides = cs_srgb8_differ((cs_wide_int)alpha, (cs_wide_int)one) != 0;
-  cs_wide_int is_seen = alpha > 0, pixels = {0};
-  pixels += 255;
+  cs_wide_int is_seen = alpha > 0, doubt = {0}, pixels = none + 255;
   if (divides) {
-    pixels = cs_srgb8_round(cs_srgb8_held(alpha) * 255, &unsure);
+    pixels = cs_srgb8_round(cs_srgb8_held(alpha) * 255, &doubt);
     alpha = cs_wide_choose(is_seen, alpha, one);
   }
   for (int c = 2; c >= 0; c--) {
     cs_wide v = colours->channels[c];
     if (divides)
       v = cs_wide_choose(is_seen, v / alpha, (cs_wide){0});
-    pixels = pixels << 8 | cs_srgb8_round(cs_srgb8_coded(cs_srgb8_held(v), slope, knee), &unsure);
+    pixels = pixels << 8 | cs_srgb8_round(cs_srgb8_coded(cs_srgb8_held(v), slope, knee), &doubt);
   }
+  unsigned unsure = cs_srgb8_differ(doubt, none);
   if (__builtin_expect(unsure != 0, 0))
     pixels = cs_srgb8_settle_planes(colours, unsure, pixels);
   return pixels;
