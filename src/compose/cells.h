@@ -26,10 +26,11 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_active *active
                                   size_t high, int32_t sign) {
   const cs_crossing *crossing = active->crossing;
   cs_presence *presences = composer->presences;
-  uint64_t *set = composer->set;
+  uint64_t *set = composer->set, *touched = composer->touched;
   cs_set_hash hash = composer->hash; /* in registers on the way */
   for (size_t i = low; i < high; i++)
-    cs_composer_turn(presences, set, &hash, crossing[i].leaf, sign * crossing[i].direction);
+    cs_composer_turn(presences, set, touched, &hash, crossing[i].leaf,
+                     sign * crossing[i].direction);
   composer->hash = hash;
 }
 

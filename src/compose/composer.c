@@ -15,32 +15,29 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
   return CELSPAN_OK;
 }
 
-/* Whether leaves are folded one after the other, with nothing between them. */
-static bool is_plain(const cs_stack *stack) {
-  for (size_t i = 0; i < stack->leaf_count; i++)
-    if (stack->leaves[i].kind != CS_LEAF_FLAT)
-      return false;
-  for (size_t i = 0; i < stack->light_count; i++)
-    if (stack->lights[i].below > 0)
-      return false;
-  return stack->group_count == 0;
+/* Words of `touched`, and of `filled`. */
+static size_t groups(const cs_composer *composer) {
+  return cs_stack_words(composer->stack) / 64 + 1;
 }
 
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
   *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&composer->scratch);
-  size_t words = cs_stack_words(stack);
+  size_t words = cs_folds_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
+  CS_TRY(take(composer, &composer->touched, groups(composer), sizeof(uint64_t)));
+  CS_TRY(take(composer, &composer->filled, groups(composer), sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->presences, stack->leaf_count, sizeof(cs_presence)));
   for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
     composer->presences[leaf].mark = stack->marks[leaf];
   if (stack->procedure_count > 0)
     CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  if (is_plain(stack))
-    CS_TRY(take(composer, &composer->words, words, sizeof(cs_word_fold)));
+  CS_TRY(take(composer, &composer->folds, cs_folds_suit(stack), sizeof(cs_folds)));
+  if (composer->folds)
+    CS_TRY(cs_folds_init(composer->folds, context, stack));
   CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
   CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
   if (composer->texels)
@@ -54,14 +51,17 @@ void cs_composer_finish(cs_composer *composer) {
     return;
   cs_memory *memory = composer->context->memory;
   const cs_stack *stack = composer->stack;
-  size_t words = cs_stack_words(stack);
+  size_t words = cs_folds_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
+  cs_mem_free(memory, composer->touched, groups(composer) * sizeof(uint64_t));
+  cs_mem_free(memory, composer->filled, groups(composer) * sizeof(uint64_t));
   cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
-  if (composer->words)
-    cs_mem_free(memory, composer->words, words * sizeof(cs_word_fold));
+  if (composer->folds)
+    cs_folds_finish(composer->folds);
+  cs_mem_free(memory, composer->folds, sizeof(cs_folds));
   cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
   if (composer->texels)
     cs_texels_finish(composer->texels);
@@ -91,8 +91,10 @@ void cs_composer_restart(cs_composer *composer) {
   const cs_stack *stack = composer->stack;
   for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
     composer->presences[leaf].winding = 0;
-  if (stack->leaf_count > 0)
-    memset(composer->set, 0, cs_stack_words(stack) * sizeof *composer->set);
+  for (size_t i = 0; i < cs_stack_words(stack); i++) {
+    composer->touched[i / 64] |= (uint64_t)(composer->set[i] != 0) << i % 64;
+    composer->set[i] = 0;
+  }
   composer->hash = (cs_set_hash){0};
 }
 
@@ -216,16 +218,31 @@ static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index
   return CELSPAN_OK;
 }
 
+/* The highest word below `end` that may hold leaves, or CS_STACK_NONE. */
+static inline uint32_t word_below(const uint64_t *filled, uint32_t end) {
+  if (end == 0)
+    return CS_STACK_NONE;
+  uint32_t group = (end - 1) / 64;
+  uint64_t words = filled[group] & (~(uint64_t)0 >> (63 - (end - 1) % 64));
+  while (words == 0) {
+    if (group == 0)
+      return CS_STACK_NONE;
+    words = filled[--group];
+  }
+  return group * 64 + 63 - (uint32_t)__builtin_clzll(words);
+}
+
 /* The highest leaf of the set below `end`, or CS_STACK_NONE. */
-static inline uint32_t leaf_below(const uint64_t *set, uint32_t end) {
+static inline uint32_t leaf_below(const cs_composer *composer, const uint64_t *set, uint32_t end) {
   if (end == 0)
     return CS_STACK_NONE;
   uint32_t word = (end - 1) / 64;
   uint64_t bits = set[word] & (~(uint64_t)0 >> (63 - (end - 1) % 64));
   while (bits == 0) {
-    if (word == 0)
+    word = word_below(composer->filled, word);
+    if (word == CS_STACK_NONE)
       return CS_STACK_NONE;
-    bits = set[--word];
+    bits = set[word];
   }
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
@@ -242,7 +259,7 @@ static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   fold_begin(&f, composer->stack);
   composer->gathered_count = 0;
   for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
-       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+       (leaf = leaf_below(composer, set, end)) != CS_STACK_NONE;) {
     CS_TRY(gather_leaf(composer, &f, leaf));
     end = fold_is_opaque(&f) ? end_behind(&f) : leaf;
   }
@@ -254,7 +271,7 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f
   const cs_leaf *leaves = composer->stack->leaves;
   fold_begin(f, composer->stack);
   for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
-       (leaf = leaf_below(set, end)) != CS_STACK_NONE;) {
+       (leaf = leaf_below(composer, set, end)) != CS_STACK_NONE;) {
     if (leaves[leaf].kind != CS_LEAF_FLAT)
       return false;
     fold_reach(f, leaf, leaves[leaf].group);
@@ -262,78 +279,6 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f
     end = fold_is_opaque(f) ? end_behind(f) : leaf;
   }
   return true;
-}
-
-static inline void pass(cs_glimpse *light, const cs_v4 e, const cs_v4 t) {
-  light->e += light->t * e;
-  light->t *= t;
-}
-
-static inline cs_glimpse fold_byte(const cs_leaf *leaves, unsigned present) {
-  cs_glimpse light = {cs_v4_all(0), cs_v4_all(1)};
-  while (present != 0) {
-    int highest = 31 - __builtin_clz(present);
-    present ^= 1u << highest;
-    pass(&light, leaves[highest].s, leaves[highest].t);
-  }
-  return light;
-}
-
-/* Brings what is known of a word up to date: neighbouring cells differ in few leaves, so few of its
- * bytes are folded anew. */
-static const cs_glimpse *fold_word(cs_word_fold *known, const cs_leaf *leaves, uint64_t word) {
-  const cs_glimpse clear = {cs_v4_all(0), cs_v4_all(1)};
-  uint64_t changed = known->word ^ word;
-  if (changed == 0)
-    return &known->all;
-  cs_glimpse all = clear;
-  for (int byte = 7; byte >= 0; byte--) {
-    unsigned present = word >> 8 * byte & 255;
-    if (present == 0)
-      continue;
-    if (changed >> 8 * byte & 255)
-      known->bytes[byte] = fold_byte(leaves + 8 * byte, present);
-    pass(&all, known->bytes[byte].e, known->bytes[byte].t);
-  }
-  known->word = word;
-  known->all = all;
-  return &known->all;
-}
-
-/* Folds the leaves of one word on top of what f holds, until nothing shines through. */
-static void fold_last(fold *f, const cs_leaf *leaves, uint64_t word) {
-  while (word != 0) {
-    int highest = 63 - __builtin_clzll(word);
-    word ^= (uint64_t)1 << highest;
-    fold_paint(f, leaves[highest].s, leaves[highest].t);
-    if (fold_is_opaque(f))
-      return;
-  }
-}
-
-/* Folds plain leaves a word at a time; the word in which the light ends, leaf by leaf, so that what
- * lies behind the end does not count. */
-static void fold_words(cs_composer *composer, const uint64_t *set, fold *f) {
-  const cs_leaf *leaves = composer->stack->leaves;
-  const cs_v4 opaque = cs_v4_all(CS_PAINT_OPAQUE);
-  cs_glimpse light = {cs_v4_all(0), cs_v4_all(1)};
-  fold_begin(f, composer->stack);
-  for (size_t i = cs_stack_words(composer->stack); i-- > 0;) {
-    if (set[i] == 0)
-      continue;
-    const cs_glimpse *word = fold_word(&composer->words[i], leaves + 64 * i, set[i]);
-    cs_v4 through = light.t * word->t;
-    if (!cs_v4_any_above(through, opaque)) {
-      f->e = light.e;
-      f->t = light.t;
-      fold_last(f, leaves + 64 * i, set[i]);
-      return;
-    }
-    light.e += light.t * word->e;
-    light.t = through;
-  }
-  f->e = light.e;
-  f->t = light.t;
 }
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
@@ -349,18 +294,40 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   return CELSPAN_OK;
 }
 
+/* Looks which words of the set have become empty since the last cell, or have not been for long. */
+static void settle(cs_composer *composer) {
+  for (size_t group = groups(composer); group-- > 0; composer->touched[group] = 0)
+    for (uint64_t words = composer->touched[group]; words != 0; words &= words - 1) {
+      uint64_t bit = words & -words;
+      size_t i = 64 * group + (size_t)__builtin_ctzll(words);
+      composer->filled[group] &= ~bit;
+      composer->filled[group] |= composer->set[i] != 0 ? bit : 0;
+    }
+}
+
+/* What contributes of the leaves present. */
+static const uint64_t *resolve(cs_composer *composer) {
+  if (composer->stack->tree_count == 0)
+    return composer->set;
+  memcpy(composer->contributing, composer->set,
+         cs_stack_words(composer->stack) * sizeof *composer->set);
+  cs_tree_resolve(composer->stack, composer->contributing, composer->results);
+  return composer->contributing;
+}
+
 static celspan_status compose(cs_composer *composer, cs_cell *cell) {
-  const uint64_t *set = composer->set;
-  if (composer->stack->tree_count > 0) {
-    memcpy(composer->contributing, set, cs_stack_words(composer->stack) * sizeof *set);
-    cs_tree_resolve(composer->stack, composer->contributing, composer->results);
-    set = composer->contributing;
-  }
   fold f;
   composer->evaluations++;
-  if (composer->words)
-    fold_words(composer, set, &f);
-  if (composer->words || fold_flats(composer, set, &f)) {
+  settle(composer);
+  const uint64_t *set = resolve(composer);
+  if (composer->folds) {
+    cs_glimpse light;
+    CS_TRY(cs_folds_light(composer->folds, set, composer->filled, &light));
+    fold_begin(&f, composer->stack);
+    f.e = light.e;
+    f.t = light.t;
+  }
+  if (composer->folds || fold_flats(composer, set, &f)) {
     cell->colour = fold_end(&f);
     return CELSPAN_OK;
   }
@@ -377,6 +344,7 @@ void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t stri
   const cs_mark *mark = &composer->stack->marks[leaf];
   uint64_t name = (strip + 1) * (uint64_t)0x9e3779b97f4a7c15u;
   composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
+  composer->touched[leaf / 4096] |= (uint64_t)1 << (leaf / 64 % 64);
   composer->hash.a ^= mark->key[0] * (name | 1);
   composer->hash.b ^= mark->key[1] ^ name;
   if (direction > 0)

@@ -14,7 +14,7 @@
 #ifndef CS_COMPOSE_COMPOSER_H
 #define CS_COMPOSE_COMPOSER_H
 
-#include "compose/stack.h"
+#include "compose/folds.h"
 #include "span/row.h"
 
 typedef struct cs_set_hash {
@@ -62,18 +62,6 @@ typedef struct cs_presence {
   int32_t winding;
 } cs_presence;
 
-/* Light gathered from some leaves by themselves, and what they let through. */
-typedef struct cs_glimpse {
-  cs_v4 e, t;
-} cs_glimpse;
-
-/* The leaves of one word of a set, as they were last seen. */
-typedef struct cs_word_fold {
-  uint64_t word;       /* those present */
-  cs_glimpse all;      /* of the whole word */
-  cs_glimpse bytes[8]; /* of each byte of it that is not 0 */
-} cs_word_fold;
-
 typedef struct cs_memo {
   cs_cell cell;
   bool is_used;
@@ -84,12 +72,14 @@ typedef struct cs_composer {
   const cs_stack *stack;
   cs_isa isa;             /* that many pixels are made with */
   uint64_t *set;          /* leaves present at the walk's place */
+  uint64_t *touched;      /* a bit for every word of the set that has changed since the last cell */
+  uint64_t *filled;       /* and for every word that was not 0 then */
   uint64_t *contributing; /* scratch */
   cs_presence *presences; /* one a leaf */
   uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
   cs_set_hash hash;
   cs_tree_result *results;
-  cs_word_fold *words; /* the last fold of every word of a set; NULL where leaves are not all plain */
+  cs_folds *folds; /* NULL where leaves are not all plain */
   cs_seen_slide *slides;
   cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
@@ -116,8 +106,8 @@ bool cs_composer_begin_row(cs_composer *composer);
 void cs_composer_restart(cs_composer *composer);
 
 /* What crossing a boundary of `leaf` does to its presence, the set and the set's hash. */
-static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, cs_set_hash *hash,
-                                    uint32_t leaf, int32_t direction) {
+static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, uint64_t *touched,
+                                    cs_set_hash *hash, uint32_t leaf, int32_t direction) {
   cs_presence *presence = &presences[leaf];
   const cs_mark *mark = &presence->mark;
   int32_t before = presence->winding, after = before + direction;
@@ -125,13 +115,15 @@ static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, cs_se
   /* Whether it flips can hardly be foreseen, so nothing here is a branch. */
   uint64_t flips = ((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0);
   set[leaf / 64] ^= flips << (leaf % 64);
+  touched[leaf / 4096] |= (uint64_t)1 << (leaf / 64 % 64);
   hash->a ^= mark->key[0] & -flips;
   hash->b ^= mark->key[1] & -flips;
 }
 
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  cs_composer_turn(composer->presences, composer->set, &composer->hash, leaf, direction);
+  cs_composer_turn(composer->presences, composer->set, composer->touched, &composer->hash, leaf,
+                   direction);
 }
 
 /* Enters (+1) or leaves (-1) a strip of a scan-line leaf. */

@@ -1,0 +1,166 @@
+#include "compose/folds.h"
+
+#define FOUR 4            /* words folded at a time, and leaves of a part */
+#define PARTS 16          /* of a word */
+#define CHOICES (1 << FOUR) /* of the leaves of a part */
+
+bool cs_folds_suit(const cs_stack *stack) {
+  for (size_t i = 0; i < stack->leaf_count; i++)
+    if (stack->leaves[i].kind != CS_LEAF_FLAT)
+      return false;
+  for (size_t i = 0; i < stack->light_count; i++)
+    if (stack->lights[i].below > 0)
+      return false;
+  return stack->group_count == 0;
+}
+
+size_t cs_folds_words(const cs_stack *stack) {
+  return (cs_stack_words(stack) + FOUR - 1) / FOUR * FOUR;
+}
+
+celspan_status cs_folds_init(cs_folds *folds, celspan_context *context, const cs_stack *stack) {
+  *folds = (cs_folds){.context = context, .stack = stack};
+  size_t count = cs_folds_words(stack);
+  cs_arena_init(&folds->parts);
+  folds->words = cs_mem_array(context->memory, count, sizeof *folds->words);
+  if (count > 0 && !folds->words)
+    return cs_fail_memory(context);
+  folds->count = count;
+  for (size_t i = 0; i < count; i++)
+    folds->words[i].all = cs_glimpse_clear;
+  return CELSPAN_OK;
+}
+
+void cs_folds_finish(cs_folds *folds) {
+  if (!folds->context)
+    return;
+  cs_mem_free(folds->context->memory, folds->words, folds->count * sizeof *folds->words);
+  cs_arena_finish(&folds->parts, folds->context->memory);
+  *folds = (cs_folds){0};
+}
+
+/* ---------------------------------------------------------------- words */
+
+static inline cs_glimpse glimpse_leaf(const cs_folds *folds, size_t leaf) {
+  if (leaf >= folds->stack->leaf_count)
+    return cs_glimpse_clear;
+  return (cs_glimpse){folds->stack->leaves[leaf].s, folds->stack->leaves[leaf].t};
+}
+
+static void make_part(const cs_folds *folds, size_t leaf, cs_glimpse *part) {
+  cs_glimpse halves[2][FOUR]; /* what the lower two leaves may give, and the upper two */
+  for (size_t half = 0; half < 2; half++) {
+    cs_glimpse *h = halves[half];
+    h[0] = cs_glimpse_clear;
+    h[1] = glimpse_leaf(folds, leaf + 2 * half);
+    h[2] = glimpse_leaf(folds, leaf + 2 * half + 1);
+    h[3] = cs_glimpse_over(h[2], h[1]);
+  }
+  for (size_t choice = 0; choice < CHOICES; choice++)
+    part[choice] = cs_glimpse_over(halves[1][choice / FOUR], halves[0][choice % FOUR]);
+}
+
+static celspan_status make_parts(cs_folds *folds, size_t i) {
+  cs_glimpse *parts =
+      cs_arena_take(folds->context, &folds->parts, PARTS * CHOICES * sizeof *parts);
+  if (!parts)
+    return CELSPAN_NO_MEMORY;
+  for (size_t part = 0; part < PARTS; part++)
+    make_part(folds, 64 * i + FOUR * part, parts + CHOICES * part);
+  folds->words[i].parts = parts;
+  return CELSPAN_OK;
+}
+
+/* Sixteen leaves of a word, the first of which is the lowest bit. */
+static inline cs_glimpse fold_quarter(const cs_glimpse *parts, unsigned word) {
+  return cs_glimpse_over(
+      cs_glimpse_over(parts[3 * CHOICES + (word >> 12 & 15)], parts[2 * CHOICES + (word >> 8 & 15)]),
+      cs_glimpse_over(parts[CHOICES + (word >> 4 & 15)], parts[word & 15]));
+}
+
+static inline cs_glimpse fold_quarters(const cs_glimpse *parts, uint64_t word) {
+  const size_t quarter = FOUR * CHOICES;
+  return cs_glimpse_over(
+      cs_glimpse_over(fold_quarter(parts + 3 * quarter, (unsigned)(word >> 48)),
+                      fold_quarter(parts + 2 * quarter, (unsigned)(word >> 32))),
+      cs_glimpse_over(fold_quarter(parts + quarter, (unsigned)(word >> 16)),
+                      fold_quarter(parts, (unsigned)word)));
+}
+
+/* At most two leaves, as in most words where shapes are small or few are seen, need no parts. */
+static cs_glimpse fold_few(const cs_folds *folds, size_t i, uint64_t word) {
+  if (word == 0)
+    return cs_glimpse_clear;
+  size_t front = 64 * i + 63 - (size_t)__builtin_clzll(word);
+  size_t back = 64 * i + (size_t)__builtin_ctzll(word);
+  cs_glimpse glimpse = glimpse_leaf(folds, front);
+  return front == back ? glimpse : cs_glimpse_over(glimpse, glimpse_leaf(folds, back));
+}
+
+/* Word i of the set has become `word`. */
+static celspan_status fold_word(cs_folds *folds, size_t i, uint64_t word) {
+  cs_word_fold *known = &folds->words[i];
+  uint64_t more = word & (word - (word != 0)); /* without one leaf */
+  known->word = word;
+  if ((more & (more - (more != 0))) == 0) {
+    known->all = fold_few(folds, i, word);
+    return CELSPAN_OK;
+  }
+  if (!known->parts)
+    CS_TRY(make_parts(folds, i));
+  known->all = fold_quarters(known->parts, word);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+static inline bool is_opaque(cs_v4 t) { return !cs_v4_any_above(t, cs_v4_all(CS_PAINT_OPAQUE)); }
+
+/* Folds words on top of each other until nothing shines through, the last of them leaf by leaf. */
+static cs_glimpse fold_last(const cs_folds *folds, cs_glimpse light, size_t first) {
+  for (size_t i = first + FOUR; i-- > first;) {
+    cs_glimpse all = cs_glimpse_over(light, folds->words[i].all);
+    if (!is_opaque(all.t)) {
+      light = all;
+      continue;
+    }
+    for (uint64_t word = folds->words[i].word; word != 0 && !is_opaque(light.t);) {
+      int highest = 63 - __builtin_clzll(word);
+      word ^= (uint64_t)1 << highest;
+      light = cs_glimpse_over(light, glimpse_leaf(folds, 64 * i + (size_t)highest));
+    }
+    return light;
+  }
+  return light;
+}
+
+/* Brings the four words from `first` on up to date. */
+static inline celspan_status fold_changed(cs_folds *folds, const uint64_t *set, size_t first) {
+  for (size_t i = first; i < first + FOUR; i++)
+    if (folds->words[i].word != set[i])
+      CS_TRY(fold_word(folds, i, set[i]));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set, const uint64_t *filled,
+                              cs_glimpse *out) {
+  cs_glimpse light = cs_glimpse_clear;
+  for (size_t group = (folds->count + 63) / 64; group-- > 0;)
+    for (uint64_t words = filled[group], behind; words != 0; words &= behind) {
+      int bit = (63 - __builtin_clzll(words)) & -FOUR;
+      size_t first = 64 * group + (size_t)bit;
+      const cs_word_fold *w = &folds->words[first];
+      behind = ((uint64_t)1 << bit) - 1;
+      CS_TRY(fold_changed(folds, set, first));
+      cs_glimpse four = cs_glimpse_over(cs_glimpse_over(w[3].all, w[2].all),
+                                        cs_glimpse_over(w[1].all, w[0].all));
+      cs_glimpse all = cs_glimpse_over(light, four);
+      if (is_opaque(all.t)) {
+        *out = fold_last(folds, light, first);
+        return CELSPAN_OK;
+      }
+      light = all;
+    }
+  *out = light;
+  return CELSPAN_OK;
+}

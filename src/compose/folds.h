@@ -1,0 +1,56 @@
+/* Folds: the light of sets of plain leaves, flat and one over the other with nothing between.
+ *
+ * Neighbouring cells differ in few leaves, so what every word of a set gives by itself is kept, and
+ * only words that changed are folded anew: from what any of four neighbouring leaves give, which is
+ * looked up. Words are then folded by fours, from the front, until nothing shines through.
+ *
+ * Invariant: the light of a set depends on the set alone, to the bit: leaves fold along the bits of
+ * their numbers, whatever was known before, and what lies behind the end of the light does not
+ * count.
+ */
+#ifndef CS_COMPOSE_FOLDS_H
+#define CS_COMPOSE_FOLDS_H
+
+#include "base/arena.h"
+#include "compose/stack.h"
+
+/* Light gathered from some leaves by themselves, and what they let through. */
+typedef struct cs_glimpse {
+  cs_v4 e, t;
+} cs_glimpse;
+
+static const cs_glimpse cs_glimpse_clear = {{0, 0, 0, 0}, {1, 1, 1, 1}};
+
+/* One glimpse over another: exactly the other where one of them is clear. */
+static inline cs_glimpse cs_glimpse_over(cs_glimpse front, cs_glimpse back) {
+  return (cs_glimpse){front.e + front.t * back.e, front.t * back.t};
+}
+
+/* The leaves of one word of a set. */
+typedef struct cs_word_fold {
+  uint64_t word;     /* those present */
+  cs_glimpse *parts; /* what any of each four leaves give, 16 times 16; NULL: not asked for yet */
+  cs_glimpse all;    /* of the whole word */
+} cs_word_fold;
+
+typedef struct cs_folds {
+  celspan_context *context;
+  const cs_stack *stack;
+  cs_word_fold *words; /* a multiple of four */
+  size_t count;
+  cs_arena parts;
+} cs_folds;
+
+/* Whether the leaves of a stack are plain. */
+bool cs_folds_suit(const cs_stack *stack);
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_folds_init(cs_folds *folds, celspan_context *context,
+                                             const cs_stack *stack);
+void cs_folds_finish(cs_folds *folds);
+/* Words of a set are counted in fours: so many, at least as many as the stack's leaves need. */
+size_t cs_folds_words(const cs_stack *stack);
+/* The light of a set. filled: a bit for every word that is not 0. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set,
+                                              const uint64_t *filled, cs_glimpse *out);
+
+#endif
