@@ -118,6 +118,21 @@ static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member
   return CELSPAN_OK;
 }
 
+/* Room for the members of a cluster, which is kept from one to the next. */
+static celspan_status make_room(cs_scan *scan, cs_cluster *cluster) {
+  size_t most = cluster->count + cluster->begin_count;
+  CS_TRY(cs_mem_reserve(scan->context, (void **)&scan->members, &scan->member_capacity, most,
+                        sizeof *scan->members));
+  CS_TRY(cs_mem_reserve(scan->context, (void **)&scan->member_lists, &scan->list_capacity,
+                        3 * most, sizeof *scan->member_lists));
+  cluster->members = (cs_member **)scan->member_lists;
+  cluster->spare = cluster->members + most;
+  cluster->seen = (const cs_cell **)(scan->member_lists + 2 * most);
+  for (size_t j = 0; j < cluster->count; j++)
+    cluster->members[j] = &scan->members[j];
+  return CELSPAN_OK;
+}
+
 /* Replays a block; the composer stands left of it. */
 static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
   cs_scan *scan = b->scan;
@@ -132,21 +147,19 @@ static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
                         .count = high - low,
                         .begins = begins,
                         .begin_count = begin_count};
-  cluster.members = take(b, high - low + begin_count, sizeof *cluster.members);
-  if (!cluster.members)
-    return CELSPAN_NO_MEMORY;
+  CS_TRY(make_room(scan, &cluster));
   for (size_t i = low; i < high; i++) {
     const celspan_point *points;
     uint32_t count;
     CS_TRY(active_points(b, i, &points, &count));
-    cs_member *member = &cluster.members[i - low];
+    cs_member *member = cluster.members[i - low];
     *member = cs_blocks_member(active, active->walks[active->slot[i]].chain, points, count);
     member->place = (uint32_t)i;
     member->right = &b->cells[i + 1];
   }
   if (begin_count > 1)
     qsort(begins, begin_count, sizeof *begins, compare_begins);
-  double least = least_x(cluster.members, cluster.count, scan->shot->width);
+  double least = least_x(scan->members, cluster.count, scan->shot->width);
   least = least_x(begins, begin_count, least);
   b->toggle = cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, least);
   cluster.toggle = b->toggle;

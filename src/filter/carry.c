@@ -52,14 +52,14 @@ celspan_status cs_carry_cluster(const cs_cluster *cluster, size_t low, size_t hi
   if (cluster->count != count)
     return CELSPAN_OK;
   for (size_t j = 0; j < count; j++) {
-    uint32_t place = cluster->members[j].place;
+    uint32_t place = cluster->members[j]->place;
     if (place < low || place >= high || !goes_on(&cluster->scan->active, place))
       return CELSPAN_OK;
   }
   CS_TRY(note(cluster->scan, low, count, &carried));
   for (size_t j = 0; j < count; j++) {
-    carried->places[j] = cluster->members[j].place;
-    CS_TRY(keep_cell(cluster->scan, low + j, cluster->members[j].right, &carried->cells[j]));
+    carried->places[j] = cluster->members[j]->place;
+    CS_TRY(keep_cell(cluster->scan, low + j, cluster->members[j]->right, &carried->cells[j]));
   }
   return CELSPAN_OK;
 }

@@ -5,15 +5,39 @@
 /* ---------------------------------------------------------------- fragments */
 
 static const cs_cell *left_of(const cs_cluster *cluster, size_t j) {
-  return j > 0 ? cluster->members[j - 1].right : cluster->left;
+  return j > 0 ? cluster->members[j - 1]->right : cluster->left;
 }
 
-/* Gives the window what member j drew since its last event, down to (x, y). */
+/* A boundary at some height, between two cells. */
+typedef struct stay {
+  const cs_member *member;
+  double x, y;
+  uint32_t at; /* a segment that y is on */
+} stay;
+
+/* Gives the window what a boundary draws from there down to (x, y). */
+static celspan_status draw_to(cs_scan *scan, const stay *from, double x, double y,
+                              const cs_cell *left, const cs_cell *right) {
+  const celspan_point *points = from->member->points;
+  if (!(y > from->y) || cs_composer_same(&scan->composer, left, right))
+    return CELSPAN_OK;
+  celspan_point above = {from->x, from->y};
+  for (uint32_t at = from->at; points[at].y < y; at++)
+    if (points[at].y > above.y) {
+      CS_TRY(cs_window_add(&scan->window, above.x, above.y, points[at].x, points[at].y, left,
+                           right));
+      above = points[at];
+    }
+  return cs_window_add(&scan->window, above.x, above.y, x, y, left, right);
+}
+
+/* The same for member j since its last event, between the cells it stands between. */
 static celspan_status flush(cs_cluster *cluster, size_t j, double x, double y) {
-  cs_member *member = &cluster->members[j];
-  const cs_cell *left = left_of(cluster, j);
-  if (y > member->y && !cs_composer_same(&cluster->scan->composer, left, member->right))
-    CS_TRY(cs_window_add(&cluster->scan->window, member->x, member->y, x, y, left, member->right));
+  cs_member *member = cluster->members[j];
+  const stay from = {member, member->x, member->y, member->at};
+  CS_TRY(draw_to(cluster->scan, &from, x, y, left_of(cluster, j), member->right));
+  while (member->points[member->at].y < y)
+    member->at++;
   member->x = x;
   member->y = y;
   return CELSPAN_OK;
@@ -21,7 +45,7 @@ static celspan_status flush(cs_cluster *cluster, size_t j, double x, double y) {
 
 static celspan_status flush_all(cs_cluster *cluster, double y) {
   for (size_t j = 0; j < cluster->count; j++)
-    CS_TRY(flush(cluster, j, cluster->members[j].foot, y));
+    CS_TRY(flush(cluster, j, cluster->members[j]->foot, y));
   return CELSPAN_OK;
 }
 
@@ -38,9 +62,9 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
 static void stand(cs_cluster *cluster, size_t place) {
   cs_composer *composer = &cluster->scan->composer;
   for (; cluster->stood < place; cluster->stood++)
-    cross(composer, &cluster->members[cluster->stood], 1);
+    cross(composer, cluster->members[cluster->stood], 1);
   for (; cluster->stood > place; cluster->stood--)
-    cross(composer, &cluster->members[cluster->stood - 1], -1);
+    cross(composer, cluster->members[cluster->stood - 1], -1);
 }
 
 /* And past the toggles at or left of x. */
@@ -51,114 +75,162 @@ static void stand_toggles(cs_cluster *cluster, double x) {
     cs_composer_cross(composer, cluster->passed[-1].leaf, -cluster->passed[-1].direction);
 }
 
+/* The cell at the composer's place; `known` when it is the same. */
+static const cs_cell *find_cell(cs_scan *scan, const cs_cell *known) {
+  if (known && cs_set_hash_same(known->hash, scan->composer.hash))
+    return known;
+  cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
+  if (!cell)
+    scan->composer.failure = CELSPAN_NO_MEMORY;
+  else
+    cs_composer_cell(&scan->composer, cell);
+  return cell;
+}
+
 /* Brings the cells right of members first..last up to date. */
 static celspan_status refresh(cs_cluster *cluster, size_t first, size_t last) {
-  cs_scan *scan = cluster->scan;
-  cs_composer *composer = &scan->composer;
   for (size_t j = first; j <= last; j++) {
-    cs_member *member = &cluster->members[j];
+    cs_member *member = cluster->members[j];
     stand(cluster, j + 1);
     stand_toggles(cluster, member->x);
-    if (member->right && cs_set_hash_same(member->right->hash, composer->hash))
-      continue;
-    cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
-    if (!cell)
-      return CELSPAN_NO_MEMORY;
-    cs_composer_cell(composer, cell);
-    member->right = cell;
+    member->right = find_cell(cluster->scan, member->right);
+    CS_TRY(cluster->scan->composer.failure);
   }
-  return composer->failure;
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- bands */
 
-/* x of a member at a height on the segment it stands on. */
-static double member_x(const cs_member *member, double y) {
-  const celspan_point *a = &member->points[member->at - 1], *b = &member->points[member->at];
-  return y >= b->y ? b->x : a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
-}
-
-/* Slope of the segment a member stands on, for settling equal x. */
-static double member_slope(const cs_member *member) {
-  const celspan_point *a = &member->points[member->at - 1], *b = &member->points[member->at];
-  return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
-}
-
-/* The height of the next bend, begin or end below y. */
+/* The height of the next begin or end. */
 static double next_height(const cs_cluster *cluster) {
   double next = cluster->begin_count > 0 ? cluster->begins[0].points[0].y : cluster->y1;
   for (size_t j = 0; j < cluster->count; j++) {
-    const cs_member *member = &cluster->members[j];
-    if (member->points[member->at].y < next)
-      next = member->points[member->at].y;
+    const cs_member *member = cluster->members[j];
+    double end = member->points[member->point_count - 1].y;
+    next = end < next ? end : next;
   }
   return next;
 }
 
-/* Where in the band member j meets its right neighbour. */
-static void find_meeting(cs_cluster *cluster, size_t j) {
-  cs_member *a = &cluster->members[j];
-  const cs_member *b = a + 1;
-  a->meets = INFINITY;
-  if (j + 1 >= cluster->count || !(a->foot > b->foot))
-    return;
-  double foot = a->foot - b->foot, top = b->top > a->top ? b->top - a->top : 0;
-  a->meets = top / (top + foot);
+static inline cs_meeting *meeting_at(const cs_cluster *cluster, uint32_t index) {
+  return index == CS_MEETINGS_NONE ? NULL : &cluster->scan->meetings.meetings[index];
 }
 
-/* Which neighbours inside the band cross next. */
-static bool next_swap(const cs_cluster *cluster, size_t *pair) {
-  double least = INFINITY;
-  for (size_t j = 0; j < cluster->count; j++)
-    if (cluster->members[j].meets < least) {
-      least = cluster->members[j].meets;
-      *pair = j;
+/* Composes what is seen right of place j after each of the meetings there. */
+static celspan_status compose_place(cs_cluster *cluster, size_t j) {
+  cs_composer *composer = &cluster->scan->composer;
+  cs_member *const *members = cluster->members;
+  cs_meeting *meeting = meeting_at(cluster, cluster->scan->meetings.first[j]);
+  if (!meeting)
+    return CELSPAN_OK;
+  stand(cluster, j + 1);
+  for (; meeting; meeting = meeting_at(cluster, meeting->next)) {
+    cross(composer, members[meeting->left], -1);
+    cross(composer, members[meeting->right], 1);
+    stand_toggles(cluster, meeting->right_x);
+    meeting->cell = find_cell(cluster->scan, NULL);
+    CS_TRY(composer->failure);
+  }
+  for (meeting = meeting_at(cluster, cluster->scan->meetings.first[j]); meeting;
+       meeting = meeting_at(cluster, meeting->next)) {
+    cross(composer, members[meeting->right], -1);
+    cross(composer, members[meeting->left], 1);
+  }
+  return CELSPAN_OK;
+}
+
+/* Follows place j down the band: whoever stands there draws, from one meeting with a neighbour to
+ * the next. left: the cell left of the place at the top. */
+static celspan_status draw_place(cs_cluster *cluster, size_t j, const cs_cell *left) {
+  cs_member *const *members = cluster->members;
+  const cs_meetings *meetings = &cluster->scan->meetings;
+  const cs_cell *right = members[j]->right;
+  const cs_meeting *before = j > 0 ? meeting_at(cluster, meetings->first[j - 1]) : NULL;
+  const cs_meeting *after = meeting_at(cluster, meetings->first[j]);
+  stay s = {members[j], members[j]->x, members[j]->y, members[j]->at};
+  while (before || after) {
+    bool is_after = !before || (after && after < before); /* as they happened */
+    const cs_meeting *meeting = is_after ? after : before;
+    double y = meeting->y, left_x = meeting->left_x, right_x = meeting->right_x;
+    CS_TRY(draw_to(cluster->scan, &s, is_after ? left_x : right_x, y, left, right));
+    s.member = members[is_after ? meeting->right : meeting->left];
+    s.x = is_after ? right_x : left_x;
+    s.y = y;
+    s.at = is_after ? meeting->right_at : meeting->left_at;
+    if (is_after) {
+      right = meeting->cell;
+      after = meeting_at(cluster, meeting->next);
+    } else {
+      left = meeting->cell;
+      before = meeting_at(cluster, meeting->next);
     }
-  return least < INFINITY;
+  }
+  cluster->seen[j] = right;
+  return CELSPAN_OK;
 }
 
-static celspan_status swap(cs_cluster *cluster, size_t j, double u, double y) {
-  cs_member *a = &cluster->members[j], *b = a + 1;
-  CS_TRY(flush(cluster, j, a->top + (a->foot - a->top) * u, y));
-  CS_TRY(flush(cluster, j + 1, b->top + (b->foot - b->top) * u, y));
-  const cs_cell *right = b->right;
-  if (cluster->stood > j)
-    stand(cluster, j);
-  cs_member moved = *a;
-  *a = *b;
-  *b = moved;
-  b->right = right; /* cells belong to places */
-  return refresh(cluster, j, j);
-}
-
-/* Runs the members from y0 down to y1, all of them straight between. */
-static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
+/* Puts the members where they are at the foot of a band. */
+static void take_places(cs_cluster *cluster) {
+  const cs_meetings *meetings = &cluster->scan->meetings;
+  cs_member **members = cluster->spare;
   for (size_t j = 0; j < cluster->count; j++) {
-    cs_member *member = &cluster->members[j];
-    member->top = member->foot; /* the last band ended at this height, on the same x */
-    member->foot = member_x(member, y1);
+    const cs_mover *mover = &meetings->movers[meetings->order[j]];
+    cs_member *member = members[j] = cluster->members[meetings->order[j]];
+    member->x = mover->last_x;
+    member->y = mover->last_y;
+    member->at = mover->last_at;
+    member->right = cluster->seen[j];
   }
+  cluster->spare = cluster->members;
+  cluster->members = members;
+}
+
+/* Draws the meetings of a band, and leaves the members as they are at its foot. */
+static celspan_status draw_meetings(cs_cluster *cluster) {
+  const cs_cell *left = cluster->left;
+  for (size_t j = 0; j < cluster->count; j++) {
+    CS_TRY(compose_place(cluster, j));
+    CS_TRY(draw_place(cluster, j, left));
+    left = cluster->members[j]->right;
+  }
+  stand(cluster, 0);
+  take_places(cluster);
+  return CELSPAN_OK;
+}
+
+/* Runs the members from y0 down to y1, where the next of them begins or ends. */
+static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
+  cs_scan *scan = cluster->scan;
+  cs_meetings *meetings = &scan->meetings;
+  for (size_t j = 0; j < cluster->count; j++) {
+    const cs_member *member = cluster->members[j];
+    meetings->movers[j] = cs_meetings_mover(member->points, member->at, member->x, member->y);
+    meetings->foot[j] = member->foot;
+  }
+  CS_TRY(cs_meetings_find(meetings, scan->context, cluster->count, y0, y1));
+  if (meetings->count > 0)
+    CS_TRY(draw_meetings(cluster));
   for (size_t j = 0; j < cluster->count; j++)
-    find_meeting(cluster, j);
-  double reached = 0;
-  for (size_t j = 0; next_swap(cluster, &j);) {
-    double u = cluster->members[j].meets;
-    reached = u > reached ? u : reached;
-    CS_TRY(swap(cluster, j, reached, y0 + (y1 - y0) * reached));
-    find_meeting(cluster, j);
-    find_meeting(cluster, j + 1);
-    if (j > 0)
-      find_meeting(cluster, j - 1);
-  }
+    cluster->members[j]->foot = meetings->foot[j];
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- between bands */
 
-static bool is_right(const cs_member *a, const cs_member *b) {
+/* Slope below a height, for settling equal x. */
+static double slope_below(const cs_member *member, double y) {
+  uint32_t at = member->at;
+  while (member->points[at].y <= y && at + 1 < member->point_count)
+    at++;
+  const celspan_point *a = &member->points[at - 1], *b = &member->points[at];
+  return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
+}
+
+/* Whether a belongs right of b at the height that both have reached. */
+static bool is_right(const cs_member *a, const cs_member *b, double y) {
   if (a->foot != b->foot)
     return a->foot > b->foot;
-  double slope_a = member_slope(a), slope_b = member_slope(b);
+  double slope_a = slope_below(a, y), slope_b = slope_below(b, y);
   return slope_a != slope_b ? slope_a > slope_b : a->order > b->order;
 }
 
@@ -175,17 +247,15 @@ static void widen(turning *t, double x) {
 
 static bool has_ended(const cs_member *member) { return member->at == member->point_count; }
 
-/* Moves members that bend or end at y on. */
-static celspan_status step_members(cs_cluster *cluster, double y, turning *t) {
+/* Draws the members that end at y. */
+static celspan_status end_members(cs_cluster *cluster, double y, turning *t) {
   for (size_t j = 0; j < cluster->count; j++) {
-    cs_member *member = &cluster->members[j];
-    if (member->points[member->at].y > y)
+    cs_member *member = cluster->members[j];
+    if (member->points[member->point_count - 1].y > y)
       continue;
     CS_TRY(flush(cluster, j, member->foot, y));
-    while (member->at < member->point_count && member->points[member->at].y <= y)
-      member->at++;
-    if (has_ended(member))
-      widen(t, member->foot);
+    member->at = member->point_count;
+    widen(t, member->foot);
   }
   return CELSPAN_OK;
 }
@@ -193,34 +263,28 @@ static celspan_status step_members(cs_cluster *cluster, double y, turning *t) {
 static void drop_ended(cs_cluster *cluster) {
   size_t kept = 0;
   for (size_t j = 0; j < cluster->count; j++)
-    if (!has_ended(&cluster->members[j]))
+    if (!has_ended(cluster->members[j]))
       cluster->members[kept++] = cluster->members[j];
   cluster->count = kept;
 }
 
 /* Lets the members that begin at y in, at the end of the order. */
 static void begin_members(cs_cluster *cluster, double y) {
-  size_t begun = 0;
-  for (; begun < cluster->begin_count && cluster->begins[begun].points[0].y <= y; begun++) {
-    cs_member *member = &cluster->members[cluster->count++];
-    *member = cluster->begins[begun];
-    member->x = member->foot = member->points[0].x;
+  for (; cluster->begin_count > 0 && cluster->begins->points[0].y <= y; cluster->begin_count--) {
+    cs_member *member = cluster->begins++;
     member->y = y;
-    member->at = 1;
-    member->right = NULL;
+    cluster->members[cluster->count++] = member;
   }
-  cluster->begins += begun;
-  cluster->begin_count -= begun;
 }
 
 /* Members that meet in a point and part in another order. */
-static void note_disorder(const cs_cluster *cluster, turning *t) {
+static void note_disorder(const cs_cluster *cluster, double y, turning *t) {
   const cs_member *last = NULL;
   for (size_t j = 0; j < cluster->count; j++) {
-    const cs_member *member = &cluster->members[j];
+    const cs_member *member = cluster->members[j];
     if (has_ended(member))
       continue;
-    if (last && is_right(last, member)) {
+    if (last && is_right(last, member, y)) {
       widen(t, last->foot);
       widen(t, member->foot);
     }
@@ -233,10 +297,10 @@ static void note_begins(const cs_cluster *cluster, double y, turning *t) {
     widen(t, cluster->begins[k].points[0].x);
 }
 
-static void sort(cs_cluster *cluster) {
+static void sort(cs_cluster *cluster, double y) {
   for (size_t i = 1; i < cluster->count; i++)
-    for (size_t j = i; j > 0 && is_right(&cluster->members[j - 1], &cluster->members[j]); j--) {
-      cs_member member = cluster->members[j];
+    for (size_t j = i; j > 0 && is_right(cluster->members[j - 1], cluster->members[j], y); j--) {
+      cs_member *member = cluster->members[j];
       cluster->members[j] = cluster->members[j - 1];
       cluster->members[j - 1] = member;
     }
@@ -248,16 +312,16 @@ static bool is_inside(const turning *t, const cs_member *member) {
 
 static celspan_status flush_inside(cs_cluster *cluster, const turning *t, double y) {
   for (size_t j = 0; j < cluster->count; j++)
-    if (is_inside(t, &cluster->members[j]))
-      CS_TRY(flush(cluster, j, cluster->members[j].foot, y));
+    if (!has_ended(cluster->members[j]) && is_inside(t, cluster->members[j]))
+      CS_TRY(flush(cluster, j, cluster->members[j]->foot, y));
   return CELSPAN_OK;
 }
 
 static celspan_status refresh_inside(cs_cluster *cluster, const turning *t) {
   size_t first = 0, end = cluster->count;
-  while (first < end && !is_inside(t, &cluster->members[first]))
+  while (first < end && !is_inside(t, cluster->members[first]))
     first++;
-  while (end > first && !is_inside(t, &cluster->members[end - 1]))
+  while (end > first && !is_inside(t, cluster->members[end - 1]))
     end--;
   return first < end ? refresh(cluster, first, end - 1) : CELSPAN_OK;
 }
@@ -265,21 +329,21 @@ static celspan_status refresh_inside(cs_cluster *cluster, const turning *t) {
 /* The events at height y, at the foot of the band just run. */
 static celspan_status turn(cs_cluster *cluster, double y) {
   turning t = {INFINITY, -INFINITY};
-  CS_TRY(step_members(cluster, y, &t));
+  CS_TRY(end_members(cluster, y, &t));
   note_begins(cluster, y, &t);
-  note_disorder(cluster, &t);
-  if (t.low > t.high)
-    return CELSPAN_OK;
+  note_disorder(cluster, y, &t);
   CS_TRY(flush_inside(cluster, &t, y));
   stand(cluster, 0);
   drop_ended(cluster);
   begin_members(cluster, y);
-  sort(cluster);
+  sort(cluster, y);
   return refresh_inside(cluster, &t);
 }
 
 celspan_status cs_cluster_replay(cs_cluster *cluster) {
   double y = cluster->y0;
+  CS_TRY(cs_meetings_reserve(&cluster->scan->meetings, cluster->scan->context,
+                             cluster->count + cluster->begin_count));
   cluster->stood = 0;
   cluster->passed = cluster->toggle;
   for (;;) {

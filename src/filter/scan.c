@@ -1,4 +1,4 @@
-#include "filter/scan.h"
+#include "filter/cluster.h"
 
 /* So many rows on, and more, it is cheaper to begin anew than to follow every boundary there. */
 #define FAR_ROWS 16
@@ -23,6 +23,9 @@ void cs_scan_finish(cs_scan *scan) {
   cs_cells_finish(&scan->cells, memory);
   cs_edges_finish(&scan->edges, memory);
   cs_window_free(&scan->window, memory);
+  cs_meetings_finish(&scan->meetings, memory);
+  cs_mem_free(memory, scan->members, scan->member_capacity * sizeof *scan->members);
+  cs_mem_free(memory, scan->member_lists, scan->list_capacity * sizeof *scan->member_lists);
   cs_arena_finish(&scan->arena, memory);
   cs_scanline_finish(&scan->output, memory);
   cs_traces_finish(scan);

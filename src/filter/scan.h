@@ -11,6 +11,7 @@
 
 #include "compose/cells.h"
 #include "filter/convolve.h"
+#include "filter/meetings.h"
 #include "filter/window.h"
 #include "scene/scanline.h"
 
@@ -27,6 +28,8 @@ typedef struct cs_shot {
 
 #define CS_SCAN_NOWHERE INT32_MIN
 
+typedef struct cs_member cs_member; /* cluster.h */
+
 typedef struct cs_scan {
   celspan_context *context; /* the worker's branch */
   const cs_shot *shot;
@@ -35,6 +38,10 @@ typedef struct cs_scan {
   cs_cells cells;
   cs_edges edges; /* of the row being made */
   cs_window window;
+  cs_meetings meetings; /* of the cluster being replayed */
+  cs_member *members;   /* room for its members */
+  void **member_lists;  /* and for three lists of them */
+  size_t member_capacity, list_capacity;
   cs_arena arena; /* of the current row */
   celspan_scanline_output output; /* room for what procedures return */
   struct cs_carried *carried; /* of the current row: see carry.h */

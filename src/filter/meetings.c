@@ -1,0 +1,204 @@
+#include "filter/meetings.h"
+
+#include <math.h>
+
+#define BLOCK 16 /* places whose least share is known */
+
+/* Bytes of one mover over all arrays. */
+#define ITEM_SIZE (sizeof(cs_mover) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
+
+void cs_meetings_finish(cs_meetings *meetings, cs_memory *memory) {
+  cs_mem_free(memory, meetings->block, meetings->mover_capacity * ITEM_SIZE);
+  cs_mem_free(memory, meetings->meetings, meetings->capacity * sizeof *meetings->meetings);
+  *meetings = (cs_meetings){0};
+}
+
+/* The wider items first, so that each is aligned. */
+celspan_status cs_meetings_reserve(cs_meetings *meetings, celspan_context *context,
+                                   size_t movers) {
+  if (movers <= meetings->mover_capacity)
+    return CELSPAN_OK;
+  size_t wanted = (2 * movers + BLOCK - 1) / BLOCK * BLOCK;
+  void *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  if (!block)
+    return cs_fail_memory(context);
+  cs_mem_free(context->memory, meetings->block, meetings->mover_capacity * ITEM_SIZE);
+  meetings->block = meetings->movers = block;
+  meetings->top = (double *)(meetings->movers + wanted);
+  meetings->foot = meetings->top + wanted;
+  meetings->shares = meetings->foot + wanted;
+  meetings->least = meetings->shares + wanted;
+  meetings->order = (uint32_t *)(meetings->least + wanted);
+  meetings->first = meetings->order + wanted;
+  meetings->last = meetings->first + wanted;
+  meetings->mover_capacity = wanted;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- shares of a step */
+
+/* Where in the step the boundary at a place meets its right neighbour. Whether it does can hardly be
+ * foreseen, so the division is always made. */
+static inline double find_share(const cs_meetings *m, size_t place) {
+  double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
+  double top = gap > 0 ? gap : 0, share = top / (top + foot);
+  return foot > 0 ? share : INFINITY;
+}
+
+static inline size_t block_count(size_t count) { return (count + BLOCK - 1) / BLOCK; }
+
+static void look_at_block(cs_meetings *m, size_t block) {
+  const double *shares = m->shares + block * BLOCK;
+  double least[4]; /* four chains, not one long one */
+  for (size_t i = 0; i < 4; i++)
+    least[i] = shares[i];
+  for (size_t i = 4; i < BLOCK; i++)
+    least[i % 4] = shares[i] < least[i % 4] ? shares[i] : least[i % 4];
+  double even = least[0] < least[2] ? least[0] : least[2];
+  double odd = least[1] < least[3] ? least[1] : least[3];
+  m->least[block] = even < odd ? even : odd;
+}
+
+/* Finds all shares. Returns whether any two meet. */
+static bool look_at_all(cs_meetings *m, size_t count) {
+  int64_t meets = 0;
+  for (size_t place = 0; place + 1 < count; place++) {
+    m->shares[place] = find_share(m, place);
+    meets += m->foot[place] > m->foot[place + 1];
+  }
+  if (meets == 0)
+    return false;
+  for (size_t place = count - 1; place < block_count(count) * BLOCK; place++)
+    m->shares[place] = INFINITY;
+  for (size_t block = 0; block < block_count(count); block++)
+    look_at_block(m, block);
+  return true;
+}
+
+/* The place of the next meeting, the first of several; false: there is none any more. */
+static bool find_next(const cs_meetings *m, size_t count, size_t *place) {
+  size_t block = 0;
+  for (size_t i = 1; i < block_count(count); i++)
+    block = m->least[i] < m->least[block] ? i : block;
+  if (m->least[block] == INFINITY)
+    return false;
+  const double *shares = m->shares + block * BLOCK;
+  size_t at = 0;
+  for (size_t i = BLOCK; i-- > 0;) /* without a branch that could not be foretold */
+    at = shares[i] == m->least[block] ? i : at;
+  *place = block * BLOCK + at;
+  return true;
+}
+
+/* ---------------------------------------------------------------- meetings */
+
+static inline void exchange(double *a, double *b) {
+  double kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static inline void move_to(cs_mover *mover, double x, double y) {
+  mover->last_at = mover->at;
+  mover->last_x = x;
+  mover->last_y = y;
+}
+
+/* The boundaries at `place` and right of it change places, in that share of the step. */
+static celspan_status change_places(cs_meetings *m, celspan_context *context, size_t place,
+                                    double share, double y) {
+  if (m->count == m->capacity)
+    CS_TRY(cs_mem_reserve(context, (void **)&m->meetings, &m->capacity, m->count + 1,
+                          sizeof *m->meetings));
+  uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
+  double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
+  double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;
+  cs_mover *from = &m->movers[left], *to = &m->movers[right];
+  m->meetings[index] = (cs_meeting){
+      y, left_x, right_x, from->at, to->at, left, right, CS_MEETINGS_NONE, NULL};
+  move_to(from, left_x, y);
+  move_to(to, right_x, y);
+  *(m->first[place] == CS_MEETINGS_NONE ? &m->first[place] : &m->meetings[m->last[place]].next) =
+      index;
+  m->last[place] = index;
+  m->order[place] = right;
+  m->order[place + 1] = left;
+  exchange(&m->top[place], &m->top[place + 1]);
+  exchange(&m->foot[place], &m->foot[place + 1]);
+  return CELSPAN_OK;
+}
+
+/* Finds the meetings of a step. */
+static celspan_status take_step(cs_meetings *m, celspan_context *context, size_t count, double y0,
+                                double y1) {
+  double reached = 0;
+  if (!look_at_all(m, count))
+    return CELSPAN_OK;
+  for (size_t place; find_next(m, count, &place);) {
+    reached = m->shares[place] > reached ? m->shares[place] : reached;
+    CS_TRY(change_places(m, context, place, reached, y0 + (y1 - y0) * reached));
+    size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
+    for (size_t i = first; i <= last; i++)
+      m->shares[i] = find_share(m, i);
+    look_at_block(m, first / BLOCK);
+    if (last / BLOCK != first / BLOCK)
+      look_at_block(m, last / BLOCK);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- steps */
+
+/* Stands on the segment that ends at points[at]. */
+static inline void take_segment(cs_mover *mover, uint32_t at) {
+  mover->at = at;
+  mover->top = mover->points[at - 1];
+  mover->end = mover->points[at];
+  mover->slope = (mover->end.x - mover->top.x) / (mover->end.y - mover->top.y);
+}
+
+cs_mover cs_meetings_mover(const celspan_point *points, uint32_t at, double x, double y) {
+  cs_mover mover;
+  mover.points = points;
+  mover.last_at = at;
+  mover.last_x = x;
+  mover.last_y = y;
+  take_segment(&mover, at);
+  return mover;
+}
+
+/* x at a height of the segment: that of its end, or in between. */
+static inline double mover_x(const cs_mover *mover, double y) {
+  double x = mover->top.x + (y - mover->top.y) * mover->slope;
+  return y >= mover->end.y ? mover->end.x : x;
+}
+
+/* Moves on to segments that go on below y. Returns where the first of them ends, or y1. */
+static double begin_step(cs_meetings *m, size_t count, double y, double y1) {
+  double end = y1;
+  for (size_t i = 0; i < count; i++) {
+    cs_mover *mover = &m->movers[i];
+    while (mover->end.y <= y)
+      take_segment(mover, mover->at + 1);
+    end = mover->end.y < end ? mover->end.y : end;
+  }
+  return end;
+}
+
+celspan_status cs_meetings_find(cs_meetings *m, celspan_context *context, size_t count, double y0,
+                                double y1) {
+  m->count = 0;
+  for (size_t i = 0; i < count; i++) {
+    m->order[i] = (uint32_t)i;
+    m->first[i] = CS_MEETINGS_NONE;
+  }
+  for (double y = y0, end; y < y1; y = end) {
+    end = begin_step(m, count, y, y1);
+    for (size_t place = 0; place < count; place++) {
+      m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
+      m->foot[place] = mover_x(&m->movers[m->order[place]], end);
+    }
+    CS_TRY(take_step(m, context, count, y, end));
+  }
+  return CELSPAN_OK;
+}
