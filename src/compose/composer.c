@@ -24,7 +24,7 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
   *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&composer->scratch);
-  size_t words = cs_folds_words(stack);
+  size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->touched, groups(composer), sizeof(uint64_t)));
@@ -51,7 +51,7 @@ void cs_composer_finish(cs_composer *composer) {
     return;
   cs_memory *memory = composer->context->memory;
   const cs_stack *stack = composer->stack;
-  size_t words = cs_folds_words(stack);
+  size_t words = cs_stack_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->touched, groups(composer) * sizeof(uint64_t));

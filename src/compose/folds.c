@@ -1,7 +1,7 @@
 #include "compose/folds.h"
 
-#define FOUR 4            /* words folded at a time, and leaves of a part */
-#define PARTS 16          /* of a word */
+#define FOUR 4              /* leaves of a part */
+#define PARTS 16            /* of a word */
 #define CHOICES (1 << FOUR) /* of the leaves of a part */
 
 bool cs_folds_suit(const cs_stack *stack) {
@@ -14,13 +14,9 @@ bool cs_folds_suit(const cs_stack *stack) {
   return stack->group_count == 0;
 }
 
-size_t cs_folds_words(const cs_stack *stack) {
-  return (cs_stack_words(stack) + FOUR - 1) / FOUR * FOUR;
-}
-
 celspan_status cs_folds_init(cs_folds *folds, celspan_context *context, const cs_stack *stack) {
   *folds = (cs_folds){.context = context, .stack = stack};
-  size_t count = cs_folds_words(stack);
+  size_t count = cs_stack_words(stack);
   cs_arena_init(&folds->parts);
   folds->words = cs_mem_array(context->memory, count, sizeof *folds->words);
   if (count > 0 && !folds->words)
@@ -116,50 +112,34 @@ static celspan_status fold_word(cs_folds *folds, size_t i, uint64_t word) {
 
 static inline bool is_opaque(cs_v4 t) { return !cs_v4_any_above(t, cs_v4_all(CS_PAINT_OPAQUE)); }
 
-/* Folds words on top of each other until nothing shines through, the last of them leaf by leaf. */
-static cs_glimpse fold_last(const cs_folds *folds, cs_glimpse light, size_t first) {
-  for (size_t i = first + FOUR; i-- > first;) {
-    cs_glimpse all = cs_glimpse_over(light, folds->words[i].all);
-    if (!is_opaque(all.t)) {
-      light = all;
-      continue;
-    }
-    for (uint64_t word = folds->words[i].word; word != 0 && !is_opaque(light.t);) {
-      int highest = 63 - __builtin_clzll(word);
-      word ^= (uint64_t)1 << highest;
-      light = cs_glimpse_over(light, glimpse_leaf(folds, 64 * i + (size_t)highest));
-    }
-    return light;
+/* The word in which the light ends, leaf by leaf. */
+static cs_glimpse fold_last(const cs_folds *folds, cs_glimpse light, size_t i) {
+  for (uint64_t word = folds->words[i].word; word != 0 && !is_opaque(light.t);) {
+    int highest = 63 - __builtin_clzll(word);
+    word ^= (uint64_t)1 << highest;
+    light = cs_glimpse_over(light, glimpse_leaf(folds, 64 * i + (size_t)highest));
   }
   return light;
-}
-
-/* Brings the four words from `first` on up to date. */
-static inline celspan_status fold_changed(cs_folds *folds, const uint64_t *set, size_t first) {
-  for (size_t i = first; i < first + FOUR; i++)
-    if (folds->words[i].word != set[i])
-      CS_TRY(fold_word(folds, i, set[i]));
-  return CELSPAN_OK;
 }
 
 celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set, const uint64_t *filled,
                               cs_glimpse *out) {
   cs_glimpse light = cs_glimpse_clear;
   for (size_t group = (folds->count + 63) / 64; group-- > 0;)
-    for (uint64_t words = filled[group], behind; words != 0; words &= behind) {
-      int bit = (63 - __builtin_clzll(words)) & -FOUR;
-      size_t first = 64 * group + (size_t)bit;
-      const cs_word_fold *w = &folds->words[first];
-      behind = ((uint64_t)1 << bit) - 1;
-      CS_TRY(fold_changed(folds, set, first));
-      cs_glimpse four = cs_glimpse_over(cs_glimpse_over(w[3].all, w[2].all),
-                                        cs_glimpse_over(w[1].all, w[0].all));
-      cs_glimpse all = cs_glimpse_over(light, four);
-      if (is_opaque(all.t)) {
-        *out = fold_last(folds, light, first);
-        return CELSPAN_OK;
+    for (uint64_t words = filled[group]; words != 0;) {
+      int bit = 63 - __builtin_clzll(words);
+      for (; bit >= 0 && words >> bit & 1; bit--) { /* words that are filled come in runs */
+        size_t i = 64 * group + (size_t)bit;
+        if (folds->words[i].word != set[i])
+          CS_TRY(fold_word(folds, i, set[i]));
+        cs_glimpse all = cs_glimpse_over(light, folds->words[i].all);
+        if (is_opaque(all.t)) {
+          *out = fold_last(folds, light, i);
+          return CELSPAN_OK;
+        }
+        light = all;
       }
-      light = all;
+      words &= bit < 0 ? 0 : ((uint64_t)1 << bit) - 1;
     }
   *out = light;
   return CELSPAN_OK;

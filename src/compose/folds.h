@@ -2,11 +2,11 @@
  *
  * Neighbouring cells differ in few leaves, so what every word of a set gives by itself is kept, and
  * only words that changed are folded anew: from what any of four neighbouring leaves give, which is
- * looked up. Words are then folded by fours, from the front, until nothing shines through.
+ * looked up. Words are then folded from the front, until nothing shines through.
  *
- * Invariant: the light of a set depends on the set alone, to the bit: leaves fold along the bits of
- * their numbers, whatever was known before, and what lies behind the end of the light does not
- * count.
+ * Invariant: the light of a set depends on the set alone, to the bit: the leaves of a word fold along
+ * the bits of their numbers, whatever was known before; the word in which the light ends folds leaf
+ * by leaf, and what lies behind the end does not count.
  */
 #ifndef CS_COMPOSE_FOLDS_H
 #define CS_COMPOSE_FOLDS_H
@@ -36,7 +36,7 @@ typedef struct cs_word_fold {
 typedef struct cs_folds {
   celspan_context *context;
   const cs_stack *stack;
-  cs_word_fold *words; /* a multiple of four */
+  cs_word_fold *words;
   size_t count;
   cs_arena parts;
 } cs_folds;
@@ -47,8 +47,6 @@ bool cs_folds_suit(const cs_stack *stack);
 CELSPAN_CHECKED celspan_status cs_folds_init(cs_folds *folds, celspan_context *context,
                                              const cs_stack *stack);
 void cs_folds_finish(cs_folds *folds);
-/* Words of a set are counted in fours: so many, at least as many as the stack's leaves need. */
-size_t cs_folds_words(const cs_stack *stack);
 /* The light of a set. filled: a bit for every word that is not 0. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set,
                                               const uint64_t *filled, cs_glimpse *out);

@@ -153,7 +153,7 @@ static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
     uint32_t count;
     CS_TRY(active_points(b, i, &points, &count));
     cs_member *member = cluster.members[i - low];
-    *member = cs_blocks_member(active, active->walks[active->slot[i]].chain, points, count);
+    cs_blocks_member(member, active, active->walks[active->slot[i]].chain, points, count);
     member->place = (uint32_t)i;
     member->right = &b->cells[i + 1];
   }

@@ -7,20 +7,20 @@ static void *take(cs_blocks *b, size_t count, size_t size) {
   return cs_arena_take(b->scan->context, &b->scan->arena, count * size);
 }
 
-cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
-                           uint32_t count) {
+void cs_blocks_member(cs_member *member, const cs_active *active, uint32_t chain,
+                      const celspan_point *points, uint32_t count) {
   const cs_boundary_chain *c = &active->set->chains[chain];
-  return (cs_member){.points = points,
-                     .point_count = count,
-                     .at = 1,
-                     .leaf = c->leaf,
-                     .strip = UINT32_MAX,
-                     .order = chain,
-                     .place = UINT32_MAX,
-                     .direction = c->direction,
-                     .x = points[0].x,
-                     .y = points[0].y,
-                     .foot = points[0].x};
+  member->points = points;
+  member->point_count = count;
+  member->at = 1;
+  member->leaf = c->leaf;
+  member->strip = UINT32_MAX;
+  member->order = chain;
+  member->place = UINT32_MAX;
+  member->direction = c->direction;
+  member->x = member->foot = points[0].x;
+  member->y = points[0].y;
+  member->right = NULL;
 }
 
 /* ---------------------------------------------------------------- x-ranges */
@@ -390,7 +390,7 @@ static celspan_status find_begins(cs_blocks *b) {
     uint32_t chain = (uint32_t)(active->next + k), count;
     const celspan_point *points;
     CS_TRY(chain_points(b, chain, &points, &count));
-    b->begins[k] = cs_blocks_member(active, chain, points, count);
+    cs_blocks_member(&b->begins[k], active, chain, points, count);
   }
   if (b->strip_count > 0)
     memcpy(b->begins + b->chain_count, b->strips, b->strip_count * sizeof *b->strips);

@@ -56,7 +56,7 @@ size_t cs_blocks_count_begins(const cs_active *active, double y1);
 CELSPAN_CHECKED celspan_status cs_blocks_find(cs_blocks *blocks);
 
 /* A chain as a member that stands at the top of its points. */
-cs_member cs_blocks_member(const cs_active *active, uint32_t chain, const celspan_point *points,
-                           uint32_t count);
+void cs_blocks_member(cs_member *member, const cs_active *active, uint32_t chain,
+                      const celspan_point *points, uint32_t count);
 
 #endif

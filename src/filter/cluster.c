@@ -120,21 +120,23 @@ static inline cs_meeting *meeting_at(const cs_cluster *cluster, uint32_t index) 
 static celspan_status compose_place(cs_cluster *cluster, size_t j) {
   cs_composer *composer = &cluster->scan->composer;
   cs_member *const *members = cluster->members;
-  cs_meeting *meeting = meeting_at(cluster, cluster->scan->meetings.first[j]);
-  if (!meeting)
+  cs_meeting *first = meeting_at(cluster, cluster->scan->meetings.first[j]);
+  if (!first)
     return CELSPAN_OK;
-  stand(cluster, j + 1);
-  for (; meeting; meeting = meeting_at(cluster, meeting->next)) {
-    cross(composer, members[meeting->left], -1);
+  const cs_meeting *stays = first->left == j ? first : NULL; /* it leaves before it is crossed */
+  stand(cluster, stays ? j : j + 1);
+  for (cs_meeting *meeting = first; meeting; meeting = meeting_at(cluster, meeting->next)) {
+    if (meeting != stays)
+      cross(composer, members[meeting->left], -1);
     cross(composer, members[meeting->right], 1);
     stand_toggles(cluster, meeting->right_x);
     meeting->cell = find_cell(cluster->scan, NULL);
     CS_TRY(composer->failure);
   }
-  for (meeting = meeting_at(cluster, cluster->scan->meetings.first[j]); meeting;
-       meeting = meeting_at(cluster, meeting->next)) {
+  for (cs_meeting *meeting = first; meeting; meeting = meeting_at(cluster, meeting->next)) {
     cross(composer, members[meeting->right], -1);
-    cross(composer, members[meeting->left], 1);
+    if (meeting != stays)
+      cross(composer, members[meeting->left], 1);
   }
   return CELSPAN_OK;
 }
@@ -198,17 +200,34 @@ static celspan_status draw_meetings(cs_cluster *cluster) {
   return CELSPAN_OK;
 }
 
+/* The same for a band with one meeting, as most are. */
+static celspan_status draw_meeting(cs_cluster *cluster, const cs_meeting *meeting) {
+  size_t j = meeting->left; /* nobody has left his place before */
+  cs_member *a = cluster->members[j], *b = cluster->members[j + 1];
+  const cs_cell *right = b->right;
+  CS_TRY(flush(cluster, j, meeting->left_x, meeting->y));
+  CS_TRY(flush(cluster, j + 1, meeting->right_x, meeting->y));
+  if (cluster->stood > j)
+    stand(cluster, j);
+  cluster->members[j] = b;
+  cluster->members[j + 1] = a;
+  a->right = right; /* cells belong to places */
+  return refresh(cluster, j, j);
+}
+
 /* Runs the members from y0 down to y1, where the next of them begins or ends. */
 static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
   cs_scan *scan = cluster->scan;
   cs_meetings *meetings = &scan->meetings;
   for (size_t j = 0; j < cluster->count; j++) {
     const cs_member *member = cluster->members[j];
-    meetings->movers[j] = cs_meetings_mover(member->points, member->at, member->x, member->y);
+    cs_meetings_place(&meetings->movers[j], member->points, member->at, member->x, member->y);
     meetings->foot[j] = member->foot;
   }
   CS_TRY(cs_meetings_find(meetings, scan->context, cluster->count, y0, y1));
-  if (meetings->count > 0)
+  if (meetings->count == 1)
+    CS_TRY(draw_meeting(cluster, &meetings->meetings[0]));
+  else if (meetings->count > 1)
     CS_TRY(draw_meetings(cluster));
   for (size_t j = 0; j < cluster->count; j++)
     cluster->members[j]->foot = meetings->foot[j];

@@ -59,6 +59,9 @@ static void look_at_block(cs_meetings *m, size_t block) {
   m->least[block] = even < odd ? even : odd;
 }
 
+/* Whether there are so many places that the least share of every block is kept. */
+static inline bool has_blocks(size_t count) { return count > BLOCK; }
+
 /* Finds all shares. Returns whether any two meet. */
 static bool look_at_all(cs_meetings *m, size_t count) {
   int64_t meets = 0;
@@ -66,8 +69,8 @@ static bool look_at_all(cs_meetings *m, size_t count) {
     m->shares[place] = find_share(m, place);
     meets += m->foot[place] > m->foot[place + 1];
   }
-  if (meets == 0)
-    return false;
+  if (meets == 0 || !has_blocks(count))
+    return meets > 0;
   for (size_t place = count - 1; place < block_count(count) * BLOCK; place++)
     m->shares[place] = INFINITY;
   for (size_t block = 0; block < block_count(count); block++)
@@ -75,19 +78,23 @@ static bool look_at_all(cs_meetings *m, size_t count) {
   return true;
 }
 
-/* The place of the next meeting, the first of several; false: there is none any more. */
+/* The first place of the least share among some. */
+static inline size_t find_least(const double *shares, size_t count) {
+  size_t least = 0;
+  for (size_t i = 1; i < count; i++)
+    least = shares[i] < shares[least] ? i : least;
+  return least;
+}
+
+/* The place of the next meeting; false: there is none any more. */
 static bool find_next(const cs_meetings *m, size_t count, size_t *place) {
-  size_t block = 0;
-  for (size_t i = 1; i < block_count(count); i++)
-    block = m->least[i] < m->least[block] ? i : block;
-  if (m->least[block] == INFINITY)
-    return false;
-  const double *shares = m->shares + block * BLOCK;
-  size_t at = 0;
-  for (size_t i = BLOCK; i-- > 0;) /* without a branch that could not be foretold */
-    at = shares[i] == m->least[block] ? i : at;
-  *place = block * BLOCK + at;
-  return true;
+  if (!has_blocks(count)) {
+    *place = find_least(m->shares, count - 1);
+  } else {
+    size_t block = find_least(m->least, block_count(count));
+    *place = block * BLOCK + find_least(m->shares + block * BLOCK, BLOCK);
+  }
+  return m->shares[*place] < INFINITY;
 }
 
 /* ---------------------------------------------------------------- meetings */
@@ -140,7 +147,8 @@ static celspan_status take_step(cs_meetings *m, celspan_context *context, size_t
     size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
     for (size_t i = first; i <= last; i++)
       m->shares[i] = find_share(m, i);
-    look_at_block(m, first / BLOCK);
+    if (has_blocks(count))
+      look_at_block(m, first / BLOCK);
     if (last / BLOCK != first / BLOCK)
       look_at_block(m, last / BLOCK);
   }
@@ -151,26 +159,28 @@ static celspan_status take_step(cs_meetings *m, celspan_context *context, size_t
 
 /* Stands on the segment that ends at points[at]. */
 static inline void take_segment(cs_mover *mover, uint32_t at) {
+  const celspan_point *top = &mover->points[at - 1], *end = &mover->points[at];
   mover->at = at;
-  mover->top = mover->points[at - 1];
-  mover->end = mover->points[at];
-  mover->slope = (mover->end.x - mover->top.x) / (mover->end.y - mover->top.y);
+  mover->top_x = top->x;
+  mover->slope = (end->x - top->x) / (end->y - top->y);
+  mover->top_y = top->y;
+  mover->end_x = end->x;
+  mover->end_y = end->y;
 }
 
-cs_mover cs_meetings_mover(const celspan_point *points, uint32_t at, double x, double y) {
-  cs_mover mover;
-  mover.points = points;
-  mover.last_at = at;
-  mover.last_x = x;
-  mover.last_y = y;
-  take_segment(&mover, at);
-  return mover;
+void cs_meetings_place(cs_mover *mover, const celspan_point *points, uint32_t at, double x,
+                       double y) {
+  mover->points = points;
+  mover->last_at = at;
+  mover->last_x = x;
+  mover->last_y = y;
+  take_segment(mover, at);
 }
 
 /* x at a height of the segment: that of its end, or in between. */
 static inline double mover_x(const cs_mover *mover, double y) {
-  double x = mover->top.x + (y - mover->top.y) * mover->slope;
-  return y >= mover->end.y ? mover->end.x : x;
+  double x = mover->top_x + (y - mover->top_y) * mover->slope;
+  return y >= mover->end_y ? mover->end_x : x;
 }
 
 /* Moves on to segments that go on below y. Returns where the first of them ends, or y1. */
@@ -178,9 +188,9 @@ static double begin_step(cs_meetings *m, size_t count, double y, double y1) {
   double end = y1;
   for (size_t i = 0; i < count; i++) {
     cs_mover *mover = &m->movers[i];
-    while (mover->end.y <= y)
+    while (mover->end_y <= y)
       take_segment(mover, mover->at + 1);
-    end = mover->end.y < end ? mover->end.y : end;
+    end = mover->end_y < end ? mover->end_y : end;
   }
   return end;
 }

@@ -17,11 +17,11 @@
 /* A boundary on its way down its polyline. */
 typedef struct cs_mover {
   const celspan_point *points; /* ascending in y */
-  uint32_t at; /* the segment it is on ends at points[at] */
+  uint32_t at;      /* the segment it is on ends at points[at] */
   uint32_t last_at; /* and where it last changed places */
   double last_x, last_y;
-  celspan_point top, end; /* of the segment */
-  double slope; /* dx/dy */
+  double top_x, slope, top_y; /* of the segment; slope is dx/dy */
+  double end_x, end_y;
 } cs_mover;
 
 /* Two neighbours change places. */
@@ -39,7 +39,7 @@ typedef struct cs_meetings {
   uint32_t *order;    /* which mover stands there */
   double *top, *foot; /* its x at both ends of the step, at last: where the way ends */
   double *shares;     /* of the step, at which it meets its right neighbour; INFINITY: it does not */
-  double *least;      /* of every 16 shares */
+  double *least;      /* of every 16 shares, where there are more */
   uint32_t *first, *last; /* meetings of the place and the one right of it, or NONE */
   cs_meeting *meetings;   /* from the highest to the lowest */
   size_t count, capacity;
@@ -51,8 +51,9 @@ void cs_meetings_finish(cs_meetings *meetings, cs_memory *memory);
 /* Makes room for so many movers. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_meetings_reserve(cs_meetings *meetings, celspan_context *context,
                                                    size_t movers);
-/* A mover that stands at (x, y), on the segment that ends at points[at]. */
-cs_mover cs_meetings_mover(const celspan_point *points, uint32_t at, double x, double y);
+/* A mover stands at (x, y), on the segment that ends at points[at]. */
+void cs_meetings_place(cs_mover *mover, const celspan_point *points, uint32_t at, double x,
+                       double y);
 /* Finds the meetings of the first `count` movers between two heights, of which they reach the lower.
  * Given are the movers, and as `foot` their x at the first height.
  * Errors: NO_MEMORY. */
