@@ -78,12 +78,15 @@ static bool look_at_all(cs_meetings *m, size_t count) {
   return true;
 }
 
-/* The first place of the least share among some. */
+/* The first place of the least share among some, without a branch that could not be foreseen. */
 static inline size_t find_least(const double *shares, size_t count) {
-  size_t least = 0;
+  double least = shares[0];
+  size_t place = 0;
   for (size_t i = 1; i < count; i++)
-    least = shares[i] < shares[least] ? i : least;
-  return least;
+    least = shares[i] < least ? shares[i] : least;
+  for (size_t i = count; i-- > 0;)
+    place = shares[i] == least ? i : place;
+  return place;
 }
 
 /* The place of the next meeting; false: there is none any more. */
