@@ -26,10 +26,11 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_active *active
                                   size_t high, int32_t sign) {
   const cs_crossing *crossing = active->crossing;
   cs_presence *presences = composer->presences;
-  uint64_t *set = composer->set, *touched = composer->touched;
+  uint64_t *set = composer->set;
+  uint8_t *filled = composer->filled;
   cs_set_hash hash = composer->hash; /* in registers on the way */
   for (size_t i = low; i < high; i++)
-    cs_composer_turn(presences, set, touched, &hash, crossing[i].leaf,
+    cs_composer_turn(presences, set, filled, &hash, crossing[i].leaf,
                      sign * crossing[i].direction);
   composer->hash = hash;
 }

@@ -15,10 +15,7 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
   return CELSPAN_OK;
 }
 
-/* Words of `touched`, and of `filled`. */
-static size_t groups(const cs_composer *composer) {
-  return cs_stack_words(composer->stack) / 64 + 1;
-}
+static size_t filled_count(const cs_stack *stack) { return (cs_stack_words(stack) + 7) / 8 * 8; }
 
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack) {
@@ -27,8 +24,7 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->touched, groups(composer), sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->filled, groups(composer), sizeof(uint64_t)));
+  CS_TRY(take(composer, &composer->filled, filled_count(stack), sizeof(uint8_t)));
   CS_TRY(take(composer, &composer->presences, stack->leaf_count, sizeof(cs_presence)));
   for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
     composer->presences[leaf].mark = stack->marks[leaf];
@@ -54,8 +50,7 @@ void cs_composer_finish(cs_composer *composer) {
   size_t words = cs_stack_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->touched, groups(composer) * sizeof(uint64_t));
-  cs_mem_free(memory, composer->filled, groups(composer) * sizeof(uint64_t));
+  cs_mem_free(memory, composer->filled, filled_count(stack) * sizeof(uint8_t));
   cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
   cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
@@ -91,9 +86,9 @@ void cs_composer_restart(cs_composer *composer) {
   const cs_stack *stack = composer->stack;
   for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
     composer->presences[leaf].winding = 0;
-  for (size_t i = 0; i < cs_stack_words(stack); i++) {
-    composer->touched[i / 64] |= (uint64_t)(composer->set[i] != 0) << i % 64;
-    composer->set[i] = 0;
+  if (stack->leaf_count > 0) {
+    memset(composer->set, 0, cs_stack_words(stack) * sizeof *composer->set);
+    memset(composer->filled, 0, filled_count(stack) * sizeof *composer->filled);
   }
   composer->hash = (cs_set_hash){0};
 }
@@ -218,20 +213,6 @@ static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index
   return CELSPAN_OK;
 }
 
-/* The highest word below `end` that may hold leaves, or CS_STACK_NONE. */
-static inline uint32_t word_below(const uint64_t *filled, uint32_t end) {
-  if (end == 0)
-    return CS_STACK_NONE;
-  uint32_t group = (end - 1) / 64;
-  uint64_t words = filled[group] & (~(uint64_t)0 >> (63 - (end - 1) % 64));
-  while (words == 0) {
-    if (group == 0)
-      return CS_STACK_NONE;
-    words = filled[--group];
-  }
-  return group * 64 + 63 - (uint32_t)__builtin_clzll(words);
-}
-
 /* The highest leaf of the set below `end`, or CS_STACK_NONE. */
 static inline uint32_t leaf_below(const cs_composer *composer, const uint64_t *set, uint32_t end) {
   if (end == 0)
@@ -239,10 +220,10 @@ static inline uint32_t leaf_below(const cs_composer *composer, const uint64_t *s
   uint32_t word = (end - 1) / 64;
   uint64_t bits = set[word] & (~(uint64_t)0 >> (63 - (end - 1) % 64));
   while (bits == 0) {
-    word = word_below(composer->filled, word);
-    if (word == CS_STACK_NONE)
+    if (word == 0)
       return CS_STACK_NONE;
-    bits = set[word];
+    word = word % 8 == 0 ? cs_folds_skip(composer->filled, word) : word;
+    bits = word > 0 ? set[--word] : 0;
   }
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
 }
@@ -294,17 +275,6 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   return CELSPAN_OK;
 }
 
-/* Looks which words of the set have become empty since the last cell, or have not been for long. */
-static void settle(cs_composer *composer) {
-  for (size_t group = groups(composer); group-- > 0; composer->touched[group] = 0)
-    for (uint64_t words = composer->touched[group]; words != 0; words &= words - 1) {
-      uint64_t bit = words & -words;
-      size_t i = 64 * group + (size_t)__builtin_ctzll(words);
-      composer->filled[group] &= ~bit;
-      composer->filled[group] |= composer->set[i] != 0 ? bit : 0;
-    }
-}
-
 /* What contributes of the leaves present. */
 static const uint64_t *resolve(cs_composer *composer) {
   if (composer->stack->tree_count == 0)
@@ -318,7 +288,6 @@ static const uint64_t *resolve(cs_composer *composer) {
 static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   fold f;
   composer->evaluations++;
-  settle(composer);
   const uint64_t *set = resolve(composer);
   if (composer->folds) {
     cs_glimpse light;
@@ -344,7 +313,7 @@ void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t stri
   const cs_mark *mark = &composer->stack->marks[leaf];
   uint64_t name = (strip + 1) * (uint64_t)0x9e3779b97f4a7c15u;
   composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
-  composer->touched[leaf / 4096] |= (uint64_t)1 << (leaf / 64 % 64);
+  composer->filled[leaf / 64] = composer->set[leaf / 64] != 0;
   composer->hash.a ^= mark->key[0] * (name | 1);
   composer->hash.b ^= mark->key[1] ^ name;
   if (direction > 0)

@@ -72,8 +72,7 @@ typedef struct cs_composer {
   const cs_stack *stack;
   cs_isa isa;             /* that many pixels are made with */
   uint64_t *set;          /* leaves present at the walk's place */
-  uint64_t *touched;      /* a bit for every word of the set that has changed since the last cell */
-  uint64_t *filled;       /* and for every word that was not 0 then */
+  uint8_t *filled;        /* whether a word of the set is not 0; a multiple of eight of them */
   uint64_t *contributing; /* scratch */
   cs_presence *presences; /* one a leaf */
   uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
@@ -106,7 +105,7 @@ bool cs_composer_begin_row(cs_composer *composer);
 void cs_composer_restart(cs_composer *composer);
 
 /* What crossing a boundary of `leaf` does to its presence, the set and the set's hash. */
-static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, uint64_t *touched,
+static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, uint8_t *filled,
                                     cs_set_hash *hash, uint32_t leaf, int32_t direction) {
   cs_presence *presence = &presences[leaf];
   const cs_mark *mark = &presence->mark;
@@ -114,15 +113,16 @@ static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, uint6
   presence->winding = after;
   /* Whether it flips can hardly be foreseen, so nothing here is a branch. */
   uint64_t flips = ((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0);
-  set[leaf / 64] ^= flips << (leaf % 64);
-  touched[leaf / 4096] |= (uint64_t)1 << (leaf / 64 % 64);
+  uint64_t word = set[leaf / 64] ^ flips << (leaf % 64);
+  set[leaf / 64] = word;
+  filled[leaf / 64] = word != 0;
   hash->a ^= mark->key[0] & -flips;
   hash->b ^= mark->key[1] & -flips;
 }
 
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  cs_composer_turn(composer->presences, composer->set, composer->touched, &composer->hash, leaf,
+  cs_composer_turn(composer->presences, composer->set, composer->filled, &composer->hash, leaf,
                    direction);
 }
 

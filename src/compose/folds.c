@@ -122,24 +122,22 @@ static cs_glimpse fold_last(const cs_folds *folds, cs_glimpse light, size_t i) {
   return light;
 }
 
-celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set, const uint64_t *filled,
+celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set, const uint8_t *filled,
                               cs_glimpse *out) {
   cs_glimpse light = cs_glimpse_clear;
-  for (size_t group = (folds->count + 63) / 64; group-- > 0;)
-    for (uint64_t words = filled[group]; words != 0;) {
-      int bit = 63 - __builtin_clzll(words);
-      for (; bit >= 0 && words >> bit & 1; bit--) { /* words that are filled come in runs */
-        size_t i = 64 * group + (size_t)bit;
-        if (folds->words[i].word != set[i])
-          CS_TRY(fold_word(folds, i, set[i]));
-        cs_glimpse all = cs_glimpse_over(light, folds->words[i].all);
-        if (is_opaque(all.t)) {
-          *out = fold_last(folds, light, i);
-          return CELSPAN_OK;
-        }
-        light = all;
+  uint32_t end = (uint32_t)(folds->count + 7) / 8 * 8;
+  for (; (end = cs_folds_skip(filled, end)) > 0; end -= 8)
+    for (size_t i = end; i-- > end - 8;) {
+      if (!filled[i])
+        continue;
+      if (folds->words[i].word != set[i])
+        CS_TRY(fold_word(folds, i, set[i]));
+      cs_glimpse all = cs_glimpse_over(light, folds->words[i].all);
+      if (is_opaque(all.t)) {
+        *out = fold_last(folds, light, i);
+        return CELSPAN_OK;
       }
-      words &= bit < 0 ? 0 : ((uint64_t)1 << bit) - 1;
+      light = all;
     }
   *out = light;
   return CELSPAN_OK;

@@ -47,8 +47,21 @@ bool cs_folds_suit(const cs_stack *stack);
 CELSPAN_CHECKED celspan_status cs_folds_init(cs_folds *folds, celspan_context *context,
                                              const cs_stack *stack);
 void cs_folds_finish(cs_folds *folds);
-/* The light of a set. filled: a bit for every word that is not 0. Errors: NO_MEMORY. */
+/* The light of a set. filled: for every word of it, and on to a multiple of eight, 0 where it is 0.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_folds_light(cs_folds *folds, const uint64_t *set,
-                                              const uint64_t *filled, cs_glimpse *out);
+                                              const uint8_t *filled, cs_glimpse *out);
+
+/* The end of the first eight words at or below `end` that are not all empty; end: a multiple of
+ * eight. */
+static inline uint32_t cs_folds_skip(const uint8_t *filled, uint32_t end) {
+  uint64_t eight = 0;
+  for (; end > 0; end -= 8) {
+    memcpy(&eight, filled + end - 8, sizeof eight);
+    if (eight != 0)
+      break;
+  }
+  return end;
+}
 
 #endif
