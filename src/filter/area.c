@@ -95,26 +95,21 @@ static double least_x(const cs_member *members, size_t count, double least) {
   return least;
 }
 
-static bool begins_in(const cs_blocks *b, size_t k, const cs_block *block) {
-  return b->begin_blocks[k].low >= block->low && b->begin_blocks[k].low <= block->last_low;
-}
-
-/* The begins that belong to a block, in room of their own. */
+/* The begins that belong to a block, in room of their own. Blocks are asked from left to right. */
 static celspan_status pick_begins(cs_blocks *b, const cs_block *block, cs_member **begins,
                                   size_t *count) {
-  size_t picked = 0;
-  for (size_t k = 0; k < b->begin_count; k++)
-    picked += begins_in(b, k, block);
-  *count = picked;
+  size_t first = b->picked;
+  while (b->picked < b->begin_count && b->begin_places[b->picked].low <= block->last_low)
+    b->picked++;
+  *count = b->picked - first;
   *begins = NULL;
-  if (picked == 0)
+  if (*count == 0)
     return CELSPAN_OK;
-  cs_member *next = *begins = take(b, picked, sizeof *next);
-  if (!next)
+  *begins = take(b, *count, sizeof **begins);
+  if (!*begins)
     return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < b->begin_count; k++)
-    if (begins_in(b, k, block))
-      *next++ = b->begins[k];
+  for (size_t k = 0; k < *count; k++)
+    (*begins)[k] = b->begins[b->begin_places[first + k].begin];
   return CELSPAN_OK;
 }
 

@@ -446,6 +446,25 @@ static celspan_status add_strips(cs_blocks *b) {
   return CELSPAN_OK;
 }
 
+static int compare_places(const void *p, const void *q) {
+  const cs_begin_place *a = p, *b = q;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  return (a->begin > b->begin) - (a->begin < b->begin);
+}
+
+/* Lists the begins from left to right, as the walk along the row asks for them. */
+static celspan_status place_begins(cs_blocks *b) {
+  b->begin_places = take(b, b->begin_count, sizeof *b->begin_places);
+  if (!b->begin_places)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++)
+    b->begin_places[k] = (cs_begin_place){b->begin_blocks[k].low, k};
+  if (b->begin_count > 1)
+    qsort(b->begin_places, b->begin_count, sizeof *b->begin_places, compare_places);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_blocks_find(cs_blocks *b) {
   const cs_active *active = &b->scan->active;
   size_t begins = cs_blocks_count_begins(active, b->y1) + b->strip_count;
@@ -458,5 +477,5 @@ celspan_status cs_blocks_find(cs_blocks *b) {
   CS_TRY(add_events(b));
   CS_TRY(add_strips(b));
   merge_blocks(b);
-  return CELSPAN_OK;
+  return begins > 0 ? place_begins(b) : CELSPAN_OK;
 }

@@ -32,6 +32,12 @@ typedef struct cs_row_event {
   bool is_end;
 } cs_row_event;
 
+/* At which place of the order something begins. */
+typedef struct cs_begin_place {
+  size_t low; /* as of its block */
+  size_t begin;
+} cs_begin_place;
+
 typedef struct cs_blocks {
   cs_scan *scan;
   const cs_cell *cells; /* as in cs_cells; they stay as they are until the row is done */
@@ -42,7 +48,8 @@ typedef struct cs_blocks {
   double strips_low, strips_high; /* their x-range */
   cs_member *begins;  /* chains that begin inside the row, then the strips */
   cs_block *begin_blocks; /* for each: where its begin is replayed */
-  size_t begin_count, chain_count;
+  cs_begin_place *begin_places; /* from left to right */
+  size_t begin_count, chain_count, picked; /* picked: begins of blocks that the walk has met */
   cs_row_event *events;
   size_t event_count;
   cs_block *blocks; /* while they are sought, knots first */
