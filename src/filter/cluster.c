@@ -221,7 +221,11 @@ static celspan_status run_band(cs_cluster *cluster, double y0, double y1) {
   cs_meetings *meetings = &scan->meetings;
   for (size_t j = 0; j < cluster->count; j++) {
     const cs_member *member = cluster->members[j];
-    cs_meetings_place(&meetings->movers[j], member->points, member->at, member->x, member->y);
+    cs_mover *mover = &meetings->movers[j];
+    mover->points = member->points;
+    mover->at = mover->last_at = member->at;
+    mover->last_x = member->x;
+    mover->last_y = member->y;
     meetings->foot[j] = member->foot;
   }
   CS_TRY(cs_meetings_find(meetings, scan->context, cluster->count, y0, y1));

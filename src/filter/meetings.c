@@ -160,40 +160,23 @@ static celspan_status take_step(cs_meetings *m, celspan_context *context, size_t
 
 /* ---------------------------------------------------------------- steps */
 
-/* Stands on the segment that ends at points[at]. */
-static inline void take_segment(cs_mover *mover, uint32_t at) {
-  const celspan_point *top = &mover->points[at - 1], *end = &mover->points[at];
-  mover->at = at;
-  mover->top_x = top->x;
-  mover->slope = (end->x - top->x) / (end->y - top->y);
-  mover->top_y = top->y;
-  mover->end_x = end->x;
-  mover->end_y = end->y;
-}
-
-void cs_meetings_place(cs_mover *mover, const celspan_point *points, uint32_t at, double x,
-                       double y) {
-  mover->points = points;
-  mover->last_at = at;
-  mover->last_x = x;
-  mover->last_y = y;
-  take_segment(mover, at);
-}
-
-/* x at a height of the segment: that of its end, or in between. */
+/* x of a mover at a height of its segment: that of its end, or in between. Which of them can hardly
+ * be foreseen, so the division is always made. */
 static inline double mover_x(const cs_mover *mover, double y) {
-  double x = mover->top_x + (y - mover->top_y) * mover->slope;
-  return y >= mover->end_y ? mover->end_x : x;
+  const celspan_point *a = &mover->points[mover->at - 1], *b = &mover->points[mover->at];
+  double x = a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
+  return y >= b->y ? b->x : x;
 }
 
-/* Moves on to segments that go on below y. Returns where the first of them ends, or y1. */
+/* Moves on to the segments that go on below y, where a step has ended. Returns where the first of
+ * them ends, or y1. */
 static double begin_step(cs_meetings *m, size_t count, double y, double y1) {
   double end = y1;
   for (size_t i = 0; i < count; i++) {
     cs_mover *mover = &m->movers[i];
-    while (mover->end_y <= y)
-      take_segment(mover, mover->at + 1);
-    end = mover->end_y < end ? mover->end_y : end;
+    mover->at += mover->points[mover->at].y <= y;
+    double next = mover->points[mover->at].y;
+    end = next < end ? next : end;
   }
   return end;
 }
@@ -202,6 +185,9 @@ celspan_status cs_meetings_find(cs_meetings *m, celspan_context *context, size_t
                                 double y1) {
   m->count = 0;
   for (size_t i = 0; i < count; i++) {
+    cs_mover *mover = &m->movers[i];
+    while (mover->points[mover->at].y < y0)
+      mover->at++;
     m->order[i] = (uint32_t)i;
     m->first[i] = CS_MEETINGS_NONE;
   }

@@ -20,8 +20,6 @@ typedef struct cs_mover {
   uint32_t at;      /* the segment it is on ends at points[at] */
   uint32_t last_at; /* and where it last changed places */
   double last_x, last_y;
-  double top_x, slope, top_y; /* of the segment; slope is dx/dy */
-  double end_x, end_y;
 } cs_mover;
 
 /* Two neighbours change places. */
@@ -51,11 +49,8 @@ void cs_meetings_finish(cs_meetings *meetings, cs_memory *memory);
 /* Makes room for so many movers. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_meetings_reserve(cs_meetings *meetings, celspan_context *context,
                                                    size_t movers);
-/* A mover stands at (x, y), on the segment that ends at points[at]. */
-void cs_meetings_place(cs_mover *mover, const celspan_point *points, uint32_t at, double x,
-                       double y);
 /* Finds the meetings of the first `count` movers between two heights, of which they reach the lower.
- * Given are the movers, and as `foot` their x at the first height.
+ * Given are the movers, on a segment at or above the first height, and as `foot` their x there.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_meetings_find(cs_meetings *meetings, celspan_context *context,
                                                 size_t count, double y0, double y1);
