@@ -69,8 +69,9 @@ static celspan_status make_parts(cs_folds *folds, size_t i) {
 
 /* Sixteen leaves of a word, the first of which is the lowest bit. */
 static inline cs_glimpse fold_quarter(const cs_glimpse *parts, unsigned word) {
+  const cs_glimpse *high = &parts[2 * CHOICES];
   return cs_glimpse_over(
-      cs_glimpse_over(parts[3 * CHOICES + (word >> 12 & 15)], parts[2 * CHOICES + (word >> 8 & 15)]),
+      cs_glimpse_over(high[CHOICES + (word >> 12 & 15)], high[word >> 8 & 15]),
       cs_glimpse_over(parts[CHOICES + (word >> 4 & 15)], parts[word & 15]));
 }
 

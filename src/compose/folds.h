@@ -4,9 +4,9 @@
  * only words that changed are folded anew: from what any of four neighbouring leaves give, which is
  * looked up. Words are then folded from the front, until nothing shines through.
  *
- * Invariant: the light of a set depends on the set alone, to the bit: the leaves of a word fold along
- * the bits of their numbers, whatever was known before; the word in which the light ends folds leaf
- * by leaf, and what lies behind the end does not count.
+ * Invariant: the light of a set depends on the set alone, to the bit: the leaves of a word fold
+ * along the bits of their numbers, whatever was known before; the word in which the light ends
+ * folds leaf by leaf, and what lies behind the end does not count.
  */
 #ifndef CS_COMPOSE_FOLDS_H
 #define CS_COMPOSE_FOLDS_H

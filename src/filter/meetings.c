@@ -37,8 +37,8 @@ celspan_status cs_meetings_reserve(cs_meetings *meetings, celspan_context *conte
 
 /* ---------------------------------------------------------------- shares of a step */
 
-/* Where in the step the boundary at a place meets its right neighbour. Whether it does can hardly be
- * foreseen, so the division is always made. */
+/* Where in the step the boundary at a place meets its right neighbour. Whether it does can hardly
+ * be foreseen, so the division is always made. */
 static inline double find_share(const cs_meetings *m, size_t place) {
   double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
   double top = gap > 0 ? gap : 0, share = top / (top + foot);

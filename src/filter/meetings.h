@@ -36,7 +36,7 @@ typedef struct cs_meetings {
   /* by place, from left to right */
   uint32_t *order;    /* which mover stands there */
   double *top, *foot; /* its x at both ends of the step, at last: where the way ends */
-  double *shares;     /* of the step, at which it meets its right neighbour; INFINITY: it does not */
+  double *shares; /* of the step, at which it meets its right neighbour; INFINITY: it does not */
   double *least;      /* of every 16 shares, where there are more */
   uint32_t *first, *last; /* meetings of the place and the one right of it, or NONE */
   cs_meeting *meetings;   /* from the highest to the lowest */
@@ -49,8 +49,8 @@ void cs_meetings_finish(cs_meetings *meetings, cs_memory *memory);
 /* Makes room for so many movers. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_meetings_reserve(cs_meetings *meetings, celspan_context *context,
                                                    size_t movers);
-/* Finds the meetings of the first `count` movers between two heights, of which they reach the lower.
- * Given are the movers, on a segment at or above the first height, and as `foot` their x there.
+/* Finds the meetings of the first `count` movers between two heights; all reach the lower. Given
+ * are the movers, on a segment at or above the first height, and as `foot` their x there.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_meetings_find(cs_meetings *meetings, celspan_context *context,
                                                 size_t count, double y0, double y1);
