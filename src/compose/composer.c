@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#define MEMO_SIZE 4096           /* cells remembered; a power of two */
+#define MEMO_SIZE 4096 /* cells remembered, two of one place; a power of two */
 #define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
 
 /* ---------------------------------------------------------------- life */
@@ -321,16 +321,18 @@ void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t stri
 }
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
-  cs_memo *memo = &composer->memo[composer->hash.a & (MEMO_SIZE - 1)];
-  if (memo->is_used && cs_set_hash_same(memo->cell.hash, composer->hash)) {
-    *out = memo->cell;
-    return;
-  }
+  cs_memo *pair = &composer->memo[composer->hash.a & (MEMO_SIZE - 2)];
+  for (int i = 0; i < 2; i++)
+    if (pair[i].is_used && cs_set_hash_same(pair[i].cell.hash, composer->hash)) {
+      *out = pair[i].cell;
+      return;
+    }
   cs_cell cell = {.colour = cs_v4_all(0), .hash = composer->hash};
   celspan_status status = compose(composer, &cell);
   if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
     composer->failure = status;
-  *memo = (cs_memo){cell, status == CELSPAN_OK};
+  pair[1] = pair[0];
+  pair[0] = (cs_memo){cell, status == CELSPAN_OK};
   *out = cell;
 }
 
