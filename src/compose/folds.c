@@ -17,7 +17,6 @@ bool cs_folds_suit(const cs_stack *stack) {
 celspan_status cs_folds_init(cs_folds *folds, celspan_context *context, const cs_stack *stack) {
   *folds = (cs_folds){.context = context, .stack = stack};
   size_t count = cs_stack_words(stack);
-  cs_arena_init(&folds->parts);
   folds->words = cs_mem_array(context->memory, count, sizeof *folds->words);
   if (count > 0 && !folds->words)
     return cs_fail_memory(context);
@@ -30,8 +29,10 @@ celspan_status cs_folds_init(cs_folds *folds, celspan_context *context, const cs
 void cs_folds_finish(cs_folds *folds) {
   if (!folds->context)
     return;
-  cs_mem_free(folds->context->memory, folds->words, folds->count * sizeof *folds->words);
-  cs_arena_finish(&folds->parts, folds->context->memory);
+  cs_memory *memory = folds->context->memory;
+  for (size_t i = 0; folds->words && i < folds->count; i++)
+    cs_mem_free(memory, folds->words[i].parts, PARTS * CHOICES * sizeof(cs_glimpse));
+  cs_mem_free(memory, folds->words, folds->count * sizeof *folds->words);
   *folds = (cs_folds){0};
 }
 
@@ -57,10 +58,9 @@ static void make_part(const cs_folds *folds, size_t leaf, cs_glimpse *part) {
 }
 
 static celspan_status make_parts(cs_folds *folds, size_t i) {
-  cs_glimpse *parts =
-      cs_arena_take(folds->context, &folds->parts, PARTS * CHOICES * sizeof *parts);
+  cs_glimpse *parts = cs_mem_array(folds->context->memory, PARTS * CHOICES, sizeof *parts);
   if (!parts)
-    return CELSPAN_NO_MEMORY;
+    return cs_fail_memory(folds->context);
   for (size_t part = 0; part < PARTS; part++)
     make_part(folds, 64 * i + FOUR * part, parts + CHOICES * part);
   folds->words[i].parts = parts;

@@ -11,7 +11,7 @@
 #ifndef CS_COMPOSE_FOLDS_H
 #define CS_COMPOSE_FOLDS_H
 
-#include "base/arena.h"
+#include "base/context.h"
 #include "compose/stack.h"
 
 /* Light gathered from some leaves by themselves, and what they let through. */
@@ -38,7 +38,6 @@ typedef struct cs_folds {
   const cs_stack *stack;
   cs_word_fold *words;
   size_t count;
-  cs_arena parts;
 } cs_folds;
 
 /* Whether the leaves of a stack are plain. */
