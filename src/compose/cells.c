@@ -9,6 +9,7 @@ void cs_cells_finish(cs_cells *cells, cs_memory *memory) {
   cs_mem_free(memory, cells->cells, cells->cell_capacity * sizeof *cells->cells);
   cs_mem_free(memory, cells->is_visible, cells->flag_capacity * sizeof *cells->is_visible);
   cs_mem_free(memory, cells->visible, cells->visible_capacity * sizeof *cells->visible);
+  cs_mem_free(memory, cells->crossing, cells->crossing_capacity * sizeof *cells->crossing);
   *cells = (cs_cells){0};
 }
 
@@ -22,6 +23,8 @@ static celspan_status make_room(cs_cells *cells, celspan_context *context, size_
                         sizeof *cells->cells));
   CS_TRY(cs_mem_reserve(context, (void **)&cells->is_visible, &cells->flag_capacity,
                         count + CS_ADVANCE_BATCH, sizeof *cells->is_visible));
+  CS_TRY(cs_mem_reserve(context, (void **)&cells->crossing, &cells->crossing_capacity, count + 1,
+                        sizeof *cells->crossing));
   return cs_mem_reserve(context, (void **)&cells->visible, &cells->visible_capacity, count + 1,
                         sizeof *cells->visible);
 }
@@ -49,66 +52,105 @@ static void move_tail(cs_cells *cells, size_t count, size_t tail) {
   memmove(&cells->is_visible[to], &cells->is_visible[from], tail * sizeof *cells->is_visible);
 }
 
-/* A walk along the order with the composer. */
-typedef struct walk {
-  cs_composer *composer;
-  const cs_active *active;
-  const cs_toggle *first, *next, *end; /* toggles: next is the first not crossed */
-  size_t place;                        /* boundaries crossed */
-} walk;
+/* ---------------------------------------------------------------- where the composer stands */
 
-static void walk_to(walk *w, size_t place) {
-  if (w->place < place)
-    cs_cells_cross(w->composer, w->active, w->place, place, 1);
-  w->place = place;
+static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
+  if (cells->place < place)
+    cs_cells_cross(composer, cells->crossing, cells->place, place, 1);
+  else
+    cs_cells_cross(composer, cells->crossing, place, cells->place, -1);
+  cells->place = place;
 }
 
-/* Leaves the composer with nothing present: on to the right end, or back, whichever is nearer. */
-static void walk_home(walk *w) {
-  if (w->place > w->active->count / 2) {
-    walk_to(w, w->active->count);
-    cs_cells_toggle(w->composer, w->next, w->end, INFINITY);
+static void toggle_to(cs_cells *cells, cs_composer *composer, double x) {
+  cells->toggle = cs_cells_toggle(composer, cells->toggle, cells->toggle_end, x);
+  for (; cells->toggle > cells->first_toggle && cells->toggle[-1].x > x; cells->toggle--)
+    cs_composer_cross(composer, cells->toggle[-1].leaf, -cells->toggle[-1].direction);
+}
+
+/* At both ends nothing is present: from the one to the other it is but a step. */
+static void choose_end(cs_cells *cells, size_t place) {
+  bool is_left = cells->place == 0 && cells->toggle == cells->first_toggle;
+  bool is_right = cells->place == cells->count && cells->toggle == cells->toggle_end;
+  if (!is_left && !is_right)
     return;
-  }
-  cs_cells_cross(w->composer, w->active, 0, w->place, -1);
-  for (; w->next > w->first; w->next--)
-    cs_composer_cross(w->composer, w->next[-1].leaf, -w->next[-1].direction);
+  bool goes_right = place > cells->count / 2;
+  cells->place = goes_right ? cells->count : 0;
+  cells->toggle = goes_right ? cells->toggle_end : cells->first_toggle;
 }
 
-/* The cell right of boundary i, whose left end is at x. */
-static void make_cell(cs_cells *cells, walk *w, size_t i, double x) {
+void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
+  choose_end(cells, place);
+  cross_to(cells, composer, place);
+  toggle_to(cells, composer, x);
+}
+
+void cs_cells_home(cs_cells *cells, cs_composer *composer) {
+  bool goes_right = cells->place > cells->count / 2;
+  cs_cells_stand(cells, composer, goes_right ? cells->count : 0, goes_right ? INFINITY : -INFINITY);
+  choose_end(cells, 0);
+}
+
+void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
+  cs_composer_restart(composer);
+  cs_cells_forget(cells);
+  cells->place = 0;
+  cells->toggle = cells->first_toggle;
+}
+
+/* Takes the new order over. What is present between windings that balance is the same as ever, so
+ * the composer has to move only where it stands amid the change. */
+static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                       cs_change change) {
+  size_t high = cells->count - change.tail;
+  if (change.low == 0 && change.tail == 0)
+    cs_cells_home(cells, composer);
+  else if (cells->place > change.low && cells->place < high)
+    cross_to(cells, composer, change.low);
+  if (cells->place > change.low)
+    cells->place += active->count - cells->count;
+  cells->count = active->count;
+  if (cells->count > change.low)
+    memcpy(cells->crossing + change.low, active->crossing + change.low,
+           (cells->count - change.low) * sizeof *cells->crossing);
+  if (change.low > 0 || change.tail > 0)
+    return;
+  cells->first_toggle = cells->toggle = cs_active_toggles(active, &cells->toggle_end);
+}
+
+/* ---------------------------------------------------------------- making */
+
+/* The cell right of i boundaries, whose left end is at x. */
+static void make_cell(cs_cells *cells, cs_composer *composer, size_t i, double x) {
   cs_cell *cell = &cells->cells[i];
-  w->next = cs_cells_toggle(w->composer, w->next, w->end, x);
-  if (i >= cells->known || !cs_set_hash_same(cell->hash, w->composer->hash))
-    cs_composer_cell(w->composer, cell);
+  cs_cells_stand(cells, composer, i, x);
+  if (i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
+    cs_composer_cell(composer, cell);
 }
 
 celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,
                                cs_change change) {
   CS_TRY(make_room(cells, composer->context, active->count));
-  walk w = {.composer = composer, .active = active};
-  w.first = w.next = cs_active_toggles(active, &w.end);
   if (cells->known == 0)
     change = cs_change_all;
+  take_order(cells, composer, active, change);
   if (change.low == 0)
-    make_cell(cells, &w, 0, 0);
+    make_cell(cells, composer, 0, 0);
   if (cells->known == 0)
     cells->known = 1; /* the one just made */
   move_tail(cells, active->count, change.tail);
-  walk_to(&w, change.low);
   for (size_t i = change.low; i < active->count - change.tail; i++) {
-    walk_to(&w, i + 1);
-    make_cell(cells, &w, i + 1, active->x[i]);
+    make_cell(cells, composer, i + 1, active->x[i]);
     cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
   }
   cells->is_listed = false;
-  walk_home(&w);
   cells->known = active->count + 1;
   return CELSPAN_OK;
 }
 
-void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
-                    const cs_cell *const *right) {
+void cs_cells_carry(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                    size_t low, size_t count, const cs_cell *const *right) {
+  memcpy(cells->crossing + low, active->crossing + low, count * sizeof *cells->crossing);
   for (size_t k = 0; k < count; k++) {
     cs_cell *cell = &cells->cells[low + k + 1];
     if (right[k] != cell)

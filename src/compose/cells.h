@@ -1,10 +1,12 @@
-/* The cells between the active boundaries of a row, and which boundaries can be seen.
+/* The cells between the active boundaries of a row, which boundaries can be seen, and where along
+ * them the composer stands.
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
  * visible iff the cells on its two sides look different, and then listed once the cells are asked
- * for the list. Cells belong to places in the
- * order, not to boundaries: where the set of leaves at a place is the same as before, its cell is
- * kept; so a swap composes one cell and a row without events none.
+ * for the list. Cells belong to places in the order, not to boundaries: where the set of leaves at a
+ * place is the same as before, its cell is kept; so a swap composes one cell and a row without
+ * events none. The composer stays where it was asked for last, from row to row: what happens beside
+ * it changes nothing of what is present there.
  */
 #ifndef CS_COMPOSE_CELLS_H
 #define CS_COMPOSE_CELLS_H
@@ -22,9 +24,8 @@ static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_t
 }
 
 /* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
-static inline void cs_cells_cross(cs_composer *composer, const cs_active *active, size_t low,
+static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *crossing, size_t low,
                                   size_t high, int32_t sign) {
-  const cs_crossing *crossing = active->crossing;
   cs_presence *presences = composer->presences;
   uint64_t *set = composer->set;
   uint8_t *filled = composer->filled;
@@ -42,22 +43,34 @@ typedef struct cs_cells {
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
   size_t known; /* cells that were made, from the left */
-  size_t cell_capacity, flag_capacity, visible_capacity;
+  /* where the composer stands: right of the first `place` of `count` boundaries, in this order, and
+   * of the toggles before `toggle` of [first_toggle, toggle_end) */
+  size_t place, count;
+  cs_crossing *crossing;
+  const cs_toggle *first_toggle, *toggle, *toggle_end;
+  size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
 } cs_cells;
 
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
 /* Brings the cells up to date with the active boundaries. change: where they differ from those of
- * the last update. The composer stands left of all boundaries, before and after.
+ * the last update.
  * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change);
-/* Puts copies of known cells right of the boundaries low..low + count - 1. */
-void cs_cells_carry(cs_cells *cells, const cs_composer *composer, size_t low, size_t count,
-                    const cs_cell *const *right);
+/* The boundaries low..low + count - 1 have changed places among themselves, and known cells lie right
+ * of them now, of which copies are put there. The composer does not stand between them. */
+void cs_cells_carry(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                    size_t low, size_t count, const cs_cell *const *right);
+/* Lets the composer stand left of boundary `place`, right of the toggles at or left of x. */
+void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x);
+/* Lets it stand where nothing is present. */
+void cs_cells_home(cs_cells *cells, cs_composer *composer);
 /* Lists the visible boundaries. */
 void cs_cells_list(cs_cells *cells);
-/* Forgets every cell. */
+/* Forgets every cell; the composer stays. */
 void cs_cells_forget(cs_cells *cells);
+/* The same after a failure: nothing is present where the composer stands. */
+void cs_cells_restart(cs_cells *cells, cs_composer *composer);
 
 #endif

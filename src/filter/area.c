@@ -128,7 +128,7 @@ static celspan_status make_room(cs_scan *scan, cs_cluster *cluster) {
   return CELSPAN_OK;
 }
 
-/* Replays a block; the composer stands left of it. */
+/* Replays a block. */
 static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
   cs_scan *scan = b->scan;
   const cs_active *active = &scan->active;
@@ -156,9 +156,9 @@ static celspan_status walk_block(cs_blocks *b, const cs_block *block) {
     qsort(begins, begin_count, sizeof *begins, compare_begins);
   double least = least_x(scan->members, cluster.count, scan->shot->width);
   least = least_x(begins, begin_count, least);
-  b->toggle = cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, least);
-  cluster.toggle = b->toggle;
-  cluster.toggle_end = b->toggle_end;
+  cs_cells_stand(&scan->cells, &scan->composer, low, least);
+  cluster.toggle = scan->cells.toggle;
+  cluster.toggle_end = scan->cells.toggle_end;
   CS_TRY(cs_window_reach(&scan->window, least));
   CS_TRY(cs_cluster_replay(&cluster));
   CS_TRY(cs_carry_cluster(&cluster, low, high));
@@ -177,53 +177,29 @@ static bool is_pair(const cs_blocks *b, const cs_block *block) {
 
 static celspan_status walk_pair(cs_blocks *b, const cs_block *block) {
   cs_scan *scan = b->scan;
-  const cs_toggle *toggle =
-      cs_cells_toggle(&scan->composer, b->toggle, b->toggle_end, block->reach_low);
-  b->toggle = toggle;
+  cs_cells_stand(&scan->cells, &scan->composer, block->low, block->reach_low);
   CS_TRY(cs_window_reach(&scan->window, block->reach_low));
   const cs_cell *between;
-  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, toggle, b->toggle_end, &between));
+  CS_TRY(cs_cluster_pair(scan, &b->cells[block->low], block->low, &between));
   CS_TRY(cs_carry_pair(scan, block->low, between));
   cs_window_pass(&scan->window, &b->cells[block->high]);
   return CELSPAN_OK;
-}
-
-/* To where nothing is present: on to the right end of the row, or back, whichever is nearer. */
-static void cross_home(cs_blocks *b, size_t crossed) {
-  const cs_active *active = &b->scan->active;
-  cs_composer *composer = &b->scan->composer;
-  if (crossed > active->count / 2) {
-    cs_cells_cross(composer, active, crossed, active->count, 1);
-    cs_cells_toggle(composer, b->toggle, b->toggle_end, INFINITY);
-    return;
-  }
-  cs_cells_cross(composer, active, 0, crossed, -1);
-  const cs_toggle *end, *first = cs_active_toggles(active, &end);
-  for (const cs_toggle *toggle = b->toggle; toggle > first; toggle--)
-    cs_composer_cross(composer, toggle[-1].leaf, -toggle[-1].direction);
 }
 
 static celspan_status walk_to(walk *w, size_t end, int32_t next) {
   return w->scan->window.is_held ? walk_slice(w, end) : walk_alone(w, end, next);
 }
 
-/* Boundaries are crossed on the way, so that each block knows what is present left of it. */
 static celspan_status walk_row(cs_blocks *b) {
   cs_scan *scan = b->scan;
   walk w = {.scan = scan, .cells = b->cells};
-  size_t crossed = 0;
   for (size_t k = 0; k < b->count; k++) {
     const cs_block *block = &b->blocks[k];
     CS_TRY(walk_to(&w, block->low, cs_edges_floor(block->reach_low, scan->shot->width)));
     w.v = find_visible(scan, w.v, block->high);
-    cs_cells_cross(&scan->composer, &scan->active, crossed, block->low, 1);
     CS_TRY(is_pair(b, block) ? walk_pair(b, block) : walk_block(b, block));
-    crossed = block->low;
   }
-  CS_TRY(walk_to(&w, scan->active.count, scan->shot->width));
-  if (b->count > 0)
-    cross_home(b, crossed);
-  return CELSPAN_OK;
+  return walk_to(&w, scan->active.count, scan->shot->width);
 }
 
 /* ---------------------------------------------------------------- strips */
@@ -309,7 +285,6 @@ static celspan_status walk_heights(cs_scan *scan, const cs_cell *cells, double y
   cs_cells_list(&scan->cells);
   cs_blocks blocks = {.scan = scan, .cells = cells, .y0 = y0, .y1 = y1};
   scan->carried = NULL;
-  blocks.toggle = cs_active_toggles(&scan->active, &blocks.toggle_end);
   CS_TRY(cs_active_reach(scan->context, &scan->active, y1));
   if (!scan->window.is_held && cs_strips_meet(scan, (int32_t)y0))
     CS_TRY(find_strips(&blocks));

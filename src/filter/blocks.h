@@ -42,7 +42,6 @@ typedef struct cs_blocks {
   cs_scan *scan;
   const cs_cell *cells; /* as in cs_cells; they stay as they are until the row is done */
   double y0, y1;        /* the row, or a slice of it */
-  const cs_toggle *toggle, *toggle_end; /* those the walk has not passed */
   cs_member *strips;  /* edges of scan-line primitives on this row */
   size_t strip_count;
   double strips_low, strips_high; /* their x-range */

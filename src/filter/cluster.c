@@ -393,15 +393,15 @@ static celspan_status draw(cs_scan *scan, celspan_point above, celspan_point bel
 }
 
 /* The cell that boundary i + 1 opens when it is crossed first, at x. */
-static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_toggle *toggle,
-                                   const cs_toggle *toggle_end, const cs_cell **out) {
+static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_cell **out) {
+  const cs_toggle *toggle = scan->cells.toggle;
   cs_composer *composer = &scan->composer;
   cs_crossing second = scan->active.crossing[i + 1];
   cs_cell *cell = cs_arena_take(scan->context, &scan->arena, sizeof *cell);
   if (!cell)
     return CELSPAN_NO_MEMORY;
   cs_composer_cross(composer, second.leaf, second.direction);
-  const cs_toggle *passed = cs_cells_toggle(composer, toggle, toggle_end, x);
+  const cs_toggle *passed = cs_cells_toggle(composer, toggle, scan->cells.toggle_end, x);
   cs_composer_cell(composer, cell);
   *out = cell;
   cs_composer_cross(composer, second.leaf, -second.direction);
@@ -411,7 +411,6 @@ static celspan_status cell_between(cs_scan *scan, size_t i, double x, const cs_t
 }
 
 celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
-                               const cs_toggle *toggle, const cs_toggle *toggle_end,
                                const cs_cell **between) {
   const cs_active *active = &scan->active;
   celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
@@ -424,7 +423,7 @@ celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
   const cs_cell *right = left + 2;
   CS_TRY(draw(scan, a, a_meets, left, left + 1));
   CS_TRY(draw(scan, b, b_meets, left + 1, right));
-  CS_TRY(cell_between(scan, i, b_meets.x, toggle, toggle_end, between));
+  CS_TRY(cell_between(scan, i, b_meets.x, between));
   CS_TRY(draw(scan, b_meets, b_foot, left, *between));
   return draw(scan, a_meets, a_foot, *between, right);
 }

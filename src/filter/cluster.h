@@ -57,8 +57,6 @@ CELSPAN_CHECKED celspan_status cs_cluster_replay(cs_cluster *cluster);
  * clusters are that. left: of both; the composer stands there. *between: the cell between them
  * when they have crossed, good until the row is done. */
 CELSPAN_CHECKED celspan_status cs_cluster_pair(cs_scan *scan, const cs_cell *left, size_t i,
-                                               const cs_toggle *toggle,
-                                               const cs_toggle *toggle_end,
                                                const cs_cell **between);
 
 #endif

@@ -99,8 +99,7 @@ celspan_status cs_scan_row(cs_scan *scan, int32_t y, cs_row *out) {
   celspan_status status = make_row(scan, y, out);
   if (status != CELSPAN_OK) {
     scan->row = CS_SCAN_NOWHERE;
-    cs_composer_restart(&scan->composer);
-    cs_cells_forget(&scan->cells);
+    cs_cells_restart(&scan->cells, &scan->composer);
   }
   return status;
 }

@@ -138,6 +138,7 @@ celspan_status cs_strips_centre_row(cs_scan *scan, int32_t y, cs_row *out) {
   CS_TRY(cs_strips_collect(scan, y + 0.5, &edges));
   if (edges.count > 0)
     qsort(edges.edges, edges.count, sizeof *edges.edges, compare_edges);
+  cs_cells_home(&scan->cells, composer);
   size_t boundary = 0, edge = 0, total = scan->active.count + edges.count;
   int32_t from = 0, at = 0, width = scan->shot->width; /* the run being gathered: [from, at) */
   cs_cell run = {.colour = cs_v4_all(0)};
