@@ -68,27 +68,27 @@ static void toggle_to(cs_cells *cells, cs_composer *composer, double x) {
     cs_composer_cross(composer, cells->toggle[-1].leaf, -cells->toggle[-1].direction);
 }
 
-/* At both ends nothing is present: from the one to the other it is but a step. */
-static void choose_end(cs_cells *cells, size_t place) {
-  bool is_left = cells->place == 0 && cells->toggle == cells->first_toggle;
-  bool is_right = cells->place == cells->count && cells->toggle == cells->toggle_end;
-  if (!is_left && !is_right)
-    return;
-  bool goes_right = place > cells->count / 2;
-  cells->place = goes_right ? cells->count : 0;
-  cells->toggle = goes_right ? cells->toggle_end : cells->first_toggle;
+/* At both ends nothing is present, so from the one to the other it is but a step. */
+static void go_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
+  cross_to(cells, composer, goes_right ? cells->count : 0);
+  toggle_to(cells, composer, goes_right ? INFINITY : -INFINITY);
+  cells->place = goes_right ? 0 : cells->count;
+  cells->toggle = goes_right ? cells->first_toggle : cells->toggle_end;
 }
 
 void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
-  choose_end(cells, place);
+  size_t from = cells->place, away = place > from ? place - from : from - place;
+  if (2 * away > cells->count) /* the other way is the nearer one */
+    go_round(cells, composer, place < from);
   cross_to(cells, composer, place);
   toggle_to(cells, composer, x);
 }
 
 void cs_cells_home(cs_cells *cells, cs_composer *composer) {
-  bool goes_right = cells->place > cells->count / 2;
-  cs_cells_stand(cells, composer, goes_right ? cells->count : 0, goes_right ? INFINITY : -INFINITY);
-  choose_end(cells, 0);
+  if (2 * cells->place > cells->count)
+    go_round(cells, composer, true);
+  cross_to(cells, composer, 0);
+  toggle_to(cells, composer, -INFINITY);
 }
 
 void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
@@ -109,10 +109,11 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
     cross_to(cells, composer, change.low);
   if (cells->place > change.low)
     cells->place += active->count - cells->count;
+  size_t end = active->count == cells->count ? active->count - change.tail : active->count;
   cells->count = active->count;
-  if (cells->count > change.low)
+  if (end > change.low)
     memcpy(cells->crossing + change.low, active->crossing + change.low,
-           (cells->count - change.low) * sizeof *cells->crossing);
+           (end - change.low) * sizeof *cells->crossing);
   if (change.low > 0 || change.tail > 0)
     return;
   cells->first_toggle = cells->toggle = cs_active_toggles(active, &cells->toggle_end);
@@ -120,12 +121,18 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
 
 /* ---------------------------------------------------------------- making */
 
-/* The cell right of i boundaries, whose left end is at x. */
-static void make_cell(cs_cells *cells, cs_composer *composer, size_t i, double x) {
+/* The cell right of i boundaries, where the composer stands. */
+static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
   cs_cell *cell = &cells->cells[i];
-  cs_cells_stand(cells, composer, i, x);
   if (i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
     cs_composer_cell(composer, cell);
+}
+
+/* Steps over the boundary right of the composer, which is at x. */
+static inline void step(cs_cells *cells, cs_composer *composer, double x) {
+  cs_crossing crossing = cells->crossing[cells->place++];
+  cs_composer_cross(composer, crossing.leaf, crossing.direction);
+  cells->toggle = cs_cells_toggle(composer, cells->toggle, cells->toggle_end, x);
 }
 
 celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,
@@ -134,13 +141,15 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   if (cells->known == 0)
     change = cs_change_all;
   take_order(cells, composer, active, change);
+  cs_cells_stand(cells, composer, change.low, change.low > 0 ? active->x[change.low - 1] : 0);
   if (change.low == 0)
-    make_cell(cells, composer, 0, 0);
+    make_cell(cells, composer, 0);
   if (cells->known == 0)
     cells->known = 1; /* the one just made */
   move_tail(cells, active->count, change.tail);
   for (size_t i = change.low; i < active->count - change.tail; i++) {
-    make_cell(cells, composer, i + 1, active->x[i]);
+    step(cells, composer, active->x[i]);
+    make_cell(cells, composer, i + 1);
     cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
   }
   cells->is_listed = false;
