@@ -64,8 +64,11 @@ static inline void take_segment(cs_boundary_walk *walk) {
   walk->curve = made->curve[at];
 }
 
-static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk) {
-  cs_polyline_group(set, &set->pieces[walk->piece], walk->group, &walk->made);
+/* leaps: false where the group before it is known not to be of the same leap. */
+static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk, uint32_t group,
+                        bool leaps) {
+  cs_polyline_group(set, &set->pieces[walk->piece], group, leaps, &walk->made);
+  walk->group = walk->made.first;
   walk->segment = 0;
 }
 
@@ -74,13 +77,12 @@ bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk) {
   const cs_boundary_piece *piece = &set->pieces[walk->piece];
   if (walk->segment + 1 < walk->made.count) {
     walk->segment++;
-  } else if ((walk->group + 1) * piece->group < piece->chords) {
-    walk->group++;
-    begin_group(set, walk);
+  } else if ((walk->group + walk->made.groups) * piece->group < piece->chords) {
+    uint32_t group = walk->group + walk->made.groups;
+    begin_group(set, walk, group, group % piece->leap == 0);
   } else if (walk->piece + 1 < chain->piece + chain->piece_count) {
     walk->piece++;
-    walk->group = 0;
-    begin_group(set, walk);
+    begin_group(set, walk, 0, true);
   } else {
     return false;
   }
@@ -120,8 +122,7 @@ void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
                        cs_boundary_walk *walk) {
   walk->chain = chain;
   walk->piece = find_piece(set, &set->chains[chain], y);
-  walk->group = find_group(set, &set->pieces[walk->piece], y);
-  begin_group(set, walk);
+  begin_group(set, walk, find_group(set, &set->pieces[walk->piece], y), true);
   take_segment(walk);
   while (walk->y1 <= y && cs_boundary_next(set, walk)) {
   }

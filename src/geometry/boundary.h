@@ -12,8 +12,8 @@
  *     direction, give the same bits.
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
- *   - The curve is walked in groups of chords, or in arcs where one is near enough to a group or to
- *     half of it: x is of the second degree in y there. Both deviate from the curve by at most about
+ *   - The curve is walked in groups of chords, or in arcs where one is near enough to some groups, to
+ *     one or to half of one: x is of the second degree in y there. Both deviate from the curve by at most about
  *     CS_BOUNDARY_TOLERANCE pixels and keep the area left of it, chords by vertices that are
  *     displaced outwards (C'' h^2 / 12). Vertices are moved along the curve to whole heights where
  *     one is near: a row then sees few of them.
@@ -35,6 +35,7 @@ typedef struct cs_boundary_piece {
   uint32_t point;     /* its degree + 1 points; none where there is but one chord */
   uint32_t chords;    /* a multiple of group */
   uint8_t group, half; /* in chords: of a group, and of what it is cut into; half: may be all */
+  uint8_t leap;        /* groups that one arc is tried for, from a multiple of it on; or 1 */
   uint8_t degree;
   bool is_power; /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
@@ -80,6 +81,7 @@ typedef struct cs_boundary_group {
   double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 when it has no height */
   double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
   uint32_t count;                      /* of segments: an arc is one */
+  uint32_t first, groups;              /* of the piece: one, or those of a leap */
 } cs_boundary_group;
 
 /* Where a walk down one chain stands: on the segment from (x0, y0) to (x1, y1). */
@@ -88,7 +90,7 @@ typedef struct cs_boundary_walk {
   double slope, curve; /* as in cs_boundary_group */
   uint32_t chain;
   uint32_t piece;   /* index into pieces */
-  uint32_t group;   /* of that piece */
+  uint32_t group;   /* of that piece: the first that `made` holds */
   uint32_t segment; /* of that group */
   cs_boundary_group made;
 } cs_boundary_walk;

@@ -49,6 +49,7 @@ static celspan_status add_part(builder *b, const cs_bezier *curve, celspan_point
                             .chords = 1,
                             .group = 1,
                             .half = 1,
+                            .leap = 1,
                             .degree = 1}};
   if (curve)
     CS_TRY(cs_polyline_fit(b->context, b->set, curve, &added->piece));

@@ -13,6 +13,7 @@
 /* Of chords of mean length: those that end at moved vertices are up to 1.5 times as long. */
 #define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
 #define CHORD_LIMIT 1e9
+#define LEAP_MOST 8 /* groups */
 /* What the second derivative may reach between samples of it. */
 #define SAMPLING_MARGIN 1.25
 
@@ -69,21 +70,22 @@ static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece 
 }
 
 static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                          uint32_t first, cs_polyline_vertices *out) {
+                          uint32_t first, uint32_t stride, cs_polyline_vertices *out) {
+  const cs_boundary_piece strided = cs_polyline_strided(piece, stride);
   cs_polyline_seat seats[CS_POLYLINE_ROOM];
-  cs_polyline_point points[CS_POLYLINE_ROOM];
   double t[CS_POLYLINE_ROOM + 2] = {0}; /* the ends have no neighbour, nor a use for one */
   for (int k = 0; k <= piece->group; k++) {
-    cs_polyline_point p = at(set, piece, ((double)first + k) * piece->step);
-    seats[k] = cs_polyline_seat_of(piece, first, k, &p);
-    points[k] = at(set, piece, seats[k].t);
+    double vertex = (double)first + (double)stride * k;
+    cs_polyline_point p = at(set, piece, vertex * piece->step);
+    seats[k] = cs_polyline_seat_of(piece, vertex, k, &p);
     t[k + 1] = seats[k].t;
   }
   for (int k = 0; k <= piece->group; k++) {
     double before = t[k + 1] - t[k], after = t[k + 2] - t[k + 1];
     double share = cs_polyline_share(piece, k, before, after);
-    celspan_point on = cs_polyline_place(piece, 0, &seats[k], &points[k]);
-    celspan_point beside = cs_polyline_place(piece, share, &seats[k], &points[k]);
+    cs_polyline_point p = at(set, piece, seats[k].t);
+    celspan_point on = cs_polyline_place(&strided, 0, &seats[k], &p);
+    celspan_point beside = cs_polyline_place(&strided, share, &seats[k], &p);
     out->on_x[k] = on.x;
     out->on_y[k] = on.y;
     out->x[k] = beside.x;
@@ -99,19 +101,19 @@ static void set_end(cs_polyline_vertices *v, int k, double x, double y) {
   v->on_y[k] = v->y[k] = y;
 }
 
-/* The vertices of a group, its ends on the curve. */
+/* The vertices of a group, or every stride-th of a leap's; its ends on the curve. */
 static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                          uint32_t first, cs_polyline_vertices *v) {
+                          uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
   if (piece->degree > 1 && piece->is_power) {
     double c[8];
     take_powers(set, piece, c);
-    CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, v);
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
   } else if (piece->degree > 1) {
-    find_vertices(set, piece, first, v);
+    find_vertices(set, piece, first, stride, v);
   }
   if (first == 0)
     set_end(v, 0, piece->x0, piece->y0);
-  if (first + piece->group == piece->chords)
+  if (first + stride * piece->group == piece->chords)
     set_end(v, piece->group, piece->x1, piece->y1);
 }
 
@@ -156,20 +158,43 @@ static void add_chords(const cs_polyline_vertices *v, int first, int end, cs_bou
   }
 }
 
+static void end_group(const cs_polyline_vertices *v, int count, uint32_t first, uint32_t groups,
+                      cs_boundary_group *out) {
+  out->x[out->count] = v->x[count];
+  out->y[out->count] = v->y[count];
+  out->first = first;
+  out->groups = groups;
+}
+
+/* One arc for all groups of the leap that holds a group, if there are so many and it is near. */
+static bool take_leap(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                      cs_boundary_group *out) {
+  cs_polyline_vertices v;
+  uint32_t leap = piece->leap, base = group - group % leap;
+  if (leap == 1 || (base + leap) * piece->group > piece->chords)
+    return false;
+  make_vertices(set, piece, base * piece->group, leap, &v);
+  if (!add_arc(&v, 0, piece->group, out))
+    return false;
+  end_group(&v, piece->group, base, leap, out);
+  return true;
+}
+
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
-                       cs_boundary_group *out) {
+                       bool leaps, cs_boundary_group *out) {
   cs_polyline_vertices v;
   int half = piece->half, count = piece->group;
-  make_vertices(set, piece, group * piece->group, &v);
   out->count = 0;
+  if (leaps && take_leap(set, piece, group, out))
+    return;
+  make_vertices(set, piece, group * piece->group, 1, &v);
   if (!add_arc(&v, 0, count, out)) {
     if (!add_arc(&v, 0, half, out))
       add_chords(&v, 0, half, out);
     if (half < count && !add_arc(&v, half, count, out))
       add_chords(&v, half, count, out);
   }
-  out->x[out->count] = v.x[count];
-  out->y[out->count] = v.y[count];
+  end_group(&v, count, group, 1, out);
 }
 
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
@@ -237,6 +262,15 @@ static celspan_status store_points(celspan_context *context, cs_boundary_set *se
   return CELSPAN_OK;
 }
 
+/* An arc's error grows as the cube of its length, a chord's as the square: the more chords a piece has,
+ * the more of them an arc is good for, as the third root. 110: measured. */
+static uint8_t choose_leap(uint32_t chords) {
+  uint32_t leap = 1;
+  while (leap < LEAP_MOST && 110 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)
+    leap++;
+  return (uint8_t)leap;
+}
+
 celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
                                const cs_bezier *curve, cs_boundary_piece *piece) {
   bool is_polynomial = cs_bezier_is_polynomial(curve);
@@ -250,6 +284,7 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   piece->group = (uint8_t)ceil(chords / groups);
   piece->half = piece->group >= HALVES_LEAST ? piece->group / 2 : piece->group;
   piece->chords = piece->group * (uint32_t)groups;
+  piece->leap = choose_leap(piece->chords);
   piece->step = 1.0 / piece->chords;
   piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
   piece->is_power = is_polynomial && curve->degree <= 3;

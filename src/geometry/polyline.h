@@ -20,9 +20,10 @@
  * Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
                                                const cs_bezier *curve, cs_boundary_piece *piece);
-/* Group 0..chords / group - 1. */
+/* Group 0..chords / group - 1; or, where leaps is true, the leap that holds it, if one arc does for
+ * all of that. */
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
-                       cs_boundary_group *out);
+                       bool leaps, cs_boundary_group *out);
 /* Where a vertex would be if it were neither displaced nor moved: on the curve, in even steps of the
  * parameter. y rises with the number but for rounding. */
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
@@ -39,9 +40,10 @@ typedef struct cs_polyline_vertices {
   double x[CS_POLYLINE_ROOM], y[CS_POLYLINE_ROOM];
 } cs_polyline_vertices;
 
-/* c: the coefficients of a piece in powers, 4 of x and 4 of y. first: the group's first vertex. */
+/* c: the coefficients of a piece in powers, 4 of x and 4 of y. first: the group's first vertex.
+ * stride: from vertex to vertex, more than 1 for the groups of a leap. */
 CS_WIDE_DECLARE(void, cs_polyline_powers,
-                (const double c[8], const cs_boundary_piece *piece, uint32_t first,
+                (const double c[8], const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
                  cs_polyline_vertices *out));
 
 /* An arc: x + down (mean + curve (down - height)) at y + down. */
@@ -76,6 +78,14 @@ typedef struct cs_polyline_seat {
   double whole; /* 1: it is to be there; 0: not */
 } cs_polyline_seat;
 
+/* A piece of which but every so many vertices are made: its chords are longer. */
+static inline cs_boundary_piece cs_polyline_strided(const cs_boundary_piece *piece,
+                                                    uint32_t stride) {
+  cs_boundary_piece strided = *piece;
+  strided.sag *= (double)stride * stride;
+  return strided;
+}
+
 /* How much vertex k of a group is displaced, in h^2 / 12: once, and half as much again for an end
  * beside it that is not. */
 static inline double cs_polyline_part(const cs_boundary_piece *piece, double k) {
@@ -87,10 +97,10 @@ static inline double cs_polyline_part(const cs_boundary_piece *piece, double k) 
 
 /* p: of the curve at the vertex's step. The seat is such that the vertex will be near the height
  * when it has been displaced. Selections only, no branches, for vector code. */
-static inline cs_polyline_seat cs_polyline_seat_of(const cs_boundary_piece *piece, double first,
+static inline cs_polyline_seat cs_polyline_seat_of(const cs_boundary_piece *piece, double vertex,
                                                    double k, const cs_polyline_point *p) {
   const double bias = 0x1.8p52; /* sums with it are whole */
-  double vertex = first + k, t = vertex * piece->step, y = (p->y + bias) - bias;
+  double t = vertex * piece->step, y = (p->y + bias) - bias;
   double lift = cs_polyline_part(piece, k) * (1.0 / 12) * (piece->step * piece->step) * p->bend_y;
   double rise = p->slope_y > 0 ? p->slope_y : 1, moved = t + ((y - p->y) + lift) / rise;
   double inner = vertex > 0 ? (vertex < piece->chords ? 1.0 : 0.0) : 0.0;

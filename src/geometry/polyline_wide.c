@@ -7,10 +7,10 @@ static const double numbers[CS_POLYLINE_ROOM] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 /* Functions of their own: structures in the body of a simd loop would keep it from becoming
  * vectors. */
-static inline void find_seat(const double c[8], const cs_boundary_piece *piece, double first,
+static inline void find_seat(const double c[8], const cs_boundary_piece *piece, double vertex,
                              double k, double *t, double *y, double *whole) {
-  cs_polyline_point p = cs_polyline_power(c, (first + k) * piece->step);
-  cs_polyline_seat seat = cs_polyline_seat_of(piece, first, k, &p);
+  cs_polyline_point p = cs_polyline_power(c, vertex * piece->step);
+  cs_polyline_seat seat = cs_polyline_seat_of(piece, vertex, k, &p);
   *t = seat.t;
   *y = seat.y;
   *whole = seat.whole;
@@ -32,14 +32,15 @@ static inline void place_vertex(const double c[8], const cs_boundary_piece *piec
 }
 
 void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece,
-                                 uint32_t first, cs_polyline_vertices *restrict out) {
-  const cs_boundary_piece fixed = *piece; /* what is written cannot be the piece */
-  const double start = first;
+                                 uint32_t first, uint32_t stride,
+                                 cs_polyline_vertices *restrict out) {
+  const cs_boundary_piece fixed = cs_polyline_strided(piece, stride);
+  const double start = first, on = stride;
   double t[CS_POLYLINE_ROOM + 2], y[CS_POLYLINE_ROOM], whole[CS_POLYLINE_ROOM];
   t[0] = t[CS_POLYLINE_ROOM + 1] = 0; /* the ends have no neighbour, nor a use for one */
 #pragma omp simd
   for (size_t k = 0; k < CS_POLYLINE_ROOM; k++) /* a counter as wide as a double fills all lanes */
-    find_seat(c, &fixed, start, numbers[k], &t[k + 1], &y[k], &whole[k]);
+    find_seat(c, &fixed, start + on * numbers[k], numbers[k], &t[k + 1], &y[k], &whole[k]);
 #pragma omp simd
   for (size_t k = 0; k < CS_POLYLINE_ROOM; k++)
     place_vertex(c, &fixed, numbers[k], &t[k + 1], y[k], whole[k], &out->on_x[k], &out->on_y[k],

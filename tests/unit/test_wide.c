@@ -149,8 +149,9 @@ static void check_vertices(cs_isa isa, test_random *random) {
     c[k] = random_between(random, -200, 200);
   cs_boundary_piece piece = random_piece(random);
   uint32_t first = (uint32_t)random_below(random, 3) * piece.group;
-  cs_polyline_powers_any(c, &piece, first, &expected);
-  CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, &piece, first, &found);
+  uint32_t stride = 1 + (uint32_t)random_below(random, 4);
+  cs_polyline_powers_any(c, &piece, first, stride, &expected);
+  CS_WIDE_CHOOSE(isa, cs_polyline_powers)(c, &piece, first, stride, &found);
   size_t count = piece.group + 1u;
   CHECK(same_doubles(expected.on_x, found.on_x, count));
   CHECK(same_doubles(expected.on_y, found.on_y, count));
