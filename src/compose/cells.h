@@ -3,8 +3,8 @@
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
  * visible iff the cells on its two sides look different, and then listed once the cells are asked
- * for the list. Cells belong to places in the order, not to boundaries: where the set of leaves at a
- * place is the same as before, its cell is kept; so a swap composes one cell and a row without
+ * for the list. Cells belong to places in the order, not to boundaries: where the set of leaves at
+ * a place is the same as before, its cell is kept; so a swap composes one cell and a row without
  * events none. The composer stays where it was asked for last, from row to row: what happens beside
  * it changes nothing of what is present there.
  */
@@ -58,8 +58,8 @@ void cs_cells_finish(cs_cells *cells, cs_memory *memory);
  * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change);
-/* The boundaries low..low + count - 1 have changed places among themselves, and known cells lie right
- * of them now, of which copies are put there. The composer does not stand between them. */
+/* The boundaries low..low + count - 1 have changed places among themselves, and known cells lie
+ * right of them now, of which copies are put there. The composer does not stand between them. */
 void cs_cells_carry(cs_cells *cells, const cs_composer *composer, const cs_active *active,
                     size_t low, size_t count, const cs_cell *const *right);
 /* Lets the composer stand left of boundary `place`, right of the toggles at or left of x. */

@@ -219,7 +219,8 @@ static celspan_status append_edges(cs_blocks *b, const cs_strip_edges *edges, do
     points[1] = (celspan_point){e->x, y1};
     strips[b->strip_count + k] =
         (cs_member){.points = points, .point_count = 2, .at = 1, .leaf = e->leaf,
-                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0), .place = UINT32_MAX,
+                    .strip = e->strip, .order = 2 * e->strip + (e->direction < 0),
+                    .place = UINT32_MAX,
                     .direction = e->direction, .x = e->x, .y = y0, .foot = e->x};
     b->strips_low = e->x < b->strips_low ? e->x : b->strips_low;
     b->strips_high = e->x > b->strips_high ? e->x : b->strips_high;

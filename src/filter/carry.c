@@ -70,7 +70,8 @@ celspan_status cs_carry_out(cs_scan *scan) {
     if (!room)
       return CELSPAN_NO_MEMORY;
     cs_active_permute(&scan->active, carried->low, carried->count, carried->places, room);
-    cs_cells_carry(&scan->cells, &scan->composer, &scan->active, carried->low, carried->count, carried->cells);
+    cs_cells_carry(&scan->cells, &scan->composer, &scan->active, carried->low, carried->count,
+                   carried->cells);
   }
   scan->carried = NULL;
   return CELSPAN_OK;

@@ -1,5 +1,5 @@
-/* What is carried over to the next row: a block that has been replayed stands at the foot of the row
- * in a known order, between known cells, so neither is sought anew.
+/* What is carried over to the next row: a block that has been replayed stands at the foot of the
+ * row in a known order, between known cells, so neither is sought anew.
  *
  * Invariant: after cs_carry_out the places of the carried blocks are as the sweep would have put
  * them at the foot, and their cells look as it would have composed them there. Blocks in which

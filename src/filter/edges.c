@@ -15,8 +15,8 @@ void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   *edges = (cs_edges){0};
 }
 
-/* The wider items first, so that each is aligned. Vector code goes beyond the count: zeros are quick
- * there, what happens to lie in memory may be denormal numbers, which are not. */
+/* The wider items first, so that each is aligned. Vector code goes beyond the count: zeros are
+ * quick there, what happens to lie in memory may be denormal numbers, which are not. */
 static celspan_status make_room(celspan_context *context, cs_edges *edges, size_t count) {
   if (count <= edges->capacity)
     return CELSPAN_OK;

@@ -34,9 +34,9 @@ static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v
 }
 
 /* Draws from the first boundary on while all is plain: straight or over one or two columns, pixels
- * of its own, flat cells that show, no two neighbouring spans alike. Of one or two columns the spans
- * of both are written, and there is no branch on whether the second counts. Returns how many; at
- * least the last is left. */
+ * of its own, flat cells that show, no two neighbouring spans alike. Of one or two columns the
+ * spans of both are written, and there is no branch on whether the second counts. Returns how many;
+ * at least the last is left. */
 static inline size_t draw_plain(cs_pen *pen, const cs_strokes *s, const cs_edges *edges,
                                 size_t done) {
   const uint32_t *boundaries = s->boundaries + done;

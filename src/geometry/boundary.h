@@ -12,11 +12,11 @@
  *     direction, give the same bits.
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
- *   - The curve is walked in groups of chords, or in arcs where one is near enough to some groups, to
- *     one or to half of one: x is of the second degree in y there. Both deviate from the curve by at most about
- *     CS_BOUNDARY_TOLERANCE pixels and keep the area left of it, chords by vertices that are
- *     displaced outwards (C'' h^2 / 12). Vertices are moved along the curve to whole heights where
- *     one is near: a row then sees few of them.
+ *   - The curve is walked in groups of chords, or in arcs where one is near enough to some groups,
+ *     to one or to half of one: x is of the second degree in y there. Both deviate from the curve
+ *     by at most about CS_BOUNDARY_TOLERANCE pixels and keep the area left of it, chords by
+ *     vertices that are displaced outwards (C'' h^2 / 12). Vertices are moved along the curve to
+ *     whole heights where one is near: a row then sees few of them.
  */
 #ifndef CS_GEOMETRY_BOUNDARY_H
 #define CS_GEOMETRY_BOUNDARY_H
@@ -78,7 +78,7 @@ void cs_boundary_sort(cs_boundary_set *set);
 /* What a group is walked in: segments from vertex to vertex, from the top. */
 typedef struct cs_boundary_group {
   double x[CS_BOUNDARY_GROUP + 1], y[CS_BOUNDARY_GROUP + 1];
-  double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 when it has no height */
+  double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 without height */
   double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
   uint32_t count;                      /* of segments: an arc is one */
   uint32_t first, groups;              /* of the piece: one, or those of a leap */

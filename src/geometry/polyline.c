@@ -262,8 +262,8 @@ static celspan_status store_points(celspan_context *context, cs_boundary_set *se
   return CELSPAN_OK;
 }
 
-/* An arc's error grows as the cube of its length, a chord's as the square: the more chords a piece has,
- * the more of them an arc is good for, as the third root. 110: measured. */
+/* An arc's error grows as the cube of its length, a chord's as the square: the more chords a piece
+ * has, the more of them an arc is good for, as the third root. 110: measured. */
 static uint8_t choose_leap(uint32_t chords) {
   uint32_t leap = 1;
   while (leap < LEAP_MOST && 110 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)

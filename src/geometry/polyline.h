@@ -1,6 +1,6 @@
-/* What a monotone piece is walked in, each group a pure function of the piece and the group's number;
- * see boundary.h for what it keeps. Vertex k of a piece, 0..chords, is where step k of its parameter
- * ends; groups begin and end on the curve.
+/* What a monotone piece is walked in, each group a pure function of the piece and the group's
+ * number; see boundary.h for what it keeps. Vertex k of a piece, 0..chords, is where step k of its
+ * parameter ends; groups begin and end on the curve.
  */
 #ifndef CS_GEOMETRY_POLYLINE_H
 #define CS_GEOMETRY_POLYLINE_H
@@ -11,8 +11,8 @@
 #include "geometry/boundary.h"
 
 /* No vertex is displaced by more sags than this, but along the curve to a whole height: by about a
- * quarter of a step at most, and half a pixel in y. Its shares are at most 0.29 h^2 in all then, the sag of a
- * chord C'' h^2 / 8. */
+ * quarter of a step at most, and half a pixel in y. Its shares are at most 0.29 h^2 in all then;
+ * the sag of a chord is C'' h^2 / 8. */
 #define CS_POLYLINE_LIFT 2.4
 
 /* Chooses the chords of a piece whose ends and limits in x are set, and stores what its vertices
@@ -24,8 +24,8 @@ CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boun
  * all of that. */
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
                        bool leaps, cs_boundary_group *out);
-/* Where a vertex would be if it were neither displaced nor moved: on the curve, in even steps of the
- * parameter. y rises with the number but for rounding. */
+/* Where a vertex would be if it were neither displaced nor moved: on the curve, in even steps of
+ * the parameter. y rises with the number but for rounding. */
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                 uint32_t vertex);
 
@@ -112,7 +112,7 @@ static inline cs_polyline_seat cs_polyline_seat_of(const cs_boundary_piece *piec
 
 /* Of C'', how far vertex k of a group is displaced: the area between a chord of length h and its
  * curve is |C' x C''| h^3 / 12, and each of its ends makes up for half of it; an end of a half for
- * none: its neighbour does. before, after: from the neighbours' parameters to that of the vertex. */
+ * none: its neighbour does. before, after: from the neighbours' parameters to its own. */
 static inline double cs_polyline_share(const cs_boundary_piece *piece, double k, double before,
                                        double after) {
   const double half = piece->half, group = piece->group;

@@ -18,8 +18,8 @@ typedef struct cs_view {
   int32_t first_row, end_row;
 } cs_view;
 
-/* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or camera,
- * for a rotated scan-line primitive and for what is not built in, naming the cel. */
+/* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or
+ * camera, for a rotated scan-line primitive and for what is not built in, naming the cel. */
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context,
                                           const celspan_rostrum *rostrum, const cs_view *view,
                                           const cs_antialias *antialias, int workers,

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: seven doubles, a crossing, two slots, two places, a walk. */
+/* Bytes of one boundary over all arrays: seven doubles, a crossing, four indices, a walk. */
 #define ITEM_SIZE                                                                                  \
   (7 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
 
@@ -35,9 +35,9 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
   return array;
 }
 
-/* All arrays lie in one block: the wider items first, so that each is aligned. Vector code goes beyond
- * the count: zeros are quick there, what happens to lie in memory may be denormal numbers, which are
- * not. */
+/* All arrays lie in one block: the wider items first, so that each is aligned. Vector code goes
+ * beyond the count: zeros are quick there, what happens to lie in memory may be denormal numbers,
+ * which are not. */
 static celspan_status grow(celspan_context *context, cs_active *active) {
   size_t old = active->capacity, wanted = old ? 2 * old : 64;
   void *block = cs_mem_array(context->memory, 1, block_size(wanted));

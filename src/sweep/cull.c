@@ -115,7 +115,8 @@ typedef struct chord {
 
 /* x of the chord at a height, held to its ends. */
 static inline double chord_x(const chord *line, double slope, double y) {
-  double below = y < line->foot.y ? y : line->foot.y, held = below > line->top.y ? below : line->top.y;
+  double above = y < line->foot.y ? y : line->foot.y;
+  double held = above > line->top.y ? above : line->top.y;
   return line->top.x + (held - line->top.y) * slope;
 }
 
@@ -463,8 +464,8 @@ celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *s
   cull.tile_height = (int32_t)(((int64_t)height + rows - 1) / rows);
   cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
   culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
-              .width = width, .height = height, .margin = margin, .opaque = opaque, .workers = workers,
-              .cull = &cull};
+              .width = width, .height = height, .margin = margin, .opaque = opaque,
+              .workers = workers, .cull = &cull};
   c.columns_a_pixel = CS_CULL_COLUMNS / c.width;
   c.slack = SLACK_TILES * fmin((double)width / CS_CULL_COLUMNS, cull.tile_height);
   celspan_status status = cull_all(&c);

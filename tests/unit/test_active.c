@@ -122,7 +122,8 @@ static void check_case(uint64_t seed) {
   for (int leaf = 0; leaf < LEAVES; leaf++)
     leaves[leaf] = (cs_cull_leaf){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
   make_set(&set, seed);
-  CHECK(cs_cull_create(context, &set, leaves, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, 3, &cull) == CELSPAN_OK);
+  CHECK(cs_cull_create(context, &set, leaves, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, 3, &cull) ==
+        CELSPAN_OK);
   CHECK(cull.tile_rows > 0);
   check_walk(&set, &none, 1);
   check_walk(&set, &none, 0.37);
