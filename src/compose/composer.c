@@ -1,5 +1,7 @@
 #include "compose/composer.h"
 
+#include "compose/palette.h"
+
 #include <math.h>
 
 #define MEMO_SIZE 4096 /* cells remembered, two of one place; a power of two */
@@ -39,6 +41,8 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   if (composer->texels)
     cs_texels_init(composer->texels, context);
   CS_TRY(take(composer, &composer->softs, stack->soft_count, sizeof(cs_seen_soft)));
+  if (stack->shade_count > 0)
+    CS_TRY(cs_palettes_create(context, &composer->palettes));
   return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
 
@@ -64,6 +68,7 @@ void cs_composer_finish(cs_composer *composer) {
   for (size_t i = 0; composer->softs && i < stack->soft_count; i++)
     cs_soft_leave(stack->softs[i], composer->context, &composer->softs[i]);
   cs_mem_free(memory, composer->softs, stack->soft_count * sizeof(cs_seen_soft));
+  cs_palettes_destroy(composer->palettes, memory);
   cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));

@@ -82,6 +82,7 @@ typedef struct cs_composer {
   cs_seen_slide *slides;
   cs_texels *texels; /* of its pictures; NULL without pictures */
   cs_seen_soft *softs;
+  struct cs_palettes *palettes; /* NULL without gradients: palette.h */
   cs_memo *memo;
   cs_item *items;
   size_t item_count, item_capacity;

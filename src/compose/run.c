@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "colour/srgb8.h"
 #include "compose/blend.h"
+#include "compose/palette.h"
 #include "compose/ramps.h"
 #include "compose/shade.h"
 #include "compose/soft_run.h"
@@ -176,8 +177,15 @@ static celspan_status colours_batch(cs_composer *composer, const cs_program *pro
   celspan_context *context = composer->context;
   cs_arena *scratch = &composer->scratch;
   cs_blend blend;
-  cs_arena_reset(scratch);
+  const cs_palette *palette;
   composer->evaluations += (uint64_t)b->count;
+  CS_TRY(cs_palette_find(composer, program, &palette));
+  if (palette) {
+    for (int32_t k = 0; k < b->count; k++)
+      cs_v4_store(rgba[k], cs_palette_colour(palette, centre(b, k), b->y));
+    return CELSPAN_OK;
+  }
+  cs_arena_reset(scratch);
   if (is_all_bare(composer->stack, program)) {
     cs_blend_layers layers;
     CS_TRY(fold_bare(composer, program, b, &layers));

@@ -1,8 +1,7 @@
 #include "compose/shade.h"
 
 #include "base/number.h"
-
-#include <math.h>
+#include "geometry/matrix.h"
 
 /* ---------------------------------------------------------------- the triangle */
 
@@ -11,7 +10,7 @@ static double corner_value(const cs_paint *paint, int channel) {
 }
 
 /* The plane through the corners' values. The door makes flat what has no area or no length. */
-void cs_shade_prepare(cs_shade *shade) {
+static void prepare_triangle(cs_shade *shade) {
   const celspan_texture *texture = shade->texture;
   const celspan_point *p = texture->points;
   double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y;
@@ -59,35 +58,48 @@ static cs_paint stop_paint(const celspan_texture *texture, double at) {
   return cs_paint_mix(p, q, u);
 }
 
-/* Along a linear texture: 0 at `from`, 1 at `to`. */
-static double linear_at(const celspan_texture *texture, double u, double v) {
-  const celspan_point *from = &texture->points[0], *to = &texture->points[1];
-  double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
-  return ((u - from->x) * dx + (v - from->y) * dy) / length;
+/* The plane over frame pixels of what is a u + b v + c w in own units. */
+static void take_plane(cs_shade *shade, int index, double a, double b, double c) {
+  const double *m = shade->inverse.m;
+  double scale = shade->is_affine ? 1 / m[8] : 1;
+  for (int k = 0; k < 3; k++)
+    shade->plane[index][k] = (a * m[k] + b * m[3 + k] + c * m[6 + k]) * scale;
 }
 
-static double radial_at(const celspan_texture *texture, double u, double v) {
-  double dx = u - texture->points[0].x, dy = v - texture->points[0].y;
-  return sqrt(dx * dx + dy * dy) / texture->radius;
+/* 0 at `from`, 1 at `to`. */
+static void prepare_linear(cs_shade *shade) {
+  const celspan_point *from = &shade->texture->points[0], *to = &shade->texture->points[1];
+  double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
+  take_plane(shade, 0, dx / length, dy / length, -(from->x * dx + from->y * dy) / length);
+}
+
+static void prepare_radial(cs_shade *shade) {
+  const celspan_point *centre = &shade->texture->points[0];
+  double share = 1 / shade->texture->radius;
+  take_plane(shade, 0, share, 0, -centre->x * share);
+  take_plane(shade, 1, 0, share, -centre->y * share);
+}
+
+void cs_shade_prepare(cs_shade *shade) {
+  shade->is_affine = cs_matrix_is_affine(&shade->inverse) && shade->inverse.m[8] > 0;
+  if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
+    prepare_triangle(shade);
+  else if (shade->texture->kind == CS_TEXTURE_LINEAR)
+    prepare_linear(shade);
+  else
+    prepare_radial(shade);
+}
+
+static cs_paint triangle_at(const cs_shade *shade, double x, double y) {
+  cs_hpoint own = cs_matrix_apply(&shade->inverse, (cs_hpoint){x, y, 1});
+  return own.w > 0 ? triangle_paint(shade, own.x / own.w, own.y / own.w) : CS_PAINT_CLEAR;
 }
 
 cs_paint cs_shade_paint(const cs_shade *shade, double x, double y) {
-  cs_hpoint own = cs_matrix_apply(&shade->inverse, (cs_hpoint){x, y, 1});
-  if (!(own.w > 0))
-    return CS_PAINT_CLEAR;
-  double u = own.x / own.w, v = own.y / own.w;
-  switch (shade->texture->kind) {
-  case CS_TEXTURE_TRIANGLE:
-    return triangle_paint(shade, u, v);
-  case CS_TEXTURE_LINEAR:
-    return stop_paint(shade->texture, linear_at(shade->texture, u, v));
-  case CS_TEXTURE_RADIAL:
-    return stop_paint(shade->texture, radial_at(shade->texture, u, v));
-  case CS_TEXTURE_FLAT:
-  case CS_TEXTURE_PICTURE:
-    break;
-  }
-  return CS_PAINT_CLEAR;
+  if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
+    return triangle_at(shade, x, y);
+  double at = cs_shade_at(shade, x, y);
+  return at == at ? stop_paint(shade->texture, at) : CS_PAINT_CLEAR;
 }
 
 /* ---------------------------------------------------------------- where a row bends

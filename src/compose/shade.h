@@ -8,8 +8,26 @@
 
 #include "compose/stack.h"
 
-/* Fills the planes of a triangle texture. */
+#include <math.h>
+
+/* Fills the planes, from texture and inverse. */
 void cs_shade_prepare(cs_shade *shade);
+/* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
+ * behind the horizon. */
+static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+  const double *p = shade->plane[0], *q = shade->plane[1];
+  double u = p[0] * x + (p[1] * y + p[2]), v = 0, w = 1;
+  if (shade->texture->kind == CS_TEXTURE_RADIAL)
+    v = q[0] * x + (q[1] * y + q[2]);
+  if (!shade->is_affine) {
+    const double *m = shade->inverse.m;
+    w = m[6] * x + (m[7] * y + m[8]);
+    w = w > 0 ? w : NAN;
+  }
+  if (shade->texture->kind == CS_TEXTURE_RADIAL)
+    u = sqrt(u * u + v * v);
+  return u / w;
+}
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_paint cs_shade_paint(const cs_shade *shade, double x, double y);
 /* Where on the row at height y the formula bends, x0 < x < x1: at most CS_SHADE_BREAKS(shade)

@@ -49,11 +49,16 @@ typedef struct cs_mark {
   int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
 } cs_mark;
 
-/* Premultiplied values as planes over own units: value = a u + b v + c, for s, t and beta. */
+/* A formula as planes, value = a x + b y + c.
+ * TRIANGLE: premultiplied s, t and beta over own units.
+ * LINEAR: where a point lies along the stops, over frame pixels; RADIAL: the two legs of its
+ * distance from the centre, as shares of the radius. Both are to be divided by the w of the point
+ * unless is_affine. */
 typedef struct cs_shade {
   const celspan_texture *texture; /* borrowed from the scene */
   celspan_matrix inverse;         /* frame pixels to own units */
-  double plane[7][3];             /* TRIANGLE */
+  double plane[7][3];
+  bool is_affine; /* and w above 0 everywhere */
 } cs_shade;
 
 typedef struct cs_slide {

@@ -227,26 +227,30 @@ static void retire_crossings(blend *b, int32_t p1) {
   b->ended = kept;
 }
 
-/* Adds a cell where it has area; only there is it asked for colours. */
+static inline double weight_in(const seen_cell *seen, int32_t k) {
+  return seen->weights ? seen->weights[k] : seen->carry;
+}
+
+/* Adds a cell where it has area; only there is it asked for colours. sum: 4 floats a pixel. */
 static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0, int32_t p1,
-                               cs_v4 *sum) {
+                               float *sum) {
   float rgba[TILE][4];
   int32_t first = 0, end = p1 - p0;
-  while (first < end && (seen->weights ? seen->weights[first] : seen->carry) == 0)
+  while (first < end && weight_in(seen, first) == 0)
     first++;
-  while (end > first && (seen->weights ? seen->weights[end - 1] : seen->carry) == 0)
+  while (end > first && weight_in(seen, end - 1) == 0)
     end--;
   CS_TRY(cs_composer_colours(b->window->composer, seen->cell, p0 + first, p0 + end,
                              b->window->centre, rgba));
   for (int32_t k = first; k < end; k++)
-    sum[k] += cs_v4_load(rgba[k - first]) * (float)(seen->weights ? seen->weights[k] : seen->carry);
+    cs_v4_store(sum + 4 * k, cs_v4_load(sum + 4 * k) +
+                                 cs_v4_load(rgba[k - first]) * (float)weight_in(seen, k));
   return CELSPAN_OK;
 }
 
 static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
   cs_window *window = b->window;
-  cs_v4 sum[TILE];
-  float *colours;
+  float *sum;
   cs_arena_reset(&window->tiles);
   for (size_t i = 0; i < b->seen_count; i++)
     b->seen[i].weights = NULL;
@@ -254,14 +258,15 @@ static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
     b->begun++;
   for (size_t i = b->ended; i < b->begun; i++)
     CS_TRY(cross_tile(b, &b->crossings[i], p0, p1));
-  memset(sum, 0, sizeof sum);
+  CS_TRY(cs_row_array(window->composer->context, window->out, p0, p1, &sum));
+  for (int32_t k = 0; k < p1 - p0; k++)
+    cs_v4_store(sum + 4 * k, cs_v4_all(0));
   for (size_t i = 0; i < b->seen_count; i++)
     if (b->seen[i].weights || b->seen[i].carry != 0)
       CS_TRY(add_cell(b, &b->seen[i], p0, p1, sum));
   retire_crossings(b, p1);
-  CS_TRY(cs_row_array(window->composer->context, window->out, p0, p1, &colours));
   for (int32_t k = 0; k < p1 - p0; k++)
-    cs_v4_store(colours + 4 * k, cs_strokes_hold(sum[k]));
+    cs_v4_store(sum + 4 * k, cs_strokes_hold(cs_v4_load(sum + 4 * k)));
   return CELSPAN_OK;
 }
 

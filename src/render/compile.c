@@ -54,8 +54,7 @@ static celspan_status fill_shaded(compiler *c, cs_leaf *leaf, const celspan_text
   CS_TRY(APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = texture, .inverse = *inverse};
-  if (texture->kind == CS_TEXTURE_TRIANGLE)
-    cs_shade_prepare(shade);
+  cs_shade_prepare(shade);
   leaf->kind = CS_LEAF_SHADED;
   leaf->detail = (uint32_t)stack->shade_count++;
   leaf->is_opaque = leaf->fade == 1 && cs_matrix_is_affine(inverse) && stops_are_opaque(texture);

@@ -88,13 +88,37 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
 
 /* ---------------------------------------------------------------- exposures */
 
+static inline cs_v4 colour_at(const celspan_span *span, int32_t x) {
+  cs_v4 colour = cs_v4_load(span->colour);
+  if (span->kind == CELSPAN_SPAN_ARRAY)
+    return cs_v4_load(span->array + 4 * (size_t)(x - span->x0));
+  if (span->kind == CELSPAN_SPAN_GRADIENT)
+    return colour + cs_v4_load(span->slope) * (float)(x - span->origin);
+  return colour;
+}
+
+/* How many of `count` values of a line from its beginning on lie on the same side of 1 as the first
+ * does: rounding keeps their order, so the end is found by halving. */
+static int32_t count_alike(float first, float slope, int32_t count) {
+  bool held = first > 1;
+  int32_t alike = 0, beyond = count; /* `alike` is alike, `beyond` is not */
+  if ((first + slope * (float)(count - 1) > 1) == held)
+    return count;
+  while (beyond - alike > 1) {
+    int32_t middle = alike + (beyond - alike) / 2;
+    if ((first + slope * (float)middle > 1) == held)
+      alike = middle;
+    else
+      beyond = middle;
+  }
+  return beyond;
+}
+
 /* A ramp whose alpha is held to 1: it bends at the column where its alpha passes 1. */
 static celspan_status expose_ramp(celspan_context *context, cs_row *out, int32_t x0, int32_t x1,
                                   cs_v4 colour, cs_v4 slope) {
   bool held = colour[3] > 1;
-  int32_t bend = x0;
-  while (bend < x1 && (colour[3] + slope[3] * (float)(bend - x0) > 1) == held)
-    bend = slope[3] == 0 ? x1 : bend + 1;
+  int32_t bend = x0 + count_alike(colour[3], slope[3], x1 - x0);
   cs_v4 rest = colour + slope * (float)(bend - x0), rest_slope = slope;
   if (held) {
     colour[3] = 1;
@@ -108,51 +132,50 @@ static celspan_status expose_ramp(celspan_context *context, cs_row *out, int32_t
 }
 
 /* The sum of the spans under [x0, x1), one a row, none of which ends inside. */
-static celspan_status expose_interval(celspan_context *context, cs_row *out, const cs_row *rows,
-                                      const float *weights, const size_t *at, size_t count,
-                                      int32_t x0, int32_t x1) {
-  cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
-  bool has_array = false;
-  for (size_t i = 0; i < count; i++) {
-    const celspan_span *span = &rows[i].spans[at[i]];
-    has_array |= span->kind == CELSPAN_SPAN_ARRAY;
-    float colour[4];
-    celspan_span_colour(span, x0, colour);
-    first += weights[i] * cs_v4_load(colour);
-    if (span->kind == CELSPAN_SPAN_GRADIENT)
-      slope += weights[i] * cs_v4_load(span->slope);
-  }
-  if (!has_array)
-    return expose_ramp(context, out, x0, x1, first, slope);
+static celspan_status expose_array(celspan_context *context, cs_row *out,
+                                   const celspan_span *const *spans, const float *weights,
+                                   size_t count, int32_t x0, int32_t x1) {
   float *colours;
   CS_TRY(cs_row_array(context, out, x0, x1, &colours));
   for (int32_t x = x0; x < x1; x++, colours += 4) {
     cs_v4 sum = cs_v4_all(0);
-    for (size_t i = 0; i < count; i++) {
-      float colour[4];
-      celspan_span_colour(&rows[i].spans[at[i]], x, colour);
-      sum += weights[i] * cs_v4_load(colour);
-    }
+    for (size_t i = 0; i < count; i++)
+      sum += weights[i] * colour_at(spans[i], x);
     sum[3] = sum[3] > 1 ? 1 : sum[3];
     cs_v4_store(colours, sum);
   }
   return CELSPAN_OK;
 }
 
+static celspan_status expose_interval(celspan_context *context, cs_row *out,
+                                      const celspan_span *const *spans, const float *weights,
+                                      size_t count, int32_t x0, int32_t x1) {
+  cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
+  for (size_t i = 0; i < count; i++) {
+    if (spans[i]->kind == CELSPAN_SPAN_ARRAY)
+      return expose_array(context, out, spans, weights, count, x0, x1);
+    first += weights[i] * colour_at(spans[i], x0);
+    if (spans[i]->kind == CELSPAN_SPAN_GRADIENT)
+      slope += weights[i] * cs_v4_load(spans[i]->slope);
+  }
+  return expose_ramp(context, out, x0, x1, first, slope);
+}
+
 celspan_status cs_row_expose(celspan_context *context, cs_row *out, const cs_row *rows,
                              const float *weights, size_t count) {
-  size_t *at = cs_arena_take(context, &out->colours, count * sizeof *at);
+  const celspan_span **at = cs_arena_take(context, &out->colours, count * sizeof *at);
   if (!at)
     return CELSPAN_NO_MEMORY;
-  memset(at, 0, count * sizeof *at);
-  for (int32_t x0 = 0; at[0] < rows[0].count;) {
+  for (size_t i = 0; i < count; i++)
+    at[i] = rows[i].spans;
+  const celspan_span *end = rows[0].spans + rows[0].count;
+  for (int32_t x0 = 0; at[0] < end;) {
     int32_t x1 = INT32_MAX;
     for (size_t i = 0; i < count; i++)
-      if (rows[i].spans[at[i]].x1 < x1)
-        x1 = rows[i].spans[at[i]].x1;
-    CS_TRY(expose_interval(context, out, rows, weights, at, count, x0, x1));
+      x1 = at[i]->x1 < x1 ? at[i]->x1 : x1;
+    CS_TRY(expose_interval(context, out, at, weights, count, x0, x1));
     for (size_t i = 0; i < count; i++)
-      at[i] += rows[i].spans[at[i]].x1 == x1;
+      at[i] += at[i]->x1 == x1;
     x0 = x1;
   }
   return CELSPAN_OK;
