@@ -8,6 +8,7 @@
 #ifndef CS_COMPOSE_PALETTE_H
 #define CS_COMPOSE_PALETTE_H
 
+#include "base/number.h"
 #include "compose/composer.h"
 #include "compose/shade.h"
 
@@ -35,20 +36,27 @@ void cs_palettes_destroy(cs_palettes *palettes, cs_memory *memory); /* NULL is n
 CELSPAN_CHECKED celspan_status cs_palette_find(cs_composer *composer, const cs_program *program,
                                                const cs_palette **out);
 
+/* Which part holds what lies at `at` along the stops. */
+static inline size_t cs_palette_part_at(const cs_palette *palette, double at) {
+  const celspan_texture *texture = palette->shade->texture;
+  size_t part = 0;
+  while (part < texture->stop_count && texture->stops[part].at <= at)
+    part++;
+  return part;
+}
+
+/* The colour of a part at `at`, held to its ends. */
+static inline cs_v4 cs_palette_mix(const cs_palette_part *part, double at) {
+  double share = cs_number_most(cs_number_least((at - part->at) * part->scale, 1), 0);
+  return part->colour + part->step * (float)share;
+}
+
 /* The colour at a point of the frame. */
 static inline cs_v4 cs_palette_colour(const cs_palette *palette, double x, double y) {
-  const celspan_texture *texture = palette->shade->texture;
-  const cs_stop *stops = texture->stops;
-  size_t count = texture->stop_count, part = 0;
   double at = cs_shade_at(palette->shade, x, y);
   if (at != at)
-    return palette->parts[count + 1].colour;
-  while (part < count && stops[part].at <= at)
-    part++;
-  const cs_palette_part *p = &palette->parts[part];
-  if (part == 0 || part == count)
-    return p->colour;
-  return p->colour + p->step * (float)((at - p->at) * p->scale);
+    return palette->parts[palette->shade->texture->stop_count + 1].colour;
+  return cs_palette_mix(&palette->parts[cs_palette_part_at(palette, at)], at);
 }
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "compose/blend.h"
+#include "compose/palette.h"
 #include "compose/shade.h"
 
 #include <math.h>
@@ -18,6 +19,7 @@
 typedef struct ramp {
   cs_composer *composer;
   const cs_program *program;
+  const cs_palette *palette; /* of the program, or NULL */
   double y;
   cs_row *row;
 } ramp;
@@ -31,7 +33,12 @@ static bool is_near(cs_v4 a, cs_v4 b) {
 
 static celspan_status ramp_colours(const ramp *r, const int32_t *columns, int32_t count,
                                    float (*rgba)[4]) {
-  return cs_composer_colours_at(r->composer, r->program, columns, count, r->y, rgba);
+  if (!r->palette)
+    return cs_composer_colours_at(r->composer, r->program, columns, count, r->y, rgba);
+  r->composer->evaluations += (uint64_t)count;
+  for (int32_t k = 0; k < count; k++)
+    cs_v4_store(rgba[k], cs_palette_colour(r->palette, columns[k] + 0.5, r->y));
+  return CELSPAN_OK;
 }
 
 /* The last column of [x0, x1) that is `quarter` quarters on. */
@@ -268,10 +275,56 @@ static celspan_status find_ends(const ramp *r, int32_t x0, int32_t x1, ends *out
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- one linear gradient
+ *
+ * Pieces of it are straight and end where its stops are. */
+
+/* Whether the program is that, seen without perspective. */
+static bool is_linear(const cs_palette *palette) {
+  return palette && palette->shade->is_affine &&
+         palette->shade->texture->kind == CS_TEXTURE_LINEAR;
+}
+
+/* The column on the right of part `i` of a gradient that is at `at0` in x = 0 and changes by `step`
+ * a pixel. */
+static int32_t part_end(const celspan_texture *texture, size_t i, double at0, double step) {
+  if (step > 0 ? i == texture->stop_count : i == 0)
+    return INT32_MAX;
+  return cs_number_first_centre((texture->stops[step > 0 ? i : i - 1].at - at0) / step);
+}
+
+static celspan_status run_linear(const ramp *r, int32_t x0, int32_t x1) {
+  const cs_shade *shade = r->palette->shade;
+  const double *plane = shade->plane[0];
+  double step = plane[0], at0 = plane[1] * r->y + plane[2];
+  if (step == 0) {
+    r->composer->evaluations++;
+    return cs_row_single(r->composer->context, r->row, x0, x1,
+                         cs_palette_colour(r->palette, x0 + 0.5, r->y));
+  }
+  size_t part = cs_palette_part_at(r->palette, at0 + step * (x0 + 0.5));
+  while (x0 < x1) {
+    int32_t end = part_end(shade->texture, part, at0, step);
+    end = end < x1 ? end : x1;
+    if (end > x0) {
+      const cs_palette_part *p = &r->palette->parts[part];
+      r->composer->evaluations += 2;
+      CS_TRY(put_line(r, x0, end, cs_palette_mix(p, at0 + step * (x0 + 0.5)),
+                      cs_palette_mix(p, at0 + step * (end - 0.5))));
+      x0 = end;
+    }
+    part += step > 0 ? 1 : (size_t)-1;
+  }
+  return CELSPAN_OK;
+}
+
 celspan_status cs_ramps_run(cs_composer *composer, const cs_program *program, int32_t x0,
                             int32_t x1, double y, cs_row *row) {
-  ramp r = {composer, program, y, row};
+  ramp r = {composer, program, NULL, y, row};
   ends list;
+  CS_TRY(cs_palette_find(composer, program, &r.palette));
+  if (is_linear(r.palette))
+    return run_linear(&r, x0, x1);
   CS_TRY(find_ends(&r, x0, x1, &list));
   return put_pieces(&r, list.columns, list.count);
 }

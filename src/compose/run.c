@@ -70,9 +70,20 @@ typedef struct samples {
   float s[CS_BLEND_BATCH][4], t[CS_BLEND_BATCH][4]; /* all others; s is not lit */
 } samples;
 
-static void put_paint(samples *out, int32_t k, cs_paint paint) {
-  cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
-  cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+static void shade_samples(const cs_shade *shade, const batch *b, samples *out) {
+  for (int32_t k = 0; k < b->count; k++) {
+    cs_shade_lanes paint = cs_shade_paint(shade, centre(b, k), b->y);
+    cs_v4_store(out->s[k], paint.s);
+    cs_v4_store(out->t[k], paint.t);
+  }
+}
+
+static void strip_samples(const cs_strip *strip, const batch *b, samples *out) {
+  for (int32_t k = 0; k < b->count; k++) {
+    cs_paint paint = strip_paint(strip, centre(b, k));
+    cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
+    cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+  }
 }
 
 static celspan_status sample_picture(cs_composer *composer, const cs_leaf *leaf, const batch *b,
@@ -120,11 +131,10 @@ static celspan_status blend_item(cs_composer *composer, cs_blend *blend, const c
     return blend_picture(composer, blend, leaf, b, room);
   if (leaf->kind == CS_LEAF_SOFT)
     return blend_soft(composer, blend, leaf, b, room);
-  for (int32_t k = 0; k < b->count; k++)
-    put_paint(room, k,
-              leaf->kind == CS_LEAF_SHADED
-                  ? cs_shade_paint(&stack->shades[leaf->detail], centre(b, k), b->y)
-                  : strip_paint(&strips[item.strip], centre(b, k)));
+  if (leaf->kind == CS_LEAF_SHADED)
+    shade_samples(&stack->shades[leaf->detail], b, room);
+  else
+    strip_samples(&strips[item.strip], b, room);
   cs_blend_paints(blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
   return CELSPAN_OK;
 }

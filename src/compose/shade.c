@@ -3,6 +3,11 @@
 #include "base/number.h"
 #include "geometry/matrix.h"
 
+static cs_shade_lanes lanes_of(const cs_paint *paint) {
+  return (cs_shade_lanes){{paint->s[0], paint->s[1], paint->s[2], 0},
+                          {paint->t[0], paint->t[1], paint->t[2], 0}};
+}
+
 /* ---------------------------------------------------------------- the triangle */
 
 static double corner_value(const cs_paint *paint, int channel) {
@@ -44,18 +49,16 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-static cs_paint stop_paint(const celspan_texture *texture, double at) {
+static cs_shade_lanes stop_paint(const celspan_texture *texture, double at) {
   const cs_stop *stops = texture->stops;
   size_t count = texture->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
-  if (next == 0)
-    return stops[0].paint;
-  if (next == count)
-    return stops[count - 1].paint;
-  const cs_paint *p = &stops[next - 1].paint, *q = &stops[next].paint;
+  if (next == 0 || next == count)
+    return lanes_of(&stops[next == 0 ? 0 : count - 1].paint);
+  cs_shade_lanes p = lanes_of(&stops[next - 1].paint), q = lanes_of(&stops[next].paint);
   float u = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
-  return cs_paint_mix(p, q, u);
+  return (cs_shade_lanes){p.s + u * (q.s - p.s), p.t + u * (q.t - p.t)};
 }
 
 /* The plane over frame pixels of what is a u + b v + c w in own units. */
@@ -90,16 +93,20 @@ void cs_shade_prepare(cs_shade *shade) {
     prepare_radial(shade);
 }
 
-static cs_paint triangle_at(const cs_shade *shade, double x, double y) {
+static cs_shade_lanes triangle_at(const cs_shade *shade, double x, double y) {
   cs_hpoint own = cs_matrix_apply(&shade->inverse, (cs_hpoint){x, y, 1});
-  return own.w > 0 ? triangle_paint(shade, own.x / own.w, own.y / own.w) : CS_PAINT_CLEAR;
+  cs_paint paint = CS_PAINT_CLEAR;
+  if (own.w > 0)
+    paint = triangle_paint(shade, own.x / own.w, own.y / own.w);
+  return lanes_of(&paint);
 }
 
-cs_paint cs_shade_paint(const cs_shade *shade, double x, double y) {
+cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
+  const cs_paint clear = CS_PAINT_CLEAR;
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     return triangle_at(shade, x, y);
   double at = cs_shade_at(shade, x, y);
-  return at == at ? stop_paint(shade->texture, at) : CS_PAINT_CLEAR;
+  return at == at ? stop_paint(shade->texture, at) : lanes_of(&clear);
 }
 
 /* ---------------------------------------------------------------- where a row bends

@@ -28,8 +28,13 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
     u = sqrt(u * u + v * v);
   return u / w;
 }
+/* A paint as it is folded: lane 3 is of no account. */
+typedef struct cs_shade_lanes {
+  cs_v4 s, t;
+} cs_shade_lanes;
+
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
-cs_paint cs_shade_paint(const cs_shade *shade, double x, double y);
+cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
 /* Where on the row at height y the formula bends, x0 < x < x1: at most CS_SHADE_BREAKS(shade)
  * values, in no order. Returns how many. */
 size_t cs_shade_breaks(const cs_shade *shade, double y, double x0, double x1, double *breaks);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #define TILE 256 /* pixels summed at a time */
+#define FEW 2    /* pixels: those of a window between cells that vary become spans of their own */
 
 /* Forgets what has been summed of the open window. */
 static void clear_change(cs_window *window) {
@@ -248,9 +249,28 @@ static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0
   return CELSPAN_OK;
 }
 
+/* Room for the colours of [p0, p1), 4 floats a pixel: the row's own or, for few, `room`. */
+static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, float *room,
+                                  float **out) {
+  *out = room;
+  return p1 - p0 <= FEW ? CELSPAN_OK
+                        : cs_row_array(window->composer->context, window->out, p0, p1, out);
+}
+
+static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, float *sum) {
+  for (int32_t k = 0; k < p1 - p0; k++) {
+    cs_v4 colour = cs_strokes_hold(cs_v4_load(sum + 4 * k));
+    if (p1 - p0 > FEW)
+      cs_v4_store(sum + 4 * k, colour);
+    else
+      CS_TRY(cs_row_single(window->composer->context, window->out, p0 + k, p0 + k + 1, colour));
+  }
+  return CELSPAN_OK;
+}
+
 static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
   cs_window *window = b->window;
-  float *sum;
+  float room[4 * FEW], *sum;
   cs_arena_reset(&window->tiles);
   for (size_t i = 0; i < b->seen_count; i++)
     b->seen[i].weights = NULL;
@@ -258,20 +278,44 @@ static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
     b->begun++;
   for (size_t i = b->ended; i < b->begun; i++)
     CS_TRY(cross_tile(b, &b->crossings[i], p0, p1));
-  CS_TRY(cs_row_array(window->composer->context, window->out, p0, p1, &sum));
-  for (int32_t k = 0; k < p1 - p0; k++)
-    cs_v4_store(sum + 4 * k, cs_v4_all(0));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  memset(sum, 0, (size_t)(p1 - p0) * 4 * sizeof *sum);
   for (size_t i = 0; i < b->seen_count; i++)
     if (b->seen[i].weights || b->seen[i].carry != 0)
       CS_TRY(add_cell(b, &b->seen[i], p0, p1, sum));
   retire_crossings(b, p1);
-  for (int32_t k = 0; k < p1 - p0; k++)
-    cs_v4_store(sum + 4 * k, cs_strokes_hold(cs_v4_load(sum + 4 * k)));
-  return CELSPAN_OK;
+  return put_pixels(window, p0, p1, sum);
+}
+
+/* The same where one fragment goes through the row between two looks, as through most windows. */
+static celspan_status close_between(cs_window *window) {
+  const cs_fragment *f = window->fragments;
+  int32_t p0 = window->from, p1 = window->end;
+  float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
+  CS_TRY(cs_composer_colours(window->composer, f->left, p0, p1, window->centre, left));
+  CS_TRY(cs_composer_colours(window->composer, f->right, p0, p1, window->centre, right));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  for (int32_t p = p0; p < p1; p++) {
+    double area = p < f->end ? cover(f, p) : 1;
+    cs_v4_store(sum + 4 * (p - p0), cs_v4_load(left[p - p0]) * (float)(1 - area) +
+                                        cs_v4_load(right[p - p0]) * (float)area);
+  }
+  return put_pixels(window, p0, p1, sum);
+}
+
+static bool is_between(const cs_window *window) {
+  const cs_fragment *f = window->fragments;
+  const cs_composer *composer = window->composer;
+  return window->fragment_count == 1 && window->end - window->from <= CS_WINDOW_NARROW &&
+         f->first == window->from && f->height == 1 &&
+         (f->left == window->base || cs_composer_same(composer, f->left, window->base)) &&
+         !cs_composer_same(composer, f->left, f->right);
 }
 
 static celspan_status close_varying(cs_window *window) {
   blend b;
+  if (is_between(window))
+    return close_between(window);
   CS_TRY(begin_blend(window, &b));
   for (int32_t p = window->from; p < window->end; p += TILE)
     CS_TRY(close_tile(&b, p, window->end - p < TILE ? window->end : p + TILE));

@@ -25,42 +25,57 @@ celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
                         sizeof *row->spans);
 }
 
-static celspan_status append_varied(celspan_context *context, cs_row *row, celspan_span span) {
-  if (row->count == row->capacity)
-    CS_TRY(cs_row_grow(context, row));
-  row->spans[row->count++] = span;
-  cs_varied_count(&row->varied, span.kind);
-  return CELSPAN_OK;
+/* A span that varies, to be filled in; NULL without memory. */
+static inline celspan_span *append_varied(celspan_context *context, cs_row *row, int32_t x0,
+                                          int32_t x1, celspan_span_kind kind) {
+  if (row->count == row->capacity && cs_row_grow(context, row) != CELSPAN_OK)
+    return NULL;
+  celspan_span *span = &row->spans[row->count++];
+  span->x0 = span->origin = x0;
+  span->x1 = x1;
+  span->kind = kind;
+  cs_varied_count(&row->varied, kind);
+  return span;
 }
 
 celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                                cs_v4 colour, cs_v4 slope) {
   if (x1 - x0 < 2 || cs_v4_same(slope, cs_v4_all(0)))
     return cs_row_single(context, row, x0, x1, colour);
-  celspan_span span = {.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_GRADIENT, .origin = x0};
-  cs_v4_store(span.colour, colour);
-  cs_v4_store(span.slope, slope);
-  return append_varied(context, row, span);
+  celspan_span *span = append_varied(context, row, x0, x1, CELSPAN_SPAN_GRADIENT);
+  if (!span)
+    return CELSPAN_NO_MEMORY;
+  cs_v4_store(span->colour, colour);
+  cs_v4_store(span->slope, slope);
+  return CELSPAN_OK;
+}
+
+/* An array of one of two kinds in new room of the row's own arena. */
+static celspan_status append_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
+                                   size_t size, void **room, celspan_span **out) {
+  *room = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * size);
+  *out = *room ? append_varied(context, row, x0, x1, CELSPAN_SPAN_ARRAY) : NULL;
+  return *out ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
 celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                             float **colours) {
-  *colours = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * 4 * sizeof(float));
-  if (!*colours)
-    return CELSPAN_NO_MEMORY;
-  return append_varied(context, row,
-                (celspan_span){.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_ARRAY, .origin = x0,
-                               .array = *colours});
+  celspan_span *span;
+  void *room;
+  CS_TRY(append_array(context, row, x0, x1, 4 * sizeof(float), &room, &span));
+  span->array = *colours = room;
+  span->codes = NULL;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                             unsigned char **codes) {
-  *codes = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * 4);
-  if (!*codes)
-    return CELSPAN_NO_MEMORY;
-  return append_varied(context, row,
-                       (celspan_span){.x0 = x0, .x1 = x1, .kind = CELSPAN_SPAN_ARRAY, .origin = x0,
-                                      .codes = *codes});
+  celspan_span *span;
+  void *room;
+  CS_TRY(append_array(context, row, x0, x1, 4, &room, &span));
+  span->array = NULL;
+  span->codes = *codes = room;
+  return CELSPAN_OK;
 }
 
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
