@@ -27,25 +27,44 @@ void cs_palettes_destroy(cs_palettes *palettes, cs_memory *memory) {
   cs_mem_free(memory, palettes, sizeof *palettes);
 }
 
-/* ---------------------------------------------------------------- making one */
+cs_v4 cs_palette_fold(const cs_palette *palette, double x, double y) {
+  cs_v4 e = palette->e, t = palette->t;
+  for (size_t i = palette->layer_count; i-- > 0;) {
+    const cs_palette_layer *layer = &palette->layers[i];
+    double at = cs_shade_at(layer->shade, x, y);
+    const cs_palette_tint *tint = &layer->tints[cs_palette_part_at(layer->shade, at)];
+    float share = cs_palette_share(tint->at, tint->scale, at);
+    cs_v4 through = tint->t + tint->step_t * share;
+    e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
+    t = layer->t * (through * t);
+  }
+  e[3] = 1 - palette->keep * cs_stack_mean(t);
+  return e;
+}
 
-/* The one leaf of a program that varies, if it has stops; else CS_STACK_NONE. */
-static uint32_t find_varying(const cs_stack *stack, const cs_program *program) {
-  uint32_t found = CS_STACK_NONE;
+/* ---------------------------------------------------------------- which programs */
+
+/* How many gradients with stops vary in a program; 0 where anything else does. *first: the leaf of
+ * the first. */
+static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
+  size_t count = 0;
+  bool has_group = false;
   for (uint32_t i = 0; i < program->length; i++) {
-    uint32_t index = program->items[i].leaf;
-    const cs_leaf *leaf = &stack->leaves[index];
+    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
+    has_group |= leaf->group != CS_STACK_NONE;
     if (leaf->kind == CS_LEAF_FLAT)
       continue;
-    if (leaf->kind != CS_LEAF_SHADED || found != CS_STACK_NONE)
-      return CS_STACK_NONE;
-    const celspan_texture *texture = stack->shades[leaf->detail].texture;
-    if (texture->kind == CS_TEXTURE_TRIANGLE || texture->stop_count >= CS_BLEND_BATCH)
-      return CS_STACK_NONE;
-    found = index;
+    const celspan_texture *texture =
+        leaf->kind == CS_LEAF_SHADED ? stack->shades[leaf->detail].texture : NULL;
+    if (!texture || texture->kind == CS_TEXTURE_TRIANGLE || texture->stop_count >= CS_BLEND_BATCH)
+      return 0;
+    if (count++ == 0)
+      *first = program->items[i].leaf;
   }
-  return found;
+  return count > 1 && has_group ? 0 : count;
 }
+
+/* ---------------------------------------------------------------- one gradient */
 
 /* Paints of the stops, and clear. */
 typedef struct samples {
@@ -81,6 +100,12 @@ static celspan_status fold_stops(cs_composer *composer, const cs_program *progra
   return CELSPAN_OK;
 }
 
+/* 1 / the length from a stop to the next, 0 where they lie together. */
+static double scale_from(const cs_stop *stop) {
+  double length = stop[1].at - stop[0].at;
+  return length > 0 ? 1 / length : 0;
+}
+
 static void fill_parts(const celspan_texture *texture, const samples *folded,
                        cs_palette_part *parts) {
   size_t count = texture->stop_count;
@@ -88,32 +113,135 @@ static void fill_parts(const celspan_texture *texture, const samples *folded,
   parts[0] = (cs_palette_part){.colour = cs_v4_load(folded->rgba[0])};
   for (size_t i = 1; i < count; i++) {
     cs_v4 from = cs_v4_load(folded->rgba[i - 1]), to = cs_v4_load(folded->rgba[i]);
-    double length = stops[i].at - stops[i - 1].at;
-    parts[i] = (cs_palette_part){from, to - from, stops[i - 1].at, length > 0 ? 1 / length : 0};
+    parts[i] = (cs_palette_part){from, to - from, stops[i - 1].at, scale_from(&stops[i - 1])};
   }
   parts[count] = (cs_palette_part){.colour = cs_v4_load(folded->rgba[count - 1])};
   parts[count + 1] = (cs_palette_part){.colour = cs_v4_load(folded->rgba[count])};
 }
 
-static celspan_status make(cs_composer *composer, const cs_program *program, const cs_shade *shade,
-                           cs_set_hash name, cs_palette *out) {
-  cs_palettes *palettes = composer->palettes;
-  size_t count = shade->texture->stop_count + 2;
-  if (palettes->part_count + count > PART_LIMIT) {
-    memset(palettes->slots, 0, sizeof palettes->slots);
-    cs_arena_reset(&palettes->parts);
-    palettes->part_count = 0;
-  }
-  cs_arena_reset(&composer->scratch);
+/* Room for parts or tints, all of one program. */
+static void *take(cs_composer *composer, size_t count, size_t size) {
+  return cs_arena_take(composer->context, &composer->palettes->parts, count * size);
+}
+
+static celspan_status make_one(cs_composer *composer, const cs_program *program, cs_palette *out) {
+  const celspan_texture *texture = out->shade->texture;
   samples *room = cs_arena_take(composer->context, &composer->scratch, sizeof *room);
-  cs_palette_part *parts =
-      cs_arena_take(composer->context, &palettes->parts, count * sizeof *parts);
+  cs_palette_part *parts = take(composer, texture->stop_count + 2, sizeof *parts);
   if (!room || !parts)
     return CELSPAN_NO_MEMORY;
+  CS_TRY(fold_stops(composer, program, texture, room));
+  fill_parts(texture, room, parts);
+  out->parts = parts;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- several */
+
+static cs_palette_tint tint_of(const cs_leaf *leaf, const cs_paint *paint) {
+  cs_v4 s = {paint->s[0], paint->s[1], paint->s[2], 0};
+  cs_v4 t = {paint->t[0], paint->t[1], paint->t[2], 0};
+  return (cs_palette_tint){.s = leaf->front * (leaf->fade * s),
+                           .t = (1 - leaf->fade) + leaf->fade * t};
+}
+
+static void fill_tints(const cs_leaf *leaf, const celspan_texture *texture,
+                       cs_palette_tint *tints) {
+  size_t count = texture->stop_count;
+  const cs_paint clear = CS_PAINT_CLEAR;
+  tints[0] = tint_of(leaf, &texture->stops[0].paint);
+  for (size_t i = 1; i < count; i++) {
+    cs_palette_tint to = tint_of(leaf, &texture->stops[i].paint);
+    tints[i] = tint_of(leaf, &texture->stops[i - 1].paint);
+    tints[i].step_s = to.s - tints[i].s;
+    tints[i].step_t = to.t - tints[i].t;
+    tints[i].at = texture->stops[i - 1].at;
+    tints[i].scale = scale_from(&texture->stops[i - 1]);
+  }
+  tints[count] = tint_of(leaf, &texture->stops[count - 1].paint);
+  tints[count + 1] = tint_of(leaf, &clear);
+}
+
+/* Takes what has been folded out of the blend, which goes on as if nothing were before it. */
+static celspan_status cut_blend(cs_composer *composer, cs_blend *blend, cs_v4 *e, cs_v4 *t) {
+  cs_blend next;
+  *e = cs_v4_load(blend->level->e[0]);
+  *t = cs_v4_load(blend->level->t[0]);
+  CS_TRY(cs_blend_begin(composer->context, &composer->scratch, composer->stack, composer->isa, 1,
+                        &next));
+  blend->level = next.level;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_layer(cs_composer *composer, const cs_leaf *leaf, cs_blend *blend,
+                                cs_palette_layer *out) {
+  const cs_shade *shade = &composer->stack->shades[leaf->detail];
+  cs_palette_tint *tints = take(composer, shade->texture->stop_count + 2, sizeof *tints);
+  if (!tints)
+    return CELSPAN_NO_MEMORY;
+  fill_tints(leaf, shade->texture, tints);
+  out->shade = shade;
+  out->tints = tints;
+  return cut_blend(composer, blend, &out->e, &out->t);
+}
+
+static celspan_status make_several(cs_composer *composer, const cs_program *program,
+                                   size_t layer_count, cs_palette *out) {
+  const cs_stack *stack = composer->stack;
+  cs_palette_layer *layers = take(composer, layer_count, sizeof *layers);
+  cs_blend blend;
+  if (!layers)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_blend_begin(composer->context, &composer->scratch, stack, composer->isa, 1, &blend));
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
+    CS_TRY(cs_blend_reach(composer->context, &composer->scratch, &blend, program->items[i].leaf));
+    if (leaf->kind == CS_LEAF_FLAT)
+      cs_blend_flat(&blend, leaf);
+    else
+      CS_TRY(add_layer(composer, leaf, &blend, &layers[out->layer_count++]));
+  }
+  float rest[1][4];
+  out->layers = layers;
+  cs_blend_end(&blend, rest);
+  out->keep = blend.keep;
+  out->e = cs_v4_load(rest[0]);
+  out->t = cs_v4_load(blend.level->t[0]);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- either */
+
+/* Forgets all palettes when they have grown many. */
+static void make_way(cs_palettes *palettes, size_t count) {
   palettes->part_count += count;
-  CS_TRY(fold_stops(composer, program, shade->texture, room));
-  fill_parts(shade->texture, room, parts);
-  *out = (cs_palette){shade, parts, name};
+  if (palettes->part_count <= PART_LIMIT)
+    return;
+  memset(palettes->slots, 0, sizeof palettes->slots);
+  cs_arena_reset(&palettes->parts);
+  palettes->part_count = count;
+}
+
+static size_t count_parts(const cs_stack *stack, const cs_program *program) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
+    if (leaf->kind == CS_LEAF_SHADED)
+      count += stack->shades[leaf->detail].texture->stop_count + 3;
+  }
+  return count;
+}
+
+/* first: the leaf of the first of `count` gradients. */
+static celspan_status make(cs_composer *composer, const cs_program *program, uint32_t first,
+                           size_t count, cs_set_hash name, cs_palette *out) {
+  const cs_stack *stack = composer->stack;
+  cs_palette made = {.shade = &stack->shades[stack->leaves[first].detail], .name = name};
+  make_way(composer->palettes, count_parts(stack, program));
+  cs_arena_reset(&composer->scratch);
+  CS_TRY(count == 1 ? make_one(composer, program, &made)
+                    : make_several(composer, program, count, &made));
+  *out = made;
   return CELSPAN_OK;
 }
 
@@ -133,13 +261,14 @@ celspan_status cs_palette_find(cs_composer *composer, const cs_program *program,
                                const cs_palette **out) {
   const cs_stack *stack = composer->stack;
   *out = NULL;
-  uint32_t leaf = composer->palettes ? find_varying(stack, program) : CS_STACK_NONE;
-  if (leaf == CS_STACK_NONE)
+  uint32_t first = CS_STACK_NONE;
+  size_t count = composer->palettes ? count_varying(stack, program, &first) : 0;
+  if (count == 0)
     return CELSPAN_OK;
   cs_set_hash name = name_of(stack, program);
   cs_palette *slot = &composer->palettes->slots[name.a & (SLOTS - 1)];
   if (!slot->shade || !cs_set_hash_same(slot->name, name))
-    CS_TRY(make(composer, program, &stack->shades[stack->leaves[leaf].detail], name, slot));
+    CS_TRY(make(composer, program, first, count, name, slot));
   *out = slot;
   return CELSPAN_OK;
 }

@@ -1,6 +1,9 @@
-/* Programs in which a linear or radial gradient alone varies: all that is done to its paint - light,
- * fades, what lies before and behind it - is affine, so what they show is a mix of what they show at
- * two stops. The stops are folded once, and a pixel costs a look along them and a mix.
+/* Programs in which nothing but linear and radial gradients varies, folded as far as can be once.
+ *
+ * Of one gradient: all that is done to its paint - light, fades, what lies before and behind it - is
+ * affine, so what the program shows is a mix of what it shows at two stops. A pixel costs a look
+ * along the stops and a mix. Of several, in no faded group: what lies between them is folded, and a
+ * pixel is folded from the rear through one layer a gradient.
  *
  * Invariant: a pixel's colour depends on the program and the place alone. One store a composer; its
  * palettes hold for as long as the stack does.
@@ -19,11 +22,27 @@ typedef struct cs_palette_part {
                          last 0, as is the step */
 } cs_palette_part;
 
-typedef struct cs_palette {
+/* The paint of one of several gradients, lit and faded, from one stop to the next. */
+typedef struct cs_palette_tint {
+  cs_v4 s, step_s, t, step_t;
+  double at, scale;
+} cs_palette_tint;
+
+typedef struct cs_palette_layer {
+  cs_v4 e, t; /* light and transmission of what lies before it, up to the layer before */
   const cs_shade *shade;
-  const cs_palette_part *parts; /* one before each stop, one after the last, one behind the
+  const cs_palette_tint *tints; /* as parts */
+} cs_palette_layer;
+
+typedef struct cs_palette {
+  cs_v4 e, t;                   /* of several: what lies behind them all */
+  const cs_shade *shade;        /* of the only or the first */
+  const cs_palette_part *parts; /* of one: one before each stop, one after the last, one behind the
                                    horizon */
-  cs_set_hash name;             /* of the program's leaves */
+  const cs_palette_layer *layers; /* of several, front to back */
+  size_t layer_count;             /* 0: of one */
+  cs_set_hash name;               /* of the program's leaves */
+  float keep;                     /* what the mattes of back lights leave of transparency */
 } cs_palette;
 
 typedef struct cs_palettes cs_palettes;
@@ -37,26 +56,34 @@ CELSPAN_CHECKED celspan_status cs_palette_find(cs_composer *composer, const cs_p
                                                const cs_palette **out);
 
 /* Which part holds what lies at `at` along the stops. */
-static inline size_t cs_palette_part_at(const cs_palette *palette, double at) {
-  const celspan_texture *texture = palette->shade->texture;
+static inline size_t cs_palette_part_at(const cs_shade *shade, double at) {
+  const celspan_texture *texture = shade->texture;
   size_t part = 0;
+  if (at != at)
+    return texture->stop_count + 1;
   while (part < texture->stop_count && texture->stops[part].at <= at)
     part++;
   return part;
 }
 
-/* The colour of a part at `at`, held to its ends. */
-static inline cs_v4 cs_palette_mix(const cs_palette_part *part, double at) {
-  double share = cs_number_most(cs_number_least((at - part->at) * part->scale, 1), 0);
-  return part->colour + part->step * (float)share;
+/* How far on in a part, held to its ends; something where its step is 0. */
+static inline float cs_palette_share(double begin, double scale, double at) {
+  return (float)cs_number_most(cs_number_least((at - begin) * scale, 1), 0);
 }
+
+static inline cs_v4 cs_palette_mix(const cs_palette_part *part, double at) {
+  return part->colour + part->step * cs_palette_share(part->at, part->scale, at);
+}
+
+/* The colour at a point of the frame, of several gradients. */
+cs_v4 cs_palette_fold(const cs_palette *palette, double x, double y);
 
 /* The colour at a point of the frame. */
 static inline cs_v4 cs_palette_colour(const cs_palette *palette, double x, double y) {
+  if (palette->layer_count > 0)
+    return cs_palette_fold(palette, x, y);
   double at = cs_shade_at(palette->shade, x, y);
-  if (at != at)
-    return palette->parts[palette->shade->texture->stop_count + 1].colour;
-  return cs_palette_mix(&palette->parts[cs_palette_part_at(palette, at)], at);
+  return cs_palette_mix(&palette->parts[cs_palette_part_at(palette->shade, at)], at);
 }
 
 #endif

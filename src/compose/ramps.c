@@ -281,7 +281,7 @@ static celspan_status find_ends(const ramp *r, int32_t x0, int32_t x1, ends *out
 
 /* Whether the program is that, seen without perspective. */
 static bool is_linear(const cs_palette *palette) {
-  return palette && palette->shade->is_affine &&
+  return palette && palette->layer_count == 0 && palette->shade->is_affine &&
          palette->shade->texture->kind == CS_TEXTURE_LINEAR;
 }
 
@@ -302,7 +302,7 @@ static celspan_status run_linear(const ramp *r, int32_t x0, int32_t x1) {
     return cs_row_single(r->composer->context, r->row, x0, x1,
                          cs_palette_colour(r->palette, x0 + 0.5, r->y));
   }
-  size_t part = cs_palette_part_at(r->palette, at0 + step * (x0 + 0.5));
+  size_t part = cs_palette_part_at(shade, at0 + step * (x0 + 0.5));
   while (x0 < x1) {
     int32_t end = part_end(shade->texture, part, at0, step);
     end = end < x1 ? end : x1;
