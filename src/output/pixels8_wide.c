@@ -174,7 +174,7 @@ static inline cs_wide pixel_numbers(void) {
 }
 
 /* room: bytes up to the end of the row, which may be written. */
-static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+static inline void put_short_gradient(const celspan_span *span, unsigned char *out, size_t room) {
   const cs_wide colour = repeat_pixel(span->colour), slope = repeat_pixel(span->slope);
   const cs_wide numbers = pixel_numbers();
   unsigned char last[CS_WIDE_LANES];
@@ -189,6 +189,33 @@ static inline void put_gradient(const celspan_span *span, unsigned char *out, si
     room -= sizeof last;
   }
 }
+
+#ifdef __AVX512F__
+
+/* Sixteen pixels at once, by channel. */
+static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+  const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
+    put_short_gradient(span, out, room);
+    return;
+  }
+  for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, out += 4 * CS_WIDE_LANES) {
+    const cs_wide at = (cs_wide)numbers + (float)(x - span->origin);
+    cs_srgb8_planes colours;
+    for (int c = 0; c < 4; c++)
+      colours.channels[c] = span->colour[c] + span->slope[c] * at;
+    __mmask16 those = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
+    _mm512_mask_storeu_epi32(out, those, (__m512i)cs_srgb8_code_planes(&colours));
+  }
+}
+
+#else
+
+static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
+  put_short_gradient(span, out, room);
+}
+
+#endif
 
 static void put_varied(const target *row, const celspan_span *span) {
   size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
