@@ -5,14 +5,11 @@
 
 #include "base/number.h"
 #include "compose/blend.h"
-#include "compose/palette.h"
+#include "compose/palette_run.h"
 #include "compose/shade.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-/* A chord is accepted when it is this near the curve at its quarters: half of what is promised. */
-#define CHORD_TOLERANCE (0.5f / 1023)
 
 /* ---------------------------------------------------------------- ramps */
 
@@ -26,7 +23,7 @@ typedef struct ramp {
 
 static bool is_near(cs_v4 a, cs_v4 b) {
   for (int c = 0; c < 4; c++)
-    if (!(fabsf(a[c] - b[c]) <= CHORD_TOLERANCE))
+    if (!(fabsf(a[c] - b[c]) <= CS_RAMPS_TOLERANCE))
       return false;
   return true;
 }
@@ -41,25 +38,15 @@ static celspan_status ramp_colours(const ramp *r, const int32_t *columns, int32_
   return CELSPAN_OK;
 }
 
-/* The last column of [x0, x1) that is `quarter` quarters on. */
-static int32_t quarter_column(int32_t x0, int32_t x1, int quarter) {
-  return x0 + (int32_t)((int64_t)(x1 - 1 - x0) * quarter / 4);
-}
-
 /* Whether the line between the end columns of [x0, x1) is near the colours of the three quarters.
  */
 static bool is_straight(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, const float (*inner)[4]) {
   for (int quarter = 1; quarter <= 3 && x1 - x0 > 2; quarter++) {
-    float u = (float)(quarter_column(x0, x1, quarter) - x0) / (float)(x1 - 1 - x0);
+    float u = (float)(cs_ramps_quarter(x0, x1, quarter) - x0) / (float)(x1 - 1 - x0);
     if (!is_near(cs_v4_load(inner[quarter - 1]), first + u * (last - first)))
       return false;
   }
   return true;
-}
-
-static celspan_status put_line(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last) {
-  float steps = x1 - x0 > 1 ? (float)(x1 - 1 - x0) : 1;
-  return cs_row_gradient(r->composer->context, r->row, x0, x1, first, (last - first) / steps);
 }
 
 static celspan_status put_halves(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last);
@@ -70,11 +57,11 @@ static celspan_status put_ramp(const ramp *r, int32_t x0, int32_t x1, cs_v4 firs
   int32_t columns[3];
   float inner[3][4] = {{0}};
   for (int k = 0; k < 3; k++)
-    columns[k] = quarter_column(x0, x1, k + 1);
+    columns[k] = cs_ramps_quarter(x0, x1, k + 1);
   if (x1 - x0 > 2)
     CS_TRY(ramp_colours(r, columns, 3, inner));
   return is_straight(x0, x1, first, last, (const float(*)[4])inner)
-             ? put_line(r, x0, x1, first, last)
+             ? cs_ramps_line(r->composer->context, r->row, x0, x1, first, last)
              : put_halves(r, x0, x1, first, last);
 }
 
@@ -117,7 +104,7 @@ static void pick_columns(piece_shape shape, int32_t x0, int32_t x1, int32_t *col
   if (shape == STEPPED)
     columns[0] = x0 + (x1 - x0) / 2;
   for (int k = 0; k < (int)shape && shape != STEPPED; k++)
-    columns[k] = quarter_column(x0, x1, shape == STRAIGHT ? 4 * k : k);
+    columns[k] = cs_ramps_quarter(x0, x1, shape == STRAIGHT ? 4 * k : k);
 }
 
 static celspan_status put_piece(const ramp *r, piece_shape shape, int32_t x0, int32_t x1,
@@ -127,7 +114,7 @@ static celspan_status put_piece(const ramp *r, piece_shape shape, int32_t x0, in
     return cs_row_single(r->composer->context, r->row, x0, x1, first);
   if (shape == CURVED && !is_straight(x0, x1, first, last, rgba + 1))
     return put_halves(r, x0, x1, first, last);
-  return put_line(r, x0, x1, first, last);
+  return cs_ramps_line(r->composer->context, r->row, x0, x1, first, last);
 }
 
 /* The pieces between neighbours of `ends`, which ascend. */
@@ -275,56 +262,13 @@ static celspan_status find_ends(const ramp *r, int32_t x0, int32_t x1, ends *out
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- one linear gradient
- *
- * Pieces of it are straight and end where its stops are. */
-
-/* Whether the program is that, seen without perspective. */
-static bool is_linear(const cs_palette *palette) {
-  return palette && palette->layer_count == 0 && palette->shade->is_affine &&
-         palette->shade->texture->kind == CS_TEXTURE_LINEAR;
-}
-
-/* The column on the right of part `i` of a gradient that is at `at0` in x = 0 and changes by `step`
- * a pixel. */
-static int32_t part_end(const celspan_texture *texture, size_t i, double at0, double step) {
-  if (step > 0 ? i == texture->stop_count : i == 0)
-    return INT32_MAX;
-  return cs_number_first_centre((texture->stops[step > 0 ? i : i - 1].at - at0) / step);
-}
-
-static celspan_status run_linear(const ramp *r, int32_t x0, int32_t x1) {
-  const cs_shade *shade = r->palette->shade;
-  const double *plane = shade->plane[0];
-  double step = plane[0], at0 = plane[1] * r->y + plane[2];
-  if (step == 0) {
-    r->composer->evaluations++;
-    return cs_row_single(r->composer->context, r->row, x0, x1,
-                         cs_palette_colour(r->palette, x0 + 0.5, r->y));
-  }
-  size_t part = cs_palette_part_at(shade, at0 + step * (x0 + 0.5));
-  while (x0 < x1) {
-    int32_t end = part_end(shade->texture, part, at0, step);
-    end = end < x1 ? end : x1;
-    if (end > x0) {
-      const cs_palette_part *p = &r->palette->parts[part];
-      r->composer->evaluations += 2;
-      CS_TRY(put_line(r, x0, end, cs_palette_mix(p, at0 + step * (x0 + 0.5)),
-                      cs_palette_mix(p, at0 + step * (end - 0.5))));
-      x0 = end;
-    }
-    part += step > 0 ? 1 : (size_t)-1;
-  }
-  return CELSPAN_OK;
-}
-
 celspan_status cs_ramps_run(cs_composer *composer, const cs_program *program, int32_t x0,
                             int32_t x1, double y, cs_row *row) {
   ramp r = {composer, program, NULL, y, row};
   ends list;
   CS_TRY(cs_palette_find(composer, program, &r.palette));
-  if (is_linear(r.palette))
-    return run_linear(&r, x0, x1);
+  if (cs_palette_run_fits(r.palette))
+    return cs_palette_run(composer, r.palette, x0, x1, y, row);
   CS_TRY(find_ends(&r, x0, x1, &list));
   return put_pieces(&r, list.columns, list.count);
 }
