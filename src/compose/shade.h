@@ -15,19 +15,18 @@ void cs_shade_prepare(cs_shade *shade);
 /* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
  * behind the horizon. */
 static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
-  const double *p = shade->plane[0], *q = shade->plane[1];
-  double u = p[0] * x + (p[1] * y + p[2]), v = 0, w = 1;
-  if (shade->texture->kind == CS_TEXTURE_RADIAL)
-    v = q[0] * x + (q[1] * y + q[2]);
-  if (!shade->is_affine) {
-    const double *m = shade->inverse.m;
-    w = m[6] * x + (m[7] * y + m[8]);
-    w = w > 0 ? w : NAN;
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
+  double at = p[0] * x + (p[1] * y + p[2]);
+  if (shade->texture->kind == CS_TEXTURE_RADIAL) {
+    double v = q[0] * x + (q[1] * y + q[2]);
+    at = sqrt(at * at + v * v);
   }
-  if (shade->texture->kind == CS_TEXTURE_RADIAL)
-    u = sqrt(u * u + v * v);
-  return u / w;
+  if (shade->is_affine)
+    return at;
+  double w = m[6] * x + (m[7] * y + m[8]);
+  return w > 0 ? at / w : NAN;
 }
+
 /* A paint as it is folded: lane 3 is of no account. */
 typedef struct cs_shade_lanes {
   cs_v4 s, t;
