@@ -1,7 +1,7 @@
 /* Programs in which nothing but linear and radial gradients varies, folded as far as can be once.
  *
- * Of one gradient: all that is done to its paint - light, fades, what lies before and behind it - is
- * affine, so what the program shows is a mix of what it shows at two stops. A pixel costs a look
+ * Of one gradient: all that is done to its paint - light, fades, what lies before and behind it -
+ * is affine, so what the program shows is a mix of what it shows at two stops. A pixel costs a look
  * along the stops and a mix. Of several, in no faded group: what lies between them is folded, and a
  * pixel is folded from the rear through one layer a gradient.
  *

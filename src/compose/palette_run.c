@@ -50,8 +50,8 @@ static double steepness(const cs_palette_part *part) {
   return most * part->scale;
 }
 
-/* Whether the line between two columns is near the colours between them. Between neighbours of the
- * row's breaks the second derivative is greatest at the end nearer the centre: mostly that tells. */
+/* Whether the line between two columns is near the colours between them. In a piece the second
+ * derivative is greatest at the end nearer the centre: mostly that tells. */
 static bool is_straight(const run *r, double steep, const point *first, const point *last) {
   double columns = last->column - first->column;
   double near = cs_number_least(first->at, last->at);

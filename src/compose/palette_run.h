@@ -1,5 +1,5 @@
-/* Runs of one gradient without perspective: pieces end where its stops are, and how far a piece bends
- * is known without looking at its colours.
+/* Runs of one gradient without perspective: pieces end where its stops are, and how far a piece
+ * bends is known without looking at its colours.
  */
 #ifndef CS_COMPOSE_PALETTE_RUN_H
 #define CS_COMPOSE_PALETTE_RUN_H

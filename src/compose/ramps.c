@@ -30,22 +30,21 @@ static bool is_near(cs_v4 a, cs_v4 b) {
 
 static celspan_status ramp_colours(const ramp *r, const int32_t *columns, int32_t count,
                                    float (*rgba)[4]) {
-  if (!r->palette)
-    return cs_composer_colours_at(r->composer, r->program, columns, count, r->y, rgba);
-  r->composer->evaluations += (uint64_t)count;
-  for (int32_t k = 0; k < count; k++)
-    cs_v4_store(rgba[k], cs_palette_colour(r->palette, columns[k] + 0.5, r->y));
-  return CELSPAN_OK;
+  return cs_composer_colours_at(r->composer, r->program, columns, count, r->y, rgba);
+}
+
+/* The colour of a column on the line between the end columns of [x0, x1). */
+static cs_v4 on_line(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, int32_t column) {
+  return first + (float)(column - x0) / (float)(x1 - 1 - x0) * (last - first);
 }
 
 /* Whether the line between the end columns of [x0, x1) is near the colours of the three quarters.
  */
 static bool is_straight(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, const float (*inner)[4]) {
-  for (int quarter = 1; quarter <= 3 && x1 - x0 > 2; quarter++) {
-    float u = (float)(cs_ramps_quarter(x0, x1, quarter) - x0) / (float)(x1 - 1 - x0);
-    if (!is_near(cs_v4_load(inner[quarter - 1]), first + u * (last - first)))
+  for (int quarter = 1; quarter <= 3 && x1 - x0 > 2; quarter++)
+    if (!is_near(cs_v4_load(inner[quarter - 1]),
+                 on_line(x0, x1, first, last, cs_ramps_quarter(x0, x1, quarter))))
       return false;
-  }
   return true;
 }
 
@@ -132,6 +131,47 @@ static celspan_status put_pieces(const ramp *r, const int32_t *ends, size_t coun
       CS_TRY(put_piece(r, shape, ends[i + k], ends[i + k + 1],
                        (const float(*)[4])rgba + k * (size_t)shape));
   }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- pieces of a palette
+ *
+ * The same columns, but colours by themselves cost little: none is taken that does not count. */
+
+static cs_v4 palette_colour(const ramp *r, int32_t column) {
+  r->composer->evaluations++;
+  return cs_palette_colour(r->palette, column + 0.5, r->y);
+}
+
+/* middle: the colour of the second quarter. */
+static bool is_palette_straight(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last,
+                                cs_v4 middle) {
+  int32_t columns[3];
+  for (int k = 0; k < 3; k++)
+    columns[k] = cs_ramps_quarter(x0, x1, k + 1);
+  return is_near(middle, on_line(x0, x1, first, last, columns[1])) &&
+         is_near(palette_colour(r, columns[0]), on_line(x0, x1, first, last, columns[0])) &&
+         is_near(palette_colour(r, columns[2]), on_line(x0, x1, first, last, columns[2]));
+}
+
+static celspan_status put_palette_ramp(const ramp *r, int32_t x0, int32_t x1, cs_v4 first,
+                                       cs_v4 last) {
+  int32_t centre = cs_ramps_quarter(x0, x1, 2), middle = x0 + (x1 - x0) / 2;
+  cs_v4 colour = first;
+  if (x1 - x0 > 2)
+    colour = palette_colour(r, centre);
+  if (x1 - x0 <= 2 || is_palette_straight(r, x0, x1, first, last, colour))
+    return cs_ramps_line(r->composer->context, r->row, x0, x1, first, last);
+  cs_v4 before = centre == middle - 1 ? colour : palette_colour(r, middle - 1);
+  CS_TRY(put_palette_ramp(r, x0, middle, first, before));
+  cs_v4 after = centre == middle ? colour : palette_colour(r, middle);
+  return put_palette_ramp(r, middle, x1, after, last);
+}
+
+static celspan_status put_palette_pieces(const ramp *r, const int32_t *ends, size_t count) {
+  for (size_t i = 0; i + 1 < count; i++)
+    CS_TRY(put_palette_ramp(r, ends[i], ends[i + 1], palette_colour(r, ends[i]),
+                            palette_colour(r, ends[i + 1] - 1)));
   return CELSPAN_OK;
 }
 
@@ -270,5 +310,6 @@ celspan_status cs_ramps_run(cs_composer *composer, const cs_program *program, in
   if (cs_palette_run_fits(r.palette))
     return cs_palette_run(composer, r.palette, x0, x1, y, row);
   CS_TRY(find_ends(&r, x0, x1, &list));
-  return put_pieces(&r, list.columns, list.count);
+  return r.palette ? put_palette_pieces(&r, list.columns, list.count)
+                   : put_pieces(&r, list.columns, list.count);
 }
