@@ -261,14 +261,17 @@ celspan_status cs_palette_find(cs_composer *composer, const cs_program *program,
                                const cs_palette **out) {
   const cs_stack *stack = composer->stack;
   *out = NULL;
-  uint32_t first = CS_STACK_NONE;
-  size_t count = composer->palettes ? count_varying(stack, program, &first) : 0;
-  if (count == 0)
+  if (!composer->palettes)
     return CELSPAN_OK;
   cs_set_hash name = name_of(stack, program);
   cs_palette *slot = &composer->palettes->slots[name.a & (SLOTS - 1)];
-  if (!slot->shade || !cs_set_hash_same(slot->name, name))
+  if (!slot->shade || !cs_set_hash_same(slot->name, name)) {
+    uint32_t first = CS_STACK_NONE;
+    size_t count = count_varying(stack, program, &first);
+    if (count == 0)
+      return CELSPAN_OK;
     CS_TRY(make(composer, program, first, count, name, slot));
+  }
   *out = slot;
   return CELSPAN_OK;
 }
