@@ -49,7 +49,7 @@ static celspan_status keep_cell(cs_scan *scan, size_t i, const cs_cell *cell,
 celspan_status cs_carry_cluster(const cs_cluster *cluster, size_t low, size_t high) {
   cs_carried *carried;
   size_t count = high - low;
-  if (cluster->count != count)
+  if (count == 0 || cluster->count != count)
     return CELSPAN_OK;
   for (size_t j = 0; j < count; j++) {
     uint32_t place = cluster->members[j]->place;
