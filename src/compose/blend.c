@@ -77,6 +77,17 @@ void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
   (blend->level, blend->count, (const float *)&leaf->front, leaf->fade, s, t);
 }
 
+celspan_status cs_blend_leaf(celspan_context *context, cs_arena *arena, cs_blend *blend,
+                             uint32_t leaf, const float (*s)[4], const float (*t)[4]) {
+  const cs_leaf *at = &blend->stack->leaves[leaf];
+  CS_TRY(cs_blend_reach(context, arena, blend, leaf));
+  if (at->kind == CS_LEAF_FLAT)
+    cs_blend_flat(blend, at);
+  else
+    cs_blend_paints(blend, at, s, t);
+  return CELSPAN_OK;
+}
+
 cs_blend_part cs_blend_bare(cs_isa isa, bool is_first, const float (*rgba)[4], cs_blend_part part,
                             float (*folded)[4]) {
   return CS_WIDE_CHOOSE(isa, cs_blend_fold_bare)(is_first, rgba, part, folded);

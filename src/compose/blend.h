@@ -45,6 +45,10 @@ void cs_blend_picture(cs_blend *blend, const cs_leaf *leaf, celspan_picture_use 
                       const float (*rgba)[4]);
 void cs_blend_paints(cs_blend *blend, const cs_leaf *leaf, const float (*s)[4],
                      const float (*t)[4]);
+/* Reaches a leaf and folds it: a flat one as it is, any other by its paints. */
+CELSPAN_CHECKED celspan_status cs_blend_leaf(celspan_context *context, cs_arena *arena,
+                                             cs_blend *blend, uint32_t leaf, const float (*s)[4],
+                                             const float (*t)[4]);
 /* Premultiplied RGBA of the pixels. */
 void cs_blend_end(cs_blend *blend, float (*rgba)[4]);
 

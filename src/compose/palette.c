@@ -88,14 +88,9 @@ static celspan_status fold_stops(cs_composer *composer, const cs_program *progra
   put_paint(room, texture->stop_count, &clear);
   CS_TRY(cs_blend_begin(composer->context, scratch, stack, composer->isa,
                         (int32_t)texture->stop_count + 1, &blend));
-  for (uint32_t i = 0; i < program->length; i++) {
-    const cs_leaf *leaf = &stack->leaves[program->items[i].leaf];
-    CS_TRY(cs_blend_reach(composer->context, scratch, &blend, program->items[i].leaf));
-    if (leaf->kind == CS_LEAF_FLAT)
-      cs_blend_flat(&blend, leaf);
-    else
-      cs_blend_paints(&blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
-  }
+  for (uint32_t i = 0; i < program->length; i++)
+    CS_TRY(cs_blend_leaf(composer->context, scratch, &blend, program->items[i].leaf,
+                         (const float(*)[4])room->s, (const float(*)[4])room->t));
   cs_blend_end(&blend, room->rgba);
   return CELSPAN_OK;
 }

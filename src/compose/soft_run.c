@@ -46,14 +46,9 @@ static celspan_status try_paints(walk *w, trials *room) {
   cs_arena *scratch = &composer->scratch;
   cs_blend blend;
   CS_TRY(cs_blend_begin(context, scratch, composer->stack, composer->isa, TRIALS, &blend));
-  for (uint32_t i = 0; i < w->program->length; i++) {
-    const cs_leaf *leaf = &composer->stack->leaves[w->program->items[i].leaf];
-    CS_TRY(cs_blend_reach(context, scratch, &blend, w->program->items[i].leaf));
-    if (leaf->kind == CS_LEAF_FLAT)
-      cs_blend_flat(&blend, leaf);
-    else
-      cs_blend_paints(&blend, leaf, (const float(*)[4])room->s, (const float(*)[4])room->t);
-  }
+  for (uint32_t i = 0; i < w->program->length; i++)
+    CS_TRY(cs_blend_leaf(context, scratch, &blend, w->program->items[i].leaf,
+                         (const float(*)[4])room->s, (const float(*)[4])room->t));
   cs_blend_end(&blend, room->rgba);
   return CELSPAN_OK;
 }
