@@ -1,9 +1,10 @@
-/* The jobs of celspan itself:
+/* The jobs of celspan itself. ANTIALIAS and OUTPUT: see frames.h.
  *
- *   celspan shapes DRAWING SIDE area|none OUTPUT WORKERS [FILE]      OUTPUT: see frames.h
+ *   celspan shapes DRAWING SIDE ANTIALIAS OUTPUT WORKERS [FILE]
  *   celspan look DRAWING SIDE               the picture's cells, blended as coded values
- *   celspan digest DRAWING SIDE             of the pixels, to compare with what readers decode
- *   celspan soft DRAWING SIDE RADIUS KERNEL spans|row    RADIUS in pixels
+ *   celspan digest DRAWING SIDE [ANTIALIAS] of the pixels, to compare with what readers decode, and
+ *                                           of the spans
+ *   celspan soft DRAWING SIDE RADIUS KERNEL OUTPUT       RADIUS in pixels
  *   celspan picture|backed|planes ...       see picture_jobs.c
  */
 #include <stdlib.h>
@@ -17,7 +18,7 @@
 
 static void measure_shapes(bench_frame_job *job, int count, char **words) {
   if (count < 5)
-    bench_stop("shapes DRAWING SIDE area|none OUTPUT WORKERS [FILE]");
+    bench_stop("shapes DRAWING SIDE ANTIALIAS OUTPUT WORKERS [FILE]");
   bench_drawing drawing = bench_drawing_read(words[0]);
   int side = atoi(words[1]);
   job->rostrum = bench_scene(job->context, &drawing, NULL);
@@ -44,7 +45,7 @@ static void look(bench_frame_job *job, int count, char **words) {
 static void measure_soft(bench_frame_job *job, int count, char **words) {
   static const char *const kernels[] = {"gaussian", "box", "disc"};
   if (count != 5)
-    bench_stop("soft DRAWING SIDE RADIUS KERNEL spans|row");
+    bench_stop("soft DRAWING SIDE RADIUS KERNEL OUTPUT");
   bench_drawing drawing = bench_drawing_read(words[0]);
   int side = atoi(words[1]), kernel = 0;
   while (kernel < 2 && strcmp(words[3], kernels[kernel]) != 0)
@@ -58,34 +59,14 @@ static void measure_soft(bench_frame_job *job, int count, char **words) {
   bench_drawing_free(&drawing);
 }
 
-/* ---------------------------------------------------------------- digests */
-
-typedef struct digest_row {
-  unsigned char *pixels;
-  uint64_t digest;
-} digest_row;
-
-static celspan_status take_row(void *user, celspan_context *context, int32_t y,
-                               const celspan_span *spans, size_t span_count) {
-  digest_row *row = user;
-  (void)context, (void)y;
-  celspan_spans_code(&bench_coded, spans, span_count, row->pixels);
-  row->digest = bench_digest(row->digest, row->pixels, (size_t)spans[span_count - 1].x1, 4);
-  return CELSPAN_OK;
-}
-
 static void tell_digest(bench_frame_job *job, int count, char **words) {
-  if (count != 2)
-    bench_stop("digest DRAWING SIDE");
+  if (count < 2)
+    bench_stop("digest DRAWING SIDE [ANTIALIAS]");
   bench_drawing drawing = bench_drawing_read(words[0]);
   int side = atoi(words[1]);
   job->rostrum = bench_scene(job->context, &drawing, NULL);
-  bench_job_open(job, side, side, "area", "row", 1);
-  digest_row row = {malloc(4 * (size_t)side), BENCH_DIGEST_BEGIN};
-  const celspan_sink sink = {.user = &row, .row = take_row};
-  bench_check(job->context, celspan_frame_render(job->context, &job->desc, &sink, NULL));
-  bench_tell_digest(row.digest);
-  free(row.pixels);
+  bench_job_open(job, side, side, count > 2 ? words[2] : "area", "digest", 1);
+  bench_job_measure(job);
   bench_drawing_free(&drawing);
 }
 

@@ -1,5 +1,6 @@
 #include "frames.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,11 +11,23 @@ const celspan_coding bench_coded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELS
 const celspan_coding bench_uncoded = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_LINEAR,
                                       CELSPAN_ALPHA_STRAIGHT};
 
+static void choose_antialias(bench_frame_job *job, const char *antialias) {
+  static const char *const kernels[] = {"box", "gaussian", "mitchell", "lanczos"};
+  static const celspan_kernel numbers[] = {CELSPAN_KERNEL_BOX, CELSPAN_KERNEL_GAUSSIAN,
+                                           CELSPAN_KERNEL_MITCHELL, CELSPAN_KERNEL_LANCZOS};
+  job->mode = strcmp(antialias, "none") == 0 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
+  for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
+    if (strcmp(antialias, kernels[i]) == 0) {
+      job->mode = CELSPAN_ANTIALIAS_FILTER;
+      job->desc.filter.kernel = numbers[i];
+    }
+}
+
 void bench_job_open(bench_frame_job *job, int width, int height, const char *antialias,
                     const char *output, int workers) {
   job->exposure = (celspan_exposure){job->rostrum, 1};
-  job->mode = strcmp(antialias, "none") == 0 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
   job->desc = bench_frame(&job->exposure, width, height, &job->mode);
+  choose_antialias(job, antialias);
   job->desc.workers = workers;
   job->output = output;
   job->pixels = NULL;
@@ -39,7 +52,68 @@ void bench_job_render(void *user) {
   bench_check(context, status);
 }
 
+/* ---------------------------------------------------------------- digests */
+
+typedef struct frame_digests {
+  unsigned char *pixels; /* of one row */
+  uint64_t of_pixels;    /* 8 bits, as the benchmark codes them */
+  uint64_t of_spans;     /* where spans begin and end, and every bit of what they hold */
+} frame_digests;
+
+static celspan_status take_pixels(void *user, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t count) {
+  frame_digests *digests = user;
+  (void)context, (void)y;
+  celspan_spans_code(&bench_coded, spans, count, digests->pixels);
+  digests->of_pixels =
+      bench_digest(digests->of_pixels, digests->pixels, (size_t)spans[count - 1].x1, 4);
+  return CELSPAN_OK;
+}
+
+static celspan_status take_spans(void *user, celspan_context *context, int32_t y,
+                                 const celspan_span *spans, size_t count) {
+  frame_digests *digests = user;
+  uint64_t digest = digests->of_spans;
+  for (size_t i = 0; i < count; i++) {
+    const celspan_span *span = &spans[i];
+    const int32_t head[] = {span->x0, span->x1, (int32_t)span->kind};
+    digest = bench_digest(digest, (const uint8_t *)head, 3, 4);
+    if (span->kind == CELSPAN_SPAN_ARRAY) {
+      size_t values = 4 * (size_t)(span->x1 - span->x0);
+      digest = bench_digest(digest, (const uint8_t *)span->array, values, 4);
+      continue;
+    }
+    digest = bench_digest(digest, (const uint8_t *)span->colour, 4, 4);
+    if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      digest = bench_digest(digest, (const uint8_t *)&span->origin, 1, 4);
+      digest = bench_digest(digest, (const uint8_t *)span->slope, 4, 4);
+    }
+  }
+  digests->of_spans = digest;
+  return take_pixels(user, context, y, spans, count);
+}
+
+static void tell_digests(bench_frame_job *job) {
+  frame_digests digests = {malloc(4 * (size_t)job->desc.width), BENCH_DIGEST_BEGIN,
+                           BENCH_DIGEST_BEGIN};
+  celspan_sink sink = {.user = &digests, .row = take_spans};
+  bench_check(job->context, celspan_frame_render(job->context, &job->desc, &sink, NULL));
+  bench_tell_digest(digests.of_pixels);
+  printf("span_digest %016llx ", (unsigned long long)digests.of_spans);
+  digests.of_pixels = BENCH_DIGEST_BEGIN;
+  sink = (celspan_sink){.user = &digests, .row = take_pixels, .takes_codes = true};
+  bench_check(job->context, celspan_frame_render(job->context, &job->desc, &sink, NULL));
+  printf("code_digest %016llx ", (unsigned long long)digests.of_pixels);
+  free(digests.pixels);
+}
+
+/* ---------------------------------------------------------------- measuring */
+
 void bench_job_measure(bench_frame_job *job) {
+  if (strcmp(job->output, "digest") == 0) {
+    tell_digests(job);
+    return;
+  }
   bench_measure(bench_job_render, job);
   bench_tell("spans", (double)job->statistics.spans);
   bench_tell("colours", (double)job->statistics.colour_evaluations);

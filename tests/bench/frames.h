@@ -21,12 +21,14 @@ typedef struct bench_frame_job {
   unsigned char *pixels;
 } bench_frame_job;
 
-/* output: spans, row (8-bit pixels into one row that is used again), whole (an image in memory) or
- * file (job->file, by its ending). The film is 1 x 1; job->rostrum was set. borrowed */
+/* antialias: area, none, or a kernel of its own radius: box, gaussian, mitchell, lanczos.
+ * output: spans, row (8-bit pixels into one row that is used again), whole (an image in memory),
+ * file (job->file, by its ending) or digest. The film is 1 x 1; job->rostrum was set. borrowed */
 void bench_job_open(bench_frame_job *job, int width, int height, const char *antialias,
                     const char *output, int workers);
 void bench_job_render(void *job);
-/* Measures frames and tells their statistics. */
+/* Measures frames and tells their statistics. Where the output is digest nothing is measured: a
+ * frame is made once for its spans and once more for its codes, and their digests are told. */
 void bench_job_measure(bench_frame_job *job);
 /* Tells the picture's cells; the output is whole. */
 void bench_job_look(bench_frame_job *job);
