@@ -40,8 +40,9 @@ void cs_memory_unref(cs_memory *memory) {
 }
 
 static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
-  size_t now = atomic_fetch_add_explicit(&memory->bytes, new_size - old_size, memory_order_relaxed) +
-               (new_size - old_size);
+  size_t now =
+      atomic_fetch_add_explicit(&memory->bytes, new_size - old_size, memory_order_relaxed) +
+      (new_size - old_size);
   size_t peak = atomic_load_explicit(&memory->peak, memory_order_relaxed);
   while (now > peak && !atomic_compare_exchange_weak_explicit(
                            &memory->peak, &peak, now, memory_order_relaxed, memory_order_relaxed)) {
@@ -71,8 +72,8 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
   return items ? memset(items, 0, size) : NULL;
 }
 
-celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
-                           size_t needed, size_t item_size) {
+celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity, size_t needed,
+                           size_t item_size) {
   size_t wanted = *capacity < 16 ? 16 : *capacity, size;
   while (wanted < needed)
     if (__builtin_mul_overflow(wanted, (size_t)2, &wanted))
@@ -140,7 +141,8 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
     desc = &defaults;
   if (desc->struct_size != sizeof *desc)
     return CELSPAN_BAD_ARGUMENT;
-  cs_memory *memory = memory_create(desc->resize ? desc->resize : default_resize, desc->resize_user);
+  cs_memory *memory =
+      memory_create(desc->resize ? desc->resize : default_resize, desc->resize_user);
   if (!memory)
     return CELSPAN_NO_MEMORY;
   celspan_context *context = cs_mem_array(memory, 1, sizeof *context);
@@ -179,9 +181,10 @@ void celspan_context_memory(const celspan_context *context, size_t *bytes, size_
 }
 
 void cs_context_branch(celspan_context *branch, celspan_context *from) {
-  *branch = (celspan_context){
-      .memory = from->memory, .root = from->root, .picture_bytes = from->picture_bytes,
-      .defocus_bytes = from->defocus_bytes};
+  *branch = (celspan_context){.memory = from->memory,
+                              .root = from->root,
+                              .picture_bytes = from->picture_bytes,
+                              .defocus_bytes = from->defocus_bytes};
 }
 
 static void trim(cs_service **place) {

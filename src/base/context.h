@@ -32,8 +32,9 @@ typedef struct cs_service {
 struct celspan_context {
   cs_memory *memory;
   celspan_context *root; /* itself, or the context it was branched from */
-  cs_service *pictures;  /* root only; owned; made on first use, by any thread, by scene/picture.c */
-  cs_service *soft_bands; /* likewise, by filter/soft_bands.c */
+  cs_service
+      *pictures; /* root only; owned; made on first use, by any thread, by pictures/picture.c */
+  cs_service *soft_bands; /* likewise, by defocus/bands.c */
   size_t picture_bytes, defocus_bytes;
   char error[1024];
 };
@@ -51,8 +52,8 @@ void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
 
 /* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are
  * kept. Status NO_MEMORY, recorded; *items is then unchanged. */
-CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items,
-                                           size_t *capacity, size_t needed, size_t item_size);
+CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
+                                           size_t needed, size_t item_size);
 static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
                                                             size_t *capacity, size_t needed,
                                                             size_t item_size) {
@@ -72,11 +73,11 @@ void cs_context_branch(celspan_context *branch, celspan_context *from);
 /* Drops what is kept for later frames and what no frame holds now. Any thread. */
 void cs_context_trim(celspan_context *context);
 
-#define CS_TRY(call)                               \
-  do {                                             \
-    celspan_status try_status_ = (call);           \
-    if (try_status_ != CELSPAN_OK)                 \
-      return try_status_;                          \
+#define CS_TRY(call)                                                                               \
+  do {                                                                                             \
+    celspan_status try_status_ = (call);                                                           \
+    if (try_status_ != CELSPAN_OK)                                                                 \
+      return try_status_;                                                                          \
   } while (0)
 
 #endif

@@ -9,7 +9,7 @@ void cs_elementary_sincos(double radians, double *sine, double *cosine);
 double cs_elementary_tan(double radians);
 double cs_elementary_atan2(double y, double x);
 double cs_elementary_exp(double x);
-double cs_elementary_log(double x); /* x > 0 */
+double cs_elementary_log(double x);                     /* x > 0 */
 double cs_elementary_pow(double base, double exponent); /* base >= 0 */
 
 #endif

@@ -15,11 +15,16 @@
 /* Where a module may lie, seen from the folder of the object that holds this function: an
  * installed library or program, a Lua module in the build tree, a test program. */
 static const char *const folders[] = {
-    "picture",          "../picture",
-    "src/picture",      "../src/picture",
-    "celspan",          "../../src/picture",
-    "../lib/celspan",   "../lib/x86_64-linux-gnu/celspan",
-    "../lib64/celspan", ".",
+    "oiio",
+    "../oiio",
+    "src/oiio",
+    "../src/oiio",
+    "celspan",
+    "../../src/oiio",
+    "../lib/celspan",
+    "../lib/x86_64-linux-gnu/celspan",
+    "../lib64/celspan",
+    ".",
 };
 
 /* The folder of the running object, without the final slash; false when it cannot be told. */

@@ -59,16 +59,19 @@ static inline void *cs_wide_align(void *block) {
 #define CS_WIDE_SPREAD(v, c)                                                                       \
   __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4, (c) + 8,   \
                           (c) + 8, (c) + 8, (c) + 8, (c) + 12, (c) + 12, (c) + 12, (c) + 12)
-#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a}
+#define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
+  { r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a }
 #elif defined(__AVX2__)
 #define CS_WIDE_LANES 8
 #define CS_WIDE_SPREAD(v, c)                                                                       \
   __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4)
-#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a, r, g, b, a}
+#define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
+  { r, g, b, a, r, g, b, a }
 #else
 #define CS_WIDE_LANES 4
 #define CS_WIDE_SPREAD(v, c) __builtin_shufflevector(v, v, (c), (c), (c), (c))
-#define CS_WIDE_PIXEL(r, g, b, a) {r, g, b, a}
+#define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
+  { r, g, b, a }
 #endif
 
 typedef float cs_wide __attribute__((vector_size(4 * CS_WIDE_LANES)));

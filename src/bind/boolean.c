@@ -2,7 +2,7 @@
  * xor{a, b, c}. */
 #include "bind/host.h"
 #include "bind/module.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 /* The objects of the array part: scratch memory, left on the stack. */
 static celspan_object **read_operands(const cs_form *form, int count) {
@@ -10,16 +10,16 @@ static celspan_object **read_operands(const cs_form *form, int count) {
   celspan_object **operands = cs_form_scratch(L, (size_t)count, sizeof *operands);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
-    cs_value *value = cs_value_test(L, -1, &cs_kind_object);
+    cs_userdata *value = cs_userdata_test(L, -1, &cs_kind_object);
     if (!value)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_value_type(L, -1));
+      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
     operands[i] = value->handle;
     lua_pop(L, 1);
   }
   return operands;
 }
 
-static void create(const cs_form *form, cs_value *value, celspan_operator op) {
+static void create(const cs_form *form, cs_userdata *value, celspan_operator op) {
   int count = cs_form_length(form);
   celspan_object **operands = read_operands(form, count);
   celspan_object *object = NULL;
@@ -28,17 +28,21 @@ static void create(const cs_form *form, cs_value *value, celspan_operator op) {
   value->handle = object;
 }
 
-static void create_union(const cs_form *form, cs_value *value) {
+static void create_union(const cs_form *form, cs_userdata *value) {
   create(form, value, CELSPAN_UNION);
 }
-static void create_intersection(const cs_form *form, cs_value *value) {
+static void create_intersection(const cs_form *form, cs_userdata *value) {
   create(form, value, CELSPAN_INTERSECTION);
 }
-static void create_difference(const cs_form *form, cs_value *value) {
+static void create_difference(const cs_form *form, cs_userdata *value) {
   create(form, value, CELSPAN_DIFFERENCE);
 }
-static void create_xor(const cs_form *form, cs_value *value) { create(form, value, CELSPAN_XOR); }
-static void create_clip(const cs_form *form, cs_value *value) { create(form, value, CELSPAN_CLIP); }
+static void create_xor(const cs_form *form, cs_userdata *value) {
+  create(form, value, CELSPAN_XOR);
+}
+static void create_clip(const cs_form *form, cs_userdata *value) {
+  create(form, value, CELSPAN_CLIP);
+}
 
 static const cs_field no_fields[] = {{0}};
 #define BOOLEAN(noun)                                                                              \
@@ -53,30 +57,30 @@ static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_PARTS};
 static int clip(lua_State *L) {
   static const char *const names[] = {"the art", "the shape"};
   for (int i = 1; i <= 2; i++)
-    if (!cs_value_test(L, i, &cs_kind_object))
+    if (!cs_userdata_test(L, i, &cs_kind_object))
       return luaL_error(L, "clip: argument %d, %s, must be an object, got %s", i, names[i - 1],
-                        cs_value_type(L, i));
+                        cs_userdata_type(L, i));
   lua_createtable(L, 2, 0);
   for (int i = 1; i <= 2; i++) {
     lua_pushvalue(L, i);
     lua_rawseti(L, -2, i);
   }
-  cs_value_construct(L, &noun_clip, lua_gettop(L));
+  cs_userdata_construct(L, &noun_clip, lua_gettop(L));
   return 1;
 }
 
 /* ---------------------------------------------------------------- operators */
 
-static cs_value *operand(lua_State *L, int index, const char *sign) {
-  cs_value *value = cs_value_test(L, index, &cs_kind_object);
+static cs_userdata *operand(lua_State *L, int index, const char *sign) {
+  cs_userdata *value = cs_userdata_test(L, index, &cs_kind_object);
   if (!value)
     luaL_error(L, "operator %s: both sides must be objects, the %s one is %s", sign,
-               index == 1 ? "left" : "right", cs_value_type(L, index));
+               index == 1 ? "left" : "right", cs_userdata_type(L, index));
   return value;
 }
 
 static int operate(lua_State *L, const cs_noun *noun, const char *sign) {
-  const cs_value *left = operand(L, 1, sign);
+  const cs_userdata *left = operand(L, 1, sign);
   operand(L, 2, sign);
   lua_settop(L, 2);
   lua_newtable(L);
@@ -92,8 +96,8 @@ static int operate(lua_State *L, const cs_noun *noun, const char *sign) {
   }
   lua_pushvalue(L, 2);
   lua_rawseti(L, 3, count + 1);
-  cs_value_construct(L, noun, 3);
-  cs_value *value = lua_touserdata(L, -1);
+  cs_userdata_construct(L, noun, 3);
+  cs_userdata *value = lua_touserdata(L, -1);
   value->is_chain = true;
   return 1;
 }
@@ -103,7 +107,7 @@ static int operate_intersection(lua_State *L) { return operate(L, &noun_intersec
 static int operate_difference(lua_State *L) { return operate(L, &noun_difference, "-"); }
 static int operate_xor(lua_State *L) { return operate(L, &noun_xor, "~"); }
 
-void cs_boolean_open(lua_State *L) {
+void cs_open_boolean(lua_State *L) {
   static const cs_noun *const nouns[] = {&noun_union, &noun_intersection, &noun_difference,
                                          &noun_xor};
   static const luaL_Reg operators[] = {{"__bor", operate_union},
@@ -112,7 +116,7 @@ void cs_boolean_open(lua_State *L) {
                                        {"__bxor", operate_xor},
                                        {NULL, NULL}};
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_value_push_constructor(L, nouns[i]);
+    cs_userdata_push_constructor(L, nouns[i]);
     lua_setfield(L, -2, nouns[i]->name);
   }
   lua_pushcfunction(L, clip);

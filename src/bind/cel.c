@@ -2,7 +2,7 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/placed.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static void unref(void *handle) { celspan_cel_unref(handle); }
 
@@ -53,19 +53,19 @@ static void read_defocus(const cs_form *form, celspan_cel_desc *desc) {
     desc->defocus_kernel = (celspan_defocus_kernel)cs_form_choice(&inner, "kernel", kernels);
   } else if (type != LUA_TNIL)
     cs_form_fail(form, "field 'defocus' must be a radius or {radius =, kernel =}, got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
 }
 
-static void create(const cs_form *form, cs_value *value) {
+static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   int count = cs_form_length(form);
   celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
-    cs_value *item = cs_value_test(L, -1, &cs_kind_object);
+    cs_userdata *item = cs_userdata_test(L, -1, &cs_kind_object);
     if (!item)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_value_type(L, -1));
+      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
     objects[i] = item->handle;
     lua_pop(L, 1);
   }
@@ -90,8 +90,8 @@ static const cs_noun noun = {.name = "cel",
                              .fields = fields,
                              .create = create};
 
-void cs_cel_open(lua_State *L) {
-  cs_value_register(L, &cs_kind_cel, cs_placed_methods);
-  cs_value_push_constructor(L, &noun);
+void cs_open_cel(lua_State *L) {
+  cs_userdata_register(L, &cs_kind_cel, cs_placed_methods);
+  cs_userdata_push_constructor(L, &noun);
   lua_setfield(L, -2, noun.name);
 }

@@ -3,7 +3,7 @@
  *   embed OUT.c lua/celspan/ease.lua lua/celspan/keys.lua ...
  *
  * For each file NAME.lua it writes the source as bytes and a function luaopen_celspan_NAME, so that
- * one celspan.so serves `require "celspan.NAME"` too; cs_embedded_open puts them all into
+ * one celspan.so serves `require "celspan.NAME"` too; cs_open_embedded puts them all into
  * package.preload. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,7 +60,7 @@ static const char head[] =
     "  return 1;\n}\n\n";
 
 static const char tail[] = "  {\"celspan.core\", luaopen_celspan_core},\n  {NULL, NULL}};\n\n"
-                           "void cs_embedded_open(lua_State *L) {\n"
+                           "void cs_open_embedded(lua_State *L) {\n"
                            "  luaL_getsubtable(L, LUA_REGISTRYINDEX, LUA_PRELOAD_TABLE);\n"
                            "  luaL_setfuncs(L, modules, 0);\n"
                            "  lua_pop(L, 1);\n}\n";

@@ -10,7 +10,7 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/options.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 #define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
 #define MOST_SIDE 1048576
@@ -40,7 +40,7 @@ static void check_whole(const cs_form *form, const char *name, double least) {
                  cs_form_digits(form->L, least), MOST_FRAMES, cs_form_digits(form->L, number));
 }
 
-static void check_film(const cs_form *form, cs_value *value) {
+static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   (void)value;
   check_size(form);
@@ -61,7 +61,7 @@ static void check_film(const cs_form *form, cs_value *value) {
   lua_pushliteral(L, "frame");
   if (lua_rawget(L, form->table) != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
 }
 
 /* What was left out: size, and frames from the duration or the other way round. */
@@ -99,7 +99,7 @@ const cs_noun cs_noun_film = {.name = "film",
 
 /* film:at(number): what the frame function returns, for tests and tools. */
 static int film_at(lua_State *L) {
-  cs_value_self(L, &cs_kind_film, "at");
+  cs_userdata_self(L, &cs_kind_film, "at");
   lua_Integer number = luaL_checkinteger(L, 2);
   cs_film_push_frame(L, 1, number);
   return 1;
@@ -122,15 +122,15 @@ void cs_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height
   lua_pushvalue(L, rostrum);
   lua_pushcclosure(L, constant_frame, 1);
   lua_setfield(L, -2, "frame");
-  cs_value_construct(L, &cs_noun_film, lua_gettop(L));
+  cs_userdata_construct(L, &cs_noun_film, lua_gettop(L));
   lua_remove(L, -2);
 }
 
-void cs_film_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_value_with}, {"at", film_at}, {NULL, NULL}};
-  cs_value_register(L, &cs_kind_film, methods);
+void cs_open_film(lua_State *L) {
+  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {"at", film_at}, {NULL, NULL}};
+  cs_userdata_register(L, &cs_kind_film, methods);
   cs_frame_register(L);
-  cs_value_push_constructor(L, &cs_noun_film);
+  cs_userdata_push_constructor(L, &cs_noun_film);
   lua_setfield(L, -2, cs_noun_film.name);
 }
 
@@ -217,7 +217,7 @@ static int handle_error(lua_State *L) {
   lua_settop(L, 1);
   const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
   if (!message)
-    message = lua_pushfstring(L, "the error is not a message: %s", cs_value_type(L, 1));
+    message = lua_pushfstring(L, "the error is not a message: %s", cs_userdata_type(L, 1));
   push_traceback(L);
   lua_rawsetp(L, LUA_REGISTRYINDEX, &traceback_key);
   const char *label = lua_tostring(L, lua_upvalueindex(1));
@@ -414,10 +414,10 @@ static int run_script(lua_State *L) {
   for (int i = 0; i < s->argument_count; i++)
     lua_pushstring(L, s->arguments[i]);
   lua_call(L, s->argument_count, 1);
-  if (cs_value_test(L, -1, &cs_kind_rostrum))
+  if (cs_userdata_test(L, -1, &cs_kind_rostrum))
     cs_film_push_still(L, -1, 1920, 1080);
-  if (!cs_value_test(L, -1, &cs_kind_film))
-    luaL_error(L, "%s must return a film or a rostrum, got %s", s->path, cs_value_type(L, -1));
+  if (!cs_userdata_test(L, -1, &cs_kind_film))
+    luaL_error(L, "%s must return a film or a rostrum, got %s", s->path, cs_userdata_type(L, -1));
   return 1;
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 #include "bind/host.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 #define MOST_FIELDS 32
 
@@ -90,7 +90,7 @@ static void check_names(const cs_form *form) {
     } else if (lua_isinteger(L, -2))
       check_place(form, lua_tointeger(L, -2), length);
     else
-      cs_form_fail(form, "a field's name must be a word, got %s", cs_value_type(L, -2));
+      cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
   }
   if (unknown)
     fail_unknown(form, unknown);
@@ -106,7 +106,7 @@ cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index) {
   cs_form form = {L, noun, lua_absindex(L, index)};
   luaL_checkstack(L, 40, noun->name);
   if (lua_type(L, index) != LUA_TTABLE)
-    cs_form_fail(&form, "takes a table, %s{ ... }, got %s", noun->name, cs_value_type(L, index));
+    cs_form_fail(&form, "takes a table, %s{ ... }, got %s", noun->name, cs_userdata_type(L, index));
   check_names(&form);
   check_either(&form);
   return form;
@@ -121,7 +121,7 @@ static int get_field(const cs_form *form, const char *name) {
 }
 
 static _Noreturn void fail_type(const cs_form *form, const char *name, const char *wanted) {
-  cs_form_fail(form, "field '%s' must be %s, got %s", name, wanted, cs_value_type(form->L, -1));
+  cs_form_fail(form, "field '%s' must be %s, got %s", name, wanted, cs_userdata_type(form->L, -1));
 }
 
 bool cs_form_has(const cs_form *form, const char *name) {
@@ -213,7 +213,7 @@ bool cs_form_numbers(const cs_form *form, const char *name, int count, double *o
     bool is_table = lua_istable(L, place);
     cs_form_fail(form, "field '%s' must be an array of %d numbers, got %s", name, count,
                  is_table ? lua_pushfstring(L, "a table of %d values", (int)lua_rawlen(L, place))
-                          : cs_value_type(L, place));
+                          : cs_userdata_type(L, place));
   }
   for (int i = 0; i < count; i++)
     out[i] = number_at(L, place, i + 1);
@@ -250,7 +250,7 @@ bool cs_form_box(const cs_form *form, const char *name, celspan_box *out) {
 static bool read_paint(lua_State *L, int index, celspan_paint *out) {
   if (lua_type(L, index) == LUA_TSTRING)
     return celspan_paint_parse(lua_tostring(L, index), out);
-  const cs_value *value = cs_value_test(L, index, &cs_kind_paint);
+  const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (value)
     *out = value->paint;
   return value != NULL;
@@ -259,7 +259,7 @@ static bool read_paint(lua_State *L, int index, celspan_paint *out) {
 static _Noreturn void fail_colour(const cs_form *form, const char *subject, const char *wanted) {
   if (lua_type(form->L, -1) == LUA_TSTRING)
     cs_form_fail(form, "%s must be %s, got \"%s\"", subject, wanted, lua_tostring(form->L, -1));
-  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_value_type(form->L, -1));
+  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_userdata_type(form->L, -1));
 }
 
 static _Noreturn void fail_field_colour(const cs_form *form, const char *name, const char *wanted) {
@@ -291,15 +291,15 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
   lua_State *L = form->L;
   if (get_field(form, name) == LUA_TNIL)
     return NULL;
-  cs_value *value = cs_value_test(L, -1, &cs_kind_texture);
+  cs_userdata *value = cs_userdata_test(L, -1, &cs_kind_texture);
   if (!value)
-    value = cs_value_test(L, -1, &cs_kind_paint);
+    value = cs_userdata_test(L, -1, &cs_kind_paint);
   if (value)
     return value->handle; /* kept alive by the table */
   celspan_paint paint;
   if (!read_paint(L, -1, &paint))
     fail_field_colour(form, name, "a paint, a texture or a colour like \"#rrggbb\"");
-  value = cs_value_push(L, &cs_noun_paint);
+  value = cs_userdata_push(L, &cs_noun_paint);
   celspan_texture *texture = NULL;
   cs_form_try(form, celspan_texture_create_paint(cs_host_context(L), &paint, &texture));
   value->handle = texture;
@@ -317,7 +317,7 @@ int cs_form_length(const cs_form *form) {
 
 void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape) {
   if (lua_rawgeti(form->L, form->table, i) != type)
-    cs_form_fail(form, "%s %d must be %s, got %s", what, i, shape, cs_value_type(form->L, -1));
+    cs_form_fail(form, "%s %d must be %s, got %s", what, i, shape, cs_userdata_type(form->L, -1));
 }
 
 void *cs_form_scratch(lua_State *L, size_t count, size_t size) {
@@ -335,7 +335,7 @@ celspan_point *cs_form_points(const cs_form *form, int index, int count, const d
     if (!is_array(L, place, 2, weights ? 3 : 2))
       cs_form_fail(form, "point %d must be %s, got %s", i + 1,
                    weights ? "{x, y} or {x, y, weight}" : "{x, y}",
-                   lua_istable(L, place) ? "a table of other values" : cs_value_type(L, place));
+                   lua_istable(L, place) ? "a table of other values" : cs_userdata_type(L, place));
     points[i] = (celspan_point){number_at(L, place, 1), number_at(L, place, 2)};
     if (weights) {
       bool has_weight = lua_rawlen(L, place) == 3;
@@ -365,7 +365,7 @@ double *cs_form_array(const cs_form *form, const char *name, size_t *count) {
 double cs_form_part_number(const cs_form *form, int index, int part, const char *what, int item) {
   if (lua_rawgeti(form->L, index, part) != LUA_TNUMBER)
     cs_form_fail(form, "%s %d: its value %d must be a number, got %s", what, item, part,
-                 cs_value_type(form->L, -1));
+                 cs_userdata_type(form->L, -1));
   double number = lua_tonumber(form->L, -1);
   lua_pop(form->L, 1);
   return number;
@@ -389,7 +389,7 @@ celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const
 
 double cs_form_argument(lua_State *L, int index, const char *function, const char *name) {
   if (lua_type(L, index) != LUA_TNUMBER)
-    luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_value_type(L, index));
+    luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_userdata_type(L, index));
   double number = lua_tonumber(L, index);
   if (!(fabs(number) <= CS_NUMBER_LIMIT))
     luaL_error(L, "%s: %s must be a number from -1e12 to 1e12, got %s", function, name,

@@ -14,7 +14,7 @@
 #include "celspan/celspan.h"
 
 struct cs_kind;
-struct cs_value;
+struct cs_userdata;
 struct cs_form;
 
 typedef struct cs_field {
@@ -36,7 +36,7 @@ typedef struct cs_noun {
   const char *item;       /* "object": one of them; NULL without a list */
   const cs_field *fields; /* ended by a NULL name */
   const char *either[2];  /* fields of which only one may be given; NULL: none */
-  void (*create)(const struct cs_form *form, struct cs_value *value);
+  void (*create)(const struct cs_form *form, struct cs_userdata *value);
   void (*complete)(lua_State *L, int fields); /* works out frozen fields; NULL: nothing to do */
 } cs_noun;
 

@@ -3,7 +3,7 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 const cs_kind cs_kind_frame = {.name = "celspan.frame"};
 
@@ -66,17 +66,17 @@ static bool is_whole(lua_State *L, int index, lua_Integer *out) {
 static lua_Integer whole(lua_State *L, int index, const char *name) {
   lua_Integer number = 0;
   if (!is_whole(L, index, &number))
-    luaL_error(L, "random: %s must be a whole number, got %s", name, cs_value_type(L, index));
+    luaL_error(L, "random: %s must be a whole number, got %s", name, cs_userdata_type(L, index));
   return number;
 }
 
 /* f:random(label) 0 <= x < 1; f:random(label, m) 1..m; f:random(label, m, n) m..n. */
 static int random_number(lua_State *L) {
-  const cs_value *frame = cs_value_self(L, &cs_kind_frame, "random");
+  const cs_userdata *frame = cs_userdata_self(L, &cs_kind_frame, "random");
   int type = lua_type(L, 2);
   if (type != LUA_TSTRING && type != LUA_TNUMBER)
     return luaL_error(L, "random: the label must be a string or a number, got %s",
-                      cs_value_type(L, 2));
+                      cs_userdata_type(L, 2));
   size_t size;
   const char *label = luaL_tolstring(L, 2, &size);
   uint64_t hash = finalise(hash_bytes(frame->seed, label, size));
@@ -99,7 +99,7 @@ static int random_number(lua_State *L) {
 
 /* f:on(n): the index held for n frames. */
 static int on(lua_State *L) {
-  cs_value_self(L, &cs_kind_frame, "on");
+  cs_userdata_self(L, &cs_kind_frame, "on");
   lua_Integer step = 0;
   if (!is_whole(L, 2, &step) || step < 1)
     return luaL_error(L, "on: takes a whole number of frames, 1 or more, f:on(2)");
@@ -124,7 +124,7 @@ static void set_number(lua_State *L, const char *name, double number) {
 
 void cs_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
   int64_t index = number - film->first;
-  cs_value *value = cs_value_push(L, &noun);
+  cs_userdata *value = cs_userdata_push(L, &noun);
   value->seed = seed_of(film, number);
   lua_createtable(L, 0, 9);
   set_integer(L, "number", number);
@@ -141,5 +141,5 @@ void cs_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
 
 void cs_frame_register(lua_State *L) {
   static const luaL_Reg methods[] = {{"on", on}, {"random", random_number}, {NULL, NULL}};
-  cs_value_register(L, &cs_kind_frame, methods);
+  cs_userdata_register(L, &cs_kind_frame, methods);
 }

@@ -33,23 +33,23 @@ static int nearest(lua_State *L) {
 
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"resolve", resolve}, {"nearest", nearest}, {NULL, NULL}};
-  cs_host_open(L, NULL);
+  cs_open_host(L, NULL);
   luaL_newlib(L, functions);
   return 1;
 }
 
 int luaopen_celspan(lua_State *L) {
   static void (*const openers[])(lua_State *) = {
-      cs_paint_open,    cs_texture_open, cs_object_open, cs_primitive_open,
-      cs_scanline_open, cs_boolean_open, cs_cel_open,    cs_rostrum_open,
-      cs_film_open,     cs_render_open,  cs_pixels_open, cs_spans_open};
+      cs_open_paint,    cs_open_texture, cs_open_object, cs_open_primitive,
+      cs_open_scanline, cs_open_boolean, cs_open_cel,    cs_open_rostrum,
+      cs_open_film,     cs_open_render,  cs_open_pixels, cs_open_spans};
   luaL_checkversion(L);
-  cs_host_open(L, NULL);
+  cs_open_host(L, NULL);
   lua_createtable(L, 0, 32);
   lua_pushfstring(L, "celspan %s", celspan_version());
   lua_setfield(L, -2, "_VERSION");
   for (size_t i = 0; i < sizeof openers / sizeof *openers; i++)
     openers[i](L);
-  cs_embedded_open(L);
+  cs_open_embedded(L);
   return 1;
 }

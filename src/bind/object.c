@@ -2,7 +2,7 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/placed.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static void unref(void *handle) { celspan_object_unref(handle); }
 
@@ -38,4 +38,4 @@ const cs_kind cs_kind_object = {.name = "celspan.object",
                                 .bounds = bounds,
                                 .contains = contains};
 
-void cs_object_open(lua_State *L) { cs_value_register(L, &cs_kind_object, cs_placed_methods); }
+void cs_open_object(lua_State *L) { cs_userdata_register(L, &cs_kind_object, cs_placed_methods); }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "bind/value.h"
+#include "bind/userdata.h"
 #include "scene/antialias.h"
 
 /* ---------------------------------------------------------------- antialiasing */
@@ -40,7 +40,7 @@ static void sample_function(const cs_form *form, celspan_filter_desc *filter) {
     lua_call(L, 1, 1);
     if (lua_type(L, -1) != LUA_TNUMBER)
       cs_form_fail(form, "the kernel function must return a number, got %s at x = %f",
-                   cs_value_type(L, -1), x);
+                   cs_userdata_type(L, -1), x);
     kernel->values[i] = lua_tonumber(L, -1);
     lua_pop(L, 1);
   }
@@ -82,7 +82,7 @@ bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
   }
   if (type != LUA_TNIL && type != LUA_TSTRING)
     cs_form_fail(form, "field 'antialias' must be \"area\", \"none\" or {kernel =, ...}, got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
   lua_pop(L, 1);
   if (type != LUA_TNIL)
     *mode = (celspan_antialias_mode)cs_form_choice(form, "antialias", modes);
@@ -126,7 +126,7 @@ void cs_options_read(const cs_form *form, cs_options_frame *out) {
     desc->antialias = &out->antialias;
 }
 
-cs_form cs_options_open(lua_State *L, const cs_noun *noun, int index) {
+cs_form cs_open_options(lua_State *L, const cs_noun *noun, int index) {
   if (lua_isnoneornil(L, index)) {
     lua_newtable(L);
     index = lua_gettop(L);
@@ -142,16 +142,16 @@ static celspan_exposure read_exposure(lua_State *L, int list, int anchors, int i
                                       const char *name) {
   if (lua_rawgeti(L, list, i) != LUA_TTABLE)
     luaL_error(L, "%s: exposure %d must be {rostrum, weight}, got %s", name, i,
-               cs_value_type(L, -1));
+               cs_userdata_type(L, -1));
   lua_rawgeti(L, -1, 1);
-  const cs_value *rostrum = cs_value_test(L, -1, &cs_kind_rostrum);
+  const cs_userdata *rostrum = cs_userdata_test(L, -1, &cs_kind_rostrum);
   if (!rostrum)
     luaL_error(L, "%s: exposure %d: its first value must be a rostrum, got %s", name, i,
-               cs_value_type(L, -1));
+               cs_userdata_type(L, -1));
   int type = lua_rawgeti(L, -2, 2);
   if (type != LUA_TNUMBER && type != LUA_TNIL)
     luaL_error(L, "%s: exposure %d: its weight must be a number, got %s", name, i,
-               cs_value_type(L, -1));
+               cs_userdata_type(L, -1));
   double weight = type == LUA_TNIL ? 1 : lua_tonumber(L, -1);
   lua_pop(L, 1);
   lua_rawseti(L, anchors, i);
@@ -161,10 +161,10 @@ static celspan_exposure read_exposure(lua_State *L, int list, int anchors, int i
 
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc) {
   index = lua_absindex(L, index);
-  const cs_value *rostrum = cs_value_test(L, index, &cs_kind_rostrum);
+  const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
   if (!rostrum && (!lua_istable(L, index) || lua_rawlen(L, index) > 100000))
     luaL_error(L, "%s must be a rostrum or a list {{rostrum, weight}, ...}, got %s", name,
-               lua_istable(L, index) ? "a list that is too long" : cs_value_type(L, index));
+               lua_istable(L, index) ? "a list that is too long" : cs_userdata_type(L, index));
   size_t count = rostrum ? 1 : lua_rawlen(L, index);
   celspan_exposure *exposures = cs_form_scratch(L, count, sizeof *exposures);
   lua_newtable(L);

@@ -1,7 +1,7 @@
 /* Paints: the Beta colour model in Lua. */
 #include "bind/host.h"
 #include "bind/module.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static void unref_paint(void *handle) { celspan_texture_unref(handle); }
 
@@ -9,7 +9,7 @@ const cs_kind cs_kind_paint = {.name = "celspan.paint", .unref = unref_paint};
 
 /* A paint is at once a texture of one paint: so the core checks it at the door, and objects share
  * it. */
-static void fill(lua_State *L, const char *noun, cs_value *value, celspan_paint paint) {
+static void fill(lua_State *L, const char *noun, cs_userdata *value, celspan_paint paint) {
   celspan_texture *texture = NULL;
   cs_host_try(L, noun, celspan_texture_create_paint(cs_host_context(L), &paint, &texture));
   value->handle = texture;
@@ -25,7 +25,7 @@ static celspan_paint from_doubles(const double pigment[3], const double medium[3
   return paint;
 }
 
-static void create_paint(const cs_form *form, cs_value *value) {
+static void create_paint(const cs_form *form, cs_userdata *value) {
   double pigment[3] = {0, 0, 0}, medium[3] = {1, 1, 1};
   cs_form_numbers(form, "pigment", 3, pigment);
   cs_form_numbers(form, "medium", 3, medium);
@@ -65,7 +65,7 @@ const cs_noun cs_noun_paint = {.name = "paint",
 
 static int push_paint(lua_State *L, const char *noun, const double pigment[3],
                       const double medium[3], double beta) {
-  cs_value *value = cs_value_push(L, &cs_noun_paint);
+  cs_userdata *value = cs_userdata_push(L, &cs_noun_paint);
   fill(L, noun, value, from_doubles(pigment, medium, beta));
   lua_createtable(L, 0, 3);
   set_triple(L, "pigment", pigment);
@@ -99,10 +99,10 @@ static celspan_paint mix_argument(lua_State *L, int index) {
   celspan_paint paint;
   if (lua_type(L, index) == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, index), &paint))
     return paint;
-  const cs_value *value = cs_value_test(L, index, &cs_kind_paint);
+  const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (!value)
     luaL_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
-               lua_isstring(L, index) ? lua_tostring(L, index) : cs_value_type(L, index));
+               lua_isstring(L, index) ? lua_tostring(L, index) : cs_userdata_type(L, index));
   return value->paint;
 }
 
@@ -121,13 +121,13 @@ static int mix(lua_State *L) {
   return push_paint(L, "mix", pigment, medium, paint.beta);
 }
 
-void cs_paint_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_value_with}, {NULL, NULL}};
+void cs_open_paint(lua_State *L) {
+  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
   static const luaL_Reg functions[] = {
       {"rgb", make_rgb}, {"gel", make_gel}, {"mix", mix}, {NULL, NULL}};
-  cs_value_register(L, &cs_kind_paint, methods);
+  cs_userdata_register(L, &cs_kind_paint, methods);
   luaL_setfuncs(L, functions, 0);
-  cs_value_push_constructor(L, &cs_noun_paint);
+  cs_userdata_push_constructor(L, &cs_noun_paint);
   lua_setfield(L, -2, "paint");
   push_paint(L, "clear", (const double[]){0, 0, 0}, (const double[]){1, 1, 1}, 0);
   lua_setfield(L, -2, "clear");

@@ -3,20 +3,20 @@
 #include <math.h>
 
 #include "bind/host.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 #define PI 3.14159265358979323846
 
 double cs_placed_radians(double degrees) { return fmod(degrees, 360) * (PI / 180); }
 
-static cs_value *self(lua_State *L, const char *method) {
-  cs_value *value = cs_value_test(L, 1, &cs_kind_object);
-  return value ? value : cs_value_self(L, &cs_kind_cel, method);
+static cs_userdata *self(lua_State *L, const char *method) {
+  cs_userdata *value = cs_userdata_test(L, 1, &cs_kind_object);
+  return value ? value : cs_userdata_self(L, &cs_kind_cel, method);
 }
 
 /* Pushes a copy of `from` with the same fields and no reference of its own yet. */
-static cs_value *push_twin(lua_State *L, const cs_value *from) {
-  cs_value *twin = cs_value_push(L, from->noun);
+static cs_userdata *push_twin(lua_State *L, const cs_userdata *from) {
+  cs_userdata *twin = cs_userdata_push(L, from->noun);
   twin->matrix = from->matrix;
   twin->fade = from->fade;
   lua_getiuservalue(L, 1, 1); /* frozen, so it can be shared */
@@ -24,9 +24,9 @@ static cs_value *push_twin(lua_State *L, const cs_value *from) {
   return twin;
 }
 
-static int push_transformed(lua_State *L, const char *method, const cs_value *value,
+static int push_transformed(lua_State *L, const char *method, const cs_userdata *value,
                             celspan_matrix matrix) {
-  cs_value *twin = push_twin(L, value);
+  cs_userdata *twin = push_twin(L, value);
   cs_host_try(
       L, method,
       value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &twin->handle));
@@ -35,14 +35,14 @@ static int push_transformed(lua_State *L, const char *method, const cs_value *va
 }
 
 static int translate(lua_State *L) {
-  const cs_value *value = self(L, "translate");
+  const cs_userdata *value = self(L, "translate");
   double dx = cs_form_argument(L, 2, "translate", "dx"),
          dy = cs_form_argument(L, 3, "translate", "dy");
   return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
 }
 
 static int scale(lua_State *L) {
-  const cs_value *value = self(L, "scale");
+  const cs_userdata *value = self(L, "scale");
   double sx = cs_form_argument(L, 2, "scale", "sx");
   double sy = lua_isnoneornil(L, 3) ? sx : cs_form_argument(L, 3, "scale", "sy");
   return push_transformed(L, "scale", value, celspan_matrix_scaling(sx, sy));
@@ -61,7 +61,7 @@ static celspan_matrix rotation(double degrees, celspan_point centre) {
 }
 
 static int rotate(lua_State *L) {
-  const cs_value *value = self(L, "rotate");
+  const cs_userdata *value = self(L, "rotate");
   double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
   celspan_point centre = {0, 0};
   if (!lua_isnoneornil(L, 3) || !lua_isnoneornil(L, 4)) {
@@ -72,7 +72,7 @@ static int rotate(lua_State *L) {
 }
 
 static int skew(lua_State *L) {
-  const cs_value *value = self(L, "skew");
+  const cs_userdata *value = self(L, "skew");
   double x = cs_form_argument(L, 2, "skew", "the first angle in degrees");
   double y = cs_form_argument(L, 3, "skew", "the second angle in degrees");
   celspan_matrix matrix = celspan_matrix_skewing(cs_placed_radians(x), cs_placed_radians(y));
@@ -80,7 +80,7 @@ static int skew(lua_State *L) {
 }
 
 static int transform(lua_State *L) {
-  const cs_value *value = self(L, "transform");
+  const cs_userdata *value = self(L, "transform");
   celspan_matrix matrix;
   bool good = lua_istable(L, 2) && lua_rawlen(L, 2) == 9;
   for (int i = 0; good && i < 9; i++) {
@@ -107,7 +107,7 @@ static void read_corners(lua_State *L, int index, celspan_point corners[4]) {
 }
 
 static int quad(lua_State *L) {
-  const cs_value *value = self(L, "quad");
+  const cs_userdata *value = self(L, "quad");
   lua_settop(L, 3);
   celspan_point from[4], to[4];
   read_corners(L, 2, from);
@@ -120,9 +120,9 @@ static int quad(lua_State *L) {
 }
 
 static int fade(lua_State *L) {
-  const cs_value *value = self(L, "fade");
+  const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
-  cs_value *twin = push_twin(L, value);
+  cs_userdata *twin = push_twin(L, value);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &twin->handle));
   twin->fade = value->fade * k;
@@ -130,7 +130,7 @@ static int fade(lua_State *L) {
 }
 
 static int bounds(lua_State *L) {
-  const cs_value *value = self(L, "bounds");
+  const cs_userdata *value = self(L, "bounds");
   celspan_box box;
   if (!value->noun->kind->bounds(value->handle, &box))
     return 0;
@@ -142,14 +142,21 @@ static int bounds(lua_State *L) {
 }
 
 static int contains(lua_State *L) {
-  const cs_value *value = self(L, "contains");
+  const cs_userdata *value = self(L, "contains");
   celspan_point point = {cs_form_argument(L, 2, "contains", "x"),
                          cs_form_argument(L, 3, "contains", "y")};
   lua_pushboolean(L, value->noun->kind->contains(value->handle, point));
   return 1;
 }
 
-const luaL_Reg cs_placed_methods[] = {
-    {"translate", translate}, {"scale", scale},        {"rotate", rotate}, {"skew", skew},
-    {"transform", transform}, {"quad", quad},          {"fade", fade},     {"bounds", bounds},
-    {"contains", contains},   {"with", cs_value_with}, {NULL, NULL}};
+const luaL_Reg cs_placed_methods[] = {{"translate", translate},
+                                      {"scale", scale},
+                                      {"rotate", rotate},
+                                      {"skew", skew},
+                                      {"transform", transform},
+                                      {"quad", quad},
+                                      {"fade", fade},
+                                      {"bounds", bounds},
+                                      {"contains", contains},
+                                      {"with", cs_userdata_with},
+                                      {NULL, NULL}};

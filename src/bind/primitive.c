@@ -2,7 +2,7 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/texture.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static const char *const rules[] = {"nonzero", "evenodd", NULL};
 
@@ -14,7 +14,8 @@ static celspan_rule read_rule(const cs_form *form) {
 static double corner(const cs_form *form, int place, const char *name) {
   lua_State *L = form->L;
   if (lua_rawgeti(L, form->table, place) != LUA_TNUMBER)
-    cs_form_fail(form, "value %d (%s) must be a number, got %s", place, name, cs_value_type(L, -1));
+    cs_form_fail(form, "value %d (%s) must be a number, got %s", place, name,
+                 cs_userdata_type(L, -1));
   double number = lua_tonumber(L, -1);
   lua_pop(L, 1);
   return number;
@@ -26,7 +27,7 @@ static void check_length(const cs_form *form, int wanted, const char *shape) {
     cs_form_fail(form, "takes %s, got %d values", shape, length);
 }
 
-static void create_rect(const cs_form *form, cs_value *value) {
+static void create_rect(const cs_form *form, cs_userdata *value) {
   celspan_rect_desc desc = {.x = corner(form, 1, "x"),
                             .y = corner(form, 2, "y"),
                             .width = corner(form, 3, "width"),
@@ -39,7 +40,7 @@ static void create_rect(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_triangle(const cs_form *form, cs_value *value) {
+static void create_triangle(const cs_form *form, cs_userdata *value) {
   check_length(form, 3, "three points {x, y}");
   const celspan_point *points = cs_form_points(form, form->table, 3, NULL);
   celspan_triangle_desc desc = {.points = {points[0], points[1], points[2]},
@@ -49,7 +50,7 @@ static void create_triangle(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_ellipse(const cs_form *form, cs_value *value) {
+static void create_ellipse(const cs_form *form, cs_userdata *value) {
   double radii[2];
   if (!cs_form_numbers(form, "radii", 2, radii))
     cs_form_fail(form, "field 'radii' must be an array of 2 numbers, got nil");
@@ -63,7 +64,7 @@ static void create_ellipse(const cs_form *form, cs_value *value) {
 }
 
 /* The core knows ellipses only: what it says of their radii is said of the circle's radius. */
-static void create_circle(const cs_form *form, cs_value *value) {
+static void create_circle(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_context *context = cs_host_context(L);
   double radius = cs_form_number(form, "radius");
@@ -81,7 +82,7 @@ static void create_circle(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_polygon(const cs_form *form, cs_value *value) {
+static void create_polygon(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
   celspan_polygon_desc desc = {.points = cs_form_points(form, form->table, count, NULL),
                                .point_count = (size_t)count,
@@ -92,7 +93,7 @@ static void create_polygon(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_nurbs(const cs_form *form, cs_value *value) {
+static void create_nurbs(const cs_form *form, cs_userdata *value) {
   static const char *const closures[] = {"periodic", "clamped", NULL};
   lua_State *L = form->L;
   celspan_nurbs_desc desc = {.degree = cs_form_integer_or(form, "degree", 3),
@@ -104,7 +105,7 @@ static void create_nurbs(const cs_form *form, cs_value *value) {
   lua_pushliteral(L, "points");
   if (lua_rawget(L, form->table) != LUA_TTABLE)
     cs_form_fail(form, "field 'points' must be an array of points {x, y} or {x, y, weight}, got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
   int count = (int)lua_rawlen(L, -1);
   desc.point_count = (size_t)count;
   desc.points = cs_form_points(form, -1, count, &desc.weights);
@@ -115,7 +116,7 @@ static void create_nurbs(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_path(const cs_form *form, cs_value *value) {
+static void create_path(const cs_form *form, cs_userdata *value) {
   celspan_path_desc desc = {.data = cs_form_text(form, "d"),
                             .rule = read_rule(form),
                             .texture = cs_form_texture(form, "texture")};
@@ -124,7 +125,7 @@ static void create_path(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-static void create_image(const cs_form *form, cs_value *value) {
+static void create_image(const cs_form *form, cs_userdata *value) {
   static const char *const fits[] = {"fill", "contain", "cover", NULL};
   celspan_image_desc desc = {.x = cs_form_number_or(form, "x", 0),
                              .y = cs_form_number_or(form, "y", 0),
@@ -166,9 +167,9 @@ static const cs_noun nouns[] = {
     {OBJECT(image)},
 };
 
-void cs_primitive_open(lua_State *L) {
+void cs_open_primitive(lua_State *L) {
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_value_push_constructor(L, &nouns[i]);
+    cs_userdata_push_constructor(L, &nouns[i]);
     lua_setfield(L, -2, nouns[i].name);
   }
 }

@@ -3,9 +3,9 @@
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/options.h"
-#include "bind/sequence.h"
 #include "bind/shoot.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
+#include "film/sequence.h"
 
 static const cs_field fields[] = {
     CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL}, {"format", NULL},
@@ -24,7 +24,7 @@ typedef struct job {
   const char *pattern;
   cs_sequence sequence;
   size_t done;
-  double share; /* told last */
+  double share;   /* told last */
   bool has_error; /* raised by the progress function; the message is on top of the stack */
 } job;
 
@@ -91,7 +91,7 @@ static void read_job(const cs_form *form, job *j) {
   lua_pushliteral(L, "progress");
   int type = lua_rawget(L, form->table);
   if (type != LUA_TNIL && type != LUA_TFUNCTION)
-    cs_form_fail(form, "field 'progress' must be a function, got %s", cs_value_type(L, -1));
+    cs_form_fail(form, "field 'progress' must be a function, got %s", cs_userdata_type(L, -1));
   if (type == LUA_TFUNCTION)
     j->progress = lua_gettop(L);
 }
@@ -101,13 +101,13 @@ static void read_job(const cs_form *form, job *j) {
 static void read_film(const cs_form *form, job *j) {
   lua_State *L = form->L;
   celspan_frame_desc *desc = &j->frame.desc;
-  bool is_film = cs_value_test(L, 1, &cs_kind_film) != NULL;
+  bool is_film = cs_userdata_test(L, 1, &cs_kind_film) != NULL;
   if (is_film)
     lua_pushvalue(L, 1);
-  else if (cs_value_test(L, 1, &cs_kind_rostrum))
+  else if (cs_userdata_test(L, 1, &cs_kind_rostrum))
     cs_film_push_still(L, 1, desc->width, desc->height);
   else
-    luaL_error(L, "render: argument 1 must be a film or a rostrum, got %s", cs_value_type(L, 1));
+    luaL_error(L, "render: argument 1 must be a film or a rostrum, got %s", cs_userdata_type(L, 1));
   j->film = lua_gettop(L);
   cs_film_read(L, j->film, &j->info);
   if (!cs_form_has(form, "size")) {
@@ -128,7 +128,7 @@ static celspan_status read_frames(const cs_form *form, job *j) {
     cs_form_fail(form,
                  "field 'frames' must be a list like \"1-10,20-30:2\" or a whole number, "
                  "got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
   celspan_status status =
       type == LUA_TNIL ? cs_sequence_count(j->context, j->info.first, j->info.count, &j->sequence)
                        : cs_sequence_parse(j->context, lua_tostring(L, -1), &j->sequence);
@@ -167,8 +167,8 @@ static int render(lua_State *L) {
   lua_settop(L, 3);
   if (lua_type(L, 2) != LUA_TSTRING)
     return luaL_error(L, "render: argument 2 must be a file name like \"shot.####.png\", got %s",
-                      cs_value_type(L, 2));
-  cs_form form = cs_options_open(L, &noun, 3);
+                      cs_userdata_type(L, 2));
+  cs_form form = cs_open_options(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);
   j->file = CELSPAN_FILE_DESC;
@@ -191,7 +191,7 @@ static int render(lua_State *L) {
   return 2;
 }
 
-void cs_render_open(lua_State *L) {
+void cs_open_render(lua_State *L) {
   lua_pushcfunction(L, render);
   lua_setfield(L, -2, "render");
 }

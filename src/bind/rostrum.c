@@ -3,7 +3,7 @@
 #include "bind/module.h"
 #include "bind/options.h"
 #include "bind/placed.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static void unref(void *handle) { celspan_rostrum_unref(handle); }
 
@@ -24,16 +24,16 @@ static void read_camera(const cs_form *form, celspan_rostrum_desc *desc) {
   desc->camera_rotation = cs_placed_radians(cs_form_number_or(&inner, "rotate", 0));
 }
 
-static void create(const cs_form *form, cs_value *value) {
+static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   int count = cs_form_length(form);
   celspan_cel **cels = cs_form_scratch(L, (size_t)count, sizeof *cels);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
-    cs_value *item = cs_value_test(L, -1, &cs_kind_cel);
+    cs_userdata *item = cs_userdata_test(L, -1, &cs_kind_cel);
     if (!item)
-      cs_form_fail(form, "item %d must be a cel, got %s", i + 1, cs_value_type(L, -1));
+      cs_form_fail(form, "item %d must be a cel, got %s", i + 1, cs_userdata_type(L, -1));
     cels[i] = item->handle;
     lua_pop(L, 1);
   }
@@ -58,9 +58,9 @@ const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .fields = fields,
                                  .create = create};
 
-void cs_rostrum_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_value_with}, {NULL, NULL}};
-  cs_value_register(L, &cs_kind_rostrum, methods);
-  cs_value_push_constructor(L, &cs_noun_rostrum);
+void cs_open_rostrum(lua_State *L) {
+  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
+  cs_userdata_register(L, &cs_kind_rostrum, methods);
+  cs_userdata_push_constructor(L, &cs_noun_rostrum);
   lua_setfield(L, -2, cs_noun_rostrum.name);
 }

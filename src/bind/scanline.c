@@ -8,7 +8,7 @@
 
 #include "bind/host.h"
 #include "bind/module.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 typedef struct procedure {
   cs_host *host; /* counted */
@@ -16,7 +16,7 @@ typedef struct procedure {
 } procedure;
 
 static const cs_field fields[] = {{"bounds", NULL}, {"spans", NULL}, {0}};
-static void create(const cs_form *form, cs_value *value);
+static void create(const cs_form *form, cs_userdata *value);
 static const cs_noun noun = {
     .name = "scanline", .kind = &cs_kind_object, .fields = fields, .create = create};
 
@@ -69,7 +69,7 @@ static int call(lua_State *L) {
     return 0;
   if (!lua_istable(L, -1))
     cs_form_fail(&form, "spans must return a list of {x0, x1, paint}, got %s",
-                 cs_value_type(L, -1));
+                 cs_userdata_type(L, -1));
   int count = cs_form_length(&form);
   for (int i = 1; i <= count && r->status == CELSPAN_OK; i++) {
     cs_form_item(&form, i, LUA_TTABLE, "span", "{x0, x1, paint}");
@@ -114,7 +114,7 @@ static void release(void *user) {
   free(p);
 }
 
-static void create(const cs_form *form, cs_value *value) {
+static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   cs_host *host = cs_host_get(L);
   celspan_scanline_desc desc = {.spans = spans, .release = release};
@@ -122,7 +122,7 @@ static void create(const cs_form *form, cs_value *value) {
     cs_form_fail(form, "field 'bounds' must be {x, y, width, height}, got nil");
   lua_pushliteral(L, "spans");
   if (lua_rawget(L, form->table) != LUA_TFUNCTION)
-    cs_form_fail(form, "field 'spans' must be a function(y, row), got %s", cs_value_type(L, -1));
+    cs_form_fail(form, "field 'spans' must be a function(y, row), got %s", cs_userdata_type(L, -1));
   int function = luaL_ref(L, LUA_REGISTRYINDEX);
   procedure *p = malloc(sizeof *p);
   if (!p) {
@@ -140,7 +140,7 @@ static void create(const cs_form *form, cs_value *value) {
   value->handle = object;
 }
 
-void cs_scanline_open(lua_State *L) {
-  cs_value_push_constructor(L, &noun);
+void cs_open_scanline(lua_State *L) {
+  cs_userdata_push_constructor(L, &noun);
   lua_setfield(L, -2, noun.name);
 }

@@ -3,17 +3,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "bind/tee.h"
-#include "bind/twins.h"
+#include "film/duplicates.h"
+#include "film/frame_pipeline.h"
 #include "output/sink.h"
-#include "render/reel.h"
+#include "output/tee.h"
 #include "scene/scene.h"
 
 typedef struct job {
   const cs_shoot *shoot;
   cs_film_info film;
-  bool has_twins; /* equal frames are looked for */
-  cs_twins twins;
+  bool has_duplicates; /* equal frames are looked for */
+  cs_duplicates duplicates;
 } job;
 
 /* What a frame carries through the reel. */
@@ -22,7 +22,7 @@ typedef struct take {
   cs_film_frame built;
   bool is_known; /* `twin` is the frame's own index, or that of an earlier one that it equals */
   bool is_first;
-  size_t twin;
+  size_t duplicate;
 } take;
 
 /* ---------------------------------------------------------------- building */
@@ -40,22 +40,22 @@ static celspan_status name_take(job *j, take *t) {
                           sizeof frame->path);
 }
 
-static celspan_status meet_twins(job *j, take *t) {
-  t->is_known = j->has_twins && t->frame.is_named;
-  return t->is_known ? cs_twins_meet(&j->twins, j->shoot->context, t->frame.scene, t->frame.number,
-                                     &t->twin, &t->is_first)
+static celspan_status meet_duplicates(job *j, take *t) {
+  t->is_known = j->has_duplicates && t->frame.is_named;
+  return t->is_known ? cs_duplicates_meet(&j->duplicates, j->shoot->context, t->frame.scene,
+                                          t->frame.number, &t->duplicate, &t->is_first)
                      : CELSPAN_OK;
 }
 
-static cs_reel_step choose_step(const job *j, const take *t) {
+static cs_frame_pipeline_step choose_step(const job *j, const take *t) {
   if (t->frame.way == CS_SHOOT_KEPT)
-    return CS_REEL_NOTHING;
+    return CS_FRAME_PIPELINE_NOTHING;
   if (!t->frame.is_named || j->shoot->put)
-    return CS_REEL_HERE;
-  return t->is_known && !t->is_first ? CS_REEL_IN_TURN : CS_REEL_ANYWHERE;
+    return CS_FRAME_PIPELINE_HERE;
+  return t->is_known && !t->is_first ? CS_FRAME_PIPELINE_IN_TURN : CS_FRAME_PIPELINE_ANYWHERE;
 }
 
-static celspan_status build(void *user, size_t index, void *carried, cs_reel_step *step) {
+static celspan_status build(void *user, size_t index, void *carried, cs_frame_pipeline_step *step) {
   job *j = user;
   take *t = carried;
   const cs_shoot *shoot = j->shoot;
@@ -64,7 +64,7 @@ static celspan_status build(void *user, size_t index, void *carried, cs_reel_ste
   CS_TRY(name_take(j, t));
   if (shoot->keep && shoot->keep(shoot->user, &t->frame))
     t->frame.way = CS_SHOOT_KEPT;
-  CS_TRY(meet_twins(j, t));
+  CS_TRY(meet_duplicates(j, t));
   *step = choose_step(j, t);
   return CELSPAN_OK;
 }
@@ -113,17 +113,17 @@ static celspan_status make_frame(const job *j, celspan_context *context,
 }
 
 /* Takes the frame from the one that it equals, where that is still to be had. Calling thread. */
-static celspan_status copy_twin(const job *j, celspan_context *context, take *t) {
-  const cs_twin *twin = &j->twins.known[t->twin];
+static celspan_status copy_duplicate(const job *j, celspan_context *context, take *t) {
+  const cs_duplicate *duplicate = &j->duplicates.known[t->duplicate];
   char from[CS_SHOOT_PATH];
-  bool is_copied = twin->is_made;
+  bool is_copied = duplicate->is_made;
   if (is_copied && j->shoot->pattern) {
-    CS_TRY(cs_sequence_name(context, j->shoot->pattern, twin->number, from, sizeof from));
-    CS_TRY(cs_file_copy(context, from, &twin->file, t->frame.path, &is_copied));
+    CS_TRY(cs_sequence_name(context, j->shoot->pattern, duplicate->number, from, sizeof from));
+    CS_TRY(cs_file_copy(context, from, &duplicate->file, t->frame.path, &is_copied));
   }
   if (is_copied)
     t->frame.way = CS_SHOOT_COPIED;
-  memcpy(t->frame.digest, twin->digest, sizeof twin->digest);
+  memcpy(t->frame.digest, duplicate->digest, sizeof duplicate->digest);
   return CELSPAN_OK;
 }
 
@@ -140,20 +140,19 @@ static celspan_status place_failure(celspan_context *context, int64_t number,
 static celspan_status make_or_copy(const job *j, celspan_context *context, take *t,
                                    const celspan_frame_desc *desc) {
   if (t->is_known && !t->is_first)
-    CS_TRY(copy_twin(j, context, t));
-  return t->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK
-                                         : make_frame(j, context, desc, &t->frame);
+    CS_TRY(copy_duplicate(j, context, t));
+  return t->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK : make_frame(j, context, desc, &t->frame);
 }
 
 static celspan_status make(void *user, celspan_context *context, void *carried, int workers,
-                           cs_reel_turn *turn) {
+                           cs_frame_pipeline_turn *turn) {
   const job *j = user;
   take *t = carried;
   celspan_frame_desc desc = j->shoot->frame;
   desc.exposures = t->built.exposures;
   desc.exposure_count = t->built.count;
   desc.workers = workers;
-  desc.progress = cs_reel_progress;
+  desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;
   celspan_status status = make_or_copy(j, context, t, &desc);
   if (j->shoot->keeps_nothing)
@@ -164,18 +163,18 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
 /* ---------------------------------------------------------------- the end */
 
 /* What the frame leaves for those that equal it. */
-static void note_twin(job *j, const take *t) {
-  cs_twin *twin = &j->twins.known[t->twin];
-  twin->number = t->frame.number;
-  twin->is_made = !j->shoot->pattern || cs_file_stamp_take(t->frame.path, &twin->file);
-  memcpy(twin->digest, t->frame.digest, sizeof twin->digest);
+static void note_duplicate(job *j, const take *t) {
+  cs_duplicate *duplicate = &j->duplicates.known[t->duplicate];
+  duplicate->number = t->frame.number;
+  duplicate->is_made = !j->shoot->pattern || cs_file_stamp_take(t->frame.path, &duplicate->file);
+  memcpy(duplicate->digest, t->frame.digest, sizeof duplicate->digest);
 }
 
 static celspan_status finish(void *user, void *carried, celspan_status status) {
   job *j = user;
   take *t = carried;
   if (status == CELSPAN_OK && t->is_known && t->frame.way != CS_SHOOT_COPIED)
-    note_twin(j, t);
+    note_duplicate(j, t);
   return j->shoot->told(j->shoot->user, &t->frame, status);
 }
 
@@ -190,26 +189,26 @@ static bool tick(void *user, double share) {
 }
 
 /* Files that tell the number of their frame are never equal. */
-static bool has_twins(const cs_shoot *shoot) {
+static bool has_duplicates(const cs_shoot *shoot) {
   if (shoot->put || shoot->keeps_nothing || shoot->frames->count < 2)
     return false;
   return !shoot->pattern || !cs_sink_file_is_numbered(shoot->pattern, &shoot->file);
 }
 
 celspan_status cs_shoot_run(const cs_shoot *shoot) {
-  job j = {.shoot = shoot, .has_twins = has_twins(shoot)};
+  job j = {.shoot = shoot, .has_duplicates = has_duplicates(shoot)};
   cs_film_read(shoot->L, shoot->film, &j.film);
-  const cs_reel reel = {.count = shoot->frames->count,
-                        .workers = shoot->frame.workers,
-                        .keeps_going = shoot->keeps_going,
-                        .frame_size = sizeof(take),
-                        .user = &j,
-                        .build = build,
-                        .make = make,
-                        .finish = finish,
-                        .release = release,
-                        .tick = shoot->tick ? tick : NULL};
-  celspan_status status = cs_reel_run(shoot->context, &reel);
-  cs_twins_finish(&j.twins, shoot->context);
+  const cs_frame_pipeline pipeline = {.count = shoot->frames->count,
+                                      .workers = shoot->frame.workers,
+                                      .keeps_going = shoot->keeps_going,
+                                      .frame_size = sizeof(take),
+                                      .user = &j,
+                                      .build = build,
+                                      .make = make,
+                                      .finish = finish,
+                                      .release = release,
+                                      .tick = shoot->tick ? tick : NULL};
+  celspan_status status = cs_frame_pipeline_run(shoot->context, &pipeline);
+  cs_duplicates_finish(&j.duplicates, shoot->context);
   return status;
 }

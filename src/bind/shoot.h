@@ -12,7 +12,7 @@
 
 #include "base/hash.h"
 #include "bind/film.h"
-#include "bind/sequence.h"
+#include "film/sequence.h"
 
 #define CS_SHOOT_PATH 4096
 
@@ -52,7 +52,8 @@ typedef struct cs_shoot {
   /* A frame came to its end, in order; status: with its sentence, which names the frame, in the
    * context. What is returned ends the run unless it is OK. */
   celspan_status (*told)(void *user, const cs_shoot_frame *frame, celspan_status status);
-  /* As in cs_reel: share of the frames that were not told of yet, in frames. May be NULL. */
+  /* As in cs_frame_pipeline: share of the frames that were not told of yet, in frames. May be NULL.
+   */
   bool (*tick)(void *user, double share);
 } cs_shoot;
 

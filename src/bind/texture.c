@@ -3,13 +3,13 @@
 
 #include "bind/host.h"
 #include "bind/module.h"
-#include "bind/value.h"
+#include "bind/userdata.h"
 
 static void unref_texture(void *handle) { celspan_texture_unref(handle); }
 
 const cs_kind cs_kind_texture = {.name = "celspan.texture", .unref = unref_texture};
 
-static void create_gradient(const cs_form *form, cs_value *value) {
+static void create_gradient(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
   if (count != 3)
     cs_form_fail(form, "takes three corners {x, y, paint}, got %d", count);
@@ -39,7 +39,7 @@ static celspan_stop *read_stops(const cs_form *form, int count) {
   return stops;
 }
 
-static void create_linear(const cs_form *form, cs_value *value) {
+static void create_linear(const cs_form *form, cs_userdata *value) {
   celspan_point from = cs_form_point(form, "from"), to = cs_form_point(form, "to");
   int count = cs_form_length(form);
   celspan_stop *stops = read_stops(form, count);
@@ -49,7 +49,7 @@ static void create_linear(const cs_form *form, cs_value *value) {
   value->handle = texture;
 }
 
-static void create_radial(const cs_form *form, cs_value *value) {
+static void create_radial(const cs_form *form, cs_userdata *value) {
   celspan_point centre = cs_form_point(form, "centre");
   double radius = cs_form_number(form, "radius");
   int count = cs_form_length(form);
@@ -75,7 +75,7 @@ void cs_texture_read_picture(const cs_form *form, celspan_picture_desc *desc) {
   desc->file = cs_host_resolve(form->L, file);
 }
 
-static void create_picture(const cs_form *form, cs_value *value) {
+static void create_picture(const cs_form *form, cs_userdata *value) {
   celspan_picture_desc desc;
   cs_texture_read_picture(form, &desc);
   desc.has_box = cs_form_box(form, "box", &desc.box);
@@ -114,11 +114,11 @@ static const cs_noun nouns[] = {
      .create = create_picture},
 };
 
-void cs_texture_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_value_with}, {NULL, NULL}};
-  cs_value_register(L, &cs_kind_texture, methods);
+void cs_open_texture(lua_State *L) {
+  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
+  cs_userdata_register(L, &cs_kind_texture, methods);
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_value_push_constructor(L, &nouns[i]);
+    cs_userdata_push_constructor(L, &nouns[i]);
     lua_setfield(L, -2, nouns[i].name);
   }
 }

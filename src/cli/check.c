@@ -12,7 +12,7 @@
 #include "base/context.h"
 #include "base/hash.h"
 #include "cli/interrupt.h"
-#include "cli/shot.h"
+#include "cli/script.h"
 #include "cli/verbs.h"
 #include "scene/scene.h"
 
@@ -69,8 +69,8 @@ static void fault(checkup *check, int64_t frame, const char *told, cs_exit code)
   cs_report_error("frame %lld: %s", (long long)frame, sentence);
 }
 
-static void name_scene(const cs_shot *shot, scene_name *out) {
-  const cs_film_frame *frame = &shot->frame;
+static void name_scene(const cs_script *script, scene_name *out) {
+  const cs_film_frame *frame = &script->frame;
   *out = (scene_name){!cs_scene_has_procedure(frame->exposures, frame->count),
                       cs_scene_hash(frame->exposures, frame->count)};
 }
@@ -79,83 +79,83 @@ static bool is_same(const scene_name *a, const scene_name *b) {
   return a->is_known && b->is_known && a->hash.a == b->hash.a && a->hash.b == b->hash.b;
 }
 
-static void check_pictures(checkup *check, const cs_shot *shot, int64_t frame) {
-  for (size_t i = 0; i < shot->frame.count; i++) {
-    celspan_status status = celspan_rostrum_check(check->context, shot->frame.exposures[i].rostrum);
+static void check_pictures(checkup *check, const cs_script *script, int64_t frame) {
+  for (size_t i = 0; i < script->frame.count; i++) {
+    celspan_status status =
+        celspan_rostrum_check(check->context, script->frame.exposures[i].rostrum);
     if (status != CELSPAN_OK)
       fault(check, frame, celspan_context_error(check->context), cs_report_exit(status));
   }
 }
 
-static void first_pass(checkup *check, cs_shot *shot) {
-  for (int64_t i = 0; i < shot->film.count && !cs_interrupt_signal(); i++) {
-    int64_t frame = shot->film.first + i;
-    celspan_status status = cs_shot_try(shot, frame);
+static void first_pass(checkup *check, cs_script *script) {
+  for (int64_t i = 0; i < script->film.count && !cs_interrupt_signal(); i++) {
+    int64_t frame = script->film.first + i;
+    celspan_status status = cs_script_try(script, frame);
     if (status != CELSPAN_OK) {
       fault(check, frame, celspan_context_error(check->context), cs_report_exit(status));
       continue;
     }
-    name_scene(shot, &check->names[i]);
-    check_pictures(check, shot, frame);
+    name_scene(script, &check->names[i]);
+    check_pictures(check, script, frame);
   }
 }
 
-static void second_pass(checkup *check, cs_shot *shot) {
+static void second_pass(checkup *check, cs_script *script) {
   static const char *const IMPURE =
       "the frame function is not pure: asked again in another order it gave another scene; let it "
       "depend on nothing but its argument";
-  for (int64_t i = shot->film.count - 1; i >= 0 && !cs_interrupt_signal(); i--) {
+  for (int64_t i = script->film.count - 1; i >= 0 && !cs_interrupt_signal(); i--) {
     scene_name again = {.is_known = false};
     if (!check->names[i].is_known)
       continue;
-    if (cs_shot_try(shot, shot->film.first + i) == CELSPAN_OK)
-      name_scene(shot, &again);
+    if (cs_script_try(script, script->film.first + i) == CELSPAN_OK)
+      name_scene(script, &again);
     if (!is_same(&again, &check->names[i]))
-      fault(check, shot->film.first + i, IMPURE, CS_EXIT_SCRIPT);
+      fault(check, script->film.first + i, IMPURE, CS_EXIT_SCRIPT);
   }
 }
 
-static void summarise(const checkup *check, const cs_shot *shot) {
+static void summarise(const checkup *check, const cs_script *script) {
   if (check->fault_count)
     cs_report_note("%zu %s, met %zu %s in %lld frames", check->fault_count,
                    check->fault_count == 1 ? "fault" : "faults", check->frames_at_fault,
-                   check->frames_at_fault == 1 ? "time" : "times",
-                   (long long)shot->film.count);
+                   check->frames_at_fault == 1 ? "time" : "times", (long long)script->film.count);
   else
-    cs_report_note("%lld %s checked: no faults", (long long)shot->film.count,
-                   shot->film.count == 1 ? "frame" : "frames");
+    cs_report_note("%lld %s checked: no faults", (long long)script->film.count,
+                   script->film.count == 1 ? "frame" : "frames");
 }
 
-static cs_exit run(checkup *check, cs_shot *shot) {
+static cs_exit run(checkup *check, cs_script *script) {
   check->names =
-      cs_mem_array(check->context->memory, (size_t)shot->film.count, sizeof *check->names);
+      cs_mem_array(check->context->memory, (size_t)script->film.count, sizeof *check->names);
   if (!check->names) {
-    cs_report_error("no memory to remember %lld frames", (long long)shot->film.count);
+    cs_report_error("no memory to remember %lld frames", (long long)script->film.count);
     return CS_EXIT_MEMORY;
   }
-  first_pass(check, shot);
-  cs_shot fresh;
-  cs_exit outcome = cs_shot_open(check->context, check->request, &fresh);
-  if (outcome == CS_EXIT_OK && fresh.film.count == shot->film.count)
+  first_pass(check, script);
+  cs_script fresh;
+  cs_exit outcome = cs_script_open(check->context, check->request, &fresh);
+  if (outcome == CS_EXIT_OK && fresh.film.count == script->film.count)
     second_pass(check, &fresh);
   else if (outcome == CS_EXIT_OK)
-    fault(check, shot->film.first, "the script made a film of another length when it was run again",
-          CS_EXIT_SCRIPT);
-  cs_shot_close(&fresh);
+    fault(check, script->film.first,
+          "the script made a film of another length when it was run again", CS_EXIT_SCRIPT);
+  cs_script_close(&fresh);
   cs_mem_free(check->context->memory, check->names,
-              (size_t)shot->film.count * sizeof *check->names);
+              (size_t)script->film.count * sizeof *check->names);
   if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
-    summarise(check, shot);
+    summarise(check, script);
   return outcome == CS_EXIT_OK ? check->outcome : outcome;
 }
 
-cs_exit cs_check_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_check(celspan_context *context, const cs_request *request) {
   checkup check = {.context = context, .request = request};
-  cs_shot shot;
-  cs_exit outcome = cs_shot_open(context, request, &shot);
+  cs_script script;
+  cs_exit outcome = cs_script_open(context, request, &script);
   if (outcome == CS_EXIT_OK)
-    outcome = run(&check, &shot);
-  cs_shot_close(&shot);
+    outcome = run(&check, &script);
+  cs_script_close(&script);
   cs_mem_free(context->memory, check.told, check.told_capacity * sizeof *check.told);
   return outcome;
 }

@@ -155,7 +155,7 @@ static cs_exit compare(celspan_context *context, const cs_request *request, cons
   return answer(&c);
 }
 
-cs_exit cs_compare_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_compare(celspan_context *context, const cs_request *request) {
   cs_still a = {.exposure.rostrum = NULL}, b = a;
   cs_exit outcome = cs_still_open(context, request->operands[0], &a);
   if (outcome == CS_EXIT_OK)

@@ -3,7 +3,7 @@
 #include "cli/target.h"
 #include "cli/verbs.h"
 
-cs_exit cs_convert_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_convert(celspan_context *context, const cs_request *request) {
   const char *path = request->operands[1];
   cs_exit outcome = cs_target_refuse(context, path, request);
   cs_still still = {.exposure.rostrum = NULL};

@@ -3,11 +3,11 @@
 #include <stdio.h>
 
 #include "base/context.h"
-#include "bind/twins.h"
 #include "cli/interrupt.h"
-#include "cli/shot.h"
+#include "cli/script.h"
 #include "cli/spanread.h"
 #include "cli/verbs.h"
+#include "film/duplicates.h"
 #include "scene/scene.h"
 
 static void keep_larger(size_t *most, size_t count) {
@@ -18,7 +18,7 @@ static void keep_larger(size_t *most, size_t count) {
 typedef struct survey {
   celspan_rostrum_counts most; /* of each in any frame */
   size_t different;            /* frames that are not equal to one before */
-  cs_twins twins;
+  cs_duplicates twins;
 } survey;
 
 static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most) {
@@ -35,37 +35,39 @@ static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most
   keep_larger(&most->pictures, all.pictures);
 }
 
-static celspan_status meet_frame(cs_shot *shot, survey *s) {
-  const cs_film_frame *frame = &shot->frame;
+static celspan_status meet_frame(cs_script *script, survey *s) {
+  const cs_film_frame *frame = &script->frame;
   bool is_new = true;
   size_t index;
   if (!cs_scene_has_procedure(frame->exposures, frame->count))
-    CS_TRY(cs_twins_meet(&s->twins, shot->context, cs_scene_hash(frame->exposures, frame->count),
-                         shot->number, &index, &is_new));
+    CS_TRY(cs_duplicates_meet(&s->twins, script->context,
+                              cs_scene_hash(frame->exposures, frame->count), script->number, &index,
+                              &is_new));
   s->different += is_new;
   return CELSPAN_OK;
 }
 
-static cs_exit survey_all(cs_shot *shot, survey *s) {
-  for (int64_t i = 0; i < shot->film.count && !cs_interrupt_signal(); i++) {
-    cs_exit outcome = cs_shot_build(shot, shot->film.first + i);
+static cs_exit survey_all(cs_script *script, survey *s) {
+  for (int64_t i = 0; i < script->film.count && !cs_interrupt_signal(); i++) {
+    cs_exit outcome = cs_script_build(script, script->film.first + i);
     if (outcome == CS_EXIT_OK)
-      outcome = cs_report_failure(shot->context, meet_frame(shot, s), NULL);
+      outcome = cs_report_failure(script->context, meet_frame(script, s), NULL);
     if (outcome != CS_EXIT_OK)
       return outcome;
-    count_frame(&shot->frame, &s->most);
+    count_frame(&script->frame, &s->most);
   }
   return CS_EXIT_OK;
 }
 
-static void print_info(const cs_shot *shot, const survey *s) {
+static void print_info(const cs_script *script, const survey *s) {
   const celspan_rostrum_counts *most = &s->most;
-  if (shot->film.title)
-    printf("title %s\n", shot->film.title);
-  printf("frames %lld\nfirst %lld\nlast %lld\n", (long long)shot->film.count,
-         (long long)shot->film.first, (long long)(shot->film.first + shot->film.count - 1));
-  printf("fps %.9g\nseconds %.9g\nsize %dx%d\n", shot->film.frames_second,
-         (double)shot->film.count / shot->film.frames_second, shot->film.width, shot->film.height);
+  if (script->film.title)
+    printf("title %s\n", script->film.title);
+  printf("frames %lld\nfirst %lld\nlast %lld\n", (long long)script->film.count,
+         (long long)script->film.first, (long long)(script->film.first + script->film.count - 1));
+  printf("fps %.9g\nseconds %.9g\nsize %dx%d\n", script->film.frames_second,
+         (double)script->film.count / script->film.frames_second, script->film.width,
+         script->film.height);
   printf("cels %zu\nprimitives %zu\npictures %zu\n", most->cels, most->primitives, most->pictures);
   printf("different %zu\n", s->different);
 }
@@ -94,17 +96,17 @@ static cs_exit inform_spans(celspan_context *context, const char *path) {
   return cs_report_failure(context, status, NULL);
 }
 
-cs_exit cs_info_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
   if (cs_spanread_is(request->operands[0]))
     return inform_spans(context, request->operands[0]);
-  cs_shot shot;
-  cs_exit outcome = cs_shot_open(context, request, &shot);
+  cs_script script;
+  cs_exit outcome = cs_script_open(context, request, &script);
   survey s = {0};
   if (outcome == CS_EXIT_OK)
-    outcome = survey_all(&shot, &s);
+    outcome = survey_all(&script, &s);
   if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
-    print_info(&shot, &s);
-  cs_twins_finish(&s.twins, context);
-  cs_shot_close(&shot);
+    print_info(&script, &s);
+  cs_duplicates_finish(&s.twins, context);
+  cs_script_close(&script);
   return outcome;
 }

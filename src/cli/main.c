@@ -22,34 +22,35 @@ static const cs_verb VERBS[] = {
      "sRGB-coded, alpha straight; floats are linear, alpha premultiplied. With -o - RGBA rows go "
      "to\n"
      "standard output, top to bottom, little endian.\n",
-     cs_render_run},
+     cs_verb_render},
     {CS_VERB_INFO, "info", "SCRIPT|FILE.span", 1, 1,
      "Prints frames, size, cels, primitives and pictures of a film; or what a span file holds.",
-     "A span file is read to its end and every checksum looked at.\n", cs_info_run},
+     "A span file is read to its end and every checksum looked at.\n", cs_verb_info},
     {CS_VERB_CHECK, "check", "SCRIPT", 1, 1,
      "Builds every frame without rendering and reports all faults.",
      "Each frame is built twice, the second time in another order in a fresh film: a frame "
      "function\n"
      "that answers differently is not a pure function of its frame. Pictures are looked for.\n"
      "Frames that hold scan-line procedures are built, but not compared.\n",
-     cs_check_run},
+     cs_verb_check},
     {CS_VERB_SPANS, "spans", "SCRIPT", 1, 1, "Prints the spans of a frame as text.",
      "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
      "  row x0 x1 single r g b a\n"
      "  row x0 x1 gradient r g b a r g b a     colours of the first and the last pixel\n"
      "  row x0 x1 array N\n",
-     cs_spans_run},
+     cs_verb_spans},
     {CS_VERB_PROBE, "probe", "SCRIPT X Y", 3, 3,
      "Prints r g b a of one point, by direct evaluation: linear, premultiplied.",
-     "X and Y are film units. There is no antialiasing and no defocus at a point.\n", cs_probe_run},
+     "X and Y are film units. There is no antialiasing and no defocus at a point.\n",
+     cs_verb_probe},
     {CS_VERB_CONVERT, "convert", "IN OUT", 2, 2, "Converts any picture to any other.", NULL,
-     cs_convert_run},
+     cs_verb_convert},
     {CS_VERB_COMPARE, "compare", "A B", 2, 2,
      "Compares two pictures: exit 0 when they show the same, 1 when not.",
      "Prints the largest difference of coded values (0..1: sRGB, alpha straight), where it is, "
      "and\n"
      "how many pixels differ by more than --fail.\n",
-     cs_compare_run},
+     cs_verb_compare},
     {CS_VERB_TILES, "tiles", "SCRIPT|FILE -o DIR", 1, 1,
      "Cuts a frame or a picture into tiles to be explored in a browser.",
      "Makes a pyramid of tiles straight from the scene, and index.html, which shows it. A FILE is "
@@ -57,7 +58,7 @@ static const cs_verb VERBS[] = {
      "picture; what ends in .lua is a script. Equal tiles are one file with several names. A run "
      "that\n"
      "was stopped goes on where it was.\n",
-     cs_tiles_run},
+     cs_verb_tiles},
 };
 
 enum { VERB_COUNT = sizeof VERBS / sizeof VERBS[0] };

@@ -35,8 +35,8 @@ static void start_json(size_t frame_count) {
 }
 
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count) {
-  *progress = (cs_progress){
-      .frame_count = frame_count, .noun = "frame", .started = cs_progress_clock()};
+  *progress =
+      (cs_progress){.frame_count = frame_count, .noun = "frame", .started = cs_progress_clock()};
   /* Unasked, a log gets a line a second at most; asked for, a line for every frame. */
   progress->pause = style == CS_PROGRESS_LINES ? 0 : 1;
   if (style == CS_PROGRESS_AUTO)

@@ -12,13 +12,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "cli/values.h"
+#include "cli/argument.h"
 
 typedef struct cs_progress {
   cs_progress_style style; /* never AUTO once started */
   size_t frame_count, frames_done;
-  size_t copied, kept; /* of those done */
-  const char *noun; /* of what is counted: "frame", unless it is changed after the start */
+  size_t copied, kept;   /* of those done */
+  const char *noun;      /* of what is counted: "frame", unless it is changed after the start */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* least seconds between two lines or two states of the bar */
 } cs_progress;

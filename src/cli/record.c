@@ -24,10 +24,10 @@ static celspan_status fail(const cs_record *record, const char *what) {
 
 /* ---------------------------------------------------------------- keys */
 
-static cs_hash hash_options(const cs_shot *shot, const cs_request *request,
+static cs_hash hash_options(const cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame) {
-  const int32_t numbers[] = {frame->width,      frame->height,      frame->crop_x,
-                             frame->crop_y,     frame->crop_width,  frame->crop_height,
+  const int32_t numbers[] = {frame->width,       frame->height,           frame->crop_x,
+                             frame->crop_y,      frame->crop_width,       frame->crop_height,
                              frame->filter.rows, frame->filter.has_radius};
   const celspan_coding *coding = &request->coding;
   cs_hash hash = cs_hash_begin(1);
@@ -43,8 +43,8 @@ static cs_hash hash_options(const cs_shot *shot, const cs_request *request,
   cs_hash_word(&hash, (uint64_t)coding->transfer);
   cs_hash_word(&hash, (uint64_t)coding->alpha);
   cs_hash_text(&hash, request->format);
-  cs_hash_text(&hash, shot->film.title);
-  cs_hash_number(&hash, shot->film.frames_second);
+  cs_hash_text(&hash, script->film.title);
+  cs_hash_number(&hash, script->film.frames_second);
   return cs_hash_end(hash);
 }
 
@@ -81,8 +81,9 @@ static bool hash_contents(const char *path, cs_hash *out, uint64_t *bytes) {
 static bool read_line(const char *text, cs_record_line *out) {
   char pixels[40], end;
   *out = (cs_record_line){0};
-  if (sscanf(text, "frame %" SCNd64 " %16" SCNx64 "%16" SCNx64 " %" SCNu64 " %16" SCNx64
-                   "%16" SCNx64 " %33s%c",
+  if (sscanf(text,
+             "frame %" SCNd64 " %16" SCNx64 "%16" SCNx64 " %" SCNu64 " %16" SCNx64 "%16" SCNx64
+             " %33s%c",
              &out->number, &out->key.a, &out->key.b, &out->bytes, &out->contents.a,
              &out->contents.b, pixels, &end) != 8 ||
       end != '\n')
@@ -127,12 +128,12 @@ static celspan_status read_record(cs_record *record) {
   return status;
 }
 
-celspan_status cs_record_open(cs_record *record, const cs_shot *shot, const cs_request *request,
+celspan_status cs_record_open(cs_record *record, const cs_script *script, const cs_request *request,
                               const celspan_frame_desc *frame) {
   const char *slash = strrchr(request->output, '/');
   int folder = slash ? (int)(slash + 1 - request->output) : 0;
-  *record = (cs_record){.context = shot->context,
-                        .options = hash_options(shot, request, frame),
+  *record = (cs_record){.context = script->context,
+                        .options = hash_options(script, request, frame),
                         .is_forced = request->is_forced,
                         .needs_pixels = request->hash,
                         .descriptor = -1};
@@ -208,8 +209,8 @@ static celspan_status open_for_lines(cs_record *record) {
   if (record->descriptor < 0)
     return fail(record, "cannot write");
   off_t size = lseek(record->descriptor, 0, SEEK_END);
-  if (size > 0 && (pread(record->descriptor, head, sizeof HEAD - 1, 0) < 0 ||
-                   strcmp(head, HEAD) != 0)) {
+  if (size > 0 &&
+      (pread(record->descriptor, head, sizeof HEAD - 1, 0) < 0 || strcmp(head, HEAD) != 0)) {
     if (ftruncate(record->descriptor, 0) != 0) /* of another version */
       return fail(record, "cannot write");
     size = 0;

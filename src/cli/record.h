@@ -15,7 +15,7 @@
 #define CS_CLI_RECORD_H
 
 #include "bind/shoot.h"
-#include "cli/shot.h"
+#include "cli/script.h"
 
 typedef struct cs_record_line {
   int64_t number;
@@ -29,14 +29,14 @@ typedef struct cs_record {
   char path[CS_SHOOT_PATH + 16];
   cs_hash options; /* of all that is the same for every frame of the run */
   bool is_forced, needs_pixels;
-  int descriptor; /* -1: not open for more lines yet */
+  int descriptor;        /* -1: not open for more lines yet */
   cs_record_line *lines; /* sorted by number, then order; owned */
   size_t count, capacity;
 } cs_record;
 
 /* Reads the record of the request's output where there is one, and removes what runs that were
  * killed left of its frames. frame: the view. Errors: OUTPUT, NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_shot *shot,
+CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_script *script,
                                               const cs_request *request,
                                               const celspan_frame_desc *frame);
 /* Whether the frame stands there as it would come out now; by force, whether it stands there whole,

@@ -19,7 +19,7 @@
 #include "cli/view.h"
 
 typedef struct render_job {
-  cs_shot *shot;
+  cs_script *script;
   const cs_request *request;
   celspan_frame_desc frame;
   cs_sequence frames;
@@ -34,7 +34,7 @@ static celspan_status put_raw(void *user, const celspan_frame_desc *frame) {
   const render_job *job = user;
   cs_rawrow raw;
   celspan_sink sink = cs_rawrow_sink(&raw, &job->request->coding, stdout);
-  return celspan_frame_render(job->shot->context, frame, &sink, NULL);
+  return celspan_frame_render(job->script->context, frame, &sink, NULL);
 }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
@@ -51,7 +51,7 @@ static bool tick(void *user, double share) {
 
 /* A frame that failed: reported; under --keep-going it is remembered and the run goes on. */
 static celspan_status take_failure(render_job *job, int64_t number, celspan_status status) {
-  celspan_context *context = job->shot->context;
+  celspan_context *context = job->script->context;
   cs_exit outcome = cs_report_failure(context, status, NULL);
   if (outcome == CS_EXIT_SIGNAL || !job->request->keeps_going) {
     job->outcome = outcome;
@@ -64,9 +64,9 @@ static celspan_status take_failure(render_job *job, int64_t number, celspan_stat
 }
 
 static const char *place_of(const cs_request *request, const cs_shoot_frame *frame) {
-  return !request->output                          ? "hashed"
+  return !request->output                       ? "hashed"
          : cs_target_is_stream(request->output) ? "standard output"
-                                                   : frame->path;
+                                                : frame->path;
 }
 
 static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_status status) {
@@ -79,8 +79,7 @@ static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_stat
   if (job->request->hash)
     printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
            frame->digest[1]);
-  cs_progress_frame(&job->progress, frame->number, place_of(job->request, frame),
-                    ways[frame->way]);
+  cs_progress_frame(&job->progress, frame->number, place_of(job->request, frame), ways[frame->way]);
   return CELSPAN_OK;
 }
 
@@ -117,9 +116,9 @@ static cs_exit tell_end(render_job *job, cs_exit outcome) {
 static cs_exit shoot(render_job *job) {
   const cs_request *request = job->request;
   bool is_stream = request->output && cs_target_is_stream(request->output);
-  const cs_shoot shoot = {.L = job->shot->L,
-                          .film = CS_SHOT_FILM,
-                          .context = job->shot->context,
+  const cs_shoot shoot = {.L = job->script->L,
+                          .film = CS_SCRIPT_FILM,
+                          .context = job->script->context,
                           .frames = &job->frames,
                           .pattern = is_stream ? NULL : request->output,
                           .frame = job->frame,
@@ -134,7 +133,7 @@ static cs_exit shoot(render_job *job) {
                           .tick = tick};
   celspan_status status = cs_shoot_run(&shoot);
   return job->outcome != CS_EXIT_OK ? job->outcome
-                                    : cs_report_failure(job->shot->context, status, NULL);
+                                    : cs_report_failure(job->script->context, status, NULL);
 }
 
 static cs_exit render_all(render_job *job) {
@@ -145,8 +144,8 @@ static cs_exit render_all(render_job *job) {
 static cs_exit resume_all(render_job *job) {
   if (!job->request->resumes)
     return render_all(job);
-  celspan_status status = cs_record_open(&job->record, job->shot, job->request, &job->frame);
-  cs_exit outcome = cs_report_failure(job->shot->context, status, NULL);
+  celspan_status status = cs_record_open(&job->record, job->script, job->request, &job->frame);
+  cs_exit outcome = cs_report_failure(job->script->context, status, NULL);
   if (outcome == CS_EXIT_OK)
     outcome = render_all(job);
   cs_record_close(&job->record);
@@ -188,26 +187,26 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
   return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
 }
 
-static cs_exit run(cs_shot *shot, const cs_request *request) {
-  render_job job = {.shot = shot, .request = request};
-  cs_exit outcome = cs_view_frame(request, shot->film.width, shot->film.height, &job.frame);
+static cs_exit run(cs_script *script, const cs_request *request) {
+  render_job job = {.script = script, .request = request};
+  cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_target_frames(shot, request, &job.frames);
+    outcome = cs_target_frames(script, request, &job.frames);
   if (outcome == CS_EXIT_OK)
     outcome = resume_all(&job);
-  cs_mem_free(shot->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
+  cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
   cs_sequence_finish(&job.frames);
   return outcome;
 }
 
-cs_exit cs_render_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_render(celspan_context *context, const cs_request *request) {
   cs_exit outcome = refuse_early(context, request);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  cs_shot shot;
-  outcome = cs_shot_open(context, request, &shot);
+  cs_script script;
+  outcome = cs_script_open(context, request, &script);
   if (outcome == CS_EXIT_OK)
-    outcome = run(&shot, request);
-  cs_shot_close(&shot);
+    outcome = run(&script, request);
+  cs_script_close(&script);
   return outcome;
 }

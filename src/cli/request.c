@@ -13,7 +13,7 @@ typedef struct option {
   const char *allowed;
   unsigned verbs;
   size_t offset;
-  cs_value_reader read; /* NULL: a flag (bool) */
+  cs_argument_reader read; /* NULL: a flag (bool) */
   const char *help;
 } option;
 
@@ -21,74 +21,72 @@ typedef struct option {
 #define CODED (CS_VERB_RENDER | CS_VERB_CONVERT)
 
 static const option OPTIONS[] = {
-    {"-o", "DIR", "the name of a folder", CS_VERB_TILES, FIELD(output), cs_value_text,
+    {"-o", "DIR", "the name of a folder", CS_VERB_TILES, FIELD(output), cs_argument_text,
      "the folder for the pyramid and its page; made when it is missing"},
-    {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_value_text,
+    {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_argument_text,
      "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames"},
     {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45", CS_VERB_RENDER, FIELD(frames),
-     cs_value_text, "frames to render, such as 1-10,20-30:2,45; default: all"},
-    {"--frame", "N", "the number of one frame",
-     CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES, FIELD(frame), cs_value_integer,
-     "the frame; default: the first"},
+     cs_argument_text, "frames to render, such as 1-10,20-30:2,45; default: all"},
+    {"--frame", "N", "the number of one frame", CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES,
+     FIELD(frame), cs_argument_integer, "the frame; default: the first"},
     {"--size", "WxH", "width x height in whole pixels, 1 to 1048576, such as 1920x1080",
-     CODED | CS_VERB_SPANS | CS_VERB_TILES, FIELD(size), cs_value_size,
+     CODED | CS_VERB_SPANS | CS_VERB_TILES, FIELD(size), cs_argument_size,
      "pixels of the whole frame; each axis is scaled on its own"},
     {"--scale", "S", "a number above 0 such as 0.5", CS_VERB_RENDER | CS_VERB_TILES, FIELD(scale),
-     cs_value_scale,
-     "pixels a film unit, instead of --size"},
+     cs_argument_scale, "pixels a film unit, instead of --size"},
     {"--crop", "X,Y,W,H", "four whole numbers of pixels, width and height above 0", CODED,
-     FIELD(crop), cs_value_crop, "the part to make, in pixels of the output"},
+     FIELD(crop), cs_argument_crop, "the part to make, in pixels of the output"},
     {"--crop", "X,Y,W,H", "four whole numbers of pixels, width and height above 0", CS_VERB_TILES,
-     FIELD(crop), cs_value_crop, "only tiles that touch this part of the frame, in its pixels"},
+     FIELD(crop), cs_argument_crop, "only tiles that touch this part of the frame, in its pixels"},
     {"--rows", "A-B", "two rows from 0, the first not below the second", CS_VERB_SPANS, FIELD(rows),
-     cs_value_rows, "rows from A to B, both included; default: all"},
+     cs_argument_rows, "rows from A to B, both included; default: all"},
     {"--antialias", "MODE",
      "'area', 'none', or 'box', 'gaussian', 'mitchell' or 'lanczos' with ':ROWS' (1 to 256) or "
      "without",
-     CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_TILES, FIELD(antialias), cs_value_antialias,
+     CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_TILES, FIELD(antialias), cs_argument_antialias,
      "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box,\n"
      "                     gaussian, mitchell, lanczos; ROWS: parts of a pixel row, 16"},
-    {"--format", "NAME", "dzi or iiif", CS_VERB_TILES, FIELD(layout), cs_value_layout,
+    {"--format", "NAME", "dzi or iiif", CS_VERB_TILES, FIELD(layout), cs_argument_layout,
      "dzi (Deep Zoom) or iiif (IIIF Image API 3.0, level 0); default: dzi"},
     {"--format", "NAME", "the name of a file format such as png", CODED, FIELD(format),
-     cs_value_text, "file format; default: by the ending of OUT"},
-    {"--depth", "DEPTH", "8, 16, half or float", CODED, FIELD(coding.depth), cs_value_depth,
+     cs_argument_text, "file format; default: by the ending of OUT"},
+    {"--depth", "DEPTH", "8, 16, half or float", CODED, FIELD(coding.depth), cs_argument_depth,
      "8, 16, half or float; default: by the format"},
     {"--colour", "CODING", "srgb, linear, rec709 or cineon", CODED, FIELD(coding.transfer),
-     cs_value_colour, "srgb, linear, rec709 or cineon; default: srgb, floats linear"},
-    {"--alpha", "KIND", "straight or premultiplied", CODED, FIELD(coding.alpha), cs_value_alpha,
+     cs_argument_colour, "srgb, linear, rec709 or cineon; default: srgb, floats linear"},
+    {"--alpha", "KIND", "straight or premultiplied", CODED, FIELD(coding.alpha), cs_argument_alpha,
      "straight or premultiplied; default: straight, floats premultiplied"},
     {"--workers", "N", "a whole number from 1 to 1024",
      CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_CONVERT | CS_VERB_TILES, FIELD(workers),
-     cs_value_workers, "threads that render; default: one a processor"},
+     cs_argument_workers, "threads that render; default: one a processor"},
     {"--progress", "HOW", "auto, bar, lines, none, json or openjd", CS_VERB_RENDER | CS_VERB_TILES,
-     FIELD(progress), cs_value_progress,
+     FIELD(progress), cs_argument_progress,
      "auto, bar, lines, none or json on standard error; openjd on standard output"},
     {"--hash", NULL, NULL, CS_VERB_RENDER, FIELD(hash), NULL,
      "print FRAME DIGEST of each frame's pixels; OUT may be left out"},
     {"--stats", NULL, NULL, CS_VERB_SPANS, FIELD(statistics), NULL,
      "make all rows, count their spans by kind, print one line of counts"},
-    {"--pixels", "DEPTH", "8, 16, half or float", CS_VERB_SPANS, FIELD(pixels), cs_value_depth,
+    {"--pixels", "DEPTH", "8, 16, half or float", CS_VERB_SPANS, FIELD(pixels), cs_argument_depth,
      "with --stats: make each row as pixels, in a row that is reused"},
-    {"--picture", "NAME", "png or jpg", CS_VERB_TILES, FIELD(picture), cs_value_text,
+    {"--picture", "NAME", "png or jpg", CS_VERB_TILES, FIELD(picture), cs_argument_text,
      "png or jpg: what a tile is; default: png"},
     {"--tile", "N", "a whole number of pixels, 16 to 8192", CS_VERB_TILES, FIELD(tile),
-     cs_value_count, "pixels of a tile's side; default: 254, iiif 512"},
+     cs_argument_count, "pixels of a tile's side; default: 254, iiif 512"},
     {"--overlap", "N", "a whole number of pixels, 0 or more", CS_VERB_TILES, FIELD(overlap),
-     cs_value_count, "pixels that tiles share with their neighbours; default: 1, iiif 0"},
+     cs_argument_count, "pixels that tiles share with their neighbours; default: 1, iiif 0"},
     {"--levels", "A-B", "two levels from 0, the first not above the second", CS_VERB_TILES,
-     FIELD(levels), cs_value_rows, "levels to make, 0 is one pixel; default: all"},
-    {"--places", "FILE", "the name of a file", CS_VERB_TILES, FIELD(places), cs_value_text,
+     FIELD(levels), cs_argument_rows, "levels to make, 0 is one pixel; default: all"},
+    {"--places", "FILE", "the name of a file", CS_VERB_TILES, FIELD(places), cs_argument_text,
      "lines X Y WIDTH NAME: links in the page; deeper levels are made around them"},
-    {"--tiles-limit", "N", "a whole number", CS_VERB_TILES, FIELD(tile_limit), cs_value_count,
+    {"--tiles-limit", "N", "a whole number", CS_VERB_TILES, FIELD(tile_limit), cs_argument_count,
      "tiles to make at most; default: 200000"},
     {"--skip-empty", NULL, NULL, CS_VERB_TILES, FIELD(skips_empty), NULL,
      "leave out tiles that show nothing but the background"},
     {"--fresh", NULL, NULL, CS_VERB_TILES, FIELD(is_fresh), NULL,
      "remove the tiles of an earlier run and start over"},
     {"--viewer", "PATH", "the name of a folder or file", CS_VERB_TILES, FIELD(viewer),
-     cs_value_text, "OpenSeadragon, to be copied beside the page"},
-    {"--fail", "D", "a number, 0 or more", CS_VERB_COMPARE, FIELD(tolerance), cs_value_tolerance,
+     cs_argument_text, "OpenSeadragon, to be copied beside the page"},
+    {"--fail", "D", "a number, 0 or more", CS_VERB_COMPARE, FIELD(tolerance), cs_argument_tolerance,
      "largest difference of coded values (0..1) that is let pass; default 0"},
     {"--resume", NULL, NULL, CS_VERB_RENDER, FIELD(resumes), NULL,
      "keep the frames of earlier runs with --resume that would come out the same"},
@@ -97,7 +95,7 @@ static const option OPTIONS[] = {
     {"--keep-going", NULL, NULL, CS_VERB_RENDER, FIELD(keeps_going), NULL,
      "go on after frames that fail; the exit code is then 1"},
     {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
-     FIELD(memory), cs_value_memory,
+     FIELD(memory), cs_argument_memory,
      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"
      "                     as if it were the first"},
 };
@@ -139,7 +137,7 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
 
 static cs_exit read_value(const option *known, const char *text, cs_request *out) {
   void *field = (char *)out + known->offset;
-  if (known->read(text, field) == CS_VALUE_READ)
+  if (known->read(text, field) == CS_ARGUMENT_READ)
     return CS_EXIT_OK;
   return cs_report_usage("%s: '%s' is not %s", known->name, text, known->allowed);
 }

@@ -7,9 +7,9 @@
 #include <stdio.h>
 
 #include "celspan/celspan.h"
-#include "cli/pyramid.h"
+#include "cli/argument.h"
 #include "cli/report.h"
-#include "cli/values.h"
+#include "cli/tiles/pyramid.h"
 
 #define CS_OPERANDS_MAX 3
 
@@ -26,7 +26,7 @@ typedef struct cs_request {
   int32_t rows[2]; /* first and last, both included; last -1: not given */
   cs_given_antialias antialias;
   celspan_coding coding;
-  int32_t workers; /* 0: one a processor */
+  int32_t workers;         /* 0: one a processor */
   cs_given_integer memory; /* MiB; 0: nothing is kept from frame to frame */
   cs_progress_style progress;
   bool hash, statistics;
@@ -49,8 +49,8 @@ typedef enum cs_verb_set {
   CS_VERB_CONVERT = 1 << 5,
   CS_VERB_COMPARE = 1 << 6,
   CS_VERB_TILES = 1 << 7,
-  CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
-                         CS_VERB_PROBE | CS_VERB_TILES
+  CS_VERBS_WITH_SCRIPT =
+      CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES
 } cs_verb_set;
 
 typedef struct cs_verb {

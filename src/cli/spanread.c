@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
-#include "cli/values.h"
+#include "cli/argument.h"
 #include "colour/transfer.h"
 
 struct cs_spanread {

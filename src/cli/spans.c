@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "cli/progress.h"
-#include "cli/shot.h"
+#include "cli/script.h"
 #include "cli/verbs.h"
 #include "cli/view.h"
 
@@ -60,10 +60,9 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
   celspan_statistics statistics;
   memset(&statistics, 0, sizeof statistics);
   double started = cs_progress_clock();
-  celspan_status status =
-      request->pixels != CELSPAN_DEPTH_DEFAULT
-          ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
-          : celspan_frame_render(context, frame, &nowhere, &statistics);
+  celspan_status status = request->pixels != CELSPAN_DEPTH_DEFAULT
+                              ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
+                              : celspan_frame_render(context, frame, &nowhere, &statistics);
   if (status == CELSPAN_OK)
     print_statistics(&statistics, cs_progress_clock() - started);
   return status;
@@ -88,25 +87,25 @@ static cs_exit set_rows(const cs_request *request, celspan_frame_desc *frame) {
   return CS_EXIT_OK;
 }
 
-static cs_exit run(cs_shot *shot, const cs_request *request) {
+static cs_exit run(cs_script *script, const cs_request *request) {
   celspan_frame_desc frame;
-  cs_exit outcome = cs_shot_frame(shot, request, &frame);
+  cs_exit outcome = cs_script_frame(script, request, &frame);
   if (outcome == CS_EXIT_OK)
     outcome = set_rows(request, &frame);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  celspan_status status = request->statistics ? measure(shot->context, request, &frame)
-                                              : print_spans(shot->context, &frame);
-  return cs_shot_failure(shot, status);
+  celspan_status status = request->statistics ? measure(script->context, request, &frame)
+                                              : print_spans(script->context, &frame);
+  return cs_script_failure(script, status);
 }
 
-cs_exit cs_spans_run(celspan_context *context, const cs_request *request) {
+cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
   if (request->pixels != CELSPAN_DEPTH_DEFAULT && !request->statistics)
     return cs_report_usage("--pixels goes with --stats");
-  cs_shot shot;
-  cs_exit outcome = cs_shot_open(context, request, &shot);
+  cs_script script;
+  cs_exit outcome = cs_script_open(context, request, &script);
   if (outcome == CS_EXIT_OK)
-    outcome = run(&shot, request);
-  cs_shot_close(&shot);
+    outcome = run(&script, request);
+  cs_script_close(&script);
   return outcome;
 }

@@ -45,23 +45,23 @@ cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_re
 
 bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }
 
-static celspan_status list_frames(const cs_shot *shot, const cs_request *request,
+static celspan_status list_frames(const cs_script *script, const cs_request *request,
                                   cs_sequence *out) {
-  const cs_film_info *film = &shot->film;
+  const cs_film_info *film = &script->film;
   if (!request->frames)
-    return cs_sequence_count(shot->context, film->first, film->count, out);
-  celspan_status status = cs_sequence_parse(shot->context, request->frames, out);
+    return cs_sequence_count(script->context, film->first, film->count, out);
+  celspan_status status = cs_sequence_parse(script->context, request->frames, out);
   if (status == CELSPAN_OK)
-    status = cs_sequence_within(shot->context, out, film->first, film->count);
+    status = cs_sequence_within(script->context, out, film->first, film->count);
   return status;
 }
 
-cs_exit cs_target_frames(const cs_shot *shot, const cs_request *request, cs_sequence *out) {
-  celspan_status status = list_frames(shot, request, out);
+cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_sequence *out) {
+  celspan_status status = list_frames(script, request, out);
   if (status == CELSPAN_BAD_ARGUMENT)
-    return cs_report_usage("%s", celspan_context_error(shot->context));
+    return cs_report_usage("%s", celspan_context_error(script->context));
   if (status != CELSPAN_OK)
-    return cs_report_failure(shot->context, status, NULL);
+    return cs_report_failure(script->context, status, NULL);
   bool is_one_file = request->output && !cs_target_is_stream(request->output) &&
                      !cs_sequence_has_number(request->output);
   if (is_one_file && out->count > 1)

@@ -2,8 +2,8 @@
 #ifndef CS_CLI_TARGET_H
 #define CS_CLI_TARGET_H
 
-#include "bind/sequence.h"
-#include "cli/shot.h"
+#include "cli/script.h"
+#include "film/sequence.h"
 
 /* OK for what this version can write under the options; else reported: unknown formats, codings
  * that a format lacks, video, which is not built in. */
@@ -12,7 +12,7 @@ cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_re
 celspan_file_desc cs_target_file(const cs_request *request);
 /* The frames of --frames, or all, within the film, with a place for each. out: new. OK, or
  * reported. */
-cs_exit cs_target_frames(const cs_shot *shot, const cs_request *request, cs_sequence *out);
+cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_sequence *out);
 /* Standard output, for raw frames. */
 bool cs_target_is_stream(const char *path);
 

@@ -6,13 +6,13 @@
 
 #include "cli/request.h"
 
-cs_exit cs_render_run(celspan_context *context, const cs_request *request);
-cs_exit cs_info_run(celspan_context *context, const cs_request *request);
-cs_exit cs_check_run(celspan_context *context, const cs_request *request);
-cs_exit cs_spans_run(celspan_context *context, const cs_request *request);
-cs_exit cs_probe_run(celspan_context *context, const cs_request *request);
-cs_exit cs_convert_run(celspan_context *context, const cs_request *request);
-cs_exit cs_compare_run(celspan_context *context, const cs_request *request);
-cs_exit cs_tiles_run(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_render(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_info(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_check(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_spans(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_probe(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_convert(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_compare(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request);
 
 #endif

@@ -62,18 +62,18 @@ static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   cells->place = place;
 }
 
-static void toggle_to(cs_cells *cells, cs_composer *composer, double x) {
-  cells->toggle = cs_cells_toggle(composer, cells->toggle, cells->toggle_end, x);
-  for (; cells->toggle > cells->first_toggle && cells->toggle[-1].x > x; cells->toggle--)
-    cs_composer_cross(composer, cells->toggle[-1].leaf, -cells->toggle[-1].direction);
+static void deferred_to(cs_cells *cells, cs_composer *composer, double x) {
+  cells->deferred = cs_cells_defer(composer, cells->deferred, cells->deferred_end, x);
+  for (; cells->deferred > cells->first_toggle && cells->deferred[-1].x > x; cells->deferred--)
+    cs_composer_cross(composer, cells->deferred[-1].layer, -cells->deferred[-1].direction);
 }
 
 /* At both ends nothing is present, so from the one to the other it is but a step. */
 static void go_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
   cross_to(cells, composer, goes_right ? cells->count : 0);
-  toggle_to(cells, composer, goes_right ? INFINITY : -INFINITY);
+  deferred_to(cells, composer, goes_right ? INFINITY : -INFINITY);
   cells->place = goes_right ? 0 : cells->count;
-  cells->toggle = goes_right ? cells->first_toggle : cells->toggle_end;
+  cells->deferred = goes_right ? cells->first_toggle : cells->deferred_end;
 }
 
 void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
@@ -81,21 +81,21 @@ void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double
   if (2 * away > cells->count) /* the other way is the nearer one */
     go_round(cells, composer, place < from);
   cross_to(cells, composer, place);
-  toggle_to(cells, composer, x);
+  deferred_to(cells, composer, x);
 }
 
 void cs_cells_home(cs_cells *cells, cs_composer *composer) {
   if (2 * cells->place > cells->count)
     go_round(cells, composer, true);
   cross_to(cells, composer, 0);
-  toggle_to(cells, composer, -INFINITY);
+  deferred_to(cells, composer, -INFINITY);
 }
 
 void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
   cs_composer_restart(composer);
   cs_cells_forget(cells);
   cells->place = 0;
-  cells->toggle = cells->first_toggle;
+  cells->deferred = cells->first_toggle;
 }
 
 /* Takes the new order over. What is present between windings that balance is the same as ever, so
@@ -116,7 +116,7 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
            (end - change.low) * sizeof *cells->crossing);
   if (change.low > 0 || change.tail > 0)
     return;
-  cells->first_toggle = cells->toggle = cs_active_toggles(active, &cells->toggle_end);
+  cells->first_toggle = cells->deferred = cs_active_deferred(active, &cells->deferred_end);
 }
 
 /* ---------------------------------------------------------------- making */
@@ -131,8 +131,8 @@ static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
 /* Steps over the boundary right of the composer, which is at x. */
 static inline void step(cs_cells *cells, cs_composer *composer, double x) {
   cs_crossing crossing = cells->crossing[cells->place++];
-  cs_composer_cross(composer, crossing.leaf, crossing.direction);
-  cells->toggle = cs_cells_toggle(composer, cells->toggle, cells->toggle_end, x);
+  cs_composer_cross(composer, crossing.layer, crossing.direction);
+  cells->deferred = cs_cells_defer(composer, cells->deferred, cells->deferred_end, x);
 }
 
 celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,
@@ -157,8 +157,8 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   return CELSPAN_OK;
 }
 
-void cs_cells_carry(cs_cells *cells, const cs_composer *composer, const cs_active *active,
-                    size_t low, size_t count, const cs_cell *const *right) {
+void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                     size_t low, size_t count, const cs_cell *const *right) {
   memcpy(cells->crossing + low, active->crossing + low, count * sizeof *cells->crossing);
   for (size_t k = 0; k < count; k++) {
     cs_cell *cell = &cells->cells[low + k + 1];

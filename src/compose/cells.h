@@ -16,10 +16,10 @@
 
 /* Crosses the toggles up to and at x: culled boundaries take effect there, unseen. A cell is
  * composed with the toggles at or left of its own left end, neither more nor fewer. */
-static inline const cs_toggle *cs_cells_toggle(cs_composer *composer, const cs_toggle *next,
-                                               const cs_toggle *end, double x) {
+static inline const cs_deferred *cs_cells_defer(cs_composer *composer, const cs_deferred *next,
+                                                const cs_deferred *end, double x) {
   for (; next < end && next->x <= x; next++)
-    cs_composer_cross(composer, next->leaf, next->direction);
+    cs_composer_cross(composer, next->layer, next->direction);
   return next;
 }
 
@@ -31,7 +31,7 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *cros
   uint8_t *filled = composer->filled;
   cs_set_hash hash = composer->hash; /* in registers on the way */
   for (size_t i = low; i < high; i++)
-    cs_composer_turn(presences, set, filled, &hash, crossing[i].leaf,
+    cs_composer_turn(presences, set, filled, &hash, crossing[i].layer,
                      sign * crossing[i].direction);
   composer->hash = hash;
 }
@@ -47,7 +47,7 @@ typedef struct cs_cells {
    * of the toggles before `toggle` of [first_toggle, toggle_end) */
   size_t place, count;
   cs_crossing *crossing;
-  const cs_toggle *first_toggle, *toggle, *toggle_end;
+  const cs_deferred *first_toggle, *deferred, *deferred_end;
   size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
 } cs_cells;
 
@@ -60,8 +60,8 @@ CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *com
                                                const cs_active *active, cs_change change);
 /* The boundaries low..low + count - 1 have changed places among themselves, and known cells lie
  * right of them now, of which copies are put there. The composer does not stand between them. */
-void cs_cells_carry(cs_cells *cells, const cs_composer *composer, const cs_active *active,
-                    size_t low, size_t count, const cs_cell *const *right);
+void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
+                     size_t low, size_t count, const cs_cell *const *right);
 /* Lets the composer stand left of boundary `place`, right of the toggles at or left of x. */
 void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x);
 /* Lets it stand where nothing is present. */

@@ -1,10 +1,10 @@
 #include "compose/composer.h"
 
-#include "compose/palette.h"
+#include "paint/gradient_table.h"
 
 #include <math.h>
 
-#define MEMO_SIZE 4096 /* cells remembered, two of one place; a power of two */
+#define MEMO_SIZE 4096               /* cells remembered, two of one place; a power of two */
 #define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
 
 /* ---------------------------------------------------------------- life */
@@ -27,22 +27,22 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->filled, filled_count(stack), sizeof(uint8_t)));
-  CS_TRY(take(composer, &composer->presences, stack->leaf_count, sizeof(cs_presence)));
-  for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
-    composer->presences[leaf].mark = stack->marks[leaf];
+  CS_TRY(take(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
+  for (size_t layer = 0; layer < stack->layer_count; layer++)
+    composer->presences[layer].rule = stack->rules[layer];
   if (stack->procedure_count > 0)
-    CS_TRY(take(composer, &composer->strip_of, stack->leaf_count, sizeof(uint32_t)));
+    CS_TRY(take(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
   CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  CS_TRY(take(composer, &composer->folds, cs_folds_suit(stack), sizeof(cs_folds)));
+  CS_TRY(take(composer, &composer->folds, cs_over_table_suits(stack), sizeof(cs_over_table)));
   if (composer->folds)
-    CS_TRY(cs_folds_init(composer->folds, context, stack));
-  CS_TRY(take(composer, &composer->slides, stack->slide_count, sizeof(cs_seen_slide)));
-  CS_TRY(take(composer, &composer->texels, stack->slide_count > 0, sizeof(cs_texels)));
+    CS_TRY(cs_over_table_init(composer->folds, context, stack));
+  CS_TRY(take(composer, &composer->images, stack->image_count, sizeof(cs_image_view)));
+  CS_TRY(take(composer, &composer->texels, stack->image_count > 0, sizeof(cs_block_cache)));
   if (composer->texels)
-    cs_texels_init(composer->texels, context);
-  CS_TRY(take(composer, &composer->softs, stack->soft_count, sizeof(cs_seen_soft)));
+    cs_block_cache_init(composer->texels, context);
+  CS_TRY(take(composer, &composer->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
   if (stack->shade_count > 0)
-    CS_TRY(cs_palettes_create(context, &composer->palettes));
+    CS_TRY(cs_gradient_tables_create(context, &composer->palettes));
   return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
 
@@ -55,31 +55,32 @@ void cs_composer_finish(cs_composer *composer) {
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->filled, filled_count(stack) * sizeof(uint8_t));
-  cs_mem_free(memory, composer->presences, stack->leaf_count * sizeof(cs_presence));
-  cs_mem_free(memory, composer->strip_of, stack->leaf_count * sizeof(uint32_t));
+  cs_mem_free(memory, composer->presences, stack->layer_count * sizeof(cs_presence));
+  cs_mem_free(memory, composer->procedure_span_of, stack->layer_count * sizeof(uint32_t));
   cs_mem_free(memory, composer->results, stack->step_depth * sizeof(cs_tree_result));
   if (composer->folds)
-    cs_folds_finish(composer->folds);
-  cs_mem_free(memory, composer->folds, sizeof(cs_folds));
-  cs_mem_free(memory, composer->slides, stack->slide_count * sizeof(cs_seen_slide));
+    cs_over_table_finish(composer->folds);
+  cs_mem_free(memory, composer->folds, sizeof(cs_over_table));
+  cs_mem_free(memory, composer->images, stack->image_count * sizeof(cs_image_view));
   if (composer->texels)
-    cs_texels_finish(composer->texels);
-  cs_mem_free(memory, composer->texels, sizeof(cs_texels));
-  for (size_t i = 0; composer->softs && i < stack->soft_count; i++)
-    cs_soft_leave(stack->softs[i], composer->context, &composer->softs[i]);
-  cs_mem_free(memory, composer->softs, stack->soft_count * sizeof(cs_seen_soft));
-  cs_palettes_destroy(composer->palettes, memory);
+    cs_block_cache_finish(composer->texels);
+  cs_mem_free(memory, composer->texels, sizeof(cs_block_cache));
+  for (size_t i = 0; composer->defocused && i < stack->defocused_count; i++)
+    cs_defocused_leave(stack->defocused[i], composer->context, &composer->defocused[i]);
+  cs_mem_free(memory, composer->defocused, stack->defocused_count * sizeof(cs_defocused_view));
+  cs_gradient_tables_destroy(composer->palettes, memory);
   cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
-  cs_mem_free(memory, composer->strips, composer->strip_capacity * sizeof(cs_strip));
+  cs_mem_free(memory, composer->procedure_spans,
+              composer->procedure_span_capacity * sizeof(cs_procedure_span));
   cs_arena_finish(&composer->scratch, memory);
   *composer = (cs_composer){0};
 }
 
 bool cs_composer_begin_row(cs_composer *composer) {
   composer->failure = CELSPAN_OK;
-  composer->strip_count = 0;
+  composer->procedure_span_count = 0;
   if (composer->item_count <= ITEM_LIMIT)
     return false;
   composer->item_count = 0;
@@ -89,9 +90,9 @@ bool cs_composer_begin_row(cs_composer *composer) {
 
 void cs_composer_restart(cs_composer *composer) {
   const cs_stack *stack = composer->stack;
-  for (size_t leaf = 0; leaf < stack->leaf_count; leaf++)
-    composer->presences[leaf].winding = 0;
-  if (stack->leaf_count > 0) {
+  for (size_t layer = 0; layer < stack->layer_count; layer++)
+    composer->presences[layer].winding = 0;
+  if (stack->layer_count > 0) {
     memset(composer->set, 0, cs_stack_words(stack) * sizeof *composer->set);
     memset(composer->filled, 0, filled_count(stack) * sizeof *composer->filled);
   }
@@ -108,9 +109,9 @@ typedef struct level {
 typedef struct fold {
   const cs_stack *stack;
   cs_v4 e, t;
-  float keep;      /* what the mattes of back lights leave of transparency */
-  uint32_t group;  /* where the fold stands */
-  size_t light;    /* the next back light to be met */
+  float keep;     /* what the mattes of back lights leave of transparency */
+  uint32_t group; /* where the fold stands */
+  size_t light;   /* the next back light to be met */
   uint32_t depth;
   level outer[CS_SCENE_DEPTH + 2];
 } fold;
@@ -150,10 +151,10 @@ static void fold_light(fold *f) {
 }
 
 /* Moves the fold back to just before `leaf`: leaves groups, meets back lights, enters groups. */
-static inline void fold_reach(fold *f, uint32_t leaf, uint32_t group) {
-  while (f->group != CS_STACK_NONE && leaf < f->stack->groups[f->group].first)
+static inline void fold_reach(fold *f, uint32_t layer, uint32_t group) {
+  while (f->group != CS_STACK_NONE && layer < f->stack->groups[f->group].first)
     fold_leave_group(f);
-  while (f->light < f->stack->light_count && leaf < f->stack->lights[f->light].below)
+  while (f->light < f->stack->light_count && layer < f->stack->lights[f->light].below)
     fold_light(f);
   if (group != f->group)
     fold_enter_group(f, group);
@@ -182,44 +183,44 @@ static cs_v4 fold_end(fold *f) {
 
 /* ---------------------------------------------------------------- gathering */
 
-static celspan_status gather_item(cs_composer *composer, uint32_t leaf) {
+static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
   CS_TRY(cs_mem_reserve(composer->context, (void **)&composer->gathered,
                         &composer->gathered_capacity, composer->gathered_count + 1,
                         sizeof(cs_item)));
-  uint32_t strip = composer->stack->leaves[leaf].kind == CS_LEAF_SCANLINE
-                       ? composer->strip_of[leaf]
-                       : 0;
-  composer->gathered[composer->gathered_count++] = (cs_item){leaf, strip};
+  uint32_t procedure_span = composer->stack->layers[layer].kind == CS_LAYER_SCANLINE
+                                ? composer->procedure_span_of[layer]
+                                : 0;
+  composer->gathered[composer->gathered_count++] = (cs_item){layer, procedure_span};
   return CELSPAN_OK;
 }
 
 /* A picture whose header cannot be read counts as clear until it is really seen: only then is it an
  * error. */
-static bool leaf_is_opaque(cs_composer *composer, const cs_leaf *leaf) {
-  const cs_seen_slide *slide;
-  if (leaf->kind != CS_LEAF_PICTURE)
-    return leaf->is_opaque;
-  return cs_composer_slide(composer, leaf->detail, &slide) == CELSPAN_OK && slide->is_opaque &&
-         leaf->fade == 1;
+static bool layer_is_opaque(cs_composer *composer, const cs_layer *layer) {
+  const cs_image_view *image;
+  if (layer->kind != CS_LAYER_PICTURE)
+    return layer->is_opaque;
+  return cs_composer_image(composer, layer->detail, &image) == CELSPAN_OK && image->is_opaque &&
+         layer->fade == 1;
 }
 
 /* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf
  * that varies and is not opaque counts as clear, so the stop comes late, never early. */
-static celspan_status gather_leaf(cs_composer *composer, fold *f, uint32_t index) {
-  const cs_leaf *leaf = &composer->stack->leaves[index];
-  fold_reach(f, index, leaf->group);
+static celspan_status gather_layer(cs_composer *composer, fold *f, uint32_t index) {
+  const cs_layer *layer = &composer->stack->layers[index];
+  fold_reach(f, index, layer->group);
   CS_TRY(gather_item(composer, index));
-  if (leaf->kind == CS_LEAF_FLAT) {
-    fold_paint(f, leaf->s, leaf->t);
+  if (layer->kind == CS_LAYER_FLAT) {
+    fold_paint(f, layer->s, layer->t);
     return CELSPAN_OK;
   }
-  if (leaf_is_opaque(composer, leaf))
+  if (layer_is_opaque(composer, layer))
     f->t = cs_v4_all(0);
   return CELSPAN_OK;
 }
 
 /* The highest leaf of the set below `end`, or CS_STACK_NONE. */
-static inline uint32_t leaf_below(const cs_composer *composer, const uint64_t *set, uint32_t end) {
+static inline uint32_t layer_below(const cs_composer *composer, const uint64_t *set, uint32_t end) {
   if (end == 0)
     return CS_STACK_NONE;
   uint32_t word = (end - 1) / 64;
@@ -227,7 +228,7 @@ static inline uint32_t leaf_below(const cs_composer *composer, const uint64_t *s
   while (bits == 0) {
     if (word == 0)
       return CS_STACK_NONE;
-    word = word % 8 == 0 ? cs_folds_skip(composer->filled, word) : word;
+    word = word % 8 == 0 ? cs_over_table_skip(composer->filled, word) : word;
     bits = word > 0 ? set[--word] : 0;
   }
   return word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
@@ -244,25 +245,25 @@ static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   fold f;
   fold_begin(&f, composer->stack);
   composer->gathered_count = 0;
-  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
-       (leaf = leaf_below(composer, set, end)) != CS_STACK_NONE;) {
-    CS_TRY(gather_leaf(composer, &f, leaf));
-    end = fold_is_opaque(&f) ? end_behind(&f) : leaf;
+  for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
+       (layer = layer_below(composer, set, end)) != CS_STACK_NONE;) {
+    CS_TRY(gather_layer(composer, &f, layer));
+    end = fold_is_opaque(&f) ? end_behind(&f) : layer;
   }
   return CELSPAN_OK;
 }
 
 /* The same while all leaves are flat; false where one is not. */
 static bool fold_flats(const cs_composer *composer, const uint64_t *set, fold *f) {
-  const cs_leaf *leaves = composer->stack->leaves;
+  const cs_layer *layers = composer->stack->layers;
   fold_begin(f, composer->stack);
-  for (uint32_t leaf, end = (uint32_t)composer->stack->leaf_count;
-       (leaf = leaf_below(composer, set, end)) != CS_STACK_NONE;) {
-    if (leaves[leaf].kind != CS_LEAF_FLAT)
+  for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
+       (layer = layer_below(composer, set, end)) != CS_STACK_NONE;) {
+    if (layers[layer].kind != CS_LAYER_FLAT)
       return false;
-    fold_reach(f, leaf, leaves[leaf].group);
-    fold_paint(f, leaves[leaf].s, leaves[leaf].t);
-    end = fold_is_opaque(f) ? end_behind(f) : leaf;
+    fold_reach(f, layer, layers[layer].group);
+    fold_paint(f, layers[layer].s, layers[layer].t);
+    end = fold_is_opaque(f) ? end_behind(f) : layer;
   }
   return true;
 }
@@ -295,8 +296,8 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   composer->evaluations++;
   const uint64_t *set = resolve(composer);
   if (composer->folds) {
-    cs_glimpse light;
-    CS_TRY(cs_folds_light(composer->folds, set, composer->filled, &light));
+    cs_over_pair light;
+    CS_TRY(cs_over_table_light(composer->folds, set, composer->filled, &light));
     fold_begin(&f, composer->stack);
     f.e = light.e;
     f.t = light.t;
@@ -311,18 +312,18 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
 
 /* ---------------------------------------------------------------- cells */
 
-void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t strip,
-                             int32_t direction) {
+void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t procedure_span,
+                            int32_t direction) {
   /* Rows number their strips alike, and a program names a strip by its number: what the memo holds
    * of an earlier row is the same program, read with this row's strips. */
-  const cs_mark *mark = &composer->stack->marks[leaf];
-  uint64_t name = (strip + 1) * (uint64_t)0x9e3779b97f4a7c15u;
-  composer->set[leaf / 64] ^= (uint64_t)1 << (leaf % 64);
-  composer->filled[leaf / 64] = composer->set[leaf / 64] != 0;
-  composer->hash.a ^= mark->key[0] * (name | 1);
-  composer->hash.b ^= mark->key[1] ^ name;
+  const cs_layer_rule *rule = &composer->stack->rules[layer];
+  uint64_t name = (procedure_span + 1) * (uint64_t)0x9e3779b97f4a7c15u;
+  composer->set[layer / 64] ^= (uint64_t)1 << (layer % 64);
+  composer->filled[layer / 64] = composer->set[layer / 64] != 0;
+  composer->hash.a ^= rule->key[0] * (name | 1);
+  composer->hash.b ^= rule->key[1] ^ name;
   if (direction > 0)
-    composer->strip_of[leaf] = strip;
+    composer->procedure_span_of[layer] = procedure_span;
 }
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {

@@ -14,19 +14,21 @@
 #ifndef CS_COMPOSE_COMPOSER_H
 #define CS_COMPOSE_COMPOSER_H
 
-#include "compose/folds.h"
+#include "compose/over_table.h"
 #include "span/row.h"
 
 typedef struct cs_set_hash {
   uint64_t a, b;
 } cs_set_hash;
 
-static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) { return p.a == q.a && p.b == q.b; }
+static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) {
+  return p.a == q.a && p.b == q.b;
+}
 
 /* One layer of a program. */
 typedef struct cs_item {
-  uint32_t leaf;
-  uint32_t strip; /* SCANLINE: which of the row's strips; else 0 */
+  uint32_t layer;
+  uint32_t procedure_span; /* SCANLINE: which of the row's strips; else 0 */
 } cs_item;
 
 typedef struct cs_cell {
@@ -37,28 +39,28 @@ typedef struct cs_cell {
 } cs_cell;
 
 /* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */
-typedef struct cs_strip {
+typedef struct cs_procedure_span {
   double x0, x1;
   const cs_paint *paints;
   size_t paint_count;
-} cs_strip;
+} cs_procedure_span;
 
 /* A program on its own, free of the composer's lists: what varies along a row, front to back. */
 typedef struct cs_program {
   const cs_item *items;
-  const cs_strip *strips; /* that items of SCANLINE leaves name */
-  uint32_t length;        /* 0: nothing shows but back lights */
+  const cs_procedure_span *procedure_spans; /* that items of SCANLINE leaves name */
+  uint32_t length;                          /* 0: nothing shows but back lights */
 } cs_program;
 
 /* A picture leaf as this worker sees it: its header is read when the leaf is first reached. */
-typedef struct cs_seen_slide {
+typedef struct cs_image_view {
   bool is_ready, is_opaque;
   cs_sampler sampler;
-} cs_seen_slide;
+} cs_image_view;
 
 /* A leaf at the walk's place. */
 typedef struct cs_presence {
-  cs_mark mark;
+  cs_layer_rule rule;
   int32_t winding;
 } cs_presence;
 
@@ -75,22 +77,23 @@ typedef struct cs_composer {
   uint8_t *filled;        /* whether a word of the set is not 0; a multiple of eight of them */
   uint64_t *contributing; /* scratch */
   cs_presence *presences; /* one a leaf */
-  uint32_t *strip_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
+  uint32_t
+      *procedure_span_of; /* a leaf's strip at the walk's place; NULL without scan-line leaves */
   cs_set_hash hash;
   cs_tree_result *results;
-  cs_folds *folds; /* NULL where leaves are not all plain */
-  cs_seen_slide *slides;
-  cs_texels *texels; /* of its pictures; NULL without pictures */
-  cs_seen_soft *softs;
-  struct cs_palettes *palettes; /* NULL without gradients: palette.h */
+  cs_over_table *folds; /* NULL where leaves are not all plain */
+  cs_image_view *images;
+  cs_block_cache *texels; /* of its pictures; NULL without pictures */
+  cs_defocused_view *defocused;
+  struct cs_gradient_tables *palettes; /* NULL without gradients: palette.h */
   cs_memo *memo;
   cs_item *items;
   size_t item_count, item_capacity;
   cs_item *gathered; /* scratch: the items of the cell being composed */
   size_t gathered_count, gathered_capacity;
-  cs_strip *strips; /* of the current row */
-  size_t strip_count, strip_capacity;
-  cs_arena scratch;       /* of one run */
+  cs_procedure_span *procedure_spans; /* of the current row */
+  size_t procedure_span_count, procedure_span_capacity;
+  cs_arena scratch; /* of one run */
   uint64_t evaluations;
   celspan_status failure; /* sticky: the first failure of the row, recorded in context */
 } cs_composer;
@@ -107,29 +110,29 @@ void cs_composer_restart(cs_composer *composer);
 
 /* What crossing a boundary of `leaf` does to its presence, the set and the set's hash. */
 static inline void cs_composer_turn(cs_presence *presences, uint64_t *set, uint8_t *filled,
-                                    cs_set_hash *hash, uint32_t leaf, int32_t direction) {
-  cs_presence *presence = &presences[leaf];
-  const cs_mark *mark = &presence->mark;
+                                    cs_set_hash *hash, uint32_t layer, int32_t direction) {
+  cs_presence *presence = &presences[layer];
+  const cs_layer_rule *rule = &presence->rule;
   int32_t before = presence->winding, after = before + direction;
   presence->winding = after;
   /* Whether it flips can hardly be foreseen, so nothing here is a branch. */
-  uint64_t flips = ((before & mark->winding_mask) != 0) != ((after & mark->winding_mask) != 0);
-  uint64_t word = set[leaf / 64] ^ flips << (leaf % 64);
-  set[leaf / 64] = word;
-  filled[leaf / 64] = word != 0;
-  hash->a ^= mark->key[0] & -flips;
-  hash->b ^= mark->key[1] & -flips;
+  uint64_t flips = ((before & rule->winding_mask) != 0) != ((after & rule->winding_mask) != 0);
+  uint64_t word = set[layer / 64] ^ flips << (layer % 64);
+  set[layer / 64] = word;
+  filled[layer / 64] = word != 0;
+  hash->a ^= rule->key[0] & -flips;
+  hash->b ^= rule->key[1] & -flips;
 }
 
 /* Crosses a boundary of `leaf` that runs in `direction` (+1, -1), from left to right. */
-static inline void cs_composer_cross(cs_composer *composer, uint32_t leaf, int32_t direction) {
-  cs_composer_turn(composer->presences, composer->set, composer->filled, &composer->hash, leaf,
+static inline void cs_composer_cross(cs_composer *composer, uint32_t layer, int32_t direction) {
+  cs_composer_turn(composer->presences, composer->set, composer->filled, &composer->hash, layer,
                    direction);
 }
 
 /* Enters (+1) or leaves (-1) a strip of a scan-line leaf. */
-void cs_composer_cross_strip(cs_composer *composer, uint32_t leaf, uint32_t strip,
-                             int32_t direction);
+void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t procedure_span,
+                            int32_t direction);
 
 /* The cell at the walk's place. On failure the cell is clear and composer->failure is set. */
 void cs_composer_cell(cs_composer *composer, cs_cell *out);
@@ -158,13 +161,13 @@ CELSPAN_CHECKED celspan_status cs_composer_program_colours(cs_composer *composer
 
 /* ---- for ramps.c */
 
-/* The colours of ascending columns, at most CS_BLEND_BATCH. */
+/* The colours of ascending columns, at most CS_OVER_ROW_BATCH. */
 CELSPAN_CHECKED celspan_status cs_composer_colours_at(cs_composer *composer,
                                                       const cs_program *program,
                                                       const int32_t *columns, int32_t count,
                                                       double y, float (*rgba)[4]);
 /* The sampler of a picture leaf, its header read on first use. */
-CELSPAN_CHECKED celspan_status cs_composer_slide(cs_composer *composer, uint32_t detail,
-                                                 const cs_seen_slide **out);
+CELSPAN_CHECKED celspan_status cs_composer_image(cs_composer *composer, uint32_t detail,
+                                                 const cs_image_view **out);
 
 #endif

@@ -17,37 +17,37 @@
 
 #include "base/vector.h"
 #include "colour/paint.h"
-#include "compose/sampler.h"
-#include "compose/soft.h"
+#include "sample/defocused.h"
+#include "sample/sampler.h"
 #include "scene/scene.h"
 
 #define CS_STACK_NONE UINT32_MAX
-#define CS_STACK_LEAVES ((size_t)10000000)
+#define CS_STACK_LAYERS ((size_t)10000000)
 
-typedef enum cs_leaf_kind {
-  CS_LEAF_FLAT,
-  CS_LEAF_SHADED,  /* triangle, linear or radial: varies along a row, as a formula */
-  CS_LEAF_PICTURE, /* varies from pixel to pixel */
-  CS_LEAF_SCANLINE, /* paints come with the spans of the row */
-  CS_LEAF_SOFT      /* a defocused cel */
-} cs_leaf_kind;
+typedef enum cs_layer_kind {
+  CS_LAYER_FLAT,
+  CS_LAYER_SHADED,   /* triangle, linear or radial: varies along a row, as a formula */
+  CS_LAYER_PICTURE,  /* varies from pixel to pixel */
+  CS_LAYER_SCANLINE, /* paints come with the spans of the row */
+  CS_LAYER_DEFOCUSED /* a defocused cel */
+} cs_layer_kind;
 
-typedef struct cs_leaf {
+typedef struct cs_layer {
   cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
   cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
   uint32_t group;  /* innermost faded group, or CS_STACK_NONE */
   uint32_t detail; /* SHADED, PICTURE, SCANLINE, SOFT: index into the array of its kind */
   float fade;      /* of its paint, where that varies */
-  uint8_t kind;    /* a cs_leaf_kind */
+  uint8_t kind;    /* a cs_layer_kind */
   bool is_opaque;  /* lets nothing through, wherever it is present */
-} cs_leaf;
-static_assert(sizeof(cs_leaf) == 64, "a leaf fills a line of the cache");
+} cs_layer;
+static_assert(sizeof(cs_layer) == 64, "a leaf fills a line of the cache");
 
 /* What the walk along a row needs of a leaf. */
-typedef struct cs_mark {
+typedef struct cs_layer_rule {
   uint64_t key[2];      /* names the leaf in the hash of a set */
   int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
-} cs_mark;
+} cs_layer_rule;
 
 /* A formula as planes, value = a x + b y + c.
  * TRIANGLE: premultiplied s, t and beta over own units.
@@ -61,16 +61,16 @@ typedef struct cs_shade {
   bool is_affine; /* and w above 0 everywhere */
 } cs_shade;
 
-typedef struct cs_slide {
+typedef struct cs_image_layer {
   const celspan_texture *texture;
   celspan_matrix inverse; /* frame pixels to own units */
   celspan_box box;        /* what the picture fills, own units */
   celspan_wrap wrap;
-} cs_slide;
+} cs_image_layer;
 
 typedef struct cs_procedure {
   const celspan_scanline_desc *desc; /* borrowed from the scene */
-  uint32_t leaf;
+  uint32_t layer;
   double scale_x, shift_x, scale_y, shift_y; /* own units to frame pixels */
 } cs_procedure;
 
@@ -89,7 +89,7 @@ typedef struct cs_back_light {
 } cs_back_light;
 
 /* One step of a boolean tree in post-order. */
-typedef enum cs_step_kind { CS_STEP_LEAF, CS_STEP_LEAVES, CS_STEP_OPERATOR } cs_step_kind;
+typedef enum cs_step_kind { CS_STEP_LAYER, CS_STEP_LAYERS, CS_STEP_OPERATOR } cs_step_kind;
 
 typedef struct cs_step {
   cs_step_kind kind;
@@ -104,21 +104,21 @@ typedef struct cs_tree {
 } cs_tree;
 
 typedef struct cs_stack {
-  cs_leaf *leaves;
-  cs_mark *marks; /* one a leaf */
+  cs_layer *layers;
+  cs_layer_rule *rules; /* one a leaf */
   cs_shade *shades;
-  cs_slide *slides;
+  cs_image_layer *images;
   cs_procedure *procedures;
-  const cs_soft **softs; /* the shot's */
+  const cs_defocused **defocused; /* the shot's */
   cs_group *groups;
   cs_back_light *lights; /* nearest first */
   cs_step *steps;
   cs_tree *trees; /* disjoint, rear first */
-  size_t leaf_count, leaf_capacity, mark_capacity;
+  size_t layer_count, layer_capacity, rule_capacity;
   size_t shade_count, shade_capacity;
-  size_t slide_count, slide_capacity;
+  size_t image_count, image_capacity;
   size_t procedure_count, procedure_capacity;
-  size_t soft_count, soft_capacity;
+  size_t defocused_count, defocused_capacity;
   size_t group_count, group_capacity;
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
@@ -135,7 +135,9 @@ static inline float cs_stack_mean(cs_v4 t) {
 
 /* ---- sets: one bit a leaf */
 
-static inline size_t cs_stack_words(const cs_stack *stack) { return (stack->leaf_count + 63) / 64; }
+static inline size_t cs_stack_words(const cs_stack *stack) {
+  return (stack->layer_count + 63) / 64;
+}
 
 /* Turns presence into contribution in place: clears the bits of leaves that their boolean trees
  * hide. results: room for step_depth entries. */

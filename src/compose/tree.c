@@ -7,13 +7,12 @@
 #include "compose/stack.h"
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
-  cs_mem_free(memory, stack->leaves, stack->leaf_capacity * sizeof *stack->leaves);
-  cs_mem_free(memory, stack->marks, stack->mark_capacity * sizeof *stack->marks);
+  cs_mem_free(memory, stack->layers, stack->layer_capacity * sizeof *stack->layers);
+  cs_mem_free(memory, stack->rules, stack->rule_capacity * sizeof *stack->rules);
   cs_mem_free(memory, stack->shades, stack->shade_capacity * sizeof *stack->shades);
-  cs_mem_free(memory, stack->slides, stack->slide_capacity * sizeof *stack->slides);
-  cs_mem_free(memory, stack->procedures,
-              stack->procedure_capacity * sizeof *stack->procedures);
-  cs_mem_free(memory, stack->softs, stack->soft_capacity * sizeof *stack->softs);
+  cs_mem_free(memory, stack->images, stack->image_capacity * sizeof *stack->images);
+  cs_mem_free(memory, stack->procedures, stack->procedure_capacity * sizeof *stack->procedures);
+  cs_mem_free(memory, stack->defocused, stack->defocused_capacity * sizeof *stack->defocused);
   cs_mem_free(memory, stack->groups, stack->group_capacity * sizeof *stack->groups);
   cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
   cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);
@@ -51,8 +50,8 @@ static void clear_range(uint64_t *set, uint32_t first, uint32_t end) {
     set[word] &= ~range_mask(word, first, end);
 }
 
-static bool has_bit(const uint64_t *set, uint32_t leaf) {
-  return set[leaf / 64] >> (leaf % 64) & 1;
+static bool has_bit(const uint64_t *set, uint32_t layer) {
+  return set[layer / 64] >> (layer % 64) & 1;
 }
 
 /* The operator's own presence, given how many operands are present and whether the first is. */
@@ -107,7 +106,7 @@ static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *s
   size_t depth = 0;
   for (uint32_t i = 0; i < tree->step_count; i++) {
     const cs_step *step = &stack->steps[tree->step + i];
-    if (step->kind == CS_STEP_LEAF) {
+    if (step->kind == CS_STEP_LAYER) {
       results[depth++] = (cs_tree_result){step->first, step->end, has_bit(set, step->first)};
       continue;
     }

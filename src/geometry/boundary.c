@@ -22,7 +22,7 @@ static bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
     return a->y0 < b->y0;
   if (a->x0 != b->x0)
     return a->x0 < b->x0;
-  return a->leaf != b->leaf ? a->leaf < b->leaf : a->piece < b->piece;
+  return a->layer != b->layer ? a->layer < b->layer : a->piece < b->piece;
 }
 
 static void sift_down(cs_boundary_chain *chains, size_t root, size_t count) {

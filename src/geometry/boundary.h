@@ -29,11 +29,11 @@
 /* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
-  double left, right; /* no vertex lies outside them */
-  double sag;         /* how far a chord of mean length may be from the curve */
-  double step;        /* 1 / chords: of the parameter from vertex to vertex */
-  uint32_t point;     /* its degree + 1 points; none where there is but one chord */
-  uint32_t chords;    /* a multiple of group */
+  double left, right;  /* no vertex lies outside them */
+  double sag;          /* how far a chord of mean length may be from the curve */
+  double step;         /* 1 / chords: of the parameter from vertex to vertex */
+  uint32_t point;      /* its degree + 1 points; none where there is but one chord */
+  uint32_t chords;     /* a multiple of group */
   uint8_t group, half; /* in chords: of a group, and of what it is cut into; half: may be all */
   uint8_t leap;        /* groups that one arc is tried for, from a multiple of it on; or 1 */
   uint8_t degree;
@@ -44,7 +44,7 @@ typedef struct cs_boundary_chain {
   double y0, y1; /* top and bottom, y0 < y1 */
   double x0;     /* at the top */
   uint32_t piece, piece_count;
-  uint32_t leaf;     /* whose outline this is: an index of the caller's */
+  uint32_t layer;    /* whose outline this is: an index of the caller's */
   int32_t direction; /* +1: the contour runs downwards here, -1: upwards */
 } cs_boundary_chain;
 
@@ -69,7 +69,7 @@ void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
                                                const cs_outline *outline,
                                                const celspan_matrix *matrix,
-                                               const cs_boundary_frame *frame, uint32_t leaf);
+                                               const cs_boundary_frame *frame, uint32_t layer);
 
 /* Orders the chains by y0, then x0, then leaf and place of origin: the order in which a sweep meets
  * them, free of memory addresses. Call once, when all is added. */

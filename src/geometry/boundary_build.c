@@ -21,7 +21,7 @@ typedef struct builder {
   celspan_context *context;
   cs_boundary_set *set;
   const cs_boundary_frame *frame;
-  uint32_t leaf;
+  uint32_t layer;
   part *parts; /* of the present contour */
   size_t part_count, part_capacity;
   cs_bezier *fronts; /* what the horizon left of the present piece */
@@ -352,7 +352,7 @@ static void add_chain(builder *b, size_t begin, size_t count) {
   cs_boundary_set *set = b->set;
   int32_t direction = b->parts[begin % b->part_count].direction;
   cs_boundary_chain chain = {
-      .piece = (uint32_t)set->piece_count, .leaf = b->leaf, .direction = direction};
+      .piece = (uint32_t)set->piece_count, .layer = b->layer, .direction = direction};
   for (size_t i = 0; i < count; i++) {
     size_t place = begin + (direction > 0 ? i : count - 1 - i);
     append_piece(set, &chain, &b->parts[place % b->part_count].piece);
@@ -404,12 +404,12 @@ static celspan_status add_contour(builder *b, const cs_outline *outline, size_t 
 
 celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
                                const cs_outline *outline, const celspan_matrix *matrix,
-                               const cs_boundary_frame *frame, uint32_t leaf) {
+                               const cs_boundary_frame *frame, uint32_t layer) {
   double least;
   celspan_matrix facing = cs_matrix_facing(matrix);
   if (!cs_bezier_horizon(outline, &facing, &least))
     return CELSPAN_OK;
-  builder b = {.context = context, .set = set, .frame = frame, .leaf = leaf};
+  builder b = {.context = context, .set = set, .frame = frame, .layer = layer};
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < outline->contour_count && status == CELSPAN_OK; i++)
     status = add_contour(&b, outline, i, &facing, least);

@@ -44,7 +44,11 @@ static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double
   double slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
   double x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
   double y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
-  return (cs_polyline_point){x, y, slope_x, slope_y, (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
+  return (cs_polyline_point){x,
+                             y,
+                             slope_x,
+                             slope_y,
+                             (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
                              (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
 }
 

@@ -90,8 +90,13 @@ static inline cs_boundary_piece cs_polyline_strided(const cs_boundary_piece *pie
  * beside it that is not. */
 static inline double cs_polyline_part(const cs_boundary_piece *piece, double k) {
   const double half = piece->half, group = piece->group;
-  double part = 1 + (k == 1 ? 0.5 : k == half + 1 ? 0.5 : 0.0) +
-                (k + 1 == half ? 0.5 : k + 1 == group ? 0.5 : 0.0);
+  double part = 1 +
+                (k == 1          ? 0.5
+                 : k == half + 1 ? 0.5
+                                 : 0.0) +
+                (k + 1 == half    ? 0.5
+                 : k + 1 == group ? 0.5
+                                  : 0.0);
   return k > 0 ? (k < group ? (k == half ? 0.0 : part) : 0.0) : 0.0;
 }
 

@@ -31,9 +31,8 @@ static inline void place_vertex(const double c[8], const cs_boundary_piece *piec
   *y = beside.y;
 }
 
-void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece,
-                                 uint32_t first, uint32_t stride,
-                                 cs_polyline_vertices *restrict out) {
+void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece, uint32_t first,
+                                 uint32_t stride, cs_polyline_vertices *restrict out) {
   const cs_boundary_piece fixed = cs_polyline_strided(piece, stride);
   const double start = first, on = stride;
   double t[CS_POLYLINE_ROOM + 2], y[CS_POLYLINE_ROOM], whole[CS_POLYLINE_ROOM];

@@ -80,9 +80,7 @@ static void close_hand(void *user, celspan_context *context, void *hand) {
 bool cs_memory_parts(const celspan_sink *sink, cs_parts *out) {
   if (sink->row != put_row)
     return false;
-  *out = (cs_parts){.user = sink->user,
-                    .open_hand = open_hand,
-                    .close_hand = close_hand,
-                    .row = fill_row};
+  *out = (cs_parts){
+      .user = sink->user, .open_hand = open_hand, .close_hand = close_hand, .row = fill_row};
   return true;
 }

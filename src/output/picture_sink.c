@@ -12,7 +12,7 @@
 #include "output/file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
-#include "scene/picture_store.h"
+#include "pictures/store.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
 #define BATCH_ROWS 64

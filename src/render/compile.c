@@ -1,41 +1,39 @@
 #include "render/compile.h"
 
 #include "base/number.h"
-#include "compose/shade.h"
-#include "render/soft_layer.h"
+#include "defocus/layer.h"
+#include "paint/shade.h"
 
 #include <math.h>
 
 typedef struct compiler {
   celspan_context *context;
-  cs_shot *shot;
+  cs_plan *plan;
   int workers; /* threads at most */
   cs_boundary_frame frame;
   double first_height, end_height; /* of the rows that will be asked for, margin included */
-  size_t cel; /* from 1: for messages */
+  size_t cel;                      /* from 1: for messages */
   cs_v4 front;
   uint32_t group; /* the faded group being filled */
   bool records;   /* inside a boolean tree: steps are noted */
   bool fades_out; /* inside something faded to nothing: there, but clear */
 } compiler;
 
-#define APPEND(compiler, array, count, capacity)                                             \
-  cs_mem_reserve((compiler)->context, (void **)&(compiler)->shot->stack.array,               \
-                 &(compiler)->shot->stack.capacity, (compiler)->shot->stack.count + 1,       \
-                 sizeof *(compiler)->shot->stack.array)
+#define APPEND(compiler, array, count, capacity)                                                   \
+  cs_mem_reserve((compiler)->context, (void **)&(compiler)->plan->stack.array,                     \
+                 &(compiler)->plan->stack.capacity, (compiler)->plan->stack.count + 1,             \
+                 sizeof *(compiler)->plan->stack.array)
 
 /* ---------------------------------------------------------------- leaves */
 
-static cs_v4 lit(cs_v4 front, const float s[3]) {
-  return front * (cs_v4){s[0], s[1], s[2], 0};
-}
+static cs_v4 lit(cs_v4 front, const float s[3]) { return front * (cs_v4){s[0], s[1], s[2], 0}; }
 
-static void fill_flat(cs_leaf *leaf, cs_paint paint, float fade) {
+static void fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   cs_paint faded = cs_paint_fade(paint, fade);
-  leaf->kind = CS_LEAF_FLAT;
-  leaf->s = lit(leaf->front, faded.s);
-  leaf->t = (cs_v4){faded.t[0], faded.t[1], faded.t[2], 0};
-  leaf->is_opaque = cs_paint_is_opaque(&faded);
+  layer->kind = CS_LAYER_FLAT;
+  layer->s = lit(layer->front, faded.s);
+  layer->t = (cs_v4){faded.t[0], faded.t[1], faded.t[2], 0};
+  layer->is_opaque = cs_paint_is_opaque(&faded);
 }
 
 static bool stops_are_opaque(const celspan_texture *texture) {
@@ -48,51 +46,51 @@ static bool stops_are_opaque(const celspan_texture *texture) {
   return true;
 }
 
-static celspan_status fill_shaded(compiler *c, cs_leaf *leaf, const celspan_texture *texture,
+static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_texture *texture,
                                   const celspan_matrix *inverse) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   CS_TRY(APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = texture, .inverse = *inverse};
   cs_shade_prepare(shade);
-  leaf->kind = CS_LEAF_SHADED;
-  leaf->detail = (uint32_t)stack->shade_count++;
-  leaf->is_opaque = leaf->fade == 1 && cs_matrix_is_affine(inverse) && stops_are_opaque(texture);
+  layer->kind = CS_LAYER_SHADED;
+  layer->detail = (uint32_t)stack->shade_count++;
+  layer->is_opaque = layer->fade == 1 && cs_matrix_is_affine(inverse) && stops_are_opaque(texture);
   return CELSPAN_OK;
 }
 
 /* A picture in its primitive's own rectangle is held at its edges: the boundary, not the picture,
  * says where it ends. */
-static celspan_status fill_picture(compiler *c, cs_leaf *leaf, const celspan_texture *texture,
+static celspan_status fill_picture(compiler *c, cs_layer *layer, const celspan_texture *texture,
                                    const celspan_box *bounds, const celspan_matrix *inverse) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   const celspan_box *box = texture->has_box ? &texture->box : bounds;
   if (box->width <= 0 || box->height <= 0) {
-    fill_flat(leaf, CS_PAINT_CLEAR, 1);
+    fill_flat(layer, CS_PAINT_CLEAR, 1);
     return CELSPAN_OK;
   }
-  CS_TRY(APPEND(c, slides, slide_count, slide_capacity));
+  CS_TRY(APPEND(c, images, image_count, image_capacity));
   bool is_own = !texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR;
-  stack->slides[stack->slide_count] = (cs_slide){
-      texture, *inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
-  leaf->kind = CS_LEAF_PICTURE;
-  leaf->detail = (uint32_t)stack->slide_count++;
+  stack->images[stack->image_count] =
+      (cs_image_layer){texture, *inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
+  layer->kind = CS_LAYER_PICTURE;
+  layer->detail = (uint32_t)stack->image_count++;
   return CELSPAN_OK;
 }
 
-static celspan_status append_leaf(compiler *c, double fade, celspan_rule rule, uint32_t *index) {
-  cs_stack *stack = &c->shot->stack;
-  if (stack->leaf_count == CS_STACK_LEAVES)
+static celspan_status append_layer(compiler *c, double fade, celspan_rule rule, uint32_t *index) {
+  cs_stack *stack = &c->plan->stack;
+  if (stack->layer_count == CS_STACK_LAYERS)
     return cs_fail(c->context, CELSPAN_LIMIT, "cel %zu: more than %zu primitives in one frame",
-                   c->cel, (size_t)CS_STACK_LEAVES);
-  CS_TRY(APPEND(c, leaves, leaf_count, leaf_capacity));
-  CS_TRY(APPEND(c, marks, leaf_count, mark_capacity));
-  *index = (uint32_t)stack->leaf_count++;
-  stack->leaves[*index] = (cs_leaf){
-      .group = c->group, .front = c->front, .fade = c->fades_out ? 0 : (float)fade};
+                   c->cel, (size_t)CS_STACK_LAYERS);
+  CS_TRY(APPEND(c, layers, layer_count, layer_capacity));
+  CS_TRY(APPEND(c, rules, layer_count, rule_capacity));
+  *index = (uint32_t)stack->layer_count++;
+  stack->layers[*index] =
+      (cs_layer){.group = c->group, .front = c->front, .fade = c->fades_out ? 0 : (float)fade};
   cs_hash key = cs_hash_begin(*index);
   key = cs_hash_end(key);
-  stack->marks[*index] = (cs_mark){{key.a, key.b}, rule == CELSPAN_RULE_EVENODD ? 1 : -1};
+  stack->rules[*index] = (cs_layer_rule){{key.a, key.b}, rule == CELSPAN_RULE_EVENODD ? 1 : -1};
   return CELSPAN_OK;
 }
 
@@ -112,51 +110,52 @@ static bool meets_rows(const compiler *c, const celspan_box *box, const celspan_
   return high >= c->first_height && low <= c->end_height;
 }
 
-static celspan_status compile_outline(compiler *c, const cs_body *body, double fade,
+static celspan_status compile_outline(compiler *c, const cs_primitive_data *body, double fade,
                                       const celspan_matrix *matrix) {
   uint32_t index;
   celspan_matrix inverse;
-  CS_TRY(append_leaf(c, fade, body->rule, &index));
-  cs_leaf *leaf = &c->shot->stack.leaves[index];
+  CS_TRY(append_layer(c, fade, body->rule, &index));
+  cs_layer *layer = &c->plan->stack.layers[index];
   const celspan_texture *texture = body->texture;
   if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &inverse)) {
-    fill_flat(leaf, CS_PAINT_CLEAR, 1); /* nowhere */
+    fill_flat(layer, CS_PAINT_CLEAR, 1); /* nowhere */
     return CELSPAN_OK;
   }
-  if (leaf->fade == 0)
-    fill_flat(leaf, CS_PAINT_CLEAR, 1);
+  if (layer->fade == 0)
+    fill_flat(layer, CS_PAINT_CLEAR, 1);
   else if (texture->kind == CS_TEXTURE_FLAT)
-    fill_flat(leaf, texture->flat, (float)fade);
+    fill_flat(layer, texture->flat, (float)fade);
   else if (texture->kind == CS_TEXTURE_PICTURE)
-    CS_TRY(fill_picture(c, leaf, texture, &body->bounds, &inverse));
+    CS_TRY(fill_picture(c, layer, texture, &body->bounds, &inverse));
   else
-    CS_TRY(fill_shaded(c, leaf, texture, &inverse));
+    CS_TRY(fill_shaded(c, layer, texture, &inverse));
   celspan_matrix facing = cs_matrix_facing(matrix);
   if (!meets_rows(c, &body->bounds, &facing))
     return CELSPAN_OK;
-  return cs_boundary_add(c->context, &c->shot->boundaries, &body->outline, matrix, &c->frame,
+  return cs_boundary_add(c->context, &c->plan->boundaries, &body->outline, matrix, &c->frame,
                          index);
 }
 
-static celspan_status compile_scanline(compiler *c, const cs_body *body, double fade,
+static celspan_status compile_scanline(compiler *c, const cs_primitive_data *body, double fade,
                                        const celspan_matrix *matrix) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   const double *m = matrix->m;
   uint32_t index;
-  CS_TRY(append_leaf(c, fade, CELSPAN_RULE_NONZERO, &index));
-  fill_flat(&stack->leaves[index], CS_PAINT_CLEAR, 1);
+  CS_TRY(append_layer(c, fade, CELSPAN_RULE_NONZERO, &index));
+  fill_flat(&stack->layers[index], CS_PAINT_CLEAR, 1);
   if (!cs_matrix_is_upright(matrix))
-    return cs_fail(c->context, CELSPAN_BAD_ARGUMENT,
-                   "cel %zu: a scan-line primitive can be moved and scaled, but not rotated, skewed "
-                   "or put in perspective",
-                   c->cel);
+    return cs_fail(
+        c->context, CELSPAN_BAD_ARGUMENT,
+        "cel %zu: a scan-line primitive can be moved and scaled, but not rotated, skewed "
+        "or put in perspective",
+        c->cel);
   if (m[0] == 0 || m[4] == 0)
     return CELSPAN_OK;
   CS_TRY(APPEND(c, procedures, procedure_count, procedure_capacity));
-  stack->procedures[stack->procedure_count] = (cs_procedure){
-      &body->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
-  stack->leaves[index].kind = CS_LEAF_SCANLINE;
-  stack->leaves[index].detail = (uint32_t)stack->procedure_count++;
+  stack->procedures[stack->procedure_count] =
+      (cs_procedure){&body->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+  stack->layers[index].kind = CS_LAYER_SCANLINE;
+  stack->layers[index].detail = (uint32_t)stack->procedure_count++;
   return CELSPAN_OK;
 }
 
@@ -166,44 +165,44 @@ static celspan_status compile_object(compiler *c, const celspan_object *object,
                                      const celspan_matrix *parent);
 
 static celspan_status append_step(compiler *c, cs_step step) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   CS_TRY(APPEND(c, steps, step_count, step_capacity));
   stack->steps[stack->step_count++] = step;
   return CELSPAN_OK;
 }
 
-static bool operands_are_leaves(const cs_body *body) {
+static bool operands_are_layers(const cs_primitive_data *body) {
   for (size_t i = 0; i < body->operand_count; i++)
-    if (body->operands[i]->body->kind == CS_BODY_BOOLEAN)
+    if (body->operands[i]->body->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       return false;
   return true;
 }
 
 /* An operator: its operands' leaves, and the step that decides over them. */
-static celspan_status compile_operator(compiler *c, const cs_body *body,
+static celspan_status compile_operator(compiler *c, const cs_primitive_data *body,
                                        const celspan_matrix *matrix) {
-  uint32_t first = (uint32_t)c->shot->stack.leaf_count;
-  bool records = c->records, over_leaves = operands_are_leaves(body);
+  uint32_t first = (uint32_t)c->plan->stack.layer_count;
+  bool records = c->records, over_layers = operands_are_layers(body);
   for (size_t i = 0; i < body->operand_count; i++) {
-    uint32_t leaf = (uint32_t)c->shot->stack.leaf_count;
-    c->records = records && !over_leaves;
+    uint32_t layer = (uint32_t)c->plan->stack.layer_count;
+    c->records = records && !over_layers;
     CS_TRY(compile_object(c, body->operands[i], matrix));
-    if (c->records && body->operands[i]->body->kind != CS_BODY_BOOLEAN)
-      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LEAF, .first = leaf, .end = leaf + 1}));
+    if (c->records && body->operands[i]->body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+      CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
   }
   c->records = records;
   if (!records)
     return CELSPAN_OK;
-  return append_step(c, (cs_step){.kind = over_leaves ? CS_STEP_LEAVES : CS_STEP_OPERATOR,
+  return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
                                   .op = body->op,
                                   .first = first,
-                                  .end = (uint32_t)c->shot->stack.leaf_count,
+                                  .end = (uint32_t)c->plan->stack.layer_count,
                                   .operands = (uint32_t)body->operand_count});
 }
 
 /* Unions of unions need no decision: what is present is painted. */
-static bool is_plain_union(const cs_body *body) {
-  if (body->kind != CS_BODY_BOOLEAN)
+static bool is_plain_union(const cs_primitive_data *body) {
+  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
   if (body->op != CELSPAN_UNION)
     return false;
@@ -227,15 +226,16 @@ static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
 }
 
 /* A boolean that no other holds: the root of a tree, unless it decides nothing. */
-static celspan_status compile_root(compiler *c, const cs_body *body, const celspan_matrix *matrix) {
-  cs_stack *stack = &c->shot->stack;
+static celspan_status compile_root(compiler *c, const cs_primitive_data *body,
+                                   const celspan_matrix *matrix) {
+  cs_stack *stack = &c->plan->stack;
   if (c->records || is_plain_union(body))
     return compile_operator(c, body, matrix);
-  cs_tree tree = {.first = (uint32_t)stack->leaf_count, .step = (uint32_t)stack->step_count};
+  cs_tree tree = {.first = (uint32_t)stack->layer_count, .step = (uint32_t)stack->step_count};
   c->records = true;
   CS_TRY(compile_operator(c, body, matrix));
   c->records = false;
-  tree.end = (uint32_t)stack->leaf_count;
+  tree.end = (uint32_t)stack->layer_count;
   tree.step_count = (uint32_t)stack->step_count - tree.step;
   CS_TRY(APPEND(c, trees, tree_count, tree_capacity));
   stack->trees[stack->tree_count++] = tree;
@@ -251,14 +251,14 @@ typedef struct outside {
 } outside;
 
 static celspan_status begin_group(compiler *c, double fade, outside *outer) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   *outer = (outside){c->group, c->fades_out};
   c->fades_out |= fade == 0;
   if (fade == 1 || c->fades_out)
     return CELSPAN_OK;
   CS_TRY(APPEND(c, groups, group_count, group_capacity));
   stack->groups[stack->group_count] =
-      (cs_group){c->group, (uint32_t)stack->leaf_count, (float)fade};
+      (cs_group){c->group, (uint32_t)stack->layer_count, (float)fade};
   c->group = (uint32_t)stack->group_count++;
   return CELSPAN_OK;
 }
@@ -270,11 +270,11 @@ static void end_group(compiler *c, outside outer) {
 
 static celspan_status compile_object(compiler *c, const celspan_object *object,
                                      const celspan_matrix *parent) {
-  const cs_body *body = object->body;
+  const cs_primitive_data *body = object->body;
   celspan_matrix matrix = celspan_matrix_then(object->matrix, *parent);
-  if (body->kind == CS_BODY_OUTLINE)
+  if (body->kind == CS_PRIMITIVE_DATA_OUTLINE)
     return compile_outline(c, body, object->fade, &matrix);
-  if (body->kind == CS_BODY_SCANLINE)
+  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
     return compile_scanline(c, body, object->fade, &matrix);
   outside outer;
   CS_TRY(begin_group(c, object->fade, &outer));
@@ -289,34 +289,33 @@ static cs_v4 light_colour(celspan_light light) { return (cs_v4){light.r, light.g
 
 /* A back light shines behind every leaf from `below` on. Kept rear first while compiling. */
 static celspan_status append_light(compiler *c, celspan_light light, uint32_t below) {
-  cs_stack *stack = &c->shot->stack;
+  cs_stack *stack = &c->plan->stack;
   if (light.r == 0 && light.g == 0 && light.b == 0 && light.a == 0)
     return CELSPAN_OK;
   CS_TRY(APPEND(c, lights, light_count, light_capacity));
-  stack->lights[stack->light_count++] =
-      (cs_back_light){below, light_colour(light), 1 - light.a};
+  stack->lights[stack->light_count++] = (cs_back_light){below, light_colour(light), 1 - light.a};
   return CELSPAN_OK;
 }
 
 /* A defocused cel: one layer, present in the box that its art reaches. */
-static celspan_status compile_soft(compiler *c, const cs_soft_place *place) {
-  cs_stack *stack = &c->shot->stack;
-  cs_soften *soften = NULL;
+static celspan_status compile_soft(compiler *c, const cs_defocus_place *place) {
+  cs_stack *stack = &c->plan->stack;
+  cs_defocus *soften = NULL;
   cs_outline box;
   uint32_t index;
-  CS_TRY(APPEND(c, softs, soft_count, soft_capacity));
+  CS_TRY(APPEND(c, defocused, defocused_count, defocused_capacity));
   cs_outline_init(&box);
-  celspan_status status = cs_soft_layer_create(c->context, place, &box, &soften);
+  celspan_status status = cs_defocus_layer_create(c->context, place, &box, &soften);
   if (status == CELSPAN_OK && soften) {
-    stack->softs[stack->soft_count] = &soften->soft;
-    uint32_t detail = (uint32_t)stack->soft_count++;
+    stack->defocused[stack->defocused_count] = &soften->soft;
+    uint32_t detail = (uint32_t)stack->defocused_count++;
     celspan_matrix identity = celspan_matrix_identity();
-    status = append_leaf(c, place->rostrum->cels[place->index]->opacity, CELSPAN_RULE_NONZERO,
-                         &index);
+    status =
+        append_layer(c, place->rostrum->cels[place->index]->opacity, CELSPAN_RULE_NONZERO, &index);
     if (status == CELSPAN_OK) {
-      stack->leaves[index].kind = CS_LEAF_SOFT;
-      stack->leaves[index].detail = detail;
-      status = cs_boundary_add(c->context, &c->shot->boundaries, &box, &identity, &c->frame, index);
+      stack->layers[index].kind = CS_LAYER_DEFOCUSED;
+      stack->layers[index].detail = detail;
+      status = cs_boundary_add(c->context, &c->plan->boundaries, &box, &identity, &c->frame, index);
     }
   }
   cs_outline_finish(&box, c->context->memory);
@@ -331,12 +330,14 @@ static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, s
   c->cel = index + 1;
   CS_TRY(cs_scene_cel_matrix(c->context, rostrum, index, film_width, film_height, &matrix));
   matrix = celspan_matrix_then(matrix, *to_pixels);
-  CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->shot->stack.leaf_count));
+  CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->plan->stack.layer_count));
   c->front = light_colour(cs_scene_front(rostrum, cel));
-  const cs_soft_place place = {rostrum,     index,  *to_pixels,     film_width,
-                               film_height, matrix, c->frame, c->shot->width, c->shot->height,
-                               c->shot->antialias != CELSPAN_ANTIALIAS_NONE};
-  if (cs_soft_layer_is_soft(&place))
+  const cs_defocus_place place = {rostrum,         index,
+                                  *to_pixels,      film_width,
+                                  film_height,     matrix,
+                                  c->frame,        c->plan->width,
+                                  c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
+  if (cs_defocus_layer_is_soft(&place))
     return compile_soft(c, &place);
   outside outer;
   CS_TRY(begin_group(c, cel->opacity, &outer));
@@ -359,75 +360,74 @@ static void reverse_lights(cs_stack *stack) {
 
 /* What a leaf lets through at most. One in a boolean tree may be present and yet not painted, one
  * in a faded group is weaker than its paint: they are taken to let everything through. */
-static double leaf_through(const cs_leaf *leaf) {
-  if (leaf->group != CS_STACK_NONE)
+static double layer_through(const cs_layer *layer) {
+  if (layer->group != CS_STACK_NONE)
     return 1;
-  if (leaf->kind != CS_LEAF_FLAT)
-    return leaf->is_opaque ? 0 : 1;
-  double through = leaf->t[0];
+  if (layer->kind != CS_LAYER_FLAT)
+    return layer->is_opaque ? 0 : 1;
+  double through = layer->t[0];
   for (int c = 1; c < 3; c++)
-    through = leaf->t[c] > through ? leaf->t[c] : through;
+    through = layer->t[c] > through ? layer->t[c] : through;
   return through;
 }
 
 static celspan_status cull(compiler *c) {
-  const cs_stack *stack = &c->shot->stack;
-  cs_cull_leaf *leaves = cs_mem_array(c->context->memory, stack->leaf_count, sizeof *leaves);
-  if (stack->leaf_count > 0 && !leaves)
+  const cs_stack *stack = &c->plan->stack;
+  cs_cull_layer *layers = cs_mem_array(c->context->memory, stack->layer_count, sizeof *layers);
+  if (stack->layer_count > 0 && !layers)
     return cs_fail_memory(c->context);
-  for (size_t i = 0; i < stack->leaf_count; i++)
-    leaves[i] = (cs_cull_leaf){leaf_through(&stack->leaves[i]), stack->marks[i].winding_mask};
+  for (size_t i = 0; i < stack->layer_count; i++)
+    layers[i] = (cs_cull_layer){layer_through(&stack->layers[i]), stack->rules[i].winding_mask};
   for (size_t t = 0; t < stack->tree_count; t++)
     for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
-      leaves[i].through = 1;
-  celspan_status status =
-      cs_cull_create(c->context, &c->shot->boundaries, leaves, stack->leaf_count, c->shot->width,
-                     c->shot->height, c->shot->margin, (double)CS_PAINT_OPAQUE * 0.999,
-                     c->workers, &c->shot->cull);
-  cs_mem_free(c->context->memory, leaves, stack->leaf_count * sizeof *leaves);
+      layers[i].through = 1;
+  celspan_status status = cs_cull_create(
+      c->context, &c->plan->boundaries, layers, stack->layer_count, c->plan->width, c->plan->height,
+      c->plan->margin, (double)CS_PAINT_OPAQUE * 0.999, c->workers, &c->plan->cull);
+  cs_mem_free(c->context->memory, layers, stack->layer_count * sizeof *layers);
   return status;
 }
 
 static celspan_status compile_rostrum(compiler *c, const celspan_rostrum *rostrum,
                                       double film_width, double film_height) {
   celspan_matrix to_pixels =
-      celspan_matrix_scaling(c->shot->width / film_width, c->shot->height / film_height);
+      celspan_matrix_scaling(c->plan->width / film_width, c->plan->height / film_height);
   CS_TRY(append_light(c, cs_scene_back(rostrum, rostrum->back), 0));
   for (size_t i = 0; i < rostrum->cel_count; i++)
     CS_TRY(compile_cel(c, rostrum, i, &to_pixels, film_width, film_height));
-  reverse_lights(&c->shot->stack);
-  cs_boundary_sort(&c->shot->boundaries);
+  reverse_lights(&c->plan->stack);
+  cs_boundary_sort(&c->plan->boundaries);
   return cull(c);
 }
 
-static void begin(compiler *c, celspan_context *context, cs_shot *shot, int32_t first_row,
+static void begin(compiler *c, celspan_context *context, cs_plan *plan, int32_t first_row,
                   int32_t end_row) {
-  double margin = shot->margin;
+  double margin = plan->margin;
   *c = (compiler){.context = context,
-                  .shot = shot,
-                  .frame = {-margin, shot->width + margin, -margin, shot->height + margin},
+                  .plan = plan,
+                  .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
                   .first_height = first_row - margin - 1, /* a pixel more, against rounding */
                   .end_height = end_row + margin + 1,
                   .group = CS_STACK_NONE};
-  cs_boundary_init(&shot->boundaries);
+  cs_boundary_init(&plan->boundaries);
 }
 
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
                           const cs_view *view, const cs_antialias *antialias, int workers,
-                          cs_shot *out) {
-  cs_shot shot = {.width = view->width, .height = view->height, .antialias = antialias->mode};
+                          cs_plan *out) {
+  cs_plan plan = {.width = view->width, .height = view->height, .antialias = antialias->mode};
   if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
-    CS_TRY(cs_kernel_create(context, antialias, &shot.kernel));
-    shot.margin = cs_kernel_reach(shot.kernel);
+    CS_TRY(cs_kernel_create(context, antialias, &plan.kernel));
+    plan.margin = cs_kernel_reach(plan.kernel);
   }
   compiler c;
-  begin(&c, context, &shot, view->first_row, view->end_row);
+  begin(&c, context, &plan, view->first_row, view->end_row);
   c.workers = workers;
   celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
   if (status == CELSPAN_OK)
-    *out = shot;
+    *out = plan;
   else
-    cs_compile_free(&shot, context->memory);
+    cs_compile_free(&plan, context->memory);
   return status;
 }
 
@@ -439,34 +439,34 @@ static celspan_status compile_alone(compiler *c, const celspan_cel *cel,
     CS_TRY(append_light(c, white, 0));
   for (size_t i = 0; i < cel->object_count; i++)
     CS_TRY(compile_object(c, cel->objects[i], matrix));
-  cs_boundary_sort(&c->shot->boundaries);
+  cs_boundary_sort(&c->plan->boundaries);
   return cull(c);
 }
 
 celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, size_t cel_index,
                               const celspan_matrix *matrix, int32_t width, int32_t height,
-                              bool is_through, cs_kernel *kernel, cs_shot *out) {
-  cs_shot shot = {.width = width,
+                              bool is_through, cs_kernel *kernel, cs_plan *out) {
+  cs_plan plan = {.width = width,
                   .height = height,
                   .margin = kernel ? cs_kernel_reach(kernel) : 0,
                   .kernel = kernel};
   compiler c;
-  begin(&c, context, &shot, 0, height);
+  begin(&c, context, &plan, 0, height);
   c.workers = 1;
   c.cel = cel_index + 1;
   celspan_status status = compile_alone(&c, cel, matrix, is_through);
   if (status == CELSPAN_OK)
-    *out = shot;
+    *out = plan;
   else
-    cs_compile_free(&shot, context->memory);
+    cs_compile_free(&plan, context->memory);
   return status;
 }
 
-void cs_compile_free(cs_shot *shot, cs_memory *memory) {
-  for (size_t i = 0; i < shot->stack.soft_count; i++)
-    cs_soft_layer_free((cs_soften *)shot->stack.softs[i], memory);
-  cs_stack_finish(&shot->stack, memory);
-  cs_boundary_finish(&shot->boundaries, memory);
-  cs_cull_free(&shot->cull, memory);
-  cs_kernel_free(shot->kernel, memory);
+void cs_compile_free(cs_plan *plan, cs_memory *memory) {
+  for (size_t i = 0; i < plan->stack.defocused_count; i++)
+    cs_defocus_layer_free((cs_defocus *)plan->stack.defocused[i], memory);
+  cs_stack_finish(&plan->stack, memory);
+  cs_boundary_finish(&plan->boundaries, memory);
+  cs_cull_free(&plan->cull, memory);
+  cs_kernel_free(plan->kernel, memory);
 }

@@ -1,7 +1,7 @@
 #include "render/frame.h"
 
 #include "base/number.h"
-#include "filter/soften.h"
+#include "defocus/defocus.h"
 #include "render/compile.h"
 
 #include <unistd.h>
@@ -17,8 +17,9 @@ static celspan_status check_size(celspan_context *context, const celspan_frame_d
                    "frame: struct_size is %zu; set it to sizeof(celspan_frame_desc)",
                    desc->struct_size);
   if (desc->width < 1 || desc->height < 1 || desc->width > SIDE_LIMIT || desc->height > SIDE_LIMIT)
-    return cs_fail(context, CELSPAN_LIMIT, "frame: size is %d x %d; each side must be 1 to %d pixels",
-                   (int)desc->width, (int)desc->height, SIDE_LIMIT);
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "frame: size is %d x %d; each side must be 1 to %d pixels", (int)desc->width,
+                   (int)desc->height, SIDE_LIMIT);
   bool has_film = desc->film_width != 0 || desc->film_height != 0;
   if (has_film && !(cs_number_is_sane(desc->film_width) && cs_number_is_sane(desc->film_height) &&
                     desc->film_width > 0 && desc->film_height > 0))
@@ -47,7 +48,8 @@ static celspan_status check_exposures(celspan_context *context, const celspan_fr
     double weight = desc->exposures[i].weight;
     if (!(weight >= 0 && cs_number_is_sane(weight)))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "frame: the weight of exposure %zu is %g; it must be 0 or more", i + 1, weight);
+                     "frame: the weight of exposure %zu is %g; it must be 0 or more", i + 1,
+                     weight);
     if (!desc->exposures[i].rostrum)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "frame: exposure %zu has no rostrum", i + 1);
   }
@@ -70,8 +72,8 @@ static bool stays_on_thread(const cs_stack *stack) {
   for (size_t k = 0; k < stack->procedure_count; k++)
     if (!stack->procedures[k].desc->any_thread)
       return true;
-  for (size_t k = 0; k < stack->soft_count; k++)
-    if (stays_on_thread(&((const cs_soften *)stack->softs[k])->shots[0].stack))
+  for (size_t k = 0; k < stack->defocused_count; k++)
+    if (stays_on_thread(&((const cs_defocus *)stack->defocused[k])->plans[0].stack))
       return true;
   return false;
 }
@@ -79,7 +81,7 @@ static bool stays_on_thread(const cs_stack *stack) {
 /* Procedures that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    if (stays_on_thread(&frame->shots[i].stack))
+    if (stays_on_thread(&frame->plans[i].stack))
       return true;
   return false;
 }
@@ -92,7 +94,10 @@ int cs_frame_workers(int wanted) {
 static void choose_workers(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(desc->workers);
   int32_t share = frame->crop_height / (frame->workers * 8);
-  frame->band_rows = desc->strip_rows > 0 ? desc->strip_rows : share < 4 ? 4 : share > 64 ? 64 : share;
+  frame->strip_height = desc->strip_rows > 0 ? desc->strip_rows
+                        : share < 4          ? 4
+                        : share > 64         ? 64
+                                             : share;
 }
 
 /* antialias: of all exposures, or NULL: each its own. */
@@ -110,7 +115,7 @@ static celspan_status compile_exposure(celspan_context *context, const celspan_f
                   .end_row = frame->crop_y + frame->crop_height};
   CS_TRY(cs_compile(context, exposure->rostrum, &view,
                     antialias ? antialias : &exposure->rostrum->antialias,
-                    cs_frame_workers(desc->workers), &frame->shots[frame->count]));
+                    cs_frame_workers(desc->workers), &frame->plans[frame->count]));
   frame->weights[frame->count++] = (float)exposure->weight;
   return CELSPAN_OK;
 }
@@ -132,10 +137,10 @@ static celspan_status compile_exposures(celspan_context *context, const celspan_
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
                                  cs_frame *frame) {
   size_t count = desc->exposure_count;
-  frame->shots = cs_mem_array(context->memory, count, sizeof *frame->shots);
+  frame->plans = cs_mem_array(context->memory, count, sizeof *frame->plans);
   frame->weights = cs_mem_array(context->memory, count, sizeof *frame->weights);
   frame->capacity = count;
-  if (count > 0 && (!frame->shots || !frame->weights))
+  if (count > 0 && (!frame->plans || !frame->weights))
     return cs_fail_memory(context);
   CS_TRY(compile_exposures(context, desc, frame));
   choose_workers(frame, desc);
@@ -159,71 +164,74 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
 
 void cs_frame_free(cs_frame *frame, cs_memory *memory) {
   for (size_t i = 0; i < frame->count; i++)
-    cs_compile_free(&frame->shots[i], memory);
-  cs_mem_free(memory, frame->shots, frame->capacity * sizeof *frame->shots);
+    cs_compile_free(&frame->plans[i], memory);
+  cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
   cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
   *frame = (cs_frame){0};
 }
 
 /* ---------------------------------------------------------------- lanes */
 
-celspan_status cs_lane_init(cs_lane *lane, celspan_context *context, const cs_frame *frame) {
-  *lane = (cs_lane){.frame = frame};
-  cs_context_branch(&lane->context, context);
-  cs_row_init(&lane->sum);
-  lane->scans = cs_mem_array(context->memory, frame->count, sizeof *lane->scans);
-  lane->rows = cs_mem_array(context->memory, frame->count, sizeof *lane->rows);
-  if (frame->count > 0 && (!lane->scans || !lane->rows))
-    return cs_fail_memory(&lane->context);
+celspan_status cs_row_worker_init(cs_row_worker *row_worker, celspan_context *context,
+                                  const cs_frame *frame) {
+  *row_worker = (cs_row_worker){.frame = frame};
+  cs_context_branch(&row_worker->context, context);
+  cs_row_init(&row_worker->sum);
+  row_worker->makers = cs_mem_array(context->memory, frame->count, sizeof *row_worker->makers);
+  row_worker->rows = cs_mem_array(context->memory, frame->count, sizeof *row_worker->rows);
+  if (frame->count > 0 && (!row_worker->makers || !row_worker->rows))
+    return cs_fail_memory(&row_worker->context);
   for (size_t i = 0; i < frame->count; i++) {
-    cs_row_init(&lane->rows[i]);
-    lane->rows[i].takes_codes = frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
-    CS_TRY(cs_scan_init(&lane->scans[i], &lane->context, &frame->shots[i]));
+    cs_row_init(&row_worker->rows[i]);
+    row_worker->rows[i].takes_codes =
+        frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
+    CS_TRY(cs_row_maker_init(&row_worker->makers[i], &row_worker->context, &frame->plans[i]));
   }
   return CELSPAN_OK;
 }
 
-void cs_lane_finish(cs_lane *lane) {
-  if (!lane->frame)
+void cs_row_worker_finish(cs_row_worker *row_worker) {
+  if (!row_worker->frame)
     return;
-  cs_memory *memory = lane->context.memory;
-  for (size_t i = 0; i < lane->frame->count; i++) {
-    if (lane->scans)
-      cs_scan_finish(&lane->scans[i]);
-    if (lane->rows)
-      cs_row_finish(&lane->rows[i], memory);
+  cs_memory *memory = row_worker->context.memory;
+  for (size_t i = 0; i < row_worker->frame->count; i++) {
+    if (row_worker->makers)
+      cs_row_maker_finish(&row_worker->makers[i]);
+    if (row_worker->rows)
+      cs_row_finish(&row_worker->rows[i], memory);
   }
-  cs_row_finish(&lane->sum, memory);
-  cs_mem_free(memory, lane->scans, lane->frame->count * sizeof *lane->scans);
-  cs_mem_free(memory, lane->rows, lane->frame->count * sizeof *lane->rows);
-  *lane = (cs_lane){0};
+  cs_row_finish(&row_worker->sum, memory);
+  cs_mem_free(memory, row_worker->makers, row_worker->frame->count * sizeof *row_worker->makers);
+  cs_mem_free(memory, row_worker->rows, row_worker->frame->count * sizeof *row_worker->rows);
+  *row_worker = (cs_row_worker){0};
 }
 
-static celspan_status expose(cs_lane *lane, cs_row **out) {
-  const cs_frame *frame = lane->frame;
-  *out = &lane->sum;
-  cs_row_clear(&lane->sum);
+static celspan_status expose(cs_row_worker *row_worker, cs_row **out) {
+  const cs_frame *frame = row_worker->frame;
+  *out = &row_worker->sum;
+  cs_row_clear(&row_worker->sum);
   if (frame->count == 0)
-    return cs_row_single(&lane->context, &lane->sum, 0, frame->width, cs_v4_all(0));
-  return cs_row_expose(&lane->context, &lane->sum, lane->rows, frame->weights, frame->count);
+    return cs_row_single(&row_worker->context, &row_worker->sum, 0, frame->width, cs_v4_all(0));
+  return cs_row_expose(&row_worker->context, &row_worker->sum, row_worker->rows, frame->weights,
+                       frame->count);
 }
 
-celspan_status cs_lane_row(cs_lane *lane, int32_t y, const cs_row **out) {
-  const cs_frame *frame = lane->frame;
+celspan_status cs_row_worker_row(cs_row_worker *row_worker, int32_t y, const cs_row **out) {
+  const cs_frame *frame = row_worker->frame;
   for (size_t i = 0; i < frame->count; i++)
-    CS_TRY(cs_scan_row(&lane->scans[i], frame->crop_y + y, &lane->rows[i]));
-  cs_row *row = lane->rows;
+    CS_TRY(cs_row_make(&row_worker->makers[i], frame->crop_y + y, &row_worker->rows[i]));
+  cs_row *row = row_worker->rows;
   if (frame->count != 1 || frame->weights[0] != 1)
-    CS_TRY(expose(lane, &row));
+    CS_TRY(expose(row_worker, &row));
   if (frame->crop_width != frame->width)
     cs_row_crop(row, frame->crop_x, frame->crop_x + frame->crop_width);
   *out = row;
   return CELSPAN_OK;
 }
 
-uint64_t cs_lane_evaluations(const cs_lane *lane) {
+uint64_t cs_row_worker_evaluations(const cs_row_worker *row_worker) {
   uint64_t evaluations = 0;
-  for (size_t i = 0; lane->scans && i < lane->frame->count; i++)
-    evaluations += lane->scans[i].composer.evaluations;
+  for (size_t i = 0; row_worker->makers && i < row_worker->frame->count; i++)
+    evaluations += row_worker->makers[i].composer.evaluations;
   return evaluations;
 }

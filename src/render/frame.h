@@ -7,16 +7,16 @@
 #ifndef CS_RENDER_FRAME_H
 #define CS_RENDER_FRAME_H
 
-#include "filter/scan.h"
+#include "row/row.h"
 
 typedef struct cs_frame {
-  cs_shot *shots; /* one an exposure of weight > 0 */
+  cs_plan *plans; /* one an exposure of weight > 0 */
   float *weights;
   size_t count, capacity;
   int32_t width, height; /* of the whole frame */
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
-  int band_rows;
+  int strip_height;
   bool takes_codes; /* rows may hold codes: for the sink they go to */
 } cs_frame;
 
@@ -27,19 +27,20 @@ void cs_frame_free(cs_frame *frame, cs_memory *memory);
 /* Threads for a number that is asked for; 0 or less: one a processor. */
 int cs_frame_workers(int wanted);
 
-typedef struct cs_lane {
+typedef struct cs_row_worker {
   celspan_context context; /* a branch of the frame's */
   const cs_frame *frame;
-  cs_scan *scans; /* one a shot */
-  cs_row *rows;   /* one a shot */
+  cs_row_maker *makers; /* one a shot */
+  cs_row *rows;         /* one a shot */
   cs_row sum;
-} cs_lane;
+} cs_row_worker;
 
-CELSPAN_CHECKED celspan_status cs_lane_init(cs_lane *lane, celspan_context *context,
-                                            const cs_frame *frame);
-void cs_lane_finish(cs_lane *lane);
+CELSPAN_CHECKED celspan_status cs_row_worker_init(cs_row_worker *row_worker,
+                                                  celspan_context *context, const cs_frame *frame);
+void cs_row_worker_finish(cs_row_worker *row_worker);
 /* Row y of the crop. The row stays valid until the next call. Errors are in the lane's context. */
-CELSPAN_CHECKED celspan_status cs_lane_row(cs_lane *lane, int32_t y, const cs_row **out);
-uint64_t cs_lane_evaluations(const cs_lane *lane);
+CELSPAN_CHECKED celspan_status cs_row_worker_row(cs_row_worker *row_worker, int32_t y,
+                                                 const cs_row **out);
+uint64_t cs_row_worker_evaluations(const cs_row_worker *row_worker);
 
 #endif

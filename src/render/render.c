@@ -2,7 +2,7 @@
  * row. */
 #include "output/pixels.h"
 #include "output/sink.h"
-#include "render/bands.h"
+#include "render/strips.h"
 
 /* ---------------------------------------------------------------- into a sink */
 
@@ -35,7 +35,7 @@ static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
                                 celspan_statistics *statistics, bool *ended) {
   if (sink->begin)
     CS_TRY(sink->begin(sink->user, context, frame->crop_width, frame->crop_height));
-  celspan_status status = cs_bands_render(context, frame, desc, sink, statistics);
+  celspan_status status = cs_strips_render(context, frame, desc, sink, statistics);
   if (!sink->end)
     return status;
   char error[sizeof context->error];
@@ -145,7 +145,7 @@ struct celspan_rows {
   celspan_context *context;
   cs_memory *memory;
   cs_frame frame;
-  cs_lane lane;
+  cs_row_worker row_worker;
 };
 
 celspan_status celspan_rows_create(celspan_context *context, const celspan_frame_desc *desc,
@@ -157,9 +157,9 @@ celspan_status celspan_rows_create(celspan_context *context, const celspan_frame
   rows->memory = cs_memory_ref(context->memory);
   celspan_status status = cs_frame_create(context, desc, &rows->frame);
   if (status == CELSPAN_OK) {
-    status = cs_lane_init(&rows->lane, context, &rows->frame);
+    status = cs_row_worker_init(&rows->row_worker, context, &rows->frame);
     if (status != CELSPAN_OK)
-      (void)cs_fail(context, status, "%s", rows->lane.context.error);
+      (void)cs_fail(context, status, "%s", rows->row_worker.context.error);
   }
   if (status == CELSPAN_OK)
     *out = rows;
@@ -174,9 +174,9 @@ celspan_status celspan_rows_get(celspan_rows *rows, int32_t y, const celspan_spa
   if (y < 0 || y >= rows->frame.crop_height)
     return cs_fail(rows->context, CELSPAN_BAD_ARGUMENT, "rows: row %d is not in 0..%d", (int)y,
                    (int)rows->frame.crop_height - 1);
-  celspan_status status = cs_lane_row(&rows->lane, y, &row);
+  celspan_status status = cs_row_worker_row(&rows->row_worker, y, &row);
   if (status != CELSPAN_OK)
-    return cs_fail(rows->context, status, "%s", rows->lane.context.error);
+    return cs_fail(rows->context, status, "%s", rows->row_worker.context.error);
   *spans = row->spans;
   *span_count = row->count;
   return CELSPAN_OK;
@@ -186,7 +186,7 @@ void celspan_rows_destroy(celspan_rows *rows) {
   if (!rows)
     return;
   cs_memory *memory = rows->memory;
-  cs_lane_finish(&rows->lane);
+  cs_row_worker_finish(&rows->row_worker);
   cs_frame_free(&rows->frame, memory);
   cs_mem_free(memory, rows, sizeof *rows);
   cs_memory_unref(memory);

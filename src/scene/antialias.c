@@ -4,7 +4,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
-#include "scene/door.h"
+#include "scene/check.h"
 
 #define RADIUS_LIMIT 256
 #define ROWS_LIMIT 256
@@ -60,7 +60,7 @@ static celspan_status sample(celspan_context *context, const char *noun,
     if (!cs_number_is_sane(value))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "%s: the kernel gives %s at %s; its values must be finite numbers", noun,
-                     cs_door_number_text(value).text, cs_door_number_text(x).text);
+                     cs_check_number_text(value).text, cs_check_number_text(x).text);
     antialias->samples[i] = value;
     sum += value;
     size += fabs(value);
@@ -68,31 +68,31 @@ static celspan_status sample(celspan_context *context, const char *noun,
   if (!(fabs(sum) > NOTHING * size))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: the kernel sums to nothing within its radius of %s", noun,
-                   cs_door_number_text(antialias->radius).text);
+                   cs_check_number_text(antialias->radius).text);
   return CELSPAN_OK;
 }
 
 static celspan_status check(celspan_context *context, const char *noun,
                             const celspan_filter_desc *desc) {
   bool is_function = desc->kernel == CELSPAN_KERNEL_FUNCTION;
-  CS_TRY(
-      cs_door_choice(context, noun, "kernel", (unsigned)desc->kernel, CELSPAN_KERNEL_FUNCTION + 1));
+  CS_TRY(cs_check_choice(context, noun, "kernel", (unsigned)desc->kernel,
+                         CELSPAN_KERNEL_FUNCTION + 1));
   if (is_function && !desc->function)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: kernel has no function", noun);
   if (is_function && !desc->has_radius)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: radius is missing; a kernel given as a function needs one", noun);
   if (desc->has_radius)
-    CS_TRY(cs_door_range(context, noun, "radius", desc->radius, 0, RADIUS_LIMIT));
+    CS_TRY(cs_check_range(context, noun, "radius", desc->radius, 0, RADIUS_LIMIT));
   return desc->rows == 0 ? CELSPAN_OK
-                         : cs_door_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
+                         : cs_check_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
 }
 
 celspan_status cs_antialias_make(celspan_context *context, const char *noun,
                                  celspan_antialias_mode mode, const celspan_filter_desc *desc,
                                  cs_antialias *out) {
   static const double radii[] = {0.5, 1.5, 2, 3, 0};
-  CS_TRY(cs_door_choice(context, noun, "mode", (unsigned)mode, CELSPAN_ANTIALIAS_FILTER + 1));
+  CS_TRY(cs_check_choice(context, noun, "mode", (unsigned)mode, CELSPAN_ANTIALIAS_FILTER + 1));
   *out = (cs_antialias){.mode = mode};
   if (mode != CELSPAN_ANTIALIAS_FILTER)
     return CELSPAN_OK;

@@ -1,6 +1,6 @@
 /* Boolean objects: a body of operands. Their meaning at a point stands in inside.h. */
-#include "scene/body.h"
-#include "scene/door.h"
+#include "scene/check.h"
+#include "scene/primitive_data.h"
 
 static const char *const nouns[] = {
     [CELSPAN_UNION] = "union",
@@ -11,9 +11,9 @@ static const char *const nouns[] = {
 };
 
 /* Depth and number of primitives, each within its limit. */
-static celspan_status measure(celspan_context *context, cs_body *body, const char *noun) {
+static celspan_status measure(celspan_context *context, cs_primitive_data *body, const char *noun) {
   for (size_t i = 0; i < body->operand_count; i++) {
-    const cs_body *operand = body->operands[i]->body;
+    const cs_primitive_data *operand = body->operands[i]->body;
     body->depth = operand->depth > body->depth ? operand->depth : body->depth;
     body->primitive_count += operand->primitive_count;
     body->has_procedure |= operand->has_procedure;
@@ -28,9 +28,9 @@ static celspan_status measure(celspan_context *context, cs_body *body, const cha
   return CELSPAN_OK;
 }
 
-static celspan_status fill(celspan_context *context, cs_body *body, const char *noun,
+static celspan_status fill(celspan_context *context, cs_primitive_data *body, const char *noun,
                            celspan_object *const *operands, size_t count) {
-  CS_TRY(cs_body_list_copy(context, noun, "operands", operands, count, &body->operands));
+  CS_TRY(cs_primitive_data_list_copy(context, noun, "operands", operands, count, &body->operands));
   body->operand_count = count;
   body->is_empty = count == 0;
   return measure(context, body, noun);
@@ -39,13 +39,14 @@ static celspan_status fill(celspan_context *context, cs_body *body, const char *
 celspan_status celspan_object_create_boolean(celspan_context *context, celspan_operator op,
                                              celspan_object *const *operands, size_t operand_count,
                                              celspan_object **out) {
-  CS_TRY(cs_door_choice(context, "boolean", "op", (unsigned)op, CELSPAN_CLIP + 1));
+  CS_TRY(cs_check_choice(context, "boolean", "op", (unsigned)op, CELSPAN_CLIP + 1));
   const char *noun = nouns[op];
   if (op == CELSPAN_CLIP && operand_count != 2)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "clip: %zu operands were given; it takes two",
                    operand_count);
-  cs_body *body;
-  CS_TRY(cs_body_create(context, CS_BODY_BOOLEAN, NULL, &body));
+  cs_primitive_data *body;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &body));
   body->op = op;
-  return cs_body_wrap(context, body, fill(context, body, noun, operands, operand_count), out);
+  return cs_primitive_data_wrap(context, body, fill(context, body, noun, operands, operand_count),
+                                out);
 }

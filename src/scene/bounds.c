@@ -1,7 +1,7 @@
 /* Boxes: what an object or a cel can paint at most. */
 #include <math.h>
 
-#include "scene/body.h"
+#include "scene/primitive_data.h"
 
 static celspan_box around(celspan_box a, celspan_box b) {
   double x = fmin(a.x, b.x), y = fmin(a.y, b.y);
@@ -18,8 +18,8 @@ static celspan_box common(celspan_box a, celspan_box b) {
 static bool object_bounds(const celspan_object *object, const celspan_matrix *parent,
                           celspan_box *out);
 
-bool cs_body_list_bounds(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
-                         celspan_box *out) {
+bool cs_primitive_data_list_bounds(celspan_object *const *objects, size_t count,
+                                   const celspan_matrix *matrix, celspan_box *out) {
   bool found = false;
   celspan_box box;
   for (size_t i = 0; i < count; i++) {
@@ -44,13 +44,14 @@ static bool list_common(celspan_object *const *objects, size_t count, const cels
   return count > 0;
 }
 
-static bool body_bounds(const cs_body *body, const celspan_matrix *matrix, celspan_box *out) {
-  if (body->kind != CS_BODY_BOOLEAN)
+static bool body_bounds(const cs_primitive_data *body, const celspan_matrix *matrix,
+                        celspan_box *out) {
+  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_outline_bounds(&body->outline, matrix, out);
   switch (body->op) {
   case CELSPAN_UNION:
   case CELSPAN_XOR:
-    return cs_body_list_bounds(body->operands, body->operand_count, matrix, out);
+    return cs_primitive_data_list_bounds(body->operands, body->operand_count, matrix, out);
   case CELSPAN_INTERSECTION:
   case CELSPAN_CLIP:
     return list_common(body->operands, body->operand_count, matrix, out);
@@ -79,7 +80,7 @@ bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {
 
 bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out) {
   celspan_box box;
-  if (!cs_body_list_bounds(cel->objects, cel->object_count, &cel->matrix, &box))
+  if (!cs_primitive_data_list_bounds(cel->objects, cel->object_count, &cel->matrix, &box))
     return false;
   *out = box;
   return true;

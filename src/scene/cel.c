@@ -1,23 +1,23 @@
 #include "base/number.h"
-#include "scene/body.h"
-#include "scene/door.h"
+#include "scene/check.h"
+#include "scene/primitive_data.h"
 #include "scene/value.h"
 
 static celspan_status check(celspan_context *context, const celspan_cel_desc *desc) {
-  CS_TRY(cs_door_given(context, "cel", "the description", desc));
-  CS_TRY(cs_door_version(context, "cel", desc->struct_size, sizeof *desc));
+  CS_TRY(cs_check_given(context, "cel", "the description", desc));
+  CS_TRY(cs_check_version(context, "cel", desc->struct_size, sizeof *desc));
   if (desc->has_front)
-    CS_TRY(cs_door_light(context, "cel", "front", &desc->front));
-  CS_TRY(cs_door_light(context, "cel", "back", &desc->back));
+    CS_TRY(cs_check_light(context, "cel", "front", &desc->front));
+  CS_TRY(cs_check_light(context, "cel", "back", &desc->back));
   if (desc->has_viewport) {
-    CS_TRY(cs_door_box(context, "cel", "viewport", &desc->viewport));
-    CS_TRY(cs_door_positive(context, "cel", "viewport.width", desc->viewport.width));
-    CS_TRY(cs_door_positive(context, "cel", "viewport.height", desc->viewport.height));
+    CS_TRY(cs_check_box(context, "cel", "viewport", &desc->viewport));
+    CS_TRY(cs_check_positive(context, "cel", "viewport.width", desc->viewport.width));
+    CS_TRY(cs_check_positive(context, "cel", "viewport.height", desc->viewport.height));
   }
-  CS_TRY(cs_door_size(context, "cel", "defocus.radius", desc->defocus_radius));
-  CS_TRY(cs_door_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
-                        CELSPAN_DEFOCUS_DISC + 1));
-  return cs_door_share(context, "cel", "opacity", desc->opacity);
+  CS_TRY(cs_check_size(context, "cel", "defocus.radius", desc->defocus_radius));
+  CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
+                         CELSPAN_DEFOCUS_DISC + 1));
+  return cs_check_share(context, "cel", "opacity", desc->opacity);
 }
 
 static cs_hash hash_cel(const celspan_cel *cel) {
@@ -46,7 +46,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
     return cs_fail_memory(context);
   *cel = *fields;
   celspan_status status =
-      cs_body_list_copy(context, "cel", "objects", objects, object_count, &cel->objects);
+      cs_primitive_data_list_copy(context, "cel", "objects", objects, object_count, &cel->objects);
   if (status != CELSPAN_OK) {
     cs_mem_free(context->memory, cel, sizeof *cel);
     return status;
@@ -81,18 +81,18 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
 
 celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
                                      const celspan_matrix *matrix, celspan_cel **out) {
-  CS_TRY(cs_door_given(context, "transform", "the cel", cel));
+  CS_TRY(cs_check_given(context, "transform", "the cel", cel));
   celspan_cel fields = *cel;
-  CS_TRY(cs_door_transform(context, &cel->matrix, matrix, &fields.matrix));
+  CS_TRY(cs_check_transform(context, &cel->matrix, matrix, &fields.matrix));
   for (size_t i = 0; i < cel->object_count; i++)
-    CS_TRY(cs_body_check_placement(context, cel->objects[i]->body, &fields.matrix));
+    CS_TRY(cs_primitive_data_check_placement(context, cel->objects[i]->body, &fields.matrix));
   return create(context, &fields, cel->objects, cel->object_count, out);
 }
 
 celspan_status celspan_cel_fade(celspan_context *context, celspan_cel *cel, double k,
                                 celspan_cel **out) {
-  CS_TRY(cs_door_given(context, "fade", "the cel", cel));
-  CS_TRY(cs_door_share(context, "fade", "k", k));
+  CS_TRY(cs_check_given(context, "fade", "the cel", cel));
+  CS_TRY(cs_check_share(context, "fade", "k", k));
   celspan_cel fields = *cel;
   fields.opacity *= k;
   return create(context, &fields, cel->objects, cel->object_count, out);
@@ -107,7 +107,7 @@ void celspan_cel_unref(celspan_cel *cel) {
   if (!cel || !cs_value_drop(&cel->references))
     return;
   cs_memory *memory = cel->memory;
-  cs_body_list_free(memory, cel->objects, cel->object_count);
+  cs_primitive_data_list_free(memory, cel->objects, cel->object_count);
   cs_mem_free(memory, cel, sizeof *cel);
   cs_memory_unref(memory);
 }

@@ -1,16 +1,16 @@
 /* Images: a rectangle, and a picture fitted to it. */
 #include <math.h>
 
-#include "scene/door.h"
-#include "scene/picture.h"
+#include "pictures/picture.h"
+#include "scene/check.h"
 
 static celspan_status check(celspan_context *context, const celspan_image_desc *desc) {
-  CS_TRY(cs_door_given(context, "image", "the description", desc));
-  CS_TRY(cs_door_number(context, "image", "x", desc->x));
-  CS_TRY(cs_door_number(context, "image", "y", desc->y));
-  CS_TRY(cs_door_size(context, "image", "w", desc->width));
-  CS_TRY(cs_door_size(context, "image", "h", desc->height));
-  return cs_door_choice(context, "image", "fit", (unsigned)desc->fit, CELSPAN_FIT_COVER + 1);
+  CS_TRY(cs_check_given(context, "image", "the description", desc));
+  CS_TRY(cs_check_number(context, "image", "x", desc->x));
+  CS_TRY(cs_check_number(context, "image", "y", desc->y));
+  CS_TRY(cs_check_size(context, "image", "w", desc->width));
+  CS_TRY(cs_check_size(context, "image", "h", desc->height));
+  return cs_check_choice(context, "image", "fit", (unsigned)desc->fit, CELSPAN_FIT_COVER + 1);
 }
 
 static celspan_status read_size(celspan_context *context, const celspan_image_desc *desc,

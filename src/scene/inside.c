@@ -79,12 +79,12 @@ bool cs_inside_arrive(const celspan_matrix *matrix, celspan_point point, celspan
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static bool inside_object(const celspan_object *object, const celspan_matrix *parent,
                           celspan_point point) {
-  const cs_body *body = object->body;
+  const cs_primitive_data *body = object->body;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   celspan_point own;
   if (body->is_empty)
     return false;
-  if (body->kind != CS_BODY_BOOLEAN)
+  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_inside_arrive(&whole, point, &own) &&
            cs_inside_outline(&body->outline, body->rule, own);
   size_t present = 0;

@@ -160,7 +160,7 @@ static cs_oracle_paint shade_span(const cs_scanline_span *span, const cs_paint *
   return cs_oracle_mix(&p, &q, along - before);
 }
 
-static celspan_status shade_procedure(celspan_context *context, const cs_body *body,
+static celspan_status shade_procedure(celspan_context *context, const cs_primitive_data *body,
                                       celspan_point at, bool *is_there, cs_oracle_paint *out) {
   const celspan_box *bounds = &body->scanline.bounds;
   celspan_scanline_row row = {bounds->x, bounds->x + bounds->width, 1};
@@ -179,10 +179,10 @@ static celspan_status shade_procedure(celspan_context *context, const cs_body *b
   return status;
 }
 
-celspan_status cs_oracle_primitive(celspan_context *context, const cs_body *body,
+celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *body,
                                    celspan_point point, bool *is_there, cs_oracle_paint *out) {
   *is_there = true;
-  if (body->kind == CS_BODY_SCANLINE)
+  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
     return shade_procedure(context, body, point, is_there, out);
   const celspan_texture *texture = body->texture;
   switch (texture->kind) {

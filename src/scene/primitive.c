@@ -1,35 +1,35 @@
 /* Primitives: their doors, and the outline, bounds and texture that make their bodies. */
-#include "scene/body.h"
-#include "scene/door.h"
+#include "scene/check.h"
+#include "scene/primitive_data.h"
 
 /* Bounds of the outline, and the object around the body. `status`: that of making the outline. */
-static celspan_status complete(celspan_context *context, cs_body *body, celspan_status status,
-                               celspan_object **out) {
+static celspan_status complete(celspan_context *context, cs_primitive_data *body,
+                               celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   if (status == CELSPAN_OK && !cs_outline_bounds(&body->outline, &identity, &body->bounds))
     body->bounds = (celspan_box){0, 0, 0, 0};
   body->is_empty = !(body->bounds.width > 0 && body->bounds.height > 0);
   body->primitive_count = 1;
-  return cs_body_wrap(context, body, status, out);
+  return cs_primitive_data_wrap(context, body, status, out);
 }
 
 static celspan_status begin(celspan_context *context, const char *noun, celspan_rule rule,
-                            celspan_texture *texture, cs_body **out) {
-  CS_TRY(cs_door_choice(context, noun, "rule", (unsigned)rule, CELSPAN_RULE_EVENODD + 1));
-  CS_TRY(cs_body_create(context, CS_BODY_OUTLINE, texture, out));
+                            celspan_texture *texture, cs_primitive_data **out) {
+  CS_TRY(cs_check_choice(context, noun, "rule", (unsigned)rule, CELSPAN_RULE_EVENODD + 1));
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, texture, out));
   (*out)->rule = rule;
   return CELSPAN_OK;
 }
 
 celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
                                           celspan_object **out) {
-  CS_TRY(cs_door_given(context, "rect", "the description", desc));
-  CS_TRY(cs_door_number(context, "rect", "x", desc->x));
-  CS_TRY(cs_door_number(context, "rect", "y", desc->y));
-  CS_TRY(cs_door_size(context, "rect", "w", desc->width));
-  CS_TRY(cs_door_size(context, "rect", "h", desc->height));
-  CS_TRY(cs_door_size(context, "rect", "radius", desc->radius));
-  cs_body *body;
+  CS_TRY(cs_check_given(context, "rect", "the description", desc));
+  CS_TRY(cs_check_number(context, "rect", "x", desc->x));
+  CS_TRY(cs_check_number(context, "rect", "y", desc->y));
+  CS_TRY(cs_check_size(context, "rect", "w", desc->width));
+  CS_TRY(cs_check_size(context, "rect", "h", desc->height));
+  CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
+  cs_primitive_data *body;
   CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &body));
   return complete(context, body,
                   cs_outline_rect(context, &body->outline, desc->x, desc->y, desc->width,
@@ -40,16 +40,16 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
 static celspan_status check_points(celspan_context *context, const char *noun,
                                    const celspan_point *points, size_t count) {
   if (count > 0)
-    CS_TRY(cs_door_given(context, noun, "points", points));
+    CS_TRY(cs_check_given(context, noun, "points", points));
   for (size_t i = 0; i < count; i++)
-    CS_TRY(cs_door_point(context, noun, "points", i + 1, points[i]));
+    CS_TRY(cs_check_point(context, noun, "points", i + 1, points[i]));
   return CELSPAN_OK;
 }
 
 static celspan_status create_polygon(celspan_context *context, const char *noun,
                                      const celspan_polygon_desc *desc, celspan_object **out) {
   CS_TRY(check_points(context, noun, desc->points, desc->point_count));
-  cs_body *body;
+  cs_primitive_data *body;
   CS_TRY(begin(context, noun, desc->rule, desc->texture, &body));
   return complete(context, body,
                   cs_outline_polygon(context, &body->outline, desc->points, desc->point_count),
@@ -59,14 +59,14 @@ static celspan_status create_polygon(celspan_context *context, const char *noun,
 celspan_status celspan_object_create_polygon(celspan_context *context,
                                              const celspan_polygon_desc *desc,
                                              celspan_object **out) {
-  CS_TRY(cs_door_given(context, "polygon", "the description", desc));
+  CS_TRY(cs_check_given(context, "polygon", "the description", desc));
   return create_polygon(context, "polygon", desc, out);
 }
 
 celspan_status celspan_object_create_triangle(celspan_context *context,
                                               const celspan_triangle_desc *desc,
                                               celspan_object **out) {
-  CS_TRY(cs_door_given(context, "triangle", "the description", desc));
+  CS_TRY(cs_check_given(context, "triangle", "the description", desc));
   celspan_polygon_desc polygon = {desc->points, 3, CELSPAN_RULE_NONZERO, desc->texture};
   return create_polygon(context, "triangle", &polygon, out);
 }
@@ -74,11 +74,11 @@ celspan_status celspan_object_create_triangle(celspan_context *context,
 celspan_status celspan_object_create_ellipse(celspan_context *context,
                                              const celspan_ellipse_desc *desc,
                                              celspan_object **out) {
-  CS_TRY(cs_door_given(context, "ellipse", "the description", desc));
-  CS_TRY(cs_door_point(context, "ellipse", "centre", 0, desc->centre));
-  CS_TRY(cs_door_size(context, "ellipse", "radii[1]", desc->radius_x));
-  CS_TRY(cs_door_size(context, "ellipse", "radii[2]", desc->radius_y));
-  cs_body *body;
+  CS_TRY(cs_check_given(context, "ellipse", "the description", desc));
+  CS_TRY(cs_check_point(context, "ellipse", "centre", 0, desc->centre));
+  CS_TRY(cs_check_size(context, "ellipse", "radii[1]", desc->radius_x));
+  CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
+  cs_primitive_data *body;
   CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &body));
   return complete(
       context, body,
@@ -88,20 +88,20 @@ celspan_status celspan_object_create_ellipse(celspan_context *context,
 
 celspan_status celspan_object_create_nurbs(celspan_context *context, const celspan_nurbs_desc *desc,
                                            celspan_object **out) {
-  CS_TRY(cs_door_given(context, "nurbs", "the description", desc));
+  CS_TRY(cs_check_given(context, "nurbs", "the description", desc));
   CS_TRY(check_points(context, "nurbs", desc->points, desc->point_count));
-  CS_TRY(cs_door_choice(context, "nurbs", "closed", (unsigned)desc->closure,
-                        CELSPAN_NURBS_CLAMPED + 1));
-  cs_body *body;
+  CS_TRY(cs_check_choice(context, "nurbs", "closed", (unsigned)desc->closure,
+                         CELSPAN_NURBS_CLAMPED + 1));
+  cs_primitive_data *body;
   CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &body));
   return complete(context, body, cs_outline_nurbs(context, &body->outline, desc), out);
 }
 
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
                                           celspan_object **out) {
-  CS_TRY(cs_door_given(context, "path", "the description", desc));
-  CS_TRY(cs_door_given(context, "path", "d", desc->data));
-  cs_body *body;
+  CS_TRY(cs_check_given(context, "path", "the description", desc));
+  CS_TRY(cs_check_given(context, "path", "d", desc->data));
+  cs_primitive_data *body;
   CS_TRY(begin(context, "path", desc->rule, desc->texture, &body));
   return complete(context, body, cs_outline_path(context, &body->outline, desc->data), out);
 }
@@ -109,12 +109,12 @@ celspan_status celspan_object_create_path(celspan_context *context, const celspa
 celspan_status celspan_object_create_scanline(celspan_context *context,
                                               const celspan_scanline_desc *desc,
                                               celspan_object **out) {
-  CS_TRY(cs_door_given(context, "scanline", "the description", desc));
-  CS_TRY(cs_door_box(context, "scanline", "bounds", &desc->bounds));
+  CS_TRY(cs_check_given(context, "scanline", "the description", desc));
+  CS_TRY(cs_check_box(context, "scanline", "bounds", &desc->bounds));
   if (!desc->spans)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "scanline: spans is missing");
-  cs_body *body;
-  CS_TRY(cs_body_create(context, CS_BODY_SCANLINE, NULL, &body));
+  cs_primitive_data *body;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &body));
   const celspan_box *box = &desc->bounds;
   celspan_object *object;
   CS_TRY(

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "base/number.h"
-#include "scene/door.h"
+#include "scene/check.h"
 #include "scene/inside.h"
 #include "scene/oracle.h"
 
@@ -25,25 +25,25 @@ static celspan_status paint(const probe_call *probe, const celspan_object *objec
                             const celspan_matrix *parent, cs_oracle_paint *out);
 
 /* A procedure is present where its spans are: the shade is its by-product. */
-static celspan_status primitive_present(const probe_call *probe, const cs_body *body,
+static celspan_status primitive_present(const probe_call *probe, const cs_primitive_data *body,
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
   cs_oracle_paint unused;
   *out = cs_inside_arrive(matrix, probe->point, &own) &&
          cs_inside_outline(&body->outline, body->rule, own);
-  return *out && body->kind == CS_BODY_SCANLINE
+  return *out && body->kind == CS_PRIMITIVE_DATA_SCANLINE
              ? cs_oracle_primitive(probe->context, body, own, out, &unused)
              : CELSPAN_OK;
 }
 
 static celspan_status present(const probe_call *probe, const celspan_object *object,
                               const celspan_matrix *parent, bool *out) {
-  const cs_body *body = object->body;
+  const cs_primitive_data *body = object->body;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   *out = false;
   if (body->is_empty)
     return CELSPAN_OK;
-  if (body->kind != CS_BODY_BOOLEAN)
+  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return primitive_present(probe, body, &whole, out);
   size_t count = 0;
   bool first = false;
@@ -76,12 +76,12 @@ static celspan_status paint_list(const probe_call *probe, celspan_object *const 
 /* The paint of an object that is present at the point. */
 static celspan_status paint(const probe_call *probe, const celspan_object *object,
                             const celspan_matrix *parent, cs_oracle_paint *out) {
-  const cs_body *body = object->body;
+  const cs_primitive_data *body = object->body;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   celspan_point own;
   bool is_there;
   *out = cs_oracle_clear;
-  if (body->kind == CS_BODY_BOOLEAN) {
+  if (body->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
     size_t shown = 0;
     while (shown < body->operand_count && cs_inside_shows(body->op, shown))
       shown++;
@@ -178,17 +178,17 @@ static celspan_status check(celspan_context *context, const celspan_exposure *ex
                             size_t exposure_count, double film_width, double film_height,
                             celspan_point point) {
   if (exposure_count > 0)
-    CS_TRY(cs_door_given(context, "probe", "exposures", exposures));
+    CS_TRY(cs_check_given(context, "probe", "exposures", exposures));
   for (size_t i = 0; i < exposure_count; i++) {
-    CS_TRY(cs_door_item(context, "probe", "exposures", i + 1, "weight", exposures[i].weight, 0,
-                        CS_NUMBER_LIMIT));
+    CS_TRY(cs_check_item(context, "probe", "exposures", i + 1, "weight", exposures[i].weight, 0,
+                         CS_NUMBER_LIMIT));
     if (!exposures[i].rostrum)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "probe: exposures[%zu].rostrum is missing",
                      i + 1);
   }
-  CS_TRY(cs_door_positive(context, "probe", "film width", film_width));
-  CS_TRY(cs_door_positive(context, "probe", "film height", film_height));
-  return cs_door_point(context, "probe", "point", 0, point);
+  CS_TRY(cs_check_positive(context, "probe", "film width", film_width));
+  CS_TRY(cs_check_positive(context, "probe", "film height", film_height));
+  return cs_check_point(context, "probe", "point", 0, point);
 }
 
 celspan_status celspan_probe(celspan_context *context, const celspan_exposure *exposures,

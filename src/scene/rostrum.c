@@ -1,6 +1,6 @@
 #include "base/number.h"
 #include "geometry/matrix.h"
-#include "scene/door.h"
+#include "scene/check.h"
 #include "scene/scene.h"
 #include "scene/value.h"
 
@@ -8,7 +8,7 @@
 
 static celspan_status check_cels(celspan_context *context, const celspan_rostrum_desc *desc) {
   if (desc->cel_count > 0)
-    CS_TRY(cs_door_given(context, "rostrum", "cels", desc->cels));
+    CS_TRY(cs_check_given(context, "rostrum", "cels", desc->cels));
   for (size_t i = 0; i < desc->cel_count; i++)
     if (!desc->cels[i])
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "rostrum: cels[%zu] is missing", i + 1);
@@ -16,18 +16,18 @@ static celspan_status check_cels(celspan_context *context, const celspan_rostrum
 }
 
 static celspan_status check(celspan_context *context, const celspan_rostrum_desc *desc) {
-  CS_TRY(cs_door_given(context, "rostrum", "the description", desc));
-  CS_TRY(cs_door_version(context, "rostrum", desc->struct_size, sizeof *desc));
+  CS_TRY(cs_check_given(context, "rostrum", "the description", desc));
+  CS_TRY(cs_check_version(context, "rostrum", desc->struct_size, sizeof *desc));
   CS_TRY(check_cels(context, desc));
   if (desc->has_front)
-    CS_TRY(cs_door_light(context, "rostrum", "front", &desc->front));
-  CS_TRY(cs_door_light(context, "rostrum", "back", &desc->back));
-  CS_TRY(cs_door_size(context, "rostrum", "brightness", desc->brightness));
+    CS_TRY(cs_check_light(context, "rostrum", "front", &desc->front));
+  CS_TRY(cs_check_light(context, "rostrum", "back", &desc->back));
+  CS_TRY(cs_check_size(context, "rostrum", "brightness", desc->brightness));
   if (desc->has_camera_centre)
-    CS_TRY(cs_door_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
+    CS_TRY(cs_check_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
   if (desc->has_camera_width)
-    CS_TRY(cs_door_positive(context, "rostrum", "camera.width", desc->camera_width));
-  return cs_door_number(context, "rostrum", "camera.rotate", desc->camera_rotation);
+    CS_TRY(cs_check_positive(context, "rostrum", "camera.width", desc->camera_width));
+  return cs_check_number(context, "rostrum", "camera.rotate", desc->camera_rotation);
 }
 
 static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
@@ -68,8 +68,8 @@ celspan_status celspan_rostrum_create(celspan_context *context, const celspan_ro
                                       celspan_rostrum **out) {
   cs_antialias antialias;
   CS_TRY(check(context, desc));
-  CS_TRY(cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter,
-                           &antialias));
+  CS_TRY(
+      cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter, &antialias));
   celspan_cel **cels = cs_mem_array(context->memory, desc->cel_count, sizeof *cels);
   celspan_rostrum *rostrum = cs_mem_array(context->memory, 1, sizeof *rostrum);
   if (!rostrum || (!cels && desc->cel_count > 0)) {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
-#include "scene/door.h"
+#include "scene/check.h"
 
 void cs_scanline_init(celspan_scanline_output *output) { memset(output, 0, sizeof *output); }
 
@@ -17,8 +17,8 @@ void cs_scanline_finish(celspan_scanline_output *output, cs_memory *memory) {
 static celspan_status refuse_ends(const celspan_scanline_output *output, double x0, double x1) {
   celspan_context *context = output->context;
   size_t number = output->emitted + 1;
-  cs_door_text at = cs_door_number_text(output->y), begin = cs_door_number_text(x0),
-               end = cs_door_number_text(x1), before = cs_door_number_text(output->last_x1);
+  cs_check_text at = cs_check_number_text(output->y), begin = cs_check_number_text(x0),
+                end = cs_check_number_text(x1), before = cs_check_number_text(output->last_x1);
   if (!cs_number_is_sane(x0) || !cs_number_is_sane(x1))
     return cs_fail(context, CELSPAN_CALLBACK,
                    "scanline: an end of span %zu at y = %s is not a number within 1e12", number,
@@ -37,12 +37,12 @@ static celspan_status check_paints(const celspan_scanline_output *output,
                                    const celspan_paint *paints, size_t count) {
   if (count == 0 || !paints)
     return cs_fail(output->context, CELSPAN_CALLBACK, "scanline: span %zu at y = %s has no paint",
-                   output->emitted + 1, cs_door_number_text(output->y).text);
+                   output->emitted + 1, cs_check_number_text(output->y).text);
   for (size_t i = 0; i < count; i++)
     if (!cs_paint_is_valid(&paints[i]))
       return cs_fail(output->context, CELSPAN_CALLBACK,
                      "scanline: paint %zu of span %zu at y = %s has a value outside 0..1", i + 1,
-                     output->emitted + 1, cs_door_number_text(output->y).text);
+                     output->emitted + 1, cs_check_number_text(output->y).text);
   return CELSPAN_OK;
 }
 
@@ -103,6 +103,6 @@ celspan_status cs_scanline_collect(celspan_context *context, const celspan_scanl
     return output->status;
   if (status != CELSPAN_OK && context->error[0] == 0)
     return cs_fail(context, status, "scanline: its spans function failed at y = %s",
-                   cs_door_number_text(y).text);
+                   cs_check_number_text(y).text);
   return status;
 }

@@ -14,8 +14,8 @@
 #include "base/hash.h"
 #include "colour/paint.h"
 #include "geometry/outline.h"
+#include "pictures/picture.h"
 #include "scene/antialias.h"
-#include "scene/picture.h"
 
 #define CS_SCENE_DEPTH 128
 #define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
@@ -38,13 +38,13 @@ struct celspan_texture {
   cs_memory *memory;
   cs_hash hash;
   cs_texture_kind kind;
-  cs_paint flat;             /* FLAT */
-  celspan_point points[3];   /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
-  double radius;             /* RADIAL */
-  cs_paint corners[3];       /* TRIANGLE */
-  cs_stop *stops;            /* LINEAR, RADIAL */
+  cs_paint flat;           /* FLAT */
+  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
+  double radius;           /* RADIAL */
+  cs_paint corners[3];     /* TRIANGLE */
+  cs_stop *stops;          /* LINEAR, RADIAL */
   size_t stop_count;
-  cs_picture *picture;       /* PICTURE */
+  cs_picture *picture; /* PICTURE */
   celspan_sampling sampling;
   celspan_picture_use use;
   celspan_wrap wrap;
@@ -52,33 +52,37 @@ struct celspan_texture {
   celspan_box box; /* where has_box; else the primitive's tight bounds */
 };
 
-typedef enum cs_body_kind { CS_BODY_OUTLINE, CS_BODY_SCANLINE, CS_BODY_BOOLEAN } cs_body_kind;
+typedef enum cs_primitive_data_kind {
+  CS_PRIMITIVE_DATA_OUTLINE,
+  CS_PRIMITIVE_DATA_SCANLINE,
+  CS_PRIMITIVE_DATA_BOOLEAN
+} cs_primitive_data_kind;
 
 /* What an object is before its transform and fade: shared by all its transformed copies. */
-typedef struct cs_body {
+typedef struct cs_primitive_data {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
-  cs_body_kind kind;
+  cs_primitive_data_kind kind;
   cs_outline outline; /* OUTLINE */
   celspan_rule rule;
-  celspan_texture *texture; /* OUTLINE; never NULL */
-  celspan_box bounds;       /* OUTLINE, SCANLINE: tight, own units */
-  bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
+  celspan_texture *texture;       /* OUTLINE; never NULL */
+  celspan_box bounds;             /* OUTLINE, SCANLINE: tight, own units */
+  bool is_empty;                  /* nothing to draw: no contour, or an operator without operands */
   celspan_scanline_desc scanline; /* SCANLINE */
   celspan_operator op;            /* BOOLEAN */
   celspan_object **operands;
   size_t operand_count;
-  int depth; /* levels of booleans below and with this one; 0 for primitives */
+  int depth;              /* levels of booleans below and with this one; 0 for primitives */
   size_t primitive_count; /* below and with this one, each as often as it is reached */
   bool has_procedure;     /* below or with this one */
-} cs_body;
+} cs_primitive_data;
 
 struct celspan_object {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
-  cs_body *body;
+  cs_primitive_data *body;
   celspan_matrix matrix; /* own units to the parent's */
   double fade;           /* 0..1 */
 };
@@ -118,9 +122,9 @@ struct celspan_rostrum {
  * then viewport, then camera. Errors: BAD_ARGUMENT, naming the cel, when viewport or camera is
  * singular. cel_index is only for the message. */
 CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
-                                                   const celspan_rostrum *rostrum,
-                                                   size_t cel_index, double film_width,
-                                                   double film_height, celspan_matrix *out);
+                                                   const celspan_rostrum *rostrum, size_t cel_index,
+                                                   double film_width, double film_height,
+                                                   celspan_matrix *out);
 /* Its parts after the cel's own transform: viewport, then camera; and the camera alone, the
  * identity where there is none. Not checked. */
 celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,

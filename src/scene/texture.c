@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "scene/door.h"
+#include "scene/check.h"
 #include "scene/value.h"
 
 /* Twice the area of a triangle below this share of its longest side squared is rounding. */
@@ -70,8 +70,8 @@ static celspan_status create_flat_straight(celspan_context *context, const celsp
 
 celspan_status celspan_texture_create_paint(celspan_context *context, const celspan_paint *paint,
                                             celspan_texture **out) {
-  CS_TRY(cs_door_given(context, "paint", "the paint", paint));
-  CS_TRY(cs_door_paint(context, "paint", "", 0, paint));
+  CS_TRY(cs_check_given(context, "paint", "the paint", paint));
+  CS_TRY(cs_check_paint(context, "paint", "", 0, paint));
   return create_flat_straight(context, paint, out);
 }
 
@@ -105,8 +105,8 @@ celspan_status celspan_texture_create_gradient(celspan_context *context,
                                                const celspan_paint paints[3],
                                                celspan_texture **out) {
   for (size_t i = 0; i < 3; i++) {
-    CS_TRY(cs_door_point(context, "gradient", "points", i + 1, points[i]));
-    CS_TRY(cs_door_paint(context, "gradient", "paints", i + 1, &paints[i]));
+    CS_TRY(cs_check_point(context, "gradient", "points", i + 1, points[i]));
+    CS_TRY(cs_check_paint(context, "gradient", "paints", i + 1, &paints[i]));
   }
   if (triangle_is_flat(points))
     return create_flat_straight(context, &paints[2], out);
@@ -125,13 +125,13 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
                    noun);
   for (size_t i = 0; i < count; i++) {
-    CS_TRY(cs_door_item(context, noun, "stops", i + 1, "at", stops[i].at, 0, 1));
+    CS_TRY(cs_check_item(context, noun, "stops", i + 1, "at", stops[i].at, 0, 1));
     if (i > 0 && stops[i].at < stops[i - 1].at)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "%s: stops[%zu].at is %s, less than %s of the stop before; stops must ascend",
-                     noun, i + 1, cs_door_number_text(stops[i].at).text,
-                     cs_door_number_text(stops[i - 1].at).text);
-    CS_TRY(cs_door_paint(context, noun, "stops", i + 1, &stops[i].paint));
+                     noun, i + 1, cs_check_number_text(stops[i].at).text,
+                     cs_check_number_text(stops[i - 1].at).text);
+    CS_TRY(cs_check_paint(context, noun, "stops", i + 1, &stops[i].paint));
   }
   return CELSPAN_OK;
 }
@@ -159,8 +159,8 @@ static celspan_status create_stops(celspan_context *context, cs_texture_kind kin
 celspan_status celspan_texture_create_linear(celspan_context *context, celspan_point from,
                                              celspan_point to, const celspan_stop *stops,
                                              size_t stop_count, celspan_texture **out) {
-  CS_TRY(cs_door_point(context, "linear", "from", 0, from));
-  CS_TRY(cs_door_point(context, "linear", "to", 0, to));
+  CS_TRY(cs_check_point(context, "linear", "from", 0, from));
+  CS_TRY(cs_check_point(context, "linear", "to", 0, to));
   CS_TRY(check_stops(context, "linear", stops, stop_count));
   celspan_texture *texture;
   CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
@@ -175,8 +175,8 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
 celspan_status celspan_texture_create_radial(celspan_context *context, celspan_point centre,
                                              double radius, const celspan_stop *stops,
                                              size_t stop_count, celspan_texture **out) {
-  CS_TRY(cs_door_point(context, "radial", "centre", 0, centre));
-  CS_TRY(cs_door_size(context, "radial", "radius", radius));
+  CS_TRY(cs_check_point(context, "radial", "centre", 0, centre));
+  CS_TRY(cs_check_size(context, "radial", "radius", radius));
   CS_TRY(check_stops(context, "radial", stops, stop_count));
   celspan_texture *texture;
   CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
@@ -190,12 +190,13 @@ celspan_status celspan_texture_create_radial(celspan_context *context, celspan_p
 /* ---------------------------------------------------------------- pictures */
 
 static celspan_status check_picture(celspan_context *context, const celspan_picture_desc *desc) {
-  CS_TRY(cs_door_given(context, "picture", "the description", desc));
-  CS_TRY(cs_door_choice(context, "picture", "sampling", (unsigned)desc->sampling,
-                        CELSPAN_SAMPLING_BICUBIC + 1));
-  CS_TRY(cs_door_choice(context, "picture", "use", (unsigned)desc->use, CELSPAN_PICTURE_GEL + 1));
-  CS_TRY(cs_door_choice(context, "picture", "wrap", (unsigned)desc->wrap, CELSPAN_WRAP_REPEAT + 1));
-  return desc->has_box ? cs_door_box(context, "picture", "box", &desc->box) : CELSPAN_OK;
+  CS_TRY(cs_check_given(context, "picture", "the description", desc));
+  CS_TRY(cs_check_choice(context, "picture", "sampling", (unsigned)desc->sampling,
+                         CELSPAN_SAMPLING_BICUBIC + 1));
+  CS_TRY(cs_check_choice(context, "picture", "use", (unsigned)desc->use, CELSPAN_PICTURE_GEL + 1));
+  CS_TRY(
+      cs_check_choice(context, "picture", "wrap", (unsigned)desc->wrap, CELSPAN_WRAP_REPEAT + 1));
+  return desc->has_box ? cs_check_box(context, "picture", "box", &desc->box) : CELSPAN_OK;
 }
 
 celspan_status celspan_texture_create_picture(celspan_context *context,

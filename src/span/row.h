@@ -25,7 +25,7 @@ typedef struct cs_row {
   cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   cs_arena colours;
-  /* Kept by the scan that made it, and forgotten when another hand is at it: filter/centre.c. */
+  /* Kept by the scan that made it, and forgotten when another hand is at it: row/centre.c. */
   const void *drawn_by;
   uint64_t drawn_as;
 } cs_row;

@@ -85,7 +85,7 @@ static celspan_status append(celspan_context *context, cs_active *active, uint32
   const cs_boundary_chain *c = &active->set->chains[chain];
   size_t i = active->count++;
   active->slot[i] = slot;
-  active->crossing[i] = (cs_crossing){c->leaf, c->direction};
+  active->crossing[i] = (cs_crossing){c->layer, c->direction};
   cs_boundary_start(active->set, chain, y, &active->walks[slot]);
   take_segment(active, i);
   active->x[i] = cs_boundary_x(&active->walks[slot], y);

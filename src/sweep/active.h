@@ -17,17 +17,17 @@
 
 /* What a boundary does between two heights, when that is not one straight piece. */
 typedef struct cs_bend {
-  uint32_t boundary;     /* index into the order at the upper height */
-  uint32_t vertex;       /* its vertices strictly between the heights: downwards */
+  uint32_t boundary; /* index into the order at the upper height */
+  uint32_t vertex;   /* its vertices strictly between the heights: downwards */
   uint32_t vertex_count;
-  bool ends;       /* it is not there at the lower height */
-  bool ends_above; /* it ended before, at its last vertex */
+  bool ends;        /* it is not there at the lower height */
+  bool ends_above;  /* it ended before, at its last vertex */
   double low, high; /* the least and the greatest x on the way, both ends included */
 } cs_bend;
 
 /* What crossing a boundary from left to right changes. */
 typedef struct cs_crossing {
-  uint32_t leaf;
+  uint32_t layer;
   int32_t direction;
 } cs_crossing;
 
@@ -52,26 +52,26 @@ typedef struct cs_active {
   cs_isa isa;
   int32_t tile_row; /* that holds the current height */
   /* arrays of like fields, `count` of each, in order, with room for CS_ADVANCE_BATCH more */
-  double *x;     /* at the current height */
+  double *x;      /* at the current height */
   double *x_next; /* at the height reached; where the chain ends, if it ends before */
   double *x0, *y0, *slope, *curve, *y1; /* the segment: its top, how x goes on, its bottom */
   cs_crossing *crossing;
   uint32_t *slot;
   size_t count;
-  bool rises; /* x_next is in order, no two alike */
+  bool rises;       /* x_next is in order, no two alike */
   bool notes_bends; /* false: only where boundaries stand counts, bends hold those that end */
   /* by slot */
   cs_boundary_walk *walks;
   uint32_t *free_slots;
   size_t free_count;
-  uint32_t *ended; /* scratch: whose segments end on the way */
-  void *block;     /* that holds all the arrays above */
-  size_t capacity; /* of each of them */
-  size_t next;     /* the first chain of the set that has not begun */
-  double y;        /* the current height */
-  double y_next;   /* the height reached */
+  uint32_t *ended;   /* scratch: whose segments end on the way */
+  void *block;       /* that holds all the arrays above */
+  size_t capacity;   /* of each of them */
+  size_t next;       /* the first chain of the set that has not begun */
+  double y;          /* the current height */
+  double y_next;     /* the height reached */
   double calm_until; /* above this height no chain begins, and no other row of tiles */
-  cs_bend *bends;  /* between the two, in order of their boundaries */
+  cs_bend *bends;    /* between the two, in order of their boundaries */
   uint32_t *bend_of; /* by boundary: the only place in bends where its bend may be */
   celspan_point *vertices;
   size_t bend_count, bend_capacity;
@@ -98,12 +98,13 @@ CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_act
                                                 cs_change *change);
 
 /* The toggles that stand for culled chains at the current height, from left to right. */
-static inline const cs_toggle *cs_active_toggles(const cs_active *active, const cs_toggle **end) {
+static inline const cs_deferred *cs_active_deferred(const cs_active *active,
+                                                    const cs_deferred **end) {
   const cs_cull *cull = active->cull;
   if (cull->tile_rows == 0)
     return *end = NULL;
-  *end = cull->toggles + cull->toggle_starts[active->tile_row + 1];
-  return cull->toggles + cull->toggle_starts[active->tile_row];
+  *end = cull->deferred_list + cull->deferred_starts[active->tile_row + 1];
+  return cull->deferred_list + cull->deferred_starts[active->tile_row];
 }
 
 static inline const cs_boundary_chain *cs_active_chain(const cs_active *active, size_t i) {

@@ -1,7 +1,7 @@
 #include "sweep/cull.h"
 
-#include "base/crew.h"
 #include "base/number.h"
+#include "base/thread_pool.h"
 #include "geometry/polyline.h"
 
 #include <math.h>
@@ -29,36 +29,36 @@ typedef struct slice {
   celspan_context context; /* a branch */
   celspan_status status;
   int32_t first, end;
-  cs_toggle *toggles; /* in the order they were found */
-  uint32_t *toggle_rows;
-  size_t toggle_count, toggle_capacity, toggle_row_capacity;
+  cs_deferred *deferred_list; /* in the order they were found */
+  uint32_t *deferred_rows;
+  size_t deferred_count, deferred_capacity, deferred_row_capacity;
 } slice;
 
 typedef struct culler {
   celspan_context *context;
   const cs_boundary_set *set;
-  const cs_cull_leaf *leaves;
-  size_t leaf_count;
+  const cs_cull_layer *layers;
+  size_t layer_count;
   double width, height, margin, opaque;
   double slack; /* pixels */
   double columns_a_pixel;
   int workers;
   cs_cull *cull;
-  int32_t *last_rows;    /* by chain: of tiles; less than the first where it is nowhere near */
-  reach *reaches;        /* as cull->kept */
-  uint32_t *leaf_starts; /* leaf_count + 1, into by_leaf */
-  uint32_t *by_leaf;     /* chains of each leaf */
-  uint64_t *live;        /* one a row of tiles */
-  double *through;       /* one a tile */
+  int32_t *last_rows;     /* by chain: of tiles; less than the first where it is nowhere near */
+  reach *reaches;         /* as cull->kept */
+  uint32_t *layer_starts; /* leaf_count + 1, into by_leaf */
+  uint32_t *by_layer;     /* chains of each leaf */
+  uint64_t *live;         /* one a row of tiles */
+  double *through;        /* one a tile */
   slice *slices;
   int32_t slice_count;
 } culler;
 
 /* ---------------------------------------------------------------- the grid */
 
-static int32_t choose_rows(size_t leaves, int32_t height) {
+static int32_t choose_rows(size_t layers, int32_t height) {
   int32_t rows = 16;
-  while (rows < TILE_ROWS_MOST && (double)rows * rows < 64.0 * (double)leaves)
+  while (rows < TILE_ROWS_MOST && (double)rows * rows < 64.0 * (double)layers)
     rows *= 2;
   while (rows > 1 && height / rows < TILE_HEIGHT_LEAST)
     rows /= 2;
@@ -182,20 +182,20 @@ static celspan_status trace_chains(culler *c) {
   cull->kept = cs_mem_array(c->context->memory, places, sizeof *cull->kept);
   if (places > 0 && (!c->reaches || !cull->kept))
     return cs_fail_memory(c->context);
-  cs_crew_run(c->workers, (int32_t)((chains + SLICE_CHAINS - 1) / SLICE_CHAINS), trace_slice, c);
+  cs_thread_pool_run(c->workers, (int32_t)((chains + SLICE_CHAINS - 1) / SLICE_CHAINS), trace_slice,
+                     c);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- one leaf */
 
-static celspan_status note_toggle(slice *s, int32_t row, double x,
-                                  const cs_boundary_chain *chain) {
-  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->toggles, &s->toggle_capacity,
-                        s->toggle_count + 1, sizeof *s->toggles));
-  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->toggle_rows, &s->toggle_row_capacity,
-                        s->toggle_count + 1, sizeof *s->toggle_rows));
-  s->toggle_rows[s->toggle_count] = (uint32_t)row;
-  s->toggles[s->toggle_count++] = (cs_toggle){x, chain->leaf, chain->direction};
+static celspan_status note_toggle(slice *s, int32_t row, double x, const cs_boundary_chain *chain) {
+  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->deferred_list, &s->deferred_capacity,
+                        s->deferred_count + 1, sizeof *s->deferred_list));
+  CS_TRY(cs_mem_reserve(&s->context, (void **)&s->deferred_rows, &s->deferred_row_capacity,
+                        s->deferred_count + 1, sizeof *s->deferred_rows));
+  s->deferred_rows[s->deferred_count] = (uint32_t)row;
+  s->deferred_list[s->deferred_count++] = (cs_deferred){x, chain->layer, chain->direction};
   return CELSPAN_OK;
 }
 
@@ -204,7 +204,7 @@ typedef struct footprint {
   uint64_t touched;
   reach turning; /* columns between what begins and ends in the row */
   bool turns, keeps;
-  uint64_t crossed; /* columns that some chain enters from, at the top of the row */
+  uint64_t crossed;                 /* columns that some chain enters from, at the top of the row */
   int32_t winding[CS_CULL_COLUMNS]; /* what the crossings of a column add up to, where crossed */
 } footprint;
 
@@ -263,48 +263,48 @@ static void cover(const culler *c, int32_t row, uint64_t inside, double through)
   }
 }
 
-static celspan_status cull_leaf_row(const culler *c, slice *s, uint32_t leaf, int32_t row) {
+static celspan_status cull_layer_row(const culler *c, slice *s, uint32_t layer, int32_t row) {
   footprint f;
   f.touched = f.crossed = 0;
   f.turning = (reach){0, 0};
   f.turns = f.keeps = false;
-  size_t toggles = s->toggle_count;
-  for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
-    uint32_t chain = c->by_leaf[k];
+  size_t deferred_list = s->deferred_count;
+  for (uint32_t k = c->layer_starts[layer]; k < c->layer_starts[layer + 1]; k++) {
+    uint32_t chain = c->by_layer[k];
     if (row >= c->cull->first_rows[chain] && row <= c->last_rows[chain])
       CS_TRY(place_chain(c, s, chain, row, &f));
   }
-  uint64_t inside = f.touched ? inside_mask(&f, c->leaves[leaf].winding_mask) : 0;
+  uint64_t inside = f.touched ? inside_mask(&f, c->layers[layer].winding_mask) : 0;
   if (!f.keeps && !(inside & c->live[row]))
-    s->toggle_count = toggles; /* it is nowhere to be seen in this row of tiles */
-  if (c->leaves[leaf].through < 1)
-    cover(c, row, inside, c->leaves[leaf].through);
+    s->deferred_count = deferred_list; /* it is nowhere to be seen in this row of tiles */
+  if (c->layers[layer].through < 1)
+    cover(c, row, inside, c->layers[layer].through);
   return CELSPAN_OK;
 }
 
-static celspan_status cull_leaf(const culler *c, slice *s, uint32_t leaf) {
+static celspan_status cull_layer(const culler *c, slice *s, uint32_t layer) {
   int32_t top = s->end, bottom = s->first - 1;
-  for (uint32_t k = c->leaf_starts[leaf]; k < c->leaf_starts[leaf + 1]; k++) {
-    int32_t first = c->cull->first_rows[c->by_leaf[k]], last = c->last_rows[c->by_leaf[k]];
+  for (uint32_t k = c->layer_starts[layer]; k < c->layer_starts[layer + 1]; k++) {
+    int32_t first = c->cull->first_rows[c->by_layer[k]], last = c->last_rows[c->by_layer[k]];
     top = first <= last && first < top ? first : top;
     bottom = last > bottom ? last : bottom;
   }
   top = top > s->first ? top : s->first;
   bottom = bottom < s->end ? bottom : s->end - 1;
   for (int32_t row = top; row <= bottom; row++)
-    CS_TRY(cull_leaf_row(c, s, leaf, row));
+    CS_TRY(cull_layer_row(c, s, layer, row));
   return CELSPAN_OK;
 }
 
 static void cull_slice(void *user, int32_t number) {
   const culler *c = user;
   slice *s = &c->slices[number];
-  for (size_t leaf = c->leaf_count; leaf-- > 0 && s->status == CELSPAN_OK;)
-    s->status = cull_leaf(c, s, (uint32_t)leaf);
+  for (size_t layer = c->layer_count; layer-- > 0 && s->status == CELSPAN_OK;)
+    s->status = cull_layer(c, s, (uint32_t)layer);
 }
 
 /* From the camera backwards, in slices: a row of tiles knows nothing of the others. */
-static celspan_status cull_leaves(culler *c) {
+static celspan_status cull_layers(culler *c) {
   int32_t rows = c->cull->tile_rows, wanted = c->workers > 1 ? SLICES_A_WORKER * c->workers : 1;
   int32_t count = wanted < rows ? wanted : rows;
   c->slices = cs_mem_array(c->context->memory, (size_t)count, sizeof *c->slices);
@@ -317,7 +317,7 @@ static celspan_status cull_leaves(culler *c) {
     s->first = (int32_t)((int64_t)rows * i / count);
     s->end = (int32_t)((int64_t)rows * (i + 1) / count);
   }
-  cs_crew_run(c->workers, count, cull_slice, c);
+  cs_thread_pool_run(c->workers, count, cull_slice, c);
   for (int32_t i = 0; i < count; i++)
     if (c->slices[i].status != CELSPAN_OK)
       return cs_fail(c->context, c->slices[i].status, "%s", c->slices[i].context.error);
@@ -325,30 +325,31 @@ static celspan_status cull_leaves(culler *c) {
 }
 
 /* Lists the chains of every leaf. */
-static void group_by_leaf(culler *c) {
+static void group_by_layer(culler *c) {
   size_t chains = c->set->chain_count;
   for (size_t i = 0; i < chains; i++)
-    c->leaf_starts[c->set->chains[i].leaf + 1]++;
-  for (size_t leaf = 0; leaf < c->leaf_count; leaf++)
-    c->leaf_starts[leaf + 1] += c->leaf_starts[leaf];
+    c->layer_starts[c->set->chains[i].layer + 1]++;
+  for (size_t layer = 0; layer < c->layer_count; layer++)
+    c->layer_starts[layer + 1] += c->layer_starts[layer];
   for (size_t i = 0; i < chains; i++)
-    c->by_leaf[c->leaf_starts[c->set->chains[i].leaf]++] = (uint32_t)i;
-  for (size_t leaf = c->leaf_count; leaf > 0; leaf--)
-    c->leaf_starts[leaf] = c->leaf_starts[leaf - 1];
-  c->leaf_starts[0] = 0;
+    c->by_layer[c->layer_starts[c->set->chains[i].layer]++] = (uint32_t)i;
+  for (size_t layer = c->layer_count; layer > 0; layer--)
+    c->layer_starts[layer] = c->layer_starts[layer - 1];
+  c->layer_starts[0] = 0;
 }
 
 /* ---------------------------------------------------------------- by row of tiles */
 
-static size_t toggle_key(const culler *c, const slice *s, size_t i) {
-  return s->toggle_rows[i] * CS_CULL_COLUMNS + column(c, s->toggles[i].x);
+static size_t deferred_key(const culler *c, const slice *s, size_t i) {
+  return s->deferred_rows[i] * CS_CULL_COLUMNS + column(c, s->deferred_list[i].x);
 }
 
 /* Puts the toggles in their places; starts: by key, the first of its places. */
 static void place_toggles(const culler *c, uint32_t *starts) {
   for (int32_t k = 0; k < c->slice_count; k++)
-    for (size_t i = 0; i < c->slices[k].toggle_count; i++)
-      c->cull->toggles[starts[toggle_key(c, &c->slices[k], i)]++] = c->slices[k].toggles[i];
+    for (size_t i = 0; i < c->slices[k].deferred_count; i++)
+      c->cull->deferred_list[starts[deferred_key(c, &c->slices[k], i)]++] =
+          c->slices[k].deferred_list[i];
 }
 
 /* Sorts the toggles by row of tiles, then column: counting, so that equal ones keep their order. */
@@ -359,18 +360,19 @@ static celspan_status sort_toggles(culler *c) {
   if (!starts)
     return cs_fail_memory(c->context);
   for (int32_t k = 0; k < c->slice_count; k++)
-    for (size_t i = 0; i < c->slices[k].toggle_count; i++)
-      starts[toggle_key(c, &c->slices[k], i) + 1]++;
+    for (size_t i = 0; i < c->slices[k].deferred_count; i++)
+      starts[deferred_key(c, &c->slices[k], i) + 1]++;
   for (size_t key = 0; key < keys; key++)
     starts[key + 1] += starts[key];
   for (int32_t row = 0; row <= cull->tile_rows; row++)
-    cull->toggle_starts[row] = starts[(size_t)row * CS_CULL_COLUMNS];
-  cull->toggle_count = starts[keys];
-  cull->toggles = cs_mem_array(c->context->memory, cull->toggle_count, sizeof *cull->toggles);
-  if (cull->toggles)
+    cull->deferred_starts[row] = starts[(size_t)row * CS_CULL_COLUMNS];
+  cull->deferred_count = starts[keys];
+  cull->deferred_list =
+      cs_mem_array(c->context->memory, cull->deferred_count, sizeof *cull->deferred_list);
+  if (cull->deferred_list)
     place_toggles(c, starts);
   cs_mem_free(c->context->memory, starts, (keys + 1) * sizeof *starts);
-  return cull->toggle_count > 0 && !cull->toggles ? cs_fail_memory(c->context) : CELSPAN_OK;
+  return cull->deferred_count > 0 && !cull->deferred_list ? cs_fail_memory(c->context) : CELSPAN_OK;
 }
 
 /* Calls for every row of tiles of every chain below its first in which it is kept and was not. */
@@ -410,14 +412,14 @@ static celspan_status take_room(culler *c) {
   cull->places = cs_mem_array(memory, chains, sizeof *cull->places);
   cull->first_rows = cs_mem_array(memory, chains, sizeof *cull->first_rows);
   c->last_rows = cs_mem_array(memory, chains, sizeof *c->last_rows);
-  cull->toggle_starts = cs_mem_array(memory, rows + 1, sizeof *cull->toggle_starts);
+  cull->deferred_starts = cs_mem_array(memory, rows + 1, sizeof *cull->deferred_starts);
   cull->enter_starts = cs_mem_array(memory, rows + 1, sizeof *cull->enter_starts);
-  c->leaf_starts = cs_mem_array(memory, c->leaf_count + 1, sizeof *c->leaf_starts);
-  c->by_leaf = cs_mem_array(memory, chains, sizeof *c->by_leaf);
+  c->layer_starts = cs_mem_array(memory, c->layer_count + 1, sizeof *c->layer_starts);
+  c->by_layer = cs_mem_array(memory, chains, sizeof *c->by_layer);
   c->live = cs_mem_array(memory, rows, sizeof *c->live);
   c->through = cs_mem_array(memory, rows * CS_CULL_COLUMNS, sizeof *c->through);
-  if (!cull->places || !cull->first_rows || !c->last_rows || !cull->toggle_starts ||
-      !cull->enter_starts || !c->leaf_starts || !c->by_leaf || !c->live || !c->through)
+  if (!cull->places || !cull->first_rows || !c->last_rows || !cull->deferred_starts ||
+      !cull->enter_starts || !c->layer_starts || !c->by_layer || !c->live || !c->through)
     return cs_fail_memory(c->context);
   memset(c->live, 0xff, rows * sizeof *c->live);
   for (size_t i = 0; i < rows * CS_CULL_COLUMNS; i++)
@@ -430,14 +432,14 @@ static void give_room_back(culler *c) {
   size_t rows = (size_t)c->cull->tile_rows;
   for (int32_t i = 0; i < c->slice_count; i++) {
     slice *s = &c->slices[i];
-    cs_mem_free(memory, s->toggles, s->toggle_capacity * sizeof *s->toggles);
-    cs_mem_free(memory, s->toggle_rows, s->toggle_row_capacity * sizeof *s->toggle_rows);
+    cs_mem_free(memory, s->deferred_list, s->deferred_capacity * sizeof *s->deferred_list);
+    cs_mem_free(memory, s->deferred_rows, s->deferred_row_capacity * sizeof *s->deferred_rows);
   }
   cs_mem_free(memory, c->slices, (size_t)c->slice_count * sizeof *c->slices);
   cs_mem_free(memory, c->reaches, c->cull->kept_count * sizeof *c->reaches);
   cs_mem_free(memory, c->last_rows, c->set->chain_count * sizeof *c->last_rows);
-  cs_mem_free(memory, c->leaf_starts, (c->leaf_count + 1) * sizeof *c->leaf_starts);
-  cs_mem_free(memory, c->by_leaf, c->set->chain_count * sizeof *c->by_leaf);
+  cs_mem_free(memory, c->layer_starts, (c->layer_count + 1) * sizeof *c->layer_starts);
+  cs_mem_free(memory, c->by_layer, c->set->chain_count * sizeof *c->by_layer);
   cs_mem_free(memory, c->live, rows * sizeof *c->live);
   cs_mem_free(memory, c->through, rows * CS_CULL_COLUMNS * sizeof *c->through);
 }
@@ -446,26 +448,33 @@ static celspan_status cull_all(culler *c) {
   CS_TRY(take_room(c));
   find_rows(c);
   CS_TRY(trace_chains(c));
-  group_by_leaf(c);
-  CS_TRY(cull_leaves(c));
+  group_by_layer(c);
+  CS_TRY(cull_layers(c));
   CS_TRY(sort_toggles(c));
   return find_enters(c);
 }
 
 celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
-                              const cs_cull_leaf *leaves, size_t leaf_count, int32_t width,
+                              const cs_cull_layer *layers, size_t layer_count, int32_t width,
                               int32_t height, int32_t margin, double opaque, int workers,
                               cs_cull *out) {
   *out = (cs_cull){.chain_count = set->chain_count};
-  if (leaf_count < LEAVES_LEAST || set->chain_count == 0)
+  if (layer_count < LEAVES_LEAST || set->chain_count == 0)
     return CELSPAN_OK;
   cs_cull cull = {.chain_count = set->chain_count};
-  int32_t rows = choose_rows(leaf_count, height);
+  int32_t rows = choose_rows(layer_count, height);
   cull.tile_height = (int32_t)(((int64_t)height + rows - 1) / rows);
   cull.tile_rows = (int32_t)(((int64_t)height + cull.tile_height - 1) / cull.tile_height);
-  culler c = {.context = context, .set = set, .leaves = leaves, .leaf_count = leaf_count,
-              .width = width, .height = height, .margin = margin, .opaque = opaque,
-              .workers = workers, .cull = &cull};
+  culler c = {.context = context,
+              .set = set,
+              .layers = layers,
+              .layer_count = layer_count,
+              .width = width,
+              .height = height,
+              .margin = margin,
+              .opaque = opaque,
+              .workers = workers,
+              .cull = &cull};
   c.columns_a_pixel = CS_CULL_COLUMNS / c.width;
   c.slack = SLACK_TILES * fmin((double)width / CS_CULL_COLUMNS, cull.tile_height);
   celspan_status status = cull_all(&c);
@@ -479,8 +488,8 @@ celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *s
 
 void cs_cull_free(cs_cull *cull, cs_memory *memory) {
   size_t rows = (size_t)cull->tile_rows + 1;
-  cs_mem_free(memory, cull->toggles, cull->toggle_count * sizeof *cull->toggles);
-  cs_mem_free(memory, cull->toggle_starts, rows * sizeof *cull->toggle_starts);
+  cs_mem_free(memory, cull->deferred_list, cull->deferred_count * sizeof *cull->deferred_list);
+  cs_mem_free(memory, cull->deferred_starts, rows * sizeof *cull->deferred_starts);
   cs_mem_free(memory, cull->enters, cull->enter_count * sizeof *cull->enters);
   cs_mem_free(memory, cull->enter_starts, rows * sizeof *cull->enter_starts);
   cs_mem_free(memory, cull->kept, cull->kept_count * sizeof *cull->kept);

@@ -19,36 +19,37 @@
 #define CS_CULL_COLUMNS 64
 
 /* A leaf as the cull sees it, in order from the rear to the camera. */
-typedef struct cs_cull_leaf {
-  double through; /* the most that any channel lets through wherever the leaf is present; 1: unknown */
+typedef struct cs_cull_layer {
+  double
+      through; /* the most that any channel lets through wherever the leaf is present; 1: unknown */
   int32_t winding_mask;
-} cs_cull_leaf;
+} cs_cull_layer;
 
 /* A crossing that takes the place of a culled chain in one row of tiles. */
-typedef struct cs_toggle {
+typedef struct cs_deferred {
   double x;
-  uint32_t leaf;
+  uint32_t layer;
   int32_t direction;
-} cs_toggle;
+} cs_deferred;
 
 typedef struct cs_cull {
-  int32_t tile_rows; /* 0: nothing is culled */
-  int32_t tile_height; /* pixels */
-  cs_toggle *toggles; /* by row of tiles, then by x */
-  uint32_t *toggle_starts; /* tile_rows + 1 */
+  int32_t tile_rows;          /* 0: nothing is culled */
+  int32_t tile_height;        /* pixels */
+  cs_deferred *deferred_list; /* by row of tiles, then by x */
+  uint32_t *deferred_starts;  /* tile_rows + 1 */
   uint32_t *enters; /* by row of tiles: chains kept there that were not in the row above it */
   uint32_t *enter_starts;
-  bool *kept; /* for every row of tiles of every chain */
+  bool *kept;          /* for every row of tiles of every chain */
   size_t *places;      /* by chain: of its first row of tiles in `kept` */
   int32_t *first_rows; /* by chain: which row of tiles that is */
-  size_t toggle_count, enter_count, kept_count, chain_count;
+  size_t deferred_count, enter_count, kept_count, chain_count;
 } cs_cull;
 
 /* Culls a set in its final order, for heights from -margin to height + margin; the outermost tiles
  * reach into the margin. opaque: what counts as nothing shining through. workers: threads at most.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
-                                              const cs_cull_leaf *leaves, size_t leaf_count,
+                                              const cs_cull_layer *layers, size_t layer_count,
                                               int32_t width, int32_t height, int32_t margin,
                                               double opaque, int workers, cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);

@@ -45,7 +45,7 @@ local it_reads_pictures = has_pictures() and it or pending
 
 --- A plug-in built with a sanitizer cannot be loaded by programs built without.
 local plugin = (BUILD:sub(1, 1) == "/" and BUILD or os.getenv("PWD") .. "/" .. BUILD)
-  .. "/src/picture/plugin"
+  .. "/src/oiio/plugin"
 local function has_oiiotool()
   return not BUILD:find("san", 1, true) and has_pictures()
     and os.execute("command -v oiiotool >/dev/null 2>&1")

@@ -6,7 +6,7 @@
 -- header, celspan/..., may be included from everywhere and includes nothing of ours.
 
 local root = arg[1] or "."
-local BUILT_APART = { "picture", "bind", "cli" }
+local BUILT_APART = { "oiio", "bind", "cli" }
 
 local function read(path)
   local file = assert(io.open(path, "r"))
@@ -70,7 +70,7 @@ end
 
 -- A header that the build makes is named in its folder's meson.build.
 local function is_generated(name)
-  local folder, file = name:match("^([%w_]+)/([%w_]+%.h)$")
+  local folder, file = name:match("^([%w_/]+)/([%w_]+%.h)$")
   local build = folder and io.open(("%s/src/%s/meson.build"):format(root, folder))
   if not build then
     return false

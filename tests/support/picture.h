@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "output/sink.h"
-#include "scene/picture.h"
+#include "pictures/picture.h"
 #include "tests/support/check.h"
 
 /* Linear premultiplied RGBA of pixel (x, y). */

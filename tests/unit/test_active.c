@@ -12,7 +12,7 @@
 
 static celspan_context *context;
 
-static void add_blob(cs_boundary_set *set, test_random *random, uint32_t leaf) {
+static void add_blob(cs_boundary_set *set, test_random *random, uint32_t layer) {
   cs_outline outline;
   celspan_point points[6];
   celspan_matrix identity = celspan_matrix_identity();
@@ -22,18 +22,18 @@ static void add_blob(cs_boundary_set *set, test_random *random, uint32_t leaf) {
     points[i] = (celspan_point){random_between(random, -30, WIDTH + 30),
                                 random_between(random, -30, HEIGHT + 30)};
   celspan_nurbs_desc desc = {.points = points, .point_count = 6, .degree = 3};
-  celspan_status status = leaf % 3 == 0 ? cs_outline_polygon(context, &outline, points, 6)
-                                        : cs_outline_nurbs(context, &outline, &desc);
+  celspan_status status = layer % 3 == 0 ? cs_outline_polygon(context, &outline, points, 6)
+                                         : cs_outline_nurbs(context, &outline, &desc);
   CHECK(status == CELSPAN_OK);
-  CHECK(cs_boundary_add(context, set, &outline, &identity, &frame, leaf) == CELSPAN_OK);
+  CHECK(cs_boundary_add(context, set, &outline, &identity, &frame, layer) == CELSPAN_OK);
   cs_outline_finish(&outline, context->memory);
 }
 
 static void make_set(cs_boundary_set *set, uint64_t seed) {
   test_random random = {seed};
   cs_boundary_init(set);
-  for (uint32_t leaf = 0; leaf < LEAVES; leaf++)
-    add_blob(set, &random, leaf);
+  for (uint32_t layer = 0; layer < LEAVES; layer++)
+    add_blob(set, &random, layer);
   cs_boundary_sort(set);
 }
 
@@ -72,31 +72,31 @@ static void check_walk(const cs_boundary_set *set, const cs_cull *cull, double s
   cs_active_finish(&fresh, context->memory);
 }
 
-static int64_t winding_of(const cs_active *active, uint32_t leaf, double x) {
+static int64_t winding_of(const cs_active *active, uint32_t layer, double x) {
   int64_t winding = 0;
   for (size_t i = 0; i < active->count; i++)
-    if (cs_active_chain(active, i)->leaf == leaf && active->x[i] <= x)
+    if (cs_active_chain(active, i)->layer == layer && active->x[i] <= x)
       winding += cs_active_chain(active, i)->direction;
-  const cs_toggle *end, *toggle = cs_active_toggles(active, &end);
-  for (; toggle < end; toggle++)
-    if (toggle->leaf == leaf && toggle->x <= x)
-      winding += toggle->direction;
+  const cs_deferred *end, *deferred = cs_active_deferred(active, &end);
+  for (; deferred < end; deferred++)
+    if (deferred->layer == layer && deferred->x <= x)
+      winding += deferred->direction;
   return winding;
 }
 
 /* From the camera backwards until nothing shines through, culled and unculled agree on presence. */
 static void check_presence(const cs_active *all, const cs_active *culled,
-                           const cs_cull_leaf *leaves, double x) {
+                           const cs_cull_layer *layers, double x) {
   double through = 1;
-  for (uint32_t leaf = LEAVES; leaf-- > 0 && through > 0x1p-16;) {
-    bool present = winding_of(all, leaf, x) != 0;
-    CHECK(present == (winding_of(culled, leaf, x) != 0));
-    through *= present ? leaves[leaf].through : 1;
+  for (uint32_t layer = LEAVES; layer-- > 0 && through > 0x1p-16;) {
+    bool present = winding_of(all, layer, x) != 0;
+    CHECK(present == (winding_of(culled, layer, x) != 0));
+    through *= present ? layers[layer].through : 1;
   }
 }
 
 static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
-                       const cs_cull_leaf *leaves) {
+                       const cs_cull_layer *layers) {
   static const cs_cull nothing;
   cs_active all, culled;
   test_random random = {7};
@@ -108,7 +108,7 @@ static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
     CHECK(cs_active_start(context, &culled, y) == CELSPAN_OK);
     CHECK(culled.count <= all.count);
     for (int k = 0; k < 10; k++)
-      check_presence(&all, &culled, leaves, random_between(&random, 0, WIDTH));
+      check_presence(&all, &culled, layers, random_between(&random, 0, WIDTH));
   }
   cs_active_finish(&all, context->memory);
   cs_active_finish(&culled, context->memory);
@@ -117,12 +117,13 @@ static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
 static void check_case(uint64_t seed) {
   cs_boundary_set set;
   cs_cull none = {0}, cull;
-  cs_cull_leaf leaves[LEAVES];
+  cs_cull_layer layers[LEAVES];
   test_random random = {seed + 1000};
-  for (int leaf = 0; leaf < LEAVES; leaf++)
-    leaves[leaf] = (cs_cull_leaf){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
+  for (int layer = 0; layer < LEAVES; layer++)
+    layers[layer] =
+        (cs_cull_layer){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
   make_set(&set, seed);
-  CHECK(cs_cull_create(context, &set, leaves, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, 3, &cull) ==
+  CHECK(cs_cull_create(context, &set, layers, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, 3, &cull) ==
         CELSPAN_OK);
   CHECK(cull.tile_rows > 0);
   check_walk(&set, &none, 1);
@@ -130,7 +131,7 @@ static void check_case(uint64_t seed) {
   check_walk(&set, &cull, 1);
   check_walk(&set, &cull, 0.37);
   check_walk(&set, &cull, 7.5);
-  check_cull(&set, &cull, leaves);
+  check_cull(&set, &cull, layers);
   cs_cull_free(&cull, context->memory);
   cs_boundary_finish(&set, context->memory);
 }

@@ -160,7 +160,7 @@ static bool is_well_formed(const cs_boundary_set *set, const cs_boundary_frame *
     const cs_boundary_chain *chain = &set->chains[i];
     const cs_boundary_piece *piece = &set->pieces[chain->piece];
     if (!(chain->y0 < chain->y1) || piece->y0 != chain->y0 || piece->x0 != chain->x0 ||
-        piece[chain->piece_count - 1].y1 != chain->y1 || chain->leaf != 7)
+        piece[chain->piece_count - 1].y1 != chain->y1 || chain->layer != 7)
       return false;
     for (uint32_t k = 0; k < chain->piece_count; k++) {
       if (!(piece[k].y0 < piece[k].y1) || piece[k].x0 < frame->left || piece[k].x1 > frame->right)
@@ -720,10 +720,10 @@ static void chains_are_sorted_by_top_then_left(void) {
   cs_boundary_set set;
   cs_boundary_init(&set);
   celspan_matrix matrix = celspan_matrix_identity();
-  for (uint32_t leaf = 0; leaf < 40; leaf++) {
+  for (uint32_t layer = 0; layer < 40; layer++) {
     cs_outline outline;
     random_outline(&random, &outline);
-    MUST(cs_boundary_add(context, &set, &outline, &matrix, &wide, leaf / 2));
+    MUST(cs_boundary_add(context, &set, &outline, &matrix, &wide, layer / 2));
     cs_outline_finish(&outline, context->memory);
   }
   cs_boundary_sort(&set);
@@ -734,8 +734,8 @@ static void chains_are_sorted_by_top_then_left(void) {
         is_sorted &&
         (a->y0 < b->y0 ||
          (a->y0 == b->y0 &&
-          (a->x0 < b->x0 || (a->x0 == b->x0 &&
-                             (a->leaf < b->leaf || (a->leaf == b->leaf && a->piece < b->piece))))));
+          (a->x0 < b->x0 || (a->x0 == b->x0 && (a->layer < b->layer ||
+                                                (a->layer == b->layer && a->piece < b->piece))))));
   }
   CHECK(is_sorted && set.chain_count > 40);
   cs_boundary_finish(&set, context->memory);

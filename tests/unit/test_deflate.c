@@ -1,10 +1,11 @@
-/* output/deflate.c and below: zlib inflates to the bytes that went in; code lengths are optimal. */
-#include "output/deflate.h"
+/* deflate/deflate.c and below: zlib inflates to the bytes that went in; code lengths are optimal.
+ */
+#include "deflate/deflate.h"
 
 #include <stdlib.h>
 #include <zlib.h>
 
-#include "output/huffman.h"
+#include "deflate/huffman.h"
 #include "tests/support/check.h"
 
 static uint64_t random_state = 1;
@@ -270,7 +271,7 @@ static void check_lengths(const uint32_t *counts, int symbols, int limit) {
   uint8_t lengths[CS_HUFFMAN_SYMBOLS];
   uint64_t size = 0, kraft = 0;
   int used = 0, longest = 0;
-  cs_huffman_lengths(counts, symbols, limit, lengths);
+  cs_deflate_huffman_lengths(counts, symbols, limit, lengths);
   for (int i = 0; i < symbols; i++) {
     CHECK((lengths[i] > 0) == (counts[i] > 0));
     used += counts[i] > 0;

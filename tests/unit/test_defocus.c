@@ -1,7 +1,7 @@
 /* Defocused cels against a brute-force convolution of probe samples, and what must hold besides. */
 #include <stdlib.h>
 
-#include "filter/soft_bands.h"
+#include "defocus/bands.h"
 #include "render/frame.h"
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
@@ -47,13 +47,13 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
                calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
                {0, 0, 0}};
   cs_frame frame = {0};
-  cs_lane lane = {0};
+  cs_row_worker lane = {0};
   studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_lane_init(&lane, s->context, &frame));
+  studio_check(s, cs_row_worker_init(&lane, s->context, &frame));
   for (int32_t first = 0; first < step; first++)
     for (int32_t y = first; y < v->height; y += step) {
       const cs_row *row = NULL;
-      if (!CHECK(cs_lane_row(&lane, y, &row) == CELSPAN_OK)) {
+      if (!CHECK(cs_row_worker_row(&lane, y, &row) == CELSPAN_OK)) {
         fprintf(stderr, "  %s\n", celspan_context_error(&lane.context));
         continue;
       }
@@ -63,7 +63,7 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
           celspan_span_colour(&row->spans[i], x, out.rgba[y * v->width + x]);
       }
     }
-  cs_lane_finish(&lane);
+  cs_row_worker_finish(&lane);
   cs_frame_free(&frame, s->context->memory);
   return out;
 }
@@ -304,7 +304,7 @@ static void check_kept(void) {
   for (int k = 0; k < 4; k++) {
     image i =
         make(&s, soft_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]), &v, 1);
-    cs_band_counts counts = cs_soft_bands_count(s.context);
+    cs_defocus_bands_counts counts = cs_defocus_bands_count(s.context);
     CHECK(counts.bytes > 0 && (k == 0 || k == 3 ? counts.made > made : counts.made == made));
     made = counts.made;
     free(i.rgba);

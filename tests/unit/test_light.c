@@ -23,13 +23,13 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
   if (kernel)
     desc.filter = *kernel;
   cs_frame frame = {0};
-  cs_lane lane = {0};
+  cs_row_worker lane = {0};
   double sum = 0;
   studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_lane_init(&lane, s->context, &frame));
+  studio_check(s, cs_row_worker_init(&lane, s->context, &frame));
   for (int32_t y = 0; y < side; y++) {
     const cs_row *row = NULL;
-    if (!CHECK(cs_lane_row(&lane, y, &row) == CELSPAN_OK))
+    if (!CHECK(cs_row_worker_row(&lane, y, &row) == CELSPAN_OK))
       continue;
     for (size_t i = 0; i < row->count; i++)
       for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
@@ -38,7 +38,7 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
         sum += (double)rgba[3];
       }
   }
-  cs_lane_finish(&lane);
+  cs_row_worker_finish(&lane);
   cs_frame_free(&frame, s->context->memory);
   return sum;
 }

@@ -1,5 +1,5 @@
-/* output/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c makes of
- * them. */
+/* output/png/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c
+ * makes of them. */
 #include <png.h>
 #include <signal.h>
 #include <stdatomic.h>

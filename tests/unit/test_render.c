@@ -15,10 +15,9 @@ static const celspan_coding float_coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFE
 /* ---------------------------------------------------------------- a scene */
 
 static celspan_texture *random_texture(studio *s, test_random *random) {
-  celspan_paint paint = celspan_paint_rgb((float)random_between(random, 0, 1),
-                                          (float)random_between(random, 0, 1),
-                                          (float)random_between(random, 0, 1),
-                                          (float)random_between(random, 0.2, 1));
+  celspan_paint paint =
+      celspan_paint_rgb((float)random_between(random, 0, 1), (float)random_between(random, 0, 1),
+                        (float)random_between(random, 0, 1), (float)random_between(random, 0.2, 1));
   if (random_below(random, 2))
     return studio_paint(s, paint);
   celspan_stop stops[2] = {{0, paint}, {1, celspan_paint_gel(0.5f, 1, 0.25f)}};

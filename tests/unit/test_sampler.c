@@ -1,13 +1,13 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
  */
 #include "colour/srgb8.h"
-#include "compose/sampler_parts.h"
+#include "sample/sampler_parts.h"
 #include "tests/support/picture.h"
 
 #define SIDE 200
 
 static celspan_context *context;
-static cs_texels texels;
+static cs_block_cache texels;
 static cs_picture *noise_picture, *check_picture, *zone_picture, *coded_picture;
 static float noise[SIDE][SIDE][4];
 
@@ -542,7 +542,7 @@ static void test_looks(void) {
             cs_sampler s = make_sampler(tiles, TILES, TILES, all_placements[p],
                                         (celspan_sampling)sampling, (celspan_wrap)wrap);
             float row[16][4];
-            cs_picture_look look;
+            cs_picture_opacity look;
             CHECK(cs_sampler_look(&texels, &s, x, x + 16, y + 0.5, &look) == CELSPAN_OK);
             told[look]++;
             if (look == CS_PICTURE_MIXED)
@@ -555,7 +555,7 @@ static void test_looks(void) {
           }
   CHECK(wrong == 0);
   CHECK(told[CS_PICTURE_OPAQUE] > 1000 && told[CS_PICTURE_CLEAR] > 1000);
-  cs_texels_finish(&texels);
+  cs_block_cache_finish(&texels);
   remove_picture("tiles.exr", tiles);
 }
 
@@ -604,7 +604,7 @@ int main(void) {
     celspan_context_destroy(context);
     return check_done();
   }
-  cs_texels_init(&texels, context);
+  cs_block_cache_init(&texels, context);
   for (int y = 0; y < SIDE; y++)
     for (int x = 0; x < SIDE; x++)
       paint_noise(x, y, noise[y][x]);
@@ -636,7 +636,7 @@ int main(void) {
     test_looks();
     test_errors();
   }
-  cs_texels_finish(&texels);
+  cs_block_cache_finish(&texels);
   remove_picture("noise.exr", noise_picture);
   remove_picture("check.exr", check_picture);
   remove_picture("zone.exr", zone_picture);

@@ -29,9 +29,9 @@ static celspan_object *random_blob(studio *s, test_random *random) {
   for (int i = 0; i < 5; i++)
     points[i] = (celspan_point){random_between(random, -10, WIDTH + 10),
                                 random_between(random, -10, HEIGHT + 10)};
-  celspan_texture *texture =
-      random_below(random, 2) ? studio_paint(s, stops[0].paint)
-                              : studio_radial(s, (celspan_point){30, 20}, 25, stops, 3);
+  celspan_texture *texture = random_below(random, 2)
+                                 ? studio_paint(s, stops[0].paint)
+                                 : studio_radial(s, (celspan_point){30, 20}, 25, stops, 3);
   return studio_polygon(s, points, 5, CELSPAN_RULE_NONZERO, texture);
 }
 

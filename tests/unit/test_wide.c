@@ -1,7 +1,7 @@
 /* The sweep's vector code gives the same bits whichever instructions it runs with. */
-#include "filter/centre.h"
-#include "filter/edges.h"
+#include "area/edges.h"
 #include "geometry/polyline.h"
+#include "row/centre.h"
 #include "sweep/advance.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -76,9 +76,16 @@ typedef struct room {
 } room;
 
 static void measure(cs_isa isa, room *r, const double *top, const double *foot, size_t count) {
-  cs_edges edges = {.low = r->low, .high = r->high, .area = r->area, .rest = r->rest,
-                    .one = r->one, .two = r->two, .second = r->second, .fall = r->fall,
-                    .first = r->first, .end = r->end};
+  cs_edges edges = {.low = r->low,
+                    .high = r->high,
+                    .area = r->area,
+                    .rest = r->rest,
+                    .one = r->one,
+                    .two = r->two,
+                    .second = r->second,
+                    .fall = r->fall,
+                    .first = r->first,
+                    .end = r->end};
   CS_WIDE_CHOOSE(isa, cs_edges_straight)(&edges, top, foot, count, WIDTH);
 }
 
@@ -133,8 +140,8 @@ static void check_centres(cs_isa isa, test_random *random) {
 }
 
 static cs_boundary_piece random_piece(test_random *random) {
-  cs_boundary_piece piece = {.x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90,
-                             .right = 290, .sag = 0.02};
+  cs_boundary_piece piece = {
+      .x0 = -100, .y0 = -100, .x1 = 300, .y1 = 300, .left = -90, .right = 290, .sag = 0.02};
   piece.group = (uint8_t)(1 + random_below(random, CS_BOUNDARY_GROUP));
   piece.half = piece.group > 5 ? piece.group / 2 : piece.group;
   piece.chords = 3u * piece.group;
@@ -159,7 +166,8 @@ static void check_vertices(cs_isa isa, test_random *random) {
   CHECK(same_doubles(expected.y, found.y, count));
 }
 
-/* Vertices near an arc, one of them perhaps too far from it; what lies beyond them must not tell. */
+/* Vertices near an arc, one of them perhaps too far from it; what lies beyond them must not tell.
+ */
 static void check_strays(cs_isa isa, test_random *random) {
   cs_polyline_arc arc = {random_x(random), random_x(random), random_between(random, 5, 50),
                          random_between(random, -2, 2), random_between(random, -0.03, 0.03)};

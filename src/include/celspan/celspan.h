@@ -536,8 +536,8 @@ typedef struct celspan_span {
   float colour[4];    /* linear, premultiplied RGBA */
   float slope[4];     /* gradient: a column */
   const float *array; /* array: 4 floats a pixel, from x0 on */
-  /* An array for a sink that takes codes may have these instead, and NULL for `array`: the pixels as
-   * RGBA of 8 bits, sRGB, straight. */
+  /* An array for a sink that takes codes may have these instead, and NULL for `array`: the pixels
+   * as RGBA of 8 bits, sRGB, straight. */
   const unsigned char *codes;
 } celspan_span;
 
@@ -651,8 +651,8 @@ CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
 CELSPAN_API void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans,
                                     size_t span_count, void *pixels);
 
-/* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. pixels NULL: rows
- * are coded, each over the one before, and dropped: for measuring. */
+/* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. pixels NULL:
+ * rows are coded, each over the one before, and dropped: for measuring. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 const celspan_coding *coding,
@@ -661,7 +661,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context 
 
 typedef struct celspan_file_desc {
   size_t struct_size;
-  const char *format; /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
+  const char
+      *format; /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
   celspan_coding coding;
   const char *title;    /* metadata; NULL: none */
   double frames_second; /* metadata; 0: none */
@@ -672,24 +673,25 @@ typedef struct celspan_file_desc {
 
 #define CELSPAN_FILE_DESC ((celspan_file_desc){.struct_size = sizeof(celspan_file_desc)})
 
-/* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1 stands
- * behind everything. Shared read. */
+/* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1
+ * stands behind everything. Shared read. */
 CELSPAN_API bool celspan_frame_is_opaque(const celspan_frame_desc *desc);
 
-/* Renders into a file; the file's is_opaque is found from the frame. The file appears under its name whole or not at all; one that is there is
- * replaced; missing folders are made. Errors: any; OUTPUT, LIMIT for sizes the format lacks. */
+/* Renders into a file; the file's is_opaque is found from the frame. The file appears under its
+ * name whole or not at all; one that is there is replaced; missing folders are made. Errors: any;
+ * OUTPUT, LIMIT for sizes the format lacks. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *context,
                                                                const celspan_frame_desc *desc,
                                                                const char *path,
                                                                const celspan_file_desc *file,
                                                                celspan_statistics *statistics);
 
-/* The sink that celspan_frame_write renders into, for rows that come from elsewhere: call its begin,
- * then row for each row from the top, then end, which completes the file when the outcome is OK and
- * no call failed, else leaves nothing, and in any case destroys the sink. end is to be called once
- * whatever happened, even when begin failed or was not called.
- * path, file: copied; file may be NULL      out: new
- * Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding that is not known. */
+/* The sink that celspan_frame_write renders into, for rows that come from elsewhere: call its
+ * begin, then row for each row from the top, then end, which completes the file when the outcome is
+ * OK and no call failed, else leaves nothing, and in any case destroys the sink. end is to be
+ * called once whatever happened, even when begin failed or was not called. path, file: copied; file
+ * may be NULL      out: new Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding
+ * that is not known. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_file_sink_create(celspan_context *context,
                                                                     const char *path,
                                                                     const celspan_file_desc *file,

@@ -1,0 +1,114 @@
+#include "area/edges.h"
+
+#include <string.h>
+
+/* Bytes of one boundary over all arrays. */
+#define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
+
+/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
+static size_t block_size(size_t capacity) {
+  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+}
+
+void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
+  cs_mem_free(memory, edges->block, block_size(edges->capacity));
+  *edges = (cs_edges){0};
+}
+
+/* The wider items first, so that each is aligned. Vector code goes beyond the count: zeros are
+ * quick there, what happens to lie in memory may be denormal numbers, which are not. */
+static celspan_status make_room(celspan_context *context, cs_edges *edges, size_t count) {
+  if (count <= edges->capacity)
+    return CELSPAN_OK;
+  size_t wanted = 2 * count;
+  void *block = cs_mem_array(context->memory, 1, block_size(wanted));
+  if (!block)
+    return cs_fail_memory(context);
+  double *doubles = cs_wide_align(block);
+  cs_mem_free(context->memory, edges->block, block_size(edges->capacity));
+  *edges = (cs_edges){.isa = cs_isa_best(),
+                      .low = doubles,
+                      .high = doubles + wanted,
+                      .area = doubles + 2 * wanted,
+                      .rest = doubles + 3 * wanted,
+                      .one = (float *)(doubles + 4 * wanted),
+                      .block = block,
+                      .capacity = wanted};
+  edges->two = edges->one + wanted;
+  edges->second = edges->two + wanted;
+  edges->fall = edges->second + wanted;
+  edges->first = (int32_t *)(edges->fall + wanted);
+  edges->end = edges->first + wanted;
+  edges->is_bent = (bool *)(edges->end + wanted);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- bent */
+
+/* What is right of a piece in the column that ends at `split`, and in the one after. */
+static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
+                      double height, double split) {
+  double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
+  double middle = 0.5 * (low + high);
+  if (high <= split) {
+    *area += cs_edges_round(height * (split - middle));
+    *rest += height;
+  } else if (low >= split) {
+    *rest += cs_edges_round(height * (split + 1 - middle));
+  } else {
+    double by_twice = 0.5 / (high - low);
+    *area += cs_edges_round(height * ((split - low) * (split - low) * by_twice));
+    *rest += cs_edges_round(height * (1 - (high - split) * (high - split) * by_twice));
+  }
+}
+
+/* The areas of a bent boundary over at most two columns. */
+static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_bend *bend) {
+  size_t i = bend->boundary;
+  const celspan_point *vertices = &active->vertices[bend->vertex];
+  celspan_point above = {active->x[i], active->y};
+  double area = 0, rest = 0, split = edges->first[i] + 1, passed = 0;
+  for (uint32_t k = 0; k <= bend->vertex_count; k++) {
+    celspan_point below =
+        k < bend->vertex_count ? vertices[k] : (celspan_point){active->x_next[i], active->y_next};
+    double reached = cs_edges_round(below.y - active->y);
+    add_piece(&area, &rest, above, below, reached - passed, split);
+    above = below;
+    passed = reached;
+  }
+  edges->area[i] = area;
+  edges->rest[i] = edges->end[i] - edges->first[i] > 1 ? rest : 1;
+  edges->one[i] = (float)edges->area[i];
+  edges->two[i] = (float)edges->rest[i];
+}
+
+/* As cs_edges_straight for a boundary with vertices in the row. */
+static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend *bend,
+                         int32_t width) {
+  size_t i = bend->boundary;
+  edges->low[i] = bend->low;
+  edges->high[i] = bend->high;
+  edges->is_bent[i] = true;
+  edges->fall[i] = 0;
+  edges->first[i] = cs_edges_floor(bend->low, width);
+  edges->end[i] = cs_edges_ceil(bend->high, width);
+  bool layers = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);
+  if (layers && edges->end[i] < edges->first[i] + 3)
+    edges->end[i] = edges->first[i] + 3;
+  if (edges->end[i] <= edges->first[i] + 2)
+    measure_pieces(edges, active, bend);
+}
+
+celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const cs_active *active,
+                                int32_t width) {
+  size_t count = cs_advance_whole(active->count);
+  CS_TRY(make_room(context, edges, count));
+  CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
+  (edges, active->x, active->x_next, count, width);
+  if (count > 0) /* else there is no room yet */
+    memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
+  for (size_t k = 0; k < active->bend_count; k++)
+    if (active->bends[k].vertex_count > 0)
+      measure_bent(edges, active, &active->bends[k], width);
+  return CELSPAN_OK;
+}

@@ -1,0 +1,78 @@
+/* The edges of a row: where every active boundary lies in it, and the area right of it in the
+ * pixels it crosses, for all boundaries at once, several at a time.
+ *
+ * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
+ * 2^-28 (see window.h), of a whole row's height, and given where the boundary crosses at most two
+ * columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways is at
+ * least first + 3, or first when it does not enter it.
+ */
+#ifndef CS_AREA_EDGES_H
+#define CS_AREA_EDGES_H
+
+#include "base/number.h"
+#include "base/wide.h"
+#include "sweep/active.h"
+
+typedef struct cs_edges {
+  cs_isa isa;           /* what straight boundaries are measured with */
+  double *low, *high;   /* least and greatest x in the row */
+  double *area, *rest;  /* right of it in its first column and in its last; 1: all */
+  float *one, *two;     /* area and rest again, as colours are weighted by them */
+  float *second, *fall; /* over more than two columns: the area in its second, and what each column
+                           after that has more; fall is 0 where areas are not given */
+  int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
+  bool *is_bent;        /* it has vertices in the row */
+  void *block;          /* that holds the arrays */
+  size_t capacity;      /* of each of them */
+} cs_edges;
+
+void cs_edges_finish(cs_edges *edges, cs_memory *memory);
+/* Measures the boundaries between the heights they stand at and have reached. width: of the row.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges,
+                                                const cs_active *active, int32_t width);
+
+/* ---- edges_wide.c: the boundaries as if all were straight */
+
+CS_WIDE_DECLARE(void, cs_edges_straight,
+                (cs_edges * edges, const double *top, const double *foot, size_t count,
+                 int32_t width));
+
+/* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
+static inline int32_t cs_edges_floor(double x, int32_t width) {
+  return x <= 0 ? 0 : x >= width ? width : (int32_t)x;
+}
+
+static inline int32_t cs_edges_ceil(double x, int32_t width) {
+  int32_t column = cs_edges_floor(x, width);
+  return column + (column < x && column < width);
+}
+
+/* Whether boundary i stays within the row's sides. */
+static inline bool cs_edges_is_inside(const cs_edges *edges, size_t i, int32_t width) {
+  return edges->low[i] >= 0 && edges->high[i] <= width;
+}
+
+/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
+static inline double cs_edges_round(double x) {
+  const double bias = 0x1.8p24;
+  return (x + bias) - bias;
+}
+
+/* The integral, up to x, of the share of a piece's height at which it lies left. */
+static inline double cs_edges_passed(double low, double high, double x) {
+  return x <= low    ? 0
+         : x >= high ? (x - high) + 0.5 * (high - low)
+                     : (x - low) * (x - low) / (2 * (high - low));
+}
+
+/* The area right of a straight piece from xa to xb in the pixel of column p, 0..height. */
+static inline double cs_edges_cover(double xa, double xb, double height, int32_t p) {
+  double low = xa < xb ? xa : xb, high = xa < xb ? xb : xa;
+  if (low == high)
+    return cs_edges_round(height * cs_number_clamp(p + 1 - low, 0, 1));
+  return cs_edges_round(height *
+                        (cs_edges_passed(low, high, p + 1) - cs_edges_passed(low, high, p)));
+}
+
+#endif

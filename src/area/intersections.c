@@ -1,0 +1,204 @@
+#include "area/intersections.h"
+
+#include <math.h>
+
+#define BLOCK 16 /* places whose least share is known */
+
+/* Bytes of one mover over all arrays. */
+#define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
+
+void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
+  cs_mem_free(memory, intersections->block, intersections->mover_capacity * ITEM_SIZE);
+  cs_mem_free(memory, intersections->intersections,
+              intersections->capacity * sizeof *intersections->intersections);
+  *intersections = (cs_intersections){0};
+}
+
+/* The wider items first, so that each is aligned. */
+celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan_context *context,
+                                        size_t movers) {
+  if (movers <= intersections->mover_capacity)
+    return CELSPAN_OK;
+  size_t wanted = (2 * movers + BLOCK - 1) / BLOCK * BLOCK;
+  void *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  if (!block)
+    return cs_fail_memory(context);
+  cs_mem_free(context->memory, intersections->block, intersections->mover_capacity * ITEM_SIZE);
+  intersections->block = intersections->movers = block;
+  intersections->top = (double *)(intersections->movers + wanted);
+  intersections->foot = intersections->top + wanted;
+  intersections->shares = intersections->foot + wanted;
+  intersections->least = intersections->shares + wanted;
+  intersections->order = (uint32_t *)(intersections->least + wanted);
+  intersections->first = intersections->order + wanted;
+  intersections->last = intersections->first + wanted;
+  intersections->mover_capacity = wanted;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- shares of a step */
+
+/* Where in the step the boundary at a place meets its right neighbour. Whether it does can hardly
+ * be foreseen, so the division is always made. */
+static inline double find_share(const cs_intersections *m, size_t place) {
+  double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
+  double top = gap > 0 ? gap : 0, share = top / (top + foot);
+  return foot > 0 ? share : INFINITY;
+}
+
+static inline size_t block_count(size_t count) { return (count + BLOCK - 1) / BLOCK; }
+
+static void look_at_block(cs_intersections *m, size_t block) {
+  const double *shares = m->shares + block * BLOCK;
+  double least[4]; /* four chains, not one long one */
+  for (size_t i = 0; i < 4; i++)
+    least[i] = shares[i];
+  for (size_t i = 4; i < BLOCK; i++)
+    least[i % 4] = shares[i] < least[i % 4] ? shares[i] : least[i % 4];
+  double even = least[0] < least[2] ? least[0] : least[2];
+  double odd = least[1] < least[3] ? least[1] : least[3];
+  m->least[block] = even < odd ? even : odd;
+}
+
+/* Whether there are so many places that the least share of every block is kept. */
+static inline bool has_blocks(size_t count) { return count > BLOCK; }
+
+/* Finds all shares. Returns whether any two meet. */
+static bool look_at_all(cs_intersections *m, size_t count) {
+  int64_t meets = 0;
+  for (size_t place = 0; place + 1 < count; place++) {
+    m->shares[place] = find_share(m, place);
+    meets += m->foot[place] > m->foot[place + 1];
+  }
+  if (meets == 0 || !has_blocks(count))
+    return meets > 0;
+  for (size_t place = count - 1; place < block_count(count) * BLOCK; place++)
+    m->shares[place] = INFINITY;
+  for (size_t block = 0; block < block_count(count); block++)
+    look_at_block(m, block);
+  return true;
+}
+
+/* The first place of the least share among some, without a branch that could not be foreseen. */
+static inline size_t find_least(const double *shares, size_t count) {
+  double least = shares[0];
+  size_t place = 0;
+  for (size_t i = 1; i < count; i++)
+    least = shares[i] < least ? shares[i] : least;
+  for (size_t i = count; i-- > 0;)
+    place = shares[i] == least ? i : place;
+  return place;
+}
+
+/* The place of the next meeting; false: there is none any more. */
+static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
+  if (!has_blocks(count)) {
+    *place = find_least(m->shares, count - 1);
+  } else {
+    size_t block = find_least(m->least, block_count(count));
+    *place = block * BLOCK + find_least(m->shares + block * BLOCK, BLOCK);
+  }
+  return m->shares[*place] < INFINITY;
+}
+
+/* ---------------------------------------------------------------- meetings */
+
+static inline void exchange(double *a, double *b) {
+  double kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static inline void move_to(cs_active_edge *mover, double x, double y) {
+  mover->last_at = mover->at;
+  mover->last_x = x;
+  mover->last_y = y;
+}
+
+/* The boundaries at `place` and right of it change places, in that share of the step. */
+static celspan_status change_places(cs_intersections *m, celspan_context *context, size_t place,
+                                    double share, double y) {
+  if (m->count == m->capacity)
+    CS_TRY(cs_mem_reserve(context, (void **)&m->intersections, &m->capacity, m->count + 1,
+                          sizeof *m->intersections));
+  uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
+  double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
+  double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;
+  cs_active_edge *from = &m->movers[left], *to = &m->movers[right];
+  m->intersections[index] =
+      (cs_intersection){y, left_x, right_x, from->at, to->at, left, right, CS_MEETINGS_NONE, NULL};
+  move_to(from, left_x, y);
+  move_to(to, right_x, y);
+  *(m->first[place] == CS_MEETINGS_NONE ? &m->first[place]
+                                        : &m->intersections[m->last[place]].next) = index;
+  m->last[place] = index;
+  m->order[place] = right;
+  m->order[place + 1] = left;
+  exchange(&m->top[place], &m->top[place + 1]);
+  exchange(&m->foot[place], &m->foot[place + 1]);
+  return CELSPAN_OK;
+}
+
+/* Finds the meetings of a step. */
+static celspan_status take_step(cs_intersections *m, celspan_context *context, size_t count,
+                                double y0, double y1) {
+  double reached = 0;
+  if (!look_at_all(m, count))
+    return CELSPAN_OK;
+  for (size_t place; find_next(m, count, &place);) {
+    reached = m->shares[place] > reached ? m->shares[place] : reached;
+    CS_TRY(change_places(m, context, place, reached, y0 + (y1 - y0) * reached));
+    size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
+    for (size_t i = first; i <= last; i++)
+      m->shares[i] = find_share(m, i);
+    if (has_blocks(count))
+      look_at_block(m, first / BLOCK);
+    if (last / BLOCK != first / BLOCK)
+      look_at_block(m, last / BLOCK);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- steps */
+
+/* x of a mover at a height of its segment: that of its end, or in between. Which of them can hardly
+ * be foreseen, so the division is always made. */
+static inline double mover_x(const cs_active_edge *mover, double y) {
+  const celspan_point *a = &mover->points[mover->at - 1], *b = &mover->points[mover->at];
+  double x = a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
+  return y >= b->y ? b->x : x;
+}
+
+/* Moves on to the segments that go on below y, where a step has ended. Returns where the first of
+ * them ends, or y1. */
+static double begin_step(cs_intersections *m, size_t count, double y, double y1) {
+  double end = y1;
+  for (size_t i = 0; i < count; i++) {
+    cs_active_edge *mover = &m->movers[i];
+    mover->at += mover->points[mover->at].y <= y;
+    double next = mover->points[mover->at].y;
+    end = next < end ? next : end;
+  }
+  return end;
+}
+
+celspan_status cs_intersections_find(cs_intersections *m, celspan_context *context, size_t count,
+                                     double y0, double y1) {
+  m->count = 0;
+  for (size_t i = 0; i < count; i++) {
+    cs_active_edge *mover = &m->movers[i];
+    while (mover->points[mover->at].y < y0)
+      mover->at++;
+    m->order[i] = (uint32_t)i;
+    m->first[i] = CS_MEETINGS_NONE;
+  }
+  for (double y = y0, end; y < y1; y = end) {
+    end = begin_step(m, count, y, y1);
+    for (size_t place = 0; place < count; place++) {
+      m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
+      m->foot[place] = mover_x(&m->movers[m->order[place]], end);
+    }
+    CS_TRY(take_step(m, context, count, y, end));
+  }
+  return CELSPAN_OK;
+}

@@ -1,0 +1,482 @@
+#include "area/intervals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void *take(cs_intervals *b, size_t count, size_t size) {
+  return cs_arena_take(b->maker->context, &b->maker->arena, count * size);
+}
+
+void cs_intervals_member(cs_member *member, const cs_active *active, uint32_t chain,
+                         const celspan_point *points, uint32_t count) {
+  const cs_boundary_chain *c = &active->set->chains[chain];
+  member->points = points;
+  member->point_count = count;
+  member->at = 1;
+  member->layer = c->layer;
+  member->span = UINT32_MAX;
+  member->order = chain;
+  member->place = UINT32_MAX;
+  member->direction = c->direction;
+  member->x = member->foot = points[0].x;
+  member->y = points[0].y;
+  member->right = NULL;
+}
+
+/* ---------------------------------------------------------------- x-ranges */
+
+typedef struct range {
+  double low, high;
+} range;
+
+/* Where boundary i is inside the row. */
+static inline range boundary_range(const cs_intervals *b, size_t i) {
+  const cs_edges *edges = &b->maker->edges;
+  return (range){edges->low[i], edges->high[i]};
+}
+
+static range join_ranges(range a, range b) {
+  return (range){a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
+}
+
+/* ---------------------------------------------------------------- blocks */
+
+static celspan_status add_block(cs_intervals *b, cs_interval interval) {
+  if (b->count == b->capacity) {
+    size_t wanted = b->capacity ? 2 * b->capacity : 64;
+    cs_interval *grown = take(b, wanted, sizeof *grown);
+    if (!grown)
+      return CELSPAN_NO_MEMORY;
+    if (b->count > 0)
+      memcpy(grown, b->intervals, b->count * sizeof *grown);
+    b->intervals = grown;
+    b->capacity = wanted;
+  }
+  b->intervals[b->count++] = interval;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- disorder
+ *
+ * The order at the top of the row holds at every height iff no two neighbours cross, and those are
+ * looked at only where the foot is out of order or one of them bends. */
+
+/* x of boundary i at a height of the row; one that has ended goes on straight down. */
+static double boundary_x(const cs_intervals *b, size_t i, double y) {
+  const cs_active *active = &b->maker->active;
+  const cs_bend *bend = cs_active_bend(active, i);
+  celspan_point above = {active->x[i], b->y0}, below = {active->x_next[i], b->y1};
+  for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
+    celspan_point vertex = active->vertices[bend->vertex + k];
+    if (vertex.y >= y) {
+      below = vertex;
+      break;
+    }
+    above = vertex;
+  }
+  if (y >= below.y)
+    return below.x;
+  return above.x + (below.x - above.x) * ((y - above.y) / (below.y - above.y));
+}
+
+/* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or
+ * on its right (+1). */
+static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour, int side) {
+  const cs_active *active = &b->maker->active;
+  range r = boundary_range(b, neighbour);
+  if (side > 0 ? bend->high <= r.low : bend->low >= r.high)
+    return false;
+  for (uint32_t k = 0; k < bend->vertex_count; k++) {
+    celspan_point vertex = active->vertices[bend->vertex + k];
+    double x = boundary_x(b, neighbour, vertex.y);
+    if (side > 0 ? vertex.x > x : vertex.x < x)
+      return true;
+  }
+  return false;
+}
+
+/* Neighbours that must be replayed together, as they grow. */
+typedef struct knot {
+  size_t low, high;
+  range reach, foot; /* of its boundaries, in the row and at its foot */
+  bool is_bent;
+} knot;
+
+static inline knot knot_of(const cs_intervals *b, size_t i) {
+  double foot = b->maker->active.x_next[i];
+  return (knot){i, i + 1, boundary_range(b, i), {foot, foot}, b->maker->edges.is_bent[i]};
+}
+
+static void join_knots(knot *k, const knot *other) {
+  k->low = other->low < k->low ? other->low : k->low;
+  k->high = other->high > k->high ? other->high : k->high;
+  k->reach = join_ranges(k->reach, other->reach);
+  k->foot = join_ranges(k->foot, other->foot);
+  k->is_bent |= other->is_bent;
+}
+
+/* Straight boundaries cross iff the row permutes them; bent ones might wherever they reach over. */
+static bool may_cross(const knot *left, const knot *right) {
+  return left->foot.high > right->foot.low ||
+         ((left->is_bent || right->is_bent) && left->reach.high > right->reach.low);
+}
+
+/* Takes neighbours in until none is left that the knot may cross. */
+static void grow_knot(const cs_intervals *b, knot *k) {
+  const cs_active *active = &b->maker->active;
+  bool grows = true;
+  while (grows) {
+    knot next;
+    grows = false;
+    while (k->low > 0 && (next = knot_of(b, k->low - 1), may_cross(&next, k))) {
+      join_knots(k, &next);
+      grows = true;
+    }
+    while (k->high < active->count && (next = knot_of(b, k->high), may_cross(k, &next))) {
+      join_knots(k, &next);
+      grows = true;
+    }
+  }
+}
+
+/* Ties boundaries i and i + 1 together. knots: those found so far, from left to right. */
+static void tie(const cs_intervals *b, size_t i, knot *knots, size_t *count) {
+  if (*count > 0 && knots[*count - 1].high >= i + 2)
+    return;
+  knot *k = &knots[*count], other = knot_of(b, i + 1);
+  *k = knot_of(b, i);
+  join_knots(k, &other);
+  grow_knot(b, k);
+  for (; *count > 0; --*count, k--) {
+    knot *last = k - 1;
+    if (last->high < k->low || (last->high == k->low && !may_cross(last, k)))
+      break;
+    join_knots(last, k);
+    grow_knot(b, last);
+  }
+  ++*count;
+}
+
+/* Ties what the bent boundaries below place `end` pass, in order of place. */
+static void tie_bends(const cs_intervals *b, size_t end, size_t *bend, knot *knots, size_t *count) {
+  const cs_active *active = &b->maker->active;
+  for (; *bend < active->bend_count && active->bends[*bend].boundary < end; ++*bend) {
+    const cs_bend *at = &active->bends[*bend];
+    size_t i = at->boundary;
+    if (at->vertex_count == 0)
+      continue;
+    if (i > 0 && passes(b, at, i - 1, -1))
+      tie(b, i - 1, knots, count);
+    if (i + 1 < active->count && passes(b, at, i + 1, 1))
+      tie(b, i, knots, count);
+  }
+}
+
+static celspan_status add_knots(cs_intervals *b) {
+  const cs_active *active = &b->maker->active;
+  const double *foot = active->x_next;
+  size_t count = 0, bend = 0;
+  knot *knots = take(b, active->count, sizeof *knots);
+  if (!knots)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 1; i < active->count; i++)
+    if (foot[i - 1] > foot[i]) {
+      tie_bends(b, i, &bend, knots, &count);
+      tie(b, i - 1, knots, &count);
+    }
+  tie_bends(b, active->count, &bend, knots, &count);
+  for (size_t k = 0; k < count; k++)
+    CS_TRY(add_block(b, (cs_interval){knots[k].low, knots[k].high, knots[k].low, INFINITY,
+                                      -INFINITY, knots[k].reach.low, knots[k].reach.high}));
+  b->knot_count = count;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- begins and ends at one height */
+
+static int compare_events(const void *p, const void *q) {
+  const cs_row_event *a = p, *b = q;
+  if (a->y != b->y)
+    return a->y < b->y ? -1 : 1;
+  if (a->layer != b->layer)
+    return a->layer < b->layer ? -1 : 1;
+  if (a->begin != b->begin)
+    return a->begin < b->begin ? -1 : 1;
+  return a->is_end - b->is_end;
+}
+
+/* What keeps its order through the row: one boundary, or the knot it is in. */
+typedef struct unit {
+  size_t low, high;
+  range reach;
+} unit;
+
+/* The first boundary whose x at the top of the row is greater than `x`. */
+static size_t find_place(const cs_active *active, double x) {
+  size_t low = 0, high = active->count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (active->x[middle] <= x)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+/* The knot that holds boundary i, or NULL. */
+static const cs_interval *find_knot(const cs_intervals *b, size_t i) {
+  size_t low = 0, high = b->knot_count;
+  while (low < high) {
+    size_t middle = (low + high) / 2;
+    if (b->intervals[middle].high <= i)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < b->knot_count && b->intervals[low].low <= i ? &b->intervals[low] : NULL;
+}
+
+static unit unit_at(const cs_intervals *b, size_t i) {
+  const cs_interval *interval = find_knot(b, i);
+  return interval
+             ? (unit){interval->low, interval->high, {interval->reach_low, interval->reach_high}}
+             : (unit){i, i + 1, boundary_range(b, i)};
+}
+
+/* The block of the boundaries whose x-range meets that of something, or the place between two.
+ * Units do not cross, so their ranges rise with their places. */
+static celspan_status add_range(cs_intervals *b, range r, cs_interval *out) {
+  const cs_active *active = &b->maker->active;
+  size_t place = find_place(active, r.low), first = place, end = place;
+  range reach = r;
+  for (unit u; first > 0 && (u = unit_at(b, first - 1), u.reach.high >= r.low); first = u.low) {
+    end = u.high > end ? u.high : end;
+    reach = join_ranges(reach, u.reach);
+  }
+  for (unit u; end < active->count && (u = unit_at(b, end), u.reach.low <= r.high); end = u.high) {
+    first = u.low < first ? u.low : first;
+    reach = join_ranges(reach, u.reach);
+  }
+  *out = (cs_interval){first, end, first, r.low, r.high, reach.low, reach.high};
+  return add_block(b, *out);
+}
+
+/* A chain that begins and ends inside the row ties the blocks of both events together. */
+static celspan_status tie_ends(cs_intervals *b, const cs_row_event *events, size_t count,
+                               cs_interval at) {
+  for (size_t i = 0; i < count; i++) {
+    if (events[i].begin < 0)
+      continue;
+    cs_interval *begin = &b->begin_intervals[events[i].begin];
+    if (!events[i].is_end) {
+      *begin = at;
+      continue;
+    }
+    size_t low = begin->low < at.low ? begin->low : at.low;
+    size_t high = begin->high > at.high ? begin->high : at.high;
+    range reach = join_ranges((range){begin->reach_low, begin->reach_high},
+                              (range){at.reach_low, at.reach_high});
+    CS_TRY(add_block(b, (cs_interval){low, high, low, INFINITY, -INFINITY, reach.low, reach.high}));
+  }
+  return CELSPAN_OK;
+}
+
+/* Blocks of begins and ends: one for all of a leaf at one height. */
+static celspan_status add_events(cs_intervals *b) {
+  if (b->event_count > 1)
+    qsort(b->events, b->event_count, sizeof *b->events, compare_events);
+  for (size_t first = 0, end; first < b->event_count; first = end) {
+    const cs_row_event *e = &b->events[first];
+    range r = {e->low, e->high};
+    for (end = first + 1; end < b->event_count; end++) {
+      const cs_row_event *next = &b->events[end];
+      if (next->y != e->y || next->layer != e->layer)
+        break;
+      r = join_ranges(r, (range){next->low, next->high});
+    }
+    cs_interval at;
+    CS_TRY(add_range(b, r, &at));
+    CS_TRY(tie_ends(b, e, end - first, at));
+  }
+  return CELSPAN_OK;
+}
+
+static int compare_blocks(const void *p, const void *q) {
+  const cs_interval *a = p, *b = q;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  return (a->high > b->high) - (a->high < b->high);
+}
+
+static bool belong_together(const cs_interval *last, const cs_interval *next) {
+  if (next->low < last->high || next->low_x <= last->high_x)
+    return true;
+  return next->low == last->high && (next->low == next->high || last->last_low == last->high);
+}
+
+static void join(cs_interval *last, const cs_interval *next) {
+  last->high = next->high > last->high ? next->high : last->high;
+  last->last_low = next->last_low;
+  last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
+  last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
+  last->reach_low = next->reach_low < last->reach_low ? next->reach_low : last->reach_low;
+  last->reach_high = next->reach_high > last->reach_high ? next->reach_high : last->reach_high;
+}
+
+/* Joins blocks that share a boundary or an x at which something begins, and places that touch a
+ * block; a block that grew may reach the one before it. */
+static void merge_blocks(cs_intervals *b) {
+  size_t kept = 0;
+  if (b->count > 1)
+    qsort(b->intervals, b->count, sizeof *b->intervals, compare_blocks);
+  for (size_t i = 0; i < b->count; i++) {
+    b->intervals[kept++] = b->intervals[i];
+    while (kept > 1 && belong_together(&b->intervals[kept - 2], &b->intervals[kept - 1])) {
+      join(&b->intervals[kept - 2], &b->intervals[kept - 1]);
+      kept--;
+    }
+  }
+  b->count = kept;
+}
+
+/* ---------------------------------------------------------------- begins and ends */
+
+/* The polyline of a chain that begins inside the row, down to its end or the foot of the row. */
+static celspan_status chain_points(cs_intervals *b, uint32_t chain, const celspan_point **points,
+                                   uint32_t *count) {
+  const cs_boundary_set *set = b->maker->active.set;
+  double top = set->chains[chain].y0;
+  cs_boundary_walk walk;
+  size_t room = 3;
+  cs_boundary_start(set, chain, top, &walk);
+  for (cs_boundary_walk ahead = walk; ahead.y1 < b->y1 && cs_boundary_next(set, &ahead);)
+    room++;
+  celspan_point *p = take(b, room, sizeof *p), *last = p;
+  if (!p)
+    return CELSPAN_NO_MEMORY;
+  *points = p;
+  *p++ = (celspan_point){cs_boundary_x(&walk, top), top};
+  bool more = true;
+  while (more && walk.y1 < b->y1) {
+    if (walk.y1 > last->y) {
+      last = p;
+      *p++ = (celspan_point){walk.x1, walk.y1};
+    }
+    more = cs_boundary_next(set, &walk);
+  }
+  if (more)
+    *p++ = (celspan_point){cs_boundary_x(&walk, b->y1), b->y1};
+  *count = (uint32_t)(p - *points);
+  return CELSPAN_OK;
+}
+
+size_t cs_intervals_count_begins(const cs_active *active, double y1) {
+  size_t end = active->next;
+  while (end < active->set->chain_count && active->set->chains[end].y0 < y1)
+    end++;
+  return end - active->next;
+}
+
+static celspan_status find_begins(cs_intervals *b) {
+  const cs_active *active = &b->maker->active;
+  b->chain_count = cs_intervals_count_begins(active, b->y1);
+  b->begin_count = b->chain_count + b->procedure_edge_count;
+  b->begins = take(b, b->begin_count, sizeof *b->begins);
+  b->begin_intervals = take(b, b->begin_count, sizeof *b->begin_intervals);
+  if (!b->begins || !b->begin_intervals)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->chain_count; k++) {
+    uint32_t chain = (uint32_t)(active->next + k), count;
+    const celspan_point *points;
+    CS_TRY(chain_points(b, chain, &points, &count));
+    cs_intervals_member(&b->begins[k], active, chain, points, count);
+  }
+  if (b->procedure_edge_count > 0)
+    memcpy(b->begins + b->chain_count, b->procedure_edges,
+           b->procedure_edge_count * sizeof *b->procedure_edges);
+  return CELSPAN_OK;
+}
+
+static void note_event(cs_intervals *b, double y, range r, uint32_t layer, int32_t begin,
+                       bool is_end) {
+  b->events[b->event_count++] = (cs_row_event){y, r.low, r.high, layer, begin, is_end};
+}
+
+static range member_range(const cs_member *member) {
+  range r = {member->points[0].x, member->points[0].x};
+  for (uint32_t k = 1; k < member->point_count; k++) {
+    r.low = member->points[k].x < r.low ? member->points[k].x : r.low;
+    r.high = member->points[k].x > r.high ? member->points[k].x : r.high;
+  }
+  return r;
+}
+
+static celspan_status find_events(cs_intervals *b) {
+  const cs_active *active = &b->maker->active;
+  b->events = take(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
+  if (!b->events)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->chain_count; k++) {
+    const cs_member *member = &b->begins[k];
+    range r = member_range(member);
+    double end = member->points[member->point_count - 1].y;
+    note_event(b, member->points[0].y, r, member->layer, (int32_t)k, false);
+    if (end < b->y1)
+      note_event(b, end, r, member->layer, (int32_t)k, true);
+  }
+  for (size_t k = 0; k < active->bend_count; k++) {
+    const cs_bend *bend = &active->bends[k];
+    if (!bend->ends_above)
+      continue;
+    celspan_point end = active->vertices[bend->vertex + bend->vertex_count - 1];
+    note_event(b, end.y, (range){end.x, end.x}, cs_active_chain(active, bend->boundary)->layer, -1,
+               true);
+  }
+  return CELSPAN_OK;
+}
+
+/* The block of all strips: their edges begin and end at every height of the row. */
+static celspan_status add_procedures(cs_intervals *b) {
+  cs_interval at;
+  if (b->procedure_edge_count == 0)
+    return CELSPAN_OK;
+  CS_TRY(add_range(b, (range){b->procedures_low, b->procedures_high}, &at));
+  for (size_t k = b->chain_count; k < b->begin_count; k++)
+    b->begin_intervals[k] = at;
+  return CELSPAN_OK;
+}
+
+static int compare_places(const void *p, const void *q) {
+  const cs_begin_place *a = p, *b = q;
+  if (a->low != b->low)
+    return a->low < b->low ? -1 : 1;
+  return (a->begin > b->begin) - (a->begin < b->begin);
+}
+
+/* Lists the begins from left to right, as the walk along the row asks for them. */
+static celspan_status place_begins(cs_intervals *b) {
+  b->begin_places = take(b, b->begin_count, sizeof *b->begin_places);
+  if (!b->begin_places)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < b->begin_count; k++)
+    b->begin_places[k] = (cs_begin_place){b->begin_intervals[k].low, k};
+  if (b->begin_count > 1)
+    qsort(b->begin_places, b->begin_count, sizeof *b->begin_places, compare_places);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_intervals_find(cs_intervals *b) {
+  const cs_active *active = &b->maker->active;
+  size_t begins = cs_intervals_count_begins(active, b->y1) + b->procedure_edge_count;
+  if (begins + active->bend_count == 0 && active->rises)
+    return CELSPAN_OK;
+  CS_TRY(add_knots(b));
+  if (begins > 0)
+    CS_TRY(find_begins(b));
+  CS_TRY(find_events(b));
+  CS_TRY(add_events(b));
+  CS_TRY(add_procedures(b));
+  merge_blocks(b);
+  return begins > 0 ? place_begins(b) : CELSPAN_OK;
+}

@@ -1,0 +1,463 @@
+#include "area/window.h"
+
+#include "area/direct.h"
+#include "base/number.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define TILE 256 /* pixels summed at a time */
+#define FEW 2    /* pixels: those of a window between cells that vary become spans of their own */
+
+/* Forgets what has been summed of the open window. */
+static void clear_change(cs_window *window) {
+  int32_t columns = window->end - window->from;
+  columns = columns < CS_WINDOW_NARROW ? columns : CS_WINDOW_NARROW;
+  memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
+}
+
+void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
+                     int32_t y, const cs_cell *leftmost, cs_row *out) {
+  if (window->is_open) /* a row failed */
+    clear_change(window);
+  window->composer = composer;
+  window->arena = arena;
+  window->out = out;
+  window->centre = y + 0.5;
+  window->width = width;
+  window->from = window->end = 0;
+  window->base = window->cell = leftmost;
+  window->segment_count = 0;
+  window->is_open = window->varies = window->is_held = false;
+}
+
+void cs_window_hold(cs_window *window) {
+  window->is_open = window->is_held = true;
+  window->varies = window->base->length > 0;
+}
+
+void cs_window_free(cs_window *window, cs_memory *memory) {
+  cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
+  cs_arena_finish(&window->tiles, memory);
+  *window = (cs_window){0};
+}
+
+/* The area right of the fragment in the pixel of column p, 0..height. */
+static inline double cover(const cs_segment *f, int32_t p) {
+  return cs_edges_cover(f->xa, f->xb, f->height, p);
+}
+
+/* ---------------------------------------------------------------- closing */
+
+/* One fragment that crosses columns, between flat cells. */
+static celspan_status close_lone(cs_window *window) {
+  const cs_segment *f = &window->segments[0];
+  cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
+  int32_t last = f->end - 1;
+  double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
+  cs_direct_edge stroke = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
+                           (float)cover(f, last), (float)(f->height / across)};
+  CS_TRY(cs_row_reserve(window->composer->context, window->out, CS_DIRECT_EACH));
+  cs_row_writer p = cs_row_writer_take(window->out, window->from);
+  cs_direct_ramp(&p, f->first, last, base, step, stroke);
+  cs_row_writer_put(&p);
+  return CELSPAN_OK;
+}
+
+/* The first column at or right of p where some fragment changes the sum; end when none does. */
+static int32_t next_change(const cs_window *window, int32_t p) {
+  int32_t next = window->end;
+  for (size_t i = 0; i < window->segment_count; i++) {
+    const cs_segment *f = &window->segments[i];
+    int32_t at = f->first > p ? f->first : p;
+    if (f->end >= p && at < next)
+      next = at;
+  }
+  return next;
+}
+
+/* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
+static void add_changes(const cs_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
+  cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+  int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
+  double before = p > f->first ? cover(f, p - 1) : 0;
+  for (; p <= end; p++) {
+    double now = p < f->end ? cover(f, p) : f->height;
+    change[p - p0] += step * (now - before);
+    before = now;
+  }
+}
+
+/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of
+ * them. */
+static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
+  for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
+    *sum += change[k];
+    cs_row_writer_to(p, p->from + 1, cs_direct_hold(__builtin_convertvector(*sum, cs_v4)));
+  }
+}
+
+/* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
+static celspan_status close_wide(cs_window *window) {
+  cs_sum4 change[TILE], sum = CS_SUM4(window->base->colour);
+  for (int32_t p0 = window->from; p0 < window->end;) {
+    int32_t next = next_change(window, p0);
+    int32_t stop = window->end - next < TILE ? window->end : next + TILE;
+    memset(change, 0, (size_t)(stop - next) * sizeof *change);
+    for (size_t i = 0; i < window->segment_count; i++)
+      add_changes(&window->segments[i], next, stop, change);
+    CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
+    cs_row_writer p = cs_row_writer_take(window->out, window->from);
+    cs_row_writer_to(&p, next, cs_direct_hold(__builtin_convertvector(sum, cs_v4)));
+    draw_sums(&p, stop, change, &sum);
+    cs_row_writer_put(&p);
+    window->from = p0 = stop;
+  }
+  return CELSPAN_OK;
+}
+
+/* The same where the window is a few pixels wide, as nearly all are: summed already. */
+static celspan_status close_narrow(cs_window *window) {
+  cs_sum4 sum = CS_SUM4(window->base->colour);
+  CS_TRY(
+      cs_row_reserve(window->composer->context, window->out, (size_t)(window->end - window->from)));
+  cs_row_writer p = cs_row_writer_take(window->out, window->from);
+  draw_sums(&p, window->end, window->change, &sum);
+  cs_row_writer_put(&p);
+  return CELSPAN_OK;
+}
+
+/* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
+ *
+ * The window is worked off in tiles from left to right. A fragment takes area from the cell on its
+ * left and gives it to the one on its right: pixel by pixel while it is crossed, and as a whole
+ * (the cell's carry) for all tiles after. Areas add exactly, so a cell that is not there weighs
+ * 0. */
+
+typedef struct seen_cell {
+  const cs_cell *cell;
+  double carry;    /* its weight in pixels that no fragment crosses */
+  double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
+} seen_cell;
+
+typedef struct crossing {
+  const cs_segment *segment;
+  uint32_t left, right; /* into seen */
+} crossing;
+
+typedef struct blend {
+  cs_window *window;
+  seen_cell *seen;
+  size_t seen_count;
+  crossing *crossings; /* by first column */
+  size_t crossing_count;
+  size_t begun, ended; /* crossings [ended, begun) may cross the tile */
+} blend;
+
+/* The place of a cell, or of one that looks like it. */
+static uint32_t place_cell(blend *b, const cs_cell *cell) {
+  for (size_t i = 0; i < b->seen_count; i++)
+    if (b->seen[i].cell == cell || cs_composer_same(b->window->composer, b->seen[i].cell, cell))
+      return (uint32_t)i;
+  b->seen[b->seen_count] = (seen_cell){.cell = cell};
+  return (uint32_t)b->seen_count++;
+}
+
+static int compare_crossings(const void *p, const void *q) {
+  const cs_segment *a = ((const crossing *)p)->segment, *b = ((const crossing *)q)->segment;
+  if (a->first != b->first)
+    return a->first < b->first ? -1 : 1;
+  return (a > b) - (a < b);
+}
+
+static celspan_status begin_blend(cs_window *window, blend *b) {
+  celspan_context *context = window->composer->context;
+  size_t count = window->segment_count;
+  *b = (blend){.window = window, .crossing_count = count};
+  b->seen = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *b->seen);
+  b->crossings = cs_arena_take(context, window->arena, count * sizeof *b->crossings);
+  if (!b->seen || !b->crossings)
+    return CELSPAN_NO_MEMORY;
+  b->seen[place_cell(b, window->base)].carry = 1;
+  for (size_t i = 0; i < count; i++) {
+    const cs_segment *f = &window->segments[i];
+    uint32_t left = place_cell(b, f->left);
+    b->crossings[i] = (crossing){f, left, place_cell(b, f->right)};
+  }
+  if (count > 1)
+    qsort(b->crossings, count, sizeof *b->crossings, compare_crossings);
+  return CELSPAN_OK;
+}
+
+static celspan_status open_weights(blend *b, seen_cell *seen, int32_t count) {
+  if (seen->weights)
+    return CELSPAN_OK;
+  seen->weights = cs_arena_take(b->window->composer->context, &b->window->tiles,
+                                (size_t)count * sizeof *seen->weights);
+  for (int32_t k = 0; seen->weights && k < count; k++)
+    seen->weights[k] = seen->carry;
+  return seen->weights ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+}
+
+/* What a crossing does to the pixels of the tile. */
+static celspan_status cross_tile(blend *b, const crossing *c, int32_t p0, int32_t p1) {
+  const cs_segment *f = c->segment;
+  seen_cell *left = &b->seen[c->left], *right = &b->seen[c->right];
+  CS_TRY(open_weights(b, left, p1 - p0));
+  CS_TRY(open_weights(b, right, p1 - p0));
+  for (int32_t p = f->first > p0 ? f->first : p0; p < p1; p++) {
+    double area = p < f->end ? cover(f, p) : f->height;
+    left->weights[p - p0] -= area;
+    right->weights[p - p0] += area;
+  }
+  return CELSPAN_OK;
+}
+
+/* Turns the crossings that end in the tile into carries; the others stay in line. */
+static void retire_crossings(blend *b, int32_t p1) {
+  size_t kept = b->begun;
+  for (size_t i = b->begun; i-- > b->ended;) {
+    const crossing c = b->crossings[i];
+    if (c.segment->end > p1) {
+      b->crossings[--kept] = c;
+      continue;
+    }
+    b->seen[c.left].carry -= c.segment->height;
+    b->seen[c.right].carry += c.segment->height;
+  }
+  b->ended = kept;
+}
+
+static inline double weight_in(const seen_cell *seen, int32_t k) {
+  return seen->weights ? seen->weights[k] : seen->carry;
+}
+
+/* Adds a cell where it has area; only there is it asked for colours. sum: 4 floats a pixel. */
+static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0, int32_t p1,
+                               float *sum) {
+  float rgba[TILE][4];
+  int32_t first = 0, end = p1 - p0;
+  while (first < end && weight_in(seen, first) == 0)
+    first++;
+  while (end > first && weight_in(seen, end - 1) == 0)
+    end--;
+  CS_TRY(cs_composer_colours(b->window->composer, seen->cell, p0 + first, p0 + end,
+                             b->window->centre, rgba));
+  for (int32_t k = first; k < end; k++)
+    cs_v4_store(sum + 4 * k,
+                cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(seen, k));
+  return CELSPAN_OK;
+}
+
+/* Room for the colours of [p0, p1), 4 floats a pixel: the row's own or, for few, `room`. */
+static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, float *room,
+                                  float **out) {
+  *out = room;
+  return p1 - p0 <= FEW ? CELSPAN_OK
+                        : cs_row_array(window->composer->context, window->out, p0, p1, out);
+}
+
+static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, float *sum) {
+  for (int32_t k = 0; k < p1 - p0; k++) {
+    cs_v4 colour = cs_direct_hold(cs_v4_load(sum + 4 * k));
+    if (p1 - p0 > FEW)
+      cs_v4_store(sum + 4 * k, colour);
+    else
+      CS_TRY(cs_row_single(window->composer->context, window->out, p0 + k, p0 + k + 1, colour));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
+  cs_window *window = b->window;
+  float room[4 * FEW], *sum;
+  cs_arena_reset(&window->tiles);
+  for (size_t i = 0; i < b->seen_count; i++)
+    b->seen[i].weights = NULL;
+  while (b->begun < b->crossing_count && b->crossings[b->begun].segment->first < p1)
+    b->begun++;
+  for (size_t i = b->ended; i < b->begun; i++)
+    CS_TRY(cross_tile(b, &b->crossings[i], p0, p1));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  memset(sum, 0, (size_t)(p1 - p0) * 4 * sizeof *sum);
+  for (size_t i = 0; i < b->seen_count; i++)
+    if (b->seen[i].weights || b->seen[i].carry != 0)
+      CS_TRY(add_cell(b, &b->seen[i], p0, p1, sum));
+  retire_crossings(b, p1);
+  return put_pixels(window, p0, p1, sum);
+}
+
+/* The same where one fragment goes through the row between two looks, as through most windows. */
+static celspan_status close_between(cs_window *window) {
+  const cs_segment *f = window->segments;
+  int32_t p0 = window->from, p1 = window->end;
+  float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
+  CS_TRY(cs_composer_colours(window->composer, f->left, p0, p1, window->centre, left));
+  CS_TRY(cs_composer_colours(window->composer, f->right, p0, p1, window->centre, right));
+  CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  for (int32_t p = p0; p < p1; p++) {
+    double area = p < f->end ? cover(f, p) : 1;
+    cs_v4_store(sum + 4 * (p - p0), cs_v4_load(left[p - p0]) * (float)(1 - area) +
+                                        cs_v4_load(right[p - p0]) * (float)area);
+  }
+  return put_pixels(window, p0, p1, sum);
+}
+
+static bool is_between(const cs_window *window) {
+  const cs_segment *f = window->segments;
+  const cs_composer *composer = window->composer;
+  return window->segment_count == 1 && window->end - window->from <= CS_WINDOW_NARROW &&
+         f->first == window->from && f->height == 1 &&
+         (f->left == window->base || cs_composer_same(composer, f->left, window->base)) &&
+         !cs_composer_same(composer, f->left, f->right);
+}
+
+static celspan_status close_varying(cs_window *window) {
+  blend b;
+  if (is_between(window))
+    return close_between(window);
+  CS_TRY(begin_blend(window, &b));
+  for (int32_t p = window->from; p < window->end; p += TILE)
+    CS_TRY(close_tile(&b, p, window->end - p < TILE ? window->end : p + TILE));
+  return CELSPAN_OK;
+}
+
+static celspan_status draw_window(cs_window *window) {
+  if (window->varies)
+    return close_varying(window);
+  if (window->segment_count == 1 && window->segments->end > window->segments->first)
+    return close_lone(window);
+  return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
+}
+
+static celspan_status close_window(cs_window *window) {
+  int32_t from = window->from;
+  if (window->end > from)
+    CS_TRY(draw_window(window));
+  window->from = from;
+  clear_change(window);
+  window->from = window->end;
+  window->segment_count = 0;
+  window->is_open = window->varies = false;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- items */
+
+celspan_status cs_window_reach(cs_window *window, double x) {
+  if (window->retained)
+    return CELSPAN_OK;
+  int32_t first = cs_edges_floor(x, window->width);
+  if (window->is_held || (window->is_open && first < window->end))
+    return CELSPAN_OK;
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  CS_TRY(cs_composer_run(window->composer, window->cell, window->from, first, window->centre,
+                         window->out));
+  if (first > window->from)
+    window->from = first;
+  window->end = window->from;
+  window->base = window->cell;
+  window->varies = window->base->length > 0;
+  window->is_open = true;
+  return CELSPAN_OK;
+}
+
+/* Takes a fragment into the window's columns and, where it is flat and they are few, their sums. */
+static void note_segment(cs_window *window, cs_segment *f) {
+  if (f->first < window->from) { /* by rounding: it begins where what is written ends */
+    f->first = window->from;
+    f->end = f->end > f->first ? f->end : f->first;
+  }
+  window->end = f->end > window->end ? f->end : window->end;
+  if ((f->left->length | f->right->length) != 0) {
+    window->varies = true;
+  } else if (f->end - window->from <= CS_WINDOW_NARROW) {
+    cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
+    cs_direct_add(window->change, window->from, f->xa, f->xb, f->height, f->first, f->end, &step);
+  }
+}
+
+celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
+                             const cs_cell *left, const cs_cell *right) {
+  if (window->retained)
+    return cs_retained_add(window->retained, window->composer, xa, ya, xb, yb, left, right);
+  if (window->segment_count == window->segment_capacity)
+    CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->segments,
+                          &window->segment_capacity, window->segment_count + 1,
+                          sizeof *window->segments));
+  double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
+  double top = window->centre - 0.5;
+  cs_segment *f = &window->segments[window->segment_count++];
+  *f = (cs_segment){.xa = xa,
+                    .xb = xb,
+                    .left = left,
+                    .right = right,
+                    .height = cs_edges_round(yb - top) - cs_edges_round(ya - top),
+                    .first = cs_edges_floor(low, window->width),
+                    .end = cs_edges_ceil(high, window->width)};
+  note_segment(window, f);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_bent(cs_window *window, const cs_active *active, size_t i,
+                               const cs_cell *left) {
+  const cs_bend *bend = cs_active_bend(active, i);
+  celspan_point above = {active->x[i], active->y};
+  for (uint32_t k = 0; k < bend->vertex_count; k++) {
+    celspan_point below = active->vertices[bend->vertex + k];
+    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, left, left + 1));
+    above = below;
+  }
+  return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
+}
+
+celspan_status cs_window_slice(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               size_t i, const cs_cell *left) {
+  cs_window_pass(window, left + 1);
+  return edges->is_bent[i] ? add_bent(window, active, i, left)
+                           : cs_window_add(window, active->x[i], active->y, active->x_next[i],
+                                           active->y_next, left, left + 1);
+}
+
+/* Draws the edges from the first on, up to one that cannot be. Returns how many. */
+static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
+  cs_row_writer writer = cs_row_writer_take(window->out, window->from);
+  size_t done = CS_WIDE_CHOOSE(window->composer->isa, cs_direct_draw)(direct, &writer);
+  cs_row_writer_put(&writer);
+  window->from = window->end = writer.from;
+  if (done > 0)
+    window->cell = &direct->cells[direct->boundaries[done - 1] + 1];
+  return done;
+}
+
+celspan_status cs_window_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
+                               const cs_cell *cells, const uint32_t *boundaries, size_t count,
+                               int32_t next) {
+  for (size_t done = 0; done < count; done++) {
+    if (window->is_open && !window->retained && edges->first[boundaries[done]] >= window->end)
+      CS_TRY(close_window(window));
+    if (!window->is_open && !window->retained) {
+      cs_direct_edges direct = {active,       edges, cells,        boundaries + done,
+                                count - done, next,  window->width};
+      CS_TRY(cs_row_reserve(window->composer->context, window->out,
+                            CS_DIRECT_EACH * direct.count + CS_DIRECT_TOGETHER + 1));
+      done += draw_edges(window, &direct);
+      if (done == count)
+        break;
+    }
+    size_t i = boundaries[done];
+    CS_TRY(cs_window_reach(window, edges->low[i]));
+    CS_TRY(cs_window_slice(window, active, edges, i, &cells[i]));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_finish(cs_window *window) {
+  if (window->retained)
+    return cs_retained_seal(window->retained, window->composer);
+  if (window->is_open)
+    CS_TRY(close_window(window));
+  return cs_composer_run(window->composer, window->cell, window->from, window->width,
+                         window->centre, window->out);
+}

@@ -1,0 +1,302 @@
+#include "bind/userdata.h"
+
+#include <lauxlib.h>
+#include <string.h>
+
+#include "bind/host.h"
+
+/* Deep enough for every field there is: a list of points. */
+#define COPY_DEPTH 3
+
+/* ---------------------------------------------------------------- making */
+
+cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun) {
+  cs_userdata *value = lua_newuserdatauv(L, sizeof *value, 1);
+  *value = (cs_userdata){.noun = noun, .matrix = celspan_matrix_identity(), .fade = 1};
+  luaL_setmetatable(L, noun->kind->name);
+  return value;
+}
+
+/* Pushes a copy of the table at index; tables deeper than `depth` are left out. */
+static void push_copy(lua_State *L, int index, int depth) {
+  index = lua_absindex(L, index);
+  luaL_checkstack(L, 6, "copying a table");
+  lua_createtable(L, (int)lua_rawlen(L, index), 0);
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+    lua_pushvalue(L, -2);
+    if (!lua_istable(L, -2))
+      lua_pushvalue(L, -2);
+    else if (depth > 0)
+      push_copy(L, -2, depth - 1);
+    else
+      lua_pushnil(L);
+    lua_rawset(L, -5);
+  }
+}
+
+static void set_presets(lua_State *L, const cs_noun *noun, int table) {
+  for (const cs_field *field = noun->fields; field->name; field++) {
+    if (!field->preset)
+      continue;
+    lua_pushstring(L, field->name);
+    if (lua_rawget(L, table) == LUA_TNIL) {
+      lua_pushstring(L, field->name);
+      if (!lua_stringtonumber(L, field->preset))
+        lua_pushstring(L, field->preset);
+      lua_rawset(L, table);
+    }
+    lua_pop(L, 1);
+  }
+}
+
+void cs_userdata_freeze(lua_State *L, const cs_noun *noun, int fields) {
+  push_copy(L, fields, COPY_DEPTH);
+  set_presets(L, noun, lua_gettop(L));
+  if (noun->complete)
+    noun->complete(L, lua_gettop(L));
+  lua_setiuservalue(L, -2, 1);
+}
+
+void cs_userdata_construct(lua_State *L, const cs_noun *noun, int fields) {
+  cs_form form = cs_form_open(L, noun, fields);
+  cs_userdata *value = cs_userdata_push(L, noun);
+  int place = lua_gettop(L);
+  noun->create(&form, value);
+  lua_settop(L, place);
+  cs_userdata_freeze(L, noun, form.table);
+}
+
+static int constructor(lua_State *L) {
+  cs_userdata_construct(L, lua_touserdata(L, lua_upvalueindex(1)), 1);
+  return 1;
+}
+
+void cs_userdata_push_constructor(lua_State *L, const cs_noun *noun) {
+  lua_pushlightuserdata(L, (void *)noun);
+  lua_pushcclosure(L, constructor, 1);
+}
+
+/* ---------------------------------------------------------------- finding */
+
+cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind) {
+  cs_userdata *value = luaL_testudata(L, index, kind->name);
+  if (value && kind->unref && !value->handle)
+    luaL_error(L, "this %s was released already", value->noun->name);
+  return value;
+}
+
+cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method) {
+  cs_userdata *value = cs_userdata_test(L, 1, kind);
+  if (!value)
+    luaL_error(L, "%s: call it as a method, value:%s(...), got %s", method, method,
+               cs_userdata_type(L, 1));
+  return value;
+}
+
+const char *cs_userdata_type(lua_State *L, int index) {
+  static const cs_kind *const kinds[] = {&cs_kind_object,  &cs_kind_cel,     &cs_kind_paint,
+                                         &cs_kind_texture, &cs_kind_rostrum, &cs_kind_film,
+                                         &cs_kind_frame};
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    const cs_userdata *value = luaL_testudata(L, index, kinds[i]->name);
+    if (value)
+      return lua_pushfstring(L, "a %s", value->noun->name);
+  }
+  return lua_pushstring(L, luaL_typename(L, index));
+}
+
+/* ---------------------------------------------------------------- with */
+
+static void copy_into(lua_State *L, int from, int to) {
+  for (lua_pushnil(L); lua_next(L, from); lua_pop(L, 1)) {
+    lua_pushvalue(L, -2);
+    lua_pushvalue(L, -2);
+    lua_rawset(L, to);
+  }
+}
+
+static void clear_list(lua_State *L, int table) {
+  for (lua_Integer i = (lua_Integer)lua_rawlen(L, table); i >= 1; i--) {
+    lua_pushnil(L);
+    lua_rawseti(L, table, i);
+  }
+}
+
+/* Frozen fields hold both of two that exclude each other: the one that the changes do not name
+ * goes, the second if they name none. */
+static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
+  if (!noun->either[0])
+    return;
+  lua_pushstring(L, noun->either[1]);
+  bool names_second = lua_rawget(L, changes) != LUA_TNIL;
+  lua_pushstring(L, noun->either[names_second ? 0 : 1]);
+  lua_pushnil(L);
+  lua_rawset(L, fields);
+  lua_pop(L, 1);
+}
+
+/* Does again what was done to `from` after its constructor. */
+static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
+  const cs_kind *kind = value->noun->kind;
+  celspan_context *context = cs_host_context(L);
+  void *changed = NULL;
+  if (kind->transform) {
+    cs_host_try(L, "with", kind->transform(context, value->handle, &from->matrix, &changed));
+    kind->unref(value->handle);
+    value->handle = changed;
+    value->matrix = from->matrix;
+  }
+  if (kind->fade) {
+    cs_host_try(L, "with", kind->fade(context, value->handle, from->fade, &changed));
+    kind->unref(value->handle);
+    value->handle = changed;
+    value->fade = from->fade;
+  }
+}
+
+int cs_userdata_with(lua_State *L) {
+  const cs_userdata *self = lua_touserdata(L, 1);
+  if (!self || !lua_getmetatable(L, 1) || lua_getfield(L, -1, "__celspan") != LUA_TBOOLEAN)
+    return luaL_error(L, "with: call it as a method, value:with{...}");
+  const cs_noun *noun = self->noun;
+  if (lua_type(L, 2) != LUA_TTABLE)
+    return luaL_error(L, "%s: with takes a table of changes, got %s", noun->name,
+                      cs_userdata_type(L, 2));
+  lua_settop(L, 2);
+  lua_getiuservalue(L, 1, 1);
+  push_copy(L, 3, COPY_DEPTH);
+  drop_other(L, noun, 2, 4);
+  if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
+    clear_list(L, 4);
+  copy_into(L, 2, 4);
+  cs_userdata_construct(L, noun, 4);
+  reapply(L, self, lua_touserdata(L, -1));
+  return 1;
+}
+
+/* ---------------------------------------------------------------- metamethods */
+
+/* A method, else a field; tables come out as copies. */
+static int index_value(lua_State *L) {
+  const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(2));
+  luaL_checkudata(L, 1, kind->name);
+  lua_settop(L, 2);
+  if (lua_isnil(L, 2))
+    return 0;
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
+    return 1;
+  if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE)
+    return 0;
+  lua_pushvalue(L, 2);
+  if (lua_rawget(L, -2) == LUA_TTABLE)
+    push_copy(L, -1, COPY_DEPTH);
+  return 1;
+}
+
+static int refuse_assignment(lua_State *L) {
+  const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
+  const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
+  bool is_frame = kind == &cs_kind_frame;
+  return luaL_error(L, "%ss are immutable%s", value->noun->name,
+                    is_frame ? "" : "; use :with{...}");
+}
+
+static int release(lua_State *L) {
+  const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
+  cs_userdata *value = luaL_checkudata(L, 1, kind->name);
+  if (kind->unref && value->handle)
+    kind->unref(value->handle);
+  value->handle = NULL;
+  return 0;
+}
+
+/* Pushes "a, b, c" for one to four numbers in the array at index; else nothing. */
+static bool push_numbers(lua_State *L, int index) {
+  int count = (int)lua_rawlen(L, index);
+  if (count < 1 || count > 4)
+    return false;
+  lua_pushliteral(L, "");
+  for (int i = 1; i <= count; i++) {
+    if (lua_rawgeti(L, index, i) != LUA_TNUMBER) {
+      lua_pop(L, 2);
+      return false;
+    }
+    lua_pushfstring(L, "%s%s", i > 1 ? ", " : "", luaL_tolstring(L, -1, NULL));
+    lua_replace(L, -3);
+    lua_pop(L, 1);
+    lua_concat(L, 2);
+  }
+  return true;
+}
+
+/* Pushes "name = 3" or "name = {1, 2}" for a field that is a number or a few of them. */
+static bool push_field(lua_State *L, int fields, const char *name) {
+  lua_pushstring(L, name);
+  int type = lua_rawget(L, fields), value = lua_gettop(L);
+  bool is_shown = type == LUA_TNUMBER || (type == LUA_TTABLE && push_numbers(L, value));
+  if (type == LUA_TNUMBER)
+    lua_pushfstring(L, "%s = %s", name, luaL_tolstring(L, value, NULL));
+  else if (is_shown)
+    lua_pushfstring(L, "%s = {%s}", name, lua_tostring(L, -1));
+  if (is_shown)
+    lua_replace(L, value);
+  lua_settop(L, is_shown ? value : value - 1);
+  return is_shown;
+}
+
+/* Pushes what the array part holds: "3 objects", or its numbers. */
+static bool push_list(lua_State *L, const cs_noun *noun, int fields) {
+  int count = (int)lua_rawlen(L, fields);
+  if (noun->list == CS_LIST_ITEMS)
+    lua_pushfstring(L, "%d %s%s", count, noun->item, count == 1 ? "" : "s");
+  return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_PARTS && push_numbers(L, fields));
+}
+
+/* Joins the text on top to the one below it. */
+static void join(lua_State *L, int *count) {
+  lua_pushstring(L, (*count)++ ? ", " : "{ ");
+  lua_insert(L, -2);
+  lua_concat(L, 3);
+}
+
+/* Kind and key numbers: circle{ centre = {10, 20}, radius = 5 }. */
+static int describe(lua_State *L) {
+  const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
+  const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
+  const cs_noun *noun = value->noun;
+  lua_settop(L, 1);
+  bool has_fields = lua_getiuservalue(L, 1, 1) == LUA_TTABLE;
+  lua_pushstring(L, noun->name);
+  int count = 0;
+  if (has_fields && push_list(L, noun, 2))
+    join(L, &count);
+  for (const cs_field *field = noun->fields; has_fields && field->name; field++)
+    if (push_field(L, 2, field->name))
+      join(L, &count);
+  if (count) {
+    lua_pushliteral(L, " }");
+    lua_concat(L, 2);
+  }
+  return 1;
+}
+
+void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *methods) {
+  static const luaL_Reg plain[] = {
+      {"__newindex", refuse_assignment}, {"__tostring", describe}, {"__gc", release}, {NULL, NULL}};
+  if (!luaL_newmetatable(L, kind->name)) {
+    lua_pop(L, 1);
+    return;
+  }
+  lua_pushlightuserdata(L, (void *)kind);
+  luaL_setfuncs(L, plain, 1);
+  lua_newtable(L);
+  if (methods)
+    luaL_setfuncs(L, methods, 0);
+  lua_pushlightuserdata(L, (void *)kind);
+  lua_pushcclosure(L, index_value, 2);
+  lua_setfield(L, -2, "__index");
+  lua_pushboolean(L, true);
+  lua_setfield(L, -2, "__celspan");
+  lua_pop(L, 1);
+}

@@ -1,0 +1,196 @@
+/* Readers of option values. */
+#include "cli/argument.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "celspan/celspan.h"
+#include "cli/tiles/pyramid.h"
+
+typedef struct choice {
+  const char *name;
+  int value;
+} choice;
+
+#define CHOOSE(text, field, choices)                                                               \
+  choose(text, field, choices, sizeof(choices) / sizeof((choices)[0]))
+
+static cs_argument_outcome choose(const char *text, void *field, const choice *choices,
+                                  size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (strcmp(text, choices[i].name) != 0)
+      continue;
+    memcpy(field, &choices[i].value, sizeof choices[i].value);
+    return CS_ARGUMENT_READ;
+  }
+  return CS_ARGUMENT_BAD;
+}
+
+/* `count` whole numbers in [least, most], parted by `separator`, and nothing else. */
+static bool read_integers(const char *text, char separator, int64_t least, int64_t most,
+                          int32_t *out, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    char *end = NULL;
+    errno = 0;
+    long long number = strtoll(text, &end, 10);
+    bool is_last = i + 1 == count;
+    if (end == text || text[0] == ' ' || errno || number < least || number > most)
+      return false;
+    if (*end != (is_last ? '\0' : separator))
+      return false;
+    out[i] = (int32_t)number;
+    text = end + 1;
+  }
+  return true;
+}
+
+static bool read_number(const char *text, double *out) {
+  char *end = NULL;
+  double number = strtod(text, &end);
+  if (end == text || *end || text[0] == ' ' || !isfinite(number))
+    return false;
+  *out = number;
+  return true;
+}
+
+cs_argument_outcome cs_argument_text(const char *text, void *field) {
+  if (!text[0])
+    return CS_ARGUMENT_BAD;
+  *(const char **)field = text;
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_integer(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, -INT32_MAX, INT32_MAX, &value, 1))
+    return CS_ARGUMENT_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_count(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, 0, INT32_MAX, &value, 1))
+    return CS_ARGUMENT_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_workers(const char *text, void *field) {
+  return read_integers(text, 0, 1, 1024, field, 1) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
+}
+
+cs_argument_outcome cs_argument_memory(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, 0, 1048576, &value, 1))
+    return CS_ARGUMENT_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_number(const char *text, void *field) {
+  return read_number(text, field) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
+}
+
+cs_argument_outcome cs_argument_scale(const char *text, void *field) {
+  double number = 0;
+  if (!read_number(text, &number) || number <= 0 || number > CS_SIDE_MAX)
+    return CS_ARGUMENT_BAD;
+  *(double *)field = number;
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_tolerance(const char *text, void *field) {
+  double number = 0;
+  if (!read_number(text, &number) || number < 0)
+    return CS_ARGUMENT_BAD;
+  *(double *)field = number;
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_size(const char *text, void *field) {
+  int32_t size[2];
+  if (!read_integers(text, 'x', 1, CS_SIDE_MAX, size, 2))
+    return CS_ARGUMENT_BAD;
+  memcpy(field, size, sizeof size);
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_crop(const char *text, void *field) {
+  int32_t crop[4];
+  if (!read_integers(text, ',', 0, CS_SIDE_MAX, crop, 4) || !crop[2] || !crop[3])
+    return CS_ARGUMENT_BAD;
+  memcpy(field, crop, sizeof crop);
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_rows(const char *text, void *field) {
+  int32_t rows[2];
+  if (!read_integers(text, '-', 0, CS_SIDE_MAX - 1, rows, 2) || rows[0] > rows[1])
+    return CS_ARGUMENT_BAD;
+  memcpy(field, rows, sizeof rows);
+  return CS_ARGUMENT_READ;
+}
+
+/* KERNEL[:ROWS]: the part before the colon names the kernel. */
+cs_argument_outcome cs_argument_antialias(const char *text, void *field) {
+  static const choice modes[] = {{"area", CELSPAN_ANTIALIAS_AREA},
+                                 {"none", CELSPAN_ANTIALIAS_NONE}};
+  static const choice kernels[] = {{"box", CELSPAN_KERNEL_BOX},
+                                   {"gaussian", CELSPAN_KERNEL_GAUSSIAN},
+                                   {"mitchell", CELSPAN_KERNEL_MITCHELL},
+                                   {"lanczos", CELSPAN_KERNEL_LANCZOS}};
+  cs_given_antialias given = {.is_given = true, .mode = CELSPAN_ANTIALIAS_FILTER};
+  char name[16];
+  size_t length = strcspn(text, ":");
+  int32_t rows = 0;
+  if (length >= sizeof name)
+    return CS_ARGUMENT_BAD;
+  memcpy(name, text, length);
+  name[length] = '\0';
+  if (CHOOSE(text, &given.mode, modes) != CS_ARGUMENT_READ) {
+    if (CHOOSE(name, &given.filter.kernel, kernels) != CS_ARGUMENT_READ)
+      return CS_ARGUMENT_BAD;
+    if (text[length] && !read_integers(text + length + 1, '\0', 1, 256, &rows, 1))
+      return CS_ARGUMENT_BAD;
+    given.filter.rows = rows;
+  }
+  memcpy(field, &given, sizeof given);
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_depth(const char *text, void *field) {
+  static const choice choices[] = {{"8", CELSPAN_DEPTH_8},
+                                   {"16", CELSPAN_DEPTH_16},
+                                   {"half", CELSPAN_DEPTH_HALF},
+                                   {"float", CELSPAN_DEPTH_FLOAT}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_argument_outcome cs_argument_colour(const char *text, void *field) {
+  static const choice choices[] = {{"srgb", CELSPAN_TRANSFER_SRGB},
+                                   {"linear", CELSPAN_TRANSFER_LINEAR},
+                                   {"rec709", CELSPAN_TRANSFER_REC709},
+                                   {"cineon", CELSPAN_TRANSFER_CINEON}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_argument_outcome cs_argument_alpha(const char *text, void *field) {
+  static const choice choices[] = {{"straight", CELSPAN_ALPHA_STRAIGHT},
+                                   {"premultiplied", CELSPAN_ALPHA_PREMULTIPLIED}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_argument_outcome cs_argument_layout(const char *text, void *field) {
+  static const choice choices[] = {{"dzi", CS_PYRAMID_DZI}, {"iiif", CS_PYRAMID_IIIF}};
+  return CHOOSE(text, field, choices);
+}
+
+cs_argument_outcome cs_argument_progress(const char *text, void *field) {
+  static const choice choices[] = {{"auto", CS_PROGRESS_AUTO},   {"bar", CS_PROGRESS_BAR},
+                                   {"lines", CS_PROGRESS_LINES}, {"none", CS_PROGRESS_NONE},
+                                   {"json", CS_PROGRESS_JSON},   {"openjd", CS_PROGRESS_OPENJD}};
+  return CHOOSE(text, field, choices);
+}

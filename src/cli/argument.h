@@ -1,0 +1,59 @@
+/* Reading the values of options: text to a field, one function a kind of value.
+ *
+ * A reader changes its field only when it answers READ. Numbers are read in the C locale, which
+ * main() sets for its thread.
+ */
+#ifndef CS_CLI_ARGUMENT_H
+#define CS_CLI_ARGUMENT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "celspan/celspan.h"
+
+#define CS_SIDE_MAX 1048576
+
+typedef enum cs_argument_outcome { CS_ARGUMENT_READ = 0, CS_ARGUMENT_BAD } cs_argument_outcome;
+
+typedef cs_argument_outcome (*cs_argument_reader)(const char *text, void *field);
+
+typedef enum cs_progress_style {
+  CS_PROGRESS_AUTO = 0,
+  CS_PROGRESS_BAR,
+  CS_PROGRESS_LINES,
+  CS_PROGRESS_NONE,
+  CS_PROGRESS_JSON,
+  CS_PROGRESS_OPENJD
+} cs_progress_style;
+
+typedef struct cs_given_antialias {
+  bool is_given;
+  celspan_antialias_mode mode;
+  celspan_filter_desc filter;
+} cs_given_antialias;
+
+typedef struct cs_given_integer {
+  bool is_given;
+  int32_t value;
+} cs_given_integer;
+
+cs_argument_outcome cs_argument_text(const char *text, void *field);    /* const char * */
+cs_argument_outcome cs_argument_integer(const char *text, void *field); /* cs_given_integer */
+cs_argument_outcome cs_argument_workers(const char *text, void *field); /* int32_t, 1..1024 */
+cs_argument_outcome cs_argument_memory(const char *text,
+                                       void *field); /* cs_given_integer, 0..1048576 */
+cs_argument_outcome cs_argument_number(const char *text, void *field);    /* double, finite */
+cs_argument_outcome cs_argument_scale(const char *text, void *field);     /* double, above 0 */
+cs_argument_outcome cs_argument_tolerance(const char *text, void *field); /* double, 0 or more */
+cs_argument_outcome cs_argument_size(const char *text, void *field);      /* int32_t[2] */
+cs_argument_outcome cs_argument_crop(const char *text, void *field);      /* int32_t[4] */
+cs_argument_outcome cs_argument_rows(const char *text, void *field); /* int32_t[2], inclusive */
+cs_argument_outcome cs_argument_antialias(const char *text, void *field); /* cs_given_antialias */
+cs_argument_outcome cs_argument_depth(const char *text, void *field);     /* celspan_depth */
+cs_argument_outcome cs_argument_colour(const char *text, void *field);    /* celspan_transfer */
+cs_argument_outcome cs_argument_alpha(const char *text, void *field);     /* celspan_alpha */
+cs_argument_outcome cs_argument_count(const char *text, void *field);    /* cs_given_integer, 0.. */
+cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
+cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
+
+#endif

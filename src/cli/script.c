@@ -1,0 +1,115 @@
+/* Scripts and their frames. */
+#include "cli/script.h"
+
+#include <lauxlib.h>
+#include <lualib.h>
+#include <string.h>
+
+#include "bind/host.h"
+#include "celspan/lua.h"
+#include "cli/interrupt.h"
+#include "cli/view.h"
+
+static lua_State *running; /* the state that a signal interrupts */
+
+static void raise_interrupt(lua_State *L, lua_Debug *where) {
+  (void)where;
+  luaL_error(L, "interrupted");
+}
+
+/* Runs in the signal handler: lua_sethook is one of the few calls that are safe there. */
+static void interrupt_script(void) {
+  lua_sethook(running, raise_interrupt, LUA_MASKCALL | LUA_MASKRET | LUA_MASKLINE | LUA_MASKCOUNT,
+              1);
+}
+
+/* Standard output is for what was asked for: what a script prints goes to standard error. And a
+ * script cannot end the program, or a render that did nothing could look like one that did all. */
+static const char HOUSE_RULES[] =
+    "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
+    "io.output(stderr)\n"
+    "function print(...)\n"
+    "  local words = pack(...)\n"
+    "  for i = 1, words.n do words[i] = tostring(words[i]) end\n"
+    "  stderr:write(concat(words, '\\t'), '\\n')\n"
+    "end\n"
+    "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
+
+/* light userdata: the context. Runs protected. */
+static int prepare(lua_State *L) {
+  luaL_openlibs(L);
+  if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
+    return lua_error(L);
+  cs_open_host(L, lua_touserdata(L, 1));
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  return 0;
+}
+
+static cs_exit open_state(cs_script *script) {
+  script->L = luaL_newstate();
+  if (!script->L) {
+    cs_report_error("no memory for Lua");
+    return CS_EXIT_MEMORY;
+  }
+  lua_pushcfunction(script->L, prepare);
+  lua_pushlightuserdata(script->L, script->context);
+  if (lua_pcall(script->L, 1, 0, 0) == LUA_OK)
+    return CS_EXIT_OK;
+  cs_report_error("Lua could not be started: %s", lua_tostring(script->L, -1));
+  return CS_EXIT_INTERNAL;
+}
+
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out) {
+  *out = (cs_script){.context = context};
+  cs_exit outcome = open_state(out);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  running = out->L;
+  cs_interrupt_call(interrupt_script);
+  celspan_status status =
+      cs_film_load(out->L, request->operands[0], (int)request->script_argument_count,
+                   (const char *const *)request->script_arguments);
+  if (status != CELSPAN_OK)
+    return cs_report_failure(context, status, NULL);
+  cs_film_read(out->L, CS_SCRIPT_FILM, &out->film);
+  return CS_EXIT_OK;
+}
+
+void cs_script_close(cs_script *script) {
+  cs_interrupt_call(NULL);
+  cs_film_finish_frame(&script->frame);
+  if (script->L)
+    lua_close(script->L);
+  script->L = NULL;
+}
+
+celspan_status cs_script_try(cs_script *script, int64_t number) {
+  running = script->L;
+  cs_film_finish_frame(&script->frame);
+  script->number = number;
+  return cs_film_build(script->L, CS_SCRIPT_FILM, number, &script->frame);
+}
+
+cs_exit cs_script_build(cs_script *script, int64_t number) {
+  return cs_report_failure(script->context, cs_script_try(script, number), NULL);
+}
+
+cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out) {
+  int64_t first = script->film.first, last = first + script->film.count - 1;
+  int64_t number = request->frame.is_given ? request->frame.value : first;
+  if (number < first || number > last)
+    return cs_report_usage("--frame %lld: the film has frames %lld to %lld", (long long)number,
+                           (long long)first, (long long)last);
+  cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, out);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_script_build(script, number);
+  out->exposures = script->frame.exposures;
+  out->exposure_count = script->frame.count;
+  return outcome;
+}
+
+cs_exit cs_script_failure(const cs_script *script, celspan_status status) {
+  char where[32];
+  snprintf(where, sizeof where, "frame %lld", (long long)script->number);
+  return cs_report_failure(script->context, status, where);
+}

@@ -1,0 +1,34 @@
+/* A script's film, opened for a verb in a Lua state of its own; its faults are reported in the
+ * words of the command line.
+ */
+#ifndef CS_CLI_SCRIPT_H
+#define CS_CLI_SCRIPT_H
+
+#include "bind/film.h"
+#include "cli/request.h"
+
+#define CS_SCRIPT_FILM 1 /* where the film stands on the state's stack */
+
+typedef struct cs_script {
+  celspan_context *context; /* borrowed */
+  lua_State *L;             /* owned; NULL: not open */
+  cs_film_info film;        /* its texts live as long as the state */
+  int64_t number;           /* of the frame built last */
+  cs_film_frame frame;      /* that frame; owned */
+} cs_script;
+
+/* Runs the script of the request. OK, or reported; either way *out may be closed. */
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out);
+void cs_script_close(cs_script *script);
+
+/* Builds a frame of the film; the one before is gone. The sentence, which names the frame, stands
+ * in the context. */
+celspan_status cs_script_try(cs_script *script, int64_t number);
+/* The same, with failures reported. */
+cs_exit cs_script_build(cs_script *script, int64_t number);
+/* Builds the frame of --frame, or the first, and describes it under the request. */
+cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out);
+/* Reports "frame N: ..." unless status is OK: for what is done with a frame that was built. */
+cs_exit cs_script_failure(const cs_script *script, celspan_status status);
+
+#endif

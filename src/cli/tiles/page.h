@@ -1,0 +1,28 @@
+/* What is written beside the tiles: the description that viewers read, and the page that shows
+ * them.
+ */
+#ifndef CS_CLI_TILES_PAGE_H
+#define CS_CLI_TILES_PAGE_H
+
+#include "cli/tiles/log.h"
+#include "cli/tiles/plan.h"
+
+typedef struct cs_tile_page {
+  const cs_pyramid *pyramid;
+  const cs_tile_log *log;
+  const cs_tile_plan *plan;
+  const celspan_frame_desc *frame;
+  const char *title;
+  char background[8]; /* "#rrggbb" */
+} cs_tile_page;
+
+/* NAME.dzi or NAME/info.json, and index.html. */
+CELSPAN_CHECKED celspan_status cs_tile_page_write(celspan_context *context,
+                                                  const cs_tile_page *page);
+/* Copies OpenSeadragon to FOLDER/openseadragon/. from: its folder or its script. Errors: INPUT,
+ * OUTPUT. */
+CELSPAN_CHECKED celspan_status cs_tile_page_copy_viewer(celspan_context *context,
+                                                        const cs_pyramid *pyramid,
+                                                        const char *from);
+
+#endif

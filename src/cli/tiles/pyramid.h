@@ -1,0 +1,56 @@
+/* The shape of a pyramid of tiles: its levels, its tiles, and what they are called.
+ *
+ *   Deep Zoom   NAME.dzi        NAME_files/LEVEL/COLUMN_ROW.png
+ *   IIIF        NAME/info.json  NAME/X,Y,W,H/W,H/0/default.png   (Image API 3.0, level 0)
+ *
+ * INVARIANT  The top level is the frame itself and each level below is half as large, rounded up,
+ * as in Deep Zoom: level i of a frame of top level L is ceil(size / 2^(L - i)), and level 0 is one
+ * pixel. IIIF counts scale factors instead: level i has 2^(L - i).
+ */
+#ifndef CS_CLI_TILES_PYRAMID_H
+#define CS_CLI_TILES_PYRAMID_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "celspan/celspan.h"
+
+typedef enum cs_pyramid_layout { CS_PYRAMID_DZI = 0, CS_PYRAMID_IIIF } cs_pyramid_layout;
+
+typedef struct cs_pyramid {
+  cs_pyramid_layout layout;
+  int32_t width, height; /* of the frame */
+  int32_t tile, overlap; /* pixels; the overlap is added on sides that have a neighbour */
+  const char *folder;    /* that holds everything */
+  const char *name;
+  const char *ending; /* of a tile: "png", "jpg" */
+} cs_pyramid;
+
+/* Half-open: pixels of a level, or its tiles. */
+typedef struct cs_area {
+  int32_t x0, y0, x1, y1;
+} cs_area;
+
+int32_t cs_pyramid_top(const cs_pyramid *pyramid);
+/* The highest level with no more than this many pixels a side. */
+int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side);
+/* The highest level that is a single tile. */
+int32_t cs_pyramid_single(const cs_pyramid *pyramid);
+void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, int32_t *height);
+/* The tiles of a level, or those that a part of the frame touches; part: NULL for all. */
+cs_area cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level, const cs_area *part);
+/* The pixels of a rectangle of tiles, with their overlap. */
+cs_area cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level, const cs_area *tiles);
+/* Tiles of the levels from first to last. */
+int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
+                         const cs_area *part);
+
+/* "FOLDER/..." of a tile. is_alias: the other name of a level's only tile ("full"), which IIIF has.
+ * false: no room, or no such name. */
+bool cs_pyramid_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
+                     bool is_alias, char *path, size_t size);
+/* The file that describes the pyramid, and the folder of its tiles: what stands in FOLDER. */
+bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size);
+bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);
+
+#endif

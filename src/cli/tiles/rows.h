@@ -1,0 +1,43 @@
+/* A sink that cuts the rows of one level into tiles.
+ *
+ * Rows are kept as spans until a row of tiles is whole, so that memory follows the spans of that
+ * many rows; a row that its colours describe in less room is kept as those. A finished row of tiles
+ * is written by several threads side by side.
+ */
+#ifndef CS_CLI_TILES_ROWS_H
+#define CS_CLI_TILES_ROWS_H
+
+#include "base/arena.h"
+#include "cli/tiles/file.h"
+
+/* One row of tiles: columns half-open. */
+typedef struct cs_tile_row {
+  int32_t level, row, first, end;
+} cs_tile_row;
+
+typedef struct cs_kept_row {
+  celspan_span *spans;
+  size_t count, capacity;
+  cs_arena colours;
+} cs_kept_row;
+
+typedef struct cs_tile_rows {
+  cs_tile_file *files;
+  int32_t level;
+  cs_area tiles;  /* to be made */
+  cs_area pixels; /* of those tiles: what is rendered */
+  int32_t next;   /* row of tiles */
+  int workers;
+  /* After each finished row of tiles. */
+  celspan_status (*finished)(void *user, celspan_context *context, cs_tile_row row);
+  void *user;
+  cs_kept_row *ring; /* row y of the level lies at y % ring_count */
+  int32_t ring_count;
+  cs_tile_writer *writers;
+} cs_tile_rows;
+
+/* rows: its first six fields are set, and `next` is tiles.y0; kept by the sink as long as it is
+ * used. Renders pixels.x0 ... pixels.y1 of the level. */
+celspan_sink cs_tile_rows_sink(cs_tile_rows *rows);
+
+#endif

@@ -1,0 +1,182 @@
+#include "deflate/deflate.h"
+
+#include <string.h>
+#include <zlib.h>
+
+#include "deflate/adler.h"
+#include "deflate/search.h"
+
+struct cs_deflate {
+  size_t pixel_size;
+  cs_deflate_adler sum;
+  uint64_t size;            /* bytes of the part so far */
+  size_t zeros;             /* of a run, not yet tokens: more may follow */
+  bool ends_in_zeros;       /* the last token but for them */
+  cs_deflate_search search; /* of plain bytes */
+  cs_deflate_block_writer writer;
+};
+
+celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs_block_write write,
+                                 void *user, cs_deflate **out) {
+  cs_deflate *deflate = cs_mem_array(context->memory, 1, sizeof *deflate);
+  if (!deflate)
+    return cs_fail_memory(context);
+  deflate->pixel_size = deflate->search.pixel_size = pixel_size;
+  deflate->search.writer = &deflate->writer;
+  deflate->writer.write = write;
+  deflate->writer.user = user;
+  *out = deflate;
+  return CELSPAN_OK;
+}
+
+void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
+  if (deflate)
+    cs_mem_free(context->memory, deflate, sizeof *deflate);
+}
+
+void cs_deflate_begin(cs_deflate *deflate) {
+  cs_deflate_search_begin(&deflate->search);
+  cs_deflate_block_begin(&deflate->writer);
+  deflate->sum = CS_ADLER;
+  deflate->size = deflate->zeros = 0;
+  deflate->ends_in_zeros = false;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+static void put_zeros(cs_deflate *deflate) {
+  size_t count = deflate->zeros;
+  deflate->zeros = 0;
+  if (count > 0 && !(deflate->ends_in_zeros && count >= 3)) {
+    cs_deflate_block_literal(&deflate->writer, 0);
+    count--;
+  }
+  if (count >= 3)
+    cs_deflate_block_run(&deflate->writer, count, 1);
+  else
+    for (; count > 0; count--)
+      cs_deflate_block_literal(&deflate->writer, 0);
+}
+
+static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
+  if (byte == 0) {
+    deflate->zeros++;
+    return;
+  }
+  if (deflate->zeros > 0)
+    put_zeros(deflate);
+  cs_deflate_block_literal(&deflate->writer, byte);
+  deflate->ends_in_zeros = false;
+}
+
+/* Three bytes go out as one token unless zeros that went before could take the first. */
+static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
+  size_t i = 0;
+  if (size >= 3 && pixel & 0xff) {
+    if (deflate->zeros > 0)
+      put_zeros(deflate);
+    cs_deflate_block_literals(&deflate->writer, (uint32_t)pixel & 0xffffff);
+    deflate->ends_in_zeros = (pixel & 0xff0000) == 0;
+    i = 3;
+  }
+  for (; i < size; i++)
+    put_byte(deflate, (unsigned char)(pixel >> 8 * i));
+}
+
+static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size) {
+  uint64_t pixel = run.pixel;
+  put_pixel(deflate, pixel, size);
+  size_t bytes = (run.count - 1) * size;
+  if (bytes >= 3) {
+    put_zeros(deflate);
+    cs_deflate_block_run(&deflate->writer, bytes, size);
+    deflate->ends_in_zeros = pixel >> 8 * (size - 1) == 0;
+  } else {
+    for (size_t i = 0; i < bytes; i++)
+      put_byte(deflate, (unsigned char)(pixel >> 8 * (i % size)));
+  }
+}
+
+/* size: of a pixel, known to the compiler for the usual ones. */
+static inline void put_runs(cs_deflate *deflate, const cs_deflate_run *run, size_t run_count,
+                            size_t size) {
+  cs_deflate_adler sum = deflate->sum;
+  uint64_t pixels = 0;
+  for (const cs_deflate_run *end = run + run_count; run < end; run++) {
+    cs_deflate_adler_run(&sum, run->pixel, run->count, size);
+    pixels += run->count;
+    if (run->pixel == 0)
+      deflate->zeros += run->count * size;
+    else
+      put_run(deflate, *run, size);
+  }
+  deflate->sum = sum;
+  deflate->size += pixels * size;
+}
+
+celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
+                               const cs_deflate_run *runs, size_t run_count) {
+  deflate->writer.context = context;
+  cs_deflate_search_flush(&deflate->search);
+  if (deflate->pixel_size == 3)
+    put_runs(deflate, runs, run_count, 3);
+  else if (deflate->pixel_size == 4)
+    put_runs(deflate, runs, run_count, 4);
+  else
+    put_runs(deflate, runs, run_count, deflate->pixel_size);
+  return deflate->writer.status;
+}
+
+void cs_deflate_byte(cs_deflate *deflate, unsigned char byte) {
+  cs_deflate_search_flush(&deflate->search);
+  deflate->sum.a += byte;
+  deflate->sum.b += deflate->sum.a;
+  deflate->size++;
+  put_byte(deflate, byte);
+}
+
+/* ---------------------------------------------------------------- bytes */
+
+unsigned char *cs_deflate_space(cs_deflate *deflate, celspan_context *context) {
+  deflate->writer.context = context;
+  put_zeros(deflate);
+  deflate->ends_in_zeros = false;
+  return cs_deflate_search_space(&deflate->search);
+}
+
+celspan_status cs_deflate_take(cs_deflate *deflate, const unsigned char *space, size_t size) {
+  cs_deflate_adler_bytes(&deflate->sum, space, size);
+  deflate->size += size;
+  cs_deflate_search_take(&deflate->search, size);
+  return deflate->writer.status;
+}
+
+/* ---------------------------------------------------------------- parts */
+
+celspan_status cs_deflate_end(cs_deflate *deflate, celspan_context *context, cs_deflate_sum *out) {
+  cs_deflate_block_writer *writer = &deflate->writer;
+  writer->context = context;
+  cs_deflate_search_flush(&deflate->search);
+  put_zeros(deflate);
+  cs_deflate_block_end(writer);
+  *out = (cs_deflate_sum){cs_deflate_adler_end(deflate->sum), deflate->size};
+  return writer->status;
+}
+
+void cs_deflate_header(unsigned char header[CS_DEFLATE_HEADER]) {
+  header[0] = 0x78; /* deflate, 32 KiB */
+  header[1] = 0x9c;
+}
+
+/* An empty last block of the fixed codes, and the checksum. */
+void cs_deflate_trailer(cs_deflate_sum sum, unsigned char trailer[CS_DEFLATE_TRAILER]) {
+  trailer[0] = 3;
+  trailer[1] = 0;
+  for (int i = 0; i < 4; i++)
+    trailer[2 + i] = (unsigned char)(sum.adler >> (24 - 8 * i));
+}
+
+cs_deflate_sum cs_deflate_join(cs_deflate_sum first, cs_deflate_sum second) {
+  uLong adler = adler32_combine(first.adler, second.adler, (z_off_t)second.size);
+  return (cs_deflate_sum){(uint32_t)adler, first.size + second.size};
+}

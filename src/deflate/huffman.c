@@ -1,0 +1,143 @@
+/* Huffman's construction over sorted leaves; where it goes too deep, package-merge (Larmore and
+ * Hirschberg 1990): level by level, packages of two items of the level before are merged with the
+ * leaves; the cheapest 2n - 2 items of the last level say how often each leaf was used, which is
+ * its length.
+ */
+#include "deflate/huffman.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+typedef struct leaves {
+  int count;
+  uint32_t weight[CS_HUFFMAN_SYMBOLS]; /* ascending */
+  int symbol[CS_HUFFMAN_SYMBOLS];
+} leaves;
+
+/* Merges the sorted halves [from, middle) and [middle, end). */
+static void merge_keys(const uint64_t *keys, int from, int middle, int end, uint64_t *out) {
+  int left = from, right = middle;
+  for (int i = from; i < end; i++)
+    out[i] =
+        left < middle && (right >= end || keys[left] <= keys[right]) ? keys[left++] : keys[right++];
+}
+
+/* Ascending; among equals in the order of the symbols. */
+static void sort_leaves(leaves *sorted, const uint32_t *counts, int symbols) {
+  uint64_t keys[2][CS_HUFFMAN_SYMBOLS], *from = keys[0], *to = keys[1];
+  int count = 0;
+  for (int symbol = 0; symbol < symbols; symbol++)
+    if (counts[symbol] > 0)
+      from[count++] = (uint64_t)counts[symbol] << 16 | (unsigned)symbol;
+  for (int width = 1; width < count; width *= 2) {
+    for (int at = 0; at < count; at += 2 * width) {
+      int middle = at + width < count ? at + width : count;
+      merge_keys(from, at, middle, middle + width < count ? middle + width : count, to);
+    }
+    uint64_t *swapped = from;
+    from = to;
+    to = swapped;
+  }
+  sorted->count = count;
+  for (int i = 0; i < count; i++) {
+    sorted->weight[i] = (uint32_t)(from[i] >> 16);
+    sorted->symbol[i] = (int)(from[i] & 0xffff);
+  }
+}
+
+/* Leaves and the nodes made of them are two ascending queues; the two least make the next node.
+ * The greatest depth; lengths by leaf. */
+static int huffman_depths(const leaves *sorted, uint8_t *depths) {
+  uint64_t weight[2 * CS_HUFFMAN_SYMBOLS];
+  int parent[2 * CS_HUFFMAN_SYMBOLS], count = sorted->count, deepest = 0;
+  uint8_t depth[2 * CS_HUFFMAN_SYMBOLS];
+  for (int i = 0; i < count; i++)
+    weight[i] = sorted->weight[i];
+  for (int made = count, leaf = 0, node = count; made < 2 * count - 1; made++) {
+    weight[made] = 0;
+    for (int pick = 0; pick < 2; pick++) {
+      bool takes_leaf = leaf < count && (node >= made || weight[leaf] <= weight[node]);
+      int taken = takes_leaf ? leaf++ : node++;
+      weight[made] += weight[taken];
+      parent[taken] = made;
+    }
+  }
+  depth[2 * count - 2] = 0;
+  for (int i = 2 * count - 3; i >= 0; i--) {
+    int level = depth[parent[i]] + 1;
+    depth[i] = (uint8_t)(level < 255 ? level : 255);
+    deepest = level > deepest ? level : deepest;
+  }
+  memcpy(depths, depth, (size_t)count);
+  return deepest;
+}
+
+typedef struct level {
+  int count;
+  uint64_t weight[2 * CS_HUFFMAN_SYMBOLS];
+  bool is_leaf[2 * CS_HUFFMAN_SYMBOLS];
+} level;
+
+static void merge_level(level *next, const level *before, const leaves *sorted) {
+  int packages = before->count / 2, package = 0, leaf = 0;
+  next->count = sorted->count + packages;
+  for (int i = 0; i < next->count; i++) {
+    uint64_t pair = package < packages
+                        ? before->weight[2 * package] + before->weight[2 * package + 1]
+                        : UINT64_MAX;
+    next->is_leaf[i] = leaf < sorted->count && sorted->weight[leaf] <= pair;
+    next->weight[i] = next->is_leaf[i] ? sorted->weight[leaf++] : pair;
+    package += !next->is_leaf[i];
+  }
+}
+
+static void package_merge(const leaves *sorted, int limit, uint8_t *lengths) {
+  level levels[CS_HUFFMAN_LIMIT + 1];
+  levels[0].count = 0;
+  for (int i = 1; i <= limit; i++)
+    merge_level(&levels[i], &levels[i - 1], sorted);
+  int taken = 2 * sorted->count - 2;
+  for (int i = limit; i > 0; i--) {
+    int leaf = 0;
+    for (int item = 0; item < taken; item++)
+      if (levels[i].is_leaf[item])
+        lengths[sorted->symbol[leaf++]]++;
+    taken = 2 * (taken - leaf);
+  }
+}
+
+void cs_deflate_huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *lengths) {
+  leaves sorted;
+  uint8_t depths[CS_HUFFMAN_SYMBOLS];
+  memset(lengths, 0, (size_t)symbols);
+  sort_leaves(&sorted, counts, symbols);
+  if (sorted.count == 1)
+    lengths[sorted.symbol[0]] = 1;
+  if (sorted.count < 2)
+    return;
+  if (huffman_depths(&sorted, depths) > limit)
+    package_merge(&sorted, limit, lengths);
+  else
+    for (int i = 0; i < sorted.count; i++)
+      lengths[sorted.symbol[i]] = depths[i];
+}
+
+static uint16_t reverse_bits(unsigned code, int length) {
+  unsigned reversed = 0;
+  for (int bit = 0; bit < length; bit++)
+    reversed |= (code >> bit & 1) << (length - 1 - bit);
+  return (uint16_t)reversed;
+}
+
+void cs_deflate_huffman_codes(const uint8_t *lengths, int symbols, uint16_t *codes) {
+  unsigned next[CS_HUFFMAN_LIMIT + 1], count[CS_HUFFMAN_LIMIT + 1] = {0}, code = 0;
+  for (int symbol = 0; symbol < symbols; symbol++)
+    count[lengths[symbol]]++;
+  for (int length = 1; length <= CS_HUFFMAN_LIMIT; length++) {
+    next[length] = code;
+    code = (code + count[length]) << 1;
+  }
+  for (int symbol = 0; symbol < symbols; symbol++)
+    if (lengths[symbol] > 0)
+      codes[symbol] = reverse_bits(next[lengths[symbol]]++, lengths[symbol]);
+}

@@ -1,0 +1,47 @@
+/* Lines weighed along y: the sums of many floats that stand beside each other. */
+#include "defocus/edges.h"
+
+#define TOGETHER 4 /* registers */
+#define SAME 1e-6f /* of a value */
+
+/* Sums of equal values miss them by some last bits: what is as near to one of them is that one. */
+static inline cs_wide settle(cs_wide sum, cs_wide centre) {
+  cs_wide away = sum - centre;
+  cs_wide slack = SAME * cs_wide_choose(centre < 0, -centre, centre);
+  return cs_wide_choose((away <= slack) & (away >= -slack), centre, sum);
+}
+
+static inline void weigh(const float *const *lines, const float *weights, int32_t pairs, int32_t at,
+                         int32_t count, float *nodes) {
+  cs_wide sum[TOGETHER] = {{0}};
+  for (int32_t k = pairs - 1; k >= 0; k--) {
+    const float *above = lines[2 * k] + at, *below = lines[2 * k + 1] + at;
+    cs_wide weight = cs_wide_all(weights[k]);
+    for (int j = 0; j < count; j++)
+      sum[j] += weight *
+                (cs_wide_load(above + j * CS_WIDE_LANES) + cs_wide_load(below + j * CS_WIDE_LANES));
+  }
+  for (int j = 0; j < count; j++)
+    cs_wide_store(nodes + at + j * CS_WIDE_LANES,
+                  settle(sum[j], cs_wide_load(lines[0] + at + j * CS_WIDE_LANES)));
+}
+
+/* One float, by the same steps. */
+static float weigh_one(const float *const *lines, const float *weights, int32_t pairs, int32_t at) {
+  float sum = 0, centre = lines[0][at];
+  for (int32_t k = pairs - 1; k >= 0; k--)
+    sum += weights[k] * (lines[2 * k][at] + lines[2 * k + 1][at]);
+  float away = sum - centre, slack = SAME * (centre < 0 ? -centre : centre);
+  return away <= slack && away >= -slack ? centre : sum;
+}
+
+void CS_WIDE(cs_defocus_edges_weigh)(const float *const *lines, const float *weights, int32_t pairs,
+                                     int32_t first, int32_t end, float *nodes) {
+  int32_t at = first, step = TOGETHER * CS_WIDE_LANES;
+  for (; at + step <= end; at += step)
+    weigh(lines, weights, pairs, at, TOGETHER, nodes);
+  for (; at + CS_WIDE_LANES <= end; at += CS_WIDE_LANES)
+    weigh(lines, weights, pairs, at, 1, nodes);
+  for (; at < end; at++)
+    nodes[at] = weigh_one(lines, weights, pairs, at);
+}

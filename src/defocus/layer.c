@@ -1,0 +1,213 @@
+#include "defocus/layer.h"
+
+#include "base/number.h"
+#include "render/compile.h"
+
+#include <math.h>
+
+#define LEAST_RADIUS (1.0 / 64) /* pixels; blur below it does not tell */
+/* Up to SHARP pixels of radius a layer is averaged over each pixel besides; from SMOOTH on it is
+ * smooth at their scale, and its value at the centre is shown. */
+#define SHARP 0.5
+#define SMOOTH 2.0
+
+static const celspan_cel *cel_of(const cs_defocus_place *place) {
+  return place->rostrum->cels[place->index];
+}
+
+/* ---------------------------------------------------------------- the kernel */
+
+/* The cel's kernel in pixels of the frame. */
+static cs_blur find_blur(const cs_defocus_place *place) {
+  celspan_matrix camera = cs_scene_camera(place->rostrum, place->film_width, place->film_height);
+  celspan_matrix map = celspan_matrix_then(camera, place->to_pixels);
+  const double *m = map.m;
+  double radius = cel_of(place)->defocus_radius;
+  cs_blur blur = {.kind = cel_of(place)->defocus_kernel,
+                  .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
+                  .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
+                  .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
+  double least = fmin(blur.radius_x, blur.radius_y);
+  if (place->is_antialiased)
+    blur.blur = cs_number_clamp((SMOOTH - least) / (SMOOTH - SHARP), 0, 1);
+  return blur;
+}
+
+bool cs_defocus_layer_is_soft(const cs_defocus_place *place) {
+  if (!(cel_of(place)->defocus_radius > 0))
+    return false;
+  cs_blur blur = find_blur(place);
+  return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
+}
+
+/* How far it reaches along an axis, pixels. */
+static double reach(const cs_blur *blur, int axis) {
+  if (blur->kind == CELSPAN_DEFOCUS_BOX)
+    return fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
+  double radius = axis == 0 ? blur->radius_x : blur->radius_y;
+  return blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius;
+}
+
+/* ---------------------------------------------------------------- where it can be seen */
+
+/* The art's box on the frame, pixels. */
+static bool find_art(const cs_defocus_place *place, cs_boundary_frame *out) {
+  const celspan_cel *cel = cel_of(place);
+  celspan_box box;
+  if (!celspan_cel_bounds(cel, &box))
+    return false;
+  celspan_matrix view = celspan_matrix_then(
+      cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
+  *out = (cs_boundary_frame){INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (int corner = 0; corner < 4; corner++) {
+    cs_hpoint p = cs_matrix_apply(&view, (cs_hpoint){box.x + (corner & 1 ? box.width : 0),
+                                                     box.y + (corner & 2 ? box.height : 0), 1});
+    out->left = fmin(out->left, p.x / p.w);
+    out->right = fmax(out->right, p.x / p.w);
+    out->top = fmin(out->top, p.y / p.w);
+    out->bottom = fmax(out->bottom, p.y / p.w);
+  }
+  return true;
+}
+
+/* The art's box grown by the kernel and by what lies between nodes, in whole pixels, cut to what
+ * can be seen. */
+static bool find_box(const cs_defocus_place *place, const cs_blur *blur, const cs_defocused *soft,
+                     cs_boundary_frame *out) {
+  cs_boundary_frame art;
+  if (!find_art(place, &art))
+    return false;
+  double grow_x = reach(blur, 0) + 2 * soft->pitch_x + 1;
+  double grow_y = reach(blur, 1) + 2 * soft->pitch_y + 1;
+  out->left = fmax(floor(art.left - grow_x), place->frame.left);
+  out->right = fmin(ceil(art.right + grow_x), place->frame.right);
+  out->top = fmax(floor(art.top - grow_y), place->frame.top);
+  out->bottom = fmin(ceil(art.bottom + grow_y), place->frame.bottom);
+  return out->left < out->right && out->top < out->bottom;
+}
+
+/* ---------------------------------------------------------------- planes */
+
+static bool is_grey(const float t[3]) { return t[0] == t[1] && t[1] == t[2]; }
+
+static bool texture_is_grey(const celspan_texture *texture) {
+  if (texture->kind == CS_TEXTURE_PICTURE)
+    return texture->use == CELSPAN_PICTURE_PAINT;
+  if (texture->kind == CS_TEXTURE_TRIANGLE)
+    return is_grey(texture->corners[0].t) && is_grey(texture->corners[1].t) &&
+           is_grey(texture->corners[2].t);
+  for (size_t i = 0; i < texture->stop_count; i++)
+    if (!is_grey(texture->stops[i].paint.t))
+      return false;
+  return true;
+}
+
+/* Whether the cel lets the three channels through alike, as far as can be told. */
+static bool stack_is_grey(const cs_stack *stack) {
+  if (stack->procedure_count > 0)
+    return false;
+  for (size_t i = 0; i < stack->layer_count; i++) {
+    const cs_layer *layer = &stack->layers[i];
+    const celspan_texture *texture =
+        layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->detail].texture
+        : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->detail].texture
+                                          : NULL;
+    const float t[3] = {layer->t[0], layer->t[1], layer->t[2]};
+    if (texture ? !texture_is_grey(texture) : !is_grey(t))
+      return false;
+  }
+  return true;
+}
+
+static bool object_varies(const celspan_object *object) {
+  const cs_primitive_data *body = object->body;
+  if (body->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    return body->texture->kind != CS_TEXTURE_FLAT;
+  for (size_t i = 0; i < body->operand_count; i++)
+    if (object_varies(body->operands[i]))
+      return true;
+  return body->kind == CS_PRIMITIVE_DATA_SCANLINE;
+}
+
+static bool cel_varies(const celspan_cel *cel) {
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (object_varies(cel->objects[i]))
+      return true;
+  return false;
+}
+
+static celspan_status compile_plane(celspan_context *context, const cs_defocus_place *place,
+                                    cs_defocus *soften, int plane) {
+  celspan_matrix matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(soften));
+  cs_kernel *kernel;
+  int32_t width, height;
+  CS_TRY(cs_defocus_kernel(context, soften, &kernel));
+  cs_defocus_raster(soften, &width, &height);
+  return cs_compile_cel(context, cel_of(place), place->index, &matrix, width, height, plane == 1,
+                        kernel, &soften->plans[plane]);
+}
+
+static celspan_status compile_planes(celspan_context *context, const cs_defocus_place *place,
+                                     cs_defocus *soften) {
+  CS_TRY(compile_plane(context, place, soften, 0));
+  soften->soft.planes = 1;
+  if (stack_is_grey(&soften->plans[0].stack))
+    return CELSPAN_OK;
+  CS_TRY(compile_plane(context, place, soften, 1));
+  soften->soft.planes = 2;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the key */
+
+/* All that the nodes depend on. */
+static cs_hash find_key(const cs_defocus_place *place, const cs_blur *blur) {
+  const celspan_cel *cel = cel_of(place);
+  cs_hash hash = cs_hash_begin(0x736f6674u);
+  cs_hash_word(&hash, cel->object_count);
+  for (size_t i = 0; i < cel->object_count; i++)
+    cs_hash_hash(&hash, cel->objects[i]->hash);
+  for (int i = 0; i < 9; i++)
+    cs_hash_number(&hash, place->matrix.m[i]);
+  cs_hash_word(&hash, (uint64_t)place->width);
+  cs_hash_word(&hash, (uint64_t)place->height);
+  cs_hash_word(&hash, blur->kind);
+  cs_hash_number(&hash, blur->radius_x);
+  cs_hash_number(&hash, blur->radius_y);
+  for (int k = 0; k < 4; k++)
+    cs_hash_number(&hash, blur->edges[k / 2][k % 2]);
+  cs_hash_number(&hash, blur->blur);
+  return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- life */
+
+celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_place *place,
+                                       cs_outline *box, cs_defocus **out) {
+  cs_blur blur = find_blur(place);
+  cs_boundary_frame seen;
+  cs_defocus *soften;
+  *out = NULL;
+  CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
+                           &soften));
+  if (!find_box(place, &blur, &soften->soft, &seen)) {
+    cs_defocus_free(soften, context->memory);
+    return CELSPAN_OK;
+  }
+  soften->key = find_key(place, &blur);
+  celspan_status status = compile_planes(context, place, soften);
+  if (status == CELSPAN_OK)
+    status = cs_outline_rect(context, box, seen.left, seen.top, seen.right - seen.left,
+                             seen.bottom - seen.top, 0);
+  if (status == CELSPAN_OK)
+    *out = soften;
+  else
+    cs_defocus_layer_free(soften, context->memory);
+  return status;
+}
+
+void cs_defocus_layer_free(cs_defocus *soften, cs_memory *memory) {
+  cs_compile_free(&soften->plans[0], memory);
+  cs_compile_free(&soften->plans[1], memory);
+  cs_defocus_free(soften, memory);
+}

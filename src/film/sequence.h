@@ -1,0 +1,41 @@
+/* Lists of frames and the names of their files: one grammar for Lua and the command line.
+ *
+ *   list     element {"," element}        spaces are allowed around elements
+ *   element  n | a-b | a-b:step           inclusive; numbers may be negative; step not 0, and
+ *                                         below 0 for ranges that go down
+ *   pattern  shot.####.png or shot.%04d.png: the last run of # in the name, or one %d; padded with
+ *            zeros, growing past its width when the number needs it
+ *
+ * INVARIANT: no frame stands twice in a sequence; the order is the list's own.
+ */
+#ifndef CS_FILM_SEQUENCE_H
+#define CS_FILM_SEQUENCE_H
+
+#include "celspan/celspan.h"
+
+typedef struct cs_sequence {
+  int64_t *frames; /* owned */
+  size_t count;
+} cs_sequence;
+
+/* out: new, for cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_sequence_parse(celspan_context *context, const char *list,
+                                                 cs_sequence *out);
+/* first, first + 1, ... */
+CELSPAN_CHECKED celspan_status cs_sequence_count(celspan_context *context, int64_t first,
+                                                 int64_t count, cs_sequence *out);
+void cs_sequence_finish(cs_sequence *sequence);
+/* BAD_ARGUMENT, naming the frame, when one lies outside first .. first + count - 1. */
+CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
+                                                  const cs_sequence *sequence, int64_t first,
+                                                  int64_t count);
+
+/* Whether the pattern has a place for a number. */
+bool cs_sequence_has_number(const char *pattern);
+/* Whether the name, without a folder, may be that of a frame of the pattern. */
+bool cs_sequence_matches(const char *pattern, const char *name);
+/* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into size. */
+CELSPAN_CHECKED celspan_status cs_sequence_name(celspan_context *context, const char *pattern,
+                                                int64_t frame, char *name, size_t size);
+
+#endif

@@ -1,0 +1,298 @@
+#include "kernel/convolve.h"
+
+#include "base/number.h"
+
+#include <math.h>
+
+#define NOTHING 1e-9 /* weights and colours below this are rounding */
+
+/* ---------------------------------------------------------------- life */
+
+/* A stretch parts few columns more than the kernel does. */
+static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
+
+celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
+                                const cs_kernel *kernel, int32_t width) {
+  cs_memory *memory = context->memory;
+  size_t columns = (size_t)width;
+  *convolve = (cs_convolve){.kernel = kernel, .width = width};
+  convolve->changes = cs_mem_array(memory, columns, sizeof *convolve->changes);
+  convolve->touched = cs_mem_array(memory, cs_convolve_words(width), sizeof *convolve->touched);
+  convolve->shifts_at = cs_mem_array(memory, columns, sizeof *convolve->shifts_at);
+  bool is_whole = convolve->changes && convolve->touched && convolve->shifts_at;
+  convolve->values = cs_mem_array(memory, columns, sizeof *convolve->values);
+  is_whole = is_whole && convolve->values;
+  if (kernel->shape != CS_KERNEL_SEPARABLE) {
+    convolve->slopes = cs_mem_array(memory, columns, sizeof *convolve->slopes);
+    is_whole = is_whole && convolve->slopes;
+  } else {
+    convolve->sums = cs_mem_array(memory, sum_count(kernel), sizeof *convolve->sums);
+    is_whole = is_whole && convolve->sums;
+  }
+  if (kernel->is_signed) {
+    convolve->passages_at = cs_mem_array(memory, columns, sizeof *convolve->passages_at);
+    convolve->near = cs_mem_array(memory, columns, sizeof *convolve->near);
+    is_whole = is_whole && convolve->passages_at && convolve->near;
+  }
+  return is_whole ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
+  if (!convolve->kernel)
+    return; /* it was never begun */
+  size_t columns = (size_t)convolve->width;
+  cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
+  cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
+  cs_mem_free(memory, convolve->values, columns * sizeof *convolve->values);
+  cs_mem_free(memory, convolve->sums, sum_count(convolve->kernel) * sizeof *convolve->sums);
+  cs_mem_free(memory, convolve->touched, cs_convolve_words(convolve->width) * sizeof(uint64_t));
+  cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
+  cs_mem_free(memory, convolve->passages_at, columns * sizeof(uint32_t));
+  cs_mem_free(memory, convolve->near, columns * sizeof *convolve->near);
+  cs_mem_free(memory, convolve->looks, convolve->look_capacity * sizeof *convolve->looks);
+  cs_mem_free(memory, convolve->shifts, convolve->shift_capacity * sizeof *convolve->shifts);
+  cs_mem_free(memory, convolve->passeds, convolve->passage_capacity * sizeof *convolve->passeds);
+  cs_mem_free(memory, convolve->sub_rows, convolve->slab_capacity * sizeof *convolve->sub_rows);
+  cs_mem_free(memory, convolve->ranges, convolve->range_capacity * sizeof *convolve->ranges);
+  *convolve = (cs_convolve){0};
+}
+
+/* ---------------------------------------------------------------- summing */
+
+/* Slabs beyond the kernel are left out as those that vary are. */
+static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *context,
+                                  const cs_retained_row *const *retained_rows, size_t rows,
+                                  int32_t y) {
+  size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
+  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->slab_capacity, count,
+                        sizeof *convolve->sub_rows));
+  CS_TRY(cs_mem_reserve(context, (void **)&convolve->ranges, &convolve->range_capacity,
+                        count / CS_CONVOLVE_SUB_ROWS, sizeof *convolve->ranges));
+  for (size_t i = 0; i < count / CS_CONVOLVE_SUB_ROWS; i++)
+    convolve->ranges[i] = (cs_convolve_range){retained_rows[0]->base, retained_rows[0]->base};
+  for (size_t i = 0; i < count; i++) {
+    double height = retained_rows[i / CS_CONVOLVE_SUB_ROWS]->row +
+                    ((double)(i % CS_CONVOLVE_SUB_ROWS) + 0.5) / CS_CONVOLVE_SUB_ROWS;
+    cs_convolve_sub_row *sub_row = &convolve->sub_rows[i];
+    sub_row->varies = fabs(height - (y + 0.5)) >= convolve->kernel->radius_y;
+    sub_row->colour = cs_v4_wide(retained_rows[0]->base);
+  }
+  return CELSPAN_OK;
+}
+
+typedef struct summing {
+  cs_convolve *convolve;
+  cs_composer *composer;
+  cs_row *out;
+  double y;                /* centre */
+  size_t rows;             /* under the kernel */
+  int32_t at;              /* the column that was reached, */
+  double sum[4];           /* the flat colours, weighed, there, */
+  double slope[4];         /* and their change from column to column after it */
+  cs_v4 here;              /* what is seen at it besides */
+  size_t varying;          /* looks whose weight is not nothing */
+  cs_convolve_range range; /* of what lies under the kernel, but near pieces */
+} summing;
+
+/* Sums of floats times weights that make 1: rounding beyond the 40th bit is dropped, so that what
+ * began as one colour ends as that colour. */
+static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
+
+/* The range of what is seen at the heights of a row. */
+static void see_row(cs_convolve *convolve, size_t row) {
+  cs_convolve_range range = cs_convolve_nothing();
+  const cs_convolve_sub_row *sub_row = &convolve->sub_rows[row * CS_CONVOLVE_SUB_ROWS];
+  for (int i = 0; i < CS_CONVOLVE_SUB_ROWS; i++)
+    if (sub_row[i].varies <= 0)
+      cs_convolve_widen(&range, cs_v4_narrow(sub_row[i].colour));
+  convolve->ranges[row] = range;
+}
+
+static void see_rows(summing *s) {
+  s->range = s->convolve->ranges[0];
+  for (size_t row = 1; row < s->rows; row++)
+    s->range = cs_convolve_both(s->range, s->convolve->ranges[row]);
+}
+
+static void pass_piece(cs_convolve *convolve, const cs_convolve_passed *passed) {
+  for (int k = passed->sub_row; k < passed->slab_end; k++) {
+    cs_convolve_sub_row *sub_row =
+        &convolve->sub_rows[passed->row * CS_CONVOLVE_SUB_ROWS + (size_t)k];
+    sub_row->varies += passed->varies;
+    sub_row->colour = cs_v4d_add(sub_row->colour, passed->step);
+  }
+}
+
+/* Passages of a row stand together in a list. */
+static void pass_pieces(summing *s, int32_t p) {
+  cs_convolve *convolve = s->convolve;
+  for (uint32_t at = convolve->passages_at[p]; at != 0;) {
+    const cs_convolve_passed *passed = &convolve->passeds[at - 1];
+    pass_piece(convolve, passed);
+    at = passed->next;
+    if (at == 0 || convolve->passeds[at - 1].row != passed->row)
+      see_row(convolve, passed->row);
+  }
+  see_rows(s);
+}
+
+static void reach_column(summing *s, int32_t p) {
+  cs_convolve *convolve = s->convolve;
+  for (int c = 0; c < 4; c++) {
+    s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
+    s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
+  }
+  s->here = convolve->values[p];
+  s->at = p;
+  for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
+    const cs_convolve_shift *shift = &convolve->shifts[at - 1];
+    double *weight = &convolve->looks[shift->look].weight;
+    s->varying -= fabs(*weight) > NOTHING;
+    *weight += shift->weight;
+    s->varying += fabs(*weight) > NOTHING;
+  }
+  if (convolve->kernel->is_signed && convolve->passages_at[p] != 0)
+    pass_pieces(s, p);
+}
+
+static cs_v4 hold(cs_v4 colour, cs_convolve_range range) {
+  for (int c = 0; c < 4; c++)
+    colour[c] = cs_number_clampf(colour[c], range.least[c], range.most[c]);
+  return colour;
+}
+
+static cs_v4 flat_sum(const summing *s, int32_t x) {
+  cs_v4 colour;
+  for (int c = 0; c < 4; c++)
+    colour[c] = (float)tidy(s->sum[c] + s->slope[c] * (x - s->at));
+  return colour + s->here;
+}
+
+static cs_v4 flat_slope(const summing *s) {
+  cs_v4 slope;
+  for (int c = 0; c < 4; c++)
+    slope[c] = (float)tidy(s->slope[c]);
+  return slope;
+}
+
+static cs_v4 hold_alpha(cs_v4 colour) {
+  colour[3] = cs_number_clampf(colour[3], 0, 1);
+  return colour;
+}
+
+/* Adds a look, in its weight, to what the columns from x0 on have so far. */
+static celspan_status add_look(summing *s, const cs_convolve_term *look, int32_t x0, int32_t x1,
+                               cs_v4 *colours, cs_convolve_range *ranges) {
+  float rgba[64][4];
+  for (int32_t x = x0; x < x1; x += 64) {
+    int32_t end = x1 - x < 64 ? x1 : x + 64;
+    CS_TRY(cs_composer_program_colours(s->composer, look->program, x, end, s->y, rgba));
+    for (int32_t k = x; k < end; k++) {
+      cs_v4 colour = cs_v4_load(rgba[k - x]);
+      colours[k - x0] += (float)look->weight * colour;
+      cs_convolve_widen(&ranges[k - x0], colour);
+    }
+  }
+  return CELSPAN_OK;
+}
+
+#define MIXED 64 /* columns mixed at a time */
+
+/* Up to MIXED columns in which layers that vary are seen with some weight. */
+static celspan_status mix_batch(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
+                                float *out) {
+  cs_convolve *convolve = s->convolve;
+  cs_v4 colours[MIXED];
+  cs_convolve_range ranges[MIXED];
+  for (int32_t k = 0; k < x1 - x0; k++) {
+    colours[k] = flat_sum(s, x0 + k);
+    ranges[k] = range;
+  }
+  for (size_t i = 0; i < convolve->look_count; i++)
+    if (fabs(convolve->looks[i].weight) > NOTHING)
+      CS_TRY(add_look(s, &convolve->looks[i], x0, x1, colours, ranges));
+  for (int32_t k = 0; k < x1 - x0; k++) {
+    cs_v4 colour = convolve->kernel->is_signed ? hold(colours[k], ranges[k]) : colours[k];
+    cs_v4_store(out + 4 * (size_t)k, hold_alpha(colour));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range range) {
+  float *colours;
+  CS_TRY(cs_row_array(s->composer->context, s->out, x0, x1, &colours));
+  for (int32_t x = x0; x < x1; x += MIXED) {
+    int32_t end = x1 - x < MIXED ? x1 : x + MIXED;
+    CS_TRY(mix_batch(s, x, end, range, colours + 4 * (size_t)(x - x0)));
+  }
+  return CELSPAN_OK;
+}
+
+/* The one program that is seen, and nothing else; or NULL. */
+static const cs_program *lone_program(const summing *s) {
+  if (s->varying != 1)
+    return NULL;
+  for (int c = 0; c < 4; c++)
+    if (fabs(s->sum[c]) > NOTHING || fabs(s->slope[c]) > NOTHING)
+      return NULL;
+  for (size_t i = 0; i < s->convolve->look_count; i++)
+    if (fabs(s->convolve->looks[i].weight - 1) <= NOTHING)
+      return s->convolve->looks[i].program;
+  return NULL;
+}
+
+/* The columns [x0, x1), after x0 nothing changes but by its slope. */
+static celspan_status write(summing *s, int32_t x0, int32_t x1) {
+  const cs_convolve *convolve = s->convolve;
+  cs_convolve_range range = s->range;
+  if (convolve->kernel->is_signed)
+    range = cs_convolve_both(range, convolve->near[x0]);
+  const cs_program *program = lone_program(s);
+  if (program)
+    return cs_composer_run_program(s->composer, program, x0, x1, s->y, s->out);
+  if (s->varying > 0)
+    return mix(s, x0, x1, range);
+  cs_v4 colour = flat_sum(s, x0);
+  if (convolve->kernel->is_signed)
+    colour = hold(colour, range);
+  return cs_row_gradient(s->composer->context, s->out, x0, x1, hold_alpha(colour), flat_slope(s));
+}
+
+static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
+  if (p >= convolve->width)
+    return convolve->width;
+  size_t word = (size_t)p / 64, words = cs_convolve_words(convolve->width);
+  uint64_t bits = convolve->touched[word] & (~(uint64_t)0 << (p % 64));
+  while (bits == 0 && ++word < words)
+    bits = convolve->touched[word];
+  return bits == 0 ? convolve->width : (int32_t)(word * 64) + __builtin_ctzll(bits);
+}
+
+static celspan_status sum_row(summing *s) {
+  int32_t width = s->convolve->width;
+  for (int32_t p = 0; p < width;) {
+    int32_t next = next_touched(s->convolve, p + 1);
+    reach_column(s, p);
+    CS_TRY(write(s, p, next));
+    p = next;
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
+                               const cs_retained_row *const *retained_rows, size_t count, int32_t y,
+                               cs_row *out) {
+  CS_TRY(begin_slabs(convolve, composer->context, retained_rows, count, y));
+  CS_TRY(cs_convolve_scatter(convolve, composer, retained_rows, count, y));
+  summing s = {.convolve = convolve,
+               .composer = composer,
+               .out = out,
+               .y = y + 0.5,
+               .rows = count,
+               .range = cs_convolve_nothing()};
+  for (int c = 0; c < 4; c++)
+    s.sum[c] = (double)retained_rows[0]->base[c];
+  if (convolve->kernel->is_signed)
+    see_rows(&s);
+  return sum_row(&s);
+}

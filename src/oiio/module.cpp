@@ -1,0 +1,34 @@
+#include <mutex>
+
+#include "oiio/shared.h"
+
+void prepare_library() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", -1);
+    OIIO::attribute("plugin_searchpath", "");
+    /* Sizes are held to celspan's own limits; the library's would refuse what is read in strips. */
+    OIIO::attribute("limits:imagesize_MB", 0);
+    OIIO::attribute("limits:channels", CS_PICTURE_CHANNELS);
+  });
+}
+
+std::string first_line(const std::string &message) {
+  std::string line = message.substr(0, message.find('\n'));
+  while (!line.empty() && (line.back() == ' ' || line.back() == '\r' || line.back() == '.'))
+    line.pop_back();
+  return line.empty() ? "no reason was given" : line;
+}
+
+const void *celspan_picture_module(void) {
+  static const cs_picture_module table = {CS_PICTURE_MODULE_VERSION,
+                                          open_reader,
+                                          read_reader,
+                                          close_reader,
+                                          open_writer,
+                                          write_writer,
+                                          close_writer,
+                                          abandon_writer};
+  return &table;
+}

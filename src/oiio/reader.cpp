@@ -1,0 +1,505 @@
+/* Reading: header to facts, rectangles to RGBA floats.
+ *
+ *   file --Source--> ImageInput --rows or tiles--> channels chosen, window laid, turned upright
+ *
+ * One file, because a header's facts and the reading of rectangles share what they know of channels,
+ * windows and turns.
+ */
+#include <OpenImageIO/color.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "oiio/shared.h"
+#include "oiio/sniff.h"
+#include "oiio/source.h"
+
+using OIIO::ImageInput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+/* Bytes of decoded pixels held at a time. */
+static const size_t BATCH = size_t(4) << 20;
+/* Pixels of a picture whose reader keeps it whole in memory. */
+static const uint64_t WHOLE = uint64_t(1) << 28;
+
+struct cs_picture_reader {
+  std::string name;
+  std::unique_ptr<Source> source;
+  std::unique_ptr<ImageInput> input;
+  Sniffed kind;
+  ImageSpec spec;
+  int subimage = 0;
+  int channel[4];                  /* of the file, for red, green, blue, alpha; alpha -1: none */
+  int first, last;                 /* the span of channels that is read */
+  int orientation;                 /* TIFF's: 1 upright .. 8 */
+  int data_x, data_y;              /* the data window, from the display window's corner */
+  int stored_width, stored_height; /* the display window as stored, before turning */
+  int next_row = 0;                /* of the data window, for sequential formats */
+  OIIO::ColorProcessorHandle processor;
+  std::vector<float> batch, line;
+};
+
+namespace {
+
+void check_size(uint64_t width, uint64_t height, bool is_whole) {
+  if (width < 1 || height < 1)
+    throw Failure(CELSPAN_INPUT, "is a picture without pixels");
+  std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (width > CS_PICTURE_SIDE || height > CS_PICTURE_SIDE)
+    throw Failure(CELSPAN_LIMIT, "is " + size + " pixels; at most 1048576 a side are read");
+  if (is_whole && width * height > WHOLE)
+    throw Failure(CELSPAN_LIMIT, "is " + size +
+                                     " pixels in a format that can only be read whole; at "
+                                     "most 268435456 pixels are");
+}
+
+/* Readers of some formats have races in what they share, so one is opened at a time. */
+std::mutex &opening() {
+  static std::mutex lock;
+  return lock;
+}
+
+[[noreturn]] void fail_input(const std::string &what, const std::string &message) {
+  throw Failure(CELSPAN_INPUT, what + ": " + first_line(message));
+}
+
+void open_input(cs_picture_reader &reader) {
+  std::lock_guard<std::mutex> guard(opening());
+  reader.source->forgive();
+  reader.source->seek(0);
+  reader.next_row = 0;
+  reader.input = ImageInput::create(reader.kind.format);
+  if (!reader.input)
+    fail_input("cannot be read as " + reader.kind.format, OIIO::geterror());
+  ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);
+  /* The JPEG reader says it takes a source like any other, and refuses it when it comes. */
+  if (reader.input->supports("ioproxy") && reader.kind.format != "jpeg") {
+    void *proxy = reader.source.get();
+    wish.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
+  }
+  ImageSpec spec;
+  if (!reader.input->open(reader.name, spec, wish))
+    fail_input("cannot be read as " + reader.kind.format, reader.input->geterror());
+  if (reader.subimage && !reader.input->seek_subimage(reader.subimage, 0))
+    throw Failure(CELSPAN_INPUT, "has no subimage " + std::to_string(reader.subimage));
+  reader.spec = reader.input->spec(reader.subimage);
+}
+
+/* JPEG's library pads a cut file with grey and calls it a success. */
+void check_jpeg_end(Source &source) {
+  std::vector<unsigned char> tail(std::min<size_t>(source.size(), 1 << 16));
+  tail.resize(source.pread(tail.data(), tail.size(), int64_t(source.size() - tail.size())));
+  for (size_t i = tail.size(); i-- > 1;)
+    if (tail[i] == 0xd9 && tail[i - 1] == 0xff)
+      return;
+  throw Failure(CELSPAN_INPUT, "is truncated: the end of the picture is missing");
+}
+
+/* Film readers take what is missing for black. The header says how long the file is. */
+void check_film_end(Source &source, const std::string &format) {
+  unsigned char head[24] = {0};
+  source.pread(head, sizeof head, 0);
+  bool is_big = head[0] == 'S' || head[0] == 0x80;
+  const unsigned char *at = head + (format == "dpx" ? 16 : 20);
+  uint64_t size = 0;
+  for (int i = 0; i < 4; i++)
+    size = size << 8 | at[is_big ? i : 3 - i];
+  if (size != 0xffffffff && source.size() < size)
+    throw Failure(CELSPAN_INPUT, "is truncated: it has " + std::to_string(source.size()) +
+                                     " of the " + std::to_string(size) + " bytes it tells of");
+}
+
+int find_channel(const ImageSpec &spec, const std::string &prefix, const char *name) {
+  for (int i = 0; i < spec.nchannels; i++)
+    if (OIIO::Strutil::iequals(spec.channelnames[size_t(i)], prefix + name))
+      return i;
+  return -1;
+}
+
+/* prefix: "" or "layer."; false when the picture has no such channels. */
+bool choose_channels(cs_picture_reader &reader, const std::string &prefix) {
+  const ImageSpec &spec = reader.spec;
+  static const char *const names[4] = {"R", "G", "B", "A"};
+  int found[4];
+  for (int i = 0; i < 4; i++)
+    found[i] = find_channel(spec, prefix, names[i]);
+  int grey = find_channel(spec, prefix, "Y");
+  if (found[0] >= 0 && found[1] >= 0 && found[2] >= 0) {
+    std::copy(found, found + 3, reader.channel);
+  } else if (grey >= 0) {
+    std::fill(reader.channel, reader.channel + 3, grey);
+  } else if (prefix.empty()) {
+    bool has_colour = spec.nchannels >= 3;
+    for (int i = 0; i < 3; i++)
+      reader.channel[i] = has_colour ? i : 0;
+  } else {
+    return false;
+  }
+  reader.channel[3] = found[3];
+  if (found[3] < 0 && prefix.empty() && (spec.nchannels == 2 || spec.nchannels == 4) &&
+      spec.alpha_channel == spec.nchannels - 1)
+    reader.channel[3] = spec.alpha_channel;
+  auto bounds = std::minmax_element(reader.channel, reader.channel + 3);
+  reader.first = *bounds.first;
+  reader.last = *bounds.second + 1;
+  if (reader.channel[3] >= 0) {
+    reader.first = std::min(reader.first, reader.channel[3]);
+    reader.last = std::max(reader.last, reader.channel[3] + 1);
+  }
+  return true;
+}
+
+bool choose_subimage(cs_picture_reader &reader, const std::string &layer) {
+  for (int i = 0; i < 10000; i++) {
+    ImageSpec spec = reader.input->spec(i);
+    if (spec.undefined())
+      return false;
+    for (const char *key : {"oiio:subimagename", "name", "psd:LayerName", "ImageDescription"})
+      if (layer == spec.get_string_attribute(key).c_str()) {
+        reader.subimage = i;
+        return true;
+      }
+  }
+  return false;
+}
+
+void choose_part(cs_picture_reader &reader, const cs_picture_request &request) {
+  if (request.layer) {
+    if (choose_subimage(reader, request.layer)) {
+      if (!reader.input->seek_subimage(reader.subimage, 0))
+        fail_input("its layer cannot be read", reader.input->geterror());
+      reader.spec = reader.input->spec(reader.subimage);
+    } else if (choose_channels(reader, std::string(request.layer) + ".")) {
+      return;
+    } else {
+      throw Failure(CELSPAN_INPUT, std::string("has no layer \"") + request.layer + "\"");
+    }
+  }
+  choose_channels(reader, "");
+}
+
+/* The display window: what the header calls it; of a PSD layer that of the whole picture. The data
+ * window lies in it, over its edges or outside. */
+void choose_window(cs_picture_reader &reader) {
+  const ImageSpec &spec = reader.spec;
+  const std::string &format = reader.kind.format;
+  int64_t left = 0, top = 0;
+  reader.stored_width = spec.width;
+  reader.stored_height = spec.height;
+  if (format == "openexr" && spec.full_width > 0 && spec.full_height > 0) {
+    reader.stored_width = spec.full_width;
+    reader.stored_height = spec.full_height;
+    left = int64_t(spec.x) - spec.full_x;
+    top = int64_t(spec.y) - spec.full_y;
+  } else if (format == "psd") {
+    ImageSpec whole = reader.input->spec(0);
+    reader.stored_width = whole.width;
+    reader.stored_height = whole.height;
+    left = spec.x;
+    top = spec.y;
+  }
+  if (std::max(std::abs(left), std::abs(top)) > (int64_t(1) << 30))
+    throw Failure(CELSPAN_INPUT, "has a data window too far from its display window");
+  reader.data_x = int(left);
+  reader.data_y = int(top);
+  int orientation = spec.get_int_attribute("Orientation", 1);
+  reader.orientation = orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+bool is_transposed(const cs_picture_reader &reader) { return reader.orientation >= 5; }
+
+/* Film scans name their transfer in the header; what they leave open is taken for film when it has
+ * ten bits. */
+const char *film_colour(const ImageSpec &spec) {
+  std::string transfer = spec.get_string_attribute("dpx:Transfer").c_str();
+  if (transfer == "Linear")
+    return "linear";
+  if (transfer == "SMPTE 274M" || transfer.find("709") != std::string::npos ||
+      transfer.find("601") != std::string::npos)
+    return "rec709";
+  bool is_log = transfer == "Printing density" || transfer == "Logarithmic";
+  return is_log || spec.get_int_attribute("oiio:BitsPerSample") == 10 ? "cineon" : "srgb";
+}
+
+const char *default_colour(const cs_picture_reader &reader) {
+  if (reader.kind.format == "cineon")
+    return "cineon";
+  if (reader.kind.format == "dpx")
+    return film_colour(reader.spec);
+  return reader.spec.format.is_floating_point() ? "linear" : "srgb";
+}
+
+/* Formats that hold straight alpha are asked for it as it is; these readers multiply all the same,
+ * or hold multiplied values. */
+bool is_multiplied(const cs_picture_reader &reader) {
+  if (reader.channel[3] < 0 || reader.spec.get_int_attribute("oiio:UnassociatedAlpha") == 1)
+    return false;
+  const std::string &format = reader.kind.format;
+  return format == "openexr" || format == "tiff" || format == "webp" || format == "dpx";
+}
+
+int coded_bits(const ImageSpec &spec) {
+  if (spec.format == TypeDesc::UINT8)
+    return 8;
+  if (spec.format != TypeDesc::UINT16)
+    return 0;
+  int bits = spec.get_int_attribute("oiio:BitsPerSample", 16);
+  return bits > 8 && bits < 16 ? bits : 16;
+}
+
+void describe(const cs_picture_reader &reader, cs_picture_header *header) {
+  const ImageSpec &spec = reader.spec;
+  *header = {};
+  header->info.width = is_transposed(reader) ? reader.stored_height : reader.stored_width;
+  header->info.height = is_transposed(reader) ? reader.stored_width : reader.stored_height;
+  header->info.channels = spec.nchannels;
+  header->info.has_alpha = reader.channel[3] >= 0;
+  header->info.is_float = spec.format.is_floating_point();
+  snprintf(header->info.format, sizeof header->info.format, "%s", reader.kind.format.c_str());
+  snprintf(header->info.colour, sizeof header->info.colour, "%s", default_colour(reader));
+  header->alpha = is_multiplied(reader) ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT;
+  header->bits = coded_bits(spec);
+  header->is_linear = reader.processor != nullptr;
+  header->is_turned = reader.orientation != 1;
+  header->is_whole = reader.kind.is_whole;
+  header->is_sequential = reader.kind.is_sequential;
+  const struct stat &status = reader.source->status();
+  header->file_size = int64_t(status.st_size);
+  header->file_time = int64_t(status.st_mtim.tv_sec) * 1000000000 + status.st_mtim.tv_nsec;
+  header->file_number = uint64_t(status.st_ino);
+}
+
+void choose_space(cs_picture_reader &reader, const char *space) {
+  if (!space)
+    return;
+  if (!getenv("OCIO"))
+    throw Failure(
+        CELSPAN_BAD_ARGUMENT,
+        std::string("colour \"") + space +
+            "\" is not known; \"srgb\", \"linear\", "
+            "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
+            "when the environment variable OCIO names one");
+  static const OIIO::ColorConfig config;
+  reader.processor = config.createColorProcessor(space, "scene_linear");
+  if (!reader.processor)
+    throw Failure(CELSPAN_BAD_ARGUMENT, std::string("colour \"") + space +
+                                            "\" is not a space of the OpenColorIO configuration");
+}
+
+/* Rows y0..y1 of the data window, columns x0..x1, the chosen channels, into `out`. */
+void read_rows(cs_picture_reader &reader, int x0, int x1, int y0, int y1, float *out) {
+  const ImageSpec &spec = reader.spec;
+  size_t channels = size_t(reader.last - reader.first);
+  bool is_good;
+  if (spec.tile_width > 0) {
+    is_good = reader.input->read_tiles(reader.subimage, 0, spec.x + x0, spec.x + x1, spec.y + y0,
+                                       spec.y + y1, spec.z, spec.z + 1, reader.first, reader.last,
+                                       TypeDesc::FLOAT, out);
+  } else {
+    size_t row = size_t(spec.width) * channels;
+    reader.line.resize(row * size_t(y1 - y0));
+    is_good = reader.input->read_scanlines(reader.subimage, 0, spec.y + y0, spec.y + y1, spec.z,
+                                           reader.first, reader.last, TypeDesc::FLOAT,
+                                           reader.line.data());
+    for (int y = 0; is_good && y < y1 - y0; y++)
+      memcpy(out + size_t(y) * size_t(x1 - x0) * channels,
+             reader.line.data() + size_t(y) * row + size_t(x0) * channels,
+             size_t(x1 - x0) * channels * sizeof(float));
+  }
+  if (!is_good)
+    fail_input("is corrupt or truncated", reader.input->geterror());
+}
+
+/* Widened to whole tiles, which is all the library reads. */
+void align(int size, int tile, int *low, int *high) {
+  *low = *low / tile * tile;
+  *high = int(std::min<int64_t>(size, (int64_t(*high) + tile - 1) / tile * tile));
+}
+
+struct Target {
+  float *rgba;
+  int64_t at, step_x, step_y; /* pixels: of stored pixel (0, 0), and to its neighbours */
+};
+
+/* Where the stored pixel (sx, sy) stands in the rectangle asked for, by the orientation. */
+Target make_target(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
+                   float *rgba) {
+  int64_t right = reader.stored_width - 1, bottom = reader.stored_height - 1;
+  struct {
+    int64_t x0, y0, xx, xy, yx, yy; /* display = (x0 + xx sx + xy sy, y0 + yx sx + yy sy) */
+  } const maps[8] = {
+      {0, 0, 1, 0, 0, 1},
+      {right, 0, -1, 0, 0, 1},
+      {right, bottom, -1, 0, 0, -1},
+      {0, bottom, 1, 0, 0, -1},
+      {0, 0, 0, 1, 1, 0},
+      {bottom, 0, 0, -1, 1, 0},
+      {bottom, right, 0, -1, -1, 0},
+      {0, right, 0, 1, -1, 0},
+  };
+  auto map = maps[reader.orientation - 1];
+  return {rgba, (map.y0 - y) * width + (map.x0 - x), map.yx * width + map.xx,
+          map.yy * width + map.xy};
+}
+
+/* The rectangle of stored pixels, inside the data window, that fills the one asked for. */
+struct Part {
+  int x0, x1, y0, y1; /* of the data window */
+};
+
+Part make_part(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
+               int32_t height) {
+  int64_t w = reader.stored_width, h = reader.stored_height;
+  int64_t x0 = x, x1 = int64_t(x) + width, y0 = y, y1 = int64_t(y) + height;
+  if (is_transposed(reader)) {
+    std::swap(x0, y0);
+    std::swap(x1, y1);
+  }
+  int o = reader.orientation;
+  if (o == 2 || o == 3 || o == 7 || o == 8) {
+    int64_t low = w - x1;
+    x1 = w - x0;
+    x0 = low;
+  }
+  if (o == 3 || o == 4 || o == 6 || o == 7) {
+    int64_t low = h - y1;
+    y1 = h - y0;
+    y0 = low;
+  }
+  auto clamp = [](int64_t v, int64_t high) { return int(std::max<int64_t>(0, std::min(v, high))); };
+  const ImageSpec &spec = reader.spec;
+  return {clamp(x0 - reader.data_x, spec.width), clamp(x1 - reader.data_x, spec.width),
+          clamp(y0 - reader.data_y, spec.height), clamp(y1 - reader.data_y, spec.height)};
+}
+
+void scatter(const cs_picture_reader &reader, const Part &part, const Part &read,
+             const Target &target) {
+  size_t channels = size_t(reader.last - reader.first);
+  int alpha = reader.channel[3] - reader.first;
+  int red = reader.channel[0] - reader.first, green = reader.channel[1] - reader.first,
+      blue = reader.channel[2] - reader.first;
+  for (int y = std::max(part.y0, read.y0); y < std::min(part.y1, read.y1); y++) {
+    const float *from =
+        reader.batch.data() +
+        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(part.x0 - read.x0)) * channels;
+    int64_t at =
+        target.at + (part.x0 + reader.data_x) * target.step_x + (y + reader.data_y) * target.step_y;
+    for (int x = part.x0; x < part.x1; x++, from += channels, at += target.step_x) {
+      float *to = target.rgba + 4 * at;
+      to[0] = from[red];
+      to[1] = from[green];
+      to[2] = from[blue];
+      to[3] = reader.channel[3] >= 0 ? from[alpha] : 1.0f;
+    }
+  }
+}
+
+/* To linear light through OpenColorIO, on straight colour, and multiplied by alpha again. */
+void apply_space(const cs_picture_reader &reader, float *rgba, int32_t width, int32_t height) {
+  bool is_coded = is_multiplied(reader);
+  for (int64_t i = 0; i < int64_t(width) * height; i++)
+    if (is_coded && rgba[4 * i + 3] > 0)
+      for (int c = 0; c < 3; c++)
+        rgba[4 * i + c] /= rgba[4 * i + 3];
+  const ptrdiff_t pixel = 4 * sizeof(float);
+  reader.processor->apply(rgba, width, height, 4, sizeof(float), pixel, pixel * width);
+  for (int64_t i = 0; i < int64_t(width) * height; i++)
+    for (int c = 0; c < 3; c++)
+      rgba[4 * i + c] *= rgba[4 * i + 3];
+}
+
+void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t width, int32_t height,
+                    float *rgba) {
+  if (!reader.source->is_unchanged())
+    throw Failure(CELSPAN_INPUT, "changed while it was in use");
+  reader.source->forgive();
+  memset(rgba, 0, size_t(width) * size_t(height) * 4 * sizeof(float));
+  Part part = make_part(reader, x, y, width, height);
+  if (part.x0 >= part.x1 || part.y0 >= part.y1)
+    return;
+  Target target = make_target(reader, x, y, width, rgba);
+  const ImageSpec &spec = reader.spec;
+  Part read = part;
+  int step_multiple = 1;
+  if (spec.tile_width > 0) {
+    align(spec.width, spec.tile_width, &read.x0, &read.x1);
+    align(spec.height, spec.tile_height, &read.y0, &read.y1);
+    step_multiple = spec.tile_height;
+  }
+  size_t row_values = size_t(read.x1 - read.x0) * size_t(reader.last - reader.first);
+  size_t wide =
+      spec.tile_width > 0 ? row_values : size_t(spec.width) * size_t(reader.last - reader.first);
+  int64_t step =
+      std::max<int64_t>(1, int64_t(BATCH / (wide * sizeof(float))) / step_multiple) * step_multiple;
+  if (reader.kind.is_sequential && read.y0 < reader.next_row)
+    open_input(reader);
+  int end = read.y1;
+  for (int64_t row = read.y0; row < end; row += step) {
+    read.y0 = int(row);
+    read.y1 = int(std::min<int64_t>(end, row + step));
+    reader.batch.resize(row_values * size_t(read.y1 - read.y0));
+    read_rows(reader, read.x0, read.x1, read.y0, read.y1, reader.batch.data());
+    reader.next_row = read.y1;
+    scatter(reader, part, read, target);
+  }
+  if (reader.processor)
+    apply_space(reader, rgba, width, height);
+}
+
+std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request) {
+  auto reader = std::make_unique<cs_picture_reader>();
+  reader->name = request.file;
+  reader->source = std::make_unique<Source>(request.file);
+  reader->kind = sniff(*reader->source);
+  if (reader->kind.width || reader->kind.height)
+    check_size(reader->kind.width, reader->kind.height, reader->kind.is_whole);
+  if (reader->kind.format == "jpeg")
+    check_jpeg_end(*reader->source);
+  if (reader->kind.format == "dpx" || reader->kind.format == "cineon")
+    check_film_end(*reader->source, reader->kind.format);
+  reader->subimage = request.layer ? 0 : request.subimage;
+  open_input(*reader);
+  choose_part(*reader, request);
+  choose_window(*reader);
+  const ImageSpec &spec = reader->spec;
+  check_size(uint64_t(spec.width), uint64_t(spec.height), reader->kind.is_whole);
+  check_size(uint64_t(reader->stored_width), uint64_t(reader->stored_height), false);
+  if (spec.depth > 1)
+    throw Failure(CELSPAN_INPUT, "is a volume, not a picture");
+  if (spec.nchannels < 1 || spec.nchannels > CS_PICTURE_CHANNELS)
+    throw Failure(CELSPAN_LIMIT,
+                  "has " + std::to_string(spec.nchannels) + " channels; at most 64 are read");
+  choose_space(*reader, request.space);
+  return reader;
+}
+
+} // namespace
+
+celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
+                           cs_picture_header *header, cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, request->file, [&] {
+    prepare_library();
+    auto reader = make_reader(*request);
+    describe(*reader, header);
+    *out = reader.release();
+  });
+}
+
+celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
+                           int32_t height, float *rgba, cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, reader->name,
+               [&] { read_rectangle(*reader, x, y, width, height, rgba); });
+}
+
+void close_reader(cs_picture_reader *reader) {
+  cs_picture_failure ignored;
+  std::string name = reader->name;
+  celspan_status status = fence(&ignored, CELSPAN_INPUT, name, [&] { delete reader; });
+  (void)status;
+}

@@ -1,0 +1,71 @@
+/* What the module's files share: sentences for failures, the fence around the library, formats.
+ *
+ * Invariant: every entry of the table runs inside fence(), so nothing is ever thrown past the face.
+ */
+#ifndef CS_OIIO_SHARED_H
+#define CS_OIIO_SHARED_H
+
+#include <OpenImageIO/imageio.h>
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "pictures/module.h"
+
+struct Failure : std::exception {
+  celspan_status status;
+  std::string text;
+  Failure(celspan_status s, std::string t) : status(s), text(std::move(t)) {}
+  const char *what() const noexcept override { return text.c_str(); }
+};
+
+/* Runs `work`; what it throws becomes a status and a sentence. other: the status of what the
+ * library throws by itself. */
+template <typename Work>
+celspan_status fence(cs_picture_failure *failure, celspan_status other, const std::string &name,
+                     Work work) noexcept {
+  const char *text = "the picture library failed";
+  celspan_status status = other;
+  try {
+    try {
+      work();
+      return CELSPAN_OK;
+    } catch (const Failure &e) {
+      failure->status = e.status;
+      snprintf(failure->text, sizeof failure->text, "%s: %s", name.c_str(), e.text.c_str());
+      return e.status;
+    } catch (const std::bad_alloc &) {
+      status = CELSPAN_NO_MEMORY;
+      text = "out of memory";
+    } catch (const std::exception &e) {
+      failure->status = other;
+      snprintf(failure->text, sizeof failure->text, "%s: %s", name.c_str(), e.what());
+      return other;
+    }
+  } catch (...) {
+  }
+  failure->status = status;
+  snprintf(failure->text, sizeof failure->text, "%s: %s", name.c_str(), text);
+  return status;
+}
+
+/* The library's settings, made once: no threads of its own, no plug-ins from outside. */
+void prepare_library();
+
+/* The first line of a message of the library's, without trailing blanks. */
+std::string first_line(const std::string &message);
+
+celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
+                           cs_picture_header *header, cs_picture_failure *failure);
+celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
+                           int32_t height, float *rgba, cs_picture_failure *failure);
+void close_reader(cs_picture_reader *reader);
+celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **out,
+                           cs_picture_failure *failure);
+celspan_status write_writer(cs_picture_writer *writer, int32_t y, int32_t count, const void *rows,
+                            cs_picture_failure *failure);
+celspan_status close_writer(cs_picture_writer *writer, cs_picture_failure *failure);
+void abandon_writer(cs_picture_writer *writer);
+
+#endif

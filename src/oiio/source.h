@@ -1,0 +1,42 @@
+/* The bytes of an input file, opened once: what the library reads through it is the file that was
+ * checked. A reader that runs in circles at the end of the file is stopped by an exception: some
+ * readers never look whether a read succeeded. */
+#ifndef CS_OIIO_SOURCE_H
+#define CS_OIIO_SOURCE_H
+
+#include <OpenImageIO/filesystem.h>
+#include <sys/stat.h>
+
+#include <string>
+#include <vector>
+
+class Source : public OIIO::Filesystem::IOProxy {
+public:
+  explicit Source(const char *path);
+  ~Source() override;
+  const char *proxytype() const override { return "celspan"; }
+  void close() override {}
+  bool seek(int64_t offset) override;
+  size_t read(void *bytes, size_t size) override;
+  size_t pread(void *bytes, size_t size, int64_t offset) override;
+  size_t size() const override { return size_t(status_.st_size); }
+
+  /* To be called before each piece of work: a fresh allowance of reads past the end. */
+  void forgive() { misses_ = 0; }
+  const struct stat &status() const { return status_; }
+  /* Whether the path still leads to the same unchanged file. */
+  bool is_unchanged() const;
+
+private:
+  size_t copy_ahead(void *bytes, size_t size, int64_t offset);
+  size_t read_file(void *bytes, size_t size, int64_t offset);
+
+  std::string path_;
+  std::vector<char> ahead_; /* bytes of the file from ahead_at_ on: some readers ask for few */
+  int64_t ahead_at_ = 0;
+  int descriptor_ = -1;
+  int misses_ = 0;
+  struct stat status_;
+};
+
+#endif

@@ -1,0 +1,160 @@
+/* Chunks of a PNG file (PNG 3rd edition, 5 and 11) around the parts of png_strips.c. */
+#include <string.h>
+#include <zlib.h>
+
+#include "output/file.h"
+#include "output/pixels.h"
+#include "output/png/strips.h"
+#include "output/sink.h"
+
+typedef struct png_sink {
+  size_t allocated;
+  const char *path;
+  cs_file *file;         /* from begin to end */
+  cs_png_strips *strips; /* likewise */
+  celspan_coding coding;
+  bool is_opaque;
+  int workers;
+  size_t title_size;
+  unsigned char title[]; /* the bytes of its chunk */
+} png_sink;
+
+/* ---------------------------------------------------------------- chunks */
+
+static void store_32(unsigned char *at, uint32_t number) {
+  for (int i = 0; i < 4; i++)
+    at[i] = (unsigned char)(number >> (24 - 8 * i));
+}
+
+static celspan_status put_chunk(png_sink *sink, celspan_context *context, const char *type,
+                                const void *bytes, size_t size) {
+  unsigned char head[8], tail[4];
+  store_32(head, (uint32_t)size);
+  memcpy(head + 4, type, 4);
+  uLong sum = crc32_z(crc32_z(0, head + 4, 4), bytes, size);
+  store_32(tail, (uint32_t)sum);
+  CS_TRY(cs_file_write(sink->file, context, head, sizeof head));
+  CS_TRY(cs_file_write(sink->file, context, bytes, size));
+  return cs_file_write(sink->file, context, tail, sizeof tail);
+}
+
+static celspan_status put_image_data(void *user, celspan_context *context, const void *bytes,
+                                     size_t size) {
+  return put_chunk(user, context, "IDAT", bytes, size);
+}
+
+static celspan_status put_colour_space(png_sink *sink, celspan_context *context) {
+  static const unsigned char perceptual[1] = {0};
+  unsigned char gamma[4];
+  store_32(gamma, 100000);
+  if (sink->coding.transfer == CELSPAN_TRANSFER_SRGB)
+    return put_chunk(sink, context, "sRGB", perceptual, sizeof perceptual);
+  if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR)
+    return put_chunk(sink, context, "gAMA", gamma, sizeof gamma);
+  return CELSPAN_OK;
+}
+
+static celspan_status put_start(png_sink *sink, celspan_context *context, int32_t width,
+                                int32_t height) {
+  static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  static const char software[] = "Software\0celspan";
+  unsigned char header[13] = {0};
+  store_32(header, (uint32_t)width);
+  store_32(header + 4, (uint32_t)height);
+  header[8] = sink->coding.depth == CELSPAN_DEPTH_16 ? 16 : 8;
+  header[9] = sink->is_opaque ? 2 : 6; /* RGB or RGBA */
+  CS_TRY(cs_file_write(sink->file, context, signature, sizeof signature));
+  CS_TRY(put_chunk(sink, context, "IHDR", header, sizeof header));
+  CS_TRY(put_colour_space(sink, context));
+  CS_TRY(put_chunk(sink, context, "tEXt", software, sizeof software - 1));
+  return sink->title_size == 0 ? CELSPAN_OK
+                               : put_chunk(sink, context, "iTXt", sink->title, sink->title_size);
+}
+
+/* ---------------------------------------------------------------- the sink */
+
+static void destroy(png_sink *sink, celspan_context *context) {
+  cs_file_discard(sink->file, context);
+  cs_png_strips_destroy(sink->strips, context);
+  cs_mem_free(context->memory, sink, sink->allocated);
+}
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  png_sink *sink = user;
+  cs_png_picture picture = {sink->coding, sink->is_opaque, width, height, sink->workers};
+  CS_TRY(cs_png_strips_create(context, &picture, put_image_data, sink, &sink->strips));
+  CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
+  return put_start(sink, context, width, height);
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  png_sink *sink = user;
+  (void)y;
+  return cs_png_strips_row(sink->strips, context, spans, span_count);
+}
+
+static celspan_status finish(png_sink *sink, celspan_context *context) {
+  CS_TRY(cs_png_strips_finish(sink->strips, context));
+  CS_TRY(put_chunk(sink, context, "IEND", "", 0));
+  cs_file *file = sink->file;
+  sink->file = NULL;
+  return cs_file_commit(file, context);
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  png_sink *sink = user;
+  if (outcome == CELSPAN_OK)
+    outcome = finish(sink, context);
+  destroy(sink, context);
+  return outcome;
+}
+
+bool cs_png_parts(const celspan_sink *sink, cs_parts *out) {
+  if (sink->row != put_row)
+    return false;
+  *out = cs_png_strips_parts(((const png_sink *)sink->user)->strips);
+  return true;
+}
+
+static const char title_head[] = "Title\0\0\0\0"; /* plain text, no language, UTF-8 */
+
+static celspan_status check_coding(celspan_context *context, const char *path,
+                                   const celspan_coding *coding) {
+  if (coding->depth != CELSPAN_DEPTH_8 && coding->depth != CELSPAN_DEPTH_16)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: PNG holds 8 or 16 bits a channel; for half and float use EXR or TIFF",
+                   path);
+  if (coding->alpha != CELSPAN_ALPHA_STRAIGHT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: PNG holds straight alpha; for premultiplied use EXR or TIFF", path);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_sink_png(celspan_context *context, const char *path,
+                           const celspan_file_desc *file, celspan_sink *out) {
+  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  CS_TRY(check_coding(context, path, &coding));
+  size_t path_size = strlen(path) + 1, title = file->title ? strlen(file->title) : 0;
+  size_t title_size = title > 0 ? sizeof title_head + title : 0;
+  size_t size = sizeof(png_sink) + title_size + path_size;
+  png_sink *sink = cs_mem_array(context->memory, 1, size);
+  if (!sink)
+    return cs_fail_memory(context);
+  sink->allocated = size;
+  sink->coding = coding;
+  sink->is_opaque = file->is_opaque;
+  sink->workers = file->workers;
+  sink->title_size = title_size;
+  if (title > 0) {
+    memcpy(sink->title, title_head, sizeof title_head);
+    memcpy(sink->title + sizeof title_head, file->title, title);
+  }
+  sink->path = memcpy(sink->title + title_size, path, path_size);
+  *out = (celspan_sink){.user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end,
+                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
+  return CELSPAN_OK;
+}

@@ -1,0 +1,42 @@
+/* Rows of spans to the image data of a PNG: one zlib stream, made strip by strip, side by side.
+ *
+ *   rows --copied--> strip --filter, deflate (any thread)--> part --in order--> write
+ *
+ * Where strips begin depends on the picture's size alone, and a strip is compressed from its own
+ * rows and the one above them: the bytes are the same however many threads there are. With one
+ * thread nothing is copied.
+ */
+#ifndef CS_OUTPUT_PNG_STRIPS_H
+#define CS_OUTPUT_PNG_STRIPS_H
+
+#include "output/parts.h"
+#include "output/png/rows.h"
+
+typedef struct cs_png_strips cs_png_strips;
+
+typedef struct cs_png_picture {
+  celspan_coding coding; /* resolved, 8 or 16 bit */
+  bool is_opaque;
+  int32_t width, height;
+  int workers; /* 0: one a processor */
+} cs_png_picture;
+
+/* write: called by the thread that calls here, with a part at a time. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_png_strips_create(celspan_context *context,
+                                                    const cs_png_picture *picture,
+                                                    cs_block_write write, void *user,
+                                                    cs_png_strips **out);
+/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque as was said; those of write.
+ */
+CELSPAN_CHECKED celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
+                                                 const celspan_span *spans, size_t span_count);
+/* After the last row: writes what is left. */
+CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
+                                                    celspan_context *context);
+/* How several threads fill strips from the rows that they make themselves; in place of
+ * cs_png_strips_row. */
+cs_parts cs_png_strips_parts(cs_png_strips *strips);
+/* At any time; NULL is ignored. */
+void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context);
+
+#endif

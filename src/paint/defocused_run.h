@@ -1,0 +1,15 @@
+/* Spans of one soft layer among flat ones: the usual defocused cel, made from its nodes without
+ * going through the program column by column. */
+#ifndef CS_PAINT_DEFOCUSED_RUN_H
+#define CS_PAINT_DEFOCUSED_RUN_H
+
+#include "compose/composer.h"
+
+/* Whether a program holds one soft layer and else flat ones; *item: which. */
+bool cs_defocused_run_fits(const cs_composer *composer, const cs_program *program, uint32_t *item);
+/* As cs_composer_run_program. */
+CELSPAN_CHECKED celspan_status cs_defocused_run(cs_composer *composer, const cs_program *program,
+                                                uint32_t item, int32_t x0, int32_t x1, double y,
+                                                cs_row *row);
+
+#endif

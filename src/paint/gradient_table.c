@@ -1,0 +1,276 @@
+#include "paint/gradient_table.h"
+
+#include "paint/over_row.h"
+
+#define SLOTS 256       /* palettes remembered; a power of two */
+#define PART_LIMIT 4096 /* of all of them together */
+
+struct cs_gradient_tables {
+  cs_gradient_table slots[SLOTS]; /* without a shade: empty */
+  cs_arena parts;
+  size_t part_count;
+};
+
+celspan_status cs_gradient_tables_create(celspan_context *context, cs_gradient_tables **out) {
+  cs_gradient_tables *palettes = cs_mem_array(context->memory, 1, sizeof *palettes);
+  if (!palettes)
+    return cs_fail_memory(context);
+  cs_arena_init(&palettes->parts);
+  *out = palettes;
+  return CELSPAN_OK;
+}
+
+void cs_gradient_tables_destroy(cs_gradient_tables *palettes, cs_memory *memory) {
+  if (!palettes)
+    return;
+  cs_arena_finish(&palettes->parts, memory);
+  cs_mem_free(memory, palettes, sizeof *palettes);
+}
+
+cs_v4 cs_gradient_table_fold(const cs_gradient_table *palette, double x, double y) {
+  cs_v4 e = palette->e, t = palette->t;
+  for (size_t i = palette->layer_count; i-- > 0;) {
+    const cs_gradient_table_layer *layer = &palette->layers[i];
+    double at = cs_shade_at(layer->shade, x, y);
+    const cs_gradient_table_tint *tint = &layer->tints[cs_gradient_table_part_at(layer->shade, at)];
+    float share = cs_gradient_table_share(tint->at, tint->scale, at);
+    cs_v4 through = tint->t + tint->step_t * share;
+    e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
+    t = layer->t * (through * t);
+  }
+  e[3] = 1 - palette->keep * cs_stack_mean(t);
+  return e;
+}
+
+/* ---------------------------------------------------------------- which programs */
+
+/* How many gradients with stops vary in a program; 0 where anything else does. *first: the leaf of
+ * the first. */
+static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
+  size_t count = 0;
+  bool has_group = false;
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    has_group |= layer->group != CS_STACK_NONE;
+    if (layer->kind == CS_LAYER_FLAT)
+      continue;
+    const celspan_texture *texture =
+        layer->kind == CS_LAYER_SHADED ? stack->shades[layer->detail].texture : NULL;
+    if (!texture || texture->kind == CS_TEXTURE_TRIANGLE ||
+        texture->stop_count >= CS_OVER_ROW_BATCH)
+      return 0;
+    if (count++ == 0)
+      *first = program->items[i].layer;
+  }
+  return count > 1 && has_group ? 0 : count;
+}
+
+/* ---------------------------------------------------------------- one gradient */
+
+/* Paints of the stops, and clear. */
+typedef struct samples {
+  float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4], rgba[CS_OVER_ROW_BATCH][4];
+} samples;
+
+static void put_paint(samples *out, size_t i, const cs_paint *paint) {
+  cs_v4_store(out->s[i], (cs_v4){paint->s[0], paint->s[1], paint->s[2], 0});
+  cs_v4_store(out->t[i], (cs_v4){paint->t[0], paint->t[1], paint->t[2], 0});
+}
+
+/* What a program shows at every stop, and where the leaf that varies is clear. */
+static celspan_status fold_stops(cs_composer *composer, const cs_program *program,
+                                 const celspan_texture *texture, samples *room) {
+  const cs_stack *stack = composer->stack;
+  const cs_paint clear = CS_PAINT_CLEAR;
+  cs_arena *scratch = &composer->scratch;
+  cs_over_row blend;
+  for (size_t i = 0; i < texture->stop_count; i++)
+    put_paint(room, i, &texture->stops[i].paint);
+  put_paint(room, texture->stop_count, &clear);
+  CS_TRY(cs_over_row_begin(composer->context, scratch, stack, composer->isa,
+                           (int32_t)texture->stop_count + 1, &blend));
+  for (uint32_t i = 0; i < program->length; i++)
+    CS_TRY(cs_over_row_layer(composer->context, scratch, &blend, program->items[i].layer,
+                             (const float(*)[4])room->s, (const float(*)[4])room->t));
+  cs_over_row_end(&blend, room->rgba);
+  return CELSPAN_OK;
+}
+
+/* 1 / the length from a stop to the next, 0 where they lie together. */
+static double scale_from(const cs_stop *stop) {
+  double length = stop[1].at - stop[0].at;
+  return length > 0 ? 1 / length : 0;
+}
+
+static void fill_parts(const celspan_texture *texture, const samples *folded,
+                       cs_gradient_table_part *parts) {
+  size_t count = texture->stop_count;
+  const cs_stop *stops = texture->stops;
+  parts[0] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[0])};
+  for (size_t i = 1; i < count; i++) {
+    cs_v4 from = cs_v4_load(folded->rgba[i - 1]), to = cs_v4_load(folded->rgba[i]);
+    parts[i] =
+        (cs_gradient_table_part){from, to - from, stops[i - 1].at, scale_from(&stops[i - 1])};
+  }
+  parts[count] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[count - 1])};
+  parts[count + 1] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[count])};
+}
+
+/* Room for parts or tints, all of one program. */
+static void *take(cs_composer *composer, size_t count, size_t size) {
+  return cs_arena_take(composer->context, &composer->palettes->parts, count * size);
+}
+
+static celspan_status make_one(cs_composer *composer, const cs_program *program,
+                               cs_gradient_table *out) {
+  const celspan_texture *texture = out->shade->texture;
+  samples *room = cs_arena_take(composer->context, &composer->scratch, sizeof *room);
+  cs_gradient_table_part *parts = take(composer, texture->stop_count + 2, sizeof *parts);
+  if (!room || !parts)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(fold_stops(composer, program, texture, room));
+  fill_parts(texture, room, parts);
+  out->parts = parts;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- several */
+
+static cs_gradient_table_tint tint_of(const cs_layer *layer, const cs_paint *paint) {
+  cs_v4 s = {paint->s[0], paint->s[1], paint->s[2], 0};
+  cs_v4 t = {paint->t[0], paint->t[1], paint->t[2], 0};
+  return (cs_gradient_table_tint){.s = layer->front * (layer->fade * s),
+                                  .t = (1 - layer->fade) + layer->fade * t};
+}
+
+static void fill_tints(const cs_layer *layer, const celspan_texture *texture,
+                       cs_gradient_table_tint *tints) {
+  size_t count = texture->stop_count;
+  const cs_paint clear = CS_PAINT_CLEAR;
+  tints[0] = tint_of(layer, &texture->stops[0].paint);
+  for (size_t i = 1; i < count; i++) {
+    cs_gradient_table_tint to = tint_of(layer, &texture->stops[i].paint);
+    tints[i] = tint_of(layer, &texture->stops[i - 1].paint);
+    tints[i].step_s = to.s - tints[i].s;
+    tints[i].step_t = to.t - tints[i].t;
+    tints[i].at = texture->stops[i - 1].at;
+    tints[i].scale = scale_from(&texture->stops[i - 1]);
+  }
+  tints[count] = tint_of(layer, &texture->stops[count - 1].paint);
+  tints[count + 1] = tint_of(layer, &clear);
+}
+
+/* Takes what has been folded out of the blend, which goes on as if nothing were before it. */
+static celspan_status cut_blend(cs_composer *composer, cs_over_row *blend, cs_v4 *e, cs_v4 *t) {
+  cs_over_row next;
+  *e = cs_v4_load(blend->level->e[0]);
+  *t = cs_v4_load(blend->level->t[0]);
+  CS_TRY(cs_over_row_begin(composer->context, &composer->scratch, composer->stack, composer->isa, 1,
+                           &next));
+  blend->level = next.level;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_layer(cs_composer *composer, const cs_layer *layer, cs_over_row *blend,
+                                cs_gradient_table_layer *out) {
+  const cs_shade *shade = &composer->stack->shades[layer->detail];
+  cs_gradient_table_tint *tints = take(composer, shade->texture->stop_count + 2, sizeof *tints);
+  if (!tints)
+    return CELSPAN_NO_MEMORY;
+  fill_tints(layer, shade->texture, tints);
+  out->shade = shade;
+  out->tints = tints;
+  return cut_blend(composer, blend, &out->e, &out->t);
+}
+
+static celspan_status make_several(cs_composer *composer, const cs_program *program,
+                                   size_t layer_count, cs_gradient_table *out) {
+  const cs_stack *stack = composer->stack;
+  cs_gradient_table_layer *layers = take(composer, layer_count, sizeof *layers);
+  cs_over_row blend;
+  if (!layers)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_over_row_begin(composer->context, &composer->scratch, stack, composer->isa, 1, &blend));
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    CS_TRY(
+        cs_over_row_reach(composer->context, &composer->scratch, &blend, program->items[i].layer));
+    if (layer->kind == CS_LAYER_FLAT)
+      cs_over_row_flat(&blend, layer);
+    else
+      CS_TRY(add_layer(composer, layer, &blend, &layers[out->layer_count++]));
+  }
+  float rest[1][4];
+  out->layers = layers;
+  cs_over_row_end(&blend, rest);
+  out->keep = blend.keep;
+  out->e = cs_v4_load(rest[0]);
+  out->t = cs_v4_load(blend.level->t[0]);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- either */
+
+/* Forgets all palettes when they have grown many. */
+static void make_way(cs_gradient_tables *palettes, size_t count) {
+  palettes->part_count += count;
+  if (palettes->part_count <= PART_LIMIT)
+    return;
+  memset(palettes->slots, 0, sizeof palettes->slots);
+  cs_arena_reset(&palettes->parts);
+  palettes->part_count = count;
+}
+
+static size_t count_parts(const cs_stack *stack, const cs_program *program) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    if (layer->kind == CS_LAYER_SHADED)
+      count += stack->shades[layer->detail].texture->stop_count + 3;
+  }
+  return count;
+}
+
+/* first: the leaf of the first of `count` gradients. */
+static celspan_status make(cs_composer *composer, const cs_program *program, uint32_t first,
+                           size_t count, cs_set_hash name, cs_gradient_table *out) {
+  const cs_stack *stack = composer->stack;
+  cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].detail], .name = name};
+  make_way(composer->palettes, count_parts(stack, program));
+  cs_arena_reset(&composer->scratch);
+  CS_TRY(count == 1 ? make_one(composer, program, &made)
+                    : make_several(composer, program, count, &made));
+  *out = made;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- finding it again */
+
+static cs_set_hash name_of(const cs_stack *stack, const cs_program *program) {
+  cs_set_hash name = {0};
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer_rule *rule = &stack->rules[program->items[i].layer];
+    name.a ^= rule->key[0];
+    name.b ^= rule->key[1];
+  }
+  return name;
+}
+
+celspan_status cs_gradient_table_find(cs_composer *composer, const cs_program *program,
+                                      const cs_gradient_table **out) {
+  const cs_stack *stack = composer->stack;
+  *out = NULL;
+  if (!composer->palettes)
+    return CELSPAN_OK;
+  cs_set_hash name = name_of(stack, program);
+  cs_gradient_table *slot = &composer->palettes->slots[name.a & (SLOTS - 1)];
+  if (!slot->shade || !cs_set_hash_same(slot->name, name)) {
+    uint32_t first = CS_STACK_NONE;
+    size_t count = count_varying(stack, program, &first);
+    if (count == 0)
+      return CELSPAN_OK;
+    CS_TRY(make(composer, program, first, count, name, slot));
+  }
+  *out = slot;
+  return CELSPAN_OK;
+}

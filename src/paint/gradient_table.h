@@ -1,0 +1,92 @@
+/* Programs in which nothing but linear and radial gradients varies, folded as far as can be once.
+ *
+ * Of one gradient: all that is done to its paint - light, fades, what lies before and behind it -
+ * is affine, so what the program shows is a mix of what it shows at two stops. A pixel costs a look
+ * along the stops and a mix. Of several, in no faded group: what lies between them is folded, and a
+ * pixel is folded from the rear through one layer a gradient.
+ *
+ * Invariant: a pixel's colour depends on the program and the place alone. One store a composer; its
+ * palettes hold for as long as the stack does.
+ */
+#ifndef CS_PAINT_GRADIENT_TABLE_H
+#define CS_PAINT_GRADIENT_TABLE_H
+
+#include "base/number.h"
+#include "compose/composer.h"
+#include "paint/shade.h"
+
+/* From one stop to the next. */
+typedef struct cs_gradient_table_part {
+  cs_v4 colour, step; /* premultiplied RGBA: at its beginning, and to its end */
+  double at, scale;   /* its beginning, and 1 / its length; before the first stop and after the
+                         last 0, as is the step */
+} cs_gradient_table_part;
+
+/* The paint of one of several gradients, lit and faded, from one stop to the next. */
+typedef struct cs_gradient_table_tint {
+  cs_v4 s, step_s, t, step_t;
+  double at, scale;
+} cs_gradient_table_tint;
+
+typedef struct cs_gradient_table_layer {
+  cs_v4 e, t; /* light and transmission of what lies before it, up to the layer before */
+  const cs_shade *shade;
+  const cs_gradient_table_tint *tints; /* as parts */
+} cs_gradient_table_layer;
+
+typedef struct cs_gradient_table {
+  cs_v4 e, t;                            /* of several: what lies behind them all */
+  const cs_shade *shade;                 /* of the only or the first */
+  const cs_gradient_table_part *parts;   /* of one: one before each stop, one after the last, one
+                                     behind the   horizon */
+  const cs_gradient_table_layer *layers; /* of several, front to back */
+  size_t layer_count;                    /* 0: of one */
+  cs_set_hash name;                      /* of the program's leaves */
+  float keep;                            /* what the mattes of back lights leave of transparency */
+} cs_gradient_table;
+
+typedef struct cs_gradient_tables cs_gradient_tables;
+
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_gradient_tables_create(celspan_context *context,
+                                                         cs_gradient_tables **out);
+void cs_gradient_tables_destroy(cs_gradient_tables *palettes,
+                                cs_memory *memory); /* NULL is nothing */
+
+/* *out: the palette of a program, valid until the next is asked for; NULL where it has none. */
+CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_composer *composer,
+                                                      const cs_program *program,
+                                                      const cs_gradient_table **out);
+
+/* Which part holds what lies at `at` along the stops. */
+static inline size_t cs_gradient_table_part_at(const cs_shade *shade, double at) {
+  const celspan_texture *texture = shade->texture;
+  size_t part = 0;
+  if (at != at)
+    return texture->stop_count + 1;
+  while (part < texture->stop_count && texture->stops[part].at <= at)
+    part++;
+  return part;
+}
+
+/* How far on in a part, held to its ends; something where its step is 0. */
+static inline float cs_gradient_table_share(double begin, double scale, double at) {
+  return (float)cs_number_most(cs_number_least((at - begin) * scale, 1), 0);
+}
+
+static inline cs_v4 cs_gradient_table_mix(const cs_gradient_table_part *part, double at) {
+  return part->colour + part->step * cs_gradient_table_share(part->at, part->scale, at);
+}
+
+/* The colour at a point of the frame, of several gradients. */
+cs_v4 cs_gradient_table_fold(const cs_gradient_table *palette, double x, double y);
+
+/* The colour at a point of the frame. */
+static inline cs_v4 cs_gradient_table_colour(const cs_gradient_table *palette, double x, double y) {
+  if (palette->layer_count > 0)
+    return cs_gradient_table_fold(palette, x, y);
+  double at = cs_shade_at(palette->shade, x, y);
+  return cs_gradient_table_mix(&palette->parts[cs_gradient_table_part_at(palette->shade, at)], at);
+}
+
+#endif

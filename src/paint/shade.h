@@ -1,0 +1,43 @@
+/* Textures given by a formula: the three-paint triangle, linear and radial gradients.
+ *
+ * Invariant: between the columns that cs_shade_breaks names, the paint is a smooth function of x on
+ * a row, so the composer may cut it into straight pieces by looking at a few points.
+ */
+#ifndef CS_PAINT_SHADE_H
+#define CS_PAINT_SHADE_H
+
+#include "compose/stack.h"
+
+#include <math.h>
+
+/* Fills the planes, from texture and inverse. */
+void cs_shade_prepare(cs_shade *shade);
+/* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
+ * behind the horizon. */
+static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
+  double at = p[0] * x + (p[1] * y + p[2]);
+  if (shade->texture->kind == CS_TEXTURE_RADIAL) {
+    double v = q[0] * x + (q[1] * y + q[2]);
+    at = sqrt(at * at + v * v);
+  }
+  if (shade->is_affine)
+    return at;
+  double w = m[6] * x + (m[7] * y + m[8]);
+  return w > 0 ? at / w : NAN;
+}
+
+/* A paint as it is folded: lane 3 is of no account. */
+typedef struct cs_shade_lanes {
+  cs_v4 s, t;
+} cs_shade_lanes;
+
+/* The paint at a point of the frame, pixels; clear behind the horizon. */
+cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
+/* Where on the row at height y the formula bends, x0 < x < x1: at most CS_SHADE_BREAKS(shade)
+ * values, in no order. Returns how many. */
+size_t cs_shade_breaks(const cs_shade *shade, double y, double x0, double x1, double *breaks);
+/* Room that cs_shade_breaks needs at most. */
+size_t cs_shade_break_limit(const cs_shade *shade);
+
+#endif

@@ -1,0 +1,338 @@
+/* Blocks that are not held: read from the file in one pass from top to bottom, or made from the
+ * level below.
+ *
+ *   level <= base   a pass over the rows of the file that a row of blocks needs; means are taken on
+ *                   the way, with one row waiting a level, and the blocks of every column in a
+ *                   window are filled at once
+ *   level > base    from the four blocks below, all of which fit in memory together
+ */
+#include <string.h>
+
+#include "pictures/store.h"
+
+#define BATCH_BYTES ((size_t)4 << 20)
+#define LEVELS 24
+
+typedef struct file_pass {
+  celspan_context *context;
+  cs_picture_store *store;
+  cs_picture_entry *entry;
+  int level;                          /* that is filled */
+  int32_t column, row, columns, rows; /* the rectangle of its blocks */
+  cs_picture_block **blocks;          /* row-major; those handed over are NULL */
+  int32_t x0, x1, y0, y1;             /* pixels */
+  float *batch;                       /* decoded rows of the file */
+  int32_t batch_rows;
+  float *waiting[LEVELS]; /* of each level below: a row whose lower half is to come */
+} file_pass;
+
+static int32_t blocks_of(int32_t texels) {
+  return (int32_t)(((int64_t)texels + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK);
+}
+
+static int32_t columns_of(const cs_picture_entry *entry, int level) {
+  return blocks_of(cs_levels_size(entry->header.info.width, level));
+}
+
+static int32_t rows_of(const cs_picture_entry *entry, int level) {
+  return blocks_of(cs_levels_size(entry->header.info.height, level));
+}
+
+static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
+
+/* ---------------------------------------------------------------- what a pass covers */
+
+/* The picture fits: whole rows of blocks. What lies between the last row read and this one has to
+ * be decoded anyway in a sequential format; a turned picture is read at once, and so is one that
+ * its reader decodes at once. */
+static void cover_fitting(file_pass *pass, int32_t row) {
+  const cs_picture_entry *entry = pass->entry;
+  pass->columns = columns_of(entry, 0);
+  pass->row = row;
+  pass->rows = 1;
+  if (entry->header.is_turned || entry->header.is_whole) {
+    pass->row = 0;
+    pass->rows = rows_of(entry, 0);
+  } else if (entry->header.is_sequential) {
+    pass->row = row >= entry->next_strip ? entry->next_strip : 0;
+    pass->rows = row + 1 - pass->row;
+  }
+}
+
+/* The picture does not fit: a window of columns, as many as may be made at a time. */
+static void cover_window(file_pass *pass, int32_t column, int32_t row) {
+  const cs_picture_entry *entry = pass->entry;
+  int32_t columns = columns_of(entry, pass->level);
+  int32_t window = least(columns, entry->share < 1 ? 1 : (int64_t)entry->share);
+  pass->column = column / window * window;
+  pass->columns = least(window, columns - pass->column);
+  pass->row = row;
+  pass->rows = 1;
+}
+
+static void cover(file_pass *pass, int level, int32_t column, int32_t row) {
+  const celspan_picture_info *info = &pass->entry->header.info;
+  int64_t side = (int64_t)CS_PICTURE_BLOCK << level;
+  pass->level = level;
+  if (pass->entry->base == 0)
+    cover_fitting(pass, row);
+  else
+    cover_window(pass, column, row);
+  pass->x0 = (int32_t)(pass->column * side);
+  pass->x1 = least((pass->column + pass->columns) * side, info->width);
+  pass->y0 = (int32_t)(pass->row * side);
+  pass->y1 = least((pass->row + pass->rows) * side, info->height);
+}
+
+/* ---------------------------------------------------------------- its memory */
+
+static size_t row_bytes(const file_pass *pass) {
+  return (size_t)(pass->x1 - pass->x0) * 4 * sizeof(float);
+}
+
+/* A waiting row of a level: one texel more than half of the level below. */
+static size_t waiting_bytes(const file_pass *pass, int level) {
+  return ((size_t)cs_levels_size(pass->x1 - pass->x0, level) + 1) * 4 * sizeof(float);
+}
+
+static bool make_buffers(file_pass *pass) {
+  cs_memory *memory = pass->store->memory;
+  int32_t rows = pass->y1 - pass->y0;
+  size_t fitting = BATCH_BYTES / row_bytes(pass);
+  if (!pass->entry->header.is_turned)
+    rows = least(rows, fitting < 1 ? 1 : fitting > 64 ? 64 : (int64_t)fitting);
+  pass->batch_rows = rows;
+  pass->batch = cs_mem_array(memory, (size_t)rows, row_bytes(pass));
+  bool is_made = pass->batch;
+  for (int level = 0; level < pass->level && is_made; level++) {
+    pass->waiting[level] = cs_mem_array(memory, 1, waiting_bytes(pass, level));
+    is_made = pass->waiting[level];
+  }
+  return is_made;
+}
+
+static size_t block_count(const file_pass *pass) {
+  return (size_t)pass->columns * (size_t)pass->rows;
+}
+
+static celspan_status make_blocks(file_pass *pass) {
+  pass->blocks = cs_mem_array(pass->store->memory, block_count(pass), sizeof(cs_picture_block *));
+  if (!pass->blocks)
+    return cs_fail_memory(pass->context);
+  for (size_t i = 0; i < block_count(pass); i++) {
+    int32_t row = (int32_t)(i / (size_t)pass->columns),
+            column = (int32_t)(i % (size_t)pass->columns);
+    CS_TRY(cs_store_make(pass->context, pass->store, pass->entry, pass->level,
+                         pass->column + column, pass->row + row, &pass->blocks[i]));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- its rows */
+
+static void fill_blocks(const file_pass *pass, int32_t y, int32_t count, const float *texels) {
+  size_t row = (size_t)(y / CS_PICTURE_BLOCK - pass->row) * (size_t)pass->columns;
+  size_t inner = 4 * (size_t)(y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK);
+  for (int32_t done = 0; done < count; done += CS_PICTURE_BLOCK)
+    memcpy(pass->blocks[row + (size_t)(done / CS_PICTURE_BLOCK)]->texels + inner,
+           texels + 4 * (size_t)done,
+           (size_t)least(count - done, CS_PICTURE_BLOCK) * 4 * sizeof(float));
+}
+
+/* A row of a level, complete: into the blocks, or on to the next level. */
+static void take_row(file_pass *pass, int level, int32_t y, const float *texels) {
+  const celspan_picture_info *info = &pass->entry->header.info;
+  int32_t count = cs_levels_size(pass->x1 - pass->x0, level);
+  if (level == pass->level) {
+    fill_blocks(pass, y, count, texels);
+    return;
+  }
+  bool is_upper = y % 2 == 0, is_last = y + 1 == cs_levels_size(info->height, level);
+  float *waiting = pass->waiting[level];
+  if (is_upper)
+    memcpy(waiting, texels, (size_t)count * 4 * sizeof(float));
+  if (is_upper && !is_last)
+    return;
+  cs_levels_mean(info->width, info->height, level, pass->x0 >> level, y & ~1, count, waiting,
+                 is_upper ? NULL : texels, waiting);
+  take_row(pass, level + 1, y / 2, waiting);
+}
+
+static celspan_status read_rows(file_pass *pass) {
+  cs_picture_failure failure;
+  int32_t width = pass->x1 - pass->x0;
+  for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {
+    int32_t rows = least(pass->y1 - y, pass->batch_rows);
+    celspan_status status = pass->store->module->read(pass->entry->reader, pass->x0, y, width, rows,
+                                                      pass->batch, &failure);
+    if (status != CELSPAN_OK)
+      return cs_fail(pass->context, status, "%s", failure.text);
+    cs_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
+    for (int32_t i = 0; i < rows; i++)
+      take_row(pass, 0, y + i, pass->batch + (size_t)i * (size_t)width * 4);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- what is known of a block */
+
+/* One row of texels: bit 0 while all are opaque, bit 1 while all are clear. */
+static int look_along(const float *texels, int32_t count) {
+  static const float clear[4];
+  int look = 3;
+  for (int32_t i = 0; i < count && look != 0; i++, texels += 4) {
+    look &= texels[3] == 1 ? ~0 : ~1;
+    look &= memcmp(texels, clear, sizeof clear) == 0 ? ~0 : ~2;
+  }
+  return look;
+}
+
+static bool is_decoded(const cs_picture_block *block) {
+  const cs_srgb8_curve *curve = block->entry->curve;
+  bool is_same = true;
+  for (size_t i = 0; i < (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK && is_same; i++) {
+    float rgba[4];
+    cs_srgb8_colour(curve, block->codes[i / CS_PICTURE_BLOCK] + 4 * (i % CS_PICTURE_BLOCK), rgba);
+    is_same = memcmp(rgba, block->texels + 4 * i, sizeof rgba) == 0;
+  }
+  return is_same;
+}
+
+/* A block whose texels are complete. */
+static void describe(cs_picture_block *block) {
+  const celspan_picture_info *info = &block->entry->header.info;
+  int32_t width = cs_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
+  int32_t height = cs_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
+  int look = 3;
+  for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && look != 0; y++)
+    look &= look_along(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
+                       least(width, CS_PICTURE_BLOCK));
+  block->look = look & 1 ? CS_PICTURE_OPAQUE : look & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
+  if (block->level != 0)
+    return;
+  for (size_t y = 0; y < CS_PICTURE_BLOCK; y++)
+    cs_srgb8_choose(cs_isa_best())(block->texels + 4 * y * CS_PICTURE_BLOCK, CS_PICTURE_BLOCK,
+                                   block->codes[y]);
+  block->is_coded = is_decoded(block);
+}
+
+/* ---------------------------------------------------------------- a pass from start to end */
+
+/* Beside each row of codes the next of the block on the right. */
+static void join(const file_pass *pass, cs_picture_block *block, const cs_picture_block *right) {
+  if (pass->level != 0 || block->column + 1 == columns_of(pass->entry, 0))
+    return;
+  block->is_coded = block->is_coded && right && right->is_coded;
+  for (size_t y = 0; y < CS_PICTURE_BLOCK && block->is_coded; y++)
+    memcpy(block->codes[y] + 4 * CS_PICTURE_BLOCK, right->codes[y], 4);
+}
+
+/* Hands the blocks to the store; the one that was asked for comes back with a pin. */
+static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row) {
+  cs_picture_block *wanted = NULL;
+  for (size_t i = 0; i < block_count(pass); i++)
+    describe(pass->blocks[i]);
+  for (size_t i = 0; i < block_count(pass); i++) {
+    cs_picture_block *block = pass->blocks[i];
+    bool is_wanted = block->column == column && block->row == row;
+    pass->blocks[i] = NULL;
+    join(pass, block, (i + 1) % (size_t)pass->columns ? pass->blocks[i + 1] : NULL);
+    block = cs_store_insert(pass->store, block, is_wanted);
+    if (is_wanted)
+      wanted = block;
+  }
+  return wanted;
+}
+
+static void finish_pass(file_pass *pass) {
+  cs_memory *memory = pass->store->memory;
+  for (size_t i = 0; pass->blocks && i < block_count(pass); i++)
+    cs_store_discard(pass->store, pass->blocks[i]);
+  cs_mem_free(memory, pass->blocks, block_count(pass) * sizeof *pass->blocks);
+  for (int level = 0; level < pass->level; level++)
+    cs_mem_free(memory, pass->waiting[level], waiting_bytes(pass, level));
+  cs_mem_free(memory, pass->batch, (size_t)pass->batch_rows * row_bytes(pass));
+}
+
+static celspan_status run_pass(celspan_context *context, cs_picture_store *store,
+                               cs_picture_entry *entry, int level, int32_t column, int32_t row,
+                               cs_picture_block **out) {
+  CS_TRY(cs_store_reader(context, store, entry));
+  file_pass pass = {.context = context, .store = store, .entry = entry};
+  cover(&pass, level, column, row);
+  celspan_status status = make_buffers(&pass) ? make_blocks(&pass) : cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = read_rows(&pass);
+  if (status == CELSPAN_OK) {
+    *out = hand_over(&pass, column, row);
+    entry->next_strip = pass.row + pass.rows;
+    /* Everything is held: the file and what its reader keeps are not needed any more. */
+    if (entry->base == 0 && entry->next_strip == rows_of(entry, 0))
+      cs_store_close(store, entry);
+  }
+  finish_pass(&pass);
+  return status;
+}
+
+/* ---------------------------------------------------------------- from the level below */
+
+static celspan_status find_or_load(celspan_context *context, cs_picture_store *store,
+                                   cs_picture_entry *entry, int level, int32_t column, int32_t row,
+                                   cs_picture_block **out) {
+  *out = cs_store_pin(store, entry, level, column, row);
+  return *out ? CELSPAN_OK : cs_load_block(context, store, entry, level, column, row, out);
+}
+
+/* A quarter of `block` from `from`, one of the four blocks below it. */
+static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
+  const celspan_picture_info *info = &block->entry->header.info;
+  int level = from->level;
+  int32_t x = from->column * CS_PICTURE_BLOCK, y = from->row * CS_PICTURE_BLOCK;
+  int32_t count = least(cs_levels_size(info->width, level) - x, CS_PICTURE_BLOCK);
+  int32_t rows = least(cs_levels_size(info->height, level) - y, CS_PICTURE_BLOCK);
+  const int32_t half = CS_PICTURE_BLOCK / 2;
+  int32_t to_x = from->column % 2 * half, to_y = from->row % 2 * half;
+  for (int32_t i = 0; i < rows; i += 2) {
+    const float *upper = from->texels + 4 * (size_t)(i * CS_PICTURE_BLOCK);
+    cs_levels_mean(info->width, info->height, level, x, y + i, count, upper,
+                   i + 1 < rows ? upper + 4 * CS_PICTURE_BLOCK : NULL,
+                   block->texels + 4 * (size_t)((to_y + i / 2) * CS_PICTURE_BLOCK + to_x));
+  }
+}
+
+static celspan_status fill_from_below(celspan_context *context, cs_picture_store *store,
+                                      cs_picture_block *block) {
+  cs_picture_entry *entry = block->entry;
+  int level = block->level - 1;
+  for (int i = 0; i < 4; i++) {
+    int32_t column = 2 * block->column + i % 2, row = 2 * block->row + i / 2;
+    if (column >= columns_of(entry, level) || row >= rows_of(entry, level))
+      continue;
+    cs_picture_block *below;
+    CS_TRY(find_or_load(context, store, entry, level, column, row, &below));
+    shrink_into(block, below);
+    cs_store_unpin(store, below);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_load_block(celspan_context *context, cs_picture_store *store,
+                             cs_picture_entry *entry, int level, int32_t column, int32_t row,
+                             cs_picture_block **out) {
+  cs_picture_block *block = cs_store_pin(store, entry, level, column, row);
+  if (block) {
+    *out = block;
+    return CELSPAN_OK;
+  }
+  if (level <= entry->base)
+    return run_pass(context, store, entry, level, column, row, out);
+  CS_TRY(cs_store_make(context, store, entry, level, column, row, &block));
+  celspan_status status = fill_from_below(context, store, block);
+  if (status != CELSPAN_OK) {
+    cs_store_discard(store, block);
+    return status;
+  }
+  describe(block);
+  *out = cs_store_insert(store, block, 1);
+  return CELSPAN_OK;
+}

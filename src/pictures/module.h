@@ -1,0 +1,96 @@
+/* The face of the picture module (src/picture, C++ over OpenImageIO): a table of C functions.
+ *
+ * The module knows files; the core knows light. Readers hand over pixels as they are coded in the
+ * file, turned upright and laid into the display window; decoding and premultiplying are the
+ * core's. Writers take rows already coded. Nothing is thrown across this face, no memory changes
+ * hands, and every failure comes with a sentence.
+ */
+#ifndef CS_PICTURES_MODULE_H
+#define CS_PICTURES_MODULE_H
+
+#include "celspan/celspan.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CS_PICTURE_MODULE_VERSION 1u
+#define CS_PICTURE_SIDE 1048576
+#define CS_PICTURE_CHANNELS 64
+
+typedef struct cs_picture_failure {
+  celspan_status status;
+  char text[768];
+} cs_picture_failure;
+
+typedef enum cs_picture_alpha {
+  CS_PICTURE_ALPHA_STRAIGHT, /* also for pictures without alpha: 1 inside the data window, else 0 */
+  CS_PICTURE_ALPHA_CODED     /* coded colour multiplied by alpha */
+} cs_picture_alpha;
+
+typedef struct cs_picture_request {
+  const char *file;
+  const char *layer; /* NULL, or the name of a subimage or of a group of channels */
+  int subimage;
+  const char *space; /* NULL, or a colour space of the OpenColorIO configuration */
+} cs_picture_request;
+
+typedef struct cs_picture_header {
+  celspan_picture_info info;
+  cs_picture_alpha alpha;
+  int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
+  bool is_linear;     /* `space` was given: pixels come in linear light, premultiplied */
+  bool is_turned;     /* the orientation tag moves rows: cheapest read whole */
+  bool is_whole;      /* the reader decodes everything at once and keeps it */
+  bool is_sequential; /* reading a row means decoding those above it */
+  int64_t file_size;  /* what tells a changed file */
+  int64_t file_time;  /* nanoseconds */
+  uint64_t file_number;
+} cs_picture_header;
+
+typedef struct cs_picture_reader cs_picture_reader;
+typedef struct cs_picture_writer cs_picture_writer;
+
+/* What a file is to be. Rows are interleaved channels of `depth` in the machine's byte order. */
+typedef struct cs_picture_output {
+  /* Takes the file's bytes, in any order; false: stop, the file has failed. */
+  bool (*put)(void *user, uint64_t offset, const void *bytes, size_t size);
+  void *user;
+  const char *name;   /* for messages and for the format's own header */
+  const char *format; /* "openexr", "tiff", ... */
+  int32_t width, height;
+  int channels;        /* 1 grey, 3, 4 with alpha */
+  celspan_depth depth; /* never DEFAULT */
+  int bits;            /* kept of each value: 10 in a depth of 16 for film; 0: all */
+  bool is_straight;
+  celspan_transfer transfer; /* for the header */
+  const char *title;         /* NULL: none */
+  double frames_second;      /* 0: none */
+  int32_t frame;
+} cs_picture_output;
+
+typedef struct cs_picture_module {
+  uint32_t version;
+  /* Errors: INPUT, LIMIT, NO_MEMORY, BAD_ARGUMENT; *out and *header are untouched then. */
+  celspan_status (*open)(const cs_picture_request *request, cs_picture_reader **out,
+                         cs_picture_header *header, cs_picture_failure *failure);
+  /* RGBA floats of a rectangle inside the display window, row-major. One thread at a time. */
+  celspan_status (*read)(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
+                         int32_t height, float *rgba, cs_picture_failure *failure);
+  void (*close)(cs_picture_reader *reader);
+  celspan_status (*write_open)(const cs_picture_output *output, cs_picture_writer **out,
+                               cs_picture_failure *failure);
+  celspan_status (*write_rows)(cs_picture_writer *writer, int32_t y, int32_t count,
+                               const void *rows, cs_picture_failure *failure);
+  /* Completes the file and frees the writer, whatever happens. */
+  celspan_status (*write_close)(cs_picture_writer *writer, cs_picture_failure *failure);
+  void (*write_abandon)(cs_picture_writer *writer);
+} cs_picture_module;
+
+/* The module's one symbol. */
+CELSPAN_API const void *celspan_picture_module(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,22 @@
+/* Bands: a frame's rows made by several workers, delivered in order.
+ *
+ *   workers --rows, band by band--> bands --in order, by the calling thread--> sink
+ *
+ * A sink that takes parts (output/parts.h) gets the rows from the workers themselves; only the
+ * parts are joined in order. The calling thread works too while it has nothing to deliver.
+ * Invariant: the sink sees the same spans whatever the number of workers and the height of bands;
+ * the failure reported is that of the topmost row that failed.
+ */
+#ifndef CS_RENDER_STRIPS_H
+#define CS_RENDER_STRIPS_H
+
+#include "render/frame.h"
+
+/* Feeds all rows of the frame to sink->row. desc: for its progress function.
+ * Errors: those of rows and of the sink; CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_strips_render(celspan_context *context, const cs_frame *frame,
+                                                const celspan_frame_desc *desc,
+                                                const celspan_sink *sink,
+                                                celspan_statistics *statistics);
+
+#endif

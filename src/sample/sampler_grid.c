@@ -1,0 +1,93 @@
+/* Where texels begin along a row, by the very arithmetic that samples them: a column belongs to the
+ * texel that its centre is found in.
+ */
+#include "sample/sampler_parts.h"
+
+/* Pixels: from here on a span a texel costs less than its pixels. */
+#define WIDE_TEXEL 4
+
+bool cs_sampler_is_grid(const cs_sampler *s) {
+  return s->way == CS_SAMPLER_ROW &&
+         (s->kernel == CS_SAMPLER_NEAREST || s->kernel == CS_SAMPLER_LINEAR) &&
+         fabs(s->m[0]) * WIDE_TEXEL <= 1 + CS_SAMPLER_SAME && fabs(s->m[0]) > 0;
+}
+
+/* What is at or above a whole number k where the texel under a centre, or left of it, is k or one
+ * after it. */
+static inline double place_of(const cs_sampler *s, int32_t column, double y) {
+  double u = cs_sampler_row_u(s, column, y);
+  return s->kernel == CS_SAMPLER_NEAREST ? u + CS_SAMPLER_SAME : u - 0.5 + CS_SAMPLER_SAME;
+}
+
+/* Appends the columns inside (x0, x1) at which the texel is another; a texel is some columns wide.
+ */
+static size_t walk_texels(const cs_sampler *s, int32_t x0, int32_t x1, double y, int32_t *columns) {
+  double start = place_of(s, x0, y), across = 1 / s->m[0];
+  bool grows = s->m[0] > 0;
+  double edge = floor(start) + grows; /* the next to be passed */
+  size_t count = 0;
+  for (int32_t column = x0;; edge += grows ? 1 : -1) {
+    double guess = x0 + (edge - start) * across;
+    int32_t next = guess < x1 ? (int32_t)guess : x1;
+    next = next > column ? next : column + 1;
+    while (next - 1 > column && (place_of(s, next - 1, y) >= edge) == grows)
+      next--;
+    while (next < x1 && (place_of(s, next, y) >= edge) != grows)
+      next++;
+    if (next >= x1)
+      return count;
+    columns[count++] = column = next;
+  }
+}
+
+/* The column at which centres pass `u`, near enough. */
+static int32_t column_of(const cs_sampler *s, double u, int32_t x0, int32_t x1, double y) {
+  double x = (u - (s->m[1] * y + s->m[2])) / s->m[0] - 0.5;
+  return cs_number_ceil(cs_number_clamp(x, x0, x1));
+}
+
+static bool is_clear(const cs_sampler *s, int32_t column, double y) {
+  return cs_sampler_is_outside(cs_sampler_row_u(s, column, y), s->width, s->wrap);
+}
+
+typedef struct stretch {
+  int32_t x0, x1;
+} stretch;
+
+/* The columns of a picture that ends: beyond them the row is of one colour. */
+static stretch find_picture(const cs_sampler *s, int32_t x0, int32_t x1, double y) {
+  int32_t left = column_of(s, s->m[0] > 0 ? 0 : s->width, x0, x1, y);
+  int32_t right = column_of(s, s->m[0] > 0 ? s->width : 0, left, x1, y);
+  while (left > x0 && !is_clear(s, left - 1, y) && s->wrap == CELSPAN_WRAP_CLEAR)
+    left--;
+  while (left < right && is_clear(s, left, y))
+    left++;
+  while (right < x1 && !is_clear(s, right, y) && s->wrap == CELSPAN_WRAP_CLEAR)
+    right++;
+  while (right > left && is_clear(s, right - 1, y))
+    right--;
+  return (stretch){left, right};
+}
+
+size_t cs_sampler_step_limit(const cs_sampler *s, int32_t x0, int32_t x1) {
+  double texels = fabs(s->m[0]) * (double)(x1 - x0);
+  double most = s->wrap == CELSPAN_WRAP_REPEAT || texels < s->width ? texels : s->width;
+  return (size_t)most + 8;
+}
+
+size_t cs_sampler_steps(const cs_sampler *s, int32_t x0, int32_t x1, double y, int32_t *columns) {
+  size_t count = 0;
+  stretch seen = {x0, x1};
+  if (cs_sampler_is_outside(cs_sampler_row_v(s, y), s->height, s->wrap))
+    return 0;
+  if (s->wrap != CELSPAN_WRAP_REPEAT)
+    seen = find_picture(s, x0, x1, y);
+  if (seen.x0 >= seen.x1)
+    return 0;
+  if (seen.x0 > x0)
+    columns[count++] = seen.x0;
+  count += walk_texels(s, seen.x0, seen.x1, y, columns + count);
+  if (seen.x1 < x1)
+    columns[count++] = seen.x1;
+  return count;
+}

@@ -1,0 +1,69 @@
+/* The door of the scene: what enters a value is checked here, once, and refused in a sentence that
+ * names the noun, the field, what was given and what is allowed.
+ *
+ *   circle: radius is -3; it must be 0 or more
+ *   polygon: points[4].x is not a number
+ *
+ * Lists are counted from 1, as scripts count them. All functions: BAD_ARGUMENT, or OK.
+ */
+#ifndef CS_SCENE_CHECK_H
+#define CS_SCENE_CHECK_H
+
+#include "base/context.h"
+
+/* A number for a message: short, and with a point whatever the host's locale. */
+typedef struct cs_check_text {
+  char text[32];
+} cs_check_text;
+cs_check_text cs_check_number_text(double value);
+
+/* low <= value <= high */
+CELSPAN_CHECKED celspan_status cs_check_range(celspan_context *context, const char *noun,
+                                              const char *field, double value, double low,
+                                              double high);
+/* Finite, |value| <= 1e12. */
+CELSPAN_CHECKED celspan_status cs_check_number(celspan_context *context, const char *noun,
+                                               const char *field, double value);
+/* 0 <= value <= 1e12 */
+CELSPAN_CHECKED celspan_status cs_check_size(celspan_context *context, const char *noun,
+                                             const char *field, double value);
+/* 0 < value <= 1e12 */
+CELSPAN_CHECKED celspan_status cs_check_positive(celspan_context *context, const char *noun,
+                                                 const char *field, double value);
+/* 0 <= value <= 1 */
+CELSPAN_CHECKED celspan_status cs_check_share(celspan_context *context, const char *noun,
+                                              const char *field, double value);
+/* As cs_check_range for `part` ("" for none) of an item of a list. index: from 1, or 0 for a field
+ * that is no list. */
+CELSPAN_CHECKED celspan_status cs_check_item(celspan_context *context, const char *noun,
+                                             const char *field, size_t index, const char *part,
+                                             double value, double low, double high);
+/* Both coordinates are numbers. index as above. */
+CELSPAN_CHECKED celspan_status cs_check_point(celspan_context *context, const char *noun,
+                                              const char *field, size_t index, celspan_point point);
+/* The corner is a number, the sides are sizes. */
+CELSPAN_CHECKED celspan_status cs_check_box(celspan_context *context, const char *noun,
+                                            const char *field, const celspan_box *box);
+/* All seven values in 0..1. field "": the values stand by their own names; index as above. */
+CELSPAN_CHECKED celspan_status cs_check_paint(celspan_context *context, const char *noun,
+                                              const char *field, size_t index,
+                                              const celspan_paint *paint);
+/* r, g, b are sizes; a is in 0..1. */
+CELSPAN_CHECKED celspan_status cs_check_light(celspan_context *context, const char *noun,
+                                              const char *field, const celspan_light *light);
+/* `matrix` after the one that is `there`: *whole is both. */
+CELSPAN_CHECKED celspan_status cs_check_transform(celspan_context *context,
+                                                  const celspan_matrix *there,
+                                                  const celspan_matrix *matrix,
+                                                  celspan_matrix *whole);
+/* An enumeration whose values are 0 .. count - 1. */
+CELSPAN_CHECKED celspan_status cs_check_choice(celspan_context *context, const char *noun,
+                                               const char *field, unsigned value, unsigned count);
+/* A pointer that may not be NULL; a list of count 0 may be. */
+CELSPAN_CHECKED celspan_status cs_check_given(celspan_context *context, const char *noun,
+                                              const char *field, const void *pointer);
+/* The struct_size of a description. */
+CELSPAN_CHECKED celspan_status cs_check_version(celspan_context *context, const char *noun,
+                                                size_t given, size_t expected);
+
+#endif

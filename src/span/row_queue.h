@@ -1,0 +1,40 @@
+/* A roll: copies of finished rows, one after the other, for whoever takes them later.
+ *
+ * Invariant: row i of a roll is the i-th that was added since it was cleared; its spans and the
+ * arrays they point to stay valid until the next clear, and what a clear leaves reserved is used
+ * again.
+ */
+#ifndef CS_SPAN_ROW_QUEUE_H
+#define CS_SPAN_ROW_QUEUE_H
+
+#include "span/row.h"
+
+/* Up to the end of a row: how many spans there are, and how many of the row's are not singles. */
+typedef struct cs_row_queue_end {
+  size_t spans;
+  cs_varied varied;
+} cs_row_queue_end;
+
+typedef struct cs_row_queue {
+  celspan_span *spans;
+  cs_row_queue_end *ends;
+  cs_arena arrays;
+  size_t count; /* rows */
+  size_t span_capacity, end_capacity;
+} cs_row_queue;
+
+typedef struct cs_row_queue_row {
+  const celspan_span *spans;
+  size_t count;
+  cs_varied varied;
+} cs_row_queue_row;
+
+/* A zeroed roll is empty. */
+void cs_row_queue_finish(cs_row_queue *queue, cs_memory *memory);
+void cs_row_queue_clear(cs_row_queue *queue);
+/* spans: copied, with their arrays. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,
+                                                const celspan_span *spans, size_t count);
+cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row);
+
+#endif

@@ -1,0 +1,182 @@
+/* paint/gradient_table.c and palette_run.c: programs of gradients show what a fold of paints shows,
+ * and their runs are right within 1/1023 from fewer colours than columns. */
+#include "paint/gradient_run.h"
+
+#include "paint/over_row.h"
+#include "paint/shade.h"
+#include "tests/support/check.h"
+
+#define LEAVES 6
+#define WIDTH 200
+
+static uint32_t state = 5;
+
+static float random_unit(void) {
+  state = state * 1664525u + 1013904223u;
+  return (float)(state >> 8) * 0x1p-24f;
+}
+
+static cs_layer layers[LEAVES];
+static cs_layer_rule rules[LEAVES];
+static cs_shade shades[LEAVES];
+static cs_group group = {.parent = CS_STACK_NONE, .first = 1, .fade = 0.6f};
+static cs_back_light lights[2] = {{.below = 4, .light = {0.1f, 0.2f, 0.3f, 0}, .keep = 0.8f},
+                                  {.below = 1, .light = {1, 1, 0.5f, 0}, .keep = 0.3f}};
+static cs_stack stack = {.layers = layers,
+                         .rules = rules,
+                         .shades = shades,
+                         .groups = &group,
+                         .lights = lights,
+                         .layer_count = LEAVES,
+                         .shade_count = LEAVES,
+                         .group_count = 1,
+                         .light_count = 2};
+static celspan_texture *linear, *radial;
+
+static celspan_paint random_paint(void) {
+  celspan_paint paint = {.beta = random_unit()};
+  for (int c = 0; c < 3; c++) {
+    paint.pigment[c] = random_unit();
+    paint.medium[c] = random_unit();
+  }
+  return paint;
+}
+
+/* Stops that leave both ends free, two of them in one place. */
+static void make_textures(celspan_context *context) {
+  celspan_stop stops[4] = {
+      {0.1, random_paint()}, {0.4, random_paint()}, {0.4, random_paint()}, {0.9, random_paint()}};
+  celspan_point from = {20, 10}, to = {150, 60};
+  CHECK(celspan_texture_create_linear(context, from, to, stops, 4, &linear) == CELSPAN_OK);
+  CHECK(celspan_texture_create_radial(context, from, 160, stops, 4, &radial) == CELSPAN_OK);
+}
+
+static void make_layers(bool is_grouped, double perspective) {
+  for (uint32_t i = 0; i < LEAVES; i++) {
+    layers[i] = (cs_layer){.fade = random_unit(),
+                           .group = is_grouped && i > 0 && i < 4 ? 0 : CS_STACK_NONE,
+                           .detail = i,
+                           .front = {random_unit(), 1, random_unit(), 0},
+                           .s = {0.1f, 0.2f, random_unit(), 0},
+                           .t = {0.5f, random_unit(), 0.7f, 0}};
+    rules[i] = (cs_layer_rule){.key = {(uint64_t)1 << i | (uint64_t)i << 40, ~(uint64_t)i << i}};
+    shades[i] = (cs_shade){.texture = i % 2 ? linear : radial,
+                           .inverse = {{1, 0.1 * i, 3, -0.2, 1, 5, perspective, 0, 1}}};
+    cs_shade_prepare(&shades[i]);
+  }
+}
+
+/* varying: a bit for every leaf that is a gradient. */
+static cs_program make_program(cs_item *items, unsigned varying) {
+  for (uint32_t i = 0; i < LEAVES; i++) {
+    uint32_t layer = LEAVES - 1 - i;
+    layers[layer].kind = varying >> layer & 1 ? CS_LAYER_SHADED : CS_LAYER_FLAT;
+    items[i] = (cs_item){.layer = layer};
+  }
+  return (cs_program){.items = items, .length = LEAVES};
+}
+
+/* The fold of paints, column by column. */
+static void fold(cs_composer *composer, const cs_program *program, double y, float (*out)[4]) {
+  static float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
+  cs_over_row blend;
+  cs_arena *arena = &composer->scratch;
+  cs_arena_reset(arena);
+  CHECK(cs_over_row_begin(composer->context, arena, &stack, CS_ISA_ANY, WIDTH, &blend) ==
+        CELSPAN_OK);
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &layers[program->items[i].layer];
+    CHECK(cs_over_row_reach(composer->context, arena, &blend, program->items[i].layer) ==
+          CELSPAN_OK);
+    for (int32_t x = 0; x < WIDTH && layer->kind == CS_LAYER_SHADED; x++) {
+      cs_shade_lanes paint = cs_shade_paint(&shades[layer->detail], x + 0.5, y);
+      cs_v4_store(s[x], paint.s);
+      cs_v4_store(t[x], paint.t);
+    }
+    if (layer->kind == CS_LAYER_SHADED)
+      cs_over_row_paints(&blend, layer, (const float(*)[4])s, (const float(*)[4])t);
+    else
+      cs_over_row_flat(&blend, layer);
+  }
+  cs_over_row_end(&blend, out);
+}
+
+static bool is_near(cs_v4 a, const float *b, float tolerance) {
+  bool near = true;
+  for (int c = 0; c < 4; c++)
+    near = near && fabsf(a[c] - b[c]) <= tolerance;
+  return near;
+}
+
+/* Every column lies in a span that is near the colour wanted there. */
+static void check_run(cs_composer *composer, const cs_gradient_table *palette, double y,
+                      const float (*wanted)[4]) {
+  cs_row row;
+  cs_row_init(&row);
+  uint64_t before = composer->evaluations;
+  CHECK(cs_gradient_run(composer, palette, 0, WIDTH, y, &row) == CELSPAN_OK);
+  CHECK(composer->evaluations - before < WIDTH / 2);
+  int32_t x = 0, wrong = 0;
+  for (size_t i = 0; i < row.count; i++)
+    for (CHECK(row.spans[i].x0 == x); x < row.spans[i].x1; x++) {
+      float colour[4];
+      celspan_span_colour(&row.spans[i], x, colour);
+      wrong += !is_near(cs_v4_load(colour), wanted[x], 1.0f / 1023);
+    }
+  CHECK(x == WIDTH);
+  CHECK(wrong == 0);
+  cs_row_finish(&row, composer->context->memory);
+}
+
+static void check_program(cs_composer *composer, const cs_program *program, double y) {
+  static float wanted[CS_OVER_ROW_BATCH][4];
+  const cs_gradient_table *palette, *again;
+  CHECK(cs_gradient_table_find(composer, program, &palette) == CELSPAN_OK);
+  if (!CHECK(palette != NULL))
+    return;
+  CHECK(cs_gradient_table_find(composer, program, &again) == CELSPAN_OK && again == palette);
+  fold(composer, program, y, wanted);
+  int32_t wrong = 0;
+  for (int32_t x = 0; x < WIDTH; x++)
+    wrong += !is_near(cs_gradient_table_colour(palette, x + 0.5, y), wanted[x], 2e-6f);
+  CHECK(wrong == 0);
+  if (cs_gradient_run_fits(palette))
+    check_run(composer, palette, y, (const float(*)[4])wanted);
+}
+
+/* All programs of six leaves with one gradient or more, in rows near and far from the centre. */
+static void test_programs(celspan_context *context, bool is_grouped, double perspective) {
+  cs_composer composer;
+  cs_item items[LEAVES];
+  make_layers(is_grouped, perspective);
+  CHECK(cs_composer_init(&composer, context, &stack) == CELSPAN_OK);
+  for (unsigned varying = 1; varying < 1u << LEAVES; varying++) {
+    /* A leaf's kind never changes, so palettes are named by their leaves alone. */
+    cs_gradient_tables_destroy(composer.palettes, context->memory);
+    CHECK(cs_gradient_tables_create(context, &composer.palettes) == CELSPAN_OK);
+    cs_program program = make_program(items, varying);
+    const cs_gradient_table *palette;
+    bool is_one = (varying & (varying - 1)) == 0;
+    if (is_grouped && !is_one) {
+      CHECK(cs_gradient_table_find(&composer, &program, &palette) == CELSPAN_OK && !palette);
+      continue;
+    }
+    for (double y = 0.5; y < 120; y += 17)
+      check_program(&composer, &program, y);
+  }
+  cs_composer_finish(&composer);
+}
+
+int main(void) {
+  celspan_context *context;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  make_textures(context);
+  test_programs(context, false, 0);
+  test_programs(context, true, 0);
+  test_programs(context, false, 0.002);
+  test_programs(context, false, -0.012); /* with a horizon */
+  celspan_texture_unref(linear);
+  celspan_texture_unref(radial);
+  celspan_context_destroy(context);
+  return check_done();
+}

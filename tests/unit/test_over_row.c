@@ -1,0 +1,175 @@
+/* paint/over_row.c: every set of instructions folds alike, and every pixel by itself. */
+#include "paint/over_row.h"
+
+#include "colour/srgb8.h"
+#include "tests/support/check.h"
+
+static uint32_t state = 11;
+
+static float random_unit(void) {
+  state = state * 1664525u + 1013904223u;
+  return (float)(state >> 8) * 0x1p-24f;
+}
+
+static float rgba[CS_OVER_ROW_BATCH][4], s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
+static cs_layer all_layers[6];
+static cs_group groups[2] = {{.parent = CS_STACK_NONE, .first = 1, .fade = 0.7f},
+                             {.parent = 0, .first = 2, .fade = 0.4f}};
+static cs_back_light lights[2] = {{.below = 5, .light = {0.1f, 0.2f, 0.3f, 0}, .keep = 0.8f},
+                                  {.below = 1, .light = {1, 1, 0.5f, 0}, .keep = 0.1f}};
+static const cs_stack stack = {.layers = all_layers,
+                               .layer_count = 6,
+                               .groups = groups,
+                               .group_count = 2,
+                               .lights = lights,
+                               .light_count = 2};
+
+static void fill(void) {
+  for (int i = 0; i < CS_OVER_ROW_BATCH; i++)
+    for (int c = 0; c < 4; c++) {
+      rgba[i][c] = c == 3 ? 0.5f + 0.5f * random_unit() : 0.4f * random_unit();
+      s[i][c] = 0.4f * random_unit();
+      t[i][c] = random_unit();
+    }
+  for (uint32_t i = 0; i < 6; i++) {
+    all_layers[i] = (cs_layer){.fade = i == 5 ? 1 : random_unit(),
+                               .group = i == 0 || i == 5  ? CS_STACK_NONE
+                                        : i < 2 || i == 4 ? 0
+                                                          : 1,
+                               .front = {random_unit(), 1, 2 * random_unit(), 0},
+                               .s = {0.1f, 0.2f, random_unit(), 0},
+                               .t = {0.5f, random_unit(), 0.7f, 0}};
+  }
+}
+
+/* Leaves 5 .. 0 from the front, in all the ways of painting, groups and lights between them. */
+static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t from, int32_t count,
+                 float (*out)[4]) {
+  cs_over_row blend;
+  cs_arena_reset(arena);
+  CHECK(cs_over_row_begin(context, arena, &stack, isa, count, &blend) == CELSPAN_OK);
+  for (uint32_t layer = 6; layer-- > 0;) {
+    CHECK(cs_over_row_reach(context, arena, &blend, layer) == CELSPAN_OK);
+    if (layer % 3 == 0)
+      cs_over_row_flat(&blend, &all_layers[layer]);
+    else if (layer % 3 == 1)
+      cs_over_row_paints(&blend, &all_layers[layer], (const float(*)[4])s + from,
+                         (const float(*)[4])t + from);
+    else
+      cs_over_row_picture(&blend, &all_layers[layer],
+                          layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
+                          (const float(*)[4])rgba + from);
+  }
+  cs_over_row_end(&blend, out);
+}
+
+/* The fold of one pixel by the book, in doubles; groups are folded by recursion. */
+static double by_hand_alpha(int i) {
+  double through[3] = {1, 1, 1}, inner[3] = {1, 1, 1}, innermost[3] = {1, 1, 1}, mean = 0;
+  for (int c = 0; c < 3; c++) {
+    const cs_layer *l = all_layers;
+    double alpha = (double)rgba[i][3],
+           front = 1 - alpha; /* leaf 5 is a picture that is not faded */
+    through[c] *= front;
+    inner[c] *= 1 - (double)l[4].fade + (double)l[4].fade * (double)t[i][c];
+    innermost[c] *= (double)l[3].t[c];
+    innermost[c] *=
+        1 - (double)l[2].fade + (double)l[2].fade * fmin(1, 1 - alpha + (double)rgba[i][c]);
+    inner[c] *= 1 - (double)groups[1].fade + (double)groups[1].fade * innermost[c];
+    inner[c] *= 1 - (double)l[1].fade + (double)l[1].fade * (double)t[i][c];
+    through[c] *= 1 - (double)groups[0].fade + (double)groups[0].fade * inner[c];
+    through[c] *= (double)l[0].t[c];
+    mean += through[c] / 3;
+  }
+  return 1 - (double)lights[0].keep * (double)lights[1].keep * mean;
+}
+
+/* Pictures alone: what the general fold makes of them. */
+static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack *bare, cs_isa isa,
+                       int32_t count) {
+  static cs_over_row_layers layers;
+  static float wanted[CS_OVER_ROW_BATCH][4], made[CS_OVER_ROW_BATCH][4];
+  static unsigned char codes[4 * CS_OVER_ROW_BATCH + 4];
+  cs_over_row blend;
+  cs_arena_reset(arena);
+  CHECK(cs_over_row_begin(context, arena, bare, CS_ISA_ANY, count, &blend) == CELSPAN_OK);
+  layers.part = (cs_over_row_part){0, count};
+  layers.count = count;
+  const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
+  for (uint32_t i = 0; i < 2; i++) {
+    CHECK(cs_over_row_reach(context, arena, &blend, 5 - i) == CELSPAN_OK);
+    cs_over_row_picture(&blend, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]);
+    for (int32_t k = layers.part.first; k < layers.part.end; k++)
+      memcpy(layers.rgba[k], samples[i][k], sizeof *layers.rgba);
+    if (i == 0)
+      layers.part =
+          cs_over_row_bare(isa, true, (const float(*)[4])layers.rgba, layers.part, layers.folded);
+  }
+  cs_over_row_end(&blend, wanted);
+  codes[4 * count] = 77;
+  cs_over_row_bare_codes(isa, bare, &layers, codes);
+  cs_over_row_bare_end(isa, bare, &layers, made);
+  CHECK(memcmp(made, wanted, (size_t)count * sizeof *made) == 0);
+  for (int32_t k = 0; k < count; k++) {
+    uint32_t pixel = cs_srgb8_pixel(wanted[k]);
+    CHECK(memcmp(codes + 4 * k, &pixel, sizeof pixel) == 0);
+  }
+  CHECK(codes[4 * count] == 77);
+}
+
+/* Where the first picture is opaque nothing of the second is asked for. */
+static void test_bare(celspan_context *context, cs_arena *arena) {
+  const cs_stack unlit = {.layers = all_layers, .layer_count = 6};
+  const cs_stack lit = {
+      .layers = all_layers, .layer_count = 6, .lights = lights + 1, .light_count = 1};
+  all_layers[4] = all_layers[5] =
+      (cs_layer){.fade = 1, .group = CS_STACK_NONE, .front = {1, 1, 1, 0}};
+  for (int opaque = 0; opaque <= CS_OVER_ROW_BATCH; opaque += 61) {
+    fill();
+    all_layers[4] = all_layers[5] =
+        (cs_layer){.fade = 1, .group = CS_STACK_NONE, .front = {1, 1, 1, 0}};
+    for (int i = 0; i < CS_OVER_ROW_BATCH; i++) {
+      rgba[i][3] = i < opaque ? 1 : rgba[i][3];
+      s[i][3] = opaque % 2 == 0 ? 1 : 0.7f;
+    }
+    for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+      for (int32_t count = 1; count <= CS_OVER_ROW_BATCH; count += 51) {
+        check_bare(context, arena, &unlit, isa, count);
+        check_bare(context, arena, &lit, isa, count);
+        cs_over_row_part all = {0, count};
+        float folded[CS_OVER_ROW_BATCH][4];
+        cs_over_row_part left = cs_over_row_bare(isa, true, (const float(*)[4])rgba, all, folded);
+        CHECK(opaque < count ? left.first <= opaque && left.first > opaque - 4 && left.end == count
+                             : left.first >= left.end);
+      }
+  }
+}
+
+int main(void) {
+  celspan_context *context;
+  cs_arena arena;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  cs_arena_init(&arena);
+  for (int round = 0; round < 20; round++) {
+    float wanted[CS_OVER_ROW_BATCH][4], made[CS_OVER_ROW_BATCH][4];
+    fill();
+    fold(context, &arena, CS_ISA_ANY, 0, CS_OVER_ROW_BATCH, wanted);
+    for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+      fold(context, &arena, isa, 0, CS_OVER_ROW_BATCH, made);
+      CHECK(memcmp(made, wanted, sizeof wanted) == 0);
+      for (int32_t from = 0; from < 200; from += 37) { /* alone, and in odd numbers */
+        int32_t count = 1 + from % 7;
+        made[count][0] = -1;
+        fold(context, &arena, isa, from, count, made);
+        CHECK(memcmp(made, wanted + from, (size_t)count * sizeof *made) == 0);
+        CHECK(made[count][0] == -1);
+      }
+    }
+    for (int i = 0; i < CS_OVER_ROW_BATCH; i += 17)
+      CHECK_NEAR((double)wanted[i][3], by_hand_alpha(i), 1e-6);
+  }
+  test_bare(context, &arena);
+  cs_arena_finish(&arena, context->memory);
+  celspan_context_destroy(context);
+  return check_done();
+}
