@@ -1,0 +1,122 @@
+--- The figures of a tree's structure, as plain tables.
+local circles = require "tests.support.rooms.circles"
+local words = require "tests.support.rooms.words"
+
+local measures = {}
+
+local PUBLIC = "include/"
+
+--- The value that `share` of a list lies at or below.
+function measures.quantile(list, share)
+  table.sort(list)
+  return list[math.max(1, math.ceil(#list * share))] or 0
+end
+
+--- { { fn, lines, file }, ... } of all functions with a body.
+function measures.functions(tree)
+  local list = {}
+  for _, file in ipairs(tree.files) do
+    for _, fn in ipairs(file.functions) do
+      list[#list + 1] = { fn = fn, file = file, lines = fn.last - fn.line + 1 }
+    end
+  end
+  return list
+end
+
+--- What type_counts counts.
+measures.type_kinds = { "typedef struct", "struct", "union", "enum" }
+
+--- How many types of each kind the files have that `is_meant` accepts, and how many in all.
+function measures.type_counts(tree, is_meant)
+  local counts = { all = 0 }
+  for _, kind in ipairs(measures.type_kinds) do counts[kind] = 0 end
+  for _, file in ipairs(tree.files) do
+    for _, type in ipairs(is_meant(file) and file.types or {}) do
+      local kind = type.kind == "class" and "struct" or type.kind
+      if kind == "struct" and type.is_typedef then kind = "typedef struct" end
+      counts[kind], counts.all = counts[kind] + 1, counts.all + 1
+    end
+  end
+  return counts
+end
+
+--- A room's row: files, headers, lines, the longest function, the median of the headers.
+function measures.room(tree, room)
+  local row = { sources = 0, headers = 0, lines = 0, longest = 0 }
+  local header_lines = {}
+  for _, file in ipairs(tree.files) do
+    if file.room == room then
+      row.lines = row.lines + file.lines
+      if file.is_header then
+        row.headers = row.headers + 1
+        header_lines[#header_lines + 1] = file.lines
+      else
+        row.sources = row.sources + 1
+      end
+      for _, fn in ipairs(file.functions) do
+        row.longest = math.max(row.longest, fn.last - fn.line + 1)
+      end
+    end
+  end
+  row.header_median = measures.quantile(header_lines, 0.5)
+  return row
+end
+
+--- Circles between "room", "path" or "unit" by what they include; by_use: by what they call, too.
+function measures.circles(tree, key, by_use)
+  local edges = {}
+  tree:each_edge(function(from, to)
+    local a, b = from[key], to[key]
+    edges[a] = edges[a] or {}
+    if a ~= b then edges[a][b] = true end
+  end, not by_use)
+  return circles.find(edges)
+end
+
+--- Includes that run up the list of folders: { { file, to, line }, ... }.
+function measures.climbs(tree)
+  local list, count = {}, 0
+  tree:each_edge(function(from, to, include)
+    count = count + 1
+    if tree:rank(to) > tree:rank(from) then
+      list[#list + 1] = { file = from, to = to, line = include.line }
+    end
+  end, true)
+  return list, count
+end
+
+--- Functions that other files use, and how many are named by their file: cs_FILE_...
+function measures.naming(tree)
+  local used, count, named = {}, 0, 0
+  tree:each_edge(function(_, _, edge)
+    if edge.file and edge.name:find "^cs_" then used[edge] = true end
+  end)
+  for fn in pairs(used) do
+    count = count + 1
+    local stem = "cs_" .. fn.file.name
+    if fn.name == stem or fn.name:sub(1, #stem + 1) == stem .. "_" then named = named + 1 end
+  end
+  return count, named
+end
+
+--- Declared names with a house word where it does not belong: { { entry, file, name }, ... }; and
+--- how many names there are. Functions count where they are defined, the public header not at all.
+function measures.misplaced(tree)
+  local list, count = {}, 0
+  for _, file in ipairs(tree.files) do
+    local seen = {}
+    for _, name in ipairs(file.room:sub(1, #PUBLIC) == PUBLIC and {} or file.names) do
+      local key = (name.owner or "") .. "." .. name.name
+      if name.kind ~= "prototype" and not seen[key] then
+        seen[key] = true
+        count = count + 1
+        for _, entry in ipairs(words.misplaced(name.name, file.path)) do
+          list[#list + 1] = { entry = entry, file = file, name = name }
+        end
+      end
+    end
+  end
+  return list, count
+end
+
+return measures

@@ -1,0 +1,125 @@
+--- The sources of a tree: its rooms, which are the folders of src/ with sources, their files, and
+--- who includes and who uses what.
+local c_source = require "tests.support.rooms.c_source"
+
+local tree = {}
+tree.__index = tree
+
+local BUILT_APART = { "picture", "bind", "cli" }
+local PUBLIC = "include/celspan"
+
+--- The rank of each folder in the list of src/meson.build, followed by those that are built apart.
+local function folder_ranks(root)
+  local file = assert(io.open(root .. "/src/meson.build", "r"))
+  local list = file:read("a"):match "foreach%s+layer%s*:%s*(%b[])"
+  file:close()
+  assert(list, "src/meson.build: no list of layers found")
+  local ranks, count = { include = 0 }, 0
+  local function add(name)
+    if ranks[name] then return end
+    count = count + 1
+    ranks[name] = count
+  end
+  for name in list:gmatch "'([%w_/]+)'" do add(name) end
+  for _, name in ipairs(BUILT_APART) do add(name) end
+  return ranks
+end
+
+--- The sources below src/, with folders from it.
+local function source_paths(root)
+  local paths = {}
+  local pipe = assert(io.popen(("cd '%s/src' && find . -name '*.[ch]' -o -name '*.cpp'"):format(root)))
+  for line in pipe:lines() do paths[#paths + 1] = line:sub(3) end
+  pipe:close()
+  table.sort(paths)
+  return paths
+end
+
+--- file.room and file.unit: a .c or .cpp, its .h and the kernels of the same name are one unit.
+local function place(file, path)
+  file.path = path
+  file.room = path:match "^(.*)/"
+  file.top = path:match "^[^/]+"
+  file.is_header = path:find "%.h$" ~= nil
+  file.unit = path:gsub("%.%a+$", ""):gsub("_wide$", "")
+  file.name = file.unit:match "[^/]+$"
+end
+
+--- The place of a file's folder in the list, from the ground up.
+function tree:rank(file) return self.ranks[file.room] or self.ranks[file.top] or math.huge end
+
+--- The folders with sources, from the ground up.
+local function collect_rooms(self)
+  local rooms, rank = {}, {}
+  for _, file in ipairs(self.files) do
+    if not rank[file.room] then
+      rank[file.room] = self:rank(file)
+      rooms[#rooms + 1] = file.room
+    end
+  end
+  table.sort(rooms, function(a, b)
+    if rank[a] ~= rank[b] then return rank[a] < rank[b] end
+    return a < b
+  end)
+  return rooms
+end
+
+function tree.read(root)
+  local self = setmetatable({ files = {}, named = {}, ranks = folder_ranks(root), shared = {},
+                              own = {} }, tree)
+  for _, path in ipairs(source_paths(root)) do
+    local file = c_source.read(root .. "/src/" .. path)
+    place(file, path)
+    self.files[#self.files + 1] = file
+    self.named[path:gsub("^include/", "")] = file
+    self.own[file] = {}
+    for _, fn in ipairs(file.functions) do
+      fn.file = file
+      self.own[file][fn.name] = fn
+      local is_ours = fn.name:find "^cs_" or fn.name:find "^celspan_"
+      if is_ours and (not fn.is_static or file.is_header) then self.shared[fn.name] = fn end
+    end
+  end
+  self.rooms = collect_rooms(self)
+  return self
+end
+
+local BEFORE_A_NAME = { ["("] = true, [","] = true, ["="] = true, ["{"] = true, ["?"] = true,
+                        [":"] = true }
+local AFTER_A_NAME = { [")"] = true, [","] = true, [";"] = true, ["}"] = true, [":"] = true }
+
+--- The function that a token of a file names: where it is called, or handed on to be called.
+function tree:used_at(file, i)
+  local word, before, after = file.text[i], file.text[i - 1], file.text[i + 1]
+  local fn = self.own[file][word] or self.shared[word]
+  if not fn or before == "." or before == "->" then return end
+  local is_handed_on = BEFORE_A_NAME[before] and AFTER_A_NAME[after]
+  if after == "(" or is_handed_on or word:find "^cs_" then return fn end
+end
+
+--- Calls visit(from, to, why) for each include of a file of the tree, and, unless told otherwise,
+--- each use of another file's function.
+function tree:each_edge(visit, only_includes)
+  for _, file in ipairs(self.files) do
+    for _, include in ipairs(file.includes) do
+      local to = self.named[include.name]
+      if to and to.room ~= PUBLIC then visit(file, to, include) end
+    end
+    for i = 1, only_includes and 0 or #file.text do
+      local fn = self:used_at(file, i)
+      if fn and fn.file ~= file and not self:is_declaration(file, i) then visit(file, fn.file, fn) end
+    end
+  end
+end
+
+function tree:is_declaration(file, i) return file.is_header and not self:is_inside(file, i) end
+
+--- Whether a token stands in the body of a function.
+function tree:is_inside(file, i)
+  for _, fn in ipairs(file.functions) do
+    if i > fn.from and i < fn.to then return true end
+  end
+  return false
+end
+
+return tree
