@@ -51,8 +51,8 @@ end
 
 --- A line for each frame of the list: `celspan render --hash` and its options.
 local function put_frames(kind, name, script, frames, ...)
-  local text = output_of(celspan, "render", script, "--hash", "--progress", "none", "--workers", "2",
-    "--frames", table.concat(frames, ","), ...)
+  local text = output_of(celspan, "render", script, "--hash", "--progress", "none", "--workers",
+    "2", "--frames", table.concat(frames, ","), ...)
   local digests = {}
   for frame, digest in (text or ""):gmatch "(%-?%d+) (%x+)" do digests[tonumber(frame)] = digest end
   for _, frame in ipairs(frames) do put(kind, name .. "/" .. frame, digests[frame]) end
@@ -91,8 +91,8 @@ local function put_script(path)
   end
   local middle = frames[#frames // 2 + 1]
   for _, antialias in ipairs { "area", "none", "gaussian" } do
-    put_text("spans", ("%s/%s/%d"):format(name, antialias, middle), celspan, "spans", path, "--frame",
-      middle, "--size", "96x54", "--antialias", antialias)
+    put_text("spans", ("%s/%s/%d"):format(name, antialias, middle), celspan, "spans", path,
+      "--frame", middle, "--size", "96x54", "--antialias", antialias)
   end
 end
 
@@ -200,7 +200,11 @@ if bench_build then
   local scenes = require "tests.bench.scenes"
   assert(output_of("mkdir", "-p", folder))
   local names = table.move(drawings, 1, #drawings, 1, {})
-  if scenes.write(folder) then table.move(scenes.artwork, 1, #scenes.artwork, #names + 1, names) end
+  if scenes.write(folder) then
+    table.move(scenes.artwork, 1, #scenes.artwork, #names + 1, names)
+  else
+    io.stderr:write "no CELSPAN_MATERIAL: other drawings are made, and artwork is left out\n"
+  end
   put_drawings(names)
   put_defocus()
   if not is_quick then put_pictures() end

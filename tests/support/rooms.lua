@@ -1,9 +1,9 @@
 -- Measures the structure of src/: its rooms, which are its folders, their circles, functions, types
 -- and names, and the way of one row.
 --
---   lua5.4 tests/support/rooms.lua [ROOT] [FUNCTION]      FUNCTION makes a row: where the way begins
---   lua5.4 tests/support/rooms.lua --names WORD [ROOT]    names that hold a house word out of place
---   lua5.4 tests/support/rooms.lua --check [ROOT]         the limits below, as checks
+--   lua5.4 tests/support/rooms.lua [ROOT] [FUNCTION]     FUNCTION makes a row: the way begins there
+--   lua5.4 tests/support/rooms.lua --names WORD [ROOT]   names that hold a house word out of place
+--   lua5.4 tests/support/rooms.lua --check [ROOT]        the limits below, as checks
 --
 -- The order of the rooms is that of src/meson.build; house words are those of rooms/words.lua.
 package.path = "./?.lua;" .. package.path
@@ -71,7 +71,8 @@ local function check_words(tree, fault)
     local entry = one.entry
     local why = entry.say and ": say " .. entry.say
       or (", which means %s (%s)"):format(entry.means, table.concat(entry.places, " "))
-    fault('src/%s:%d: %s holds "%s"%s', one.file.path, one.name.line, one.name.name, entry.word, why)
+    fault('src/%s:%d: %s holds "%s"%s', one.file.path, one.name.line, one.name.name, entry.word,
+      why)
   end
   return count
 end

@@ -6,9 +6,10 @@
 --- file.includes   names between quotes
 --- file.functions  { name, line, last, parameters, is_static, from, to }: those that have a body,
 ---                 which is the tokens from..to
---- file.types      { kind, name, line }: typedef, struct, union, enum, class; those that have a name
---- file.names      { kind, name, line, owner }: of types, fields, functions, enumerators, macros
---- file.text       the tokens, without comments, strings and directives; file.line: where they stand
+--- file.types      { kind, is_typedef, name, line }: struct, union, enum, class with a name
+--- file.names      { kind, name, line, owner }: of types, fields, functions, prototypes,
+---                 enumerators, macros
+--- file.text       the tokens, without comments and directives; file.line: where they stand
 local c_tokens = require "tests.support.rooms.c_tokens"
 
 local c_source = {}

@@ -48,7 +48,9 @@ function c_tokens.cut(file, text)
     local word = text:sub(at, last)
     if is_first and word == "#" then
       last = at
-      repeat last = text:find("\n", last + 1, true) or #text until text:sub(last - 1, last - 1) ~= "\\"
+      repeat
+        last = text:find("\n", last + 1, true) or #text
+      until text:sub(last - 1, last - 1) ~= "\\"
       last = last - 1
       word = text:sub(at, last)
       read_directive(file, word, line)
@@ -58,7 +60,7 @@ function c_tokens.cut(file, text)
       if kind == "sign" and OPEN[word] then open[#open + 1] = n end
       if kind == "sign" and word:find "^[%)%]}]$" then
         local opened = assert(table.remove(open), file.path .. ": brackets do not match")
-        assert(OPEN[file.text[opened]] == word, ("%s:%d: unmatched %s"):format(file.path, line, word))
+        assert(OPEN[file.text[opened]] == word, file.path .. ": brackets do not match")
         file.close[opened] = n
       end
     end

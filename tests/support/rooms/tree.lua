@@ -28,7 +28,8 @@ end
 --- The sources below src/, with folders from it.
 local function source_paths(root)
   local paths = {}
-  local pipe = assert(io.popen(("cd '%s/src' && find . -name '*.[ch]' -o -name '*.cpp'"):format(root)))
+  local find = "cd '%s/src' && find . -name '*.[ch]' -o -name '*.cpp'"
+  local pipe = assert(io.popen(find:format(root)))
   for line in pipe:lines() do paths[#paths + 1] = line:sub(3) end
   pipe:close()
   table.sort(paths)
@@ -107,7 +108,8 @@ function tree:each_edge(visit, only_includes)
     end
     for i = 1, only_includes and 0 or #file.text do
       local fn = self:used_at(file, i)
-      if fn and fn.file ~= file and not self:is_declaration(file, i) then visit(file, fn.file, fn) end
+      local is_other = fn and fn.file ~= file
+      if is_other and not self:is_declaration(file, i) then visit(file, fn.file, fn) end
     end
   end
 end

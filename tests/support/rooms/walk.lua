@@ -9,19 +9,21 @@ local function calls_of(tree, fn)
   local list = {}
   for i = fn.from, fn.to do
     local called = tree:used_at(fn.file, i)
-    if called and called ~= fn and not EVERYWHERE[called.file.room] then list[#list + 1] = called end
+    if called and called ~= fn and not EVERYWHERE[called.file.room] then
+      list[#list + 1] = called
+    end
   end
   return list
 end
 
 --- Walks from the function of this name; nil when there is none. Returns counts: of functions, of
---- units, of rooms, of changes of room there and back, of calls up the list of folders, and of
---- changes when bodies that were read before count too.
+--- units, of rooms, of changes of room there and back, and of those when bodies that were read
+--- before count too; and pairs["FROM -> TO"], how many calls made a change.
 function walk.from(tree, name)
   local start = tree.shared[name]
   if not start then return nil end
-  local told = { functions = 0, units = 0, rooms = 0, changes = 0, climbs = 0, calls = 0,
-                 all_changes = 0, pairs = {} }
+  local told = { functions = 0, units = 0, rooms = 0, changes = 0, all_changes = 0,
+                 pairs = {} }
   local seen = {}
   local function see(kind, key)
     if seen[key] then return end
@@ -35,7 +37,6 @@ function walk.from(tree, name)
     told.changes = told.changes + 2
     local key = from.room .. " -> " .. to.room
     told.pairs[key] = (told.pairs[key] or 0) + 1
-    if tree:rank(to) > tree:rank(from) then told.climbs = told.climbs + 1 end
   end
   local function read(fn)
     see("functions", fn)
@@ -43,7 +44,6 @@ function walk.from(tree, name)
     see("rooms", "/" .. fn.file.room)
     for _, called in ipairs(calls_of(tree, fn)) do
       local is_new = not seen[called]
-      told.calls = told.calls + 1
       count_change(fn.file, called.file, is_new)
       if is_new then read(called) end
     end
