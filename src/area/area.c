@@ -313,7 +313,7 @@ static celspan_status walk_slices(cs_row_maker *maker, int32_t y, int slices, cs
       CS_TRY(next_slice(maker));
     CS_TRY(keep_cells(maker, &cells));
     if (k == 0) {
-      cs_window_begin(&maker->window, &maker->composer, &maker->arena, maker->plan->width, y, cells,
+      cs_window_begin(&maker->window, &maker->painter, &maker->arena, maker->plan->width, y, cells,
                       out);
       cs_window_hold(&maker->window);
     }
@@ -328,7 +328,7 @@ celspan_status cs_area_row(cs_row_maker *maker, int32_t y, cs_row *out) {
   int slices = count_slices(maker, y);
   if (slices > 1)
     return walk_slices(maker, y, slices, out);
-  cs_window_begin(&maker->window, &maker->composer, &maker->arena, maker->plan->width, y,
+  cs_window_begin(&maker->window, &maker->painter, &maker->arena, maker->plan->width, y,
                   maker->cells.cells, out);
   CS_TRY(walk_heights(maker, maker->cells.cells, y, y + 1.0));
   CS_TRY(cs_window_finish(&maker->window));

@@ -2,6 +2,8 @@
 
 #include "area/direct.h"
 #include "base/number.h"
+#include "paint/colours.h"
+#include "paint/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,11 +18,12 @@ static void clear_change(cs_window *window) {
   memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
 }
 
-void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
+void cs_window_begin(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width,
                      int32_t y, const cs_cell *leftmost, cs_row *out) {
   if (window->is_open) /* a row failed */
     clear_change(window);
-  window->composer = composer;
+  window->painter = painter;
+  window->composer = painter->composer;
   window->arena = arena;
   window->out = out;
   window->centre = y + 0.5;
@@ -241,8 +244,8 @@ static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0
     first++;
   while (end > first && weight_in(seen, end - 1) == 0)
     end--;
-  CS_TRY(cs_composer_colours(b->window->composer, seen->cell, p0 + first, p0 + end,
-                             b->window->centre, rgba));
+  CS_TRY(cs_painter_colours(b->window->painter, seen->cell,
+                            (cs_run){p0 + first, p0 + end, b->window->centre}, rgba));
   for (int32_t k = first; k < end; k++)
     cs_v4_store(sum + 4 * k,
                 cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(seen, k));
@@ -292,8 +295,9 @@ static celspan_status close_between(cs_window *window) {
   const cs_segment *f = window->segments;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
-  CS_TRY(cs_composer_colours(window->composer, f->left, p0, p1, window->centre, left));
-  CS_TRY(cs_composer_colours(window->composer, f->right, p0, p1, window->centre, right));
+  cs_run run = {p0, p1, window->centre};
+  CS_TRY(cs_painter_colours(window->painter, f->left, run, left));
+  CS_TRY(cs_painter_colours(window->painter, f->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   for (int32_t p = p0; p < p1; p++) {
     double area = p < f->end ? cover(f, p) : 1;
@@ -352,8 +356,8 @@ celspan_status cs_window_reach(cs_window *window, double x) {
     return CELSPAN_OK;
   if (window->is_open)
     CS_TRY(close_window(window));
-  CS_TRY(cs_composer_run(window->composer, window->cell, window->from, first, window->centre,
-                         window->out));
+  CS_TRY(cs_painter_run(window->painter, window->cell,
+                        (cs_run){window->from, first, window->centre}, window->out));
   if (first > window->from)
     window->from = first;
   window->end = window->from;
@@ -423,7 +427,7 @@ celspan_status cs_window_slice(cs_window *window, const cs_active *active, const
 /* Draws the edges from the first on, up to one that cannot be. Returns how many. */
 static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
   cs_row_writer writer = cs_row_writer_take(window->out, window->from);
-  size_t done = CS_WIDE_CHOOSE(window->composer->isa, cs_direct_draw)(direct, &writer);
+  size_t done = CS_WIDE_CHOOSE(window->painter->isa, cs_direct_draw)(direct, &writer);
   cs_row_writer_put(&writer);
   window->from = window->end = writer.from;
   if (done > 0)
@@ -458,6 +462,6 @@ celspan_status cs_window_finish(cs_window *window) {
     return cs_retained_seal(window->retained, window->composer);
   if (window->is_open)
     CS_TRY(close_window(window));
-  return cs_composer_run(window->composer, window->cell, window->from, window->width,
-                         window->centre, window->out);
+  return cs_painter_run(window->painter, window->cell,
+                        (cs_run){window->from, window->width, window->centre}, window->out);
 }

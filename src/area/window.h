@@ -17,6 +17,7 @@
 
 #include "area/direct.h"
 #include "kernel/retained.h"
+#include "paint/painter.h"
 
 #define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* columns of nearly all windows */
 
@@ -28,7 +29,8 @@ typedef struct cs_segment {
 } cs_segment;
 
 typedef struct cs_window {
-  cs_composer *composer;
+  const cs_composer *composer;
+  cs_painter *painter;
   cs_arena *arena;
   cs_row *out;
   double centre;       /* height of the row's centre */
@@ -48,7 +50,7 @@ typedef struct cs_window {
 } cs_window;
 
 /* Begins a row at `leftmost`; the fragments' room is kept from row to row. */
-void cs_window_begin(cs_window *window, cs_composer *composer, cs_arena *arena, int32_t width,
+void cs_window_begin(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width,
                      int32_t y, const cs_cell *leftmost, cs_row *out);
 void cs_window_free(cs_window *window, cs_memory *memory);
 

@@ -1,9 +1,5 @@
 #include "compose/composer.h"
 
-#include "paint/gradient_table.h"
-
-#include <math.h>
-
 #define MEMO_SIZE 4096               /* cells remembered, two of one place; a power of two */
 #define ITEM_LIMIT ((size_t)1 << 15) /* program items kept from row to row */
 
@@ -20,9 +16,8 @@ static celspan_status take(cs_composer *composer, void *field, size_t count, siz
 static size_t filled_count(const cs_stack *stack) { return (cs_stack_words(stack) + 7) / 8 * 8; }
 
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
-                                const cs_stack *stack) {
-  *composer = (cs_composer){.context = context, .stack = stack, .isa = cs_isa_best()};
-  cs_arena_init(&composer->scratch);
+                                const cs_stack *stack, cs_image_opacity opacity) {
+  *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
   size_t words = cs_stack_words(stack);
   CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
   CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
@@ -36,13 +31,6 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   CS_TRY(take(composer, &composer->folds, cs_over_table_suits(stack), sizeof(cs_over_table)));
   if (composer->folds)
     CS_TRY(cs_over_table_init(composer->folds, context, stack));
-  CS_TRY(take(composer, &composer->images, stack->image_count, sizeof(cs_image_view)));
-  CS_TRY(take(composer, &composer->texels, stack->image_count > 0, sizeof(cs_block_cache)));
-  if (composer->texels)
-    cs_block_cache_init(composer->texels, context);
-  CS_TRY(take(composer, &composer->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
-  if (stack->shade_count > 0)
-    CS_TRY(cs_gradient_tables_create(context, &composer->palettes));
   return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
 
@@ -61,20 +49,11 @@ void cs_composer_finish(cs_composer *composer) {
   if (composer->folds)
     cs_over_table_finish(composer->folds);
   cs_mem_free(memory, composer->folds, sizeof(cs_over_table));
-  cs_mem_free(memory, composer->images, stack->image_count * sizeof(cs_image_view));
-  if (composer->texels)
-    cs_block_cache_finish(composer->texels);
-  cs_mem_free(memory, composer->texels, sizeof(cs_block_cache));
-  for (size_t i = 0; composer->defocused && i < stack->defocused_count; i++)
-    cs_defocused_leave(stack->defocused[i], composer->context, &composer->defocused[i]);
-  cs_mem_free(memory, composer->defocused, stack->defocused_count * sizeof(cs_defocused_view));
-  cs_gradient_tables_destroy(composer->palettes, memory);
   cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->procedure_spans,
               composer->procedure_span_capacity * sizeof(cs_procedure_span));
-  cs_arena_finish(&composer->scratch, memory);
   *composer = (cs_composer){0};
 }
 
@@ -197,11 +176,10 @@ static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
 /* A picture whose header cannot be read counts as clear until it is really seen: only then is it an
  * error. */
 static bool layer_is_opaque(cs_composer *composer, const cs_layer *layer) {
-  const cs_image_view *image;
+  const cs_image_opacity *opacity = &composer->opacity;
   if (layer->kind != CS_LAYER_PICTURE)
     return layer->is_opaque;
-  return cs_composer_image(composer, layer->detail, &image) == CELSPAN_OK && image->is_opaque &&
-         layer->fade == 1;
+  return opacity->is_opaque(opacity->painter, layer->detail) && layer->fade == 1;
 }
 
 /* Takes one leaf into a cell that varies: folds it when it is flat, notes it in any case. A leaf
@@ -349,4 +327,8 @@ bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_ce
     return cs_v4_same(a->colour, b->colour);
   return memcmp(&composer->items[a->program], &composer->items[b->program],
                 a->length * sizeof(cs_item)) == 0;
+}
+
+cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell) {
+  return (cs_program){&composer->items[cell->program], composer->procedure_spans, cell->length};
 }

@@ -14,49 +14,8 @@
 #ifndef CS_COMPOSE_COMPOSER_H
 #define CS_COMPOSE_COMPOSER_H
 
+#include "compose/cell.h"
 #include "compose/over_table.h"
-#include "span/row.h"
-
-typedef struct cs_set_hash {
-  uint64_t a, b;
-} cs_set_hash;
-
-static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) {
-  return p.a == q.a && p.b == q.b;
-}
-
-/* One layer of a program. */
-typedef struct cs_item {
-  uint32_t layer;
-  uint32_t procedure_span; /* SCANLINE: which of the row's strips; else 0 */
-} cs_item;
-
-typedef struct cs_cell {
-  cs_v4 colour;     /* where length == 0 */
-  cs_set_hash hash; /* of the leaves present */
-  uint32_t program; /* index of the first item */
-  uint32_t length;  /* items; 0: one colour everywhere */
-} cs_cell;
-
-/* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */
-typedef struct cs_procedure_span {
-  double x0, x1;
-  const cs_paint *paints;
-  size_t paint_count;
-} cs_procedure_span;
-
-/* A program on its own, free of the composer's lists: what varies along a row, front to back. */
-typedef struct cs_program {
-  const cs_item *items;
-  const cs_procedure_span *procedure_spans; /* that items of SCANLINE leaves name */
-  uint32_t length;                          /* 0: nothing shows but back lights */
-} cs_program;
-
-/* A picture leaf as this worker sees it: its header is read when the leaf is first reached. */
-typedef struct cs_image_view {
-  bool is_ready, is_opaque;
-  cs_sampler sampler;
-} cs_image_view;
 
 /* A leaf at the walk's place. */
 typedef struct cs_presence {
@@ -69,10 +28,17 @@ typedef struct cs_memo {
   bool is_used;
 } cs_memo;
 
+/* The one thing the composer has to ask those who paint: whether the picture of an image layer lets
+ * nothing through, wherever the layer is present. A picture that cannot be read does not. */
+typedef struct cs_image_opacity {
+  bool (*is_opaque)(void *painter, uint32_t image);
+  void *painter; /* borrowed */
+} cs_image_opacity;
+
 typedef struct cs_composer {
   celspan_context *context; /* the worker's branch */
   const cs_stack *stack;
-  cs_isa isa;             /* that many pixels are made with */
+  cs_image_opacity opacity;
   uint64_t *set;          /* leaves present at the walk's place */
   uint8_t *filled;        /* whether a word of the set is not 0; a multiple of eight of them */
   uint64_t *contributing; /* scratch */
@@ -82,10 +48,6 @@ typedef struct cs_composer {
   cs_set_hash hash;
   cs_tree_result *results;
   cs_over_table *folds; /* NULL where leaves are not all plain */
-  cs_image_view *images;
-  cs_block_cache *texels; /* of its pictures; NULL without pictures */
-  cs_defocused_view *defocused;
-  struct cs_gradient_tables *palettes; /* NULL without gradients: palette.h */
   cs_memo *memo;
   cs_item *items;
   size_t item_count, item_capacity;
@@ -93,13 +55,12 @@ typedef struct cs_composer {
   size_t gathered_count, gathered_capacity;
   cs_procedure_span *procedure_spans; /* of the current row */
   size_t procedure_span_count, procedure_span_capacity;
-  cs_arena scratch; /* of one run */
-  uint64_t evaluations;
+  uint64_t evaluations;   /* cells composed */
   celspan_status failure; /* sticky: the first failure of the row, recorded in context */
 } cs_composer;
 
 CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
-                                                const cs_stack *stack);
+                                                const cs_stack *stack, cs_image_opacity opacity);
 void cs_composer_finish(cs_composer *composer);
 /* Before each row: forgets strips, and programs when they have grown many; true when cells made
  * before are no longer valid. */
@@ -140,34 +101,6 @@ void cs_composer_cell(cs_composer *composer, cs_cell *out);
 /* Whether two cells look alike everywhere. */
 bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b);
 
-/* Appends the spans of a cell over the columns [x0, x1) of the row whose centre is at height y.
- * Gradients are cut so that they are right within 1/1023; the cuts depend on x0, x1 and y alone. */
-CELSPAN_CHECKED celspan_status cs_composer_run(cs_composer *composer, const cs_cell *cell,
-                                               int32_t x0, int32_t x1, double y, cs_row *row);
-/* The cell's colour at each column's centre. */
-CELSPAN_CHECKED celspan_status cs_composer_colours(cs_composer *composer, const cs_cell *cell,
-                                                   int32_t x0, int32_t x1, double y,
-                                                   float (*rgba)[4]);
-
 /* The program of a cell whose length is not 0, valid until the next cell is composed. */
 cs_program cs_composer_program(const cs_composer *composer, const cs_cell *cell);
-/* As cs_composer_run and cs_composer_colours. */
-CELSPAN_CHECKED celspan_status cs_composer_run_program(cs_composer *composer,
-                                                       const cs_program *program, int32_t x0,
-                                                       int32_t x1, double y, cs_row *row);
-CELSPAN_CHECKED celspan_status cs_composer_program_colours(cs_composer *composer,
-                                                           const cs_program *program, int32_t x0,
-                                                           int32_t x1, double y, float (*rgba)[4]);
-
-/* ---- for ramps.c */
-
-/* The colours of ascending columns, at most CS_OVER_ROW_BATCH. */
-CELSPAN_CHECKED celspan_status cs_composer_colours_at(cs_composer *composer,
-                                                      const cs_program *program,
-                                                      const int32_t *columns, int32_t count,
-                                                      double y, float (*rgba)[4]);
-/* The sampler of a picture leaf, its header read on first use. */
-CELSPAN_CHECKED celspan_status cs_composer_image(cs_composer *composer, uint32_t detail,
-                                                 const cs_image_view **out);
-
 #endif

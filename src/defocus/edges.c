@@ -314,7 +314,7 @@ celspan_status cs_defocus_edges_fill(const cs_defocus_edges *edges, cs_row_maker
   filling f = {.edges = edges,
                .columns = columns,
                .block_count = (columns + BLOCK - 1) / BLOCK,
-               .isa = maker->composer.isa};
+               .isa = maker->painter.isa};
   size_t blocks = (size_t)f.block_count;
   f.near = cs_mem_array(memory, count, sizeof *f.near);
   f.steps = cs_mem_array(memory, count, sizeof *f.steps);

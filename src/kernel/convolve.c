@@ -1,6 +1,8 @@
 #include "kernel/convolve.h"
 
 #include "base/number.h"
+#include "paint/colours.h"
+#include "paint/run.h"
 
 #include <math.h>
 
@@ -82,7 +84,7 @@ static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *contex
 
 typedef struct summing {
   cs_convolve *convolve;
-  cs_composer *composer;
+  cs_painter *painter;
   cs_row *out;
   double y;                /* centre */
   size_t rows;             /* under the kernel */
@@ -186,7 +188,7 @@ static celspan_status add_look(summing *s, const cs_convolve_term *look, int32_t
   float rgba[64][4];
   for (int32_t x = x0; x < x1; x += 64) {
     int32_t end = x1 - x < 64 ? x1 : x + 64;
-    CS_TRY(cs_composer_program_colours(s->composer, look->program, x, end, s->y, rgba));
+    CS_TRY(cs_painter_program_colours(s->painter, look->program, (cs_run){x, end, s->y}, rgba));
     for (int32_t k = x; k < end; k++) {
       cs_v4 colour = cs_v4_load(rgba[k - x]);
       colours[k - x0] += (float)look->weight * colour;
@@ -220,7 +222,7 @@ static celspan_status mix_batch(summing *s, int32_t x0, int32_t x1, cs_convolve_
 
 static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range range) {
   float *colours;
-  CS_TRY(cs_row_array(s->composer->context, s->out, x0, x1, &colours));
+  CS_TRY(cs_row_array(s->painter->context, s->out, x0, x1, &colours));
   for (int32_t x = x0; x < x1; x += MIXED) {
     int32_t end = x1 - x < MIXED ? x1 : x + MIXED;
     CS_TRY(mix_batch(s, x, end, range, colours + 4 * (size_t)(x - x0)));
@@ -249,13 +251,13 @@ static celspan_status write(summing *s, int32_t x0, int32_t x1) {
     range = cs_convolve_both(range, convolve->near[x0]);
   const cs_program *program = lone_program(s);
   if (program)
-    return cs_composer_run_program(s->composer, program, x0, x1, s->y, s->out);
+    return cs_painter_run_program(s->painter, program, (cs_run){x0, x1, s->y}, s->out);
   if (s->varying > 0)
     return mix(s, x0, x1, range);
   cs_v4 colour = flat_sum(s, x0);
   if (convolve->kernel->is_signed)
     colour = hold(colour, range);
-  return cs_row_gradient(s->composer->context, s->out, x0, x1, hold_alpha(colour), flat_slope(s));
+  return cs_row_gradient(s->painter->context, s->out, x0, x1, hold_alpha(colour), flat_slope(s));
 }
 
 static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
@@ -279,13 +281,13 @@ static celspan_status sum_row(summing *s) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
+celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
                                const cs_retained_row *const *retained_rows, size_t count, int32_t y,
                                cs_row *out) {
-  CS_TRY(begin_slabs(convolve, composer->context, retained_rows, count, y));
-  CS_TRY(cs_convolve_scatter(convolve, composer, retained_rows, count, y));
+  CS_TRY(begin_slabs(convolve, painter->context, retained_rows, count, y));
+  CS_TRY(cs_convolve_scatter(convolve, painter, retained_rows, count, y));
   summing s = {.convolve = convolve,
-               .composer = composer,
+               .painter = painter,
                .out = out,
                .y = y + 0.5,
                .rows = count,

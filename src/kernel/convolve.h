@@ -17,6 +17,8 @@
 
 #include "kernel/kernel.h"
 #include "kernel/retained.h"
+#include "paint/painter.h"
+#include "span/row.h"
 
 #include <math.h>
 
@@ -91,11 +93,11 @@ CELSPAN_CHECKED celspan_status cs_convolve_init(cs_convolve *convolve, celspan_c
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory);
 /* Row y from the traces of `count` rows, sealed, from the topmost under its kernel to the lowest.
  */
-CELSPAN_CHECKED celspan_status cs_convolve_row(cs_convolve *convolve, cs_composer *composer,
+CELSPAN_CHECKED celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
                                                const cs_retained_row *const *retained_rows,
                                                size_t count, int32_t y, cs_row *out);
 /* gather.c: its first half: fills changes, slopes, shifts and passages. */
-CELSPAN_CHECKED celspan_status cs_convolve_scatter(cs_convolve *convolve, cs_composer *composer,
+CELSPAN_CHECKED celspan_status cs_convolve_scatter(cs_convolve *convolve, cs_painter *painter,
                                                    const cs_retained_row *const *retained_rows,
                                                    size_t count, int32_t y);
 

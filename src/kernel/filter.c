@@ -38,6 +38,6 @@ celspan_status cs_filter_row(cs_row_maker *maker, int32_t y, cs_row *out) {
       CS_TRY(cs_row_retain(maker, row, retained));
     maker->under[row - first] = retained;
   }
-  return cs_convolve_row(&maker->convolve, &maker->composer, maker->under, (size_t)(end - first), y,
+  return cs_convolve_row(&maker->convolve, &maker->painter, maker->under, (size_t)(end - first), y,
                          out);
 }

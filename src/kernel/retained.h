@@ -11,6 +11,7 @@
 #ifndef CS_KERNEL_RETAINED_H
 #define CS_KERNEL_RETAINED_H
 
+#include "base/arena.h"
 #include "compose/composer.h"
 
 /* What is seen on one side of a piece. */

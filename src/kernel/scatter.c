@@ -62,20 +62,20 @@ bool cs_scatter_cut(const cs_retained_edge *piece, double top, double foot, cs_r
 
 /* ---------------------------------------------------------------- looks */
 
-static bool are_alike(const cs_composer *composer, const cs_program *a, const cs_program *b) {
+static bool are_alike(const cs_painter *painter, const cs_program *a, const cs_program *b) {
   if (a->length != b->length || memcmp(a->items, b->items, a->length * sizeof *a->items) != 0)
     return false;
   for (uint32_t i = 0; a->procedure_spans != b->procedure_spans && i < a->length; i++)
-    if (composer->stack->layers[a->items[i].layer].kind == CS_LAYER_SCANLINE)
+    if (painter->stack->layers[a->items[i].layer].kind == CS_LAYER_SCANLINE)
       return false; /* strips are named row by row */
   return true;
 }
 
-static celspan_status find_look(cs_scatter *g, const cs_composer *composer,
-                                const cs_program *program, int32_t *out) {
+static celspan_status find_look(cs_scatter *g, const cs_painter *painter, const cs_program *program,
+                                int32_t *out) {
   cs_convolve *convolve = g->convolve;
   for (size_t i = convolve->look_count; i-- > 0;)
-    if (are_alike(composer, convolve->looks[i].program, program)) {
+    if (are_alike(painter, convolve->looks[i].program, program)) {
       *out = (int32_t)i;
       return CELSPAN_OK;
     }
@@ -86,18 +86,18 @@ static celspan_status find_look(cs_scatter *g, const cs_composer *composer,
   return CELSPAN_OK;
 }
 
-static celspan_status add_trace(cs_scatter *g, cs_composer *composer) {
+static celspan_status add_trace(cs_scatter *g, cs_painter *painter) {
   const cs_retained_row *retained = g->retained;
   g->looks = NULL;
   if (retained->program_count > 0) {
-    cs_arena_reset(&composer->scratch);
+    cs_arena_reset(&painter->scratch);
     g->looks =
-        cs_arena_take(g->context, &composer->scratch, retained->program_count * sizeof *g->looks);
+        cs_arena_take(g->context, &painter->scratch, retained->program_count * sizeof *g->looks);
     if (!g->looks)
       return CELSPAN_NO_MEMORY;
   }
   for (size_t i = 0; i < retained->program_count; i++)
-    CS_TRY(find_look(g, composer, &retained->programs[i].program, &g->looks[i]));
+    CS_TRY(find_look(g, painter, &retained->programs[i].program, &g->looks[i]));
   for (size_t i = 0; i < retained->piece_count; i++)
     CS_TRY(g->convolve->kernel->shape == CS_KERNEL_SEPARABLE
                ? cs_scatter_separable(g, &retained->pieces[i])
@@ -105,17 +105,17 @@ static celspan_status add_trace(cs_scatter *g, cs_composer *composer) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_convolve_scatter(cs_convolve *convolve, cs_composer *composer,
+celspan_status cs_convolve_scatter(cs_convolve *convolve, cs_painter *painter,
                                    const cs_retained_row *const *retained_rows, size_t count,
                                    int32_t y) {
-  cs_scatter g = {.convolve = convolve, .context = composer->context, .centre = y + 0.5};
+  cs_scatter g = {.convolve = convolve, .context = painter->context, .centre = y + 0.5};
   convolve->look_count = convolve->shift_count = convolve->passage_count = 0;
   memset(convolve->touched, 0, cs_convolve_words(convolve->width) * sizeof *convolve->touched);
   cs_scatter_touch(convolve, 0);
   for (size_t i = 0; i < count; i++) {
     g.retained = retained_rows[i];
     g.row = (uint32_t)i;
-    CS_TRY(add_trace(&g, composer));
+    CS_TRY(add_trace(&g, painter));
   }
   return CELSPAN_OK;
 }

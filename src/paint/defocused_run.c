@@ -10,17 +10,17 @@ typedef struct light {
 } light;
 
 typedef struct walk {
-  cs_composer *composer;
+  cs_painter *painter;
   const cs_program *program;
   const cs_defocused *soft;
   const cs_defocused_view *seen;
   light light;
 } walk;
 
-bool cs_defocused_run_fits(const cs_composer *composer, const cs_program *program, uint32_t *item) {
+bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uint32_t *item) {
   uint32_t found = 0;
   for (uint32_t i = 0; i < program->length; i++) {
-    cs_layer_kind kind = composer->stack->layers[program->items[i].layer].kind;
+    cs_layer_kind kind = stack->layers[program->items[i].layer].kind;
     if (kind == CS_LAYER_FLAT)
       continue;
     if (kind != CS_LAYER_DEFOCUSED || found++ > 0)
@@ -41,22 +41,22 @@ typedef struct trials {
 
 /* The colours of the trials, through the layers before and behind. */
 static celspan_status try_paints(walk *w, trials *room) {
-  cs_composer *composer = w->composer;
-  celspan_context *context = composer->context;
-  cs_arena *scratch = &composer->scratch;
-  cs_over_row blend;
-  CS_TRY(cs_over_row_begin(context, scratch, composer->stack, composer->isa, TRIALS, &blend));
+  cs_painter *painter = w->painter;
+  celspan_context *context = painter->context;
+  cs_arena *scratch = &painter->scratch;
+  cs_over_row over;
+  CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, TRIALS, &over));
   for (uint32_t i = 0; i < w->program->length; i++)
-    CS_TRY(cs_over_row_layer(context, scratch, &blend, w->program->items[i].layer,
+    CS_TRY(cs_over_row_layer(context, scratch, &over, w->program->items[i].layer,
                              (const float(*)[4])room->s, (const float(*)[4])room->t));
-  cs_over_row_end(&blend, room->rgba);
+  cs_over_row_end(&over, room->rgba);
   return CELSPAN_OK;
 }
 
 static celspan_status find_light(walk *w) {
-  cs_arena *scratch = &w->composer->scratch;
+  cs_arena *scratch = &w->painter->scratch;
   cs_arena_reset(scratch);
-  trials *room = cs_arena_take(w->composer->context, scratch, sizeof *room);
+  trials *room = cs_arena_take(w->painter->context, scratch, sizeof *room);
   if (!room)
     return CELSPAN_NO_MEMORY;
   memset(room, 0, sizeof *room);
@@ -118,14 +118,14 @@ static bool is_joint(const walk *w, size_t k, int32_t x) {
          !is_still(w, k + 1) && cs_defocused_at(w->soft, x + 0.5) > at[k];
 }
 
-static celspan_status walk_pieces(walk *w, int32_t x0, int32_t x1, cs_row *row) {
-  celspan_context *context = w->composer->context;
+static celspan_status walk_pieces(walk *w, cs_run run, cs_row *row) {
+  celspan_context *context = w->painter->context;
   const int32_t *at = w->seen->at;
-  size_t k = cs_defocused_find(w->seen, cs_defocused_at(w->soft, x0 + 0.5), 0);
+  size_t k = cs_defocused_find(w->seen, cs_defocused_at(w->soft, run.x0 + 0.5), 0);
   cs_v4 left = knot_colour(w, k);
-  for (int32_t x = x0, to; x < x1; x = to, k++) {
+  for (int32_t x = run.x0, to; x < run.x1; x = to, k++) {
     cs_v4 right = knot_colour(w, k + 1);
-    to = is_joint(w, k, x) ? x : column_after(w, k + 1, x1);
+    to = is_joint(w, k, x) ? x : column_after(w, k + 1, run.x1);
     if (to > x && is_still(w, k)) {
       CS_TRY(cs_row_single(context, row, x, to, still_colour(w, k)));
     } else if (to > x) {
@@ -133,19 +133,19 @@ static celspan_status walk_pieces(walk *w, int32_t x0, int32_t x1, cs_row *row) 
       cs_v4 start = left + (float)(cs_defocused_at(w->soft, x + 0.5) - at[k]) * slope;
       CS_TRY(cs_row_gradient(context, row, x, to, start, slope * (float)(1 / w->soft->pitch_x)));
     }
-    w->composer->evaluations++;
+    w->painter->evaluations++;
     left = right;
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_defocused_run(cs_composer *composer, const cs_program *program, uint32_t item,
-                                int32_t x0, int32_t x1, double y, cs_row *row) {
-  uint32_t detail = composer->stack->layers[program->items[item].layer].detail;
-  walk w = {.composer = composer, .program = program};
-  w.soft = composer->stack->defocused[detail];
-  w.seen = &composer->defocused[detail];
-  CS_TRY(cs_defocused_stand(w.soft, composer->context, &composer->defocused[detail], y));
+celspan_status cs_defocused_run(cs_painter *painter, const cs_program *program, uint32_t item,
+                                cs_run run, cs_row *row) {
+  uint32_t detail = painter->stack->layers[program->items[item].layer].detail;
+  walk w = {.painter = painter, .program = program};
+  w.soft = painter->stack->defocused[detail];
+  w.seen = &painter->defocused[detail];
+  CS_TRY(cs_defocused_stand(w.soft, painter->context, &painter->defocused[detail], run.y));
   CS_TRY(find_light(&w));
-  return walk_pieces(&w, x0, x1, row);
+  return walk_pieces(&w, run, row);
 }

@@ -3,13 +3,14 @@
 #ifndef CS_PAINT_DEFOCUSED_RUN_H
 #define CS_PAINT_DEFOCUSED_RUN_H
 
-#include "compose/composer.h"
+#include "paint/painter.h"
+#include "span/row.h"
+#include "span/run.h"
 
 /* Whether a program holds one soft layer and else flat ones; *item: which. */
-bool cs_defocused_run_fits(const cs_composer *composer, const cs_program *program, uint32_t *item);
-/* As cs_composer_run_program. */
-CELSPAN_CHECKED celspan_status cs_defocused_run(cs_composer *composer, const cs_program *program,
-                                                uint32_t item, int32_t x0, int32_t x1, double y,
-                                                cs_row *row);
+bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uint32_t *item);
+/* As cs_painter_run_program. */
+CELSPAN_CHECKED celspan_status cs_defocused_run(cs_painter *painter, const cs_program *program,
+                                                uint32_t item, cs_run run, cs_row *row);
 
 #endif

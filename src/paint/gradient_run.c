@@ -1,18 +1,18 @@
 #include "paint/gradient_run.h"
 
-#include "paint/lines.h"
+#include "paint/line.h"
 
 #include <math.h>
 
 /* A row of a gradient. */
-typedef struct run {
-  cs_composer *composer;
-  const cs_gradient_table *palette;
+typedef struct cursor {
+  cs_painter *painter;
+  const cs_gradient_table *table;
   cs_row *row;
   double u, v;       /* the shade's planes in x = 0 */
   double bend;       /* RADIAL: second derivative of the distance r along the row, times r cubed */
   int32_t from, end; /* what is left of the run */
-} run;
+} cursor;
 
 /* A column, where it lies along the stops, and its colour. */
 typedef struct point {
@@ -21,11 +21,11 @@ typedef struct point {
   cs_v4 colour;
 } point;
 
-static const celspan_texture *texture_of(const run *r) { return r->palette->shade->texture; }
+static const celspan_texture *texture_of(const cursor *r) { return r->table->shade->texture; }
 
 /* As cs_shade_at. */
-static double at_column(const run *r, int32_t column) {
-  const cs_shade *shade = r->palette->shade;
+static double at_column(const cursor *r, int32_t column) {
+  const cs_shade *shade = r->table->shade;
   double x = column + 0.5, u = shade->plane[0][0] * x + r->u;
   if (shade->texture->kind == CS_TEXTURE_LINEAR)
     return u;
@@ -34,9 +34,9 @@ static double at_column(const run *r, int32_t column) {
 }
 
 /* Held to the part, since where it ends has been rounded. */
-static point take_point(const run *r, const cs_gradient_table_part *part, int32_t column) {
+static point take_point(const cursor *r, const cs_gradient_table_part *part, int32_t column) {
   double at = at_column(r, column);
-  r->composer->evaluations++;
+  r->painter->evaluations++;
   return (point){column, at, cs_gradient_table_mix(part, at)};
 }
 
@@ -52,15 +52,16 @@ static double steepness(const cs_gradient_table_part *part) {
 
 /* Whether the line between two columns is near the colours between them. In a piece the second
  * derivative is greatest at the end nearer the centre: mostly that tells. */
-static bool is_straight(const run *r, double steep, const point *first, const point *last) {
+static bool is_straight(const cursor *r, double steep, const point *first, const point *last) {
   double columns = last->column - first->column;
   double near = cs_number_least(first->at, last->at);
-  double limit = CS_LINES_TOLERANCE;
+  double limit = CS_LINE_TOLERANCE;
   if (columns < 2 || columns * columns * r->bend * steep <= 8 * limit * near * near * near)
     return true;
+  cs_run between = {first->column, last->column + 1, 0};
   static const int quarters[] = {2, 1, 3}; /* the middle first: there it is mostly farthest */
   for (int k = 0; k < 3; k++) {
-    int32_t column = cs_lines_quarter(first->column, last->column + 1, quarters[k]);
+    int32_t column = cs_line_quarter(between, quarters[k]);
     double u = (column - first->column) / columns;
     double off = at_column(r, column) - (first->at + u * (last->at - first->at));
     if (fabs(off) * steep > limit)
@@ -70,18 +71,18 @@ static bool is_straight(const run *r, double steep, const point *first, const po
 }
 
 /* Halves until pieces are straight; one of two columns is, so the depth is at most log2(width). */
-static celspan_status put_arc(const run *r, const cs_gradient_table_part *part, double steep,
+static celspan_status put_arc(const cursor *r, const cs_gradient_table_part *part, double steep,
                               point first, point last) {
   if (is_straight(r, steep, &first, &last))
-    return cs_lines_line(r->composer->context, r->row, first.column, last.column + 1, first.colour,
-                         last.colour);
+    return cs_line_put(r->painter->context, r->row, (cs_run){first.column, last.column + 1, 0},
+                       first.colour, last.colour);
   int32_t middle = first.column + (last.column + 1 - first.column) / 2;
   CS_TRY(put_arc(r, part, steep, first, take_point(r, part, middle - 1)));
   return put_arc(r, part, steep, take_point(r, part, middle), last);
 }
 
 /* All up to a place x in which the gradient bends. */
-static celspan_status put_until(run *r, double x) {
+static celspan_status put_until(cursor *r, double x) {
   int32_t from = r->from, end = cs_number_first_centre(x);
   end = end < r->end ? end : r->end;
   if (end <= from)
@@ -89,16 +90,16 @@ static celspan_status put_until(run *r, double x) {
   r->from = end;
   double at = at_column(r, from + (end - from) / 2);
   const cs_gradient_table_part *part =
-      &r->palette->parts[cs_gradient_table_part_at(r->palette->shade, at)];
+      &r->table->parts[cs_gradient_table_part_at(r->table->shade, at)];
   point first = take_point(r, part, from), last = take_point(r, part, end - 1);
   return put_arc(r, part, steepness(part), first, last);
 }
 
 /* ---------------------------------------------------------------- rows */
 
-static celspan_status run_linear(run *r) {
+static celspan_status run_linear(cursor *r) {
   const celspan_texture *texture = texture_of(r);
-  double step = r->palette->shade->plane[0][0];
+  double step = r->table->shade->plane[0][0];
   size_t count = step != 0 ? texture->stop_count : 0;
   for (size_t i = 0; i < count; i++) {
     const cs_stop *stop = &texture->stops[step > 0 ? i : count - 1 - i];
@@ -108,14 +109,14 @@ static celspan_status run_linear(run *r) {
 }
 
 /* Half of what a circle around the centre covers of the row; negative where that is nothing. */
-static double half_chord(const run *r, double at, double speed) {
+static double half_chord(const cursor *r, double at, double speed) {
   double square = at * at - r->bend / speed;
   return square > 0 ? sqrt(square / speed) : -1;
 }
 
-static celspan_status run_radial(run *r) {
+static celspan_status run_radial(cursor *r) {
   const celspan_texture *texture = texture_of(r);
-  double su = r->palette->shade->plane[0][0], sv = r->palette->shade->plane[1][0];
+  double su = r->table->shade->plane[0][0], sv = r->table->shade->plane[1][0];
   double speed = su * su + sv * sv, cross = r->u * sv - r->v * su;
   if (!(speed > 0))
     return put_until(r, r->end);
@@ -135,19 +136,19 @@ static celspan_status run_radial(run *r) {
   return put_until(r, r->end);
 }
 
-bool cs_gradient_run_fits(const cs_gradient_table *palette) {
-  return palette && palette->layer_count == 0 && palette->shade->is_affine;
+bool cs_gradient_run_fits(const cs_gradient_table *table) {
+  return table && table->layer_count == 0 && table->shade->is_affine;
 }
 
-celspan_status cs_gradient_run(cs_composer *composer, const cs_gradient_table *palette, int32_t x0,
-                               int32_t x1, double y, cs_row *row) {
-  const double *p = palette->shade->plane[0], *q = palette->shade->plane[1];
-  run r = {.composer = composer,
-           .palette = palette,
-           .row = row,
-           .u = p[1] * y + p[2],
-           .v = q[1] * y + q[2],
-           .from = x0,
-           .end = x1};
-  return palette->shade->texture->kind == CS_TEXTURE_LINEAR ? run_linear(&r) : run_radial(&r);
+celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table, cs_run run,
+                               cs_row *row) {
+  const double *p = table->shade->plane[0], *q = table->shade->plane[1];
+  cursor r = {.painter = painter,
+              .table = table,
+              .row = row,
+              .u = p[1] * run.y + p[2],
+              .v = q[1] * run.y + q[2],
+              .from = run.x0,
+              .end = run.x1};
+  return table->shade->texture->kind == CS_TEXTURE_LINEAR ? run_linear(&r) : run_radial(&r);
 }

@@ -5,12 +5,14 @@
 #define CS_PAINT_GRADIENT_RUN_H
 
 #include "paint/gradient_table.h"
+#include "paint/painter.h"
+#include "span/row.h"
+#include "span/run.h"
 
-/* Whether a palette, or NULL, is of such a gradient. */
-bool cs_gradient_run_fits(const cs_gradient_table *palette);
-/* Appends the spans of [x0, x1), as cs_lines_run. */
-CELSPAN_CHECKED celspan_status cs_gradient_run(cs_composer *composer,
-                                               const cs_gradient_table *palette, int32_t x0,
-                                               int32_t x1, double y, cs_row *row);
+/* Whether a table, or NULL, is of such a gradient. */
+bool cs_gradient_run_fits(const cs_gradient_table *table);
+/* Appends the spans of a run, as cs_lines_run. */
+CELSPAN_CHECKED celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table,
+                                               cs_run run, cs_row *row);
 
 #endif

@@ -2,35 +2,44 @@
 
 #include "paint/over_row.h"
 
-#define SLOTS 256       /* palettes remembered; a power of two */
+#define SLOTS 256       /* tables remembered; a power of two */
 #define PART_LIMIT 4096 /* of all of them together */
 
 struct cs_gradient_tables {
+  celspan_context *context;
+  const cs_stack *stack;
+  cs_isa isa;
+  cs_arena *scratch;              /* borrowed */
   cs_gradient_table slots[SLOTS]; /* without a shade: empty */
   cs_arena parts;
   size_t part_count;
 };
 
-celspan_status cs_gradient_tables_create(celspan_context *context, cs_gradient_tables **out) {
-  cs_gradient_tables *palettes = cs_mem_array(context->memory, 1, sizeof *palettes);
-  if (!palettes)
+celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stack *stack,
+                                         cs_isa isa, cs_arena *scratch, cs_gradient_tables **out) {
+  cs_gradient_tables *tables = cs_mem_array(context->memory, 1, sizeof *tables);
+  if (!tables)
     return cs_fail_memory(context);
-  cs_arena_init(&palettes->parts);
-  *out = palettes;
+  tables->context = context;
+  tables->stack = stack;
+  tables->isa = isa;
+  tables->scratch = scratch;
+  cs_arena_init(&tables->parts);
+  *out = tables;
   return CELSPAN_OK;
 }
 
-void cs_gradient_tables_destroy(cs_gradient_tables *palettes, cs_memory *memory) {
-  if (!palettes)
+void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {
+  if (!tables)
     return;
-  cs_arena_finish(&palettes->parts, memory);
-  cs_mem_free(memory, palettes, sizeof *palettes);
+  cs_arena_finish(&tables->parts, memory);
+  cs_mem_free(memory, tables, sizeof *tables);
 }
 
-cs_v4 cs_gradient_table_fold(const cs_gradient_table *palette, double x, double y) {
-  cs_v4 e = palette->e, t = palette->t;
-  for (size_t i = palette->layer_count; i-- > 0;) {
-    const cs_gradient_table_layer *layer = &palette->layers[i];
+cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y) {
+  cs_v4 e = table->e, t = table->t;
+  for (size_t i = table->layer_count; i-- > 0;) {
+    const cs_gradient_table_layer *layer = &table->layers[i];
     double at = cs_shade_at(layer->shade, x, y);
     const cs_gradient_table_tint *tint = &layer->tints[cs_gradient_table_part_at(layer->shade, at)];
     float share = cs_gradient_table_share(tint->at, tint->scale, at);
@@ -38,7 +47,7 @@ cs_v4 cs_gradient_table_fold(const cs_gradient_table *palette, double x, double 
     e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
     t = layer->t * (through * t);
   }
-  e[3] = 1 - palette->keep * cs_stack_mean(t);
+  e[3] = 1 - table->keep * cs_stack_mean(t);
   return e;
 }
 
@@ -78,21 +87,21 @@ static void put_paint(samples *out, size_t i, const cs_paint *paint) {
 }
 
 /* What a program shows at every stop, and where the leaf that varies is clear. */
-static celspan_status fold_stops(cs_composer *composer, const cs_program *program,
+static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *program,
                                  const celspan_texture *texture, samples *room) {
-  const cs_stack *stack = composer->stack;
+  const cs_stack *stack = tables->stack;
   const cs_paint clear = CS_PAINT_CLEAR;
-  cs_arena *scratch = &composer->scratch;
-  cs_over_row blend;
+  cs_arena *scratch = tables->scratch;
+  cs_over_row over;
   for (size_t i = 0; i < texture->stop_count; i++)
     put_paint(room, i, &texture->stops[i].paint);
   put_paint(room, texture->stop_count, &clear);
-  CS_TRY(cs_over_row_begin(composer->context, scratch, stack, composer->isa,
-                           (int32_t)texture->stop_count + 1, &blend));
+  CS_TRY(cs_over_row_begin(tables->context, scratch, stack, tables->isa,
+                           (int32_t)texture->stop_count + 1, &over));
   for (uint32_t i = 0; i < program->length; i++)
-    CS_TRY(cs_over_row_layer(composer->context, scratch, &blend, program->items[i].layer,
+    CS_TRY(cs_over_row_layer(tables->context, scratch, &over, program->items[i].layer,
                              (const float(*)[4])room->s, (const float(*)[4])room->t));
-  cs_over_row_end(&blend, room->rgba);
+  cs_over_row_end(&over, room->rgba);
   return CELSPAN_OK;
 }
 
@@ -117,18 +126,18 @@ static void fill_parts(const celspan_texture *texture, const samples *folded,
 }
 
 /* Room for parts or tints, all of one program. */
-static void *take(cs_composer *composer, size_t count, size_t size) {
-  return cs_arena_take(composer->context, &composer->palettes->parts, count * size);
+static void *take(cs_gradient_tables *tables, size_t count, size_t size) {
+  return cs_arena_take(tables->context, &tables->parts, count * size);
 }
 
-static celspan_status make_one(cs_composer *composer, const cs_program *program,
+static celspan_status make_one(cs_gradient_tables *tables, const cs_program *program,
                                cs_gradient_table *out) {
   const celspan_texture *texture = out->shade->texture;
-  samples *room = cs_arena_take(composer->context, &composer->scratch, sizeof *room);
-  cs_gradient_table_part *parts = take(composer, texture->stop_count + 2, sizeof *parts);
+  samples *room = cs_arena_take(tables->context, tables->scratch, sizeof *room);
+  cs_gradient_table_part *parts = take(tables, texture->stop_count + 2, sizeof *parts);
   if (!room || !parts)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(fold_stops(composer, program, texture, room));
+  CS_TRY(fold_stops(tables, program, texture, room));
   fill_parts(texture, room, parts);
   out->parts = parts;
   return CELSPAN_OK;
@@ -160,65 +169,63 @@ static void fill_tints(const cs_layer *layer, const celspan_texture *texture,
   tints[count + 1] = tint_of(layer, &clear);
 }
 
-/* Takes what has been folded out of the blend, which goes on as if nothing were before it. */
-static celspan_status cut_blend(cs_composer *composer, cs_over_row *blend, cs_v4 *e, cs_v4 *t) {
+/* Takes what has been folded out of the over, which goes on as if nothing were before it. */
+static celspan_status cut_over(cs_gradient_tables *tables, cs_over_row *over, cs_v4 *e, cs_v4 *t) {
   cs_over_row next;
-  *e = cs_v4_load(blend->level->e[0]);
-  *t = cs_v4_load(blend->level->t[0]);
-  CS_TRY(cs_over_row_begin(composer->context, &composer->scratch, composer->stack, composer->isa, 1,
-                           &next));
-  blend->level = next.level;
+  *e = cs_v4_load(over->level->e[0]);
+  *t = cs_v4_load(over->level->t[0]);
+  CS_TRY(cs_over_row_begin(tables->context, tables->scratch, tables->stack, tables->isa, 1, &next));
+  over->level = next.level;
   return CELSPAN_OK;
 }
 
-static celspan_status add_layer(cs_composer *composer, const cs_layer *layer, cs_over_row *blend,
-                                cs_gradient_table_layer *out) {
-  const cs_shade *shade = &composer->stack->shades[layer->detail];
-  cs_gradient_table_tint *tints = take(composer, shade->texture->stop_count + 2, sizeof *tints);
+static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *layer,
+                                cs_over_row *over, cs_gradient_table_layer *out) {
+  const cs_shade *shade = &tables->stack->shades[layer->detail];
+  cs_gradient_table_tint *tints = take(tables, shade->texture->stop_count + 2, sizeof *tints);
   if (!tints)
     return CELSPAN_NO_MEMORY;
   fill_tints(layer, shade->texture, tints);
   out->shade = shade;
   out->tints = tints;
-  return cut_blend(composer, blend, &out->e, &out->t);
+  return cut_over(tables, over, &out->e, &out->t);
 }
 
-static celspan_status make_several(cs_composer *composer, const cs_program *program,
+static celspan_status make_several(cs_gradient_tables *tables, const cs_program *program,
                                    size_t layer_count, cs_gradient_table *out) {
-  const cs_stack *stack = composer->stack;
-  cs_gradient_table_layer *layers = take(composer, layer_count, sizeof *layers);
-  cs_over_row blend;
+  const cs_stack *stack = tables->stack;
+  cs_gradient_table_layer *layers = take(tables, layer_count, sizeof *layers);
+  cs_over_row over;
   if (!layers)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(cs_over_row_begin(composer->context, &composer->scratch, stack, composer->isa, 1, &blend));
+  CS_TRY(cs_over_row_begin(tables->context, tables->scratch, stack, tables->isa, 1, &over));
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    CS_TRY(
-        cs_over_row_reach(composer->context, &composer->scratch, &blend, program->items[i].layer));
+    CS_TRY(cs_over_row_reach(tables->context, tables->scratch, &over, program->items[i].layer));
     if (layer->kind == CS_LAYER_FLAT)
-      cs_over_row_flat(&blend, layer);
+      cs_over_row_flat(&over, layer);
     else
-      CS_TRY(add_layer(composer, layer, &blend, &layers[out->layer_count++]));
+      CS_TRY(add_layer(tables, layer, &over, &layers[out->layer_count++]));
   }
   float rest[1][4];
   out->layers = layers;
-  cs_over_row_end(&blend, rest);
-  out->keep = blend.keep;
+  cs_over_row_end(&over, rest);
+  out->keep = over.keep;
   out->e = cs_v4_load(rest[0]);
-  out->t = cs_v4_load(blend.level->t[0]);
+  out->t = cs_v4_load(over.level->t[0]);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- either */
 
-/* Forgets all palettes when they have grown many. */
-static void make_way(cs_gradient_tables *palettes, size_t count) {
-  palettes->part_count += count;
-  if (palettes->part_count <= PART_LIMIT)
+/* Forgets all tables when they have grown many. */
+static void make_way(cs_gradient_tables *tables, size_t count) {
+  tables->part_count += count;
+  if (tables->part_count <= PART_LIMIT)
     return;
-  memset(palettes->slots, 0, sizeof palettes->slots);
-  cs_arena_reset(&palettes->parts);
-  palettes->part_count = count;
+  memset(tables->slots, 0, sizeof tables->slots);
+  cs_arena_reset(&tables->parts);
+  tables->part_count = count;
 }
 
 static size_t count_parts(const cs_stack *stack, const cs_program *program) {
@@ -232,14 +239,14 @@ static size_t count_parts(const cs_stack *stack, const cs_program *program) {
 }
 
 /* first: the leaf of the first of `count` gradients. */
-static celspan_status make(cs_composer *composer, const cs_program *program, uint32_t first,
+static celspan_status make(cs_gradient_tables *tables, const cs_program *program, uint32_t first,
                            size_t count, cs_set_hash name, cs_gradient_table *out) {
-  const cs_stack *stack = composer->stack;
+  const cs_stack *stack = tables->stack;
   cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].detail], .name = name};
-  make_way(composer->palettes, count_parts(stack, program));
-  cs_arena_reset(&composer->scratch);
-  CS_TRY(count == 1 ? make_one(composer, program, &made)
-                    : make_several(composer, program, count, &made));
+  make_way(tables, count_parts(stack, program));
+  cs_arena_reset(tables->scratch);
+  CS_TRY(count == 1 ? make_one(tables, program, &made)
+                    : make_several(tables, program, count, &made));
   *out = made;
   return CELSPAN_OK;
 }
@@ -256,20 +263,20 @@ static cs_set_hash name_of(const cs_stack *stack, const cs_program *program) {
   return name;
 }
 
-celspan_status cs_gradient_table_find(cs_composer *composer, const cs_program *program,
+celspan_status cs_gradient_table_find(cs_gradient_tables *tables, const cs_program *program,
                                       const cs_gradient_table **out) {
-  const cs_stack *stack = composer->stack;
   *out = NULL;
-  if (!composer->palettes)
+  if (!tables)
     return CELSPAN_OK;
+  const cs_stack *stack = tables->stack;
   cs_set_hash name = name_of(stack, program);
-  cs_gradient_table *slot = &composer->palettes->slots[name.a & (SLOTS - 1)];
+  cs_gradient_table *slot = &tables->slots[name.a & (SLOTS - 1)];
   if (!slot->shade || !cs_set_hash_same(slot->name, name)) {
     uint32_t first = CS_STACK_NONE;
     size_t count = count_varying(stack, program, &first);
     if (count == 0)
       return CELSPAN_OK;
-    CS_TRY(make(composer, program, first, count, name, slot));
+    CS_TRY(make(tables, program, first, count, name, slot));
   }
   *out = slot;
   return CELSPAN_OK;

@@ -6,13 +6,15 @@
  * pixel is folded from the rear through one layer a gradient.
  *
  * Invariant: a pixel's colour depends on the program and the place alone. One store a composer; its
- * palettes hold for as long as the stack does.
+ * tables hold for as long as the stack does.
  */
 #ifndef CS_PAINT_GRADIENT_TABLE_H
 #define CS_PAINT_GRADIENT_TABLE_H
 
+#include "base/arena.h"
 #include "base/number.h"
-#include "compose/composer.h"
+#include "base/wide.h"
+#include "compose/cell.h"
 #include "paint/shade.h"
 
 /* From one stop to the next. */
@@ -47,14 +49,17 @@ typedef struct cs_gradient_table {
 
 typedef struct cs_gradient_tables cs_gradient_tables;
 
-/* Errors: NO_MEMORY. */
+/* scratch: borrowed; what it holds is given up whenever a table is made. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_gradient_tables_create(celspan_context *context,
+                                                         const cs_stack *stack, cs_isa isa,
+                                                         cs_arena *scratch,
                                                          cs_gradient_tables **out);
-void cs_gradient_tables_destroy(cs_gradient_tables *palettes,
+void cs_gradient_tables_destroy(cs_gradient_tables *tables,
                                 cs_memory *memory); /* NULL is nothing */
 
-/* *out: the palette of a program, valid until the next is asked for; NULL where it has none. */
-CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_composer *composer,
+/* *out: the table of a program, valid until the next is asked for; NULL where it has none.
+ * tables: NULL has none. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_gradient_tables *tables,
                                                       const cs_program *program,
                                                       const cs_gradient_table **out);
 
@@ -79,14 +84,14 @@ static inline cs_v4 cs_gradient_table_mix(const cs_gradient_table_part *part, do
 }
 
 /* The colour at a point of the frame, of several gradients. */
-cs_v4 cs_gradient_table_fold(const cs_gradient_table *palette, double x, double y);
+cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y);
 
 /* The colour at a point of the frame. */
-static inline cs_v4 cs_gradient_table_colour(const cs_gradient_table *palette, double x, double y) {
-  if (palette->layer_count > 0)
-    return cs_gradient_table_fold(palette, x, y);
-  double at = cs_shade_at(palette->shade, x, y);
-  return cs_gradient_table_mix(&palette->parts[cs_gradient_table_part_at(palette->shade, at)], at);
+static inline cs_v4 cs_gradient_table_colour(const cs_gradient_table *table, double x, double y) {
+  if (table->layer_count > 0)
+    return cs_gradient_table_fold(table, x, y);
+  double at = cs_shade_at(table->shade, x, y);
+  return cs_gradient_table_mix(&table->parts[cs_gradient_table_part_at(table->shade, at)], at);
 }
 
 #endif

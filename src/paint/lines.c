@@ -4,7 +4,9 @@
 #include "paint/lines.h"
 
 #include "base/number.h"
+#include "paint/colours.h"
 #include "paint/gradient_run.h"
+#include "paint/line.h"
 #include "paint/over_row.h"
 #include "paint/shade.h"
 
@@ -14,23 +16,24 @@
 /* ---------------------------------------------------------------- ramps */
 
 typedef struct ramp {
-  cs_composer *composer;
+  cs_painter *painter;
   const cs_program *program;
-  const cs_gradient_table *palette; /* of the program, or NULL */
+  const cs_gradient_table *table; /* of the program, or NULL */
   double y;
   cs_row *row;
 } ramp;
 
 static bool is_near(cs_v4 a, cs_v4 b) {
   for (int c = 0; c < 4; c++)
-    if (!(fabsf(a[c] - b[c]) <= CS_LINES_TOLERANCE))
+    if (!(fabsf(a[c] - b[c]) <= CS_LINE_TOLERANCE))
       return false;
   return true;
 }
 
 static celspan_status ramp_colours(const ramp *r, const int32_t *columns, int32_t count,
                                    float (*rgba)[4]) {
-  return cs_composer_colours_at(r->composer, r->program, columns, count, r->y, rgba);
+  return cs_painter_batch_colours(r->painter, r->program, &(cs_batch){columns, 0, count, r->y},
+                                  rgba);
 }
 
 /* The colour of a column on the line between the end columns of [x0, x1). */
@@ -43,7 +46,7 @@ static cs_v4 on_line(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, int32_t co
 static bool is_straight(int32_t x0, int32_t x1, cs_v4 first, cs_v4 last, const float (*inner)[4]) {
   for (int quarter = 1; quarter <= 3 && x1 - x0 > 2; quarter++)
     if (!is_near(cs_v4_load(inner[quarter - 1]),
-                 on_line(x0, x1, first, last, cs_lines_quarter(x0, x1, quarter))))
+                 on_line(x0, x1, first, last, cs_line_quarter((cs_run){x0, x1, 0}, quarter))))
       return false;
   return true;
 }
@@ -56,11 +59,11 @@ static celspan_status put_ramp(const ramp *r, int32_t x0, int32_t x1, cs_v4 firs
   int32_t columns[3];
   float inner[3][4] = {{0}};
   for (int k = 0; k < 3; k++)
-    columns[k] = cs_lines_quarter(x0, x1, k + 1);
+    columns[k] = cs_line_quarter((cs_run){x0, x1, 0}, k + 1);
   if (x1 - x0 > 2)
     CS_TRY(ramp_colours(r, columns, 3, inner));
   return is_straight(x0, x1, first, last, (const float(*)[4])inner)
-             ? cs_lines_line(r->composer->context, r->row, x0, x1, first, last)
+             ? cs_line_put(r->painter->context, r->row, (cs_run){x0, x1, 0}, first, last)
              : put_halves(r, x0, x1, first, last);
 }
 
@@ -81,21 +84,21 @@ typedef enum piece_shape {
   CURVED = 5    /* its ends and the quarters, and more if they tell that it bends */
 } piece_shape;
 
-static int bend_of(const cs_composer *composer, const cs_layer *layer) {
+static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   if (layer->kind == CS_LAYER_FLAT)
     return 0;
-  const cs_image_layer *image = &composer->stack->images[layer->detail];
+  const cs_image_layer *image = &painter->stack->images[layer->detail];
   if (layer->kind != CS_LAYER_PICTURE || image->texture->use == CELSPAN_PICTURE_GEL)
     return 2;
-  return composer->images[layer->detail].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
+  return painter->images[layer->detail].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
 }
 
 /* One leaf that varies as a line makes lines, since all that is done to it is linear; the product
  * of two does not. */
-static piece_shape shape_of(const cs_composer *composer, const cs_program *program) {
+static piece_shape shape_of(const cs_painter *painter, const cs_program *program) {
   int bends = 0;
   for (uint32_t i = 0; i < program->length; i++)
-    bends += bend_of(composer, &composer->stack->layers[program->items[i].layer]);
+    bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
 }
 
@@ -103,22 +106,22 @@ static void pick_columns(piece_shape shape, int32_t x0, int32_t x1, int32_t *col
   if (shape == STEPPED)
     columns[0] = x0 + (x1 - x0) / 2;
   for (int k = 0; k < (int)shape && shape != STEPPED; k++)
-    columns[k] = cs_lines_quarter(x0, x1, shape == STRAIGHT ? 4 * k : k);
+    columns[k] = cs_line_quarter((cs_run){x0, x1, 0}, shape == STRAIGHT ? 4 * k : k);
 }
 
 static celspan_status put_piece(const ramp *r, piece_shape shape, int32_t x0, int32_t x1,
                                 const float (*rgba)[4]) {
   cs_v4 first = cs_v4_load(rgba[0]), last = cs_v4_load(rgba[shape - 1]);
   if (shape == STEPPED)
-    return cs_row_single(r->composer->context, r->row, x0, x1, first);
+    return cs_row_single(r->painter->context, r->row, x0, x1, first);
   if (shape == CURVED && !is_straight(x0, x1, first, last, rgba + 1))
     return put_halves(r, x0, x1, first, last);
-  return cs_lines_line(r->composer->context, r->row, x0, x1, first, last);
+  return cs_line_put(r->painter->context, r->row, (cs_run){x0, x1, 0}, first, last);
 }
 
 /* The pieces between neighbours of `ends`, which ascend. */
 static celspan_status put_pieces(const ramp *r, const int32_t *ends, size_t count) {
-  piece_shape shape = shape_of(r->composer, r->program);
+  piece_shape shape = shape_of(r->painter, r->program);
   int32_t columns[CS_OVER_ROW_BATCH];
   float rgba[CS_OVER_ROW_BATCH][4];
   size_t most = CS_OVER_ROW_BATCH / (size_t)shape;
@@ -134,44 +137,44 @@ static celspan_status put_pieces(const ramp *r, const int32_t *ends, size_t coun
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- pieces of a palette
+/* ---------------------------------------------------------------- pieces of a table
  *
  * The same columns, but colours by themselves cost little: none is taken that does not count. */
 
-static cs_v4 palette_colour(const ramp *r, int32_t column) {
-  r->composer->evaluations++;
-  return cs_gradient_table_colour(r->palette, column + 0.5, r->y);
+static cs_v4 table_colour(const ramp *r, int32_t column) {
+  r->painter->evaluations++;
+  return cs_gradient_table_colour(r->table, column + 0.5, r->y);
 }
 
 /* middle: the colour of the second quarter. */
-static bool is_palette_straight(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last,
-                                cs_v4 middle) {
+static bool is_table_straight(const ramp *r, int32_t x0, int32_t x1, cs_v4 first, cs_v4 last,
+                              cs_v4 middle) {
   int32_t columns[3];
   for (int k = 0; k < 3; k++)
-    columns[k] = cs_lines_quarter(x0, x1, k + 1);
+    columns[k] = cs_line_quarter((cs_run){x0, x1, 0}, k + 1);
   return is_near(middle, on_line(x0, x1, first, last, columns[1])) &&
-         is_near(palette_colour(r, columns[0]), on_line(x0, x1, first, last, columns[0])) &&
-         is_near(palette_colour(r, columns[2]), on_line(x0, x1, first, last, columns[2]));
+         is_near(table_colour(r, columns[0]), on_line(x0, x1, first, last, columns[0])) &&
+         is_near(table_colour(r, columns[2]), on_line(x0, x1, first, last, columns[2]));
 }
 
-static celspan_status put_palette_ramp(const ramp *r, int32_t x0, int32_t x1, cs_v4 first,
-                                       cs_v4 last) {
-  int32_t centre = cs_lines_quarter(x0, x1, 2), middle = x0 + (x1 - x0) / 2;
+static celspan_status put_table_ramp(const ramp *r, int32_t x0, int32_t x1, cs_v4 first,
+                                     cs_v4 last) {
+  int32_t centre = cs_line_quarter((cs_run){x0, x1, 0}, 2), middle = x0 + (x1 - x0) / 2;
   cs_v4 colour = first;
   if (x1 - x0 > 2)
-    colour = palette_colour(r, centre);
-  if (x1 - x0 <= 2 || is_palette_straight(r, x0, x1, first, last, colour))
-    return cs_lines_line(r->composer->context, r->row, x0, x1, first, last);
-  cs_v4 before = centre == middle - 1 ? colour : palette_colour(r, middle - 1);
-  CS_TRY(put_palette_ramp(r, x0, middle, first, before));
-  cs_v4 after = centre == middle ? colour : palette_colour(r, middle);
-  return put_palette_ramp(r, middle, x1, after, last);
+    colour = table_colour(r, centre);
+  if (x1 - x0 <= 2 || is_table_straight(r, x0, x1, first, last, colour))
+    return cs_line_put(r->painter->context, r->row, (cs_run){x0, x1, 0}, first, last);
+  cs_v4 before = centre == middle - 1 ? colour : table_colour(r, middle - 1);
+  CS_TRY(put_table_ramp(r, x0, middle, first, before));
+  cs_v4 after = centre == middle ? colour : table_colour(r, middle);
+  return put_table_ramp(r, middle, x1, after, last);
 }
 
-static celspan_status put_palette_pieces(const ramp *r, const int32_t *ends, size_t count) {
+static celspan_status put_table_pieces(const ramp *r, const int32_t *ends, size_t count) {
   for (size_t i = 0; i + 1 < count; i++)
-    CS_TRY(put_palette_ramp(r, ends[i], ends[i + 1], palette_colour(r, ends[i]),
-                            palette_colour(r, ends[i + 1] - 1)));
+    CS_TRY(put_table_ramp(r, ends[i], ends[i + 1], table_colour(r, ends[i]),
+                          table_colour(r, ends[i + 1] - 1)));
   return CELSPAN_OK;
 }
 
@@ -198,9 +201,9 @@ static size_t strip_breaks(const cs_procedure_span *procedure_span, double x0, d
   return count;
 }
 
-static size_t formula_break_limit(const cs_composer *composer,
+static size_t formula_break_limit(const cs_painter *painter,
                                   const cs_procedure_span *procedure_spans, cs_item item) {
-  const cs_stack *stack = composer->stack;
+  const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
   return layer->kind == CS_LAYER_SHADED ? cs_shade_break_limit(&stack->shades[layer->detail])
          : layer->kind == CS_LAYER_SCANLINE
@@ -210,10 +213,10 @@ static size_t formula_break_limit(const cs_composer *composer,
              : 0;
 }
 
-static celspan_status formula_breaks(cs_composer *composer,
-                                     const cs_procedure_span *procedure_spans, cs_item item,
-                                     double y, double x0, double x1, double *out, size_t *count) {
-  const cs_stack *stack = composer->stack;
+static celspan_status formula_breaks(cs_painter *painter, const cs_procedure_span *procedure_spans,
+                                     cs_item item, double y, double x0, double x1, double *out,
+                                     size_t *count) {
+  const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
   *count = 0;
   if (layer->kind == CS_LAYER_SHADED) {
@@ -222,8 +225,8 @@ static celspan_status formula_breaks(cs_composer *composer,
     *count = strip_breaks(&procedure_spans[item.procedure_span], x0, x1, out);
   } else if (layer->kind == CS_LAYER_DEFOCUSED) {
     const cs_defocused *soft = stack->defocused[layer->detail];
-    cs_defocused_view *seen = &composer->defocused[layer->detail];
-    CS_TRY(cs_defocused_stand(soft, composer->context, seen, y));
+    cs_defocused_view *seen = &painter->defocused[layer->detail];
+    CS_TRY(cs_defocused_stand(soft, painter->context, seen, y));
     *count = cs_defocused_breaks(soft, seen, x0, x1, out);
   }
   return CELSPAN_OK;
@@ -237,17 +240,17 @@ typedef struct ends {
 } ends;
 
 static celspan_status make_room(const ramp *r, int32_t x0, int32_t x1, ends *out) {
-  const cs_composer *composer = r->composer;
+  const cs_painter *painter = r->painter;
   size_t limit = 2;
   for (uint32_t i = 0; i < r->program->length; i++) {
-    const cs_layer *layer = &composer->stack->layers[r->program->items[i].layer];
+    const cs_layer *layer = &painter->stack->layers[r->program->items[i].layer];
     limit += layer->kind == CS_LAYER_PICTURE
-                 ? cs_sampler_step_limit(&composer->images[layer->detail].sampler, x0, x1)
-                 : formula_break_limit(composer, r->program->procedure_spans, r->program->items[i]);
+                 ? cs_sampler_step_limit(&painter->images[layer->detail].sampler, x0, x1)
+                 : formula_break_limit(painter, r->program->procedure_spans, r->program->items[i]);
   }
   out->count = 0;
-  out->columns = cs_arena_take(composer->context, &r->row->colours, limit * sizeof(int32_t));
-  out->other = cs_arena_take(composer->context, &r->row->colours, limit * sizeof(int32_t));
+  out->columns = cs_arena_take(painter->context, &r->row->colours, limit * sizeof(int32_t));
+  out->other = cs_arena_take(painter->context, &r->row->colours, limit * sizeof(int32_t));
   return out->columns && out->other ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
@@ -267,13 +270,13 @@ static void merge(ends *list, size_t count) {
 }
 
 static celspan_status add_formula(const ramp *r, cs_item item, int32_t x0, int32_t x1, ends *list) {
-  cs_composer *composer = r->composer;
-  size_t limit = formula_break_limit(composer, r->program->procedure_spans, item), count;
-  double *breaks = cs_arena_take(composer->context, &r->row->colours, limit * sizeof *breaks);
+  cs_painter *painter = r->painter;
+  size_t limit = formula_break_limit(painter, r->program->procedure_spans, item), count;
+  double *breaks = cs_arena_take(painter->context, &r->row->colours, limit * sizeof *breaks);
   int32_t *columns = list->columns + list->count;
   if (!breaks)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(formula_breaks(composer, r->program->procedure_spans, item, r->y, x0, x1, breaks, &count));
+  CS_TRY(formula_breaks(painter, r->program->procedure_spans, item, r->y, x0, x1, breaks, &count));
   for (size_t i = 0; i < count; i++)
     columns[i] = cs_number_first_centre(breaks[i]);
   qsort(columns, count, sizeof *columns, compare_columns);
@@ -282,12 +285,12 @@ static celspan_status add_formula(const ramp *r, cs_item item, int32_t x0, int32
 }
 
 static celspan_status add_item(const ramp *r, cs_item item, int32_t x0, int32_t x1, ends *list) {
-  const cs_layer *layer = &r->composer->stack->layers[item.layer];
+  const cs_layer *layer = &r->painter->stack->layers[item.layer];
   if (layer->kind == CS_LAYER_FLAT)
     return CELSPAN_OK;
   if (layer->kind != CS_LAYER_PICTURE)
     return add_formula(r, item, x0, x1, list);
-  merge(list, cs_sampler_steps(&r->composer->images[layer->detail].sampler, x0, x1, r->y,
+  merge(list, cs_sampler_steps(&r->painter->images[layer->detail].sampler, x0, x1, r->y,
                                list->columns + list->count));
   return CELSPAN_OK;
 }
@@ -308,14 +311,14 @@ static celspan_status find_ends(const ramp *r, int32_t x0, int32_t x1, ends *out
   return CELSPAN_OK;
 }
 
-celspan_status cs_lines_run(cs_composer *composer, const cs_program *program, int32_t x0,
-                            int32_t x1, double y, cs_row *row) {
-  ramp r = {composer, program, NULL, y, row};
+celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_run run,
+                            cs_row *row) {
+  ramp r = {painter, program, NULL, run.y, row};
   ends list;
-  CS_TRY(cs_gradient_table_find(composer, program, &r.palette));
-  if (cs_gradient_run_fits(r.palette))
-    return cs_gradient_run(composer, r.palette, x0, x1, y, row);
-  CS_TRY(find_ends(&r, x0, x1, &list));
-  return r.palette ? put_palette_pieces(&r, list.columns, list.count)
-                   : put_pieces(&r, list.columns, list.count);
+  CS_TRY(cs_gradient_table_find(painter->gradients, program, &r.table));
+  if (cs_gradient_run_fits(r.table))
+    return cs_gradient_run(painter, r.table, run, row);
+  CS_TRY(find_ends(&r, run.x0, run.x1, &list));
+  return r.table ? put_table_pieces(&r, list.columns, list.count)
+                 : put_pieces(&r, list.columns, list.count);
 }

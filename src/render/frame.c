@@ -232,6 +232,7 @@ celspan_status cs_row_worker_row(cs_row_worker *row_worker, int32_t y, const cs_
 uint64_t cs_row_worker_evaluations(const cs_row_worker *row_worker) {
   uint64_t evaluations = 0;
   for (size_t i = 0; row_worker->makers && i < row_worker->frame->count; i++)
-    evaluations += row_worker->makers[i].composer.evaluations;
+    evaluations +=
+        row_worker->makers[i].composer.evaluations + row_worker->makers[i].painter.evaluations;
   return evaluations;
 }

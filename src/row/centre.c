@@ -5,6 +5,7 @@
  */
 #include "row/centre.h"
 
+#include "paint/run.h"
 #include "row/procedures.h"
 #include "row/row.h"
 #include "span/row_writer.h"
@@ -39,7 +40,8 @@ static celspan_status draw_row(cs_row_maker *maker, int32_t y, const int32_t *en
     if (v == count)
       break;
     int32_t to = ends[v] > from ? ends[v] : from;
-    CS_TRY(cs_composer_run(&maker->composer, visible_cell(cells, v), from, to, y + 0.5, out));
+    CS_TRY(
+        cs_painter_run(&maker->painter, visible_cell(cells, v), (cs_run){from, to, y + 0.5}, out));
     from = to;
   }
   return CELSPAN_OK;

@@ -1,6 +1,7 @@
 #include "row/procedures.h"
 
 #include "base/number.h"
+#include "paint/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -155,7 +156,7 @@ celspan_status cs_procedures_centre_row(cs_row_maker *maker, int32_t y, cs_row *
       cs_composer_cell(composer, &cell);
       CS_TRY(composer->failure);
       if (!cs_composer_same(composer, &cell, &run)) {
-        CS_TRY(cs_composer_run(composer, &run, from, at, y + 0.5, out));
+        CS_TRY(cs_painter_run(&maker->painter, &run, (cs_run){from, at, y + 0.5}, out));
         from = at;
         run = cell;
       }
@@ -167,5 +168,5 @@ celspan_status cs_procedures_centre_row(cs_row_maker *maker, int32_t y, cs_row *
     cross_next(maker, &edges, &boundary, &edge);
   }
   cs_cells_defer(composer, deferred, deferred_end, INFINITY);
-  return cs_composer_run(composer, &run, from, width, y + 0.5, out);
+  return cs_painter_run(&maker->painter, &run, (cs_run){from, width, y + 0.5}, out);
 }

@@ -11,7 +11,9 @@ celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
   cs_cells_init(&maker->cells);
   cs_arena_init(&maker->arena);
   cs_scanline_init(&maker->output);
-  CS_TRY(cs_composer_init(&maker->composer, context, &plan->stack));
+  CS_TRY(cs_composer_init(&maker->composer, context, &plan->stack,
+                          cs_painter_opacity(&maker->painter)));
+  CS_TRY(cs_painter_init(&maker->painter, context, &maker->composer));
   return plan->kernel ? cs_filter_init(maker) : CELSPAN_OK;
 }
 
@@ -19,6 +21,7 @@ void cs_row_maker_finish(cs_row_maker *maker) {
   if (!maker->context)
     return;
   cs_memory *memory = maker->context->memory;
+  cs_painter_finish(&maker->painter);
   cs_composer_finish(&maker->composer);
   cs_active_finish(&maker->active, memory);
   cs_cells_finish(&maker->cells, memory);

@@ -34,6 +34,7 @@ typedef struct cs_row_maker {
   celspan_context *context; /* the worker's branch */
   const cs_plan *plan;
   cs_composer composer;
+  cs_painter painter; /* of its cells */
   cs_active active;
   cs_cells cells;
   cs_edges edges; /* of the row being made */

@@ -1,5 +1,5 @@
-/* paint/gradient_table.c and palette_run.c: programs of gradients show what a fold of paints shows,
- * and their runs are right within 1/1023 from fewer colours than columns. */
+/* paint/gradient_table.c and gradient_run.c: programs of gradients show what a fold of paints
+ * shows, and their runs are right within 1/1023 from fewer colours than columns. */
 #include "paint/gradient_run.h"
 
 #include "paint/over_row.h"
@@ -77,16 +77,16 @@ static cs_program make_program(cs_item *items, unsigned varying) {
 }
 
 /* The fold of paints, column by column. */
-static void fold(cs_composer *composer, const cs_program *program, double y, float (*out)[4]) {
+static void fold(cs_painter *painter, const cs_program *program, double y, float (*out)[4]) {
   static float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
   cs_over_row blend;
-  cs_arena *arena = &composer->scratch;
+  cs_arena *arena = &painter->scratch;
   cs_arena_reset(arena);
-  CHECK(cs_over_row_begin(composer->context, arena, &stack, CS_ISA_ANY, WIDTH, &blend) ==
+  CHECK(cs_over_row_begin(painter->context, arena, &stack, CS_ISA_ANY, WIDTH, &blend) ==
         CELSPAN_OK);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &layers[program->items[i].layer];
-    CHECK(cs_over_row_reach(composer->context, arena, &blend, program->items[i].layer) ==
+    CHECK(cs_over_row_reach(painter->context, arena, &blend, program->items[i].layer) ==
           CELSPAN_OK);
     for (int32_t x = 0; x < WIDTH && layer->kind == CS_LAYER_SHADED; x++) {
       cs_shade_lanes paint = cs_shade_paint(&shades[layer->detail], x + 0.5, y);
@@ -109,13 +109,13 @@ static bool is_near(cs_v4 a, const float *b, float tolerance) {
 }
 
 /* Every column lies in a span that is near the colour wanted there. */
-static void check_run(cs_composer *composer, const cs_gradient_table *palette, double y,
+static void check_run(cs_painter *painter, const cs_gradient_table *table, double y,
                       const float (*wanted)[4]) {
   cs_row row;
   cs_row_init(&row);
-  uint64_t before = composer->evaluations;
-  CHECK(cs_gradient_run(composer, palette, 0, WIDTH, y, &row) == CELSPAN_OK);
-  CHECK(composer->evaluations - before < WIDTH / 2);
+  uint64_t before = painter->evaluations;
+  CHECK(cs_gradient_run(painter, table, (cs_run){0, WIDTH, y}, &row) == CELSPAN_OK);
+  CHECK(painter->evaluations - before < WIDTH / 2);
   int32_t x = 0, wrong = 0;
   for (size_t i = 0; i < row.count; i++)
     for (CHECK(row.spans[i].x0 == x); x < row.spans[i].x1; x++) {
@@ -125,45 +125,50 @@ static void check_run(cs_composer *composer, const cs_gradient_table *palette, d
     }
   CHECK(x == WIDTH);
   CHECK(wrong == 0);
-  cs_row_finish(&row, composer->context->memory);
+  cs_row_finish(&row, painter->context->memory);
 }
 
-static void check_program(cs_composer *composer, const cs_program *program, double y) {
+static void check_program(cs_painter *painter, const cs_program *program, double y) {
   static float wanted[CS_OVER_ROW_BATCH][4];
-  const cs_gradient_table *palette, *again;
-  CHECK(cs_gradient_table_find(composer, program, &palette) == CELSPAN_OK);
-  if (!CHECK(palette != NULL))
+  const cs_gradient_table *table, *again;
+  CHECK(cs_gradient_table_find(painter->gradients, program, &table) == CELSPAN_OK);
+  if (!CHECK(table != NULL))
     return;
-  CHECK(cs_gradient_table_find(composer, program, &again) == CELSPAN_OK && again == palette);
-  fold(composer, program, y, wanted);
+  CHECK(cs_gradient_table_find(painter->gradients, program, &again) == CELSPAN_OK &&
+        again == table);
+  fold(painter, program, y, wanted);
   int32_t wrong = 0;
   for (int32_t x = 0; x < WIDTH; x++)
-    wrong += !is_near(cs_gradient_table_colour(palette, x + 0.5, y), wanted[x], 2e-6f);
+    wrong += !is_near(cs_gradient_table_colour(table, x + 0.5, y), wanted[x], 2e-6f);
   CHECK(wrong == 0);
-  if (cs_gradient_run_fits(palette))
-    check_run(composer, palette, y, (const float(*)[4])wanted);
+  if (cs_gradient_run_fits(table))
+    check_run(painter, table, y, (const float(*)[4])wanted);
 }
 
 /* All programs of six leaves with one gradient or more, in rows near and far from the centre. */
 static void test_programs(celspan_context *context, bool is_grouped, double perspective) {
   cs_composer composer;
+  cs_painter painter;
   cs_item items[LEAVES];
   make_layers(is_grouped, perspective);
-  CHECK(cs_composer_init(&composer, context, &stack) == CELSPAN_OK);
+  CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
+  CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
   for (unsigned varying = 1; varying < 1u << LEAVES; varying++) {
-    /* A leaf's kind never changes, so palettes are named by their leaves alone. */
-    cs_gradient_tables_destroy(composer.palettes, context->memory);
-    CHECK(cs_gradient_tables_create(context, &composer.palettes) == CELSPAN_OK);
+    /* A leaf's kind never changes, so tables are named by their leaves alone. */
+    cs_gradient_tables_destroy(painter.gradients, context->memory);
+    CHECK(cs_gradient_tables_create(context, &stack, painter.isa, &painter.scratch,
+                                    &painter.gradients) == CELSPAN_OK);
     cs_program program = make_program(items, varying);
-    const cs_gradient_table *palette;
+    const cs_gradient_table *table;
     bool is_one = (varying & (varying - 1)) == 0;
     if (is_grouped && !is_one) {
-      CHECK(cs_gradient_table_find(&composer, &program, &palette) == CELSPAN_OK && !palette);
+      CHECK(cs_gradient_table_find(painter.gradients, &program, &table) == CELSPAN_OK && !table);
       continue;
     }
     for (double y = 0.5; y < 120; y += 17)
-      check_program(&composer, &program, y);
+      check_program(&painter, &program, y);
   }
+  cs_painter_finish(&painter);
   cs_composer_finish(&composer);
 }
 

@@ -1,0 +1,218 @@
+#include "paint/colours.h"
+
+#include "base/number.h"
+#include "colour/srgb8.h"
+#include "paint/gradient_table.h"
+#include "paint/over_row.h"
+#include "paint/shade.h"
+
+#include <math.h>
+
+/* ---------------------------------------------------------------- samples */
+
+/* The paint of a procedure span at x: one is flat, two or more are evenly spaced over it. */
+static cs_paint procedure_paint(const cs_procedure_span *span, double x) {
+  if (span->paint_count == 1)
+    return span->paints[0];
+  double last = (double)(span->paint_count - 1);
+  double at = cs_number_clamp((x - span->x0) / (span->x1 - span->x0), 0, 1) * last;
+  size_t i = (size_t)cs_number_clamp(floor(at), 0, last - 1);
+  return cs_paint_mix(&span->paints[i], &span->paints[i + 1], (float)(at - (double)i));
+}
+
+static double centre(const cs_batch *batch, int32_t k) {
+  return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
+}
+
+/* What layers that vary paint in a batch of pixels. */
+typedef struct samples {
+  float rgba[CS_OVER_ROW_BATCH][4];                       /* pictures */
+  float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* all others; s is not lit */
+} samples;
+
+static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_shade_lanes paint = cs_shade_paint(shade, centre(batch, k), batch->y);
+    cs_v4_store(out->s[k], paint.s);
+    cs_v4_store(out->t[k], paint.t);
+  }
+}
+
+static void sample_procedure(const cs_procedure_span *span, const cs_batch *batch, samples *out) {
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_paint paint = procedure_paint(span, centre(batch, k));
+    cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
+    cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+  }
+}
+
+static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
+                                     const cs_batch *batch, float (*rgba)[4]) {
+  const cs_image_view *view;
+  CS_TRY(cs_painter_image(painter, layer->detail, &view));
+  return batch->columns ? cs_sampler_at(painter->blocks, &view->sampler, batch->columns,
+                                        batch->count, batch->y, rgba)
+                        : cs_sampler_run(painter->blocks, &view->sampler, batch->x0, batch->count,
+                                         batch->y, rgba);
+}
+
+static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
+                                       const cs_batch *batch, samples *out) {
+  const cs_defocused *defocused = painter->stack->defocused[layer->detail];
+  cs_defocused_view *view = &painter->defocused[layer->detail];
+  CS_TRY(cs_defocused_stand(defocused, painter->context, view, batch->y));
+  size_t piece = 0;
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_v4 s, t;
+    cs_defocused_paint(defocused, view, centre(batch, k), &piece, &s, &t);
+    cs_v4_store(out->s[k], s);
+    cs_v4_store(out->t[k], t);
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- one over the other */
+
+static celspan_status add_item(cs_painter *painter, cs_over_row *over,
+                               const cs_procedure_span *procedure_spans, cs_item item,
+                               const cs_batch *batch, samples *room) {
+  const cs_stack *stack = painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  if (layer->kind == CS_LAYER_FLAT) {
+    cs_over_row_flat(over, layer);
+    return CELSPAN_OK;
+  }
+  if (layer->kind == CS_LAYER_PICTURE) {
+    CS_TRY(sample_picture(painter, layer, batch, room->rgba));
+    cs_over_row_picture(over, layer, stack->images[layer->detail].texture->use,
+                        (const float(*)[4])room->rgba);
+    return CELSPAN_OK;
+  }
+  if (layer->kind == CS_LAYER_DEFOCUSED)
+    CS_TRY(sample_defocused(painter, layer, batch, room));
+  else if (layer->kind == CS_LAYER_SHADED)
+    sample_shade(&stack->shades[layer->detail], batch, room);
+  else
+    sample_procedure(&procedure_spans[item.procedure_span], batch, room);
+  cs_over_row_paints(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
+  return CELSPAN_OK;
+}
+
+static celspan_status fold_items(cs_painter *painter, const cs_program *program,
+                                 const cs_batch *batch, float (*rgba)[4]) {
+  celspan_context *context = painter->context;
+  cs_arena *scratch = &painter->scratch;
+  cs_over_row over;
+  samples *room = cs_arena_take(context, scratch, sizeof *room);
+  if (!room)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, batch->count, &over));
+  for (uint32_t i = 0; i < program->length; i++) {
+    CS_TRY(cs_over_row_reach(context, scratch, &over, program->items[i].layer));
+    CS_TRY(add_item(painter, &over, program->procedure_spans, program->items[i], batch, room));
+  }
+  cs_over_row_end(&over, rgba);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- pictures as they are */
+
+bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
+  const cs_stack *stack = painter->stack;
+  const cs_layer *layer = &stack->layers[item.layer];
+  return layer->kind == CS_LAYER_PICTURE && layer->group == CS_STACK_NONE && layer->fade == 1 &&
+         layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1 &&
+         (stack->light_count == 0 || stack->lights[0].below <= item.layer);
+}
+
+static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
+  const cs_stack *stack = painter->stack;
+  bool bare = program->length > 0 && stack->light_count <= 1;
+  for (uint32_t i = 0; i < program->length && bare; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    bare = cs_painter_is_bare(painter, program->items[i]) &&
+           stack->images[layer->detail].texture->use == CELSPAN_PICTURE_PAINT;
+  }
+  return bare;
+}
+
+/* Pictures alone: of each only the pixels are sampled that shine through those before it. */
+static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
+                                const cs_batch *batch, cs_over_row_layers *out) {
+  cs_over_row_part *shown = &out->part;
+  uint32_t i = 0;
+  *shown = (cs_over_row_part){0, batch->count};
+  out->count = batch->count;
+  while (shown->first < shown->end) {
+    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
+    cs_batch part = {batch->columns ? batch->columns + shown->first : NULL,
+                     batch->x0 + shown->first, shown->end - shown->first, batch->y};
+    CS_TRY(sample_picture(painter, layer, &part, out->rgba + shown->first));
+    if (i + 1 == program->length)
+      break;
+    *shown =
+        cs_over_row_bare(painter->isa, i == 0, (const float(*)[4])out->rgba, *shown, out->folded);
+    i++;
+  }
+  out->is_first = i == 0;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- batches */
+
+celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
+                                        const cs_batch *batch, float (*rgba)[4]) {
+  const cs_gradient_table *table;
+  painter->evaluations += (uint64_t)batch->count;
+  CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
+  if (table) {
+    for (int32_t k = 0; k < batch->count; k++)
+      cs_v4_store(rgba[k], cs_gradient_table_colour(table, centre(batch, k), batch->y));
+    return CELSPAN_OK;
+  }
+  cs_arena_reset(&painter->scratch);
+  if (!is_all_bare(painter, program))
+    return fold_items(painter, program, batch, rgba);
+  cs_over_row_layers layers;
+  CS_TRY(fold_bare(painter, program, batch, &layers));
+  cs_over_row_bare_end(painter->isa, painter->stack, &layers, rgba);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
+                                      const cs_batch *batch, unsigned char *codes) {
+  if (is_all_bare(painter, program)) {
+    cs_over_row_layers layers;
+    painter->evaluations += (uint64_t)batch->count;
+    CS_TRY(fold_bare(painter, program, batch, &layers));
+    cs_over_row_bare_codes(painter->isa, painter->stack, &layers, codes);
+    return CELSPAN_OK;
+  }
+  float rgba[CS_OVER_ROW_BATCH][4];
+  CS_TRY(cs_painter_batch_colours(painter, program, batch, rgba));
+  cs_srgb8_choose(painter->isa)(rgba[0], (size_t)batch->count, codes);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
+                                          cs_run run, float (*rgba)[4]) {
+  for (int32_t x = run.x0; x < run.x1; x += CS_OVER_ROW_BATCH) {
+    int32_t count = run.x1 - x < CS_OVER_ROW_BATCH ? run.x1 - x : CS_OVER_ROW_BATCH;
+    cs_batch batch = {NULL, x, count, run.y};
+    CS_TRY(cs_painter_batch_colours(painter, program, &batch, rgba + (x - run.x0)));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,
+                                  float (*rgba)[4]) {
+  if (cell->length > 0) {
+    cs_program program = cs_composer_program(painter->composer, cell);
+    return cs_painter_program_colours(painter, &program, run, rgba);
+  }
+  for (int32_t x = run.x0; x < run.x1; x++)
+    cs_v4_store(rgba[x - run.x0], cell->colour);
+  return CELSPAN_OK;
+}

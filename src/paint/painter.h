@@ -1,0 +1,57 @@
+/* The painter: from the programs of cells to pixels and spans.
+ *
+ *     composer                          painter
+ *     cell: one colour ------------------------------------> one span
+ *     cell: program (layers, front to back)
+ *            |-- colours.h   samples, over_row --> pixels
+ *            `-- run.h       a picture shows   --> pixels, or their codes
+ *                            formulas only     --> few linear spans (lines.h)
+ *                            one defocused cel --> from node to node (defocused_run.h)
+ *
+ * The composer says which layers show; the painter knows what each looks like: headers and texels
+ * of pictures, grids of defocused cels, folded gradients. It reads the composer's programs and the
+ * procedure spans of the row, and changes nothing there.
+ *
+ * Invariant: a pixel depends on the program and its place alone, not on the run it is painted in.
+ * One painter a worker, beside its composer.
+ */
+#ifndef CS_PAINT_PAINTER_H
+#define CS_PAINT_PAINTER_H
+
+#include "base/arena.h"
+#include "compose/composer.h"
+
+/* An image layer as this worker sees it: the header of its picture is read when it is needed. */
+typedef struct cs_image_view {
+  bool is_ready, is_opaque;
+  cs_sampler sampler;
+} cs_image_view;
+
+typedef struct cs_painter {
+  celspan_context *context;    /* the worker's branch */
+  const cs_composer *composer; /* whose cells it paints */
+  const cs_stack *stack;
+  cs_isa isa; /* that many pixels are made with */
+  cs_image_view *images;
+  cs_block_cache *blocks; /* of its pictures; NULL without pictures */
+  cs_defocused_view *defocused;
+  struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
+  cs_arena scratch;                     /* of one run */
+  uint64_t evaluations;                 /* pixels whose colour was asked for */
+} cs_painter;
+
+/* composer: initialized, borrowed; the painter stays where it is until it is finished.
+ * Errors: NO_MEMORY; then, too, it wants to be finished. */
+CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
+                                               const cs_composer *composer);
+void cs_painter_finish(cs_painter *painter);
+
+/* What the composer of the same worker asks. It may do so before the painter is initialized only
+ * if nothing is composed before. */
+cs_image_opacity cs_painter_opacity(cs_painter *painter);
+
+/* The view of an image layer, its header read on first use. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_painter_image(cs_painter *painter, uint32_t image,
+                                                const cs_image_view **out);
+
+#endif

@@ -1,0 +1,26 @@
+/* Runs of a cell as spans.
+ *
+ * Where a picture shows in the program, some columns of the frame are asked at a time what is clear
+ * or opaque there: a layer that is clear is left out, and so is all behind one that is opaque. What
+ * remains of the program is painted in the cheapest way that is right: the codes of texels as they
+ * are, pixel by pixel, or as few linear spans as needed.
+ *
+ * Invariant: where a program varies as a formula, spans are cut so that they are right within
+ * 1/1023; the cuts depend on the run and the program alone.
+ */
+#ifndef CS_PAINT_RUN_H
+#define CS_PAINT_RUN_H
+
+#include "paint/painter.h"
+#include "span/row.h"
+#include "span/run.h"
+
+/* Appends the spans of a run: of a cell, and of a program by itself. An empty run has none.
+ * Errors: NO_MEMORY, and those of reading pictures and making defocused cels. */
+CELSPAN_CHECKED celspan_status cs_painter_run(cs_painter *painter, const cs_cell *cell, cs_run run,
+                                              cs_row *row);
+CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
+                                                      const cs_program *program, cs_run run,
+                                                      cs_row *row);
+
+#endif
