@@ -1,91 +1,102 @@
-/* Antialias "area": the exact mean over each pixel, by local events (one walk a row).
+/* Antialias "area": the exact mean over each pixel, by local events, in one walk along the row.
  *
- *   alone   a visible boundary that nothing happens to gives its fragments: one, or one a piece
- *   block   boundaries that swap, begin or end inside the row are replayed (cluster.c)
+ *      y      A        B   C            D            active boundaries at the top of the row
+ *      +------\--------+---/------------\--------    (from left to right: A, B, C, D)
+ *      | cell  \  cell | \/    cell    | \ cell
+ *      |  0     \  1   | /\     3      |  \  4
+ *      +---------\-----/---+-----------+---\-----
+ *      y+1        A   C   B                 D        and at its foot
  *
- * A replay costs events times members, so a row in which very much begins and ends is cut into
- * slices of its height, each walked by itself into one window that is summed when all are done.
+ *              |--|   |---|             |--|
+ *            window   window           window        pixels that edges cross: summed by area
+ *                     interval                       B and C cross: replayed by a local sweep,
+ * which x  intersection             composes the one cell below the crossing
+ *      ---------|  |--|   |-------------|  |-----    whole cells: spans as they are
+ *
+ *   alone     a visible boundary to which nothing happens in the row gives its edge segments: one,
+ *             or one for each straight piece
+ *   interval  neighbours that swap, begin or end inside the row are replayed (intervals.h says
+ *             which, local_sweep.h how)
+ *
+ * A replay costs events times members. So a row in which very much begins and ends is cut into
+ * slabs of its height, each walked by itself into one window, which is summed when all are done.
  */
-#include "area/commit.h"
+#include "area/area.h"
+
 #include "area/intervals.h"
 #include "base/number.h"
-#include "row/procedures.h"
+#include "sweep/pieces.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-static void *take(cs_intervals *b, size_t count, size_t size) {
-  return cs_arena_take(b->maker->context, &b->maker->arena, count * size);
+void cs_area_init(cs_area *area, const cs_row_parts *parts) {
+  *area = (cs_area){.parts = *parts};
+  cs_window_init(&area->target.window, parts->painter, parts->arena, parts->width);
+  cs_local_sweep_init(&area->sweep, parts->composer, parts->arena, &area->target);
+  area->commit = (cs_commit){parts->active, parts->cells, parts->composer, parts->arena, NULL};
 }
+
+void cs_area_finish(cs_area *area, cs_memory *memory) {
+  cs_edges_finish(&area->edges, memory);
+  cs_window_finish(&area->target.window, memory);
+  cs_local_sweep_finish(&area->sweep, memory);
+  *area = (cs_area){0};
+}
+
+/* The walk along a row, or along a slab of it, from left to right. */
+typedef struct row_walk {
+  cs_area *area;
+  const cs_cell *cells; /* as in cs_cells; they do not change until the walk is done */
+  cs_intervals intervals;
+  size_t visible; /* the next visible boundary */
+  bool is_slab;   /* of a row whose other heights are walked by themselves */
+} row_walk;
 
 /* ---------------------------------------------------------------- alone */
 
-/* The walk over the visible boundaries of a row, from left to right. */
-typedef struct walk {
-  cs_row_maker *maker;
-  const cs_cell *cells;
-  size_t v; /* the next visible boundary */
-} walk;
-
 /* The first visible boundary from v on that is not left of boundary `end`. */
-static size_t find_visible(const cs_row_maker *maker, size_t v, size_t end) {
-  const cs_cells *cells = &maker->cells;
-  if (end == maker->active.count)
+static size_t find_visible(const cs_area *area, size_t v, size_t end) {
+  const cs_cells *cells = area->parts.cells;
+  if (end == area->parts.active->count)
     return cells->visible_count;
   while (v < cells->visible_count && cells->visible[v] < end)
     v++;
   return v;
 }
 
-/* Writes the visible boundaries up to boundary `end`, to which nothing happens but bends; what
- * comes then lies at or right of column `next`. */
-static celspan_status walk_alone(walk *w, size_t end, int32_t next) {
-  cs_row_maker *maker = w->maker;
-  size_t first = w->v;
-  w->v = find_visible(maker, first, end);
-  return cs_window_edges(&maker->window, &maker->active, &maker->edges, w->cells,
-                         maker->cells.visible + first, w->v - first, next);
-}
-
-/* The same in a slice of a row. */
-static celspan_status walk_slice(walk *w, size_t end) {
-  cs_row_maker *maker = w->maker;
-  for (; w->v < maker->cells.visible_count && maker->cells.visible[w->v] < end; w->v++) {
-    size_t i = maker->cells.visible[w->v];
-    CS_TRY(cs_window_slice(&maker->window, &maker->active, &maker->edges, i, &w->cells[i]));
+/* Gives the target the segments of visible boundaries one by one. */
+static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, size_t count) {
+  cs_area *area = w->area;
+  for (size_t k = 0; k < count; k++) {
+    size_t i = boundaries[k];
+    const cs_cell *left = &w->cells[i];
+    const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->parts.active, i) : NULL;
+    cs_window_end_item(&area->target.window, left + 1);
+    for (cs_pieces p = cs_pieces_of(area->parts.active, i, bend); cs_pieces_next(&p);) {
+      const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+      CS_TRY(cs_target_add(&area->target, &segment, left, left + 1));
+    }
   }
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- blocks */
-
-/* The polyline of active boundary i through the row. */
-static celspan_status active_points(cs_intervals *b, size_t i, const celspan_point **points,
-                                    uint32_t *count) {
-  const cs_active *active = &b->maker->active;
-  const cs_bend *bend = cs_active_bend(active, i);
-  uint32_t inner = bend ? bend->vertex_count : 0;
-  celspan_point *p = take(b, inner + 2, sizeof *p);
-  if (!p)
-    return CELSPAN_NO_MEMORY;
-  *points = p;
-  *p++ = (celspan_point){active->x[i], b->y0};
-  for (uint32_t k = 0; k < inner; k++)
-    *p++ = active->vertices[bend->vertex + k];
-  if (!bend || !bend->ends_above)
-    *p++ = (celspan_point){active->x_next[i], b->y1};
-  *count = (uint32_t)(p - *points);
-  return CELSPAN_OK;
+/* Draws the visible boundaries up to boundary `end`, to which nothing happens but bends. What comes
+ * after them is at or right of x = next. */
+static celspan_status walk_alone(row_walk *w, size_t end, double next) {
+  cs_area *area = w->area;
+  size_t first = w->visible;
+  const uint32_t *boundaries = area->parts.cells->visible + first;
+  w->visible = find_visible(area, first, end);
+  if (w->is_slab || area->target.retained)
+    return add_boundaries(w, boundaries, w->visible - first);
+  const cs_direct_edges edges = {area->parts.active, &area->edges,
+                                 w->cells,           boundaries,
+                                 w->visible - first, cs_edges_floor(next, area->parts.width),
+                                 area->parts.width};
+  return cs_window_edges(&area->target.window, &edges);
 }
 
-static int compare_begins(const void *p, const void *q) {
-  const cs_member *a = p, *b = q;
-  if (a->points[0].y != b->points[0].y)
-    return a->points[0].y < b->points[0].y ? -1 : 1;
-  if (a->points[0].x != b->points[0].x)
-    return a->points[0].x < b->points[0].x ? -1 : 1;
-  return (a->order > b->order) - (a->order < b->order);
-}
+/* ---------------------------------------------------------------- intervals */
 
 static double least_x(const cs_member *members, size_t count, double least) {
   for (size_t j = 0; j < count; j++)
@@ -95,242 +106,218 @@ static double least_x(const cs_member *members, size_t count, double least) {
   return least;
 }
 
-/* The begins that belong to a block, in room of their own. Blocks are asked from left to right. */
-static celspan_status pick_begins(cs_intervals *b, const cs_interval *interval, cs_member **begins,
-                                  size_t *count) {
-  size_t first = b->picked;
-  while (b->picked < b->begin_count && b->begin_places[b->picked].low <= interval->last_low)
-    b->picked++;
-  *count = b->picked - first;
-  *begins = NULL;
-  if (*count == 0)
-    return CELSPAN_OK;
-  *begins = take(b, *count, sizeof **begins);
-  if (!*begins)
-    return CELSPAN_NO_MEMORY;
-  for (size_t k = 0; k < *count; k++)
-    (*begins)[k] = b->begins[b->begin_places[first + k].begin];
-  return CELSPAN_OK;
+/* Brings the composer to the left of an interval, and the target to its least x. */
+static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low, double least) {
+  cs_local_sweep *sweep = &area->sweep;
+  cs_cells_stand(area->parts.cells, area->parts.composer, low, least);
+  sweep->left = left;
+  sweep->deferred = area->parts.cells->deferred;
+  sweep->deferred_end = area->parts.cells->deferred_end;
+  return cs_target_begin_item(&area->target, least);
 }
 
-/* Room for the members of a cluster, which is kept from one to the next. */
-static celspan_status make_room(cs_row_maker *maker, cs_local_sweep *sweep) {
-  size_t most = sweep->count + sweep->begin_count;
-  CS_TRY(cs_mem_reserve(maker->context, (void **)&maker->members, &maker->member_capacity, most,
-                        sizeof *maker->members));
-  CS_TRY(cs_mem_reserve(maker->context, (void **)&maker->member_lists, &maker->list_capacity,
-                        3 * most, sizeof *maker->member_lists));
-  sweep->members = (cs_member **)maker->member_lists;
-  sweep->spare = sweep->members + most;
-  sweep->seen = (const cs_cell **)(maker->member_lists + 2 * most);
-  for (size_t j = 0; j < sweep->count; j++)
-    sweep->members[j] = &maker->members[j];
-  return CELSPAN_OK;
-}
-
-/* Replays a block. */
-static celspan_status walk_interval(cs_intervals *b, const cs_interval *interval) {
-  cs_row_maker *maker = b->maker;
-  const cs_active *active = &maker->active;
-  size_t low = interval->low, high = interval->high, begin_count;
-  cs_member *begins;
-  CS_TRY(pick_begins(b, interval, &begins, &begin_count));
-  cs_local_sweep sweep = {.maker = maker,
-                          .y0 = b->y0,
-                          .y1 = b->y1,
-                          .left = &b->cells[low],
-                          .count = high - low,
-                          .begins = begins,
-                          .begin_count = begin_count};
-  CS_TRY(make_room(maker, &sweep));
+/* Replays an interval. */
+static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  cs_local_sweep *sweep = &area->sweep;
+  size_t low = interval->low, high = interval->high;
+  CS_TRY(cs_intervals_pick_begins(&w->intervals, interval, &sweep->begins, &sweep->begin_count));
+  sweep->y0 = w->intervals.y0;
+  sweep->y1 = w->intervals.y1;
+  CS_TRY(cs_local_sweep_begin(sweep, high - low));
   for (size_t i = low; i < high; i++) {
-    const celspan_point *points;
-    uint32_t count;
-    CS_TRY(active_points(b, i, &points, &count));
-    cs_member *member = sweep.members[i - low];
-    cs_intervals_member(member, active, active->walks[active->slot[i]].chain, points, count);
-    member->place = (uint32_t)i;
-    member->right = &b->cells[i + 1];
+    cs_member *member = sweep->members[i - low];
+    CS_TRY(cs_intervals_member(&w->intervals, i, member));
+    member->right = &w->cells[i + 1];
   }
-  if (begin_count > 1)
-    qsort(begins, begin_count, sizeof *begins, compare_begins);
-  double least = least_x(maker->members, sweep.count, maker->plan->width);
-  least = least_x(begins, begin_count, least);
-  cs_cells_stand(&maker->cells, &maker->composer, low, least);
-  sweep.deferred = maker->cells.deferred;
-  sweep.deferred_end = maker->cells.deferred_end;
-  CS_TRY(cs_window_reach(&maker->window, least));
-  CS_TRY(cs_local_sweep_replay(&sweep));
-  CS_TRY(cs_commit_cluster(&sweep, low, high));
-  cs_window_pass(&maker->window, &b->cells[high]);
+  double least = least_x(sweep->entering, sweep->count, area->parts.width);
+  least = least_x(sweep->begins, sweep->begin_count, least);
+  CS_TRY(begin_item(area, &w->cells[low], low, least));
+  CS_TRY(cs_local_sweep_replay(sweep));
+  CS_TRY(cs_commit_sweep(&area->commit, sweep, low, high));
+  cs_window_end_item(&area->target.window, &w->cells[high]);
   return CELSPAN_OK;
 }
 
-/* Whether a block is two straight boundaries that cross: the bends of both, if any, keep to their
- * chords. */
-static bool is_pair(const cs_intervals *b, const cs_interval *interval) {
-  const cs_active *active = &b->maker->active;
+/* Whether an interval is two straight boundaries that cross: the bends of both, if any, keep to
+ * their chords. */
+static bool is_pair(const cs_area *area, const cs_interval *interval) {
+  const cs_active *active = area->parts.active;
   size_t i = interval->low;
-  return interval->high - i == 2 && interval->low_x > interval->high_x &&
-         !b->maker->edges.is_bent[i] && !b->maker->edges.is_bent[i + 1] &&
+  return interval->high - i == 2 && interval->events.low > interval->events.high &&
+         !area->edges.is_bent[i] && !area->edges.is_bent[i + 1] &&
          active->x_next[i] > active->x_next[i + 1];
 }
 
-static celspan_status walk_pair(cs_intervals *b, const cs_interval *interval) {
-  cs_row_maker *maker = b->maker;
-  cs_cells_stand(&maker->cells, &maker->composer, interval->low, interval->reach_low);
-  CS_TRY(cs_window_reach(&maker->window, interval->reach_low));
+static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
+  cs_area *area = w->area;
+  size_t low = interval->low;
   const cs_cell *between;
-  CS_TRY(cs_local_sweep_pair(maker, &b->cells[interval->low], interval->low, &between));
-  CS_TRY(cs_commit_pair(maker, interval->low, between));
-  cs_window_pass(&maker->window, &b->cells[interval->high]);
+  CS_TRY(begin_item(area, &w->cells[low], low, interval->extent.low));
+  CS_TRY(cs_local_sweep_pair(&area->sweep, area->parts.active, low, &between));
+  CS_TRY(cs_commit_pair(&area->commit, low, between));
+  cs_window_end_item(&area->target.window, &w->cells[interval->high]);
   return CELSPAN_OK;
 }
 
-static celspan_status walk_to(walk *w, size_t end, int32_t next) {
-  return w->maker->window.is_held ? walk_slice(w, end) : walk_alone(w, end, next);
-}
-
-static celspan_status walk_row(cs_intervals *b) {
-  cs_row_maker *maker = b->maker;
-  walk w = {.maker = maker, .cells = b->cells};
-  for (size_t k = 0; k < b->count; k++) {
-    const cs_interval *interval = &b->intervals[k];
-    CS_TRY(walk_to(&w, interval->low, cs_edges_floor(interval->reach_low, maker->plan->width)));
-    w.v = find_visible(maker, w.v, interval->high);
-    CS_TRY(is_pair(b, interval) ? walk_pair(b, interval) : walk_interval(b, interval));
+static celspan_status walk_row(row_walk *w) {
+  const cs_area *area = w->area;
+  for (size_t k = 0; k < w->intervals.count; k++) {
+    const cs_interval *interval = &w->intervals.intervals[k];
+    CS_TRY(walk_alone(w, interval->low, interval->extent.low));
+    w->visible = find_visible(area, w->visible, interval->high);
+    CS_TRY(is_pair(area, interval) ? walk_pair(w, interval) : walk_interval(w, interval));
   }
-  return walk_to(&w, maker->active.count, maker->plan->width);
+  return walk_alone(w, area->parts.active->count, area->parts.width);
 }
 
-/* ---------------------------------------------------------------- strips */
+/* ---------------------------------------------------------------- procedures */
 
-/* The edges of one of a row's heights, as members that live for its share of the row. */
+/* An edge of a procedure's span as a member that lasts from y0 to y1. points: room for two. */
+static cs_member edge_member(const cs_procedure_edge *edge, double y0, double y1,
+                             celspan_point *points) {
+  points[0] = (celspan_point){edge->x, y0};
+  points[1] = (celspan_point){edge->x, y1};
+  return (cs_member){.points = points,
+                     .point_count = 2,
+                     .at = 1,
+                     .layer = edge->layer,
+                     .span = edge->span,
+                     .order = 2 * edge->span + (edge->direction < 0),
+                     .place = UINT32_MAX,
+                     .direction = edge->direction,
+                     .x = edge->x,
+                     .y = y0,
+                     .foot = edge->x};
+}
+
+/* Adds the edges at one of a row's heights, for its share of the row. */
 static celspan_status append_edges(cs_intervals *b, const cs_procedure_edges *edges, double y0,
                                    double y1) {
-  cs_member *procedure_edges =
-      take(b, b->procedure_edge_count + edges->count, sizeof *procedure_edges);
-  celspan_point *points = take(b, 2 * edges->count, sizeof *points);
-  if (!procedure_edges || !points)
+  size_t known = b->procedure_edge_count, count = known + edges->count;
+  cs_member *members = cs_arena_take(b->context, b->arena, count * sizeof *members);
+  celspan_point *points = cs_arena_take(b->context, b->arena, 2 * edges->count * sizeof *points);
+  if (!members || !points)
     return CELSPAN_NO_MEMORY;
-  if (b->procedure_edge_count > 0)
-    memcpy(procedure_edges, b->procedure_edges, b->procedure_edge_count * sizeof *procedure_edges);
-  for (size_t k = 0; k < edges->count; k++, points += 2) {
-    const cs_procedure_edge *e = &edges->edges[k];
-    points[0] = (celspan_point){e->x, y0};
-    points[1] = (celspan_point){e->x, y1};
-    procedure_edges[b->procedure_edge_count + k] =
-        (cs_member){.points = points,
-                    .point_count = 2,
-                    .at = 1,
-                    .layer = e->layer,
-                    .span = e->span,
-                    .order = 2 * e->span + (e->direction < 0),
-                    .place = UINT32_MAX,
-                    .direction = e->direction,
-                    .x = e->x,
-                    .y = y0,
-                    .foot = e->x};
-    b->procedures_low = e->x < b->procedures_low ? e->x : b->procedures_low;
-    b->procedures_high = e->x > b->procedures_high ? e->x : b->procedures_high;
+  if (known > 0)
+    memcpy(members, b->procedure_edges, known * sizeof *members);
+  for (size_t k = 0; k < edges->count; k++) {
+    members[known + k] = edge_member(&edges->edges[k], y0, y1, points + 2 * k);
+    cs_extent_add(&b->procedures, edges->edges[k].x);
   }
-  b->procedure_edges = procedure_edges;
-  b->procedure_edge_count += edges->count;
+  b->procedure_edges = members;
+  b->procedure_edge_count = count;
   return CELSPAN_OK;
 }
 
 /* Asks every procedure for its spans on all heights of the row. */
-static celspan_status find_procedures(cs_intervals *b) {
-  b->procedures_low = b->maker->plan->width;
+static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
+  b->procedures = (cs_extent){area->parts.width, 0};
   for (int j = 0; j < CS_PROCEDURES_ROWS; j++) {
     cs_procedure_edges edges = {0};
-    double top = b->y0 + (double)j / CS_PROCEDURES_ROWS,
-           foot = b->y0 + (j + 1.0) / CS_PROCEDURES_ROWS;
-    CS_TRY(cs_procedures_collect(b->maker, 0.5 * (top + foot), &edges));
+    double top = b->y0 + (double)j / CS_PROCEDURES_ROWS;
+    double foot = b->y0 + (j + 1.0) / CS_PROCEDURES_ROWS;
+    CS_TRY(cs_procedures_collect(area->parts.procedures, 0.5 * (top + foot), &edges));
     CS_TRY(append_edges(b, &edges, top, foot));
   }
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- slices */
+/* ---------------------------------------------------------------- rows and slabs */
 
-#define ROW_EVENTS 2048  /* what may begin and end in a row that is not cut */
-#define SLICE_EVENTS 128 /* and in a slice of one that is */
-#define SLICES_MOST 256
+#define ROW_EVENTS 2048 /* what may begin and end in a row that is not cut */
+#define SLAB_EVENTS 128 /* and in a slab of one that is */
+#define SLABS_MOST 256
 
-/* Slices of a row: a power of two, so that their heights are exact. */
-static int count_slices(const cs_row_maker *maker, int32_t y) {
-  const cs_active *active = &maker->active;
+/* Slabs of a row: a power of two, so that their heights are exact. */
+static int count_slabs(const cs_area *area, int32_t y) {
+  const cs_active *active = area->parts.active;
   size_t events = cs_intervals_count_begins(active, y + 1.0);
-  int slices = 1;
-  if (events + active->count <= ROW_EVENTS || maker->window.retained ||
-      cs_procedures_meet(maker, y))
+  int slabs = 1;
+  if (events + active->count <= ROW_EVENTS || cs_procedures_meet(area->parts.procedures, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;
-  while (slices < SLICES_MOST && events > ROW_EVENTS && (size_t)slices * SLICE_EVENTS < events)
-    slices *= 2;
-  return slices;
+  while (slabs < SLABS_MOST && events > ROW_EVENTS && (size_t)slabs * SLAB_EVENTS < events)
+    slabs *= 2;
+  return slabs;
 }
 
-/* The cells in room that lasts as long as the row: fragments point to them. */
-static celspan_status keep_cells(cs_row_maker *maker, const cs_cell **out) {
-  size_t size = maker->cells.known * sizeof **out;
-  cs_cell *kept = cs_arena_take(maker->context, &maker->arena, size);
+/* Copies the cells to room that lasts as long as the row: segments point to them. */
+static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
+  size_t size = area->parts.cells->known * sizeof **out;
+  cs_cell *kept = cs_arena_take(area->parts.composer->context, area->parts.arena, size);
   if (!kept)
     return CELSPAN_NO_MEMORY;
-  *out = memcpy(kept, maker->cells.cells, size);
+  *out = memcpy(kept, area->parts.cells->cells, size);
   return CELSPAN_OK;
 }
 
-/* Moves the boundaries down to the slice that begins where the last one ended. */
-static celspan_status next_slice(cs_row_maker *maker) {
+/* Moves the boundaries down to the slab that begins where the last one ended. */
+static celspan_status next_slab(cs_area *area) {
   cs_change change;
-  CS_TRY(cs_active_settle(maker->context, &maker->active, &change));
+  cs_composer *composer = area->parts.composer;
+  CS_TRY(cs_active_settle(composer->context, area->parts.active, &change));
   if (!cs_change_is_none(change))
-    CS_TRY(cs_cells_update(&maker->cells, &maker->composer, &maker->active, change));
-  return maker->composer.failure;
+    CS_TRY(cs_cells_update(area->parts.cells, composer, area->parts.active, change));
+  return composer->failure;
 }
 
-/* The row between two heights; the boundaries stand at the upper. */
-static celspan_status walk_heights(cs_row_maker *maker, const cs_cell *cells, double y0,
-                                   double y1) {
-  cs_cells_list(&maker->cells);
-  cs_intervals intervals = {.maker = maker, .cells = cells, .y0 = y0, .y1 = y1};
-  maker->committed = NULL;
-  CS_TRY(cs_active_reach(maker->context, &maker->active, y1));
-  if (!maker->window.is_held && cs_procedures_meet(maker, (int32_t)y0))
-    CS_TRY(find_procedures(&intervals));
-  CS_TRY(cs_edges_measure(maker->context, &maker->edges, &maker->active, maker->plan->width));
-  CS_TRY(cs_intervals_find(&intervals));
-  return walk_row(&intervals);
+/* Walks the row between two heights; the boundaries are at the upper. */
+static celspan_status walk_heights(row_walk *w, double y0, double y1) {
+  cs_area *area = w->area;
+  celspan_context *context = area->parts.composer->context;
+  cs_cells_list(area->parts.cells);
+  w->intervals = (cs_intervals){.context = context,
+                                .arena = area->parts.arena,
+                                .active = area->parts.active,
+                                .edges = &area->edges,
+                                .y0 = y0,
+                                .y1 = y1};
+  area->commit.first = NULL;
+  CS_TRY(cs_active_reach(context, area->parts.active, y1));
+  if (!w->is_slab && cs_procedures_meet(area->parts.procedures, (int32_t)y0))
+    CS_TRY(find_procedures(area, &w->intervals));
+  CS_TRY(cs_edges_measure(context, &area->edges, area->parts.active, area->parts.width));
+  CS_TRY(cs_intervals_find(&w->intervals));
+  return walk_row(w);
 }
 
-static celspan_status walk_slices(cs_row_maker *maker, int32_t y, int slices, cs_row *out) {
-  const cs_cell *cells;
-  for (int k = 0; k < slices; k++) {
+static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
+  cs_window *window = &area->target.window;
+  for (int k = 0; k < slabs; k++) {
+    row_walk w = {.area = area, .is_slab = true};
     if (k > 0)
-      CS_TRY(next_slice(maker));
-    CS_TRY(keep_cells(maker, &cells));
+      CS_TRY(next_slab(area));
+    CS_TRY(keep_cells(area, &w.cells));
     if (k == 0) {
-      cs_window_begin(&maker->window, &maker->painter, &maker->arena, maker->plan->width, y, cells,
-                      out);
-      cs_window_hold(&maker->window);
+      cs_window_begin_row(window, y, w.cells, out);
+      cs_window_open_row(window);
     }
-    cs_window_pass(&maker->window, &cells[0]);
-    CS_TRY(walk_heights(maker, cells, y + (double)k / slices, y + (k + 1.0) / slices));
-    CS_TRY(cs_commit_out(maker));
+    cs_window_end_item(window, &w.cells[0]);
+    CS_TRY(walk_heights(&w, y + (double)k / slabs, y + (k + 1.0) / slabs));
+    CS_TRY(cs_commit_apply(&area->commit));
   }
-  return cs_window_finish(&maker->window);
+  return cs_window_end_row(window);
 }
 
-celspan_status cs_area_row(cs_row_maker *maker, int32_t y, cs_row *out) {
-  int slices = count_slices(maker, y);
-  if (slices > 1)
-    return walk_slices(maker, y, slices, out);
-  cs_window_begin(&maker->window, &maker->painter, &maker->arena, maker->plan->width, y,
-                  maker->cells.cells, out);
-  CS_TRY(walk_heights(maker, maker->cells.cells, y, y + 1.0));
-  CS_TRY(cs_window_finish(&maker->window));
-  return cs_commit_out(maker);
+celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out) {
+  row_walk w = {.area = area, .cells = area->parts.cells->cells};
+  int slabs = count_slabs(area, y);
+  area->target.retained = NULL;
+  if (slabs > 1)
+    return walk_slabs(area, y, slabs, out);
+  cs_window_begin_row(&area->target.window, y, w.cells, out);
+  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(cs_window_end_row(&area->target.window));
+  return cs_commit_apply(&area->commit);
+}
+
+celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained) {
+  row_walk w = {.area = area, .cells = area->parts.cells->cells};
+  area->target.retained = retained;
+  cs_retained_begin(retained, y, w.cells[0].colour);
+  CS_TRY(walk_heights(&w, y, y + 1.0));
+  CS_TRY(cs_retained_seal(retained, area->parts.composer));
+  return cs_commit_apply(&area->commit);
 }

@@ -8,7 +8,7 @@
 #define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
-  cs_mem_free(memory, intersections->block, intersections->mover_capacity * ITEM_SIZE);
+  cs_mem_free(memory, intersections->block, intersections->edge_capacity * ITEM_SIZE);
   cs_mem_free(memory, intersections->intersections,
               intersections->capacity * sizeof *intersections->intersections);
   *intersections = (cs_intersections){0};
@@ -16,23 +16,23 @@ void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory)
 
 /* The wider items first, so that each is aligned. */
 celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan_context *context,
-                                        size_t movers) {
-  if (movers <= intersections->mover_capacity)
+                                        size_t edges) {
+  if (edges <= intersections->edge_capacity)
     return CELSPAN_OK;
-  size_t wanted = (2 * movers + BLOCK - 1) / BLOCK * BLOCK;
+  size_t wanted = (2 * edges + BLOCK - 1) / BLOCK * BLOCK;
   void *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
   if (!block)
     return cs_fail_memory(context);
-  cs_mem_free(context->memory, intersections->block, intersections->mover_capacity * ITEM_SIZE);
-  intersections->block = intersections->movers = block;
-  intersections->top = (double *)(intersections->movers + wanted);
+  cs_mem_free(context->memory, intersections->block, intersections->edge_capacity * ITEM_SIZE);
+  intersections->block = intersections->edges = block;
+  intersections->top = (double *)(intersections->edges + wanted);
   intersections->foot = intersections->top + wanted;
   intersections->shares = intersections->foot + wanted;
   intersections->least = intersections->shares + wanted;
   intersections->order = (uint32_t *)(intersections->least + wanted);
   intersections->first = intersections->order + wanted;
   intersections->last = intersections->first + wanted;
-  intersections->mover_capacity = wanted;
+  intersections->edge_capacity = wanted;
   return CELSPAN_OK;
 }
 
@@ -109,10 +109,10 @@ static inline void exchange(double *a, double *b) {
   *b = kept;
 }
 
-static inline void move_to(cs_active_edge *mover, double x, double y) {
-  mover->last_at = mover->at;
-  mover->last_x = x;
-  mover->last_y = y;
+static inline void move_to(cs_active_edge *edge, double x, double y) {
+  edge->last_at = edge->at;
+  edge->last_x = x;
+  edge->last_y = y;
 }
 
 /* The boundaries at `place` and right of it change places, in that share of the step. */
@@ -124,13 +124,13 @@ static celspan_status change_places(cs_intersections *m, celspan_context *contex
   uint32_t index = (uint32_t)m->count++, left = m->order[place], right = m->order[place + 1];
   double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
   double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;
-  cs_active_edge *from = &m->movers[left], *to = &m->movers[right];
-  m->intersections[index] =
-      (cs_intersection){y, left_x, right_x, from->at, to->at, left, right, CS_MEETINGS_NONE, NULL};
+  cs_active_edge *from = &m->edges[left], *to = &m->edges[right];
+  m->intersections[index] = (cs_intersection){
+      y, left_x, right_x, from->at, to->at, left, right, CS_INTERSECTIONS_NONE, NULL};
   move_to(from, left_x, y);
   move_to(to, right_x, y);
-  *(m->first[place] == CS_MEETINGS_NONE ? &m->first[place]
-                                        : &m->intersections[m->last[place]].next) = index;
+  *(m->first[place] == CS_INTERSECTIONS_NONE ? &m->first[place]
+                                             : &m->intersections[m->last[place]].next) = index;
   m->last[place] = index;
   m->order[place] = right;
   m->order[place + 1] = left;
@@ -163,8 +163,8 @@ static celspan_status take_step(cs_intersections *m, celspan_context *context, s
 
 /* x of a mover at a height of its segment: that of its end, or in between. Which of them can hardly
  * be foreseen, so the division is always made. */
-static inline double mover_x(const cs_active_edge *mover, double y) {
-  const celspan_point *a = &mover->points[mover->at - 1], *b = &mover->points[mover->at];
+static inline double edge_x(const cs_active_edge *edge, double y) {
+  const celspan_point *a = &edge->points[edge->at - 1], *b = &edge->points[edge->at];
   double x = a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
   return y >= b->y ? b->x : x;
 }
@@ -174,9 +174,9 @@ static inline double mover_x(const cs_active_edge *mover, double y) {
 static double begin_step(cs_intersections *m, size_t count, double y, double y1) {
   double end = y1;
   for (size_t i = 0; i < count; i++) {
-    cs_active_edge *mover = &m->movers[i];
-    mover->at += mover->points[mover->at].y <= y;
-    double next = mover->points[mover->at].y;
+    cs_active_edge *edge = &m->edges[i];
+    edge->at += edge->points[edge->at].y <= y;
+    double next = edge->points[edge->at].y;
     end = next < end ? next : end;
   }
   return end;
@@ -186,17 +186,17 @@ celspan_status cs_intersections_find(cs_intersections *m, celspan_context *conte
                                      double y0, double y1) {
   m->count = 0;
   for (size_t i = 0; i < count; i++) {
-    cs_active_edge *mover = &m->movers[i];
-    while (mover->points[mover->at].y < y0)
-      mover->at++;
+    cs_active_edge *edge = &m->edges[i];
+    while (edge->points[edge->at].y < y0)
+      edge->at++;
     m->order[i] = (uint32_t)i;
-    m->first[i] = CS_MEETINGS_NONE;
+    m->first[i] = CS_INTERSECTIONS_NONE;
   }
   for (double y = y0, end; y < y1; y = end) {
     end = begin_step(m, count, y, y1);
     for (size_t place = 0; place < count; place++) {
       m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
-      m->foot[place] = mover_x(&m->movers[m->order[place]], end);
+      m->foot[place] = edge_x(&m->edges[m->order[place]], end);
     }
     CS_TRY(take_step(m, context, count, y, end));
   }

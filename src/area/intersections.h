@@ -12,7 +12,7 @@
 
 #include "base/context.h"
 
-#define CS_MEETINGS_NONE UINT32_MAX
+#define CS_INTERSECTIONS_NONE UINT32_MAX
 
 /* A boundary on its way down its polyline. */
 typedef struct cs_active_edge {
@@ -32,7 +32,7 @@ typedef struct cs_intersection {
 } cs_intersection;
 
 typedef struct cs_intersections {
-  cs_active_edge *movers; /* in their order at the top */
+  cs_active_edge *edges; /* in their order at the top */
   /* by place, from left to right */
   uint32_t *order;    /* which mover stands there */
   double *top, *foot; /* its x at both ends of the step, at last: where the way ends */
@@ -42,13 +42,13 @@ typedef struct cs_intersections {
   cs_intersection *intersections; /* from the highest to the lowest */
   size_t count, capacity;
   void *block; /* that holds the arrays above but for the meetings */
-  size_t mover_capacity;
+  size_t edge_capacity;
 } cs_intersections;
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory);
 /* Makes room for so many movers. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_reserve(cs_intersections *intersections,
-                                                        celspan_context *context, size_t movers);
+                                                        celspan_context *context, size_t edges);
 /* Finds the meetings of the first `count` movers between two heights; all reach the lower. Given
  * are the movers, on a segment at or above the first height, and as `foot` their x there.
  * Errors: NO_MEMORY. */

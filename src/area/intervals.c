@@ -3,12 +3,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void *take(cs_intervals *b, size_t count, size_t size) {
-  return cs_arena_take(b->maker->context, &b->maker->arena, count * size);
+static void *take(const cs_intervals *b, size_t count, size_t size) {
+  return cs_arena_take(b->context, b->arena, count * size);
 }
 
-void cs_intervals_member(cs_member *member, const cs_active *active, uint32_t chain,
-                         const celspan_point *points, uint32_t count) {
+/* A chain as a member at the top of its points. */
+static void set_member(cs_member *member, const cs_active *active, uint32_t chain,
+                       const celspan_point *points, uint32_t count) {
   const cs_boundary_chain *c = &active->set->chains[chain];
   member->points = points;
   member->point_count = count;
@@ -23,25 +24,35 @@ void cs_intervals_member(cs_member *member, const cs_active *active, uint32_t ch
   member->right = NULL;
 }
 
-/* ---------------------------------------------------------------- x-ranges */
-
-typedef struct range {
-  double low, high;
-} range;
-
-/* Where boundary i is inside the row. */
-static inline range boundary_range(const cs_intervals *b, size_t i) {
-  const cs_edges *edges = &b->maker->edges;
-  return (range){edges->low[i], edges->high[i]};
+celspan_status cs_intervals_member(const cs_intervals *b, size_t i, cs_member *member) {
+  const cs_active *active = b->active;
+  const cs_bend *bend = cs_active_bend(active, i);
+  uint32_t inner = bend ? bend->vertex_count : 0;
+  celspan_point *points = take(b, inner + 2, sizeof *points), *last = points;
+  if (!points)
+    return CELSPAN_NO_MEMORY;
+  *last++ = (celspan_point){active->x[i], b->y0};
+  for (uint32_t k = 0; k < inner; k++)
+    *last++ = active->vertices[bend->vertex + k];
+  if (!bend || !bend->ends_above)
+    *last++ = (celspan_point){active->x_next[i], b->y1};
+  set_member(member, active, active->walks[active->slot[i]].chain, points,
+             (uint32_t)(last - points));
+  member->place = (uint32_t)i;
+  return CELSPAN_OK;
 }
 
-static range join_ranges(range a, range b) {
-  return (range){a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high};
+/* ---------------------------------------------------------------- x-ranges */
+
+/* Where boundary i is inside the row. */
+static inline cs_extent boundary_extent(const cs_intervals *b, size_t i) {
+  const cs_edges *edges = b->edges;
+  return (cs_extent){edges->low[i], edges->high[i]};
 }
 
 /* ---------------------------------------------------------------- blocks */
 
-static celspan_status add_block(cs_intervals *b, cs_interval interval) {
+static celspan_status add_interval(cs_intervals *b, cs_interval interval) {
   if (b->count == b->capacity) {
     size_t wanted = b->capacity ? 2 * b->capacity : 64;
     cs_interval *grown = take(b, wanted, sizeof *grown);
@@ -63,7 +74,7 @@ static celspan_status add_block(cs_intervals *b, cs_interval interval) {
 
 /* x of boundary i at a height of the row; one that has ended goes on straight down. */
 static double boundary_x(const cs_intervals *b, size_t i, double y) {
-  const cs_active *active = &b->maker->active;
+  const cs_active *active = b->active;
   const cs_bend *bend = cs_active_bend(active, i);
   celspan_point above = {active->x[i], b->y0}, below = {active->x_next[i], b->y1};
   for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
@@ -82,8 +93,8 @@ static double boundary_x(const cs_intervals *b, size_t i, double y) {
 /* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or
  * on its right (+1). */
 static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour, int side) {
-  const cs_active *active = &b->maker->active;
-  range r = boundary_range(b, neighbour);
+  const cs_active *active = b->active;
+  cs_extent r = boundary_extent(b, neighbour);
   if (side > 0 ? bend->high <= r.low : bend->low >= r.high)
     return false;
   for (uint32_t k = 0; k < bend->vertex_count; k++) {
@@ -96,106 +107,107 @@ static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour,
 }
 
 /* Neighbours that must be replayed together, as they grow. */
-typedef struct knot {
+typedef struct inversion_group {
   size_t low, high;
-  range reach, foot; /* of its boundaries, in the row and at its foot */
+  cs_extent extent, foot; /* of its boundaries, in the row and at its foot */
   bool is_bent;
-} knot;
+} inversion_group;
 
-static inline knot knot_of(const cs_intervals *b, size_t i) {
-  double foot = b->maker->active.x_next[i];
-  return (knot){i, i + 1, boundary_range(b, i), {foot, foot}, b->maker->edges.is_bent[i]};
+static inline inversion_group group_of(const cs_intervals *b, size_t i) {
+  double foot = b->active->x_next[i];
+  return (inversion_group){i, i + 1, boundary_extent(b, i), {foot, foot}, b->edges->is_bent[i]};
 }
 
-static void join_knots(knot *k, const knot *other) {
+static void join_groups(inversion_group *k, const inversion_group *other) {
   k->low = other->low < k->low ? other->low : k->low;
   k->high = other->high > k->high ? other->high : k->high;
-  k->reach = join_ranges(k->reach, other->reach);
-  k->foot = join_ranges(k->foot, other->foot);
+  k->extent = cs_extent_join(k->extent, other->extent);
+  k->foot = cs_extent_join(k->foot, other->foot);
   k->is_bent |= other->is_bent;
 }
 
 /* Straight boundaries cross iff the row permutes them; bent ones might wherever they reach over. */
-static bool may_cross(const knot *left, const knot *right) {
+static bool may_cross(const inversion_group *left, const inversion_group *right) {
   return left->foot.high > right->foot.low ||
-         ((left->is_bent || right->is_bent) && left->reach.high > right->reach.low);
+         ((left->is_bent || right->is_bent) && left->extent.high > right->extent.low);
 }
 
-/* Takes neighbours in until none is left that the knot may cross. */
-static void grow_knot(const cs_intervals *b, knot *k) {
-  const cs_active *active = &b->maker->active;
+/* Takes neighbours in until none is left that the inversion_group may cross. */
+static void grow_group(const cs_intervals *b, inversion_group *k) {
+  const cs_active *active = b->active;
   bool grows = true;
   while (grows) {
-    knot next;
+    inversion_group next;
     grows = false;
-    while (k->low > 0 && (next = knot_of(b, k->low - 1), may_cross(&next, k))) {
-      join_knots(k, &next);
+    while (k->low > 0 && (next = group_of(b, k->low - 1), may_cross(&next, k))) {
+      join_groups(k, &next);
       grows = true;
     }
-    while (k->high < active->count && (next = knot_of(b, k->high), may_cross(k, &next))) {
-      join_knots(k, &next);
+    while (k->high < active->count && (next = group_of(b, k->high), may_cross(k, &next))) {
+      join_groups(k, &next);
       grows = true;
     }
   }
 }
 
-/* Ties boundaries i and i + 1 together. knots: those found so far, from left to right. */
-static void tie(const cs_intervals *b, size_t i, knot *knots, size_t *count) {
-  if (*count > 0 && knots[*count - 1].high >= i + 2)
+/* Ties boundaries i and i + 1 together. groups: those found so far, from left to right. */
+static void tie(const cs_intervals *b, size_t i, inversion_group *groups, size_t *count) {
+  if (*count > 0 && groups[*count - 1].high >= i + 2)
     return;
-  knot *k = &knots[*count], other = knot_of(b, i + 1);
-  *k = knot_of(b, i);
-  join_knots(k, &other);
-  grow_knot(b, k);
+  inversion_group *k = &groups[*count], other = group_of(b, i + 1);
+  *k = group_of(b, i);
+  join_groups(k, &other);
+  grow_group(b, k);
   for (; *count > 0; --*count, k--) {
-    knot *last = k - 1;
+    inversion_group *last = k - 1;
     if (last->high < k->low || (last->high == k->low && !may_cross(last, k)))
       break;
-    join_knots(last, k);
-    grow_knot(b, last);
+    join_groups(last, k);
+    grow_group(b, last);
   }
   ++*count;
 }
 
 /* Ties what the bent boundaries below place `end` pass, in order of place. */
-static void tie_bends(const cs_intervals *b, size_t end, size_t *bend, knot *knots, size_t *count) {
-  const cs_active *active = &b->maker->active;
+static void tie_bends(const cs_intervals *b, size_t end, size_t *bend, inversion_group *groups,
+                      size_t *count) {
+  const cs_active *active = b->active;
   for (; *bend < active->bend_count && active->bends[*bend].boundary < end; ++*bend) {
     const cs_bend *at = &active->bends[*bend];
     size_t i = at->boundary;
     if (at->vertex_count == 0)
       continue;
     if (i > 0 && passes(b, at, i - 1, -1))
-      tie(b, i - 1, knots, count);
+      tie(b, i - 1, groups, count);
     if (i + 1 < active->count && passes(b, at, i + 1, 1))
-      tie(b, i, knots, count);
+      tie(b, i, groups, count);
   }
 }
 
-static celspan_status add_knots(cs_intervals *b) {
-  const cs_active *active = &b->maker->active;
+static celspan_status add_groups(cs_intervals *b) {
+  const cs_active *active = b->active;
   const double *foot = active->x_next;
   size_t count = 0, bend = 0;
-  knot *knots = take(b, active->count, sizeof *knots);
-  if (!knots)
+  inversion_group *groups = take(b, active->count, sizeof *groups);
+  if (!groups)
     return CELSPAN_NO_MEMORY;
   for (size_t i = 1; i < active->count; i++)
     if (foot[i - 1] > foot[i]) {
-      tie_bends(b, i, &bend, knots, &count);
-      tie(b, i - 1, knots, &count);
+      tie_bends(b, i, &bend, groups, &count);
+      tie(b, i - 1, groups, &count);
     }
-  tie_bends(b, active->count, &bend, knots, &count);
+  tie_bends(b, active->count, &bend, groups, &count);
   for (size_t k = 0; k < count; k++)
-    CS_TRY(add_block(b, (cs_interval){knots[k].low, knots[k].high, knots[k].low, INFINITY,
-                                      -INFINITY, knots[k].reach.low, knots[k].reach.high}));
-  b->knot_count = count;
+    CS_TRY(add_interval(b, (cs_interval){groups[k].low, groups[k].high, groups[k].low,
+                                         cs_extent_nowhere(), groups[k].extent}));
+  b->group_count = count;
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- begins and ends at one height */
 
 static int compare_events(const void *p, const void *q) {
-  const cs_row_event *a = p, *b = q;
+  const cs_interval_event *a = p, *b = q;
   if (a->y != b->y)
     return a->y < b->y ? -1 : 1;
   if (a->layer != b->layer)
@@ -204,12 +216,6 @@ static int compare_events(const void *p, const void *q) {
     return a->begin < b->begin ? -1 : 1;
   return a->is_end - b->is_end;
 }
-
-/* What keeps its order through the row: one boundary, or the knot it is in. */
-typedef struct unit {
-  size_t low, high;
-  range reach;
-} unit;
 
 /* The first boundary whose x at the top of the row is greater than `x`. */
 static size_t find_place(const cs_active *active, double x) {
@@ -224,9 +230,9 @@ static size_t find_place(const cs_active *active, double x) {
   return low;
 }
 
-/* The knot that holds boundary i, or NULL. */
-static const cs_interval *find_knot(const cs_intervals *b, size_t i) {
-  size_t low = 0, high = b->knot_count;
+/* The inversion_group that holds boundary i, or NULL. */
+static const cs_interval *find_group(const cs_intervals *b, size_t i) {
+  size_t low = 0, high = b->group_count;
   while (low < high) {
     size_t middle = (low + high) / 2;
     if (b->intervals[middle].high <= i)
@@ -234,36 +240,37 @@ static const cs_interval *find_knot(const cs_intervals *b, size_t i) {
     else
       high = middle;
   }
-  return low < b->knot_count && b->intervals[low].low <= i ? &b->intervals[low] : NULL;
+  return low < b->group_count && b->intervals[low].low <= i ? &b->intervals[low] : NULL;
 }
 
-static unit unit_at(const cs_intervals *b, size_t i) {
-  const cs_interval *interval = find_knot(b, i);
-  return interval
-             ? (unit){interval->low, interval->high, {interval->reach_low, interval->reach_high}}
-             : (unit){i, i + 1, boundary_range(b, i)};
+/* What keeps its order through the row: boundary i, or the group it is in. */
+static cs_interval unit_at(const cs_intervals *b, size_t i) {
+  const cs_interval *group = find_group(b, i);
+  return group ? *group : (cs_interval){i, i + 1, i, cs_extent_nowhere(), boundary_extent(b, i)};
 }
 
 /* The block of the boundaries whose x-range meets that of something, or the place between two.
  * Units do not cross, so their ranges rise with their places. */
-static celspan_status add_range(cs_intervals *b, range r, cs_interval *out) {
-  const cs_active *active = &b->maker->active;
+static celspan_status add_range(cs_intervals *b, cs_extent r, cs_interval *out) {
+  const cs_active *active = b->active;
   size_t place = find_place(active, r.low), first = place, end = place;
-  range reach = r;
-  for (unit u; first > 0 && (u = unit_at(b, first - 1), u.reach.high >= r.low); first = u.low) {
+  cs_extent extent = r;
+  for (cs_interval u; first > 0 && (u = unit_at(b, first - 1), u.extent.high >= r.low);
+       first = u.low) {
     end = u.high > end ? u.high : end;
-    reach = join_ranges(reach, u.reach);
+    extent = cs_extent_join(extent, u.extent);
   }
-  for (unit u; end < active->count && (u = unit_at(b, end), u.reach.low <= r.high); end = u.high) {
+  for (cs_interval u; end < active->count && (u = unit_at(b, end), u.extent.low <= r.high);
+       end = u.high) {
     first = u.low < first ? u.low : first;
-    reach = join_ranges(reach, u.reach);
+    extent = cs_extent_join(extent, u.extent);
   }
-  *out = (cs_interval){first, end, first, r.low, r.high, reach.low, reach.high};
-  return add_block(b, *out);
+  *out = (cs_interval){first, end, first, r, extent};
+  return add_interval(b, *out);
 }
 
 /* A chain that begins and ends inside the row ties the blocks of both events together. */
-static celspan_status tie_ends(cs_intervals *b, const cs_row_event *events, size_t count,
+static celspan_status tie_ends(cs_intervals *b, const cs_interval_event *events, size_t count,
                                cs_interval at) {
   for (size_t i = 0; i < count; i++) {
     if (events[i].begin < 0)
@@ -275,9 +282,8 @@ static celspan_status tie_ends(cs_intervals *b, const cs_row_event *events, size
     }
     size_t low = begin->low < at.low ? begin->low : at.low;
     size_t high = begin->high > at.high ? begin->high : at.high;
-    range reach = join_ranges((range){begin->reach_low, begin->reach_high},
-                              (range){at.reach_low, at.reach_high});
-    CS_TRY(add_block(b, (cs_interval){low, high, low, INFINITY, -INFINITY, reach.low, reach.high}));
+    cs_extent extent = cs_extent_join(begin->extent, at.extent);
+    CS_TRY(add_interval(b, (cs_interval){low, high, low, cs_extent_nowhere(), extent}));
   }
   return CELSPAN_OK;
 }
@@ -287,13 +293,13 @@ static celspan_status add_events(cs_intervals *b) {
   if (b->event_count > 1)
     qsort(b->events, b->event_count, sizeof *b->events, compare_events);
   for (size_t first = 0, end; first < b->event_count; first = end) {
-    const cs_row_event *e = &b->events[first];
-    range r = {e->low, e->high};
+    const cs_interval_event *e = &b->events[first];
+    cs_extent r = e->extent;
     for (end = first + 1; end < b->event_count; end++) {
-      const cs_row_event *next = &b->events[end];
+      const cs_interval_event *next = &b->events[end];
       if (next->y != e->y || next->layer != e->layer)
         break;
-      r = join_ranges(r, (range){next->low, next->high});
+      r = cs_extent_join(r, next->extent);
     }
     cs_interval at;
     CS_TRY(add_range(b, r, &at));
@@ -302,7 +308,7 @@ static celspan_status add_events(cs_intervals *b) {
   return CELSPAN_OK;
 }
 
-static int compare_blocks(const void *p, const void *q) {
+static int compare_intervals(const void *p, const void *q) {
   const cs_interval *a = p, *b = q;
   if (a->low != b->low)
     return a->low < b->low ? -1 : 1;
@@ -310,7 +316,7 @@ static int compare_blocks(const void *p, const void *q) {
 }
 
 static bool belong_together(const cs_interval *last, const cs_interval *next) {
-  if (next->low < last->high || next->low_x <= last->high_x)
+  if (next->low < last->high || next->events.low <= last->events.high)
     return true;
   return next->low == last->high && (next->low == next->high || last->last_low == last->high);
 }
@@ -318,18 +324,16 @@ static bool belong_together(const cs_interval *last, const cs_interval *next) {
 static void join(cs_interval *last, const cs_interval *next) {
   last->high = next->high > last->high ? next->high : last->high;
   last->last_low = next->last_low;
-  last->low_x = next->low_x < last->low_x ? next->low_x : last->low_x;
-  last->high_x = next->high_x > last->high_x ? next->high_x : last->high_x;
-  last->reach_low = next->reach_low < last->reach_low ? next->reach_low : last->reach_low;
-  last->reach_high = next->reach_high > last->reach_high ? next->reach_high : last->reach_high;
+  last->events = cs_extent_join(next->events, last->events);
+  last->extent = cs_extent_join(next->extent, last->extent);
 }
 
 /* Joins blocks that share a boundary or an x at which something begins, and places that touch a
  * block; a block that grew may reach the one before it. */
-static void merge_blocks(cs_intervals *b) {
+static void merge_intervals(cs_intervals *b) {
   size_t kept = 0;
   if (b->count > 1)
-    qsort(b->intervals, b->count, sizeof *b->intervals, compare_blocks);
+    qsort(b->intervals, b->count, sizeof *b->intervals, compare_intervals);
   for (size_t i = 0; i < b->count; i++) {
     b->intervals[kept++] = b->intervals[i];
     while (kept > 1 && belong_together(&b->intervals[kept - 2], &b->intervals[kept - 1])) {
@@ -345,7 +349,7 @@ static void merge_blocks(cs_intervals *b) {
 /* The polyline of a chain that begins inside the row, down to its end or the foot of the row. */
 static celspan_status chain_points(cs_intervals *b, uint32_t chain, const celspan_point **points,
                                    uint32_t *count) {
-  const cs_boundary_set *set = b->maker->active.set;
+  const cs_boundary_set *set = b->active->set;
   double top = set->chains[chain].y0;
   cs_boundary_walk walk;
   size_t room = 3;
@@ -379,7 +383,7 @@ size_t cs_intervals_count_begins(const cs_active *active, double y1) {
 }
 
 static celspan_status find_begins(cs_intervals *b) {
-  const cs_active *active = &b->maker->active;
+  const cs_active *active = b->active;
   b->chain_count = cs_intervals_count_begins(active, b->y1);
   b->begin_count = b->chain_count + b->procedure_edge_count;
   b->begins = take(b, b->begin_count, sizeof *b->begins);
@@ -390,7 +394,7 @@ static celspan_status find_begins(cs_intervals *b) {
     uint32_t chain = (uint32_t)(active->next + k), count;
     const celspan_point *points;
     CS_TRY(chain_points(b, chain, &points, &count));
-    cs_intervals_member(&b->begins[k], active, chain, points, count);
+    set_member(&b->begins[k], active, chain, points, count);
   }
   if (b->procedure_edge_count > 0)
     memcpy(b->begins + b->chain_count, b->procedure_edges,
@@ -398,28 +402,26 @@ static celspan_status find_begins(cs_intervals *b) {
   return CELSPAN_OK;
 }
 
-static void note_event(cs_intervals *b, double y, range r, uint32_t layer, int32_t begin,
+static void note_event(cs_intervals *b, double y, cs_extent r, uint32_t layer, int32_t begin,
                        bool is_end) {
-  b->events[b->event_count++] = (cs_row_event){y, r.low, r.high, layer, begin, is_end};
+  b->events[b->event_count++] = (cs_interval_event){y, r, layer, begin, is_end};
 }
 
-static range member_range(const cs_member *member) {
-  range r = {member->points[0].x, member->points[0].x};
-  for (uint32_t k = 1; k < member->point_count; k++) {
-    r.low = member->points[k].x < r.low ? member->points[k].x : r.low;
-    r.high = member->points[k].x > r.high ? member->points[k].x : r.high;
-  }
-  return r;
+static cs_extent member_extent(const cs_member *member) {
+  cs_extent extent = cs_extent_nowhere();
+  for (uint32_t k = 0; k < member->point_count; k++)
+    cs_extent_add(&extent, member->points[k].x);
+  return extent;
 }
 
 static celspan_status find_events(cs_intervals *b) {
-  const cs_active *active = &b->maker->active;
+  const cs_active *active = b->active;
   b->events = take(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
   if (!b->events)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->chain_count; k++) {
     const cs_member *member = &b->begins[k];
-    range r = member_range(member);
+    cs_extent r = member_extent(member);
     double end = member->points[member->point_count - 1].y;
     note_event(b, member->points[0].y, r, member->layer, (int32_t)k, false);
     if (end < b->y1)
@@ -430,8 +432,8 @@ static celspan_status find_events(cs_intervals *b) {
     if (!bend->ends_above)
       continue;
     celspan_point end = active->vertices[bend->vertex + bend->vertex_count - 1];
-    note_event(b, end.y, (range){end.x, end.x}, cs_active_chain(active, bend->boundary)->layer, -1,
-               true);
+    note_event(b, end.y, (cs_extent){end.x, end.x}, cs_active_chain(active, bend->boundary)->layer,
+               -1, true);
   }
   return CELSPAN_OK;
 }
@@ -441,42 +443,70 @@ static celspan_status add_procedures(cs_intervals *b) {
   cs_interval at;
   if (b->procedure_edge_count == 0)
     return CELSPAN_OK;
-  CS_TRY(add_range(b, (range){b->procedures_low, b->procedures_high}, &at));
+  CS_TRY(add_range(b, b->procedures, &at));
   for (size_t k = b->chain_count; k < b->begin_count; k++)
     b->begin_intervals[k] = at;
   return CELSPAN_OK;
 }
 
-static int compare_places(const void *p, const void *q) {
-  const cs_begin_place *a = p, *b = q;
+static int compare_begin_order(const void *p, const void *q) {
+  const cs_interval_begin *a = p, *b = q;
   if (a->low != b->low)
     return a->low < b->low ? -1 : 1;
   return (a->begin > b->begin) - (a->begin < b->begin);
 }
 
 /* Lists the begins from left to right, as the walk along the row asks for them. */
-static celspan_status place_begins(cs_intervals *b) {
-  b->begin_places = take(b, b->begin_count, sizeof *b->begin_places);
-  if (!b->begin_places)
+static celspan_status order_begins(cs_intervals *b) {
+  b->begin_order = take(b, b->begin_count, sizeof *b->begin_order);
+  if (!b->begin_order)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++)
-    b->begin_places[k] = (cs_begin_place){b->begin_intervals[k].low, k};
+    b->begin_order[k] = (cs_interval_begin){b->begin_intervals[k].low, k};
   if (b->begin_count > 1)
-    qsort(b->begin_places, b->begin_count, sizeof *b->begin_places, compare_places);
+    qsort(b->begin_order, b->begin_count, sizeof *b->begin_order, compare_begin_order);
   return CELSPAN_OK;
 }
 
 celspan_status cs_intervals_find(cs_intervals *b) {
-  const cs_active *active = &b->maker->active;
+  const cs_active *active = b->active;
   size_t begins = cs_intervals_count_begins(active, b->y1) + b->procedure_edge_count;
   if (begins + active->bend_count == 0 && active->rises)
     return CELSPAN_OK;
-  CS_TRY(add_knots(b));
+  CS_TRY(add_groups(b));
   if (begins > 0)
     CS_TRY(find_begins(b));
   CS_TRY(find_events(b));
   CS_TRY(add_events(b));
   CS_TRY(add_procedures(b));
-  merge_blocks(b);
-  return begins > 0 ? place_begins(b) : CELSPAN_OK;
+  merge_intervals(b);
+  return begins > 0 ? order_begins(b) : CELSPAN_OK;
+}
+
+static int compare_begins(const void *p, const void *q) {
+  const cs_member *a = p, *b = q;
+  if (a->points[0].y != b->points[0].y)
+    return a->points[0].y < b->points[0].y ? -1 : 1;
+  if (a->points[0].x != b->points[0].x)
+    return a->points[0].x < b->points[0].x ? -1 : 1;
+  return (a->order > b->order) - (a->order < b->order);
+}
+
+celspan_status cs_intervals_pick_begins(cs_intervals *b, const cs_interval *interval,
+                                        cs_member **begins, size_t *count) {
+  size_t first = b->picked;
+  while (b->picked < b->begin_count && b->begin_order[b->picked].low <= interval->last_low)
+    b->picked++;
+  *count = b->picked - first;
+  *begins = NULL;
+  if (*count == 0)
+    return CELSPAN_OK;
+  *begins = take(b, *count, sizeof **begins);
+  if (!*begins)
+    return CELSPAN_NO_MEMORY;
+  for (size_t k = 0; k < *count; k++)
+    (*begins)[k] = b->begins[b->begin_order[first + k].begin];
+  if (*count > 1)
+    qsort(*begins, *count, sizeof **begins, compare_begins);
+  return CELSPAN_OK;
 }

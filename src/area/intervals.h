@@ -14,55 +14,69 @@
 #ifndef CS_AREA_INTERVALS_H
 #define CS_AREA_INTERVALS_H
 
+#include "area/edges.h"
+#include "area/extent.h"
 #include "area/local_sweep.h"
 
-/* Neighbours [low, high) to be replayed together; low == high: what begins and ends between two. */
+/* Neighbours [low, high) that are replayed together; low == high: what begins and ends between two
+ * boundaries. */
 typedef struct cs_interval {
   size_t low, high;
-  size_t last_low;              /* the greatest `low` merged into it */
-  double low_x, high_x;         /* of what begins or ends in it; low_x > high_x when nothing does */
-  double reach_low, reach_high; /* where its boundaries, and what begins, are in the row */
+  size_t last_low;  /* the greatest `low` of the intervals that were merged into it */
+  cs_extent events; /* of what begins or ends in it */
+  cs_extent extent; /* of its boundaries, and of what begins, in the row */
 } cs_interval;
 
-/* A begin or an end inside the row, and the x-range in the row of what begins or ends. */
-typedef struct cs_row_event {
-  double y, low, high;
+/* A begin or an end inside the row, and the extent in the row of what begins or ends. */
+typedef struct cs_interval_event {
+  double y;
+  cs_extent extent;
   uint32_t layer;
-  int32_t begin; /* which of begins this is about, or -1: a boundary that ends */
+  int32_t begin; /* which of `begins` this is about; -1: a boundary that ends */
   bool is_end;
-} cs_row_event;
+} cs_interval_event;
 
-/* At which place of the order something begins. */
-typedef struct cs_begin_place {
-  size_t low; /* as of its block */
+/* In which interval something begins. */
+typedef struct cs_interval_begin {
+  size_t low; /* of the interval, before it was merged with others */
   size_t begin;
-} cs_begin_place;
+} cs_interval_begin;
 
 typedef struct cs_intervals {
-  cs_row_maker *maker;
-  const cs_cell *cells;       /* as in cs_cells; they stay as they are until the row is done */
-  double y0, y1;              /* the row, or a slice of it */
-  cs_member *procedure_edges; /* edges of scan-line primitives on this row */
+  /* given: borrowed */
+  celspan_context *context;
+  cs_arena *arena; /* of the row */
+  const cs_active *active;
+  const cs_edges *edges;      /* of the active boundaries */
+  double y0, y1;              /* the row, or a slab of it */
+  cs_member *procedure_edges; /* of scan-line primitives on this row */
   size_t procedure_edge_count;
-  double procedures_low, procedures_high;  /* their x-range */
-  cs_member *begins;                       /* chains that begin inside the row, then the strips */
-  cs_interval *begin_intervals;            /* for each: where its begin is replayed */
-  cs_begin_place *begin_places;            /* from left to right */
-  size_t begin_count, chain_count, picked; /* picked: begins of blocks that the walk has met */
-  cs_row_event *events;
+  cs_extent procedures; /* of them */
+  /* found */
+  cs_interval *intervals; /* from left to right; while they are looked for, groups come first */
+  size_t count, capacity, group_count;
+  cs_member *begins;            /* chains that begin inside the row, then the edges of procedures */
+  cs_interval *begin_intervals; /* for each: where its begin is replayed */
+  cs_interval_begin *begin_order; /* from left to right */
+  size_t begin_count, chain_count;
+  size_t picked; /* how many of begin_order have been handed out */
+  cs_interval_event *events;
   size_t event_count;
-  cs_interval *intervals; /* while they are sought, knots first */
-  size_t count, capacity, knot_count;
 } cs_intervals;
 
 /* How many chains begin between the active boundaries' height and y1. */
 size_t cs_intervals_count_begins(const cs_active *active, double y1);
-/* Finds the blocks of the row the scan's active boundaries have reached through; scan, y0, y1 and
- * the strips are given. */
+/* Finds the intervals of the row that the active boundaries have been advanced through.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intervals_find(cs_intervals *intervals);
-
-/* A chain as a member that stands at the top of its points. */
-void cs_intervals_member(cs_member *member, const cs_active *active, uint32_t chain,
-                         const celspan_point *points, uint32_t count);
+/* Copies of the members that begin in an interval, by height, then x, then order. The intervals are
+ * asked from left to right. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_intervals_pick_begins(cs_intervals *intervals,
+                                                        const cs_interval *interval,
+                                                        cs_member **begins, size_t *count);
+/* Makes a member of active boundary i, at the top of its polyline through the row.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_intervals_member(const cs_intervals *intervals, size_t i,
+                                                   cs_member *member);
 
 #endif

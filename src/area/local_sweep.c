@@ -1,8 +1,39 @@
 #include "area/local_sweep.h"
 
+#include "area/extent.h"
+
 #include <math.h>
 
-/* ---------------------------------------------------------------- fragments */
+/* ---------------------------------------------------------------- life */
+
+void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena *arena,
+                         cs_target *target) {
+  *sweep = (cs_local_sweep){.composer = composer, .arena = arena, .target = target};
+}
+
+void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory) {
+  cs_intersections_finish(&sweep->intersections, memory);
+  cs_mem_free(memory, sweep->entering, sweep->member_capacity * sizeof *sweep->entering);
+  cs_mem_free(memory, sweep->lists, sweep->list_capacity * sizeof *sweep->lists);
+}
+
+celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count) {
+  celspan_context *context = sweep->composer->context;
+  size_t most = count + sweep->begin_count;
+  CS_TRY(cs_mem_reserve(context, (void **)&sweep->entering, &sweep->member_capacity, most,
+                        sizeof *sweep->entering));
+  CS_TRY(cs_mem_reserve(context, (void **)&sweep->lists, &sweep->list_capacity, 3 * most,
+                        sizeof *sweep->lists));
+  sweep->members = (cs_member **)sweep->lists;
+  sweep->spare = sweep->members + most;
+  sweep->cells_below = (const cs_cell **)(sweep->lists + 2 * most);
+  sweep->count = count;
+  for (size_t j = 0; j < count; j++)
+    sweep->members[j] = &sweep->entering[j];
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- segments */
 
 static const cs_cell *left_of(const cs_local_sweep *sweep, size_t j) {
   return j > 0 ? sweep->members[j - 1]->right : sweep->left;
@@ -16,26 +47,27 @@ typedef struct stay {
 } stay;
 
 /* Gives the window what a boundary draws from there down to (x, y). */
-static celspan_status draw_to(cs_row_maker *maker, const stay *from, double x, double y,
+static celspan_status draw_to(cs_local_sweep *sweep, const stay *from, double x, double y,
                               const cs_cell *left, const cs_cell *right) {
   const celspan_point *points = from->member->points;
-  if (!(y > from->y) || cs_composer_same(&maker->composer, left, right))
+  if (!(y > from->y) || cs_composer_same(sweep->composer, left, right))
     return CELSPAN_OK;
   celspan_point above = {from->x, from->y};
   for (uint32_t at = from->at; points[at].y < y; at++)
     if (points[at].y > above.y) {
-      CS_TRY(
-          cs_window_add(&maker->window, above.x, above.y, points[at].x, points[at].y, left, right));
+      const cs_segment segment = {above.x, above.y, points[at].x, points[at].y};
+      CS_TRY(cs_target_add(sweep->target, &segment, left, right));
       above = points[at];
     }
-  return cs_window_add(&maker->window, above.x, above.y, x, y, left, right);
+  const cs_segment last = {above.x, above.y, x, y};
+  return cs_target_add(sweep->target, &last, left, right);
 }
 
 /* The same for member j since its last event, between the cells it stands between. */
 static celspan_status flush(cs_local_sweep *sweep, size_t j, double x, double y) {
   cs_member *member = sweep->members[j];
   const stay from = {member, member->x, member->y, member->at};
-  CS_TRY(draw_to(sweep->maker, &from, x, y, left_of(sweep, j), member->right));
+  CS_TRY(draw_to(sweep, &from, x, y, left_of(sweep, j), member->right));
   while (member->points[member->at].y < y)
     member->at++;
   member->x = x;
@@ -60,30 +92,30 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
 
 /* Walks the composer to just right of the first `place` members. */
 static void stand(cs_local_sweep *sweep, size_t place) {
-  cs_composer *composer = &sweep->maker->composer;
-  for (; sweep->stood < place; sweep->stood++)
-    cross(composer, sweep->members[sweep->stood], 1);
-  for (; sweep->stood > place; sweep->stood--)
-    cross(composer, sweep->members[sweep->stood - 1], -1);
+  cs_composer *composer = sweep->composer;
+  for (; sweep->crossed < place; sweep->crossed++)
+    cross(composer, sweep->members[sweep->crossed], 1);
+  for (; sweep->crossed > place; sweep->crossed--)
+    cross(composer, sweep->members[sweep->crossed - 1], -1);
 }
 
 /* And past the toggles at or left of x. */
 static void stand_toggles(cs_local_sweep *sweep, double x) {
-  cs_composer *composer = &sweep->maker->composer;
+  cs_composer *composer = sweep->composer;
   sweep->passed = cs_cells_defer(composer, sweep->passed, sweep->deferred_end, x);
   for (; sweep->passed > sweep->deferred && sweep->passed[-1].x > x; sweep->passed--)
     cs_composer_cross(composer, sweep->passed[-1].layer, -sweep->passed[-1].direction);
 }
 
 /* The cell at the composer's place; `known` when it is the same. */
-static const cs_cell *find_cell(cs_row_maker *maker, const cs_cell *known) {
-  if (known && cs_set_hash_same(known->hash, maker->composer.hash))
+static const cs_cell *find_cell(cs_local_sweep *sweep, const cs_cell *known) {
+  if (known && cs_set_hash_same(known->hash, sweep->composer->hash))
     return known;
-  cs_cell *cell = cs_arena_take(maker->context, &maker->arena, sizeof *cell);
+  cs_cell *cell = cs_arena_take(sweep->composer->context, sweep->arena, sizeof *cell);
   if (!cell)
-    maker->composer.failure = CELSPAN_NO_MEMORY;
+    sweep->composer->failure = CELSPAN_NO_MEMORY;
   else
-    cs_composer_cell(&maker->composer, cell);
+    cs_composer_cell(sweep->composer, cell);
   return cell;
 }
 
@@ -93,8 +125,8 @@ static celspan_status refresh(cs_local_sweep *sweep, size_t first, size_t last) 
     cs_member *member = sweep->members[j];
     stand(sweep, j + 1);
     stand_toggles(sweep, member->x);
-    member->right = find_cell(sweep->maker, member->right);
-    CS_TRY(sweep->maker->composer.failure);
+    member->right = find_cell(sweep, member->right);
+    CS_TRY(sweep->composer->failure);
   }
   return CELSPAN_OK;
 }
@@ -112,31 +144,31 @@ static double next_height(const cs_local_sweep *sweep) {
   return next;
 }
 
-static inline cs_intersection *meeting_at(const cs_local_sweep *sweep, uint32_t index) {
-  return index == CS_MEETINGS_NONE ? NULL : &sweep->maker->intersections.intersections[index];
+static inline cs_intersection *intersection_at(const cs_local_sweep *sweep, uint32_t index) {
+  return index == CS_INTERSECTIONS_NONE ? NULL : &sweep->intersections.intersections[index];
 }
 
 /* Composes what is seen right of place j after each of the meetings there. */
 static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
-  cs_composer *composer = &sweep->maker->composer;
+  cs_composer *composer = sweep->composer;
   cs_member *const *members = sweep->members;
-  cs_intersection *first = meeting_at(sweep, sweep->maker->intersections.first[j]);
+  cs_intersection *first = intersection_at(sweep, sweep->intersections.first[j]);
   if (!first)
     return CELSPAN_OK;
   const cs_intersection *stays =
       first->left == j ? first : NULL; /* it leaves before it is crossed */
   stand(sweep, stays ? j : j + 1);
   for (cs_intersection *intersection = first; intersection;
-       intersection = meeting_at(sweep, intersection->next)) {
+       intersection = intersection_at(sweep, intersection->next)) {
     if (intersection != stays)
       cross(composer, members[intersection->left], -1);
     cross(composer, members[intersection->right], 1);
     stand_toggles(sweep, intersection->right_x);
-    intersection->cell = find_cell(sweep->maker, NULL);
+    intersection->cell = find_cell(sweep, NULL);
     CS_TRY(composer->failure);
   }
   for (cs_intersection *intersection = first; intersection;
-       intersection = meeting_at(sweep, intersection->next)) {
+       intersection = intersection_at(sweep, intersection->next)) {
     cross(composer, members[intersection->right], -1);
     if (intersection != stays)
       cross(composer, members[intersection->left], 1);
@@ -148,50 +180,51 @@ static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
  * the next. left: the cell left of the place at the top. */
 static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell *left) {
   cs_member *const *members = sweep->members;
-  const cs_intersections *intersections = &sweep->maker->intersections;
+  const cs_intersections *intersections = &sweep->intersections;
   const cs_cell *right = members[j]->right;
-  const cs_intersection *before = j > 0 ? meeting_at(sweep, intersections->first[j - 1]) : NULL;
-  const cs_intersection *after = meeting_at(sweep, intersections->first[j]);
+  const cs_intersection *before =
+      j > 0 ? intersection_at(sweep, intersections->first[j - 1]) : NULL;
+  const cs_intersection *after = intersection_at(sweep, intersections->first[j]);
   stay s = {members[j], members[j]->x, members[j]->y, members[j]->at};
   while (before || after) {
     bool is_after = !before || (after && after < before); /* as they happened */
     const cs_intersection *intersection = is_after ? after : before;
     double y = intersection->y, left_x = intersection->left_x, right_x = intersection->right_x;
-    CS_TRY(draw_to(sweep->maker, &s, is_after ? left_x : right_x, y, left, right));
+    CS_TRY(draw_to(sweep, &s, is_after ? left_x : right_x, y, left, right));
     s.member = members[is_after ? intersection->right : intersection->left];
     s.x = is_after ? right_x : left_x;
     s.y = y;
     s.at = is_after ? intersection->right_at : intersection->left_at;
     if (is_after) {
       right = intersection->cell;
-      after = meeting_at(sweep, intersection->next);
+      after = intersection_at(sweep, intersection->next);
     } else {
       left = intersection->cell;
-      before = meeting_at(sweep, intersection->next);
+      before = intersection_at(sweep, intersection->next);
     }
   }
-  sweep->seen[j] = right;
+  sweep->cells_below[j] = right;
   return CELSPAN_OK;
 }
 
 /* Puts the members where they are at the foot of a band. */
-static void take_places(cs_local_sweep *sweep) {
-  const cs_intersections *intersections = &sweep->maker->intersections;
+static void commit_places(cs_local_sweep *sweep) {
+  const cs_intersections *intersections = &sweep->intersections;
   cs_member **members = sweep->spare;
   for (size_t j = 0; j < sweep->count; j++) {
-    const cs_active_edge *mover = &intersections->movers[intersections->order[j]];
+    const cs_active_edge *edge = &intersections->edges[intersections->order[j]];
     cs_member *member = members[j] = sweep->members[intersections->order[j]];
-    member->x = mover->last_x;
-    member->y = mover->last_y;
-    member->at = mover->last_at;
-    member->right = sweep->seen[j];
+    member->x = edge->last_x;
+    member->y = edge->last_y;
+    member->at = edge->last_at;
+    member->right = sweep->cells_below[j];
   }
   sweep->spare = sweep->members;
   sweep->members = members;
 }
 
 /* Draws the meetings of a band, and leaves the members as they are at its foot. */
-static celspan_status draw_meetings(cs_local_sweep *sweep) {
+static celspan_status draw_intersections(cs_local_sweep *sweep) {
   const cs_cell *left = sweep->left;
   for (size_t j = 0; j < sweep->count; j++) {
     CS_TRY(compose_place(sweep, j));
@@ -199,18 +232,19 @@ static celspan_status draw_meetings(cs_local_sweep *sweep) {
     left = sweep->members[j]->right;
   }
   stand(sweep, 0);
-  take_places(sweep);
+  commit_places(sweep);
   return CELSPAN_OK;
 }
 
 /* The same for a band with one meeting, as most are. */
-static celspan_status draw_meeting(cs_local_sweep *sweep, const cs_intersection *intersection) {
+static celspan_status draw_intersection(cs_local_sweep *sweep,
+                                        const cs_intersection *intersection) {
   size_t j = intersection->left; /* nobody has left his place before */
   cs_member *a = sweep->members[j], *b = sweep->members[j + 1];
   const cs_cell *right = b->right;
   CS_TRY(flush(sweep, j, intersection->left_x, intersection->y));
   CS_TRY(flush(sweep, j + 1, intersection->right_x, intersection->y));
-  if (sweep->stood > j)
+  if (sweep->crossed > j)
     stand(sweep, j);
   sweep->members[j] = b;
   sweep->members[j + 1] = a;
@@ -219,23 +253,22 @@ static celspan_status draw_meeting(cs_local_sweep *sweep, const cs_intersection 
 }
 
 /* Runs the members from y0 down to y1, where the next of them begins or ends. */
-static celspan_status run_band(cs_local_sweep *sweep, double y0, double y1) {
-  cs_row_maker *maker = sweep->maker;
-  cs_intersections *intersections = &maker->intersections;
+static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
+  cs_intersections *intersections = &sweep->intersections;
   for (size_t j = 0; j < sweep->count; j++) {
     const cs_member *member = sweep->members[j];
-    cs_active_edge *mover = &intersections->movers[j];
-    mover->points = member->points;
-    mover->at = mover->last_at = member->at;
-    mover->last_x = member->x;
-    mover->last_y = member->y;
+    cs_active_edge *edge = &intersections->edges[j];
+    edge->points = member->points;
+    edge->at = edge->last_at = member->at;
+    edge->last_x = member->x;
+    edge->last_y = member->y;
     intersections->foot[j] = member->foot;
   }
-  CS_TRY(cs_intersections_find(intersections, maker->context, sweep->count, y0, y1));
+  CS_TRY(cs_intersections_find(intersections, sweep->composer->context, sweep->count, y0, y1));
   if (intersections->count == 1)
-    CS_TRY(draw_meeting(sweep, &intersections->intersections[0]));
+    CS_TRY(draw_intersection(sweep, &intersections->intersections[0]));
   else if (intersections->count > 1)
-    CS_TRY(draw_meetings(sweep));
+    CS_TRY(draw_intersections(sweep));
   for (size_t j = 0; j < sweep->count; j++)
     sweep->members[j]->foot = intersections->foot[j];
   return CELSPAN_OK;
@@ -260,28 +293,17 @@ static bool is_right(const cs_member *a, const cs_member *b, double y) {
   return slope_a != slope_b ? slope_a > slope_b : a->order > b->order;
 }
 
-/* Where a height changes what is present: between these two x. Outside, windings balance, so the
- * cells stay as they are. */
-typedef struct turning {
-  double low, high; /* low > high: nowhere */
-} turning;
-
-static void widen(turning *t, double x) {
-  t->low = x < t->low ? x : t->low;
-  t->high = x > t->high ? x : t->high;
-}
-
 static bool has_ended(const cs_member *member) { return member->at == member->point_count; }
 
 /* Draws the members that end at y. */
-static celspan_status end_members(cs_local_sweep *sweep, double y, turning *t) {
+static celspan_status end_members(cs_local_sweep *sweep, double y, cs_extent *changed) {
   for (size_t j = 0; j < sweep->count; j++) {
     cs_member *member = sweep->members[j];
     if (member->points[member->point_count - 1].y > y)
       continue;
     CS_TRY(flush(sweep, j, member->foot, y));
     member->at = member->point_count;
-    widen(t, member->foot);
+    cs_extent_add(changed, member->foot);
   }
   return CELSPAN_OK;
 }
@@ -304,23 +326,23 @@ static void begin_members(cs_local_sweep *sweep, double y) {
 }
 
 /* Members that meet in a point and part in another order. */
-static void note_disorder(const cs_local_sweep *sweep, double y, turning *t) {
+static void note_disorder(const cs_local_sweep *sweep, double y, cs_extent *changed) {
   const cs_member *last = NULL;
   for (size_t j = 0; j < sweep->count; j++) {
     const cs_member *member = sweep->members[j];
     if (has_ended(member))
       continue;
     if (last && is_right(last, member, y)) {
-      widen(t, last->foot);
-      widen(t, member->foot);
+      cs_extent_add(changed, last->foot);
+      cs_extent_add(changed, member->foot);
     }
     last = member;
   }
 }
 
-static void note_begins(const cs_local_sweep *sweep, double y, turning *t) {
+static void note_begins(const cs_local_sweep *sweep, double y, cs_extent *changed) {
   for (size_t k = 0; k < sweep->begin_count && sweep->begins[k].points[0].y <= y; k++)
-    widen(t, sweep->begins[k].points[0].x);
+    cs_extent_add(changed, sweep->begins[k].points[0].x);
 }
 
 static void sort(cs_local_sweep *sweep, double y) {
@@ -332,79 +354,80 @@ static void sort(cs_local_sweep *sweep, double y) {
     }
 }
 
-static bool is_inside(const turning *t, const cs_member *member) {
-  return member->foot >= t->low && member->foot <= t->high;
+static bool is_inside(const cs_extent *changed, const cs_member *member) {
+  return cs_extent_has(*changed, member->foot);
 }
 
-static celspan_status flush_inside(cs_local_sweep *sweep, const turning *t, double y) {
+static celspan_status flush_inside(cs_local_sweep *sweep, const cs_extent *changed, double y) {
   for (size_t j = 0; j < sweep->count; j++)
-    if (!has_ended(sweep->members[j]) && is_inside(t, sweep->members[j]))
+    if (!has_ended(sweep->members[j]) && is_inside(changed, sweep->members[j]))
       CS_TRY(flush(sweep, j, sweep->members[j]->foot, y));
   return CELSPAN_OK;
 }
 
-static celspan_status refresh_inside(cs_local_sweep *sweep, const turning *t) {
+static celspan_status refresh_inside(cs_local_sweep *sweep, const cs_extent *changed) {
   size_t first = 0, end = sweep->count;
-  while (first < end && !is_inside(t, sweep->members[first]))
+  while (first < end && !is_inside(changed, sweep->members[first]))
     first++;
-  while (end > first && !is_inside(t, sweep->members[end - 1]))
+  while (end > first && !is_inside(changed, sweep->members[end - 1]))
     end--;
   return first < end ? refresh(sweep, first, end - 1) : CELSPAN_OK;
 }
 
 /* The events at height y, at the foot of the band just run. */
-static celspan_status turn(cs_local_sweep *sweep, double y) {
-  turning t = {INFINITY, -INFINITY};
-  CS_TRY(end_members(sweep, y, &t));
-  note_begins(sweep, y, &t);
-  note_disorder(sweep, y, &t);
-  CS_TRY(flush_inside(sweep, &t, y));
+static celspan_status change_members(cs_local_sweep *sweep, double y) {
+  cs_extent changed = cs_extent_nowhere();
+  CS_TRY(end_members(sweep, y, &changed));
+  note_begins(sweep, y, &changed);
+  note_disorder(sweep, y, &changed);
+  CS_TRY(flush_inside(sweep, &changed, y));
   stand(sweep, 0);
   drop_ended(sweep);
   begin_members(sweep, y);
   sort(sweep, y);
-  return refresh_inside(sweep, &t);
+  return refresh_inside(sweep, &changed);
 }
 
 celspan_status cs_local_sweep_replay(cs_local_sweep *sweep) {
   double y = sweep->y0;
-  CS_TRY(cs_intersections_reserve(&sweep->maker->intersections, sweep->maker->context,
+  CS_TRY(cs_intersections_reserve(&sweep->intersections, sweep->composer->context,
                                   sweep->count + sweep->begin_count));
-  sweep->stood = 0;
+  sweep->crossed = 0;
   sweep->passed = sweep->deferred;
   for (;;) {
     double next = next_height(sweep);
     if (next > y)
-      CS_TRY(run_band(sweep, y, next));
+      CS_TRY(run_slab(sweep, y, next));
     if (next >= sweep->y1) {
       stand(sweep, 0);
       stand_toggles(sweep, -INFINITY);
       return flush_all(sweep, sweep->y1);
     }
     y = next;
-    CS_TRY(turn(sweep, y));
+    CS_TRY(change_members(sweep, y));
   }
 }
 
 /* ---------------------------------------------------------------- pairs */
 
-static celspan_status draw(cs_row_maker *maker, celspan_point above, celspan_point below,
+static celspan_status draw(cs_local_sweep *sweep, celspan_point above, celspan_point below,
                            const cs_cell *left, const cs_cell *right) {
-  if (!(below.y > above.y) || cs_composer_same(&maker->composer, left, right))
+  if (!(below.y > above.y) || cs_composer_same(sweep->composer, left, right))
     return CELSPAN_OK;
-  return cs_window_add(&maker->window, above.x, above.y, below.x, below.y, left, right);
+  const cs_segment segment = {above.x, above.y, below.x, below.y};
+  return cs_target_add(sweep->target, &segment, left, right);
 }
 
 /* The cell that boundary i + 1 opens when it is crossed first, at x. */
-static celspan_status cell_between(cs_row_maker *maker, size_t i, double x, const cs_cell **out) {
-  const cs_deferred *deferred = maker->cells.deferred;
-  cs_composer *composer = &maker->composer;
-  cs_crossing second = maker->active.crossing[i + 1];
-  cs_cell *cell = cs_arena_take(maker->context, &maker->arena, sizeof *cell);
+static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, double x,
+                                   const cs_cell **out) {
+  cs_composer *composer = sweep->composer;
+  cs_cell *cell = cs_arena_take(composer->context, sweep->arena, sizeof *cell);
   if (!cell)
     return CELSPAN_NO_MEMORY;
   cs_composer_cross(composer, second.layer, second.direction);
-  const cs_deferred *passed = cs_cells_defer(composer, deferred, maker->cells.deferred_end, x);
+  const cs_deferred *deferred = sweep->deferred;
+  const cs_deferred *passed = cs_cells_defer(composer, deferred, sweep->deferred_end, x);
   cs_composer_cell(composer, cell);
   *out = cell;
   cs_composer_cross(composer, second.layer, -second.direction);
@@ -413,9 +436,9 @@ static celspan_status cell_between(cs_row_maker *maker, size_t i, double x, cons
   return composer->failure;
 }
 
-celspan_status cs_local_sweep_pair(cs_row_maker *maker, const cs_cell *left, size_t i,
+celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active, size_t i,
                                    const cs_cell **between) {
-  const cs_active *active = &maker->active;
+  const cs_cell *left = sweep->left, *right = left + 2;
   celspan_point a = {active->x[i], active->y}, b = {active->x[i + 1], active->y};
   celspan_point a_foot = {active->x_next[i], active->y_next};
   celspan_point b_foot = {active->x_next[i + 1], active->y_next};
@@ -423,10 +446,9 @@ celspan_status cs_local_sweep_pair(cs_row_maker *maker, const cs_cell *left, siz
   double y = a.y + (a_foot.y - a.y) * u;
   celspan_point a_meets = {a.x + (a_foot.x - a.x) * u, y};
   celspan_point b_meets = {b.x + (b_foot.x - b.x) * u, y};
-  const cs_cell *right = left + 2;
-  CS_TRY(draw(maker, a, a_meets, left, left + 1));
-  CS_TRY(draw(maker, b, b_meets, left + 1, right));
-  CS_TRY(cell_between(maker, i, b_meets.x, between));
-  CS_TRY(draw(maker, b_meets, b_foot, left, *between));
-  return draw(maker, a_meets, a_foot, *between, right);
+  CS_TRY(draw(sweep, a, a_meets, left, left + 1));
+  CS_TRY(draw(sweep, b, b_meets, left + 1, right));
+  CS_TRY(cell_between(sweep, active->crossing[i + 1], b_meets.x, between));
+  CS_TRY(draw(sweep, b_meets, b_foot, left, *between));
+  return draw(sweep, a_meets, a_foot, *between, right);
 }

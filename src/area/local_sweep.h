@@ -1,62 +1,87 @@
-/* Clusters: the small groups of boundaries that cross, begin or end inside a row of pixels,
- * replayed event by event.
+/* Local sweeps: the small groups of boundaries that cross, begin or end inside a row of pixels are
+ * followed from its top to its foot, event by event.
  *
- *   band:     between two heights at which some member begins or ends
- *   meeting:  two neighbours cross inside a band (meetings.h); the one cell between them is
- *             composed anew
+ *     y0  ------a-----b-----c---------   members at the top of the row, from left to right
+ *                \   /      |
+ *        slab     \ /       |
+ *                  x        |            intersection: a and b change places, and the one cell
+ *                 / \       |            between them is composed
+ *     y   -------b---a-----(e)-----d--   c ends and d begins: the next slab begins here
+ *        slab    |    \           /
+ *     y1  -------b-----a---------d----
  *
- * Meetings are found from the highest to the lowest; their cells are then composed place by place,
- * since what is seen right of a place depends on the meetings there alone: the composer goes from
- * one to the next with few steps. Swaps are always of neighbours, so an order exists at every
- * moment and the steps are bounded by the inversions.
+ *   slab          the heights between two at which some member begins or ends
+ *   intersection  two neighbours cross inside a slab (intersections.h)
  *
- * Invariant: what a cluster does is closed: left of it and right of it the sets of leaves present
- * stay as they are through the row.
+ * Intersections are found from the highest to the lowest. Their cells are then composed place by
+ * place: what is visible right of a place depends on the intersections there alone, so the composer
+ * goes from one to the next with few crossings. Swaps are always of neighbours, so an order exists
+ * at every moment and the work is bounded by the number of inversions.
+ *
+ * Invariant: what a local sweep does is closed: left of it and right of it the sets of layers
+ * present stay the same through the row. It knows only what is in its struct.
  */
 #ifndef CS_AREA_LOCAL_SWEEP_H
 #define CS_AREA_LOCAL_SWEEP_H
 
-#include "row/row.h"
+#include "area/intersections.h"
+#include "area/target.h"
+#include "compose/cells.h"
 
-/* One boundary inside a cluster: a polyline downwards from where it enters the row or begins. */
-struct cs_member {
+/* One boundary of a local sweep: a polyline downwards from where it enters the row or begins. */
+typedef struct cs_member {
   const celspan_point *points; /* ascending in y */
   uint32_t point_count;
-  uint32_t at; /* a segment that y is on ends at points[at]; point_count: ended */
+  uint32_t at; /* the segment that y is on ends at points[at]; point_count: it has ended */
   uint32_t layer;
-  uint32_t span;  /* of a scan-line leaf; UINT32_MAX for a chain */
-  uint32_t order; /* settles ties: the chain or the strip's edge */
+  uint32_t span;  /* of a procedure; UINT32_MAX for a chain */
+  uint32_t order; /* settles ties: the chain, or the edge of the procedure's span */
   uint32_t place; /* in the order at the top of the row; UINT32_MAX: it begins in the row */
   int32_t direction;
-  double x, y; /* up to where its fragments were given */
-  double foot; /* x where the current band ends */
+  double x, y; /* its segments have been drawn down to here */
+  double foot; /* x at the foot of the current slab */
   const cs_cell *right;
-};
+} cs_member;
 
 typedef struct cs_local_sweep {
-  cs_row_maker *maker;
-  double y0, y1;       /* the row */
+  cs_composer *composer; /* borrowed */
+  cs_arena *arena;       /* borrowed: of the row, for cells */
+  cs_target *target;     /* borrowed: gets the edge segments */
+  /* given for each replay */
+  double y0, y1;       /* the row, or a slab of it */
   const cs_cell *left; /* of all its members */
+  cs_member *begins;   /* those still to begin, by height, then x, then order */
+  size_t begin_count;
+  const cs_deferred *deferred, *deferred_end; /* those right of the least x of the members */
+  /* while it runs */
   cs_member **members; /* those that are there at the current height, in order */
   size_t count;
-  cs_member *begins; /* those still to begin, by height, then x, then order */
-  size_t begin_count;
-  cs_member **spare;                          /* room for as many */
-  const cs_cell **seen;                       /* right of each place; room for as many */
-  const cs_deferred *deferred, *deferred_end; /* those right of the cluster's least x */
-  /* where the composer stands: right of so many members, and of the toggles before `passed` */
-  size_t stood;
-  const cs_deferred *passed;
+  cs_member **spare;           /* room for as many */
+  const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
+  size_t crossed;              /* the composer is right of so many members, */
+  const cs_deferred *passed;   /* and past the deferred changes before this one */
+  /* its own room, kept from one replay to the next */
+  cs_intersections intersections;
+  cs_member *entering; /* the members at the top of the row */
+  void **lists;        /* for members, spare and cells_below */
+  size_t member_capacity, list_capacity;
 } cs_local_sweep;
 
-/* Replays the cluster into the scan's window. The composer stands left of the cluster, and does so
- * again afterwards. members, spare, seen: room for count + begin_count. */
+void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena *arena,
+                         cs_target *target);
+void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
+/* Makes room for `count` members at the top of the row, which the caller then fills through
+ * `members`, and for those that begin. y0, y1, left, begins and begin_count are given.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
+/* Draws the members through the row. The composer is left of them all, and is there again
+ * afterwards. deferred, deferred_end: as the composer's place has them. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
 
-/* The same for boundaries i and i + 1, straight through the row, that cross once: nearly all
- * clusters are that. left: of both; the composer stands there. *between: the cell between them
- * when they have crossed, good until the row is done. */
-CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_row_maker *maker, const cs_cell *left,
+/* The same for boundaries i and i + 1, straight through the row, that cross once, which is what
+ * nearly all local sweeps are. Given are left, of both, and the deferred changes; *between: the
+ * cell between them after they have crossed, good until the row is done. */
+CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
                                                    size_t i, const cs_cell **between);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "paint/colours.h"
 #include "paint/run.h"
+#include "sweep/pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,35 +19,34 @@ static void clear_change(cs_window *window) {
   memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
 }
 
-void cs_window_begin(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width,
-                     int32_t y, const cs_cell *leftmost, cs_row *out) {
+void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width) {
+  *window = (cs_window){
+      .painter = painter, .composer = painter->composer, .arena = arena, .width = width};
+}
+
+void cs_window_finish(cs_window *window, cs_memory *memory) {
+  cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
+  cs_arena_finish(&window->tiles, memory);
+}
+
+void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out) {
   if (window->is_open) /* a row failed */
     clear_change(window);
-  window->painter = painter;
-  window->composer = painter->composer;
-  window->arena = arena;
   window->out = out;
   window->centre = y + 0.5;
-  window->width = width;
   window->from = window->end = 0;
   window->base = window->cell = leftmost;
   window->segment_count = 0;
-  window->is_open = window->varies = window->is_held = false;
+  window->is_open = window->varies = window->is_whole_row = false;
 }
 
-void cs_window_hold(cs_window *window) {
-  window->is_open = window->is_held = true;
+void cs_window_open_row(cs_window *window) {
+  window->is_open = window->is_whole_row = true;
   window->varies = window->base->length > 0;
 }
 
-void cs_window_free(cs_window *window, cs_memory *memory) {
-  cs_mem_free(memory, window->segments, window->segment_capacity * sizeof *window->segments);
-  cs_arena_finish(&window->tiles, memory);
-  *window = (cs_window){0};
-}
-
 /* The area right of the fragment in the pixel of column p, 0..height. */
-static inline double cover(const cs_segment *f, int32_t p) {
+static inline double cover(const cs_window_segment *f, int32_t p) {
   return cs_edges_cover(f->xa, f->xb, f->height, p);
 }
 
@@ -54,7 +54,7 @@ static inline double cover(const cs_segment *f, int32_t p) {
 
 /* One fragment that crosses columns, between flat cells. */
 static celspan_status close_lone(cs_window *window) {
-  const cs_segment *f = &window->segments[0];
+  const cs_window_segment *f = &window->segments[0];
   cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
   int32_t last = f->end - 1;
   double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
@@ -71,7 +71,7 @@ static celspan_status close_lone(cs_window *window) {
 static int32_t next_change(const cs_window *window, int32_t p) {
   int32_t next = window->end;
   for (size_t i = 0; i < window->segment_count; i++) {
-    const cs_segment *f = &window->segments[i];
+    const cs_window_segment *f = &window->segments[i];
     int32_t at = f->first > p ? f->first : p;
     if (f->end >= p && at < next)
       next = at;
@@ -80,7 +80,7 @@ static int32_t next_change(const cs_window *window, int32_t p) {
 }
 
 /* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
-static void add_changes(const cs_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
+static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
   cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
   double before = p > f->first ? cover(f, p - 1) : 0;
@@ -144,7 +144,7 @@ typedef struct seen_cell {
 } seen_cell;
 
 typedef struct crossing {
-  const cs_segment *segment;
+  const cs_window_segment *segment;
   uint32_t left, right; /* into seen */
 } crossing;
 
@@ -167,7 +167,7 @@ static uint32_t place_cell(blend *b, const cs_cell *cell) {
 }
 
 static int compare_crossings(const void *p, const void *q) {
-  const cs_segment *a = ((const crossing *)p)->segment, *b = ((const crossing *)q)->segment;
+  const cs_window_segment *a = ((const crossing *)p)->segment, *b = ((const crossing *)q)->segment;
   if (a->first != b->first)
     return a->first < b->first ? -1 : 1;
   return (a > b) - (a < b);
@@ -183,7 +183,7 @@ static celspan_status begin_blend(cs_window *window, blend *b) {
     return CELSPAN_NO_MEMORY;
   b->seen[place_cell(b, window->base)].carry = 1;
   for (size_t i = 0; i < count; i++) {
-    const cs_segment *f = &window->segments[i];
+    const cs_window_segment *f = &window->segments[i];
     uint32_t left = place_cell(b, f->left);
     b->crossings[i] = (crossing){f, left, place_cell(b, f->right)};
   }
@@ -204,7 +204,7 @@ static celspan_status open_weights(blend *b, seen_cell *seen, int32_t count) {
 
 /* What a crossing does to the pixels of the tile. */
 static celspan_status cross_tile(blend *b, const crossing *c, int32_t p0, int32_t p1) {
-  const cs_segment *f = c->segment;
+  const cs_window_segment *f = c->segment;
   seen_cell *left = &b->seen[c->left], *right = &b->seen[c->right];
   CS_TRY(open_weights(b, left, p1 - p0));
   CS_TRY(open_weights(b, right, p1 - p0));
@@ -292,7 +292,7 @@ static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
 
 /* The same where one fragment goes through the row between two looks, as through most windows. */
 static celspan_status close_between(cs_window *window) {
-  const cs_segment *f = window->segments;
+  const cs_window_segment *f = window->segments;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
   cs_run run = {p0, p1, window->centre};
@@ -308,7 +308,7 @@ static celspan_status close_between(cs_window *window) {
 }
 
 static bool is_between(const cs_window *window) {
-  const cs_segment *f = window->segments;
+  const cs_window_segment *f = window->segments;
   const cs_composer *composer = window->composer;
   return window->segment_count == 1 && window->end - window->from <= CS_WINDOW_NARROW &&
          f->first == window->from && f->height == 1 &&
@@ -348,11 +348,9 @@ static celspan_status close_window(cs_window *window) {
 
 /* ---------------------------------------------------------------- items */
 
-celspan_status cs_window_reach(cs_window *window, double x) {
-  if (window->retained)
-    return CELSPAN_OK;
+celspan_status cs_window_begin_item(cs_window *window, double x) {
   int32_t first = cs_edges_floor(x, window->width);
-  if (window->is_held || (window->is_open && first < window->end))
+  if (window->is_whole_row || (window->is_open && first < window->end))
     return CELSPAN_OK;
   if (window->is_open)
     CS_TRY(close_window(window));
@@ -367,8 +365,9 @@ celspan_status cs_window_reach(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
-/* Takes a fragment into the window's columns and, where it is flat and they are few, their sums. */
-static void note_segment(cs_window *window, cs_segment *f) {
+/* Extends the window to a new segment's columns and, where its cells are flat and the columns few,
+ * adds it to their sums. */
+static void note_segment(cs_window *window, cs_window_segment *f) {
   if (f->first < window->from) { /* by rounding: it begins where what is written ends */
     f->first = window->from;
     f->end = f->end > f->first ? f->end : f->first;
@@ -382,49 +381,28 @@ static void note_segment(cs_window *window, cs_segment *f) {
   }
 }
 
-celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb, double yb,
-                             const cs_cell *left, const cs_cell *right) {
-  if (window->retained)
-    return cs_retained_add(window->retained, window->composer, xa, ya, xb, yb, left, right);
+celspan_status cs_window_add(cs_window *window, const cs_segment *segment, const cs_cell *left,
+                             const cs_cell *right) {
   if (window->segment_count == window->segment_capacity)
     CS_TRY(cs_mem_reserve(window->composer->context, (void **)&window->segments,
                           &window->segment_capacity, window->segment_count + 1,
                           sizeof *window->segments));
+  double xa = segment->xa, xb = segment->xb, top = window->centre - 0.5;
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
-  double top = window->centre - 0.5;
-  cs_segment *f = &window->segments[window->segment_count++];
-  *f = (cs_segment){.xa = xa,
-                    .xb = xb,
-                    .left = left,
-                    .right = right,
-                    .height = cs_edges_round(yb - top) - cs_edges_round(ya - top),
-                    .first = cs_edges_floor(low, window->width),
-                    .end = cs_edges_ceil(high, window->width)};
+  cs_window_segment *f = &window->segments[window->segment_count++];
+  *f = (cs_window_segment){.xa = xa,
+                           .xb = xb,
+                           .left = left,
+                           .right = right,
+                           .height = cs_edges_round(segment->yb - top) -
+                                     cs_edges_round(segment->ya - top),
+                           .first = cs_edges_floor(low, window->width),
+                           .end = cs_edges_ceil(high, window->width)};
   note_segment(window, f);
   return CELSPAN_OK;
 }
 
-static celspan_status add_bent(cs_window *window, const cs_active *active, size_t i,
-                               const cs_cell *left) {
-  const cs_bend *bend = cs_active_bend(active, i);
-  celspan_point above = {active->x[i], active->y};
-  for (uint32_t k = 0; k < bend->vertex_count; k++) {
-    celspan_point below = active->vertices[bend->vertex + k];
-    CS_TRY(cs_window_add(window, above.x, above.y, below.x, below.y, left, left + 1));
-    above = below;
-  }
-  return cs_window_add(window, above.x, above.y, active->x_next[i], active->y_next, left, left + 1);
-}
-
-celspan_status cs_window_slice(cs_window *window, const cs_active *active, const cs_edges *edges,
-                               size_t i, const cs_cell *left) {
-  cs_window_pass(window, left + 1);
-  return edges->is_bent[i] ? add_bent(window, active, i, left)
-                           : cs_window_add(window, active->x[i], active->y, active->x_next[i],
-                                           active->y_next, left, left + 1);
-}
-
-/* Draws the edges from the first on, up to one that cannot be. Returns how many. */
+/* Draws the edges from the first on, up to one that cannot be drawn directly. Returns how many. */
 static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
   cs_row_writer writer = cs_row_writer_take(window->out, window->from);
   size_t done = CS_WIDE_CHOOSE(window->painter->isa, cs_direct_draw)(direct, &writer);
@@ -435,31 +413,40 @@ static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
   return done;
 }
 
-celspan_status cs_window_edges(cs_window *window, const cs_active *active, const cs_edges *edges,
-                               const cs_cell *cells, const uint32_t *boundaries, size_t count,
-                               int32_t next) {
-  for (size_t done = 0; done < count; done++) {
-    if (window->is_open && !window->retained && edges->first[boundaries[done]] >= window->end)
-      CS_TRY(close_window(window));
-    if (!window->is_open && !window->retained) {
-      cs_direct_edges direct = {active,       edges, cells,        boundaries + done,
-                                count - done, next,  window->width};
-      CS_TRY(cs_row_reserve(window->composer->context, window->out,
-                            CS_DIRECT_EACH * direct.count + CS_DIRECT_TOGETHER + 1));
-      done += draw_edges(window, &direct);
-      if (done == count)
-        break;
-    }
-    size_t i = boundaries[done];
-    CS_TRY(cs_window_reach(window, edges->low[i]));
-    CS_TRY(cs_window_slice(window, active, edges, i, &cells[i]));
+/* Boundary i, as an item of the window. */
+static celspan_status add_boundary(cs_window *window, const cs_direct_edges *edges, size_t i) {
+  const cs_cell *left = &edges->cells[i];
+  const cs_bend *bend = edges->edges->is_bent[i] ? cs_active_bend(edges->active, i) : NULL;
+  CS_TRY(cs_window_begin_item(window, edges->edges->low[i]));
+  cs_window_end_item(window, left + 1);
+  for (cs_pieces p = cs_pieces_of(edges->active, i, bend); cs_pieces_next(&p);) {
+    const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
+    CS_TRY(cs_window_add(window, &segment, left, left + 1));
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_window_finish(cs_window *window) {
-  if (window->retained)
-    return cs_retained_seal(window->retained, window->composer);
+celspan_status cs_window_edges(cs_window *window, const cs_direct_edges *edges) {
+  cs_direct_edges rest = *edges;
+  for (; rest.count > 0; rest.boundaries++, rest.count--) {
+    size_t i = rest.boundaries[0];
+    if (window->is_open && rest.edges->first[i] >= window->end)
+      CS_TRY(close_window(window));
+    if (!window->is_open) {
+      CS_TRY(cs_row_reserve(window->composer->context, window->out,
+                            CS_DIRECT_EACH * rest.count + CS_DIRECT_TOGETHER + 1));
+      size_t done = draw_edges(window, &rest);
+      rest.boundaries += done;
+      rest.count -= done;
+      if (rest.count == 0)
+        break;
+    }
+    CS_TRY(add_boundary(window, &rest, rest.boundaries[0]));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_window_end_row(cs_window *window) {
   if (window->is_open)
     CS_TRY(close_window(window));
   return cs_painter_run(window->painter, window->cell,

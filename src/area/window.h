@@ -16,65 +16,60 @@
 #define CS_AREA_WINDOW_H
 
 #include "area/direct.h"
-#include "kernel/retained.h"
+#include "geometry/segment.h"
 #include "paint/painter.h"
 
 #define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* columns of nearly all windows */
 
-typedef struct cs_segment {
-  double xa, xb; /* at its top and at its bottom */
-  double height; /* of the row: 0..1, a multiple of 2^-28 */
+/* An edge segment in the window. */
+typedef struct cs_window_segment {
+  double xa, xb; /* at its top and at its foot */
+  double height; /* share of the row's height: 0..1, a multiple of 2^-28 */
   const cs_cell *left, *right;
-  int32_t first, end; /* the columns it crosses; empty when it stands on a pixel's edge */
-} cs_segment;
+  int32_t first, end; /* the columns it crosses; empty when it lies on a pixel's edge */
+} cs_window_segment;
 
 typedef struct cs_window {
-  const cs_composer *composer;
-  cs_painter *painter;
-  cs_arena *arena;
-  cs_row *out;
-  double centre;       /* height of the row's centre */
-  int32_t width;       /* of the row */
-  int32_t from;        /* nothing is written from here on */
-  int32_t end;         /* of the open window; from when it is empty */
-  const cs_cell *base; /* left of the window */
-  const cs_cell *cell; /* right of all items so far */
-  cs_segment *segments;
+  cs_painter *painter;         /* borrowed */
+  const cs_composer *composer; /* the painter's */
+  cs_arena *arena;             /* borrowed: of the row */
+  int32_t width;               /* of the row */
+  cs_row *out;                 /* of this row */
+  double centre;               /* height of the row's centre */
+  int32_t from;                /* everything left of this column has been written */
+  int32_t end;                 /* of the open window; from when it is empty */
+  const cs_cell *base;         /* left of the window */
+  const cs_cell *cell;         /* right of all items so far */
+  cs_window_segment *segments;
   size_t segment_count, segment_capacity;
   bool is_open, varies;
-  /* what flat fragments that end so near its left end add to the sum from column to column */
+  /* what segments between flat cells that end near the window's left end add to the sum of colours
+   * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
-  bool is_held;              /* the whole row is one window: items may come in any order */
-  cs_arena tiles;            /* of one tile's weights; the window's own */
-  cs_retained_row *retained; /* not NULL: fragments are kept there, and no pixels made */
+  bool is_whole_row; /* the whole row is one window: items may come in any order */
+  cs_arena tiles;    /* of one tile's weights; the window's own */
 } cs_window;
 
-/* Begins a row at `leftmost`; the fragments' room is kept from row to row. */
-void cs_window_begin(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width,
-                     int32_t y, const cs_cell *leftmost, cs_row *out);
-void cs_window_free(cs_window *window, cs_memory *memory);
+void cs_window_init(cs_window *window, cs_painter *painter, cs_arena *arena, int32_t width);
+void cs_window_finish(cs_window *window, cs_memory *memory);
 
+/* Begins row y at the cell `leftmost`. out: is empty, gets [0, width). */
+void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out);
 /* Makes one window of the whole row. */
-void cs_window_hold(cs_window *window);
-/* An item begins whose least x is `x`: closes the window when it ends before. */
-CELSPAN_CHECKED celspan_status cs_window_reach(cs_window *window, double x);
-/* A fragment of the current item, from (xa, ya) to (xb, yb). */
-CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, double xa, double ya, double xb,
-                                             double yb, const cs_cell *left, const cs_cell *right);
-/* Whole items: boundaries through the whole row, straight or bent, to which nothing else happens.
- * boundaries: `count` of them, from left to right; cells: as in cs_cells.
- * next: nothing that comes after them lies left of this column. */
-CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, const cs_active *active,
-                                               const cs_edges *edges, const cs_cell *cells,
-                                               const uint32_t *boundaries, size_t count,
-                                               int32_t next);
-/* Boundary i through what is left of the row or through a slice of it: a part of an item. */
-CELSPAN_CHECKED celspan_status cs_window_slice(cs_window *window, const cs_active *active,
-                                               const cs_edges *edges, size_t i,
-                                               const cs_cell *left);
+void cs_window_open_row(cs_window *window);
+/* An item begins whose least x is `x`: closes the window when it ends before that. */
+CELSPAN_CHECKED celspan_status cs_window_begin_item(cs_window *window, double x);
+/* A segment of the current item, between two cells. */
+CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, const cs_segment *segment,
+                                             const cs_cell *left, const cs_cell *right);
+/* Whole items: boundaries that go through the whole row, straight or bent, and to which nothing
+ * else happens. */
+CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, const cs_direct_edges *edges);
 /* The current item is done; right of it lies `cell`. */
-static inline void cs_window_pass(cs_window *window, const cs_cell *cell) { window->cell = cell; }
+static inline void cs_window_end_item(cs_window *window, const cs_cell *cell) {
+  window->cell = cell;
+}
 /* Closes the last window and writes the rest of the row. */
-CELSPAN_CHECKED celspan_status cs_window_finish(cs_window *window);
+CELSPAN_CHECKED celspan_status cs_window_end_row(cs_window *window);
 
 #endif

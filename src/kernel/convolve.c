@@ -1,6 +1,7 @@
 #include "kernel/convolve.h"
 
 #include "base/number.h"
+#include "kernel/scatter.h"
 #include "paint/colours.h"
 #include "paint/run.h"
 
@@ -285,7 +286,7 @@ celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
                                const cs_retained_row *const *retained_rows, size_t count, int32_t y,
                                cs_row *out) {
   CS_TRY(begin_slabs(convolve, painter->context, retained_rows, count, y));
-  CS_TRY(cs_convolve_scatter(convolve, painter, retained_rows, count, y));
+  CS_TRY(cs_scatter_rows(convolve, painter, retained_rows, count, y));
   summing s = {.convolve = convolve,
                .painter = painter,
                .out = out,

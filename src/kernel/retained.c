@@ -56,16 +56,16 @@ static celspan_status take_look(cs_retained_row *retained, const cs_composer *co
   return CELSPAN_OK;
 }
 
-celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *composer, double xa,
-                               double ya, double xb, double yb, const cs_cell *left,
+celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *composer,
+                               const cs_segment *segment, const cs_cell *left,
                                const cs_cell *right) {
   CS_TRY(cs_mem_reserve(composer->context, (void **)&retained->pieces, &retained->piece_capacity,
                         retained->piece_count + 1, sizeof *retained->pieces));
   cs_retained_edge *piece = &retained->pieces[retained->piece_count++];
-  piece->xa = xa;
-  piece->ya = ya;
-  piece->xb = xb;
-  piece->yb = yb;
+  piece->xa = segment->xa;
+  piece->ya = segment->ya;
+  piece->xb = segment->xb;
+  piece->yb = segment->yb;
   CS_TRY(take_look(retained, composer, left, &piece->left));
   return take_look(retained, composer, right, &piece->right);
 }
@@ -102,6 +102,6 @@ celspan_status cs_retained_seal(cs_retained_row *retained, const cs_composer *co
     program->program =
         (cs_program){&retained->items[program->item], retained->procedure_spans, program->length};
   }
-  retained->is_sealed = true;
+  retained->is_sealed = composer->failure == CELSPAN_OK;
   return CELSPAN_OK;
 }

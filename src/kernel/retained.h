@@ -13,6 +13,7 @@
 
 #include "base/arena.h"
 #include "compose/composer.h"
+#include "geometry/segment.h"
 
 /* What is seen on one side of a piece. */
 typedef struct cs_retained_side {
@@ -49,8 +50,8 @@ typedef struct cs_retained_row {
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory);
 void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base);
 CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *retained,
-                                               const cs_composer *composer, double xa, double ya,
-                                               double xb, double yb, const cs_cell *left,
+                                               const cs_composer *composer,
+                                               const cs_segment *segment, const cs_cell *left,
                                                const cs_cell *right);
 /* The row is done: copies what its programs need of the composer. */
 CELSPAN_CHECKED celspan_status cs_retained_seal(cs_retained_row *retained,

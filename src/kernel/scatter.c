@@ -105,9 +105,9 @@ static celspan_status add_trace(cs_scatter *g, cs_painter *painter) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_convolve_scatter(cs_convolve *convolve, cs_painter *painter,
-                                   const cs_retained_row *const *retained_rows, size_t count,
-                                   int32_t y) {
+celspan_status cs_scatter_rows(cs_convolve *convolve, cs_painter *painter,
+                               const cs_retained_row *const *retained_rows, size_t count,
+                               int32_t y) {
   cs_scatter g = {.convolve = convolve, .context = painter->context, .centre = y + 0.5};
   convolve->look_count = convolve->shift_count = convolve->passage_count = 0;
   memset(convolve->touched, 0, cs_convolve_words(convolve->width) * sizeof *convolve->touched);

@@ -8,7 +8,7 @@
 #ifndef CS_KERNEL_SCATTER_H
 #define CS_KERNEL_SCATTER_H
 
-#include "kernel/convolve.h"
+#include "kernel/convolve_parts.h"
 
 /* One row's worth of work. */
 typedef struct cs_scatter {
@@ -19,6 +19,14 @@ typedef struct cs_scatter {
   uint32_t row;                    /* its place among those under the kernel */
   int32_t *looks;                  /* of the trace's programs */
 } cs_scatter;
+
+/* Fills changes, values, slopes, shifts and passed events from the retained edges of `count` rows.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_scatter_rows(cs_convolve *convolve, cs_painter *painter,
+                                               const cs_retained_row *const *retained_rows,
+                                               size_t count, int32_t y);
+
+/* ---- one edge, in scatter_separable.c and scatter_even.c */
 
 CELSPAN_CHECKED celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *piece);
 CELSPAN_CHECKED celspan_status cs_scatter_even(cs_scatter *g, const cs_retained_edge *piece);

@@ -1,14 +1,27 @@
-/* Antialias "none": a pixel shows the cell that its centre lies in.
+/* Antialias "none", along a row:
  *
- * Half-open: a boundary at x belongs to the cell on its right, so the first column of that cell is
+ *      x       1.7       3.2          5.5
+ *      cells    |    1    |     2      |   3
+ *      columns | 0 | 1 | 2 | 3 | 4 | 5 | 6 |
+ *      centres   .   .   .   .   .   .   .
+ *      shown     0   0   1   2   2   3   3     ends: 2, 3, 5, 7
+ *
+ * A boundary at x belongs to the cell on its right, so the first column of that cell is
  * ceil(x - 1/2), and abutting shapes tile without gap or overlap.
  */
 #include "row/centre.h"
 
+#include "base/number.h"
 #include "paint/run.h"
-#include "row/procedures.h"
-#include "row/row.h"
 #include "span/row_writer.h"
+
+#include <math.h>
+
+void cs_centre_init(cs_centre *centre, const cs_row_parts *parts) {
+  *centre = (cs_centre){.parts = *parts};
+}
+
+/* ---------------------------------------------------------------- cells that vary, or are empty */
 
 /* Right of the v-th visible boundary from the left; the leftmost, where v is 0. */
 static const cs_cell *visible_cell(const cs_cells *cells, size_t v) {
@@ -27,12 +40,12 @@ static size_t draw_flats(const cs_cells *cells, const int32_t *ends, cs_row_writ
   return v;
 }
 
-static celspan_status draw_row(cs_row_maker *maker, int32_t y, const int32_t *ends, cs_row *out) {
-  const cs_cells *cells = &maker->cells;
+static celspan_status draw_row(cs_centre *centre, int32_t y, const int32_t *ends, cs_row *out) {
+  const cs_cells *cells = centre->parts.cells;
   const size_t count = cells->visible_count + 1;
   int32_t from = 0;
   for (size_t v = 0; v < count; v++) {
-    CS_TRY(cs_row_reserve(maker->context, out, count - v));
+    CS_TRY(cs_row_reserve(centre->parts.composer->context, out, count - v));
     cs_row_writer writer = cs_row_writer_take(out, from);
     v = draw_flats(cells, ends, &writer, v);
     cs_row_writer_put(&writer);
@@ -40,12 +53,14 @@ static celspan_status draw_row(cs_row_maker *maker, int32_t y, const int32_t *en
     if (v == count)
       break;
     int32_t to = ends[v] > from ? ends[v] : from;
-    CS_TRY(
-        cs_painter_run(&maker->painter, visible_cell(cells, v), (cs_run){from, to, y + 0.5}, out));
+    CS_TRY(cs_painter_run(centre->parts.painter, visible_cell(cells, v),
+                          (cs_run){from, to, y + 0.5}, out));
     from = to;
   }
   return CELSPAN_OK;
 }
+
+/* ---------------------------------------------------------------- flat cells */
 
 static size_t count_visible(const bool *is_visible, size_t count) {
   size_t visible = 0;
@@ -54,12 +69,12 @@ static size_t count_visible(const bool *is_visible, size_t count) {
   return visible;
 }
 
-/* Gives the colours of the visible cells that boundaries [low, high) lie between to their spans;
- * false where one is not flat. */
+/* Gives the colours of the visible cells between boundaries [low, high) to their spans; false where
+ * one is not flat. */
 static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_span *spans) {
   celspan_span *span = spans + count_visible(cells->is_visible, low);
   uint32_t varied = cells->cells[high].length;
-  for (size_t i = low; i < high; i++) { /* cells that look alike write the same */
+  for (size_t i = low; i < high; i++) { /* cells that look the same write the same */
     cs_v4_store(span->colour, cells->cells[i].colour);
     varied |= cells->cells[i].length;
     span += cells->is_visible[i];
@@ -69,41 +84,132 @@ static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_
 }
 
 /* Where all visible cells are flat and none is empty, each is a span: of neighbours with one colour
- * neither is visible. False where not; the row is to be drawn then. Fills ends in any case. */
-static bool draw_all(cs_row_maker *maker, cs_row *out, int32_t *ends) {
-  const cs_cells *cells = &maker->cells;
-  const cs_active *active = &maker->active;
+ * neither is visible. Returns false otherwise; the row must be drawn then. Fills ends in any
+ * case. */
+static bool draw_all(const cs_centre *centre, cs_row *out, int32_t *ends) {
+  const cs_cells *cells = centre->parts.cells;
+  const cs_active *active = centre->parts.active;
   size_t low = 0, high = active->count;
   size_t count = CS_WIDE_CHOOSE(active->isa, cs_centre_place)(
-      active->x, cells->is_visible, active->count, maker->plan->width, out->spans, ends);
-  bool is_ours = out->drawn_by == maker && out->count == count;
-  if (is_ours && out->drawn_as == maker->looks)
+      active->x, cells->is_visible, active->count, centre->parts.width, out->spans, ends);
+  bool is_ours = out->made_by.maker == centre && out->count == count;
+  if (is_ours && out->made_by.changes == centre->changes)
     return true;
-  if (is_ours && out->drawn_as + 1 == maker->looks) {
-    low = maker->change.low;
-    high -= maker->change.tail;
+  if (is_ours && out->made_by.changes + 1 == centre->changes) {
+    low = centre->last_change.low;
+    high -= centre->last_change.tail;
   }
   cs_row_clear(out);
   if (count == 0 || !put_colours(cells, low, high, out->spans))
     return false;
   out->count = count;
-  out->drawn_by = maker;
-  out->drawn_as = maker->looks;
+  out->made_by = (cs_row_mark){centre, centre->changes};
   return true;
 }
 
-celspan_status cs_centre_row(cs_row_maker *maker, int32_t y, cs_row *out) {
-  size_t most = maker->active.count + 1 + CS_ADVANCE_BATCH;
-  if (cs_procedures_meet(maker, y)) {
-    cs_row_clear(out);
-    return cs_procedures_centre_row(maker, y, out);
+/* ---------------------------------------------------------------- procedures */
+
+/* The boundaries of a row and the edges of its procedures, as one order. */
+typedef struct merged_walk {
+  cs_composer *composer;
+  cs_painter *painter;
+  const cs_active *active;
+  cs_procedure_edges edges;
+  size_t boundary, edge; /* the next of each */
+  const cs_deferred *deferred, *deferred_end;
+} merged_walk;
+
+static bool is_done(const merged_walk *w) {
+  return w->boundary + w->edge == w->active->count + w->edges.count;
+}
+
+/* x of the next boundary or edge; at most `width`. */
+static double next_x(const merged_walk *w, int32_t width) {
+  double x = width;
+  if (w->boundary < w->active->count && w->active->x[w->boundary] < x)
+    x = w->active->x[w->boundary];
+  if (w->edge < w->edges.count && w->edges.edges[w->edge].x < x)
+    x = w->edges.edges[w->edge].x;
+  return x;
+}
+
+/* Crosses the next boundary or edge. */
+static void cross_next(merged_walk *w) {
+  const cs_active *active = w->active;
+  if (w->edge == w->edges.count ||
+      (w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {
+    const cs_crossing *crossing = &active->crossing[w->boundary++];
+    cs_composer_cross(w->composer, crossing->layer, crossing->direction);
+    return;
   }
-  int32_t *ends = cs_arena_take(maker->context, &maker->arena, most * sizeof *ends);
+  const cs_procedure_edge *e = &w->edges.edges[w->edge++];
+  cs_composer_cross_span(w->composer, e->layer, e->span, e->direction);
+}
+
+static void defer_to(merged_walk *w, double x) {
+  w->deferred = cs_cells_defer(w->composer, w->deferred, w->deferred_end, x);
+}
+
+/* The columns [from, to) that one cell has been found to fill so far. */
+typedef struct filled {
+  cs_cell cell;
+  int32_t from, to;
+} filled;
+
+/* The walk's cell fills the columns up to `to`: with the ones before, where it looks the same. */
+static celspan_status fill_to(merged_walk *w, filled *f, int32_t to, double y, cs_row *out) {
+  cs_cell cell;
+  cs_composer_cell(w->composer, &cell);
+  CS_TRY(w->composer->failure);
+  if (!cs_composer_same(w->composer, &cell, &f->cell)) {
+    CS_TRY(cs_painter_run(w->painter, &f->cell, (cs_run){f->from, f->to, y}, out));
+    f->from = f->to;
+    f->cell = cell;
+  }
+  f->to = to;
+  return CELSPAN_OK;
+}
+
+static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
+  merged_walk w = {.composer = centre->parts.composer,
+                   .painter = centre->parts.painter,
+                   .active = centre->parts.active};
+  filled f = {.cell.colour = cs_v4_all(0)};
+  double x = 0; /* where the cell at hand begins */
+  CS_TRY(cs_procedures_collect(centre->parts.procedures, y + 0.5, &w.edges));
+  cs_procedures_sort(&w.edges);
+  cs_cells_home(centre->parts.cells, centre->parts.composer);
+  w.deferred = cs_active_deferred(centre->parts.active, &w.deferred_end);
+  for (;;) {
+    int32_t to = cs_number_first_centre(next_x(&w, centre->parts.width));
+    to = is_done(&w) || to > centre->parts.width ? centre->parts.width : to;
+    defer_to(&w, x);
+    if (to > f.to)
+      CS_TRY(fill_to(&w, &f, to, y + 0.5, out));
+    if (is_done(&w))
+      break;
+    x = next_x(&w, centre->parts.width);
+    cross_next(&w);
+  }
+  defer_to(&w, INFINITY);
+  return cs_painter_run(w.painter, &f.cell, (cs_run){f.from, centre->parts.width, y + 0.5}, out);
+}
+
+/* ---------------------------------------------------------------- rows */
+
+celspan_status cs_centre_row(cs_centre *centre, int32_t y, cs_row *out) {
+  size_t most = centre->parts.active->count + 1 + CS_ADVANCE_BATCH;
+  if (cs_procedures_meet(centre->parts.procedures, y)) {
+    cs_row_clear(out);
+    return draw_merged(centre, y, out);
+  }
+  int32_t *ends =
+      cs_arena_take(centre->parts.composer->context, centre->parts.arena, most * sizeof *ends);
   if (!ends)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(cs_row_room(maker->context, out, most));
-  if (draw_all(maker, out, ends))
+  CS_TRY(cs_row_room(centre->parts.composer->context, out, most));
+  if (draw_all(centre, out, ends))
     return CELSPAN_OK;
-  cs_cells_list(&maker->cells);
-  return draw_row(maker, y, ends, out);
+  cs_cells_list(centre->parts.cells);
+  return draw_row(centre, y, ends, out);
 }

@@ -1,46 +1,81 @@
-#include "area/local_sweep.h"
+/* How a row is made.
+ *
+ * Two shapes, a disc and a bar that crosses it, on row y of the frame:
+ *
+ *                    . - .
+ *      y      ------/-----\-----------/----/------    sweep/    the boundaries that the height
+ *                  a       b         c    d                     crosses, in order: a b c d
+ *      cells    0  |   1   |    2    | 3  |   4       compose/  what is visible between them: the
+ *                  |       |         |    |                     set of shapes present in each, and
+ *                  clear  disc  clear  bar  clear               its colour, or a program for it
+ *
+ * Further down the bar is over the disc: the order is a c b d, and only the cell between c and b is
+ * composed anew; the others keep theirs. From cells to spans there are three ways:
+ *
+ *      centre   |  .  |  .  |  .  |     row/     a pixel shows the cell that its centre is in
+ *      area     |  /##|#####|##\  |     area/    a pixel is the exact mean of the cells in it, the
+ *                                                crossings between heights y and y + 1 included
+ *      kernel   | _/##|#####|##\_ |     kernel/  a pixel is the mean of the rows around it, weighed
+ *                                                by a kernel; they are kept as edges, not pixels
+ */
+#include "row/row.h"
 
-/* So many rows on, and more, it is cheaper to begin anew than to follow every boundary there. */
+/* When a row is this far below the last one, it is cheaper to find its boundaries afresh than to
+ * follow them down. */
 #define FAR_ROWS 16
+
+/* ---------------------------------------------------------------- life */
+
+/* The filter's way to the edges of a row. */
+static celspan_status retain(void *maker, int32_t y, cs_retained_row *retained) {
+  return cs_row_retain(maker, y, retained);
+}
 
 celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
                                  const cs_plan *plan) {
-  *maker = (cs_row_maker){.context = context, .plan = plan, .row = CS_ROW_NOWHERE};
+  *maker = (cs_row_maker){.context = context, .plan = plan, .row = CS_ROW_NONE};
   cs_active_init(&maker->active, &plan->boundaries, &plan->cull);
   maker->active.notes_bends = plan->antialias != CELSPAN_ANTIALIAS_NONE;
   cs_cells_init(&maker->cells);
   cs_arena_init(&maker->arena);
-  cs_scanline_init(&maker->output);
+  cs_procedures_init(&maker->procedures, &maker->composer, &maker->arena, plan->width,
+                     plan->margin);
   CS_TRY(cs_composer_init(&maker->composer, context, &plan->stack,
                           cs_painter_opacity(&maker->painter)));
   CS_TRY(cs_painter_init(&maker->painter, context, &maker->composer));
-  return plan->kernel ? cs_filter_init(maker) : CELSPAN_OK;
+  cs_row_parts parts = {&maker->composer,   &maker->painter, &maker->active, &maker->cells,
+                        &maker->procedures, &maker->arena,   plan->width};
+  cs_centre_init(&maker->centre, &parts);
+  cs_area_init(&maker->area, &parts);
+  return plan->kernel ? cs_filter_init(&maker->filter, plan->kernel, &maker->painter, plan->width,
+                                       retain, maker)
+                      : CELSPAN_OK;
 }
 
 void cs_row_maker_finish(cs_row_maker *maker) {
   if (!maker->context)
     return;
   cs_memory *memory = maker->context->memory;
+  cs_filter_finish(&maker->filter, memory);
+  cs_area_finish(&maker->area, memory);
+  cs_procedures_finish(&maker->procedures, memory);
+  cs_arena_finish(&maker->arena, memory);
+  cs_cells_finish(&maker->cells, memory);
   cs_painter_finish(&maker->painter);
   cs_composer_finish(&maker->composer);
   cs_active_finish(&maker->active, memory);
-  cs_cells_finish(&maker->cells, memory);
-  cs_edges_finish(&maker->edges, memory);
-  cs_window_free(&maker->window, memory);
-  cs_intersections_finish(&maker->intersections, memory);
-  cs_mem_free(memory, maker->members, maker->member_capacity * sizeof *maker->members);
-  cs_mem_free(memory, maker->member_lists, maker->list_capacity * sizeof *maker->member_lists);
-  cs_arena_finish(&maker->arena, memory);
-  cs_scanline_finish(&maker->output, memory);
-  cs_filter_finish(maker);
   *maker = (cs_row_maker){0};
 }
 
-/* The height at which the active boundaries stand for a row. */
+/* ---------------------------------------------------------------- boundaries and cells of a row */
+
+/* The height that the boundaries are at for a row: its centre, or its top where the whole row
+ * counts. */
 static double row_height(const cs_row_maker *maker, int32_t y) {
   return maker->plan->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
 }
 
+/* Moves the boundaries down to a height. What was looked ahead to is settled first. */
 static celspan_status advance(cs_row_maker *maker, double height, cs_change *change) {
   cs_active *active = &maker->active;
   cs_change settled = cs_change_none, moved = cs_change_none;
@@ -54,47 +89,51 @@ static celspan_status advance(cs_row_maker *maker, double height, cs_change *cha
   return CELSPAN_OK;
 }
 
-/* Brings boundaries and cells to the row: from a row above when that is near. */
-static celspan_status reach_row(cs_row_maker *maker, int32_t y) {
-  cs_change change = cs_change_all;
-  if (maker->row != CS_ROW_NOWHERE && maker->row < y && y - maker->row < FAR_ROWS)
-    CS_TRY(advance(maker, row_height(maker, y), &change));
-  else
-    CS_TRY(cs_active_start(maker->context, &maker->active, row_height(maker, y)));
+/* Brings the boundaries to the row: down from a row above when that is near. */
+static celspan_status sweep_to(cs_row_maker *maker, int32_t y, cs_change *change) {
+  double height = row_height(maker, y);
+  if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)
+    return advance(maker, height, change);
+  *change = cs_change_all;
+  return cs_active_start(maker->context, &maker->active, height);
+}
+
+/* Brings boundaries and cells to the row. */
+static celspan_status begin_row(cs_row_maker *maker, int32_t y) {
+  cs_change change;
+  CS_TRY(sweep_to(maker, y, &change));
   if (cs_composer_begin_row(&maker->composer)) {
     cs_cells_forget(&maker->cells);
     change = cs_change_all;
   }
   if (!cs_change_is_none(change)) {
-    maker->looks++;
-    maker->change = change;
+    cs_centre_note_change(&maker->centre, change);
     CS_TRY(cs_cells_update(&maker->cells, &maker->composer, &maker->active, change));
   }
-  return maker->composer.failure;
+  CS_TRY(maker->composer.failure);
+  maker->row = y;
+  return CELSPAN_OK;
 }
 
-celspan_status cs_row_retain(cs_row_maker *maker, int32_t row, cs_retained_row *retained) {
+/* ---------------------------------------------------------------- rows */
+
+celspan_status cs_row_retain(cs_row_maker *maker, int32_t y, cs_retained_row *retained) {
   cs_arena_reset(&maker->arena);
-  CS_TRY(reach_row(maker, row));
-  maker->row = row;
-  cs_retained_begin(retained, row, maker->cells.cells[0].colour);
-  maker->window.retained = retained;
-  CS_TRY(cs_area_row(maker, row, NULL));
-  retained->is_sealed = maker->composer.failure == CELSPAN_OK;
+  CS_TRY(begin_row(maker, y));
+  CS_TRY(cs_area_retain(&maker->area, y, retained));
   return maker->composer.failure;
 }
 
 static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
-  bool is_centre = maker->plan->antialias == CELSPAN_ANTIALIAS_NONE;
-  if (!is_centre)
-    cs_row_clear(out);
-  if (maker->plan->kernel)
-    return cs_filter_row(maker, y, out);
-  CS_TRY(reach_row(maker, y));
-  maker->row = y;
-  if (is_centre)
-    return cs_centre_row(maker, y, out);
-  CS_TRY(cs_area_row(maker, y, out));
+  if (maker->plan->antialias == CELSPAN_ANTIALIAS_NONE) {
+    CS_TRY(begin_row(maker, y));
+    return cs_centre_row(&maker->centre, y, out);
+  }
+  cs_row_clear(out);
+  if (maker->plan->kernel) /* it begins each row under the kernel by itself */
+    return cs_filter_row(&maker->filter, y, out);
+  CS_TRY(begin_row(maker, y));
+  CS_TRY(cs_area_row(&maker->area, y, out));
   return maker->composer.failure;
 }
 
@@ -102,7 +141,7 @@ celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_row *out) {
   cs_arena_reset(&maker->arena);
   celspan_status status = make_row(maker, y, out);
   if (status != CELSPAN_OK) {
-    maker->row = CS_ROW_NOWHERE;
+    maker->row = CS_ROW_NONE;
     cs_cells_restart(&maker->cells, &maker->composer);
   }
   return status;

@@ -16,7 +16,7 @@ void cs_row_finish(cs_row *row, cs_memory *memory) {
 void cs_row_clear(cs_row *row) {
   row->count = 0;
   row->varied = (cs_varied){0};
-  row->drawn_by = NULL;
+  row->made_by.maker = NULL;
   cs_arena_reset(&row->colours);
 }
 
@@ -81,7 +81,7 @@ celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0, i
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   size_t kept = 0;
   row->varied = (cs_varied){0};
-  row->drawn_by = NULL;
+  row->made_by.maker = NULL;
   for (size_t i = 0; i < row->count; i++) {
     celspan_span span = row->spans[i];
     int32_t from = span.x0 < x0 ? x0 : span.x0, to = span.x1 > x1 ? x1 : span.x1;

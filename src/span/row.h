@@ -19,15 +19,20 @@ static inline void cs_varied_count(cs_varied *varied, celspan_span_kind kind) {
   varied->arrays += kind == CELSPAN_SPAN_ARRAY;
 }
 
+/* Who filled a row, and in which state of his: he need not fill it again, or only in part, when it
+ * comes back to him. Nothing else reads it; clearing or appending removes it. See row/centre.h. */
+typedef struct cs_row_mark {
+  const void *maker; /* NULL: nobody is known */
+  uint64_t changes;
+} cs_row_mark;
+
 typedef struct cs_row {
   celspan_span *spans;
   size_t count, capacity;
   cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
   cs_arena colours;
-  /* Kept by the scan that made it, and forgotten when another hand is at it: row/centre.c. */
-  const void *drawn_by;
-  uint64_t drawn_as;
+  cs_row_mark made_by;
 } cs_row;
 
 void cs_row_init(cs_row *row);

@@ -44,25 +44,25 @@ static void find(celspan_context *context, cs_intersections *m, size_t count, do
                  double y1) {
   CHECK(cs_intersections_reserve(m, context, count) == CELSPAN_OK);
   for (size_t i = 0; i < count; i++) {
-    m->movers[i] = (cs_active_edge){
+    m->edges[i] = (cs_active_edge){
         .points = points[i], .at = 1, .last_at = 1, .last_x = tops[i], .last_y = 2};
     m->foot[i] = x_at(i, y0);
   }
   CHECK(cs_intersections_find(m, context, count, y0, y1) == CELSPAN_OK);
 }
 
-/* Whether the meetings of every place are listed in order, and all meetings with them. */
+/* Whether the intersections of every place are listed in order, and none is missing. */
 static bool are_listed(const cs_intersections *m, size_t count) {
   size_t listed = 0;
   for (size_t place = 0; place < count; place++)
-    for (uint32_t k = m->first[place], before = 0; k != CS_MEETINGS_NONE;
+    for (uint32_t k = m->first[place], before = 0; k != CS_INTERSECTIONS_NONE;
          before = k, k = m->intersections[k].next, listed++)
       if (k < before)
         return false;
   return listed == m->count;
 }
 
-static void check_meetings(const cs_intersections *m, size_t count) {
+static void check_intersections(const cs_intersections *m, size_t count) {
   uint32_t order[MOST];
   double y = 2;
   for (uint32_t i = 0; i < count; i++)
@@ -105,7 +105,7 @@ static void test_random(celspan_context *context) {
     int bends = round % 2 == 0 ? 0 : BENDS;
     make_polylines(count, bends);
     find(context, &m, count, 2, 3);
-    check_meetings(&m, count);
+    check_intersections(&m, count);
     CHECK(bends > 0 || m.count == count_inversions(count));
   }
   find(context, &m, 0, 2, 3);

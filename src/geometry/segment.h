@@ -1,0 +1,9 @@
+/* A straight piece of an edge on its way down. */
+#ifndef CS_GEOMETRY_SEGMENT_H
+#define CS_GEOMETRY_SEGMENT_H
+
+typedef struct cs_segment {
+  double xa, ya, xb, yb; /* pixels, from (xa, ya) down to (xb, yb) */
+} cs_segment;
+
+#endif
