@@ -1,5 +1,7 @@
 /* Boolean objects, by name and by operator. Chains of one operator flatten: a ~ b ~ c is
  * xor{a, b, c}. */
+#include "bind/construct.h"
+#include "bind/form.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/userdata.h"
@@ -65,7 +67,7 @@ static int clip(lua_State *L) {
     lua_pushvalue(L, i);
     lua_rawseti(L, -2, i);
   }
-  cs_userdata_construct(L, &noun_clip, lua_gettop(L));
+  cs_construct_value(L, &noun_clip, lua_gettop(L));
   return 1;
 }
 
@@ -96,7 +98,7 @@ static int operate(lua_State *L, const cs_noun *noun, const char *sign) {
   }
   lua_pushvalue(L, 2);
   lua_rawseti(L, 3, count + 1);
-  cs_userdata_construct(L, noun, 3);
+  cs_construct_value(L, noun, 3);
   cs_userdata *value = lua_touserdata(L, -1);
   value->is_chain = true;
   return 1;
@@ -116,7 +118,7 @@ void cs_open_boolean(lua_State *L) {
                                        {"__bxor", operate_xor},
                                        {NULL, NULL}};
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_userdata_push_constructor(L, nouns[i]);
+    cs_construct_push(L, nouns[i]);
     lua_setfield(L, -2, nouns[i]->name);
   }
   lua_pushcfunction(L, clip);

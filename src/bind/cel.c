@@ -1,4 +1,6 @@
 /* Cels. */
+#include "bind/construct.h"
+#include "bind/form.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/placed.h"
@@ -92,6 +94,6 @@ static const cs_noun noun = {.name = "cel",
 
 void cs_open_cel(lua_State *L) {
   cs_userdata_register(L, &cs_kind_cel, cs_placed_methods);
-  cs_userdata_push_constructor(L, &noun);
+  cs_construct_push(L, &noun);
   lua_setfield(L, -2, noun.name);
 }

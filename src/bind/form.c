@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "bind/host.h"
+#include "bind/suggest.h"
 #include "bind/userdata.h"
 
 #define MOST_FIELDS 32
@@ -52,7 +53,7 @@ static bool is_known(const cs_noun *noun, const char *name) {
 static _Noreturn void fail_unknown(const cs_form *form, const char *name) {
   const char *names[MOST_FIELDS] = {0};
   size_t count = list_names(form->noun, names);
-  const char *nearest = cs_form_nearest(name, names, count);
+  const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     cs_form_fail(form, "unknown field '%s'; did you mean '%s'?", name, nearest);
   if (count == 0)

@@ -9,36 +9,8 @@
 #define CS_BIND_FORM_H
 
 #include <lauxlib.h>
-#include <lua.h>
 
-#include "celspan/celspan.h"
-
-struct cs_kind;
-struct cs_userdata;
-struct cs_form;
-
-typedef struct cs_field {
-  const char *name;
-  const char *preset; /* what reading gives when it was left out: a number or a word; or NULL */
-} cs_field;
-
-/* What the array part of the table holds. */
-typedef enum cs_list {
-  CS_LIST_NONE,
-  CS_LIST_PARTS, /* a fixed number of parts: :with changes them one by one */
-  CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
-} cs_list;
-
-typedef struct cs_noun {
-  const char *name;
-  const struct cs_kind *kind; /* NULL: a table of options, not a value */
-  cs_list list;
-  const char *item;       /* "object": one of them; NULL without a list */
-  const cs_field *fields; /* ended by a NULL name */
-  const char *either[2];  /* fields of which only one may be given; NULL: none */
-  void (*create)(const struct cs_form *form, struct cs_userdata *value);
-  void (*complete)(lua_State *L, int fields); /* works out frozen fields; NULL: nothing to do */
-} cs_noun;
+#include "bind/noun.h"
 
 typedef struct cs_form {
   lua_State *L;
@@ -96,8 +68,5 @@ double cs_form_argument(lua_State *L, int index, const char *function, const cha
 
 /* count items of `size` bytes, owned by Lua, pushed. */
 void *cs_form_scratch(lua_State *L, size_t count, size_t size);
-
-/* The nearest of `count` names to a word, NULL when none is near. */
-const char *cs_form_nearest(const char *word, const char *const *names, size_t count);
 
 #endif

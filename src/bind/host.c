@@ -39,7 +39,7 @@ static bool has_host(lua_State *L) {
   return found;
 }
 
-void cs_open_host(lua_State *L, celspan_context *context) {
+void cs_host_open(lua_State *L, celspan_context *context) {
   if (has_host(L))
     return;
   cs_host **box = lua_newuserdatauv(L, sizeof *box, 0);

@@ -21,7 +21,7 @@ typedef struct cs_host {
 
 /* Makes the host of this state if it has none. context: NULL makes one; else borrowed, and must
  * outlive the state. Raises when there is no memory. */
-void cs_open_host(lua_State *L, celspan_context *context);
+void cs_host_open(lua_State *L, celspan_context *context);
 /* Raises when the state has no host or is closing. */
 cs_host *cs_host_get(lua_State *L);
 celspan_context *cs_host_context(lua_State *L);

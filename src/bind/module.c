@@ -3,8 +3,8 @@
 
 #include <lauxlib.h>
 
-#include "bind/form.h"
 #include "bind/host.h"
+#include "bind/suggest.h"
 #include "celspan/lua.h"
 
 #define MOST_NAMES 128
@@ -27,13 +27,13 @@ static int nearest(lua_State *L) {
     names[i] = lua_tostring(L, -1); /* held by the table */
     lua_pop(L, 1);
   }
-  lua_pushstring(L, cs_form_nearest(word, names, count));
+  lua_pushstring(L, cs_suggest_name(word, names, count));
   return 1;
 }
 
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"resolve", resolve}, {"nearest", nearest}, {NULL, NULL}};
-  cs_open_host(L, NULL);
+  cs_host_open(L, NULL);
   luaL_newlib(L, functions);
   return 1;
 }
@@ -44,7 +44,7 @@ int luaopen_celspan(lua_State *L) {
       cs_open_scanline, cs_open_boolean, cs_open_cel,    cs_open_rostrum,
       cs_open_film,     cs_open_render,  cs_open_pixels, cs_open_spans};
   luaL_checkversion(L);
-  cs_open_host(L, NULL);
+  cs_host_open(L, NULL);
   lua_createtable(L, 0, 32);
   lua_pushfstring(L, "celspan %s", celspan_version());
   lua_setfield(L, -2, "_VERSION");

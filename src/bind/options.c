@@ -126,7 +126,7 @@ void cs_options_read(const cs_form *form, cs_options_frame *out) {
     desc->antialias = &out->antialias;
 }
 
-cs_form cs_open_options(lua_State *L, const cs_noun *noun, int index) {
+cs_form cs_options_open(lua_State *L, const cs_noun *noun, int index) {
   if (lua_isnoneornil(L, index)) {
     lua_newtable(L);
     index = lua_gettop(L);

@@ -1,4 +1,6 @@
 /* Paints: the Beta colour model in Lua. */
+#include "bind/construct.h"
+#include "bind/form.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/userdata.h"
@@ -122,12 +124,12 @@ static int mix(lua_State *L) {
 }
 
 void cs_open_paint(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
   static const luaL_Reg functions[] = {
       {"rgb", make_rgb}, {"gel", make_gel}, {"mix", mix}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_paint, methods);
   luaL_setfuncs(L, functions, 0);
-  cs_userdata_push_constructor(L, &cs_noun_paint);
+  cs_construct_push(L, &cs_noun_paint);
   lua_setfield(L, -2, "paint");
   push_paint(L, "clear", (const double[]){0, 0, 0}, (const double[]){1, 1, 1}, 0);
   lua_setfield(L, -2, "clear");

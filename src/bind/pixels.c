@@ -72,7 +72,7 @@ static image *push_image(const cs_form *form, const celspan_frame_desc *desc) {
 
 static int pixels(lua_State *L) {
   lua_settop(L, 2);
-  cs_form form = cs_open_options(L, &noun, 2);
+  cs_form form = cs_options_open(L, &noun, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
   cs_options_exposures(L, 1, "pixels: argument 1", &frame.desc);

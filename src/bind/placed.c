@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "bind/construct.h"
+#include "bind/form.h"
 #include "bind/host.h"
 #include "bind/userdata.h"
 
@@ -158,5 +160,5 @@ const luaL_Reg cs_placed_methods[] = {{"translate", translate},
                                       {"fade", fade},
                                       {"bounds", bounds},
                                       {"contains", contains},
-                                      {"with", cs_userdata_with},
+                                      {"with", cs_construct_with},
                                       {NULL, NULL}};

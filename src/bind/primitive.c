@@ -1,4 +1,5 @@
 /* Primitives: rect, triangle, circle, ellipse, polygon, nurbs, path, image. */
+#include "bind/construct.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/texture.h"
@@ -169,7 +170,7 @@ static const cs_noun nouns[] = {
 
 void cs_open_primitive(lua_State *L) {
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_userdata_push_constructor(L, &nouns[i]);
+    cs_construct_push(L, &nouns[i]);
     lua_setfield(L, -2, nouns[i].name);
   }
 }

@@ -1,11 +1,10 @@
 /* celspan.render: a film or a rostrum into files. */
-#include "bind/film.h"
 #include "bind/host.h"
+#include "bind/lua_film.h"
 #include "bind/module.h"
 #include "bind/options.h"
-#include "bind/shoot.h"
 #include "bind/userdata.h"
-#include "film/sequence.h"
+#include "film/shoot.h"
 
 static const cs_field fields[] = {
     CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL}, {"format", NULL},
@@ -105,11 +104,11 @@ static void read_film(const cs_form *form, job *j) {
   if (is_film)
     lua_pushvalue(L, 1);
   else if (cs_userdata_test(L, 1, &cs_kind_rostrum))
-    cs_film_push_still(L, 1, desc->width, desc->height);
+    cs_lua_film_push_still(L, 1, desc->width, desc->height);
   else
     luaL_error(L, "render: argument 1 must be a film or a rostrum, got %s", cs_userdata_type(L, 1));
   j->film = lua_gettop(L);
-  cs_film_read(L, j->film, &j->info);
+  cs_lua_film_read(L, j->film, &j->info);
   if (!cs_form_has(form, "size")) {
     desc->width = j->info.width;
     desc->height = j->info.height;
@@ -142,7 +141,12 @@ static celspan_status read_frames(const cs_form *form, job *j) {
   return status;
 }
 
-static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_status status) {
+static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
+  const job *j = user;
+  return cs_lua_film_build(j->L, j->film, number, out);
+}
+
+static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
   job *j = user;
   (void)frame;
   j->done += status == CELSPAN_OK;
@@ -150,15 +154,15 @@ static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_stat
 }
 
 static celspan_status write_frames(job *j) {
-  const cs_shoot shoot = {.L = j->L,
-                          .film = j->film,
-                          .context = j->context,
+  const cs_shoot shoot = {.context = j->context,
+                          .film = j->info,
                           .frames = &j->sequence,
                           .pattern = j->pattern,
                           .frame = j->frame.desc,
                           .file = j->file,
                           .user = j,
-                          .told = told,
+                          .build = build,
+                          .finished = finished,
                           .tick = j->progress ? report_progress : NULL};
   return cs_shoot_run(&shoot);
 }
@@ -168,7 +172,7 @@ static int render(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
     return luaL_error(L, "render: argument 2 must be a file name like \"shot.####.png\", got %s",
                       cs_userdata_type(L, 2));
-  cs_form form = cs_open_options(L, &noun, 3);
+  cs_form form = cs_options_open(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);
   j->file = CELSPAN_FILE_DESC;

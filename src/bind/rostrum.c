@@ -1,4 +1,5 @@
 /* The rostrum: cels, lights, camera. */
+#include "bind/construct.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/options.h"
@@ -59,8 +60,8 @@ const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .create = create};
 
 void cs_open_rostrum(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_rostrum, methods);
-  cs_userdata_push_constructor(L, &cs_noun_rostrum);
+  cs_construct_push(L, &cs_noun_rostrum);
   lua_setfield(L, -2, cs_noun_rostrum.name);
 }

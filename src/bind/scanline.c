@@ -6,6 +6,8 @@
  */
 #include <stdlib.h>
 
+#include "bind/construct.h"
+#include "bind/form.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/userdata.h"
@@ -141,6 +143,6 @@ static void create(const cs_form *form, cs_userdata *value) {
 }
 
 void cs_open_scanline(lua_State *L) {
-  cs_userdata_push_constructor(L, &noun);
+  cs_construct_push(L, &noun);
   lua_setfield(L, -2, noun.name);
 }

@@ -103,7 +103,7 @@ static int fail(lua_State *L) {
 
 static int spans(lua_State *L) {
   lua_settop(L, 2);
-  cs_form form = cs_open_options(L, &noun_spans, 2);
+  cs_form form = cs_options_open(L, &noun_spans, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
   cs_options_exposures(L, 1, "spans: argument 1", &frame.desc);
@@ -135,7 +135,7 @@ static int probe(lua_State *L) {
   lua_settop(L, 4);
   celspan_point point = {cs_form_argument(L, 2, "probe", "x"),
                          cs_form_argument(L, 3, "probe", "y")};
-  cs_form form = cs_open_options(L, &noun_probe, 4);
+  cs_form form = cs_options_open(L, &noun_probe, 4);
   double film[2] = {1920, 1080}, rgba[4];
   cs_form_numbers(&form, "film", 2, film);
   celspan_frame_desc desc;

@@ -1,7 +1,7 @@
-/* The nearest known name to a mistyped one. */
-#include <string.h>
+#include "bind/suggest.h"
 
-#include "bind/form.h"
+#include <stdbool.h>
+#include <string.h>
 
 #define LONGEST 32
 
@@ -30,7 +30,7 @@ static int distance(const char *a, const char *b) {
   return d[m][n];
 }
 
-const char *cs_form_nearest(const char *word, const char *const *names, size_t count) {
+const char *cs_suggest_name(const char *word, const char *const *names, size_t count) {
   const char *best = NULL;
   int best_distance = (int)strlen(word) <= 4 ? 2 : 3; /* one slip in a short word, two in a long */
   for (size_t i = 0; i < count; i++) {

@@ -1,6 +1,7 @@
 /* Textures: gradients and pictures. */
 #include "bind/texture.h"
 
+#include "bind/construct.h"
 #include "bind/host.h"
 #include "bind/module.h"
 #include "bind/userdata.h"
@@ -115,10 +116,10 @@ static const cs_noun nouns[] = {
 };
 
 void cs_open_texture(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_userdata_with}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_texture, methods);
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-    cs_userdata_push_constructor(L, &nouns[i]);
+    cs_construct_push(L, &nouns[i]);
     lua_setfield(L, -2, nouns[i].name);
   }
 }

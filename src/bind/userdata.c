@@ -3,8 +3,6 @@
 #include <lauxlib.h>
 #include <string.h>
 
-#include "bind/host.h"
-
 /* Deep enough for every field there is: a list of points. */
 #define COPY_DEPTH 3
 
@@ -34,47 +32,7 @@ static void push_copy(lua_State *L, int index, int depth) {
   }
 }
 
-static void set_presets(lua_State *L, const cs_noun *noun, int table) {
-  for (const cs_field *field = noun->fields; field->name; field++) {
-    if (!field->preset)
-      continue;
-    lua_pushstring(L, field->name);
-    if (lua_rawget(L, table) == LUA_TNIL) {
-      lua_pushstring(L, field->name);
-      if (!lua_stringtonumber(L, field->preset))
-        lua_pushstring(L, field->preset);
-      lua_rawset(L, table);
-    }
-    lua_pop(L, 1);
-  }
-}
-
-void cs_userdata_freeze(lua_State *L, const cs_noun *noun, int fields) {
-  push_copy(L, fields, COPY_DEPTH);
-  set_presets(L, noun, lua_gettop(L));
-  if (noun->complete)
-    noun->complete(L, lua_gettop(L));
-  lua_setiuservalue(L, -2, 1);
-}
-
-void cs_userdata_construct(lua_State *L, const cs_noun *noun, int fields) {
-  cs_form form = cs_form_open(L, noun, fields);
-  cs_userdata *value = cs_userdata_push(L, noun);
-  int place = lua_gettop(L);
-  noun->create(&form, value);
-  lua_settop(L, place);
-  cs_userdata_freeze(L, noun, form.table);
-}
-
-static int constructor(lua_State *L) {
-  cs_userdata_construct(L, lua_touserdata(L, lua_upvalueindex(1)), 1);
-  return 1;
-}
-
-void cs_userdata_push_constructor(lua_State *L, const cs_noun *noun) {
-  lua_pushlightuserdata(L, (void *)noun);
-  lua_pushcclosure(L, constructor, 1);
-}
+void cs_userdata_push_copy(lua_State *L, int table) { push_copy(L, table, COPY_DEPTH); }
 
 /* ---------------------------------------------------------------- finding */
 
@@ -105,75 +63,6 @@ const char *cs_userdata_type(lua_State *L, int index) {
   return lua_pushstring(L, luaL_typename(L, index));
 }
 
-/* ---------------------------------------------------------------- with */
-
-static void copy_into(lua_State *L, int from, int to) {
-  for (lua_pushnil(L); lua_next(L, from); lua_pop(L, 1)) {
-    lua_pushvalue(L, -2);
-    lua_pushvalue(L, -2);
-    lua_rawset(L, to);
-  }
-}
-
-static void clear_list(lua_State *L, int table) {
-  for (lua_Integer i = (lua_Integer)lua_rawlen(L, table); i >= 1; i--) {
-    lua_pushnil(L);
-    lua_rawseti(L, table, i);
-  }
-}
-
-/* Frozen fields hold both of two that exclude each other: the one that the changes do not name
- * goes, the second if they name none. */
-static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
-  if (!noun->either[0])
-    return;
-  lua_pushstring(L, noun->either[1]);
-  bool names_second = lua_rawget(L, changes) != LUA_TNIL;
-  lua_pushstring(L, noun->either[names_second ? 0 : 1]);
-  lua_pushnil(L);
-  lua_rawset(L, fields);
-  lua_pop(L, 1);
-}
-
-/* Does again what was done to `from` after its constructor. */
-static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
-  const cs_kind *kind = value->noun->kind;
-  celspan_context *context = cs_host_context(L);
-  void *changed = NULL;
-  if (kind->transform) {
-    cs_host_try(L, "with", kind->transform(context, value->handle, &from->matrix, &changed));
-    kind->unref(value->handle);
-    value->handle = changed;
-    value->matrix = from->matrix;
-  }
-  if (kind->fade) {
-    cs_host_try(L, "with", kind->fade(context, value->handle, from->fade, &changed));
-    kind->unref(value->handle);
-    value->handle = changed;
-    value->fade = from->fade;
-  }
-}
-
-int cs_userdata_with(lua_State *L) {
-  const cs_userdata *self = lua_touserdata(L, 1);
-  if (!self || !lua_getmetatable(L, 1) || lua_getfield(L, -1, "__celspan") != LUA_TBOOLEAN)
-    return luaL_error(L, "with: call it as a method, value:with{...}");
-  const cs_noun *noun = self->noun;
-  if (lua_type(L, 2) != LUA_TTABLE)
-    return luaL_error(L, "%s: with takes a table of changes, got %s", noun->name,
-                      cs_userdata_type(L, 2));
-  lua_settop(L, 2);
-  lua_getiuservalue(L, 1, 1);
-  push_copy(L, 3, COPY_DEPTH);
-  drop_other(L, noun, 2, 4);
-  if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
-    clear_list(L, 4);
-  copy_into(L, 2, 4);
-  cs_userdata_construct(L, noun, 4);
-  reapply(L, self, lua_touserdata(L, -1));
-  return 1;
-}
-
 /* ---------------------------------------------------------------- metamethods */
 
 /* A method, else a field; tables come out as copies. */
@@ -190,7 +79,7 @@ static int index_value(lua_State *L) {
     return 0;
   lua_pushvalue(L, 2);
   if (lua_rawget(L, -2) == LUA_TTABLE)
-    push_copy(L, -1, COPY_DEPTH);
+    cs_userdata_push_copy(L, -1);
   return 1;
 }
 

@@ -1,8 +1,5 @@
-/* Values: full userdata that hold a reference of something of the core's, and the fields they were
+/* Values: full userdata that hold a reference to something in the core, and the fields they were
  * made from.
- *
- *   noun   what a constructor makes ("circle"): its fields, and how they become a value
- *   kind   what can be done with it ("object"): one metatable each
  *
  * INVARIANT: a userdata is made closed (handle NULL), then filled; __gc releases it. Its user value
  * is a table of its own that no script can reach: fields that are read come out as copies.
@@ -10,23 +7,13 @@
 #ifndef CS_BIND_USERDATA_H
 #define CS_BIND_USERDATA_H
 
-#include <lua.h>
+#include <lauxlib.h>
 
-#include "bind/form.h"
-
-typedef struct cs_kind {
-  const char *name; /* of the metatable, "celspan.object" */
-  void (*unref)(void *handle);
-  celspan_status (*transform)(celspan_context *context, void *handle, const celspan_matrix *matrix,
-                              void **out);
-  celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
-  bool (*bounds)(const void *handle, celspan_box *out);
-  bool (*contains)(const void *handle, celspan_point point);
-} cs_kind;
+#include "bind/noun.h"
 
 typedef struct cs_userdata {
   const cs_noun *noun;
-  void *handle;          /* a reference of the core's; NULL: closed, or a noun without one */
+  void *handle; /* a reference to something in the core; NULL: closed, or a noun without one */
   celspan_matrix matrix; /* objects, cels: applied since the constructor, for :with */
   double fade;           /* likewise */
   bool is_chain;         /* made by an operator and not touched since: the next one flattens it */
@@ -44,12 +31,8 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *met
 
 /* Pushes a closed value. */
 cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun);
-/* Gives the value on top of the stack a copy of the table at `fields`, with the noun's presets. */
-void cs_userdata_freeze(lua_State *L, const cs_noun *noun, int fields);
-/* Checks, makes and pushes a value from the table at `fields`. */
-void cs_userdata_construct(lua_State *L, const cs_noun *noun, int fields);
-/* Pushes the constructor of a noun. */
-void cs_userdata_push_constructor(lua_State *L, const cs_noun *noun);
+/* Pushes a copy of the table at `table`, with the tables in it. */
+void cs_userdata_push_copy(lua_State *L, int table);
 
 /* The value at index if it is of this kind, else NULL. Raises when it is closed. */
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind);
@@ -58,8 +41,5 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 
 /* Pushes what the value at index is, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
-
-/* The method :with of every kind that has one. */
-int cs_userdata_with(lua_State *L);
 
 #endif

@@ -40,9 +40,9 @@ static celspan_status meet_frame(cs_script *script, survey *s) {
   bool is_new = true;
   size_t index;
   if (!cs_scene_has_procedure(frame->exposures, frame->count))
-    CS_TRY(cs_duplicates_meet(&s->twins, script->context,
-                              cs_scene_hash(frame->exposures, frame->count), script->number, &index,
-                              &is_new));
+    CS_TRY(cs_duplicates_add(&s->twins, script->context,
+                             cs_scene_hash(frame->exposures, frame->count), script->number, &index,
+                             &is_new));
   s->different += is_new;
   return CELSPAN_OK;
 }

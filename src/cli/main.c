@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bind/form.h"
+#include "bind/suggest.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
@@ -74,7 +74,7 @@ static cs_exit refuse_verb(const char *name) {
   const char *names[VERB_COUNT + 1] = {"help"};
   for (size_t i = 0; i < VERB_COUNT; i++)
     names[i + 1] = VERBS[i].name;
-  const char *nearest = cs_form_nearest(name, names, VERB_COUNT + 1);
+  const char *nearest = cs_suggest_name(name, names, VERB_COUNT + 1);
   if (nearest)
     return cs_report_usage("unknown verb '%s': did you mean '%s'?", name, nearest);
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);

@@ -14,8 +14,8 @@
 #ifndef CS_CLI_RECORD_H
 #define CS_CLI_RECORD_H
 
-#include "bind/shoot.h"
 #include "cli/script.h"
+#include "film/shoot.h"
 
 typedef struct cs_record_line {
   int64_t number;

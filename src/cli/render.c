@@ -1,6 +1,6 @@
 /* celspan render SCRIPT -o OUT: the frames of a film.
  *
- *   target (where to) -> shoot (bind/shoot.h: build, make, copy) -> told, frame by frame
+ *   target (where to) -> shoot (film/shoot.h: build, make, copy) -> told, frame by frame
  *
  * Everything that can be refused is refused before the first frame is made. A frame that fails ends
  * the run, unless it is to go on: the frames before it are whole and stay.
@@ -9,7 +9,6 @@
 #include <stdio.h>
 
 #include "base/context.h"
-#include "bind/shoot.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/rawrow.h"
@@ -17,6 +16,7 @@
 #include "cli/target.h"
 #include "cli/verbs.h"
 #include "cli/view.h"
+#include "film/shoot.h"
 
 typedef struct render_job {
   cs_script *script;
@@ -69,7 +69,12 @@ static const char *place_of(const cs_request *request, const cs_shoot_frame *fra
                                                 : frame->path;
 }
 
-static celspan_status told(void *user, const cs_shoot_frame *frame, celspan_status status) {
+static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
+  const render_job *job = user;
+  return cs_lua_film_build(job->script->L, CS_SCRIPT_FILM, number, out);
+}
+
+static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
   static const char *const ways[] = {"made", "copied", "kept"};
   render_job *job = user;
   if (status == CELSPAN_OK && job->request->resumes)
@@ -116,9 +121,8 @@ static cs_exit tell_end(render_job *job, cs_exit outcome) {
 static cs_exit shoot(render_job *job) {
   const cs_request *request = job->request;
   bool is_stream = request->output && cs_target_is_stream(request->output);
-  const cs_shoot shoot = {.L = job->script->L,
-                          .film = CS_SCRIPT_FILM,
-                          .context = job->script->context,
+  const cs_shoot shoot = {.context = job->script->context,
+                          .film = job->script->film,
                           .frames = &job->frames,
                           .pattern = is_stream ? NULL : request->output,
                           .frame = job->frame,
@@ -129,7 +133,8 @@ static cs_exit shoot(render_job *job) {
                           .user = job,
                           .put = is_stream ? put_raw : NULL,
                           .keep = request->resumes ? keep : NULL,
-                          .told = told,
+                          .build = build,
+                          .finished = finished,
                           .tick = tick};
   celspan_status status = cs_shoot_run(&shoot);
   return job->outcome != CS_EXIT_OK ? job->outcome

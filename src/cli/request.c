@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "bind/form.h"
+#include "bind/suggest.h"
 
 typedef struct option {
   const char *name;
@@ -128,7 +128,7 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
   for (size_t i = 0; i < OPTION_COUNT; i++)
     if (belongs(&OPTIONS[i], verb))
       names[count++] = OPTIONS[i].name;
-  const char *nearest = cs_form_nearest(name, names, count);
+  const char *nearest = cs_suggest_name(name, names, count);
   if (nearest)
     return cs_report_usage("unknown option '%s': did you mean '%s'?", name, nearest);
   return cs_report_usage("unknown option '%s' ('celspan help %s' lists the options)", name,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bind/host.h"
+#include "bind/lua_script.h"
 #include "celspan/lua.h"
 #include "cli/interrupt.h"
 #include "cli/view.h"
@@ -40,7 +41,7 @@ static int prepare(lua_State *L) {
   luaL_openlibs(L);
   if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
     return lua_error(L);
-  cs_open_host(L, lua_touserdata(L, 1));
+  cs_host_open(L, lua_touserdata(L, 1));
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   return 0;
 }
@@ -67,17 +68,17 @@ cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_s
   running = out->L;
   cs_interrupt_call(interrupt_script);
   celspan_status status =
-      cs_film_load(out->L, request->operands[0], (int)request->script_argument_count,
-                   (const char *const *)request->script_arguments);
+      cs_lua_script_run(out->L, request->operands[0], (int)request->script_argument_count,
+                        (const char *const *)request->script_arguments);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
-  cs_film_read(out->L, CS_SCRIPT_FILM, &out->film);
+  cs_lua_film_read(out->L, CS_SCRIPT_FILM, &out->film);
   return CS_EXIT_OK;
 }
 
 void cs_script_close(cs_script *script) {
   cs_interrupt_call(NULL);
-  cs_film_finish_frame(&script->frame);
+  cs_film_frame_finish(&script->frame);
   if (script->L)
     lua_close(script->L);
   script->L = NULL;
@@ -85,9 +86,9 @@ void cs_script_close(cs_script *script) {
 
 celspan_status cs_script_try(cs_script *script, int64_t number) {
   running = script->L;
-  cs_film_finish_frame(&script->frame);
+  cs_film_frame_finish(&script->frame);
   script->number = number;
-  return cs_film_build(script->L, CS_SCRIPT_FILM, number, &script->frame);
+  return cs_lua_film_build(script->L, CS_SCRIPT_FILM, number, &script->frame);
 }
 
 cs_exit cs_script_build(cs_script *script, int64_t number) {

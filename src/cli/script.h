@@ -4,7 +4,7 @@
 #ifndef CS_CLI_SCRIPT_H
 #define CS_CLI_SCRIPT_H
 
-#include "bind/film.h"
+#include "bind/lua_film.h"
 #include "cli/request.h"
 
 #define CS_SCRIPT_FILM 1 /* where the film stands on the state's stack */

@@ -1,7 +1,7 @@
-/* Frames that show the same: the first of them is made, the others can be taken from it.
+/* Frames that show the same scene: the first of them is made, and the others can be copied from it.
  *
- * INVARIANT: of each scene one frame is known, the first that was met; what it left is set when it
- * is finished.
+ * INVARIANT: one frame of each scene is known, the first that was added. What it can be copied from
+ * is set when that frame is finished.
  */
 #ifndef CS_FILM_DUPLICATES_H
 #define CS_FILM_DUPLICATES_H
@@ -12,23 +12,23 @@
 typedef struct cs_duplicate {
   cs_hash scene;
   int64_t number;     /* of the frame */
-  bool is_made;       /* what follows is known */
-  cs_file_stamp file; /* where there are files */
-  uint64_t digest[2]; /* of its pixels, where they are asked for */
+  bool is_made;       /* the fields below are set */
+  cs_file_stamp file; /* where frames are files */
+  uint64_t digest[2]; /* of its pixels, where digests are asked for */
 } cs_duplicate;
 
 typedef struct cs_duplicates {
-  cs_duplicate *known; /* in the order in which they were met */
+  cs_duplicate *known; /* in the order in which they were added */
   size_t count, capacity;
-  size_t *places;     /* indices into known, plus 1, by hash; 0: free */
-  size_t place_count; /* 0 or 2^n, at least twice the count */
+  size_t *slots;     /* a hash table of indices into known, plus 1; 0: free */
+  size_t slot_count; /* 0 or 2^n, at least twice the count */
 } cs_duplicates;
 
-/* The index of the scene's frame: `number` where it is the first. *is_new tells which. Errors:
- * NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_duplicates_meet(cs_duplicates *duplicates,
-                                                  celspan_context *context, cs_hash scene,
-                                                  int64_t number, size_t *index, bool *is_new);
+/* Finds the frame of a scene, or adds frame `number` as its first; *is_new says which. *index: of
+ * the frame among `known`. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_duplicates_add(cs_duplicates *duplicates,
+                                                 celspan_context *context, cs_hash scene,
+                                                 int64_t number, size_t *index, bool *is_new);
 void cs_duplicates_finish(cs_duplicates *duplicates, celspan_context *context);
 
 #endif

@@ -1,4 +1,4 @@
-#include "bind/frame.h"
+#include "bind/lua_frame.h"
 
 #include <lauxlib.h>
 #include <string.h>
@@ -122,7 +122,7 @@ static void set_number(lua_State *L, const char *name, double number) {
   lua_setfield(L, -2, name);
 }
 
-void cs_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
+void cs_lua_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
   int64_t index = number - film->first;
   cs_userdata *value = cs_userdata_push(L, &noun);
   value->seed = seed_of(film, number);
@@ -139,7 +139,7 @@ void cs_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
   lua_setiuservalue(L, -2, 1);
 }
 
-void cs_frame_register(lua_State *L) {
+void cs_lua_frame_register(lua_State *L) {
   static const luaL_Reg methods[] = {{"on", on}, {"random", random_number}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_frame, methods);
 }

@@ -1,4 +1,4 @@
-#include "bind/shoot.h"
+#include "film/shoot.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,67 +11,66 @@
 
 typedef struct job {
   const cs_shoot *shoot;
-  cs_film_info film;
-  bool has_duplicates; /* equal frames are looked for */
+  bool has_duplicates; /* equal frames are searched for */
   cs_duplicates duplicates;
 } job;
 
-/* What a frame carries through the reel. */
-typedef struct take {
+/* What a frame carries through the pipeline. */
+typedef struct frame_task {
   cs_shoot_frame frame;
   cs_film_frame built;
-  bool is_known; /* `twin` is the frame's own index, or that of an earlier one that it equals */
-  bool is_first;
+  bool is_known; /* `duplicate` is set */
+  bool is_first; /* of the frames that are equal to it */
   size_t duplicate;
-} take;
+} frame_task;
 
 /* ---------------------------------------------------------------- building */
 
-static celspan_status name_take(job *j, take *t) {
+static celspan_status name_frame(job *j, frame_task *task) {
   const cs_shoot *shoot = j->shoot;
-  cs_shoot_frame *frame = &t->frame;
-  frame->is_named = !cs_scene_has_procedure(t->built.exposures, t->built.count);
-  frame->scene = cs_scene_hash(t->built.exposures, t->built.count);
+  cs_shoot_frame *frame = &task->frame;
+  frame->is_named = !cs_scene_has_procedure(task->built.exposures, task->built.count);
+  frame->scene = cs_scene_hash(task->built.exposures, task->built.count);
   if (shoot->keep)
-    frame->inputs = cs_scene_hash_files(t->built.exposures, t->built.count);
+    frame->inputs = cs_scene_hash_files(task->built.exposures, task->built.count);
   if (!shoot->pattern || shoot->put)
     return CELSPAN_OK;
   return cs_sequence_name(shoot->context, shoot->pattern, frame->number, frame->path,
                           sizeof frame->path);
 }
 
-static celspan_status meet_duplicates(job *j, take *t) {
-  t->is_known = j->has_duplicates && t->frame.is_named;
-  return t->is_known ? cs_duplicates_meet(&j->duplicates, j->shoot->context, t->frame.scene,
-                                          t->frame.number, &t->duplicate, &t->is_first)
-                     : CELSPAN_OK;
+static celspan_status find_duplicate(job *j, frame_task *task) {
+  task->is_known = j->has_duplicates && task->frame.is_named;
+  return task->is_known ? cs_duplicates_add(&j->duplicates, j->shoot->context, task->frame.scene,
+                                            task->frame.number, &task->duplicate, &task->is_first)
+                        : CELSPAN_OK;
 }
 
-static cs_frame_pipeline_step choose_step(const job *j, const take *t) {
-  if (t->frame.way == CS_SHOOT_KEPT)
+static cs_frame_pipeline_step choose_step(const job *j, const frame_task *task) {
+  if (task->frame.way == CS_SHOOT_KEPT)
     return CS_FRAME_PIPELINE_NOTHING;
-  if (!t->frame.is_named || j->shoot->put)
+  if (!task->frame.is_named || j->shoot->put)
     return CS_FRAME_PIPELINE_HERE;
-  return t->is_known && !t->is_first ? CS_FRAME_PIPELINE_IN_TURN : CS_FRAME_PIPELINE_ANYWHERE;
+  return task->is_known && !task->is_first ? CS_FRAME_PIPELINE_IN_TURN : CS_FRAME_PIPELINE_ANYWHERE;
 }
 
 static celspan_status build(void *user, size_t index, void *carried, cs_frame_pipeline_step *step) {
   job *j = user;
-  take *t = carried;
+  frame_task *task = carried;
   const cs_shoot *shoot = j->shoot;
-  t->frame.number = shoot->frames->frames[index];
-  CS_TRY(cs_film_build(shoot->L, shoot->film, t->frame.number, &t->built));
-  CS_TRY(name_take(j, t));
-  if (shoot->keep && shoot->keep(shoot->user, &t->frame))
-    t->frame.way = CS_SHOOT_KEPT;
-  CS_TRY(meet_duplicates(j, t));
-  *step = choose_step(j, t);
+  task->frame.number = shoot->frames->frames[index];
+  CS_TRY(shoot->build(shoot->user, task->frame.number, &task->built));
+  CS_TRY(name_frame(j, task));
+  if (shoot->keep && shoot->keep(shoot->user, &task->frame))
+    task->frame.way = CS_SHOOT_KEPT;
+  CS_TRY(find_duplicate(j, task));
+  *step = choose_step(j, task);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- making */
 
-/* Writes the file and hashes its pixels in one go. */
+/* Writes the file and hashes its pixels in one pass over the rows. */
 static celspan_status make_both(celspan_context *context, const celspan_frame_desc *frame,
                                 const char *path, const celspan_file_desc *file,
                                 uint64_t digest[2]) {
@@ -92,8 +91,8 @@ static celspan_status make_both(celspan_context *context, const celspan_frame_de
 static celspan_file_desc describe_file(const job *j, int64_t number,
                                        const celspan_frame_desc *frame) {
   celspan_file_desc file = j->shoot->file;
-  file.title = j->film.title;
-  file.frames_second = j->film.frames_second;
+  file.title = j->shoot->film.title;
+  file.frames_second = j->shoot->film.frames_second;
   file.frame = number >= INT32_MIN && number <= INT32_MAX ? (int32_t)number : 0;
   file.is_opaque = celspan_frame_is_opaque(frame);
   file.workers = frame->workers;
@@ -112,24 +111,25 @@ static celspan_status make_frame(const job *j, celspan_context *context,
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);
 }
 
-/* Takes the frame from the one that it equals, where that is still to be had. Calling thread. */
-static celspan_status copy_duplicate(const job *j, celspan_context *context, take *t) {
-  const cs_duplicate *duplicate = &j->duplicates.known[t->duplicate];
+/* Copies the frame from the one that it equals, unless that is gone or was changed. Calling thread.
+ */
+static celspan_status copy_duplicate(const job *j, celspan_context *context, frame_task *task) {
+  const cs_duplicate *duplicate = &j->duplicates.known[task->duplicate];
   char from[CS_SHOOT_PATH];
   bool is_copied = duplicate->is_made;
   if (is_copied && j->shoot->pattern) {
     CS_TRY(cs_sequence_name(context, j->shoot->pattern, duplicate->number, from, sizeof from));
-    CS_TRY(cs_file_copy(context, from, &duplicate->file, t->frame.path, &is_copied));
+    CS_TRY(cs_file_copy(context, from, &duplicate->file, task->frame.path, &is_copied));
   }
   if (is_copied)
-    t->frame.way = CS_SHOOT_COPIED;
-  memcpy(t->frame.digest, duplicate->digest, sizeof duplicate->digest);
+    task->frame.way = CS_SHOOT_COPIED;
+  memcpy(task->frame.digest, duplicate->digest, sizeof duplicate->digest);
   return CELSPAN_OK;
 }
 
-/* The sentence gets the frame's number before it; a stop is nobody's fault. */
-static celspan_status place_failure(celspan_context *context, int64_t number,
-                                    celspan_status status) {
+/* Puts the frame's number before the sentence of a failure; a run that was stopped has none. */
+static celspan_status name_failure(celspan_context *context, int64_t number,
+                                   celspan_status status) {
   char sentence[sizeof context->error];
   if (status == CELSPAN_OK || status == CELSPAN_CANCELLED)
     return status;
@@ -137,50 +137,51 @@ static celspan_status place_failure(celspan_context *context, int64_t number,
   return cs_fail(context, status, "frame %lld: %s", (long long)number, sentence);
 }
 
-static celspan_status make_or_copy(const job *j, celspan_context *context, take *t,
+static celspan_status make_or_copy(const job *j, celspan_context *context, frame_task *task,
                                    const celspan_frame_desc *desc) {
-  if (t->is_known && !t->is_first)
-    CS_TRY(copy_duplicate(j, context, t));
-  return t->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK : make_frame(j, context, desc, &t->frame);
+  if (task->is_known && !task->is_first)
+    CS_TRY(copy_duplicate(j, context, task));
+  return task->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK
+                                            : make_frame(j, context, desc, &task->frame);
 }
 
 static celspan_status make(void *user, celspan_context *context, void *carried, int workers,
                            cs_frame_pipeline_turn *turn) {
   const job *j = user;
-  take *t = carried;
+  frame_task *task = carried;
   celspan_frame_desc desc = j->shoot->frame;
-  desc.exposures = t->built.exposures;
-  desc.exposure_count = t->built.count;
+  desc.exposures = task->built.exposures;
+  desc.exposure_count = task->built.count;
   desc.workers = workers;
   desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;
-  celspan_status status = make_or_copy(j, context, t, &desc);
+  celspan_status status = make_or_copy(j, context, task, &desc);
   if (j->shoot->keeps_nothing)
     cs_context_trim(context);
-  return place_failure(context, t->frame.number, status);
+  return name_failure(context, task->frame.number, status);
 }
 
 /* ---------------------------------------------------------------- the end */
 
-/* What the frame leaves for those that equal it. */
-static void note_duplicate(job *j, const take *t) {
-  cs_duplicate *duplicate = &j->duplicates.known[t->duplicate];
-  duplicate->number = t->frame.number;
-  duplicate->is_made = !j->shoot->pattern || cs_file_stamp_take(t->frame.path, &duplicate->file);
-  memcpy(duplicate->digest, t->frame.digest, sizeof duplicate->digest);
+/* Notes what later frames that are equal to this one can be copied from. */
+static void note_duplicate(job *j, const frame_task *task) {
+  cs_duplicate *duplicate = &j->duplicates.known[task->duplicate];
+  duplicate->number = task->frame.number;
+  duplicate->is_made = !j->shoot->pattern || cs_file_stamp_take(task->frame.path, &duplicate->file);
+  memcpy(duplicate->digest, task->frame.digest, sizeof duplicate->digest);
 }
 
 static celspan_status finish(void *user, void *carried, celspan_status status) {
   job *j = user;
-  take *t = carried;
-  if (status == CELSPAN_OK && t->is_known && t->frame.way != CS_SHOOT_COPIED)
-    note_duplicate(j, t);
-  return j->shoot->told(j->shoot->user, &t->frame, status);
+  frame_task *task = carried;
+  if (status == CELSPAN_OK && task->is_known && task->frame.way != CS_SHOOT_COPIED)
+    note_duplicate(j, task);
+  return j->shoot->finished(j->shoot->user, &task->frame, status);
 }
 
 static void release(void *user, void *carried) {
   (void)user;
-  cs_film_finish_frame(&((take *)carried)->built);
+  cs_film_frame_finish(&((frame_task *)carried)->built);
 }
 
 static bool tick(void *user, double share) {
@@ -188,7 +189,7 @@ static bool tick(void *user, double share) {
   return shoot->tick(shoot->user, share);
 }
 
-/* Files that tell the number of their frame are never equal. */
+/* Files that contain the number of their frame are never equal. */
 static bool has_duplicates(const cs_shoot *shoot) {
   if (shoot->put || shoot->keeps_nothing || shoot->frames->count < 2)
     return false;
@@ -197,11 +198,10 @@ static bool has_duplicates(const cs_shoot *shoot) {
 
 celspan_status cs_shoot_run(const cs_shoot *shoot) {
   job j = {.shoot = shoot, .has_duplicates = has_duplicates(shoot)};
-  cs_film_read(shoot->L, shoot->film, &j.film);
   const cs_frame_pipeline pipeline = {.count = shoot->frames->count,
                                       .workers = shoot->frame.workers,
                                       .keeps_going = shoot->keeps_going,
-                                      .frame_size = sizeof(take),
+                                      .frame_size = sizeof(frame_task),
                                       .user = &j,
                                       .build = build,
                                       .make = make,

@@ -1,0 +1,80 @@
+#include "bind/lua_error.h"
+
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "bind/host.h"
+#include "bind/userdata.h"
+
+/* ---------------------------------------------------------------- messages */
+
+/* Where "script.lua:12: " ends; 0 when the message does not begin so. */
+size_t cs_lua_error_position(const char *message) {
+  for (const char *colon = strchr(message, ':'); colon; colon = strchr(colon + 1, ':')) {
+    size_t digits = strspn(colon + 1, "0123456789");
+    if (digits && strncmp(colon + 1 + digits, ": ", 2) == 0)
+      return (size_t)(colon + 1 + digits + 2 - message);
+  }
+  return 0;
+}
+
+/* Pushes "script.lua:12: ", where the innermost function that has lines is; "" when none has. */
+static void push_position(lua_State *L) {
+  lua_Debug info;
+  for (int level = 1; lua_getstack(L, level, &info); level++) {
+    lua_getinfo(L, "Sl", &info);
+    if (info.currentline > 0) {
+      lua_pushfstring(L, "%s:%d: ", info.short_src, info.currentline);
+      return;
+    }
+  }
+  lua_pushliteral(L, "");
+}
+
+/* The message handler. A message without a position gets that of the innermost Lua function. A
+ * frame that is built inside a frame has put its label into the message already. */
+static int handle_error(lua_State *L) {
+  lua_settop(L, 1);
+  const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
+  if (!message)
+    message = lua_pushfstring(L, "the error is not a message: %s", cs_userdata_type(L, 1));
+  const char *label = lua_tostring(L, lua_upvalueindex(1));
+  if (strstr(message, label))
+    label = "";
+  size_t position = cs_lua_error_position(message);
+  if (position)
+    lua_pushlstring(L, message, position);
+  else
+    push_position(L);
+  lua_pushfstring(L, "%s%s", label, message + position);
+  lua_concat(L, 2);
+  return 1;
+}
+
+void cs_lua_error_push_handler(lua_State *L, const char *label) {
+  lua_pushstring(L, label);
+  lua_pushcclosure(L, handle_error, 1);
+}
+
+/* ---------------------------------------------------------------- the context's sentence */
+
+/* The status of the failure whose message is on top of the stack. */
+static celspan_status status_of(lua_State *L, int outcome) {
+  const char *message = lua_tostring(L, -1);
+  return outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY
+         : message             ? cs_host_blame(L, message)
+                               : CELSPAN_CALLBACK;
+}
+
+celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
+  const char *message = lua_tostring(L, -1);
+  char copy[1024]; /* the message may quote the sentence that is about to be replaced */
+  snprintf(copy, sizeof copy, "%s", message ? message : "the error is not a message");
+  lua_pop(L, 1);
+  return celspan_context_fail(cs_host_context(L), status, "%s", copy);
+}
+
+celspan_status cs_lua_error_report(lua_State *L, int outcome) {
+  return cs_lua_error_report_as(L, status_of(L, outcome));
+}

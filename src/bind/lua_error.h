@@ -1,0 +1,26 @@
+/* Lua errors as sentences of the context: "shot.lua:12: frame 37: circle: ...".
+ *
+ * A message handler puts the position and a label before the message while the stack of the failed
+ * call still exists; afterwards the message becomes the sentence of the context, with a status.
+ */
+#ifndef CS_BIND_LUA_ERROR_H
+#define CS_BIND_LUA_ERROR_H
+
+#include <lua.h>
+
+#include "celspan/celspan.h"
+
+/* Pushes a message handler for lua_pcall that puts the label, "frame 37: " or "", after the
+ * position of the message. */
+void cs_lua_error_push_handler(lua_State *L, const char *label);
+/* Where the position "script.lua:12: " ends that a message begins with; 0: it begins with none. */
+size_t cs_lua_error_position(const char *message);
+
+/* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's
+ * sentence, and pops it. The status: the core's own where its refusal was raised, NO_MEMORY or
+ * CALLBACK. */
+celspan_status cs_lua_error_report(lua_State *L, int outcome);
+/* The same with a status that the caller knows. */
+celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status);
+
+#endif

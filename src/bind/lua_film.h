@@ -1,0 +1,28 @@
+/* Films in Lua: the value that a script returns, and its frames one by one.
+ *
+ *   cs_lua_film_read    the facts of a film
+ *   cs_lua_film_build   frame n as exposures, for callers outside of Lua
+ *
+ * INVARIANT: cs_lua_film_read and cs_lua_film_build do not raise: an error of the frame function
+ * comes back as a status with its sentence in the context, "shot.lua:12: frame 37: circle: ...".
+ */
+#ifndef CS_BIND_LUA_FILM_H
+#define CS_BIND_LUA_FILM_H
+
+#include <lua.h>
+
+#include "film/film.h"
+
+/* film: index of a film. The texts live as long as the film. */
+void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);
+/* Calls the frame function. out: new, to be finished; untouched on failure. */
+CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number,
+                                                 cs_film_frame *out);
+
+/* Pushes a film of one frame around the rostrum at index. Raises. */
+void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height);
+/* Calls the frame function for a frame and pushes what it returns, checked to be exposures; raises
+ * with the frame's number in the message. */
+void cs_lua_film_push_frame(lua_State *L, int film, int64_t number);
+
+#endif

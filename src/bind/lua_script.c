@@ -1,0 +1,94 @@
+#include "bind/lua_script.h"
+
+#include <lauxlib.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bind/host.h"
+#include "bind/lua_error.h"
+#include "bind/lua_film.h"
+#include "bind/userdata.h"
+
+/* ---------------------------------------------------------------- where require looks */
+
+/* Pushes the folder of a path: "" without one. */
+static const char *push_folder(lua_State *L, const char *path) {
+  const char *slash = strrchr(path, '/');
+  if (!slash)
+    return lua_pushliteral(L, "");
+  return lua_pushlstring(L, path, slash == path ? 1 : (size_t)(slash - path));
+}
+
+/* Replaces package[field]: `before`, then what it was without the current directory. */
+static void set_path(lua_State *L, const char *field, const char *before, const char *const *here) {
+  lua_getglobal(L, "package");
+  int package = lua_gettop(L);
+  lua_getfield(L, package, field);
+  lua_pushfstring(L, ";%s", luaL_optstring(L, -1, ""));
+  for (; *here; here++)
+    luaL_gsub(L, lua_tostring(L, -1), *here, "");
+  const char *rest = lua_tostring(L, -1);
+  lua_pushfstring(L, "%s%s", before, before[0] ? rest : rest + (rest[0] == ';'));
+  lua_setfield(L, package, field);
+  lua_settop(L, package - 1);
+}
+
+/* require looks into the script's own folder, then $CELSPAN_PATH, then where Lua is installed;
+ * into the current directory only when the script lies there. */
+static void set_search_path(lua_State *L, const char *folder) {
+  static const char *const here[] = {";./?.lua", ";./?/init.lua", NULL};
+  static const char *const here_c[] = {";./?.so", NULL};
+  const char *at = folder[0] ? folder : ".", *more = getenv("CELSPAN_PATH");
+  const char *before = lua_pushfstring(L, "%s/?.lua;%s/?/init.lua%s%s", at, at,
+                                       more && more[0] ? ";" : "", more ? more : "");
+  set_path(L, "path", before, here);
+  set_path(L, "cpath", "", here_c);
+  lua_pop(L, 1);
+}
+
+/* ---------------------------------------------------------------- running */
+
+typedef struct call {
+  const char *path;
+  int argument_count;
+  const char *const *arguments;
+  bool is_missing;
+} call;
+
+/* light userdata -> film. Runs protected. */
+static int run(lua_State *L) {
+  call *c = lua_touserdata(L, 1);
+  const char *folder = push_folder(L, c->path);
+  cs_host_set_folder(L, folder);
+  set_search_path(L, folder);
+  int outcome = luaL_loadfilex(L, c->path, "t");
+  c->is_missing = outcome == LUA_ERRFILE;
+  if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
+    return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
+  if (outcome != LUA_OK)
+    return lua_error(L);
+  luaL_checkstack(L, c->argument_count + 4, "too many arguments");
+  for (int i = 0; i < c->argument_count; i++)
+    lua_pushstring(L, c->arguments[i]);
+  lua_call(L, c->argument_count, 1);
+  if (cs_userdata_test(L, -1, &cs_kind_rostrum))
+    cs_lua_film_push_still(L, -1, 1920, 1080);
+  if (!cs_userdata_test(L, -1, &cs_kind_film))
+    luaL_error(L, "%s must return a film or a rostrum, got %s", c->path, cs_userdata_type(L, -1));
+  return 1;
+}
+
+celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_count,
+                                 const char *const *arguments) {
+  call c = {path, argument_count, arguments, false};
+  cs_host_get(L)->failure = CELSPAN_OK;
+  cs_lua_error_push_handler(L, "");
+  int handler = lua_gettop(L);
+  lua_pushcfunction(L, run);
+  lua_pushlightuserdata(L, &c);
+  int outcome = lua_pcall(L, 1, 1, handler);
+  lua_remove(L, handler);
+  if (outcome == LUA_OK)
+    return CELSPAN_OK;
+  return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
+}

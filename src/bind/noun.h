@@ -1,0 +1,49 @@
+/* What there is to make in Lua, as data.
+ *
+ *   noun   what a constructor makes ("circle"): its fields, and how they become a value
+ *   kind   what can be done with it ("object"): one metatable each
+ */
+#ifndef CS_BIND_NOUN_H
+#define CS_BIND_NOUN_H
+
+#include <lua.h>
+
+#include "celspan/celspan.h"
+
+struct cs_userdata;
+struct cs_form;
+
+typedef struct cs_kind {
+  const char *name; /* of the metatable, "celspan.object" */
+  void (*unref)(void *handle);
+  celspan_status (*transform)(celspan_context *context, void *handle, const celspan_matrix *matrix,
+                              void **out);
+  celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
+  bool (*bounds)(const void *handle, celspan_box *out);
+  bool (*contains)(const void *handle, celspan_point point);
+} cs_kind;
+
+typedef struct cs_field {
+  const char *name;
+  const char *preset; /* what reading gives when it was left out: a number or a word; or NULL */
+} cs_field;
+
+/* What the array part of the table holds. */
+typedef enum cs_list {
+  CS_LIST_NONE,
+  CS_LIST_PARTS, /* a fixed number of parts: :with changes them one by one */
+  CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
+} cs_list;
+
+typedef struct cs_noun {
+  const char *name;
+  const cs_kind *kind; /* NULL: a table of options, not a value */
+  cs_list list;
+  const char *item;       /* "object": one of them; NULL without a list */
+  const cs_field *fields; /* ended by a NULL name */
+  const char *either[2];  /* fields of which only one may be given; NULL: none */
+  void (*create)(const struct cs_form *form, struct cs_userdata *value);
+  void (*complete)(lua_State *L, int fields); /* works out frozen fields; NULL: nothing to do */
+} cs_noun;
+
+#endif
