@@ -2,7 +2,6 @@
 
 #include <lauxlib.h>
 #include <math.h>
-#include <string.h>
 
 #include "bind/construct.h"
 #include "bind/host.h"

@@ -5,7 +5,7 @@
 #include "base/context.h"
 #include "cli/interrupt.h"
 #include "cli/script.h"
-#include "cli/spanread.h"
+#include "cli/span_reader.h"
 #include "cli/verbs.h"
 #include "film/duplicates.h"
 #include "scene/scene.h"
@@ -73,10 +73,10 @@ static void print_info(const cs_script *script, const survey *s) {
 }
 
 /* What the whole of it is made of: so it is read to its end. */
-static void print_spans(const cs_spanread *file, const spanfile_counts *counts) {
-  spanfile_info info = cs_spanread_info(file);
+static void print_spans(const cs_span_reader *file, const spanfile_counts *counts) {
+  spanfile_info info = cs_span_reader_info(file);
   printf("format span\nsize %" PRIu32 "x%" PRIu32 "\ndepth %s\nbytes %" PRIu64 "\n", info.width,
-         info.height, info.format == SPANFILE_HALF ? "half" : "8", cs_spanread_bytes(file));
+         info.height, info.format == SPANFILE_HALF ? "half" : "8", cs_span_reader_bytes(file));
   printf("rows_same %" PRIu64 "\nrows_moved %" PRIu64 "\nrows_literal %" PRIu64 "\n",
          counts->same_rows, counts->moved_rows, counts->literal_rows);
   printf("runs %" PRIu64 "\nraw_spans %" PRIu64 "\ngradients %" PRIu64 "\n",
@@ -85,19 +85,19 @@ static void print_spans(const cs_spanread *file, const spanfile_counts *counts) 
 }
 
 static cs_exit inform_spans(celspan_context *context, const char *path) {
-  cs_spanread *file = NULL;
+  cs_span_reader *file = NULL;
   spanfile_counts counts;
-  celspan_status status = cs_spanread_open(context, path, &file);
+  celspan_status status = cs_span_reader_open(context, path, &file);
   if (status == CELSPAN_OK)
-    status = cs_spanread_check(file, &counts);
+    status = cs_span_reader_check(file, &counts);
   if (status == CELSPAN_OK)
     print_spans(file, &counts);
-  cs_spanread_close(file);
+  cs_span_reader_close(file);
   return cs_report_failure(context, status, NULL);
 }
 
 cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
-  if (cs_spanread_is(request->operands[0]))
+  if (cs_span_reader_accepts(request->operands[0]))
     return inform_spans(context, request->operands[0]);
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, &script);

@@ -1,32 +1,13 @@
 #include "cli/json.h"
 
 #include <inttypes.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-enum {
-  RESERVE = 4096, /* for the members that come after the longest texts and lists */
-  CHARACTER = 8   /* bytes of the longest escape, and more */
-};
+enum { RESERVE = 4096 }; /* for the members that come after the longest texts and lists */
 
-/* Appends what fits whole; the end of the object always does. */
-static void append(cs_json *json, const char *text, size_t size) {
-  if (json->length + size >= sizeof json->text - CHARACTER)
-    return;
-  memcpy(json->text + json->length, text, size);
-  json->length += size;
-}
-
-static void name_member(cs_json *json, const char *name) {
-  char start[80];
-  int size = snprintf(start, sizeof start, "%s\"%s\":", json->length > 1 ? "," : "", name);
-  append(json, start, (size_t)size);
-}
-
-void cs_json_begin(cs_json *json) {
-  json->length = 0;
-  append(json, "{", 1);
-}
+/* ---------------------------------------------------------------- characters */
 
 /* The length of the UTF-8 sequence at text (RFC 3629); 0 when there is none. */
 static size_t sequence_length(const unsigned char *text) {
@@ -44,32 +25,64 @@ static size_t sequence_length(const unsigned char *text) {
   return length;
 }
 
-/* Appends one character of the text; its length there. */
-static size_t append_character(cs_json *json, const unsigned char *text) {
-  char escape[CHARACTER];
-  size_t length = sequence_length(text);
-  if (length == 0) {
-    append(json, "\xef\xbf\xbd", 3);
+/* A line has the short escapes of the quotation mark and the backslash; HTML has all by number. */
+static size_t escape(unsigned char c, cs_json_place place, char out[CS_JSON_CHARACTER]) {
+  bool is_short = place == CS_JSON_LINE && (c == '"' || c == '\\');
+  int size = is_short ? snprintf(out, CS_JSON_CHARACTER, "\\%c", c)
+                      : snprintf(out, CS_JSON_CHARACTER, "\\u%04x", c);
+  return (size_t)size;
+}
+
+static bool is_escaped(unsigned char c, cs_json_place place) {
+  if (c < 0x20 || c == '"' || c == '\\')
+    return true;
+  return place == CS_JSON_LINE ? c == 0x7f : c == '<' || c == '>' || c == '&';
+}
+
+size_t cs_json_character(const char *text, cs_json_place place, char out[CS_JSON_CHARACTER],
+                         size_t *size) {
+  static const char REPLACEMENT[] = "\xef\xbf\xbd"; /* U+FFFD */
+  const unsigned char *bytes = (const unsigned char *)text;
+  if (is_escaped(*bytes, place)) {
+    *size = escape(*bytes, place, out);
     return 1;
   }
-  if (*text == '"' || *text == '\\') {
-    snprintf(escape, sizeof escape, "\\%c", *text);
-    append(json, escape, 2);
-  } else if (*text < 0x20 || *text == 0x7f) {
-    snprintf(escape, sizeof escape, "\\u%04x", *text);
-    append(json, escape, 6);
-  } else {
-    append(json, (const char *)text, length);
-  }
-  return length;
+  size_t length = place == CS_JSON_LINE ? sequence_length(bytes) : 1;
+  *size = length ? length : sizeof REPLACEMENT - 1;
+  memcpy(out, length ? text : REPLACEMENT, *size);
+  return length ? length : 1;
+}
+
+/* ---------------------------------------------------------------- the object */
+
+/* Appends what fits whole; the end of the object always does. */
+static void append(cs_json *json, const char *text, size_t size) {
+  if (json->length + size >= sizeof json->text - CS_JSON_CHARACTER)
+    return;
+  memcpy(json->text + json->length, text, size);
+  json->length += size;
+}
+
+static void name_member(cs_json *json, const char *name) {
+  char start[80];
+  int size = snprintf(start, sizeof start, "%s\"%s\":", json->length > 1 ? "," : "", name);
+  append(json, start, (size_t)size);
+}
+
+void cs_json_begin(cs_json *json) {
+  json->length = 0;
+  append(json, "{", 1);
 }
 
 void cs_json_text(cs_json *json, const char *name, const char *value) {
-  const unsigned char *at = (const unsigned char *)value;
+  char character[CS_JSON_CHARACTER];
+  size_t size;
   name_member(json, name);
   append(json, "\"", 1);
-  while (*at && json->length < sizeof json->text - RESERVE)
-    at += append_character(json, at);
+  while (*value && json->length < sizeof json->text - RESERVE) {
+    value += cs_json_character(value, CS_JSON_LINE, character, &size);
+    append(json, character, size);
+  }
   append(json, "\"", 1);
 }
 

@@ -1,6 +1,7 @@
-/* One JSON object on one line, made in memory so that it leaves in one write.
+/* JSON: the characters of a string, for every writer; and one object on one line, which is made in
+ * memory so that it is written in one go.
  *
- * INVARIANT  What is in it is valid JSON whatever the texts hold: bytes that are no UTF-8 come out
+ * INVARIANT  The object is valid JSON whatever its texts contain: bytes that are not UTF-8 come out
  * as U+FFFD, and a text that is too long is cut.
  */
 #ifndef CS_CLI_JSON_H
@@ -8,6 +9,19 @@
 
 #include <stddef.h>
 #include <stdint.h>
+
+typedef enum cs_json_place {
+  CS_JSON_LINE = 0, /* a line of its own: bytes that are not UTF-8 become U+FFFD */
+  CS_JSON_HTML      /* inside a script element: nothing in it can end that, or begin a tag; bytes
+                       above ASCII are copied as they are */
+} cs_json_place;
+
+enum { CS_JSON_CHARACTER = 8 }; /* bytes of the longest escape, and a zero */
+
+/* Writes the first character of the text, which is not "", as it is written inside a JSON string;
+ * *size: bytes written. The answer: bytes of the text that it was read from. */
+size_t cs_json_character(const char *text, cs_json_place place, char out[CS_JSON_CHARACTER],
+                         size_t *size);
 
 typedef struct cs_json {
   size_t length;

@@ -11,7 +11,7 @@
 #include "base/context.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
-#include "cli/rawrow.h"
+#include "cli/raw_rows.h"
 #include "cli/record.h"
 #include "cli/target.h"
 #include "cli/verbs.h"
@@ -32,8 +32,8 @@ typedef struct render_job {
 
 static celspan_status put_raw(void *user, const celspan_frame_desc *frame) {
   const render_job *job = user;
-  cs_rawrow raw;
-  celspan_sink sink = cs_rawrow_sink(&raw, &job->request->coding, stdout);
+  cs_raw_rows raw;
+  celspan_sink sink = cs_raw_rows_sink(&raw, &job->request->coding, stdout);
   return celspan_frame_render(job->script->context, frame, &sink, NULL);
 }
 

@@ -42,10 +42,10 @@ static celspan_status make_scene(celspan_context *context, const celspan_picture
 }
 
 static celspan_status open_spans(celspan_context *context, const char *path, cs_still *still) {
-  celspan_status status = cs_spanread_open(context, path, &still->spans);
+  celspan_status status = cs_span_reader_open(context, path, &still->spans);
   if (status != CELSPAN_OK)
     return status;
-  spanfile_info info = cs_spanread_info(still->spans);
+  spanfile_info info = cs_span_reader_info(still->spans);
   still->info = (celspan_picture_info){.width = (int32_t)info.width,
                                        .height = (int32_t)info.height,
                                        .channels = 4,
@@ -69,8 +69,8 @@ static celspan_status open_picture(celspan_context *context, const char *path, c
 
 cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out) {
   cs_still still = {.exposure.weight = 1};
-  celspan_status status = cs_spanread_is(path) ? open_spans(context, path, &still)
-                                               : open_picture(context, path, &still);
+  celspan_status status = cs_span_reader_accepts(path) ? open_spans(context, path, &still)
+                                                       : open_picture(context, path, &still);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   *out = still;
@@ -80,7 +80,7 @@ cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out)
 void cs_still_close(cs_still *still) {
   celspan_rostrum_unref(still->exposure.rostrum);
   still->exposure.rostrum = NULL;
-  cs_spanread_close(still->spans);
+  cs_span_reader_close(still->spans);
   still->spans = NULL;
 }
 
@@ -97,7 +97,7 @@ celspan_status cs_still_rows_create(celspan_context *context, const cs_still *st
                                     const celspan_frame_desc *frame, cs_still_rows *out) {
   cs_still_rows rows = {NULL, NULL};
   celspan_status status = still->spans
-                              ? cs_spanview_create(context, still->spans, frame, &rows.view)
+                              ? cs_span_view_create(context, still->spans, frame, &rows.view)
                               : celspan_rows_create(context, frame, &rows.rendered);
   if (status == CELSPAN_OK)
     *out = rows;
@@ -106,13 +106,13 @@ celspan_status cs_still_rows_create(celspan_context *context, const cs_still *st
 
 void cs_still_rows_destroy(cs_still_rows *rows) {
   celspan_rows_destroy(rows->rendered);
-  cs_spanview_destroy(rows->view);
+  cs_span_view_destroy(rows->view);
   *rows = (cs_still_rows){NULL, NULL};
 }
 
 celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_span **spans,
                                  size_t *span_count) {
-  return rows->view ? cs_spanview_row(rows->view, y, spans, span_count)
+  return rows->view ? cs_span_view_row(rows->view, y, spans, span_count)
                     : celspan_rows_get(rows->rendered, y, spans, span_count);
 }
 
@@ -121,13 +121,13 @@ celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_s
 /* Rows from one progress call to the next. */
 enum { STRIP = 64 };
 
-static celspan_status put_rows(celspan_context *context, cs_spanview *view,
+static celspan_status put_rows(celspan_context *context, cs_span_view *view,
                                const celspan_frame_desc *frame, const celspan_sink *sink) {
   int32_t height = frame->crop_height ? frame->crop_height : frame->height;
   for (int32_t y = 0; y < height; y++) {
     const celspan_span *spans;
     size_t count;
-    celspan_status status = cs_spanview_row(view, y, &spans, &count);
+    celspan_status status = cs_span_view_row(view, y, &spans, &count);
     if (status == CELSPAN_OK)
       status = sink->row(sink->user, context, y, spans, count);
     if (status != CELSPAN_OK)
@@ -142,8 +142,8 @@ static celspan_status put_rows(celspan_context *context, cs_spanview *view,
 static celspan_status put_view(celspan_context *context, const cs_still *still,
                                const celspan_frame_desc *frame, const celspan_sink *sink,
                                bool *is_begun) {
-  cs_spanview *view = NULL;
-  celspan_status status = cs_spanview_create(context, still->spans, frame, &view);
+  cs_span_view *view = NULL;
+  celspan_status status = cs_span_view_create(context, still->spans, frame, &view);
   if (status == CELSPAN_OK && sink->begin)
     status = sink->begin(sink->user, context, frame->crop_width ? frame->crop_width : frame->width,
                          frame->crop_height ? frame->crop_height : frame->height);
@@ -152,7 +152,7 @@ static celspan_status put_view(celspan_context *context, const cs_still *still,
     status = put_rows(context, view, frame, sink);
   if (*is_begun && sink->end)
     status = sink->end(sink->user, context, status);
-  cs_spanview_destroy(view);
+  cs_span_view_destroy(view);
   return status;
 }
 

@@ -6,12 +6,12 @@
 #define CS_CLI_STILL_H
 
 #include "cli/request.h"
-#include "cli/spanview.h"
+#include "cli/span_view.h"
 
 typedef struct cs_still {
   celspan_picture_info info;
   celspan_exposure exposure; /* its rostrum is owned; NULL for a span file */
-  cs_spanread *spans;        /* owned; NULL for any other picture */
+  cs_span_reader *spans;     /* owned; NULL for any other picture */
 } cs_still;
 
 /* OK, and *out new; or reported. */
@@ -34,7 +34,7 @@ CELSPAN_CHECKED celspan_status cs_still_render(celspan_context *context, const c
 /* The frame row by row; of the two one is NULL. */
 typedef struct cs_still_rows {
   celspan_rows *rendered;
-  cs_spanview *view;
+  cs_span_view *view;
 } cs_still_rows;
 /* still: borrowed as long as the rows are. out: new. */
 CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,

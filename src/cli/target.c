@@ -4,15 +4,10 @@
 #include <string.h>
 #include <strings.h>
 
+#include "output/ending.h"
 #include "output/sink.h"
 
 static const char *const ABSENT_FORMATS[] = {"mp4", "mov", "webm", "mkv", "avi"};
-
-static const char *ending(const char *path) {
-  const char *name = strrchr(path, '/');
-  const char *dot = strrchr(name ? name : path, '.');
-  return dot ? dot + 1 : "";
-}
 
 celspan_file_desc cs_target_file(const cs_request *request) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
@@ -34,7 +29,7 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
 }
 
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
-  const char *wanted = request->format ? request->format : ending(path);
+  const char *wanted = request->format ? request->format : cs_ending_of(path);
   for (size_t i = 0; i < sizeof ABSENT_FORMATS / sizeof ABSENT_FORMATS[0]; i++)
     if (strcasecmp(wanted, ABSENT_FORMATS[i]) == 0)
       return cs_report_usage("%s: writing %s files is not built into this version; write numbered "

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "output/ending.h"
 #include "output/file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
@@ -87,11 +88,6 @@ static const file_format *find_format(const char *name) {
     if (strcasestr(formats[i].endings, wanted))
       return &formats[i];
   return NULL;
-}
-
-static const char *ending_of(const char *path) {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-  return dot ? dot + 1 : "";
 }
 
 static const char *depth_name(celspan_depth depth) {
@@ -325,7 +321,7 @@ static char *copy_text(cs_memory *memory, const char *text) {
 
 celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                const celspan_file_desc *file, celspan_sink *out) {
-  const char *name = file->format ? file->format : ending_of(path);
+  const char *name = file->format ? file->format : cs_ending_of(path);
   picture_sink made = {
       .format = find_format(name), .frames_second = file->frames_second, .frame = file->frame};
   if (!made.format)

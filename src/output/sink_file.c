@@ -1,17 +1,10 @@
-#include <string.h>
 #include <strings.h>
 
+#include "output/ending.h"
 #include "output/sink.h"
 
-/* What follows the last dot of the last part of the path; "" without one. */
-static const char *ending(const char *path) {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-  const char *dot = strrchr(name, '.');
-  return dot ? dot + 1 : "";
-}
-
 static const char *format_of(const char *path, const celspan_file_desc *file) {
-  return file->format ? file->format : ending(path);
+  return file->format ? file->format : cs_ending_of(path);
 }
 
 bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file) {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/context.h"
+#include "cli/json.h"
 #include "cli/tiles/page_html.h"
 #include "output/file.h"
 
@@ -39,15 +40,13 @@ __attribute__((format(printf, 2, 3))) static void put_line(text_file *out, const
     put_bytes(out, text, (size_t)length < sizeof text ? (size_t)length : sizeof text - 1);
 }
 
-/* A JSON string that is safe inside a script element and inside HTML. */
 static void put_string(text_file *out, const char *text) {
+  char character[CS_JSON_CHARACTER];
+  size_t size;
   put(out, "\"");
-  for (; *text; text++) {
-    unsigned char c = (unsigned char)*text;
-    if (c < 0x20 || strchr("\"\\<>&", c))
-      put_line(out, "\\u%04x", c);
-    else
-      put_bytes(out, text, 1);
+  while (*text) {
+    text += cs_json_character(text, CS_JSON_HTML, character, &size);
+    put_bytes(out, character, size);
   }
   put(out, "\"");
 }
@@ -138,7 +137,7 @@ static void put_places(text_file *out, const cs_tile_page *page) {
   double across = page->pyramid->width / page->frame->film_width;
   double down = page->pyramid->height / page->frame->film_height;
   for (size_t i = 0; i < page->plan->place_count; i++) {
-    const cs_place *place = &page->plan->places[i];
+    const cs_tile_place *place = &page->plan->places[i];
     put_line(out, "%s\n    [%.9g, %.9g, %.9g, ", i ? "," : "", place->x * across, place->y * down,
              place->width * across);
     put_string(out, place->name);

@@ -14,7 +14,7 @@ enum { PLACE_WIDTH = 2560, PLACE_HEIGHT = 1440, LIMIT_DEFAULT = 200000, LINE_SIZ
 
 /* ---------------------------------------------------------------- places */
 
-static celspan_status add_place(celspan_context *context, cs_tile_plan *plan, cs_place place) {
+static celspan_status add_place(celspan_context *context, cs_tile_plan *plan, cs_tile_place place) {
   CS_TRY(cs_mem_reserve(context, (void **)&plan->places, &plan->place_capacity,
                         plan->place_count + 1, sizeof *plan->places));
   plan->places[plan->place_count++] = place;
@@ -22,7 +22,7 @@ static celspan_status add_place(celspan_context *context, cs_tile_plan *plan, cs
 }
 
 /* "X Y WIDTH NAME", the name to the end of the line. */
-static bool parse_place(const char *line, const celspan_frame_desc *frame, cs_place *out) {
+static bool parse_place(const char *line, const celspan_frame_desc *frame, cs_tile_place *out) {
   int name = 0;
   if (sscanf(line, "%lf %lf %lf %n", &out->x, &out->y, &out->width, &name) != 3 || !name ||
       !isfinite(out->width) || out->width <= 0)
@@ -44,7 +44,7 @@ static cs_exit read_places(celspan_context *context, FILE *file, const char *pat
                            const celspan_frame_desc *frame, cs_tile_plan *plan) {
   char line[LINE_SIZE];
   for (int number = 1; fgets(line, sizeof line, file); number++) {
-    cs_place place;
+    cs_tile_place place;
     if (is_blank(line))
       continue;
     if (!parse_place(line, frame, &place))
@@ -83,30 +83,32 @@ static int32_t held(double pixel, int32_t least, int32_t most) {
 }
 
 /* The part of the frame, in its own pixels, that a screen shows around a place at a level. */
-static cs_area around(const cs_place *place, const cs_pyramid *pyramid,
-                      const celspan_frame_desc *frame, int32_t level) {
+static cs_pyramid_box around(const cs_tile_place *place, const cs_pyramid *pyramid,
+                             const celspan_frame_desc *frame, int32_t level) {
   double scale = ldexp(1, cs_pyramid_top(pyramid) - level);
   double x = place->x / frame->film_width * pyramid->width;
   double y = place->y / frame->film_height * pyramid->height;
   double across = scale * PLACE_WIDTH / 2, down = scale * PLACE_HEIGHT / 2;
-  return (cs_area){held(x - across, 0, pyramid->width - 1), held(y - down, 0, pyramid->height - 1),
-                   held(x + across, 1, pyramid->width), held(y + down, 1, pyramid->height)};
+  return (cs_pyramid_box){held(x - across, 0, pyramid->width - 1),
+                          held(y - down, 0, pyramid->height - 1),
+                          held(x + across, 1, pyramid->width), held(y + down, 1, pyramid->height)};
 }
 
 static celspan_status add_level(celspan_context *context, cs_tile_plan *plan,
-                                const cs_pyramid *pyramid, int32_t level, const cs_area *part) {
+                                const cs_pyramid *pyramid, int32_t level,
+                                const cs_pyramid_box *part) {
   return add_job(context, plan, (cs_tile_job){level, cs_pyramid_tiles(pyramid, level, part)});
 }
 
 static celspan_status add_levels(celspan_context *context, cs_tile_plan *plan,
                                  const cs_pyramid *pyramid, const celspan_frame_desc *frame,
-                                 const int32_t levels[2], const cs_area *part) {
+                                 const int32_t levels[2], const cs_pyramid_box *part) {
   for (int32_t level = levels[0]; level <= levels[1]; level++)
     CS_TRY(add_level(context, plan, pyramid, level, part));
   int32_t top = cs_pyramid_top(pyramid);
   for (int32_t level = levels[1] + 1; level <= top; level++)
     for (size_t i = 0; i < plan->place_count; i++) {
-      cs_area near = around(&plan->places[i], pyramid, frame, level);
+      cs_pyramid_box near = around(&plan->places[i], pyramid, frame, level);
       CS_TRY(add_level(context, plan, pyramid, level, &near));
     }
   return CELSPAN_OK;
@@ -115,14 +117,14 @@ static celspan_status add_levels(celspan_context *context, cs_tile_plan *plan,
 static int64_t count_tiles(const cs_tile_plan *plan) {
   int64_t count = 0;
   for (size_t i = 0; i < plan->count; i++) {
-    const cs_area *tiles = &plan->jobs[i].tiles;
+    const cs_pyramid_box *tiles = &plan->jobs[i].tiles;
     count += (int64_t)(tiles->x1 - tiles->x0) * (tiles->y1 - tiles->y0);
   }
   return count;
 }
 
 /* The deepest level that the limit allows, from the first; -1: not even that. */
-static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_area *part,
+static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_pyramid_box *part,
                             int64_t limit) {
   int32_t last = cs_pyramid_top(pyramid);
   while (last >= first && cs_pyramid_count(pyramid, first, last, part) > limit)
@@ -132,7 +134,7 @@ static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_a
 
 static cs_exit check_limit(const cs_request *request, const cs_tile_plan *plan,
                            const cs_pyramid *pyramid, const int32_t levels[2],
-                           const cs_area *part) {
+                           const cs_pyramid_box *part) {
   int64_t limit = request->tile_limit.is_given ? request->tile_limit.value : LIMIT_DEFAULT;
   int64_t count = count_tiles(plan);
   if (count <= limit)
@@ -168,9 +170,9 @@ cs_exit cs_tile_plan_make(celspan_context *context, const cs_request *request,
                           const cs_pyramid *pyramid, const celspan_frame_desc *frame,
                           cs_tile_plan *out) {
   int32_t levels[2];
-  cs_area part = {frame->crop_x, frame->crop_y, frame->crop_x + frame->crop_width,
-                  frame->crop_y + frame->crop_height};
-  const cs_area *wanted = frame->crop_width ? &part : NULL;
+  cs_pyramid_box part = {frame->crop_x, frame->crop_y, frame->crop_x + frame->crop_width,
+                         frame->crop_y + frame->crop_height};
+  const cs_pyramid_box *wanted = frame->crop_width ? &part : NULL;
   cs_exit outcome = choose_levels(request, pyramid, levels);
   if (outcome == CS_EXIT_OK && request->places)
     outcome = load_places(context, request->places, frame, out);

@@ -9,18 +9,18 @@
 
 typedef struct cs_tile_job {
   int32_t level;
-  cs_area tiles;
+  cs_pyramid_box tiles;
 } cs_tile_job;
 
-typedef struct cs_place {
+typedef struct cs_tile_place {
   double x, y, width; /* film units: the middle, and how much of it to show */
   char name[96];
-} cs_place;
+} cs_tile_place;
 
 typedef struct cs_tile_plan {
   cs_tile_job *jobs; /* by level, coarse to fine */
   size_t count, capacity;
-  cs_place *places;
+  cs_tile_place *places;
   size_t place_count, place_capacity;
 } cs_tile_plan;
 

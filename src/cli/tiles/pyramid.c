@@ -46,32 +46,34 @@ static int32_t tiles_over(int32_t pixels, int32_t tile) {
 
 static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 
-cs_area cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level, const cs_area *part) {
+cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
+                                const cs_pyramid_box *part) {
   int32_t width, height, tile = pyramid->tile, times = cs_pyramid_top(pyramid) - level;
   cs_pyramid_size(pyramid, level, &width, &height);
-  cs_area all = {0, 0, tiles_over(width, tile), tiles_over(height, tile)};
+  cs_pyramid_box all = {0, 0, tiles_over(width, tile), tiles_over(height, tile)};
   if (!part)
     return all;
-  return (cs_area){(part->x0 >> times) / tile, (part->y0 >> times) / tile,
-                   least(all.x1, tiles_over(halved(part->x1, times), tile)),
-                   least(all.y1, tiles_over(halved(part->y1, times), tile))};
+  return (cs_pyramid_box){(part->x0 >> times) / tile, (part->y0 >> times) / tile,
+                          least(all.x1, tiles_over(halved(part->x1, times), tile)),
+                          least(all.y1, tiles_over(halved(part->y1, times), tile))};
 }
 
-cs_area cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level, const cs_area *tiles) {
+cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
+                                 const cs_pyramid_box *tiles) {
   int32_t width, height;
   int64_t tile = pyramid->tile, overlap = pyramid->overlap;
   cs_pyramid_size(pyramid, level, &width, &height);
-  return (cs_area){tiles->x0 > 0 ? (int32_t)(tiles->x0 * tile - overlap) : 0,
-                   tiles->y0 > 0 ? (int32_t)(tiles->y0 * tile - overlap) : 0,
-                   least(width, tiles->x1 * tile + overlap),
-                   least(height, tiles->y1 * tile + overlap)};
+  return (cs_pyramid_box){tiles->x0 > 0 ? (int32_t)(tiles->x0 * tile - overlap) : 0,
+                          tiles->y0 > 0 ? (int32_t)(tiles->y0 * tile - overlap) : 0,
+                          least(width, tiles->x1 * tile + overlap),
+                          least(height, tiles->y1 * tile + overlap)};
 }
 
 int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_area *part) {
+                         const cs_pyramid_box *part) {
   int64_t count = 0;
   for (int32_t level = first; level <= last; level++) {
-    cs_area tiles = cs_pyramid_tiles(pyramid, level, part);
+    cs_pyramid_box tiles = cs_pyramid_tiles(pyramid, level, part);
     count += (int64_t)(tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
   }
   return count;
@@ -84,8 +86,8 @@ static bool fits(int length, size_t size) { return length > 0 && (size_t)length 
 /* The tile's part of the frame in full pixels, and its own size. */
 static bool iiif_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
                       bool is_alias, char *path, size_t size) {
-  cs_area tile = {column, row, column + 1, row + 1};
-  cs_area pixels = cs_pyramid_pixels(pyramid, level, &tile);
+  cs_pyramid_box tile = {column, row, column + 1, row + 1};
+  cs_pyramid_box pixels = cs_pyramid_pixels(pyramid, level, &tile);
   int32_t times = cs_pyramid_top(pyramid) - level;
   int64_t x = (int64_t)pixels.x0 << times, y = (int64_t)pixels.y0 << times;
   int32_t right = least((int64_t)pixels.x1 << times, pyramid->width);

@@ -27,9 +27,9 @@ typedef struct cs_pyramid {
 } cs_pyramid;
 
 /* Half-open: pixels of a level, or its tiles. */
-typedef struct cs_area {
+typedef struct cs_pyramid_box {
   int32_t x0, y0, x1, y1;
-} cs_area;
+} cs_pyramid_box;
 
 int32_t cs_pyramid_top(const cs_pyramid *pyramid);
 /* The highest level with no more than this many pixels a side. */
@@ -38,12 +38,14 @@ int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side);
 int32_t cs_pyramid_single(const cs_pyramid *pyramid);
 void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, int32_t *height);
 /* The tiles of a level, or those that a part of the frame touches; part: NULL for all. */
-cs_area cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level, const cs_area *part);
+cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
+                                const cs_pyramid_box *part);
 /* The pixels of a rectangle of tiles, with their overlap. */
-cs_area cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level, const cs_area *tiles);
+cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
+                                 const cs_pyramid_box *tiles);
 /* Tiles of the levels from first to last. */
 int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_area *part);
+                         const cs_pyramid_box *part);
 
 /* "FOLDER/..." of a tile. is_alias: the other name of a level's only tile ("full"), which IIIF has.
  * false: no room, or no such name. */

@@ -94,7 +94,7 @@ static celspan_status write_share(tile_row_job *job, cs_tile_writer *writer, int
 static void *write_tiles(void *user) {
   tile_hand *hand = user;
   tile_row_job *job = hand->job;
-  const cs_area *tiles = &job->rows->tiles;
+  const cs_pyramid_box *tiles = &job->rows->tiles;
   while (hand->status == CELSPAN_OK && !atomic_load(&job->failed)) {
     int32_t first = tiles->x0 + atomic_fetch_add(&job->next, SHARE);
     if (first >= tiles->x1)
@@ -110,8 +110,8 @@ static void *write_tiles(void *user) {
 
 /* The calling thread is the first hand; threads that cannot be had are done without. */
 static celspan_status write_tile_row(cs_tile_rows *rows, celspan_context *context, int32_t row) {
-  cs_area tiles = {rows->tiles.x0, row, rows->tiles.x1, row + 1};
-  cs_area pixels = cs_pyramid_pixels(rows->files->pyramid, rows->level, &tiles);
+  cs_pyramid_box tiles = {rows->tiles.x0, row, rows->tiles.x1, row + 1};
+  cs_pyramid_box pixels = cs_pyramid_pixels(rows->output->pyramid, rows->level, &tiles);
   tile_row_job job = {.rows = rows, .row = row, .row_count = pixels.y1 - pixels.y0};
   int32_t shares = (tiles.x1 - tiles.x0 + SHARE - 1) / SHARE;
   int wanted = rows->workers < shares ? rows->workers : (int)shares, started = 1;
@@ -138,7 +138,7 @@ static celspan_status write_tile_row(cs_tile_rows *rows, celspan_context *contex
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   cs_tile_rows *rows = user;
-  const cs_pyramid *pyramid = rows->files->pyramid;
+  const cs_pyramid *pyramid = rows->output->pyramid;
   (void)width, (void)height;
   rows->ring_count = pyramid->tile + 2 * pyramid->overlap;
   rows->ring = cs_mem_array(context->memory, (size_t)rows->ring_count, sizeof *rows->ring);
@@ -148,7 +148,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   for (int32_t i = 0; i < rows->ring_count; i++)
     cs_arena_init(&rows->ring[i].colours);
   for (int i = 0; i < rows->workers; i++)
-    cs_tile_writer_init(&rows->writers[i], rows->files,
+    cs_tile_writer_init(&rows->writers[i], rows->output,
                         (cs_tile_source){kept_row, rows, rows->pixels.x0});
   return CELSPAN_OK;
 }
@@ -160,8 +160,8 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   y += rows->pixels.y0;
   CS_TRY(keep(context, slot(rows, y), spans, span_count));
   while (rows->next < rows->tiles.y1) {
-    cs_area tiles = {rows->tiles.x0, rows->next, rows->tiles.x1, rows->next + 1};
-    if (y + 1 < cs_pyramid_pixels(rows->files->pyramid, rows->level, &tiles).y1)
+    cs_pyramid_box tiles = {rows->tiles.x0, rows->next, rows->tiles.x1, rows->next + 1};
+    if (y + 1 < cs_pyramid_pixels(rows->output->pyramid, rows->level, &tiles).y1)
       break;
     CS_TRY(write_tile_row(rows, context, rows->next));
     CS_TRY(rows->finished(rows->user, context,
@@ -174,7 +174,7 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   cs_tile_rows *rows = user;
   for (int i = 0; rows->writers && i < rows->workers; i++)
-    if (rows->writers[i].files)
+    if (rows->writers[i].output)
       cs_tile_writer_finish(&rows->writers[i]);
   for (int32_t i = 0; rows->ring && i < rows->ring_count; i++) {
     cs_kept_row *kept = &rows->ring[i];

@@ -8,7 +8,7 @@
 #define CS_CLI_TILES_ROWS_H
 
 #include "base/arena.h"
-#include "cli/tiles/file.h"
+#include "cli/tiles/writer.h"
 
 /* One row of tiles: columns half-open. */
 typedef struct cs_tile_row {
@@ -22,11 +22,11 @@ typedef struct cs_kept_row {
 } cs_kept_row;
 
 typedef struct cs_tile_rows {
-  cs_tile_file *files;
+  cs_tile_output *output;
   int32_t level;
-  cs_area tiles;  /* to be made */
-  cs_area pixels; /* of those tiles: what is rendered */
-  int32_t next;   /* row of tiles */
+  cs_pyramid_box tiles;  /* to be made */
+  cs_pyramid_box pixels; /* of those tiles: what is rendered */
+  int32_t next;          /* row of tiles */
   int workers;
   /* After each finished row of tiles. */
   celspan_status (*finished)(void *user, celspan_context *context, cs_tile_row row);

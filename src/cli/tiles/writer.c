@@ -1,5 +1,4 @@
-/* One tile: cut, hashed, linked or written. */
-#include "cli/tiles/file.h"
+#include "cli/tiles/writer.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -11,79 +10,24 @@
 #include "output/pixels.h"
 #include "output/sink.h"
 
-enum { PATH_SIZE = 4096, KNOWN_LEAST = 1024 };
+enum { PATH_SIZE = 4096 };
 
-/* ---------------------------------------------------------------- tiles written before */
+/* ---------------------------------------------------------------- what writers share */
 
-void cs_tile_file_init(cs_tile_file *files, celspan_context *context, const cs_pyramid *pyramid,
-                       const celspan_file_desc *file) {
-  *files = (cs_tile_file){.context = context, .pyramid = pyramid, .file = *file};
-  files->file.coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
-  pthread_mutex_init(&files->mutex, NULL);
+void cs_tile_output_init(cs_tile_output *output, celspan_context *context,
+                         const cs_pyramid *pyramid, const celspan_file_desc *file) {
+  *output = (cs_tile_output){.context = context, .pyramid = pyramid, .file = *file};
+  output->file.coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  cs_tile_known_init(&output->known);
 }
 
-void cs_tile_file_finish(cs_tile_file *files) {
-  cs_mem_free(files->context->memory, files->known, files->known_capacity * sizeof *files->known);
-  pthread_mutex_destroy(&files->mutex);
+void cs_tile_output_finish(cs_tile_output *output) {
+  cs_tile_known_finish(&output->known, output->context);
 }
 
-void cs_tile_file_skip(cs_tile_file *files, const float rgba[4]) {
-  files->skips_empty = true;
-  cs_pixels_code(&files->file.coding, rgba, files->empty);
-}
-
-/* The place of a hash, or the free one where it belongs. */
-static cs_known_tile *place_of(cs_known_tile *known, size_t capacity, cs_hash hash) {
-  size_t i = (size_t)hash.a & (capacity - 1);
-  while ((known[i].hash.a || known[i].hash.b) &&
-         (known[i].hash.a != hash.a || known[i].hash.b != hash.b))
-    i = (i + 1) & (capacity - 1);
-  return &known[i];
-}
-
-static celspan_status grow(cs_tile_file *files, celspan_context *context) {
-  size_t capacity = files->known_capacity ? 2 * files->known_capacity : KNOWN_LEAST;
-  cs_known_tile *known = cs_mem_array(context->memory, capacity, sizeof *known);
-  if (!known)
-    return cs_fail_memory(context);
-  for (size_t i = 0; i < files->known_capacity; i++)
-    if (files->known[i].hash.a || files->known[i].hash.b)
-      *place_of(known, capacity, files->known[i].hash) = files->known[i];
-  cs_mem_free(context->memory, files->known, files->known_capacity * sizeof *known);
-  files->known = known;
-  files->known_capacity = capacity;
-  return CELSPAN_OK;
-}
-
-static bool find(cs_tile_file *files, cs_hash hash, cs_known_tile *out) {
-  pthread_mutex_lock(&files->mutex);
-  const cs_known_tile *place =
-      files->known ? place_of(files->known, files->known_capacity, hash) : NULL;
-  bool is_found = place && (place->hash.a || place->hash.b);
-  if (is_found)
-    *out = *place;
-  pthread_mutex_unlock(&files->mutex);
-  return is_found;
-}
-
-static celspan_status remember(cs_tile_file *files, celspan_context *context, cs_known_tile tile) {
-  celspan_status status = CELSPAN_OK;
-  pthread_mutex_lock(&files->mutex);
-  if (2 * files->known_count >= files->known_capacity)
-    status = grow(files, context);
-  if (status == CELSPAN_OK) {
-    cs_known_tile *place = place_of(files->known, files->known_capacity, tile.hash);
-    files->known_count += !(place->hash.a || place->hash.b);
-    *place = tile;
-  }
-  pthread_mutex_unlock(&files->mutex);
-  return status;
-}
-
-static void add_one(cs_tile_file *files, uint64_t *count) {
-  pthread_mutex_lock(&files->mutex);
-  ++*count;
-  pthread_mutex_unlock(&files->mutex);
+void cs_tile_output_skip(cs_tile_output *output, const float rgba[4]) {
+  output->skips_empty = true;
+  cs_pixels_code(&output->file.coding, rgba, output->empty);
 }
 
 /* ---------------------------------------------------------------- links */
@@ -100,8 +44,8 @@ static bool make_folders(char *path) {
   return true;
 }
 
-/* Links through a name of its own, because a link cannot replace what is there. false: this file
- * system or this file takes no (more) links, so that the tile is to be written. */
+/* Links under a temporary name and renames that, because a link cannot replace a file. false: this
+ * file system has no links, or this file has too many, so that the tile has to be written. */
 static bool link_file(const char *from, char *to) {
   char temporary[PATH_SIZE + 16];
   snprintf(temporary, sizeof temporary, "%s.link.part", to);
@@ -114,7 +58,7 @@ static bool link_file(const char *from, char *to) {
   return is_linked;
 }
 
-static bool link_to(const cs_pyramid *pyramid, const cs_known_tile *known, char *path) {
+static bool link_to(const cs_pyramid *pyramid, const cs_tile_known *known, char *path) {
   char from[PATH_SIZE];
   return cs_pyramid_path(pyramid, known->level, known->column, known->row, false, from,
                          sizeof from) &&
@@ -123,9 +67,9 @@ static bool link_to(const cs_pyramid *pyramid, const cs_known_tile *known, char 
 
 /* ---------------------------------------------------------------- one row of one tile */
 
-void cs_tile_writer_init(cs_tile_writer *writer, cs_tile_file *files, cs_tile_source source) {
-  *writer = (cs_tile_writer){.files = files, .source = source};
-  cs_context_branch(&writer->context, files->context);
+void cs_tile_writer_init(cs_tile_writer *writer, cs_tile_output *output, cs_tile_source source) {
+  *writer = (cs_tile_writer){.output = output, .source = source};
+  cs_context_branch(&writer->context, output->context);
 }
 
 void cs_tile_writer_finish(cs_tile_writer *writer) {
@@ -152,8 +96,8 @@ static celspan_span cut_span(celspan_span span, int32_t x0, int32_t x1) {
   return span;
 }
 
-/* The tile's part of a row. *start: where the search begins, and where it can begin next time. */
-static celspan_status cut_row(cs_tile_writer *writer, const cs_area *area, int32_t y,
+/* Cuts the tile's part out of a row. The search for it begins where the tile to the left ended. */
+static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *area, int32_t y,
                               size_t *out_count) {
   size_t count, kept = 0;
   size_t *start = &writer->starts[y - area->y0];
@@ -174,10 +118,10 @@ static celspan_status cut_row(cs_tile_writer *writer, const cs_area *area, int32
 
 /* ---------------------------------------------------------------- one tile */
 
-typedef struct tile_look {
+typedef struct tile_content {
   cs_hash hash;
   bool is_empty;
-} tile_look;
+} tile_content;
 
 static bool is_all(const unsigned char *row, size_t size, const unsigned char *pixel,
                    size_t pixel_size) {
@@ -185,26 +129,27 @@ static bool is_all(const unsigned char *row, size_t size, const unsigned char *p
          memcmp(row, row + pixel_size, size - pixel_size) == 0;
 }
 
-static celspan_status look_at(cs_tile_writer *writer, const cs_area *area, tile_look *out) {
-  const cs_tile_file *files = writer->files;
-  const celspan_coding *coding = &files->file.coding;
+static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box *area,
+                                   tile_content *out) {
+  const cs_tile_output *output = writer->output;
+  const celspan_coding *coding = &output->file.coding;
   size_t pixel_size = celspan_coding_pixel_size(coding);
   size_t size = (size_t)(area->x1 - area->x0) * pixel_size, count;
   CS_TRY(
       cs_mem_reserve(&writer->context, (void **)&writer->pixels, &writer->pixel_capacity, size, 1));
   cs_hash hash = cs_hash_begin((uint64_t)(area->x1 - area->x0));
-  out->is_empty = files->skips_empty;
+  out->is_empty = output->skips_empty;
   for (int32_t y = area->y0; y < area->y1; y++) {
     CS_TRY(cut_row(writer, area, y, &count));
     cs_pixels_row(coding, writer->spans, count, writer->pixels);
     cs_hash_bytes(&hash, writer->pixels, size);
-    out->is_empty = out->is_empty && is_all(writer->pixels, size, files->empty, pixel_size);
+    out->is_empty = out->is_empty && is_all(writer->pixels, size, output->empty, pixel_size);
   }
   out->hash = cs_hash_end(hash);
   return CELSPAN_OK;
 }
 
-static celspan_status put_rows(cs_tile_writer *writer, const cs_area *area,
+static celspan_status put_rows(cs_tile_writer *writer, const cs_pyramid_box *area,
                                const celspan_sink *sink) {
   size_t count;
   CS_TRY(sink->begin(sink->user, &writer->context, area->x1 - area->x0, area->y1 - area->y0));
@@ -215,21 +160,22 @@ static celspan_status put_rows(cs_tile_writer *writer, const cs_area *area,
   return CELSPAN_OK;
 }
 
-static celspan_status write_tile(cs_tile_writer *writer, const cs_area *area, const char *path) {
+static celspan_status write_tile(cs_tile_writer *writer, const cs_pyramid_box *area,
+                                 const char *path) {
   celspan_sink sink;
-  CS_TRY(cs_sink_file(&writer->context, path, &writer->files->file, &sink));
+  CS_TRY(cs_sink_file(&writer->context, path, &writer->output->file, &sink));
   return sink.end(sink.user, &writer->context, put_rows(writer, area, &sink));
 }
 
 static celspan_status refuse_path(cs_tile_writer *writer) {
   return cs_fail(&writer->context, CELSPAN_OUTPUT, "%s: the names of its tiles are too long",
-                 writer->files->pyramid->folder);
+                 writer->output->pyramid->folder);
 }
 
-static celspan_status put_alias(cs_tile_writer *writer, const cs_area *area,
-                                const cs_known_tile *tile) {
+static celspan_status put_alias(cs_tile_writer *writer, const cs_pyramid_box *area,
+                                const cs_tile_known *tile) {
   char path[PATH_SIZE];
-  const cs_pyramid *pyramid = writer->files->pyramid;
+  const cs_pyramid *pyramid = writer->output->pyramid;
   if (!cs_pyramid_path(pyramid, tile->level, tile->column, tile->row, true, path, sizeof path) ||
       link_to(pyramid, tile, path))
     return CELSPAN_OK;
@@ -238,26 +184,27 @@ static celspan_status put_alias(cs_tile_writer *writer, const cs_area *area,
 
 celspan_status cs_tile_writer_put(cs_tile_writer *writer, int32_t level, int32_t column,
                                   int32_t row) {
-  cs_tile_file *files = writer->files;
-  cs_area tile = {column, row, column + 1, row + 1};
-  cs_area area = cs_pyramid_pixels(files->pyramid, level, &tile);
+  cs_tile_output *output = writer->output;
+  cs_pyramid_box tile = {column, row, column + 1, row + 1};
+  cs_pyramid_box area = cs_pyramid_pixels(output->pyramid, level, &tile);
   char path[PATH_SIZE];
-  tile_look look;
-  cs_known_tile known;
-  CS_TRY(look_at(writer, &area, &look));
-  if (look.is_empty) {
-    add_one(files, &files->counts.skipped);
+  tile_content content;
+  cs_tile_known known;
+  CS_TRY(read_content(writer, &area, &content));
+  if (content.is_empty) {
+    output->skipped++;
     return CELSPAN_OK;
   }
-  if (!cs_pyramid_path(files->pyramid, level, column, row, false, path, sizeof path))
+  if (!cs_pyramid_path(output->pyramid, level, column, row, false, path, sizeof path))
     return refuse_path(writer);
-  cs_known_tile made = {look.hash, level, column, row};
-  if (find(files, look.hash, &known) && link_to(files->pyramid, &known, path)) {
-    add_one(files, &files->counts.linked);
+  cs_tile_known made = {content.hash, level, column, row};
+  if (cs_tile_known_find(&output->known, content.hash, &known) &&
+      link_to(output->pyramid, &known, path)) {
+    output->linked++;
   } else {
     CS_TRY(write_tile(writer, &area, path));
-    CS_TRY(remember(files, &writer->context, made));
-    add_one(files, &files->counts.written);
+    CS_TRY(cs_tile_known_add(&output->known, &writer->context, made));
+    output->written++;
   }
   return put_alias(writer, &area, &made);
 }

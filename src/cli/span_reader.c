@@ -1,4 +1,4 @@
-#include "cli/spanread.h"
+#include "cli/span_reader.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +11,7 @@
 #include "cli/argument.h"
 #include "colour/transfer.h"
 
-struct cs_spanread {
+struct cs_span_reader {
   celspan_context *context;
   size_t allocated;
   int descriptor;
@@ -47,7 +47,7 @@ static bool read_all(int descriptor, uint64_t offset, unsigned char *bytes, size
 }
 
 static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {
-  const cs_spanread *file = user;
+  const cs_span_reader *file = user;
   return read_all(file->descriptor, offset, bytes, size);
 }
 
@@ -55,7 +55,7 @@ static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
   return cs_mem_resize(user, block, old_size, new_size);
 }
 
-static celspan_status report(const cs_spanread *file, spanfile_status status,
+static celspan_status report(const cs_span_reader *file, spanfile_status status,
                              const spanfile_fault *fault) {
   if (status == SPANFILE_OK)
     return CELSPAN_OK;
@@ -68,7 +68,7 @@ static celspan_status report(const cs_spanread *file, spanfile_status status,
                  fault->offset, fault->reason);
 }
 
-bool cs_spanread_is(const char *path) {
+bool cs_span_reader_accepts(const char *path) {
   unsigned char start[SPANFILE_MAGIC_BYTES];
   int descriptor = open(path, O_RDONLY | O_CLOEXEC);
   bool is_span = descriptor >= 0 && read_all(descriptor, 0, start, sizeof start) &&
@@ -78,7 +78,7 @@ bool cs_spanread_is(const char *path) {
   return is_span;
 }
 
-static celspan_status open_file(cs_spanread *file) {
+static celspan_status open_file(cs_span_reader *file) {
   struct stat there;
   file->descriptor = open(file->path, O_RDONLY | O_CLOEXEC);
   if (file->descriptor < 0 || fstat(file->descriptor, &there) != 0)
@@ -101,9 +101,10 @@ static celspan_status open_file(cs_spanread *file) {
   return CELSPAN_OK;
 }
 
-celspan_status cs_spanread_open(celspan_context *context, const char *path, cs_spanread **out) {
-  size_t size = sizeof(cs_spanread) + strlen(path) + 1;
-  cs_spanread *file = cs_mem_array(context->memory, 1, size);
+celspan_status cs_span_reader_open(celspan_context *context, const char *path,
+                                   cs_span_reader **out) {
+  size_t size = sizeof(cs_span_reader) + strlen(path) + 1;
+  cs_span_reader *file = cs_mem_array(context->memory, 1, size);
   if (!file)
     return cs_fail_memory(context);
   file->context = context;
@@ -114,11 +115,11 @@ celspan_status cs_spanread_open(celspan_context *context, const char *path, cs_s
   if (status == CELSPAN_OK)
     *out = file;
   else
-    cs_spanread_close(file);
+    cs_span_reader_close(file);
   return status;
 }
 
-void cs_spanread_close(cs_spanread *file) {
+void cs_span_reader_close(cs_span_reader *file) {
   if (!file)
     return;
   cs_memory *memory = file->context->memory;
@@ -131,10 +132,10 @@ void cs_spanread_close(cs_spanread *file) {
   cs_mem_free(memory, file, file->allocated);
 }
 
-spanfile_info cs_spanread_info(const cs_spanread *file) { return file->info; }
-uint64_t cs_spanread_bytes(const cs_spanread *file) { return file->bytes; }
+spanfile_info cs_span_reader_info(const cs_span_reader *file) { return file->info; }
+uint64_t cs_span_reader_bytes(const cs_span_reader *file) { return file->bytes; }
 
-celspan_status cs_spanread_check(cs_spanread *file, spanfile_counts *counts) {
+celspan_status cs_span_reader_check(cs_span_reader *file, spanfile_counts *counts) {
   spanfile_fault fault;
   return report(file, spanfile_reader_check(file->reader, counts, &fault), &fault);
 }
@@ -150,7 +151,7 @@ static float from_half(unsigned half) {
   return half & 0x8000 ? -size : size;
 }
 
-static void to_colour(const cs_spanread *file, const unsigned char *pixel, float rgba[4]) {
+static void to_colour(const cs_span_reader *file, const unsigned char *pixel, float rgba[4]) {
   if (file->info.format == SPANFILE_HALF) {
     for (int c = 0; c < 4; c++)
       rgba[c] = from_half(pixel[2 * c] | (unsigned)pixel[2 * c + 1] << 8);
@@ -174,7 +175,7 @@ typedef struct part_of_row {
   const unsigned char *values;      /* of the first */
 } part_of_row;
 
-static part_of_row find_part(const cs_spanread *file, const spanfile_row *row, uint32_t x0,
+static part_of_row find_part(const cs_span_reader *file, const spanfile_row *row, uint32_t x0,
                              uint32_t x1) {
   const spanfile_span *span = row->spans, *end = row->spans + row->count;
   uint32_t start = 0;
@@ -186,7 +187,7 @@ static part_of_row find_part(const cs_spanread *file, const spanfile_row *row, u
                        start, row->values + pixels * spanfile_pixel_size(file->info.format)};
 }
 
-static celspan_status make_room(cs_spanread *file, const part_of_row *part) {
+static celspan_status make_room(cs_span_reader *file, const part_of_row *part) {
   size_t spans = 0, arrays = 0, longest = 0;
   uint32_t from = part->x0;
   for (const spanfile_span *span = part->first; span < part->end && from < part->x1; span++) {
@@ -209,7 +210,7 @@ static celspan_status make_room(cs_spanread *file, const part_of_row *part) {
 }
 
 /* The array's colours into `colours`; one span of a row by itself, so that only it is decoded. */
-static void decode_array(const cs_spanread *file, const spanfile_span *span, uint32_t start,
+static void decode_array(const cs_span_reader *file, const spanfile_span *span, uint32_t start,
                          const unsigned char *values, uint32_t from, uint32_t to, float *colours) {
   spanfile_span alone = {span->end - start, span->kind, span->pixel};
   spanfile_row row = {&alone, 1, values};
@@ -219,7 +220,7 @@ static void decode_array(const cs_spanread *file, const spanfile_span *span, uin
     to_colour(file, file->pixels + i * pixel_size, colours + 4 * (size_t)i);
 }
 
-static void set_run(const cs_spanread *file, const spanfile_span *span, celspan_span *out) {
+static void set_run(const cs_span_reader *file, const spanfile_span *span, celspan_span *out) {
   unsigned char pixel[8];
   for (int i = 0; i < 8; i++)
     pixel[i] = (unsigned char)(span->pixel >> 8 * i);
@@ -228,7 +229,7 @@ static void set_run(const cs_spanread *file, const spanfile_span *span, celspan_
 }
 
 /* Into file->spans and file->colours, which have room. How many spans. */
-static size_t take_part(cs_spanread *file, const part_of_row *part) {
+static size_t take_part(cs_span_reader *file, const part_of_row *part) {
   size_t pixel_size = spanfile_pixel_size(file->info.format);
   const unsigned char *values = part->values;
   celspan_span *out = file->spans;
@@ -252,8 +253,8 @@ static size_t take_part(cs_spanread *file, const part_of_row *part) {
   return (size_t)(out - file->spans);
 }
 
-celspan_status cs_spanread_row(cs_spanread *file, int32_t y, int32_t x0, int32_t x1,
-                               const celspan_span **spans, size_t *span_count) {
+celspan_status cs_span_reader_row(cs_span_reader *file, int32_t y, int32_t x0, int32_t x1,
+                                  const celspan_span **spans, size_t *span_count) {
   spanfile_row row;
   spanfile_fault fault;
   CS_TRY(report(file, spanfile_reader_row(file->reader, (uint32_t)y, &row, &fault), &fault));

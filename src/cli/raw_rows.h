@@ -1,21 +1,21 @@
 /* Rows as coded pixels, each in the same reused memory: written to a stream.
  */
-#ifndef CS_CLI_RAWROW_H
-#define CS_CLI_RAWROW_H
+#ifndef CS_CLI_RAW_ROWS_H
+#define CS_CLI_RAW_ROWS_H
 
 #include <stdio.h>
 
 #include "celspan/celspan.h"
 
-typedef struct cs_rawrow {
+typedef struct cs_raw_rows {
   celspan_coding coding; /* every default filled in */
   FILE *stream;
   unsigned char *row;
   size_t row_size;
-} cs_rawrow;
+} cs_raw_rows;
 
 /* A sink that codes rows with `coding` (defaults as for raw frames) and writes them to `stream`.
  * raw: kept by the sink as long as it is used. */
-celspan_sink cs_rawrow_sink(cs_rawrow *raw, const celspan_coding *coding, FILE *stream);
+celspan_sink cs_raw_rows_sink(cs_raw_rows *raw, const celspan_coding *coding, FILE *stream);
 
 #endif

@@ -1,5 +1,5 @@
 /* The sink for raw frames. */
-#include "cli/rawrow.h"
+#include "cli/raw_rows.h"
 
 #include <errno.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "output/pixels.h"
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
-  cs_rawrow *raw = user;
+  cs_raw_rows *raw = user;
   (void)height;
   raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
   raw->row = cs_mem_resize(context->memory, NULL, 0, raw->row_size);
@@ -17,7 +17,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
-  cs_rawrow *raw = user;
+  cs_raw_rows *raw = user;
   cs_pixels_row(&raw->coding, spans, span_count, raw->row);
   if (fwrite(raw->row, 1, raw->row_size, raw->stream) == raw->row_size)
     return CELSPAN_OK;
@@ -26,7 +26,7 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 }
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
-  cs_rawrow *raw = user;
+  cs_raw_rows *raw = user;
   cs_mem_free(context->memory, raw->row, raw->row_size);
   raw->row = NULL;
   if (outcome == CELSPAN_OK && fflush(raw->stream) != 0)
@@ -34,7 +34,7 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
-celspan_sink cs_rawrow_sink(cs_rawrow *raw, const celspan_coding *coding, FILE *stream) {
-  *raw = (cs_rawrow){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .stream = stream};
+celspan_sink cs_raw_rows_sink(cs_raw_rows *raw, const celspan_coding *coding, FILE *stream) {
+  *raw = (cs_raw_rows){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .stream = stream};
   return (celspan_sink){raw, begin, put_row, end, cs_pixels_takes_codes(&raw->coding)};
 }

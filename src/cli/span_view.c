@@ -1,4 +1,4 @@
-#include "cli/spanview.h"
+#include "cli/span_view.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,9 +20,9 @@ typedef struct view_line {
   float *colours;
 } view_line;
 
-struct cs_spanview {
+struct cs_span_view {
   celspan_context *context;
-  cs_spanread *file;
+  cs_span_reader *file;
   view_axis columns, rows;
   double *sums;       /* 4 a column, and one column more: the row in the making */
   view_line lines[2]; /* where rows are between two of the file */
@@ -61,7 +61,7 @@ static double held(float number) {
 
 /* From column x of the file (of those that are seen) on, the colour is another by `step`. Steps are
  * kept at the columns they begin at, and summed when the row is done. */
-static void add_step(cs_spanview *view, int32_t x, const double step[4]) {
+static void add_step(cs_span_view *view, int32_t x, const double step[4]) {
   const view_axis *axis = &view->columns;
   double at = (double)x / pixels_each(axis) - axis->first;
   double column = at < 0 ? 0 : floor(at), rest = at < 0 ? 1 : 1 - (at - column);
@@ -74,7 +74,7 @@ static void add_step(cs_spanview *view, int32_t x, const double step[4]) {
   }
 }
 
-static void add_colour(cs_spanview *view, int32_t x, const float colour[4], double weight,
+static void add_colour(cs_span_view *view, int32_t x, const float colour[4], double weight,
                        double before[4]) {
   double step[4];
   for (int c = 0; c < 4; c++) {
@@ -85,7 +85,7 @@ static void add_colour(cs_spanview *view, int32_t x, const float colour[4], doub
   add_step(view, x, step);
 }
 
-static void add_spans(cs_spanview *view, const celspan_span *spans, size_t count, int32_t x0,
+static void add_spans(cs_span_view *view, const celspan_span *spans, size_t count, int32_t x0,
                       double weight) {
   double before[4] = {0};
   for (size_t i = 0; i < count; i++) {
@@ -98,7 +98,7 @@ static void add_spans(cs_spanview *view, const celspan_span *spans, size_t count
   }
 }
 
-static void finish_sums(cs_spanview *view, float *colours) {
+static void finish_sums(cs_span_view *view, float *colours) {
   double sum[4] = {0};
   for (int32_t i = 0; i < view->columns.count; i++)
     for (int c = 0; c < 4; c++) {
@@ -151,12 +151,12 @@ static void enlarge(const view_axis *axis, const celspan_span *spans, size_t cou
 }
 
 /* Row y of the file on the frame's columns. */
-static celspan_status make_line(cs_spanview *view, int32_t y, float *colours) {
+static celspan_status make_line(cs_span_view *view, int32_t y, float *colours) {
   const celspan_span *spans;
   size_t count;
   int32_t x0, x1;
   needed_columns(&view->columns, &x0, &x1);
-  CS_TRY(cs_spanread_row(view->file, y, x0, x1, &spans, &count));
+  CS_TRY(cs_span_reader_row(view->file, y, x0, x1, &spans, &count));
   if (is_shrunk(&view->columns)) {
     add_spans(view, spans, count, x0, 1);
     finish_sums(view, colours);
@@ -169,7 +169,7 @@ static celspan_status make_line(cs_spanview *view, int32_t y, float *colours) {
 /* ---------------------------------------------------------------- rows */
 
 /* The mean of all rows that row i of the frame covers, both axes shrinking. */
-static celspan_status shrink_both(cs_spanview *view, int32_t i) {
+static celspan_status shrink_both(cs_span_view *view, int32_t i) {
   const view_axis *axis = &view->rows;
   double top = place(axis, i), bottom = place(axis, i + 1);
   int32_t x0, x1;
@@ -178,14 +178,14 @@ static celspan_status shrink_both(cs_spanview *view, int32_t i) {
     double from = y > top ? y : top, to = y + 1 < bottom ? y + 1 : bottom;
     const celspan_span *spans;
     size_t count;
-    CS_TRY(cs_spanread_row(view->file, y, x0, x1, &spans, &count));
+    CS_TRY(cs_span_reader_row(view->file, y, x0, x1, &spans, &count));
     add_spans(view, spans, count, x0, (to - from) / (bottom - top));
   }
   finish_sums(view, view->colours);
   return CELSPAN_OK;
 }
 
-static celspan_status find_line(cs_spanview *view, int32_t y, const float **out) {
+static celspan_status find_line(cs_span_view *view, int32_t y, const float **out) {
   view_line *line = &view->lines[y & 1]; /* rows next to each other are kept together */
   if (line->y != y) {
     line->y = -1;
@@ -197,7 +197,7 @@ static celspan_status find_line(cs_spanview *view, int32_t y, const float **out)
 }
 
 /* The mean of the rows that row i of the frame covers, its columns as they come. */
-static celspan_status shrink_rows(cs_spanview *view, int32_t i) {
+static celspan_status shrink_rows(cs_span_view *view, int32_t i) {
   const view_axis *axis = &view->rows;
   size_t numbers = 4 * (size_t)view->columns.count;
   double top = place(axis, i), bottom = place(axis, i + 1);
@@ -213,7 +213,7 @@ static celspan_status shrink_rows(cs_spanview *view, int32_t i) {
   return CELSPAN_OK;
 }
 
-static celspan_status enlarge_rows(cs_spanview *view, int32_t i) {
+static celspan_status enlarge_rows(cs_span_view *view, int32_t i) {
   int32_t pair[2];
   double near = between(&view->rows, i, pair);
   const float *a, *b;
@@ -224,19 +224,19 @@ static celspan_status enlarge_rows(cs_spanview *view, int32_t i) {
   return CELSPAN_OK;
 }
 
-static celspan_status scale_row(cs_spanview *view, int32_t i) {
+static celspan_status scale_row(cs_span_view *view, int32_t i) {
   if (!is_shrunk(&view->rows))
     return enlarge_rows(view, i);
   return is_shrunk(&view->columns) ? shrink_both(view, i) : shrink_rows(view, i);
 }
 
-celspan_status cs_spanview_row(cs_spanview *view, int32_t y, const celspan_span **spans,
-                               size_t *span_count) {
+celspan_status cs_span_view_row(cs_span_view *view, int32_t y, const celspan_span **spans,
+                                size_t *span_count) {
   const view_axis *columns = &view->columns, *rows = &view->rows;
   int32_t row = rows->first + y;
   if (columns->source == columns->target && rows->source == rows->target)
-    return cs_spanread_row(view->file, row, columns->first, columns->first + columns->count, spans,
-                           span_count);
+    return cs_span_reader_row(view->file, row, columns->first, columns->first + columns->count,
+                              spans, span_count);
   CS_TRY(scale_row(view, row));
   view->span =
       (celspan_span){.x1 = columns->count, .kind = CELSPAN_SPAN_ARRAY, .array = view->colours};
@@ -247,7 +247,7 @@ celspan_status cs_spanview_row(cs_spanview *view, int32_t y, const celspan_span 
 
 /* ---------------------------------------------------------------- */
 
-static bool make_buffers(cs_spanview *view) {
+static bool make_buffers(cs_span_view *view) {
   cs_memory *memory = view->context->memory;
   size_t columns = (size_t)view->columns.count, pixel = 4 * sizeof(float);
   view->sums = cs_mem_array(memory, columns + 1, 4 * sizeof *view->sums);
@@ -261,10 +261,10 @@ static bool make_buffers(cs_spanview *view) {
   return is_made;
 }
 
-celspan_status cs_spanview_create(celspan_context *context, cs_spanread *file,
-                                  const celspan_frame_desc *frame, cs_spanview **out) {
-  spanfile_info info = cs_spanread_info(file);
-  cs_spanview *view = cs_mem_array(context->memory, 1, sizeof *view);
+celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *file,
+                                   const celspan_frame_desc *frame, cs_span_view **out) {
+  spanfile_info info = cs_span_reader_info(file);
+  cs_span_view *view = cs_mem_array(context->memory, 1, sizeof *view);
   if (!view)
     return cs_fail_memory(context);
   view->context = context;
@@ -275,14 +275,14 @@ celspan_status cs_spanview_create(celspan_context *context, cs_spanread *file,
   view->rows = (view_axis){(int32_t)info.height, frame->height, frame->crop_y,
                            is_whole ? frame->height : frame->crop_height};
   if (!make_buffers(view)) {
-    cs_spanview_destroy(view);
+    cs_span_view_destroy(view);
     return cs_fail_memory(context);
   }
   *out = view;
   return CELSPAN_OK;
 }
 
-void cs_spanview_destroy(cs_spanview *view) {
+void cs_span_view_destroy(cs_span_view *view) {
   if (!view)
     return;
   cs_memory *memory = view->context->memory;
