@@ -4,7 +4,7 @@
 #include "base/number.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stddef.h>
 
 /* Cells in a radius: between nodes a Gaussian then bends by less than 1/2046 (its second derivative
  * is at most 0.242/sigma^2), the rim of a disc leaves less than 0.9/1023, and the kinks of a box
@@ -44,10 +44,10 @@ static void scale_blur(cs_blur *blur, double pitch_x, double pitch_y) {
   }
 }
 
-static celspan_status acquire(const cs_defocused *soft, celspan_context *context, int32_t number,
+static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,
                               cs_defocus_band **out);
-static void release(const cs_defocused *soft, celspan_context *context, cs_defocus_band *band) {
-  (void)soft;
+static void release(const cs_defocused *grid, celspan_context *context, cs_defocus_band *band) {
+  (void)grid;
   cs_defocus_bands_release(context, band);
 }
 
@@ -66,92 +66,92 @@ static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
 celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, bool varies,
                                  int32_t width, int32_t height, cs_defocus **out) {
   CS_TRY(cs_defocus_bands_ready(context));
-  cs_defocus *soften = cs_mem_array(context->memory, 1, sizeof *soften);
-  if (!soften)
+  cs_defocus *defocus = cs_mem_array(context->memory, 1, sizeof *defocus);
+  if (!defocus)
     return cs_fail_memory(context);
-  cs_defocused *soft = &soften->soft;
-  soft->pitch_x = choose_pitch(blur, 0);
-  soft->pitch_y = choose_pitch(blur, 1);
-  soft->columns = cs_number_ceil(width / soft->pitch_x) + 2;
-  soft->rows = cs_number_ceil(height / soft->pitch_y) + 2;
-  soft->acquire = acquire;
-  soft->release = release;
-  int64_t rows = BAND_BYTES / ((int64_t)soft->columns * 4 * (int64_t)sizeof(float));
-  soft->band_rows = (int32_t)cs_number_clamp((double)rows, BAND_ROWS_LEAST, BAND_ROWS);
-  soften->blur = *blur;
-  cs_blur *s = &soften->blur;
-  scale_blur(s, soft->pitch_x, soft->pitch_y);
-  soften->way = choose_way(s, varies);
+  cs_defocused *grid = &defocus->grid;
+  grid->pitch_x = choose_pitch(blur, 0);
+  grid->pitch_y = choose_pitch(blur, 1);
+  grid->columns = cs_number_ceil(width / grid->pitch_x) + 2;
+  grid->rows = cs_number_ceil(height / grid->pitch_y) + 2;
+  grid->acquire = acquire;
+  grid->release = release;
+  int64_t rows = BAND_BYTES / ((int64_t)grid->columns * 4 * (int64_t)sizeof(float));
+  grid->band_rows = (int32_t)cs_number_clamp((double)rows, BAND_ROWS_LEAST, BAND_ROWS);
+  defocus->blur = *blur;
+  cs_blur *s = &defocus->blur;
+  scale_blur(s, grid->pitch_x, grid->pitch_y);
+  defocus->way = choose_way(s, varies);
   celspan_status status = CELSPAN_OK;
-  if (soften->way == CS_DEFOCUS_EDGES)
-    status = cs_defocus_edges_init(context, s, &soften->edges);
-  else if (soften->way == CS_DEFOCUS_SUMS)
-    status = cs_defocus_sums_init(context, s->radius_x, s->radius_y, &soften->sums);
-  else if (soften->way == CS_DEFOCUS_SLICES)
-    status = cs_defocus_slices_init(context, s, &soften->slices);
+  if (defocus->way == CS_DEFOCUS_EDGES)
+    status = cs_defocus_edges_init(context, s, &defocus->edges);
+  else if (defocus->way == CS_DEFOCUS_SUMS)
+    status = cs_defocus_sums_init(context, s->radius_x, s->radius_y, &defocus->sums);
+  else if (defocus->way == CS_DEFOCUS_SLICES)
+    status = cs_defocus_slices_init(context, s, &defocus->slices);
   if (status == CELSPAN_OK)
-    *out = soften;
+    *out = defocus;
   else
-    cs_defocus_free(soften, context->memory);
+    cs_defocus_free(defocus, context->memory);
   return status;
 }
 
 /* Pixels of the shots in a node's width, and beyond the nodes' own on each side. */
-static int32_t find_reach(const cs_defocus *soften, int32_t *x, int32_t *y) {
-  *x = soften->edges.reach_x + soften->sums.reach_x + soften->slices.reach_x;
-  *y = soften->edges.reach_y + soften->sums.reach_y + soften->slices.reach_y;
-  return soften->way == CS_DEFOCUS_SUMS     ? soften->sums.factor
-         : soften->way == CS_DEFOCUS_SLICES ? soften->slices.factor
-                                            : 1;
+static int32_t find_reach(const cs_defocus *defocus, int32_t *x, int32_t *y) {
+  *x = defocus->edges.reach_x + defocus->sums.reach_x + defocus->slices.reach_x;
+  *y = defocus->edges.reach_y + defocus->sums.reach_y + defocus->slices.reach_y;
+  return defocus->way == CS_DEFOCUS_SUMS     ? defocus->sums.factor
+         : defocus->way == CS_DEFOCUS_SLICES ? defocus->slices.factor
+                                             : 1;
 }
 
-void cs_defocus_raster(const cs_defocus *soften, int32_t *width, int32_t *height) {
-  int32_t reach_x, reach_y, factor = find_reach(soften, &reach_x, &reach_y);
-  *width = factor * soften->soft.columns + 2 * reach_x;
-  *height = factor * soften->soft.rows + 2 * reach_y;
+void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height) {
+  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
+  *width = factor * defocus->grid.columns + 2 * reach_x;
+  *height = factor * defocus->grid.rows + 2 * reach_y;
 }
 
-celspan_matrix cs_defocus_matrix(const cs_defocus *soften) {
-  int32_t reach_x, reach_y, factor = find_reach(soften, &reach_x, &reach_y);
+celspan_matrix cs_defocus_matrix(const cs_defocus *defocus) {
+  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
   return celspan_matrix_then(
-      celspan_matrix_scaling(factor / soften->soft.pitch_x, factor / soften->soft.pitch_y),
+      celspan_matrix_scaling(factor / defocus->grid.pitch_x, factor / defocus->grid.pitch_y),
       celspan_matrix_translation(factor + reach_x, factor + reach_y));
 }
 
 /* Through what boundaries are seen in cells: a square as wide as the blur, which pictures do not
  * know, or as a cell, over a cell. *out: NULL where the means of cells will do. */
-static celspan_status cell_kernel(celspan_context *context, const cs_defocus *soften,
+static celspan_status cell_kernel(celspan_context *context, const cs_defocus *defocus,
                                   cs_kernel **out) {
-  int32_t reach_x, reach_y, factor = find_reach(soften, &reach_x, &reach_y);
-  double blur = soften->blur.blur * factor;
-  double x = fmax(1, blur / soften->soft.pitch_x), y = fmax(1, blur / soften->soft.pitch_y);
-  bool is_fine = soften->soft.pitch_x > 1 && soften->soft.pitch_y > 1;
+  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
+  double blur = defocus->blur.blur * factor;
+  double x = fmax(1, blur / defocus->grid.pitch_x), y = fmax(1, blur / defocus->grid.pitch_y);
+  bool is_fine = defocus->grid.pitch_x > 1 && defocus->grid.pitch_y > 1;
   const cs_blur square = {CELSPAN_DEFOCUS_BOX, 0.5 * x, 0.5 * y, {{0.5 * x, 0}, {0, 0.5 * y}}, 1};
-  if (is_fine || (soften->way == CS_DEFOCUS_SLICES && blur == 0))
+  if (is_fine || (defocus->way == CS_DEFOCUS_SLICES && blur == 0))
     return CELSPAN_OK;
   return cs_kernel_create_defocus(context, &square, out);
 }
 
-celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *soften,
+celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *defocus,
                                  cs_kernel **out) {
   *out = NULL;
-  switch (soften->way) {
+  switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
     return CELSPAN_OK;
   case CS_DEFOCUS_SUMS:
   case CS_DEFOCUS_SLICES:
-    return cell_kernel(context, soften, out);
+    return cell_kernel(context, defocus, out);
   case CS_DEFOCUS_KERNEL:
-    return cs_kernel_create_defocus(context, &soften->blur, out);
+    return cs_kernel_create_defocus(context, &defocus->blur, out);
   }
   return CELSPAN_OK;
 }
 
-void cs_defocus_free(cs_defocus *soften, cs_memory *memory) {
-  cs_defocus_edges_finish(&soften->edges, memory);
-  cs_defocus_sums_finish(&soften->sums, memory);
-  cs_defocus_slices_finish(&soften->slices, memory);
-  cs_mem_free(memory, soften, sizeof *soften);
+void cs_defocus_free(cs_defocus *defocus, cs_memory *memory) {
+  cs_defocus_edges_finish(&defocus->edges, memory);
+  cs_defocus_sums_finish(&defocus->sums, memory);
+  cs_defocus_slices_finish(&defocus->slices, memory);
+  cs_mem_free(memory, defocus, sizeof *defocus);
 }
 
 /* ---------------------------------------------------------------- rows through a kernel */
@@ -178,72 +178,73 @@ static celspan_status fill_filtered(cs_row_maker *maker, int32_t columns, int32_
 
 /* ---------------------------------------------------------------- bands */
 
-static celspan_status fill_rows(const cs_defocus *soften, cs_row_maker *maker, int32_t first,
+static celspan_status fill_rows(const cs_defocus *defocus, cs_row_maker *maker, int32_t first,
                                 int32_t end, float (*nodes)[4]) {
-  int32_t columns = soften->soft.columns;
-  switch (soften->way) {
+  int32_t columns = defocus->grid.columns;
+  switch (defocus->way) {
   case CS_DEFOCUS_KERNEL:
     return fill_filtered(maker, columns, first, end, nodes);
   case CS_DEFOCUS_EDGES:
-    return cs_defocus_edges_fill(&soften->edges, maker, columns, first, end, nodes);
+    return cs_defocus_edges_fill(&defocus->edges, maker, columns, first, end, nodes);
   case CS_DEFOCUS_SUMS:
-    return cs_defocus_sums_fill(&soften->sums, maker, columns, first, end, nodes);
+    return cs_defocus_sums_fill(&defocus->sums, maker, columns, first, end, nodes);
   case CS_DEFOCUS_SLICES:
-    return cs_defocus_slices_fill(&soften->slices, maker, columns, first, end, nodes);
+    return cs_defocus_slices_fill(&defocus->slices, maker, columns, first, end, nodes);
   }
   return CELSPAN_OK;
 }
 
 /* Rows filled at a time: cells of pictures take much room, so no more are held than make up for
  * those that are made twice. */
-static int32_t rows_together(const cs_defocus *soften) {
-  int32_t reach_x, reach_y, factor = find_reach(soften, &reach_x, &reach_y);
-  bool has_cells = soften->way == CS_DEFOCUS_SUMS || soften->way == CS_DEFOCUS_SLICES;
+static int32_t rows_together(const cs_defocus *defocus) {
+  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
+  bool has_cells = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
   int32_t rows = 4 * reach_y / factor;
-  return !has_cells || rows > soften->soft.band_rows ? soften->soft.band_rows
-         : rows < BAND_ROWS_LEAST                    ? BAND_ROWS_LEAST
-                                                     : rows;
+  return !has_cells || rows > defocus->grid.band_rows ? defocus->grid.band_rows
+         : rows < BAND_ROWS_LEAST                     ? BAND_ROWS_LEAST
+                                                      : rows;
 }
 
-static celspan_status fill_plane(const cs_defocus *soften, celspan_context *context, int plane,
+static celspan_status fill_plane(const cs_defocus *defocus, celspan_context *context, int plane,
                                  int32_t first, int32_t end, float (*nodes)[4]) {
   cs_row_maker maker;
-  celspan_status status = cs_row_maker_init(&maker, context, &soften->plans[plane]);
-  int32_t columns = soften->soft.columns, step = rows_together(soften);
+  celspan_status status = cs_row_maker_init(&maker, context, &defocus->plans[plane]);
+  int32_t columns = defocus->grid.columns, step = rows_together(defocus);
   for (int32_t y = first; y < end && status == CELSPAN_OK; y += step)
-    status = fill_rows(soften, &maker, y, end - y < step ? end : y + step,
+    status = fill_rows(defocus, &maker, y, end - y < step ? end : y + step,
                        nodes + (size_t)(y - first) * (size_t)columns);
   cs_row_maker_finish(&maker);
   return status;
 }
 
 /* Rows that are not blended with others are kept as knots, unless pictures leave none straight. */
-static bool is_thin(const cs_defocus *soften) {
-  return soften->soft.pitch_y == 1 &&
-         (soften->way == CS_DEFOCUS_EDGES || soften->way == CS_DEFOCUS_KERNEL);
+static bool is_thin(const cs_defocus *defocus) {
+  return defocus->grid.pitch_y == 1 &&
+         (defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL);
 }
 
 static celspan_status make_band(const void *layer, celspan_context *context, int32_t number,
                                 cs_defocus_band *band) {
-  const cs_defocus *soften = layer;
-  const cs_defocused *soft = &soften->soft;
-  int32_t first = number * soft->band_rows;
-  int32_t end = soft->rows - first < soft->band_rows ? soft->rows : first + soft->band_rows;
-  size_t plane_size = (size_t)soft->band_rows * (size_t)soft->columns;
-  size_t count = (size_t)soft->planes * plane_size;
+  const cs_defocus *defocus = layer;
+  const cs_defocused *grid = &defocus->grid;
+  int32_t first = number * grid->band_rows;
+  int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
+  size_t plane_size = (size_t)grid->band_rows * (size_t)grid->columns;
+  size_t count = (size_t)grid->planes * plane_size;
   band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
   if (!band->nodes)
     return cs_fail_memory(context);
   band->node_count = count;
-  for (int plane = 0; plane < soft->planes; plane++)
+  for (int plane = 0; plane < grid->planes; plane++)
     CS_TRY(
-        fill_plane(soften, context, plane, first, end, band->nodes + (size_t)plane * plane_size));
-  return is_thin(soften) ? cs_defocus_band_thin(soft, context, end - first, band) : CELSPAN_OK;
+        fill_plane(defocus, context, plane, first, end, band->nodes + (size_t)plane * plane_size));
+  return is_thin(defocus) ? cs_defocus_band_thin(grid, context, end - first, band) : CELSPAN_OK;
 }
 
-static celspan_status acquire(const cs_defocused *soft, celspan_context *context, int32_t number,
+static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,
                               cs_defocus_band **out) {
-  const cs_defocus *soften = (const cs_defocus *)soft;
-  cs_defocus_bands_key key = {soften->key, number};
-  return cs_defocus_bands_acquire(context, &key, make_band, soften, out);
+  const cs_defocus *defocus =
+      (const cs_defocus *)(const void *)((const char *)grid - offsetof(cs_defocus, grid));
+  cs_defocus_bands_key key = {defocus->key, number};
+  return cs_defocus_bands_acquire(context, &key, make_band, defocus, out);
 }

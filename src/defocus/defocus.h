@@ -26,7 +26,7 @@ typedef enum cs_defocus_way {
 } cs_defocus_way;
 
 typedef struct cs_defocus {
-  cs_defocused soft; /* first: what composing sees */
+  cs_defocused grid; /* first: what composing sees */
   cs_blur blur;      /* in cells */
   cs_defocus_way way;
   cs_defocus_edges edges;
@@ -43,12 +43,12 @@ CELSPAN_CHECKED celspan_status cs_defocus_create(celspan_context *context, const
                                                  bool varies, int32_t width, int32_t height,
                                                  cs_defocus **out);
 /* Frame pixels to the pixels of the shots, and their size. */
-void cs_defocus_raster(const cs_defocus *soften, int32_t *width, int32_t *height);
-celspan_matrix cs_defocus_matrix(const cs_defocus *soften);
+void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);
+celspan_matrix cs_defocus_matrix(const cs_defocus *defocus);
 /* The kernel of the shots; NULL: means. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *soften,
-                                                 cs_kernel **out);
+CELSPAN_CHECKED celspan_status cs_defocus_kernel(celspan_context *context,
+                                                 const cs_defocus *defocus, cs_kernel **out);
 /* Frees everything but the shots. */
-void cs_defocus_free(cs_defocus *soften, cs_memory *memory);
+void cs_defocus_free(cs_defocus *defocus, cs_memory *memory);
 
 #endif

@@ -1,7 +1,7 @@
 #include "defocus/layer.h"
 
 #include "base/number.h"
-#include "render/compile.h"
+#include "scene/texture.h"
 
 #include <math.h>
 
@@ -11,14 +11,14 @@
 #define SHARP 0.5
 #define SMOOTH 2.0
 
-static const celspan_cel *cel_of(const cs_defocus_place *place) {
+static const celspan_cel *cel_of(const cs_defocus_cel *place) {
   return place->rostrum->cels[place->index];
 }
 
 /* ---------------------------------------------------------------- the kernel */
 
 /* The cel's kernel in pixels of the frame. */
-static cs_blur find_blur(const cs_defocus_place *place) {
+static cs_blur find_blur(const cs_defocus_cel *place) {
   celspan_matrix camera = cs_scene_camera(place->rostrum, place->film_width, place->film_height);
   celspan_matrix map = celspan_matrix_then(camera, place->to_pixels);
   const double *m = map.m;
@@ -33,7 +33,7 @@ static cs_blur find_blur(const cs_defocus_place *place) {
   return blur;
 }
 
-bool cs_defocus_layer_is_soft(const cs_defocus_place *place) {
+bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
   if (!(cel_of(place)->defocus_radius > 0))
     return false;
   cs_blur blur = find_blur(place);
@@ -50,35 +50,27 @@ static double reach(const cs_blur *blur, int axis) {
 
 /* ---------------------------------------------------------------- where it can be seen */
 
-/* The art's box on the frame, pixels. */
-static bool find_art(const cs_defocus_place *place, cs_boundary_frame *out) {
+/* The box of the art on the frame, pixels. */
+static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
   const celspan_cel *cel = cel_of(place);
   celspan_box box;
   if (!celspan_cel_bounds(cel, &box))
     return false;
   celspan_matrix view = celspan_matrix_then(
       cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
-  *out = (cs_boundary_frame){INFINITY, -INFINITY, INFINITY, -INFINITY};
-  for (int corner = 0; corner < 4; corner++) {
-    cs_hpoint p = cs_matrix_apply(&view, (cs_hpoint){box.x + (corner & 1 ? box.width : 0),
-                                                     box.y + (corner & 2 ? box.height : 0), 1});
-    out->left = fmin(out->left, p.x / p.w);
-    out->right = fmax(out->right, p.x / p.w);
-    out->top = fmin(out->top, p.y / p.w);
-    out->bottom = fmax(out->bottom, p.y / p.w);
-  }
+  (void)cs_boundary_around_box(&box, &view, out); /* viewport and camera have no horizon */
   return true;
 }
 
 /* The art's box grown by the kernel and by what lies between nodes, in whole pixels, cut to what
  * can be seen. */
-static bool find_box(const cs_defocus_place *place, const cs_blur *blur, const cs_defocused *soft,
+static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_defocused *grid,
                      cs_boundary_frame *out) {
   cs_boundary_frame art;
   if (!find_art(place, &art))
     return false;
-  double grow_x = reach(blur, 0) + 2 * soft->pitch_x + 1;
-  double grow_y = reach(blur, 1) + 2 * soft->pitch_y + 1;
+  double grow_x = reach(blur, 0) + 2 * grid->pitch_x + 1;
+  double grow_y = reach(blur, 1) + 2 * grid->pitch_y + 1;
   out->left = fmax(floor(art.left - grow_x), place->frame.left);
   out->right = fmin(ceil(art.right + grow_x), place->frame.right);
   out->top = fmax(floor(art.top - grow_y), place->frame.top);
@@ -87,20 +79,6 @@ static bool find_box(const cs_defocus_place *place, const cs_blur *blur, const c
 }
 
 /* ---------------------------------------------------------------- planes */
-
-static bool is_grey(const float t[3]) { return t[0] == t[1] && t[1] == t[2]; }
-
-static bool texture_is_grey(const celspan_texture *texture) {
-  if (texture->kind == CS_TEXTURE_PICTURE)
-    return texture->use == CELSPAN_PICTURE_PAINT;
-  if (texture->kind == CS_TEXTURE_TRIANGLE)
-    return is_grey(texture->corners[0].t) && is_grey(texture->corners[1].t) &&
-           is_grey(texture->corners[2].t);
-  for (size_t i = 0; i < texture->stop_count; i++)
-    if (!is_grey(texture->stops[i].paint.t))
-      return false;
-  return true;
-}
 
 /* Whether the cel lets the three channels through alike, as far as can be told. */
 static bool stack_is_grey(const cs_stack *stack) {
@@ -112,8 +90,8 @@ static bool stack_is_grey(const cs_stack *stack) {
         layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->detail].texture
         : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->detail].texture
                                           : NULL;
-    const float t[3] = {layer->t[0], layer->t[1], layer->t[2]};
-    if (texture ? !texture_is_grey(texture) : !is_grey(t))
+    bool is_flat_grey = layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
+    if (!(texture ? cs_texture_is_grey(texture) : is_flat_grey))
       return false;
   }
   return true;
@@ -136,32 +114,32 @@ static bool cel_varies(const celspan_cel *cel) {
   return false;
 }
 
-static celspan_status compile_plane(celspan_context *context, const cs_defocus_place *place,
-                                    cs_defocus *soften, int plane) {
-  celspan_matrix matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(soften));
-  cs_kernel *kernel;
-  int32_t width, height;
-  CS_TRY(cs_defocus_kernel(context, soften, &kernel));
-  cs_defocus_raster(soften, &width, &height);
-  return cs_compile_cel(context, cel_of(place), place->index, &matrix, width, height, plane == 1,
-                        kernel, &soften->plans[plane]);
+static celspan_status compile_plane(celspan_context *context, const cs_defocus_cel *place,
+                                    const cs_defocus_compiler *compiler, int plane,
+                                    cs_defocus *defocus) {
+  cs_defocus_job job = {.cel = cel_of(place),
+                        .matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(defocus)),
+                        .is_through = plane == 1};
+  cs_defocus_raster(defocus, &job.width, &job.height);
+  CS_TRY(cs_defocus_kernel(context, defocus, &job.kernel));
+  return compiler->compile(compiler->user, &job, &defocus->plans[plane]);
 }
 
-static celspan_status compile_planes(celspan_context *context, const cs_defocus_place *place,
-                                     cs_defocus *soften) {
-  CS_TRY(compile_plane(context, place, soften, 0));
-  soften->soft.planes = 1;
-  if (stack_is_grey(&soften->plans[0].stack))
+static celspan_status compile_planes(celspan_context *context, const cs_defocus_cel *place,
+                                     const cs_defocus_compiler *compiler, cs_defocus *defocus) {
+  CS_TRY(compile_plane(context, place, compiler, 0, defocus));
+  defocus->grid.planes = 1;
+  if (stack_is_grey(&defocus->plans[0].stack))
     return CELSPAN_OK;
-  CS_TRY(compile_plane(context, place, soften, 1));
-  soften->soft.planes = 2;
+  CS_TRY(compile_plane(context, place, compiler, 1, defocus));
+  defocus->grid.planes = 2;
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- the key */
 
 /* All that the nodes depend on. */
-static cs_hash find_key(const cs_defocus_place *place, const cs_blur *blur) {
+static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
   const celspan_cel *cel = cel_of(place);
   cs_hash hash = cs_hash_begin(0x736f6674u);
   cs_hash_word(&hash, cel->object_count);
@@ -182,32 +160,33 @@ static cs_hash find_key(const cs_defocus_place *place, const cs_blur *blur) {
 
 /* ---------------------------------------------------------------- life */
 
-celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_place *place,
-                                       cs_outline *box, cs_defocus **out) {
+celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
+                                       const cs_defocus_compiler *compiler, cs_outline *box,
+                                       cs_defocus **out) {
   cs_blur blur = find_blur(place);
   cs_boundary_frame seen;
-  cs_defocus *soften;
+  cs_defocus *defocus;
   *out = NULL;
   CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
-                           &soften));
-  if (!find_box(place, &blur, &soften->soft, &seen)) {
-    cs_defocus_free(soften, context->memory);
+                           &defocus));
+  if (!find_box(place, &blur, &defocus->grid, &seen)) {
+    cs_defocus_free(defocus, context->memory);
     return CELSPAN_OK;
   }
-  soften->key = find_key(place, &blur);
-  celspan_status status = compile_planes(context, place, soften);
+  defocus->key = find_key(place, &blur);
+  celspan_status status = compile_planes(context, place, compiler, defocus);
   if (status == CELSPAN_OK)
     status = cs_outline_rect(context, box, seen.left, seen.top, seen.right - seen.left,
                              seen.bottom - seen.top, 0);
   if (status == CELSPAN_OK)
-    *out = soften;
+    *out = defocus;
   else
-    cs_defocus_layer_free(soften, context->memory);
+    cs_defocus_layer_free(defocus, context->memory);
   return status;
 }
 
-void cs_defocus_layer_free(cs_defocus *soften, cs_memory *memory) {
-  cs_compile_free(&soften->plans[0], memory);
-  cs_compile_free(&soften->plans[1], memory);
-  cs_defocus_free(soften, memory);
+void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
+  cs_plan_finish(&defocus->plans[0], memory);
+  cs_plan_finish(&defocus->plans[1], memory);
+  cs_defocus_free(defocus, memory);
 }

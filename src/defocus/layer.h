@@ -1,33 +1,66 @@
-/* Soft layers: a defocused cel of a frame, its kernel brought to pixels, compiled alone.
+/* One defocused cel of a frame: its blur brought to pixels, and its art compiled alone.
  *
- * The kernel lies in film units on the frame after the cel's viewport; the camera enlarges and
- * turns it with the picture, and the frame's size scales each axis. A key of all that counts names
- * the layer's bands, so that a cel that did not change is not filtered again.
+ *   rostrum --viewport, camera, frame size--> blur in pixels --pitch--> grid over the frame
+ *
+ *        frame                          the art's own box on the frame        ....
+ *      +------------------------+       grown by the blur                     +--+
+ *      |      +----------+      |
+ *      |      | ........ |      |       The layer is present in the grown box, in whole pixels,
+ *      |      | :  art : |      |       cut to the frame. There its paint is read from the nodes of
+ *      |      | :......: |      |       the grid; elsewhere it is clear.
+ *      |      +----------+      |
+ *      +------------------------+
+ *
+ * The blur is given in film units, on the frame as the cel's viewport leaves it. The camera
+ * enlarges and turns the blur with the picture, and the frame's size scales each axis.
+ *
+ * A key over everything that the nodes depend on names the layer's bands, so that a cel that did
+ * not change from one frame to the next is not blurred again.
+ *
+ * The compiler of frames (render/compile.c) calls this room, and the art is compiled by that same
+ * compiler, which comes as a callback. The recursion is one level deep: a cel that is compiled
+ * alone is compiled without its blur.
  */
 #ifndef CS_DEFOCUS_LAYER_H
 #define CS_DEFOCUS_LAYER_H
 
 #include "defocus/defocus.h"
 
-/* Where a cel stands in a frame. */
-typedef struct cs_defocus_place {
+/* A cel of a frame. */
+typedef struct cs_defocus_cel {
   const celspan_rostrum *rostrum;
-  size_t index;             /* of the cel */
+  size_t index;             /* of the cel in its rostrum */
   celspan_matrix to_pixels; /* film units to pixels */
   double film_width, film_height;
   celspan_matrix matrix;   /* the cel's units to pixels */
-  cs_boundary_frame frame; /* what can be seen, with its margin */
-  int32_t width, height;   /* pixels of the frame */
+  cs_boundary_frame frame; /* the part of the plane that can be seen, its margin included */
+  int32_t width, height;   /* of the frame, pixels */
   bool is_antialiased;
-} cs_defocus_place;
+} cs_defocus_cel;
 
-/* Whether the cel is defocused by enough to tell. */
-bool cs_defocus_layer_is_soft(const cs_defocus_place *place);
-/* *out: new; NULL when nothing can be seen. box: gets the rectangle, in whole pixels, that the
- * layer's art reaches. Errors: NO_MEMORY, and those of cs_compile_cel. */
+/* What is wanted of the compiler: one cel alone, without opacity, onto a raster of its own. Lit by
+ * white light, from the front alone or (is_through) from behind alone. */
+typedef struct cs_defocus_job {
+  const celspan_cel *cel;
+  celspan_matrix matrix; /* the cel's units to the raster's pixels */
+  int32_t width, height; /* of the raster, pixels */
+  bool is_through;
+  cs_kernel *kernel; /* taken over, even on failure; NULL: the mean over each pixel */
+} cs_defocus_job;
+
+typedef struct cs_defocus_compiler {
+  celspan_status (*compile)(void *user, const cs_defocus_job *job, cs_plan *out);
+  void *user;
+} cs_defocus_compiler;
+
+/* Whether the cel is defocused by enough to be seen. */
+bool cs_defocus_layer_is_needed(const cs_defocus_cel *place);
+/* *out: new; NULL when nothing can be seen. box: gets the rectangle, in whole pixels, in which the
+ * layer is present. Errors: NO_MEMORY, and those of the compiler. */
 CELSPAN_CHECKED celspan_status cs_defocus_layer_create(celspan_context *context,
-                                                       const cs_defocus_place *place,
+                                                       const cs_defocus_cel *place,
+                                                       const cs_defocus_compiler *compiler,
                                                        cs_outline *box, cs_defocus **out);
-void cs_defocus_layer_free(cs_defocus *soften, cs_memory *memory);
+void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory);
 
 #endif

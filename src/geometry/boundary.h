@@ -61,6 +61,11 @@ typedef struct cs_boundary_frame {
   double left, right, top, bottom; /* pixels */
 } cs_boundary_frame;
 
+/* The rectangle around the four corners of a box under a matrix. Returns whether all of them are in
+ * front of the horizon: then everything inside the box lies in the rectangle. */
+bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix,
+                            cs_boundary_frame *out);
+
 void cs_boundary_init(cs_boundary_set *set);
 void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
 

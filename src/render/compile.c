@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "defocus/layer.h"
 #include "paint/shade.h"
+#include "scene/texture.h"
 
 #include <math.h>
 
@@ -36,16 +37,6 @@ static void fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   layer->is_opaque = cs_paint_is_opaque(&faded);
 }
 
-static bool stops_are_opaque(const celspan_texture *texture) {
-  if (texture->kind == CS_TEXTURE_TRIANGLE)
-    return cs_paint_is_opaque(&texture->corners[0]) && cs_paint_is_opaque(&texture->corners[1]) &&
-           cs_paint_is_opaque(&texture->corners[2]);
-  for (size_t i = 0; i < texture->stop_count; i++)
-    if (!cs_paint_is_opaque(&texture->stops[i].paint))
-      return false;
-  return true;
-}
-
 static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_texture *texture,
                                   const celspan_matrix *inverse) {
   cs_stack *stack = &c->plan->stack;
@@ -55,7 +46,8 @@ static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_te
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
   layer->detail = (uint32_t)stack->shade_count++;
-  layer->is_opaque = layer->fade == 1 && cs_matrix_is_affine(inverse) && stops_are_opaque(texture);
+  layer->is_opaque =
+      layer->fade == 1 && cs_matrix_is_affine(inverse) && cs_texture_is_opaque(texture);
   return CELSPAN_OK;
 }
 
@@ -94,20 +86,11 @@ static celspan_status append_layer(compiler *c, double fade, celspan_rule rule, 
   return CELSPAN_OK;
 }
 
-/* Whether a box may show on the rows asked for: where its corners are all in front of the horizon,
- * what is inside lies between them. */
+/* Whether anything inside a box may be on the rows that will be asked for. */
 static bool meets_rows(const compiler *c, const celspan_box *box, const celspan_matrix *matrix) {
-  double low = INFINITY, high = -INFINITY;
-  for (int corner = 0; corner < 4; corner++) {
-    cs_hpoint own = {box->x + (corner & 1 ? box->width : 0),
-                     box->y + (corner & 2 ? box->height : 0), 1};
-    cs_hpoint at = cs_matrix_apply(matrix, own);
-    if (!(at.w > 0))
-      return true;
-    low = at.y / at.w < low ? at.y / at.w : low;
-    high = at.y / at.w > high ? at.y / at.w : high;
-  }
-  return high >= c->first_height && low <= c->end_height;
+  cs_boundary_frame around;
+  return !cs_boundary_around_box(box, matrix, &around) ||
+         (around.bottom >= c->first_height && around.top <= c->end_height);
 }
 
 static celspan_status compile_outline(compiler *c, const cs_primitive_data *body, double fade,
@@ -297,26 +280,36 @@ static celspan_status append_light(compiler *c, celspan_light light, uint32_t be
   return CELSPAN_OK;
 }
 
-/* A defocused cel: one layer, present in the box that its art reaches. */
-static celspan_status compile_soft(compiler *c, const cs_defocus_place *place) {
+static celspan_status append_defocused(compiler *c, const cs_defocus_cel *place,
+                                       const cs_outline *box, uint32_t detail) {
   cs_stack *stack = &c->plan->stack;
-  cs_defocus *soften = NULL;
-  cs_outline box;
+  celspan_matrix identity = celspan_matrix_identity();
+  double opacity = place->rostrum->cels[place->index]->opacity;
   uint32_t index;
+  CS_TRY(append_layer(c, opacity, CELSPAN_RULE_NONZERO, &index));
+  stack->layers[index].kind = CS_LAYER_DEFOCUSED;
+  stack->layers[index].detail = detail;
+  return cs_boundary_add(c->context, &c->plan->boundaries, box, &identity, &c->frame, index);
+}
+
+static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out);
+
+/* A defocused cel: one layer, present in the box that its blurred art covers. */
+static celspan_status compile_defocused(compiler *c, const cs_defocus_cel *place) {
+  cs_plan *plan = c->plan;
+  cs_stack *stack = &plan->stack;
+  const cs_defocus_compiler alone = {compile_alone, c};
+  cs_outline box;
   CS_TRY(APPEND(c, defocused, defocused_count, defocused_capacity));
+  CS_TRY(cs_mem_reserve(c->context, (void **)&plan->defocus, &plan->defocus_capacity,
+                        plan->defocus_count + 1, sizeof(cs_defocus *)));
   cs_outline_init(&box);
-  celspan_status status = cs_defocus_layer_create(c->context, place, &box, &soften);
-  if (status == CELSPAN_OK && soften) {
-    stack->defocused[stack->defocused_count] = &soften->soft;
-    uint32_t detail = (uint32_t)stack->defocused_count++;
-    celspan_matrix identity = celspan_matrix_identity();
-    status =
-        append_layer(c, place->rostrum->cels[place->index]->opacity, CELSPAN_RULE_NONZERO, &index);
-    if (status == CELSPAN_OK) {
-      stack->layers[index].kind = CS_LAYER_DEFOCUSED;
-      stack->layers[index].detail = detail;
-      status = cs_boundary_add(c->context, &c->plan->boundaries, &box, &identity, &c->frame, index);
-    }
+  cs_defocus *defocus = NULL;
+  celspan_status status = cs_defocus_layer_create(c->context, place, &alone, &box, &defocus);
+  if (status == CELSPAN_OK && defocus) {
+    plan->defocus[plan->defocus_count++] = defocus;
+    stack->defocused[stack->defocused_count] = &defocus->grid;
+    status = append_defocused(c, place, &box, (uint32_t)stack->defocused_count++);
   }
   cs_outline_finish(&box, c->context->memory);
   return status;
@@ -332,13 +325,13 @@ static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, s
   matrix = celspan_matrix_then(matrix, *to_pixels);
   CS_TRY(append_light(c, cs_scene_back(rostrum, cel->back), (uint32_t)c->plan->stack.layer_count));
   c->front = light_colour(cs_scene_front(rostrum, cel));
-  const cs_defocus_place place = {rostrum,         index,
-                                  *to_pixels,      film_width,
-                                  film_height,     matrix,
-                                  c->frame,        c->plan->width,
-                                  c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
-  if (cs_defocus_layer_is_soft(&place))
-    return compile_soft(c, &place);
+  const cs_defocus_cel place = {rostrum,         index,
+                                *to_pixels,      film_width,
+                                film_height,     matrix,
+                                c->frame,        c->plan->width,
+                                c->plan->height, c->plan->antialias != CELSPAN_ANTIALIAS_NONE};
+  if (cs_defocus_layer_is_needed(&place))
+    return compile_defocused(c, &place);
   outside outer;
   CS_TRY(begin_group(c, cel->opacity, &outer));
   for (size_t i = 0; i < cel->object_count; i++)
@@ -431,42 +424,39 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   return status;
 }
 
-static celspan_status compile_alone(compiler *c, const celspan_cel *cel,
-                                    const celspan_matrix *matrix, bool is_through) {
+/* ---------------------------------------------------------------- one cel alone */
+
+static celspan_status compile_objects(compiler *c, const cs_defocus_job *job) {
   const celspan_light white = {1, 1, 1, 0};
-  c->front = is_through ? cs_v4_all(0) : light_colour(white);
-  if (is_through)
+  c->front = job->is_through ? cs_v4_all(0) : light_colour(white);
+  if (job->is_through)
     CS_TRY(append_light(c, white, 0));
-  for (size_t i = 0; i < cel->object_count; i++)
-    CS_TRY(compile_object(c, cel->objects[i], matrix));
+  for (size_t i = 0; i < job->cel->object_count; i++)
+    CS_TRY(compile_object(c, job->cel->objects[i], &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
   return cull(c);
 }
 
-celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel, size_t cel_index,
-                              const celspan_matrix *matrix, int32_t width, int32_t height,
-                              bool is_through, cs_kernel *kernel, cs_plan *out) {
-  cs_plan plan = {.width = width,
-                  .height = height,
-                  .margin = kernel ? cs_kernel_reach(kernel) : 0,
-                  .kernel = kernel};
+static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {
+  const compiler *outer = user;
+  cs_plan plan = {.width = job->width,
+                  .height = job->height,
+                  .margin = job->kernel ? cs_kernel_reach(job->kernel) : 0,
+                  .kernel = job->kernel};
   compiler c;
-  begin(&c, context, &plan, 0, height);
+  begin(&c, outer->context, &plan, 0, job->height);
   c.workers = 1;
-  c.cel = cel_index + 1;
-  celspan_status status = compile_alone(&c, cel, matrix, is_through);
+  c.cel = outer->cel;
+  celspan_status status = compile_objects(&c, job);
   if (status == CELSPAN_OK)
     *out = plan;
   else
-    cs_compile_free(&plan, context->memory);
+    cs_compile_free(&plan, outer->context->memory);
   return status;
 }
 
 void cs_compile_free(cs_plan *plan, cs_memory *memory) {
-  for (size_t i = 0; i < plan->stack.defocused_count; i++)
-    cs_defocus_layer_free((cs_defocus *)plan->stack.defocused[i], memory);
-  cs_stack_finish(&plan->stack, memory);
-  cs_boundary_finish(&plan->boundaries, memory);
-  cs_cull_free(&plan->cull, memory);
-  cs_kernel_free(plan->kernel, memory);
+  for (size_t i = 0; i < plan->defocus_count; i++)
+    cs_defocus_layer_free(plan->defocus[i], memory);
+  cs_plan_finish(plan, memory);
 }

@@ -1,17 +1,31 @@
-/* Compiling: a rostrum and a frame size become a shot, the flat form that scans read.
+/* Compiling: a rostrum and a frame size become a plan, the flat form that rows are made from.
  *
- *   rostrum --walk, rear to front--> leaves, groups, trees, back lights (compose/stack.h)
- *                                  + chains of boundaries in frame pixels (geometry/boundary.h)
+ *      camera                                     layer 3   a primitive of the front cel
+ *        |     cel 2  ====  objects, trees        layer 2   a primitive of the front cel
+ *        |     cel 1  ====  one object            back light, shining on everything above it
+ *        v     cel 0  ====  defocused             layer 1   a primitive of cel 1
+ *      rear light                                 layer 0   the whole of cel 0 (defocus/layer.h)
  *
- * The shot borrows textures, pictures and procedures of the rostrum, which must outlive it.
+ *   rostrum --walk from the rear to the front--> layers, groups, trees, back lights, in order
+ *                                                (compose/stack.h)
+ *                                              + chains of boundaries in frame pixels
+ *                                                (geometry/boundary.h)
+ *
+ * The plan borrows textures, pictures and procedures of the rostrum, which must outlive it.
+ *
+ * A defocused cel is compiled by this compiler too, alone and onto a raster of its own: it is given
+ * to defocus/layer.h as a callback. The recursion is one level deep, because a cel that is compiled
+ * alone is compiled without its blur.
  */
 #ifndef CS_RENDER_COMPILE_H
 #define CS_RENDER_COMPILE_H
 
-#include "row/row.h"
+#include "row/plan.h"
+#include "scene/scene.h"
 
-/* What of a film is looked at: its size in units, the frame's in pixels, and the rows that will be
- * asked for. Outlines wholly above or below those are left out, which changes no bit of them. */
+/* The view of a film: its size in units, the frame's size in pixels, and the rows that will be
+ * asked for. Outlines wholly above or below those rows are left out, which changes no bit of the
+ * rows. */
 typedef struct cs_view {
   double film_width, film_height;
   int32_t width, height;
@@ -19,17 +33,10 @@ typedef struct cs_view {
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or
- * camera, for a rotated scan-line primitive and for what is not built in, naming the cel. */
+ * camera and for a rotated scan-line primitive, naming the cel. */
 CELSPAN_CHECKED celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
                                           const cs_view *view, const cs_antialias *antialias,
                                           int workers, cs_plan *out);
-/* One cel alone, without opacity, onto a raster of its own: `matrix` takes its units there. Lit
- * from the front alone, or (is_through) from behind alone, by white light. kernel: taken over;
- * NULL: the mean over each pixel. Errors: as above. */
-CELSPAN_CHECKED celspan_status cs_compile_cel(celspan_context *context, const celspan_cel *cel,
-                                              size_t cel_index, const celspan_matrix *matrix,
-                                              int32_t width, int32_t height, bool is_through,
-                                              cs_kernel *kernel, cs_plan *out);
 void cs_compile_free(cs_plan *plan, cs_memory *memory);
 
 #endif

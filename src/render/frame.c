@@ -68,12 +68,12 @@ static void take_crop(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->crop_height = is_whole ? desc->height : desc->crop_height;
 }
 
-static bool stays_on_thread(const cs_stack *stack) {
-  for (size_t k = 0; k < stack->procedure_count; k++)
-    if (!stack->procedures[k].desc->any_thread)
+static bool stays_on_thread(const cs_plan *plan) {
+  for (size_t k = 0; k < plan->stack.procedure_count; k++)
+    if (!plan->stack.procedures[k].desc->any_thread)
       return true;
-  for (size_t k = 0; k < stack->defocused_count; k++)
-    if (stays_on_thread(&((const cs_defocus *)stack->defocused[k])->plans[0].stack))
+  for (size_t k = 0; k < plan->defocus_count; k++)
+    if (stays_on_thread(&plan->defocus[k]->plans[0]))
       return true;
   return false;
 }
@@ -81,7 +81,7 @@ static bool stays_on_thread(const cs_stack *stack) {
 /* Procedures that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
-    if (stays_on_thread(&frame->plans[i].stack))
+    if (stays_on_thread(&frame->plans[i]))
       return true;
   return false;
 }

@@ -1,11 +1,18 @@
-/* The plan of a frame: a rostrum compiled for a frame of some size. It is made by render/compile.c
- * and never changed afterwards, so any number of workers read it at once. */
+/* The plan: a rostrum compiled for a frame of some size, in the flat form that rows are made from.
+ *
+ *   rostrum --render/compile.c--> plan --row/row.c, once a worker--> rows of spans
+ *
+ * Invariant: a plan never changes once it is made, so threads share it. It borrows the textures,
+ * pictures and procedures of the rostrum, which must outlive it.
+ */
 #ifndef CS_ROW_PLAN_H
 #define CS_ROW_PLAN_H
 
 #include "compose/stack.h"
 #include "kernel/kernel.h"
 #include "sweep/cull.h"
+
+struct cs_defocus; /* defocus/defocus.h */
 
 typedef struct cs_plan {
   cs_stack stack;
@@ -15,6 +22,13 @@ typedef struct cs_plan {
   int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;
   cs_kernel *kernel; /* owned; NULL: rows are not filtered */
+  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Owned, and freed by
+   * cs_compile_free; a plan of one cel alone has none. */
+  struct cs_defocus **defocus;
+  size_t defocus_count, defocus_capacity;
 } cs_plan;
+
+/* Frees what a plan holds, except for its defocused cels. */
+void cs_plan_finish(cs_plan *plan, cs_memory *memory);
 
 #endif

@@ -225,6 +225,36 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
   return finish(texture, out);
 }
 
+/* ---------------------------------------------------------------- questions */
+
+static bool is_opaque(const cs_paint *paint) { return cs_paint_is_opaque(paint); }
+
+static bool is_grey(const cs_paint *paint) {
+  return paint->t[0] == paint->t[1] && paint->t[1] == paint->t[2];
+}
+
+/* Whether every paint of a texture that is not a picture is as asked. */
+static bool all_paints(const celspan_texture *texture, bool (*is_so)(const cs_paint *paint)) {
+  if (texture->kind == CS_TEXTURE_FLAT)
+    return is_so(&texture->flat);
+  if (texture->kind == CS_TEXTURE_TRIANGLE)
+    return is_so(&texture->corners[0]) && is_so(&texture->corners[1]) &&
+           is_so(&texture->corners[2]);
+  for (size_t i = 0; i < texture->stop_count; i++)
+    if (!is_so(&texture->stops[i].paint))
+      return false;
+  return true;
+}
+
+bool cs_texture_is_opaque(const celspan_texture *texture) {
+  return texture->kind != CS_TEXTURE_PICTURE && all_paints(texture, is_opaque);
+}
+
+bool cs_texture_is_grey(const celspan_texture *texture) {
+  return texture->kind == CS_TEXTURE_PICTURE ? texture->use == CELSPAN_PICTURE_PAINT
+                                             : all_paints(texture, is_grey);
+}
+
 /* ---------------------------------------------------------------- references */
 
 celspan_texture *celspan_texture_ref(celspan_texture *texture) {

@@ -10,4 +10,9 @@
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);
 
+/* Whether every colour of the texture is opaque, and whether every one lets the three channels
+ * through alike. A picture is never known to be opaque here; it is grey unless it is a gel. */
+bool cs_texture_is_opaque(const celspan_texture *texture);
+bool cs_texture_is_grey(const celspan_texture *texture);
+
 #endif
