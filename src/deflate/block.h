@@ -1,103 +1,106 @@
-/* Deflate blocks: tokens to bits (RFC 1951). */
+/* Deflate blocks: tokens are gathered, counted, and put as bits with the best codes for them
+ * (RFC 1951).
+ *
+ *   tokens (65,536 at most) --+--> counts of symbols --> codes --+--> bits --> write
+ *                             +----------------------------------+
+ *
+ * A token is a word of 32 bits:
+ *
+ *    31  30      24 23       16 15  14            0
+ *   +---+----------+-----------+---+---------------+
+ *   | 0 | 0                              |  byte   |   a literal
+ *   | 0 | 1 | 0 .. |   third   | second  |  first  |   three literals
+ *   | 1 |  times   | length-3  | 0 |  distance-1   |   a match after `times` longest ones
+ *   +---+----------+-----------+---+---------------+
+ *
+ * INVARIANT: `counts` are those of the tokens that wait. times is 0 unless the distance is at most
+ * CS_DEFLATE_NEAR: so a run of a colour, whose distance is the size of a pixel, takes a token for
+ * each 128 longest matches.
+ */
 #ifndef CS_DEFLATE_BLOCK_H
 #define CS_DEFLATE_BLOCK_H
 
-#include "base/context.h"
+#include "deflate/bits.h"
+#include "deflate/symbols.h"
 
-/* Receives compressed bytes, in order. */
-typedef celspan_status (*cs_block_write)(void *user, celspan_context *context, const void *bytes,
-                                         size_t size);
-
-/* A literal is its byte; in bits 30 and 31 else: 1, three literals, the first lowest; 2 and 3, a
- * match: its length less 3 from bit 16 on, its distance less 1 from bit 0 on, and from bit 24 on
- * how many matches of the greatest length come before it, from a distance of at most CS_BLOCK_NEAR.
- */
-typedef uint32_t cs_token;
+typedef uint32_t cs_deflate_token;
 
 enum {
-  CS_BLOCK_BYTES = 1 << 16,
-  CS_BLOCK_TOKENS = 1 << 16,
-  CS_BLOCK_LONGEST = 258, /* and the shortest match is 3 */
-  CS_BLOCK_TIMES = 127,   /* matches before one, at most */
-  CS_BLOCK_NEAR = 16,
-  CS_BLOCK_DISTANCES = 30 /* their symbols */
+  CS_DEFLATE_TOKENS = 1 << 16,
+  CS_DEFLATE_TIMES = 127, /* longest matches in a token, before its last match */
+  CS_DEFLATE_NEAR = 16
 };
 
-/* How often what was told; literals by their place in a token, so that equal ones in a row are
- * counted side by side. */
+/* How often each thing was added. The three literals of a token are counted in three tables, by
+ * their place in it: neighbours are often equal, and adding to one counter three times in a row
+ * would wait for memory each time. Distances up to CS_DEFLATE_NEAR of cs_deflate_block_matches are
+ * counted as they are, all others by their symbol. */
 typedef struct cs_deflate_block_counts {
-  uint32_t literals[3][256], lengths[256], near_distances[CS_BLOCK_NEAR];
-  uint32_t distances[CS_BLOCK_DISTANCES]; /* of matches that cs_deflate_block_match was told */
+  uint32_t literals[3][256], lengths[256], near_distances[CS_DEFLATE_NEAR];
+  uint32_t distances[CS_DEFLATE_DISTANCES];
 } cs_deflate_block_counts;
 
-/* Tokens of a block, and bits on their way out. Errors stick in status. */
-typedef struct cs_deflate_block_writer {
-  cs_block_write write;
-  void *user;
-  celspan_context *context; /* of the call in progress */
-  celspan_status status;
-  uint64_t bits; /* not yet in bytes, the first lowest */
-  unsigned bit_count;
-  size_t size;
-  unsigned char bytes[CS_BLOCK_BYTES + 8];
+typedef struct cs_deflate_block {
+  cs_deflate_bits output; /* its write, user and context are set by the caller */
   size_t token_count;
-  cs_token tokens[CS_BLOCK_TOKENS];
-  cs_deflate_block_counts counts; /* of the tokens */
-} cs_deflate_block_writer;
+  cs_deflate_token tokens[CS_DEFLATE_TOKENS];
+  cs_deflate_block_counts counts;
+} cs_deflate_block;
 
-/* write, user and context are kept. */
-void cs_deflate_block_begin(cs_deflate_block_writer *writer);
+/* Drops all tokens and bits that wait, and any failure. */
+void cs_deflate_block_begin(cs_deflate_block *block);
 
-/* One block of the tokens that are held, with codes of its own or the fixed ones, whichever is
+/* Puts the waiting tokens as one block, with codes of its own or the fixed ones, whichever is
  * shorter. */
-void cs_deflate_block_put(cs_deflate_block_writer *writer);
+void cs_deflate_block_put(cs_deflate_block *block);
 
-static inline void cs_deflate_block_add(cs_deflate_block_writer *writer, cs_token token) {
-  writer->tokens[writer->token_count++] = token;
-  if (writer->token_count == CS_BLOCK_TOKENS)
-    cs_deflate_block_put(writer);
+static inline void cs_deflate_block_add(cs_deflate_block *block, cs_deflate_token token) {
+  block->tokens[block->token_count++] = token;
+  if (block->token_count == CS_DEFLATE_TOKENS)
+    cs_deflate_block_put(block);
 }
 
-static inline void cs_deflate_block_literal(cs_deflate_block_writer *writer, unsigned char byte) {
-  writer->counts.literals[0][byte]++;
-  cs_deflate_block_add(writer, byte);
+static inline void cs_deflate_block_literal(cs_deflate_block *block, unsigned char byte) {
+  block->counts.literals[0][byte]++;
+  cs_deflate_block_add(block, byte);
 }
 
-/* Three of them, the first lowest. */
-static inline void cs_deflate_block_literals(cs_deflate_block_writer *writer, uint32_t bytes) {
+/* Three bytes, the first lowest. */
+static inline void cs_deflate_block_literals(cs_deflate_block *block, uint32_t bytes) {
   for (int i = 0; i < 3; i++)
-    writer->counts.literals[i][bytes >> 8 * i & 255]++;
-  cs_deflate_block_add(writer, 0x40000000u | bytes);
+    block->counts.literals[i][bytes >> 8 * i & 255]++;
+  cs_deflate_block_add(block, 0x40000000u | bytes);
 }
 
 /* length 3..258, distance 1..32768. */
-void cs_deflate_block_match(cs_deflate_block_writer *writer, size_t length, size_t distance);
+void cs_deflate_block_match(cs_deflate_block *block, size_t length, size_t distance);
 
-/* `times` of the longest matches, and one more. */
-static inline void cs_deflate_block_matches(cs_deflate_block_writer *writer, size_t times,
-                                            size_t length, size_t distance) {
-  writer->counts.lengths[255] += (uint32_t)times;
-  writer->counts.lengths[length - 3]++;
-  writer->counts.near_distances[distance - 1] += (uint32_t)times + 1;
-  cs_deflate_block_add(writer, 0x80000000u | (cs_token)times << 24 | (cs_token)(length - 3) << 16 |
-                                   (cs_token)(distance - 1));
+/* `times` longest matches and then one of `length`, all from the same near distance. */
+static inline void cs_deflate_block_matches(cs_deflate_block *block, size_t times, size_t length,
+                                            size_t distance) {
+  block->counts.lengths[255] += (uint32_t)times;
+  block->counts.lengths[length - 3]++;
+  block->counts.near_distances[distance - 1] += (uint32_t)times + 1;
+  cs_deflate_block_add(block, 0x80000000u | (cs_deflate_token)times << 24 |
+                                  (cs_deflate_token)(length - 3) << 16 |
+                                  (cs_deflate_token)(distance - 1));
 }
 
-/* Any number of bytes, 3 at least, that are those `distance` before, at most CS_BLOCK_NEAR. */
-static inline void cs_deflate_block_run(cs_deflate_block_writer *writer, size_t bytes,
-                                        size_t distance) {
-  size_t times = (bytes - 3) / CS_BLOCK_LONGEST, rest = bytes - times * CS_BLOCK_LONGEST;
-  for (; times > CS_BLOCK_TIMES; times -= CS_BLOCK_TIMES + 1)
-    cs_deflate_block_matches(writer, CS_BLOCK_TIMES, CS_BLOCK_LONGEST, distance);
-  if (rest <= CS_BLOCK_LONGEST) {
-    cs_deflate_block_matches(writer, times, rest, distance);
-  } else { /* what is left must not be shorter than a match */
-    cs_deflate_block_matches(writer, times, rest - 3, distance);
-    cs_deflate_block_matches(writer, 0, 3, distance);
+/* Any number of bytes, at least 3, that equal those `distance` before them (near). */
+static inline void cs_deflate_block_run(cs_deflate_block *block, size_t bytes, size_t distance) {
+  const size_t longest = CS_DEFLATE_LONGEST_MATCH;
+  size_t times = (bytes - 3) / longest, rest = bytes - times * longest;
+  for (; times > CS_DEFLATE_TIMES; times -= CS_DEFLATE_TIMES + 1)
+    cs_deflate_block_matches(block, CS_DEFLATE_TIMES, longest, distance);
+  if (rest <= longest) {
+    cs_deflate_block_matches(block, times, rest, distance);
+  } else { /* the remainder must not be shorter than a match */
+    cs_deflate_block_matches(block, times, rest - 3, distance);
+    cs_deflate_block_matches(block, 0, 3, distance);
   }
 }
 
-/* Puts what is left; an empty block that ends with a whole byte; passes all on. */
-void cs_deflate_block_end(cs_deflate_block_writer *writer);
+/* Puts the waiting tokens, fills the last byte with an empty block, and writes all bytes. */
+void cs_deflate_block_end(cs_deflate_block *block);
 
 #endif

@@ -1,30 +1,37 @@
 #include "deflate/deflate.h"
 
+#include <assert.h>
 #include <string.h>
 #include <zlib.h>
 
 #include "deflate/adler.h"
 #include "deflate/search.h"
 
+static_assert(CS_DEFLATE_SPACE == (int)CS_DEFLATE_SEARCH_SPACE &&
+                  CS_DEFLATE_SLACK == (int)CS_DEFLATE_SEARCH_SLACK,
+              "the space of the search is handed out");
+
+/* Runs of zeros, the most common by far, are joined across pixels and rows: zeros are counted, and
+ * become tokens only when another byte follows. */
 struct cs_deflate {
   size_t pixel_size;
   cs_deflate_adler sum;
-  uint64_t size;            /* bytes of the part so far */
-  size_t zeros;             /* of a run, not yet tokens: more may follow */
-  bool ends_in_zeros;       /* the last token but for them */
+  uint64_t size;            /* uncompressed bytes of the segment so far */
+  size_t zeros;             /* at the end, that are not tokens yet */
+  bool ends_in_zeros;       /* the last byte that is a token is 0, so zeros can match it */
   cs_deflate_search search; /* of plain bytes */
-  cs_deflate_block_writer writer;
+  cs_deflate_block block;
 };
 
-celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size, cs_block_write write,
-                                 void *user, cs_deflate **out) {
+celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size,
+                                 cs_deflate_write write, void *user, cs_deflate **out) {
   cs_deflate *deflate = cs_mem_array(context->memory, 1, sizeof *deflate);
   if (!deflate)
     return cs_fail_memory(context);
   deflate->pixel_size = deflate->search.pixel_size = pixel_size;
-  deflate->search.writer = &deflate->writer;
-  deflate->writer.write = write;
-  deflate->writer.user = user;
+  deflate->search.block = &deflate->block;
+  deflate->block.output.write = write;
+  deflate->block.output.user = user;
   *out = deflate;
   return CELSPAN_OK;
 }
@@ -36,8 +43,8 @@ void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context) {
 
 void cs_deflate_begin(cs_deflate *deflate) {
   cs_deflate_search_begin(&deflate->search);
-  cs_deflate_block_begin(&deflate->writer);
-  deflate->sum = CS_ADLER;
+  cs_deflate_block_begin(&deflate->block);
+  deflate->sum = CS_DEFLATE_ADLER_EMPTY;
   deflate->size = deflate->zeros = 0;
   deflate->ends_in_zeros = false;
 }
@@ -48,14 +55,14 @@ static void put_zeros(cs_deflate *deflate) {
   size_t count = deflate->zeros;
   deflate->zeros = 0;
   if (count > 0 && !(deflate->ends_in_zeros && count >= 3)) {
-    cs_deflate_block_literal(&deflate->writer, 0);
+    cs_deflate_block_literal(&deflate->block, 0);
     count--;
   }
   if (count >= 3)
-    cs_deflate_block_run(&deflate->writer, count, 1);
+    cs_deflate_block_run(&deflate->block, count, 1);
   else
     for (; count > 0; count--)
-      cs_deflate_block_literal(&deflate->writer, 0);
+      cs_deflate_block_literal(&deflate->block, 0);
 }
 
 static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
@@ -65,17 +72,17 @@ static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
   }
   if (deflate->zeros > 0)
     put_zeros(deflate);
-  cs_deflate_block_literal(&deflate->writer, byte);
+  cs_deflate_block_literal(&deflate->block, byte);
   deflate->ends_in_zeros = false;
 }
 
-/* Three bytes go out as one token unless zeros that went before could take the first. */
+/* Three bytes become one token, unless the first is 0 and so belongs to a run of zeros. */
 static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
   size_t i = 0;
   if (size >= 3 && pixel & 0xff) {
     if (deflate->zeros > 0)
       put_zeros(deflate);
-    cs_deflate_block_literals(&deflate->writer, (uint32_t)pixel & 0xffffff);
+    cs_deflate_block_literals(&deflate->block, (uint32_t)pixel & 0xffffff);
     deflate->ends_in_zeros = (pixel & 0xff0000) == 0;
     i = 3;
   }
@@ -89,7 +96,7 @@ static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size)
   size_t bytes = (run.count - 1) * size;
   if (bytes >= 3) {
     put_zeros(deflate);
-    cs_deflate_block_run(&deflate->writer, bytes, size);
+    cs_deflate_block_run(&deflate->block, bytes, size);
     deflate->ends_in_zeros = pixel >> 8 * (size - 1) == 0;
   } else {
     for (size_t i = 0; i < bytes; i++)
@@ -97,7 +104,7 @@ static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size)
   }
 }
 
-/* size: of a pixel, known to the compiler for the usual ones. */
+/* size: of a pixel; a constant for the compiler where it is 3 or 4. */
 static inline void put_runs(cs_deflate *deflate, const cs_deflate_run *run, size_t run_count,
                             size_t size) {
   cs_deflate_adler sum = deflate->sum;
@@ -116,7 +123,7 @@ static inline void put_runs(cs_deflate *deflate, const cs_deflate_run *run, size
 
 celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
                                const cs_deflate_run *runs, size_t run_count) {
-  deflate->writer.context = context;
+  deflate->block.output.context = context;
   cs_deflate_search_flush(&deflate->search);
   if (deflate->pixel_size == 3)
     put_runs(deflate, runs, run_count, 3);
@@ -124,7 +131,7 @@ celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_context *context,
     put_runs(deflate, runs, run_count, 4);
   else
     put_runs(deflate, runs, run_count, deflate->pixel_size);
-  return deflate->writer.status;
+  return deflate->block.output.status;
 }
 
 void cs_deflate_byte(cs_deflate *deflate, unsigned char byte) {
@@ -138,37 +145,36 @@ void cs_deflate_byte(cs_deflate *deflate, unsigned char byte) {
 /* ---------------------------------------------------------------- bytes */
 
 unsigned char *cs_deflate_space(cs_deflate *deflate, celspan_context *context) {
-  deflate->writer.context = context;
+  deflate->block.output.context = context;
   put_zeros(deflate);
   deflate->ends_in_zeros = false;
   return cs_deflate_search_space(&deflate->search);
 }
 
-celspan_status cs_deflate_take(cs_deflate *deflate, const unsigned char *space, size_t size) {
+celspan_status cs_deflate_commit(cs_deflate *deflate, const unsigned char *space, size_t size) {
   cs_deflate_adler_bytes(&deflate->sum, space, size);
   deflate->size += size;
-  cs_deflate_search_take(&deflate->search, size);
-  return deflate->writer.status;
+  cs_deflate_search_commit(&deflate->search, size);
+  return deflate->block.output.status;
 }
 
-/* ---------------------------------------------------------------- parts */
+/* ---------------------------------------------------------------- segments */
 
 celspan_status cs_deflate_end(cs_deflate *deflate, celspan_context *context, cs_deflate_sum *out) {
-  cs_deflate_block_writer *writer = &deflate->writer;
-  writer->context = context;
+  deflate->block.output.context = context;
   cs_deflate_search_flush(&deflate->search);
   put_zeros(deflate);
-  cs_deflate_block_end(writer);
+  cs_deflate_block_end(&deflate->block);
   *out = (cs_deflate_sum){cs_deflate_adler_end(deflate->sum), deflate->size};
-  return writer->status;
+  return deflate->block.output.status;
 }
 
 void cs_deflate_header(unsigned char header[CS_DEFLATE_HEADER]) {
-  header[0] = 0x78; /* deflate, 32 KiB */
+  header[0] = 0x78; /* deflate, within 32 KiB */
   header[1] = 0x9c;
 }
 
-/* An empty last block of the fixed codes, and the checksum. */
+/* An empty last block with the fixed codes, and the checksum, highest byte first. */
 void cs_deflate_trailer(cs_deflate_sum sum, unsigned char trailer[CS_DEFLATE_TRAILER]) {
   trailer[0] = 3;
   trailer[1] = 0;

@@ -1,7 +1,17 @@
-/* Huffman's construction over sorted leaves; where it goes too deep, package-merge (Larmore and
- * Hirschberg 1990): level by level, packages of two items of the level before are merged with the
- * leaves; the cheapest 2n - 2 items of the last level say how often each leaf was used, which is
- * its length.
+/* Huffman's construction over leaves in order of weight; where that makes codes too long,
+ * package-merge (Larmore and Hirschberg 1990). Package-merge goes level by level: the items of a
+ * level, cheapest first, are the leaves and the packages, which are neighbouring pairs of items of
+ * the level before. For n leaves, the cheapest 2n - 2 items of the last level are chosen, and with
+ * a package the two items in it; a leaf's length is how often it was chosen. For weights 1, 1, 2,
+ * 4, 8 and a limit of 3 (Huffman's construction would need 4):
+ *
+ *   level 1   A1  B1  C2  D4  E8                                    chosen: A B C D
+ *               \_/     \_/                                         (in 2 packages)
+ *   level 2   A1  B1  C2  AB2  D4  CD6  E8                          chosen: A B C D
+ *               \_/     \__/     \_/                                (in 3 packages)
+ *   level 3   A1  B1  C2  AB2  D4  CAB4  E8  DCD10                  chosen: A B C D E
+ *
+ * So A, B, C and D have codes of 3 bits and E one of 1 bit.
  */
 #include "deflate/huffman.h"
 
@@ -10,8 +20,8 @@
 
 typedef struct leaves {
   int count;
-  uint32_t weight[CS_HUFFMAN_SYMBOLS]; /* ascending */
-  int symbol[CS_HUFFMAN_SYMBOLS];
+  uint32_t weight[CS_DEFLATE_HUFFMAN_SYMBOLS]; /* ascending */
+  int symbol[CS_DEFLATE_HUFFMAN_SYMBOLS];
 } leaves;
 
 /* Merges the sorted halves [from, middle) and [middle, end). */
@@ -22,9 +32,10 @@ static void merge_keys(const uint64_t *keys, int from, int middle, int end, uint
         left < middle && (right >= end || keys[left] <= keys[right]) ? keys[left++] : keys[right++];
 }
 
-/* Ascending; among equals in the order of the symbols. */
+/* Leaves of equal weight are in the order of their symbols. A merge sort, because the order must
+ * not depend on a library. */
 static void sort_leaves(leaves *sorted, const uint32_t *counts, int symbols) {
-  uint64_t keys[2][CS_HUFFMAN_SYMBOLS], *from = keys[0], *to = keys[1];
+  uint64_t keys[2][CS_DEFLATE_HUFFMAN_SYMBOLS], *from = keys[0], *to = keys[1];
   int count = 0;
   for (int symbol = 0; symbol < symbols; symbol++)
     if (counts[symbol] > 0)
@@ -45,21 +56,22 @@ static void sort_leaves(leaves *sorted, const uint32_t *counts, int symbols) {
   }
 }
 
-/* Leaves and the nodes made of them are two ascending queues; the two least make the next node.
- * The greatest depth; lengths by leaf. */
+/* Huffman's construction with two queues: the leaves, and the inner nodes as they are made, are
+ * both in order of weight, so the two lightest nodes are always at the two fronts. depths: by leaf.
+ * Returns the greatest one. */
 static int huffman_depths(const leaves *sorted, uint8_t *depths) {
-  uint64_t weight[2 * CS_HUFFMAN_SYMBOLS];
-  int parent[2 * CS_HUFFMAN_SYMBOLS], count = sorted->count, deepest = 0;
-  uint8_t depth[2 * CS_HUFFMAN_SYMBOLS];
+  uint64_t weight[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
+  int parent[2 * CS_DEFLATE_HUFFMAN_SYMBOLS], count = sorted->count, deepest = 0;
+  uint8_t depth[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
   for (int i = 0; i < count; i++)
     weight[i] = sorted->weight[i];
   for (int made = count, leaf = 0, node = count; made < 2 * count - 1; made++) {
     weight[made] = 0;
     for (int pick = 0; pick < 2; pick++) {
-      bool takes_leaf = leaf < count && (node >= made || weight[leaf] <= weight[node]);
-      int taken = takes_leaf ? leaf++ : node++;
-      weight[made] += weight[taken];
-      parent[taken] = made;
+      bool is_leaf = leaf < count && (node >= made || weight[leaf] <= weight[node]);
+      int chosen = is_leaf ? leaf++ : node++;
+      weight[made] += weight[chosen];
+      parent[chosen] = made;
     }
   }
   depth[2 * count - 2] = 0;
@@ -74,8 +86,8 @@ static int huffman_depths(const leaves *sorted, uint8_t *depths) {
 
 typedef struct level {
   int count;
-  uint64_t weight[2 * CS_HUFFMAN_SYMBOLS];
-  bool is_leaf[2 * CS_HUFFMAN_SYMBOLS];
+  uint64_t weight[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
+  bool is_leaf[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
 } level;
 
 static void merge_level(level *next, const level *before, const leaves *sorted) {
@@ -92,23 +104,23 @@ static void merge_level(level *next, const level *before, const leaves *sorted) 
 }
 
 static void package_merge(const leaves *sorted, int limit, uint8_t *lengths) {
-  level levels[CS_HUFFMAN_LIMIT + 1];
+  level levels[CS_DEFLATE_HUFFMAN_LIMIT + 1];
   levels[0].count = 0;
   for (int i = 1; i <= limit; i++)
     merge_level(&levels[i], &levels[i - 1], sorted);
-  int taken = 2 * sorted->count - 2;
+  int chosen = 2 * sorted->count - 2;
   for (int i = limit; i > 0; i--) {
     int leaf = 0;
-    for (int item = 0; item < taken; item++)
+    for (int item = 0; item < chosen; item++)
       if (levels[i].is_leaf[item])
         lengths[sorted->symbol[leaf++]]++;
-    taken = 2 * (taken - leaf);
+    chosen = 2 * (chosen - leaf);
   }
 }
 
 void cs_deflate_huffman_lengths(const uint32_t *counts, int symbols, int limit, uint8_t *lengths) {
   leaves sorted;
-  uint8_t depths[CS_HUFFMAN_SYMBOLS];
+  uint8_t depths[CS_DEFLATE_HUFFMAN_SYMBOLS];
   memset(lengths, 0, (size_t)symbols);
   sort_leaves(&sorted, counts, symbols);
   if (sorted.count == 1)
@@ -130,10 +142,10 @@ static uint16_t reverse_bits(unsigned code, int length) {
 }
 
 void cs_deflate_huffman_codes(const uint8_t *lengths, int symbols, uint16_t *codes) {
-  unsigned next[CS_HUFFMAN_LIMIT + 1], count[CS_HUFFMAN_LIMIT + 1] = {0}, code = 0;
+  unsigned next[CS_DEFLATE_HUFFMAN_LIMIT + 1], count[CS_DEFLATE_HUFFMAN_LIMIT + 1] = {0}, code = 0;
   for (int symbol = 0; symbol < symbols; symbol++)
     count[lengths[symbol]]++;
-  for (int length = 1; length <= CS_HUFFMAN_LIMIT; length++) {
+  for (int length = 1; length <= CS_DEFLATE_HUFFMAN_LIMIT; length++) {
     next[length] = code;
     code = (code + count[length]) << 1;
   }

@@ -1,31 +1,34 @@
-/* Two tables of places: of eight bytes, with all earlier places of a hash in a chain, because what
- * filters leave is made of few values and four bytes of it are everywhere; and of four bytes, the
- * latest place alone, for what is new.
+/* Earlier places are found by two tables. Filtered rows have few different values, so four equal
+ * bytes are found everywhere and say little: the table of eight bytes is searched first, along the
+ * chain of all places with that hash. The table of four bytes has the latest place alone, for
+ * content that has not repeated at length yet.
+ *
+ *   latest[hash] --> position --before--> position --before--> ... (within 32 KiB, CHAIN at most)
  */
 #include "deflate/search.h"
 
 #include <string.h>
 
 enum {
-  WINDOW = CS_SEARCH_WINDOW,
-  LONGEST = CS_BLOCK_LONGEST,
+  WINDOW = CS_DEFLATE_SEARCH_WINDOW,
+  LONGEST = CS_DEFLATE_LONGEST_MATCH,
   SHORTEST = 4,
   REMEMBERED = 64, /* the longest match whose inner places are remembered */
-  CHAIN = 10,      /* earlier places looked at */
-  CHAIN_LATER = 3, /* those for a better match a byte later */
-  GOOD = 16,       /* a match that is hardly bettered: one place is looked at */
-  LAZY = 32        /* one that is not tried to be */
+  CHAIN = 10,      /* earlier places tried */
+  CHAIN_LATER = 3, /* places tried for a longer match a byte later */
+  GOOD = 16,       /* after a match of this length, only one place is tried a byte later */
+  LAZY = 32        /* and after one of this length, none */
 };
 
-/* Places remembered from history that was given up are told by their distance. */
-static void forget(cs_deflate_search *search) { search->start = search->next = search->end; }
+/* Places of the history stay in the tables, but their distance shows that they are dropped. */
+static void drop_history(cs_deflate_search *search) { search->start = search->next = search->end; }
 
-/* The buffer is filled from its start again, so that it is searched in the same pieces. What is
- * remembered is cleared before the count of bytes comes round; 0 is where nothing was. */
+/* The buffer is filled from its start again, so that equal bytes are searched at equal times. The
+ * tables are cleared at first, and before positions could wrap around. */
 void cs_deflate_search_begin(cs_deflate_search *search) {
   search->base += (uint32_t)search->end;
   search->end = 0;
-  forget(search);
+  drop_history(search);
   if (search->base != 0 && search->base <= UINT32_MAX / 2)
     return;
   memset(search->latest, 0, sizeof search->latest);
@@ -47,7 +50,7 @@ static inline uint64_t load_8(const unsigned char *at) {
   return word;
 }
 
-/* How many of the next bytes, `most` at most, equal those `distance` before. */
+/* How many of the next bytes, up to `most`, equal those `distance` before them. */
 static inline size_t match_length(const unsigned char *at, size_t distance, size_t most) {
   for (size_t length = 0; length < most; length += 8) {
     uint64_t difference = load_8(at + length) ^ load_8(at + length - distance);
@@ -63,8 +66,8 @@ typedef struct match {
   size_t length, distance;
 } match;
 
-/* About the bits that a match costs beyond its length's, and those of literals of residues: small
- * ones are common. */
+/* Estimated bits of a distance, and of a literal that is a filter's difference: differences near 0
+ * are common, so their codes are short. */
 static inline int distance_bits(size_t distance) {
   return distance <= 8 ? 2 : 3 + (31 - __builtin_clz((unsigned)distance));
 }
@@ -76,7 +79,7 @@ static inline int literal_bits(unsigned char byte) {
 
 enum { LENGTH_BITS = 7, SURE = 12 };
 
-/* Bits won over literals by a match that is not longer than SURE; longer ones always win. */
+/* Bits that a match saves against literals. A match longer than SURE always saves some. */
 static inline int gain(const unsigned char *at, match found) {
   int bits = -LENGTH_BITS - distance_bits(found.distance);
   for (size_t i = 0; i < found.length; i++)
@@ -84,8 +87,8 @@ static inline int gain(const unsigned char *at, match found) {
   return bits;
 }
 
-/* What decides between matches of a place: bits of the literals spared, less those of the distance.
- */
+/* The best of several matches has the highest score: bits of the literals it saves, less those of
+ * its distance. */
 static inline int score(match found) {
   return found.length ? 4 * (int)found.length - distance_bits(found.distance) : 0;
 }
@@ -93,11 +96,11 @@ static inline int score(match found) {
 /* ---------------------------------------------------------------- places */
 
 static inline uint32_t *latest_of(cs_deflate_search *search, const unsigned char *at) {
-  return &search->latest[load_8(at) * 0x9e3779b97f4a7c15u >> (64 - CS_SEARCH_LONG_BITS)];
+  return &search->latest[load_8(at) * 0x9e3779b97f4a7c15u >> (64 - CS_DEFLATE_SEARCH_LONG_BITS)];
 }
 
 static inline uint32_t *latest_short_of(cs_deflate_search *search, const unsigned char *at) {
-  return &search->latest_short[load_4(at) * 2654435761u >> (32 - CS_SEARCH_SHORT_BITS)];
+  return &search->latest_short[load_4(at) * 2654435761u >> (32 - CS_DEFLATE_SEARCH_SHORT_BITS)];
 }
 
 static inline uint32_t position_of(const cs_deflate_search *search, const unsigned char *at) {
@@ -111,7 +114,7 @@ static inline void remember(cs_deflate_search *search, const unsigned char *at) 
   *latest_short_of(search, at) = position;
 }
 
-/* Equal bytes, or else equal pixels. */
+/* A match with the byte before or else with the pixel before, which needs no table. */
 static inline match find_run(const cs_deflate_search *search, const unsigned char *at,
                              size_t history, size_t most) {
   uint32_t word = load_4(at);
@@ -123,7 +126,7 @@ static inline match find_run(const cs_deflate_search *search, const unsigned cha
   return (match){0, 0};
 }
 
-/* The best of `run` and of the latest places where the next eight bytes stood. */
+/* The best of `run` and of matches at the latest places with the same eight bytes. */
 static inline match find_long(cs_deflate_search *search, const unsigned char *at, size_t history,
                               size_t most, int chain, match run) {
   match best = run;
@@ -144,7 +147,7 @@ static inline match find_long(cs_deflate_search *search, const unsigned char *at
   return best;
 }
 
-/* The best of `best` and the latest place where the next four bytes stood. */
+/* The better of `best` and a match at the latest place with the same four bytes. */
 static inline match find_short(cs_deflate_search *search, const unsigned char *at, size_t history,
                                size_t most, match best) {
   size_t distance = position_of(search, at) - *latest_short_of(search, at);
@@ -155,8 +158,8 @@ static inline match find_short(cs_deflate_search *search, const unsigned char *a
   return score(found) > score(best) ? found : best;
 }
 
-/* A match for what follows, or one of length 0, out of `chain` earlier places; the place is
- * remembered. */
+/* The best match for the bytes from `next` on, out of `chain` earlier places; length 0 when none
+ * saves bits. This place is remembered. */
 static inline match find(cs_deflate_search *search, size_t next, int chain) {
   const unsigned char *at = search->buffer + next;
   size_t left = search->end - next, most = left < LONGEST ? left : LONGEST;
@@ -175,8 +178,8 @@ static inline match find(cs_deflate_search *search, size_t next, int chain) {
 
 /* ---------------------------------------------------------------- tokens */
 
-/* The places inside long matches are left out: they only push out the starts of flat runs.
- * remembered: how many of its places are already. */
+/* Places inside a long match are not remembered: they would only push the starts of runs out of the
+ * table. remembered: how many of the match's places are in the tables already. */
 static inline void remember_match(cs_deflate_search *search, size_t next, size_t remembered,
                                   match found) {
   const unsigned char *at = search->buffer + next, *end = search->buffer + search->end;
@@ -185,20 +188,21 @@ static inline void remember_match(cs_deflate_search *search, size_t next, size_t
       remember(search, at + i);
 }
 
-/* Runs longer than a match go on as long as they do. The bytes told. */
+/* A near match of full length is followed beyond that, as a run. Returns the bytes that became
+ * tokens. */
 static inline size_t put_match(cs_deflate_search *search, size_t next, match found) {
-  if (found.length < LONGEST || found.distance > CS_BLOCK_NEAR) {
-    cs_deflate_block_match(search->writer, found.length, found.distance);
+  if (found.length < LONGEST || found.distance > CS_DEFLATE_NEAR) {
+    cs_deflate_block_match(search->block, found.length, found.distance);
     return found.length;
   }
   size_t most = search->end - next;
   size_t length = match_length(search->buffer + next, found.distance, most);
-  cs_deflate_block_run(search->writer, length, found.distance);
+  cs_deflate_block_run(search->block, length, found.distance);
   return length;
 }
 
-/* A short match gives way to a longer one a byte later. Words are read across the end: what is
- * there must not tell what the buffer held before. */
+/* A short match is dropped for a longer one that begins a byte later. Words are read beyond the
+ * end, so the bytes there are cleared: the result must not depend on what was there before. */
 static void search_all(cs_deflate_search *search) {
   size_t next = search->next, end = search->end;
   memset(search->buffer + end, 0, sizeof(uint64_t));
@@ -210,12 +214,12 @@ static void search_all(cs_deflate_search *search) {
       remembered = 2;
       if (later.length <= best.length)
         break;
-      cs_deflate_block_literal(search->writer, search->buffer[next++]);
+      cs_deflate_block_literal(search->block, search->buffer[next++]);
       best = later;
       remembered = 1;
     }
     if (best.length == 0) {
-      cs_deflate_block_literal(search->writer, search->buffer[next++]);
+      cs_deflate_block_literal(search->block, search->buffer[next++]);
     } else {
       remember_match(search, next, remembered, best);
       next += put_match(search, next, best);
@@ -224,26 +228,25 @@ static void search_all(cs_deflate_search *search) {
   search->next = next;
 }
 
-/* Searches what waits and moves the last 32 KiB to the front. */
-static void slide(cs_deflate_search *search) {
+static void move_to_front(cs_deflate_search *search) {
   search_all(search);
   if (search->end <= WINDOW)
     return;
-  size_t gone = search->end - WINDOW;
-  memmove(search->buffer, search->buffer + gone, WINDOW);
-  search->base += (uint32_t)gone;
-  search->start = search->start > gone ? search->start - gone : 0;
+  size_t dropped = search->end - WINDOW;
+  memmove(search->buffer, search->buffer + dropped, WINDOW);
+  search->base += (uint32_t)dropped;
+  search->start = search->start > dropped ? search->start - dropped : 0;
   search->next = search->end = WINDOW;
 }
 
 unsigned char *cs_deflate_search_space(cs_deflate_search *search) {
-  if (WINDOW + CS_SEARCH_PENDING - search->end < CS_SEARCH_PART)
-    slide(search);
+  if (WINDOW + CS_DEFLATE_SEARCH_PENDING - search->end < CS_DEFLATE_SEARCH_SPACE)
+    move_to_front(search);
   return search->buffer + search->end;
 }
 
 void cs_deflate_search_flush(cs_deflate_search *search) {
   if (search->next < search->end)
     search_all(search);
-  forget(search);
+  drop_history(search);
 }

@@ -1,7 +1,13 @@
-/* Plain bytes to tokens: what follows is looked up among the last 32 KiB.
+/* Plain bytes to tokens: each place is compared with earlier ones among the last 32 KiB.
  *
- * Invariant: the tokens depend on the bytes since the last cs_deflate_search_begin, and on where
- * among them cs_deflate_search_flush was called, on nothing before.
+ *   buffer   |<---- history, 32 KiB at most ---->|<---- to be searched ---->|<- space ->|slack|
+ *            0         start                    next                       end
+ *
+ * Bytes gather after `end`. When no space is left, all of them become tokens and the last 32 KiB
+ * move to the front.
+ *
+ * INVARIANT: the tokens depend on the bytes since the last cs_deflate_search_begin, and on where
+ * among them cs_deflate_search_flush was called; on nothing before.
  */
 #ifndef CS_DEFLATE_SEARCH_H
 #define CS_DEFLATE_SEARCH_H
@@ -9,35 +15,38 @@
 #include "deflate/block.h"
 
 enum {
-  CS_SEARCH_WINDOW = 32768,
-  CS_SEARCH_PENDING = 1 << 17, /* bytes gathered before they are searched */
-  CS_SEARCH_PART = 4096,       /* bytes that are given at once, at most */
-  CS_SEARCH_SLACK = 64,        /* read or written beyond the end, never used */
-  CS_SEARCH_LONG_BITS = 15,
-  CS_SEARCH_SHORT_BITS = 14
+  CS_DEFLATE_SEARCH_WINDOW = 32768,
+  CS_DEFLATE_SEARCH_PENDING = 1 << 17, /* bytes gathered before they are searched */
+  CS_DEFLATE_SEARCH_SPACE = 4096,      /* bytes that may be added at once */
+  CS_DEFLATE_SEARCH_SLACK = 64,        /* bytes read or written beyond the end, without meaning */
+  CS_DEFLATE_SEARCH_LONG_BITS = 15,    /* of the hash of eight bytes */
+  CS_DEFLATE_SEARCH_SHORT_BITS = 14    /* of the hash of four bytes */
 };
 
+/* A position is a count of all bytes ever added, modulo 2^32, from 1 on; 0 in a table is none. */
 typedef struct cs_deflate_search {
   size_t pixel_size;
-  cs_deflate_block_writer *writer;
-  /* buffer[start..next) is history, [next..end) waits to be searched; buffer[0] is byte `base` of
-   * all that was ever given, modulo 2^32. */
-  uint32_t base;
+  cs_deflate_block *block;
+  uint32_t base; /* the position of buffer[0] */
   size_t start, next, end;
-  uint32_t latest[1 << CS_SEARCH_LONG_BITS];        /* where eight bytes of a hash were seen last */
-  uint32_t before[CS_SEARCH_WINDOW];                /* and where before this place */
-  uint32_t latest_short[1 << CS_SEARCH_SHORT_BITS]; /* where four bytes of a hash were */
-  unsigned char buffer[CS_SEARCH_WINDOW + CS_SEARCH_PENDING + CS_SEARCH_SLACK];
+  /* The latest position of a hash of eight bytes; `before` leads from each position to the one
+   * before it with the same hash. Of four bytes the latest position alone. */
+  uint32_t latest[1 << CS_DEFLATE_SEARCH_LONG_BITS];
+  uint32_t before[CS_DEFLATE_SEARCH_WINDOW];
+  uint32_t latest_short[1 << CS_DEFLATE_SEARCH_SHORT_BITS];
+  unsigned char
+      buffer[CS_DEFLATE_SEARCH_WINDOW + CS_DEFLATE_SEARCH_PENDING + CS_DEFLATE_SEARCH_SLACK];
 } cs_deflate_search;
 
-/* All is forgotten. */
+/* Drops all bytes and positions. */
 void cs_deflate_search_begin(cs_deflate_search *search);
-/* Room for CS_SEARCH_PART bytes and the slack, then how many there are. */
+/* Room for CS_DEFLATE_SEARCH_SPACE bytes and the slack; then cs_deflate_search_commit says how many
+ * bytes were written there. */
 unsigned char *cs_deflate_search_space(cs_deflate_search *search);
-static inline void cs_deflate_search_take(cs_deflate_search *search, size_t size) {
+static inline void cs_deflate_search_commit(cs_deflate_search *search, size_t size) {
   search->end += size;
 }
-/* Makes tokens of all that waits; other tokens may follow, and history is given up. */
+/* Makes tokens of all bytes that wait, and drops the history: tokens of others may follow. */
 void cs_deflate_search_flush(cs_deflate_search *search);
 
 #endif

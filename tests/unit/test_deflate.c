@@ -67,7 +67,7 @@ static void add_bytes(store *plain, cs_deflate *deflate, celspan_context *contex
   append(plain, bytes, size);
   unsigned char *space = cs_deflate_space(deflate, context);
   memcpy(space, bytes, size);
-  CHECK(cs_deflate_take(deflate, space, size) == CELSPAN_OK);
+  CHECK(cs_deflate_commit(deflate, space, size) == CELSPAN_OK);
 }
 
 static void add_run(store *plain, cs_deflate *deflate, celspan_context *context, int style,
@@ -88,7 +88,7 @@ typedef struct stream {
 
 static void begin_stream(stream *made) {
   unsigned char header[CS_DEFLATE_HEADER];
-  *made = (stream){.sum = CS_DEFLATE_SUM};
+  *made = (stream){.sum = CS_DEFLATE_SUM_EMPTY};
   cs_deflate_header(header);
   append(&made->packed, header, sizeof header);
 }
@@ -141,7 +141,7 @@ static void check_stream(celspan_context *context, int style, size_t pixel_size,
 static void check_parts_are_alone(celspan_context *context) {
   uint64_t begun = random_state;
   store plain = {0};
-  stream made[2] = {{.sum = CS_DEFLATE_SUM}, {.sum = CS_DEFLATE_SUM}};
+  stream made[2] = {{.sum = CS_DEFLATE_SUM_EMPTY}, {.sum = CS_DEFLATE_SUM_EMPTY}};
   for (int i = 0; i < 2; i++) {
     cs_deflate *deflate;
     CHECK(cs_deflate_create(context, 3, write_store, &made[i].packed, &deflate) == CELSPAN_OK);
@@ -172,7 +172,7 @@ static void add_few(cs_deflate *deflate, celspan_context *context, uint64_t seed
     size_t size = 1 + random_below(128);
     for (size_t k = 0; k < size; k++)
       space[k] = (unsigned char)(40 * random_below(3));
-    CHECK(cs_deflate_take(deflate, space, size) == CELSPAN_OK);
+    CHECK(cs_deflate_commit(deflate, space, size) == CELSPAN_OK);
   }
   CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
 }
@@ -245,7 +245,7 @@ static void check_errors_stick(celspan_context *context) {
 
 /* Huffman's own construction, without a limit: the least possible sum. */
 static uint64_t least_size(const uint32_t *counts, int symbols) {
-  uint64_t weights[CS_HUFFMAN_SYMBOLS], sum = 0;
+  uint64_t weights[CS_DEFLATE_HUFFMAN_SYMBOLS], sum = 0;
   int left = 0;
   for (int i = 0; i < symbols; i++)
     if (counts[i])
@@ -268,7 +268,7 @@ static uint64_t least_size(const uint32_t *counts, int symbols) {
 }
 
 static void check_lengths(const uint32_t *counts, int symbols, int limit) {
-  uint8_t lengths[CS_HUFFMAN_SYMBOLS];
+  uint8_t lengths[CS_DEFLATE_HUFFMAN_SYMBOLS];
   uint64_t size = 0, kraft = 0;
   int used = 0, longest = 0;
   cs_deflate_huffman_lengths(counts, symbols, limit, lengths);
@@ -286,12 +286,12 @@ static void check_lengths(const uint32_t *counts, int symbols, int limit) {
 }
 
 static void check_huffman(void) {
-  uint32_t counts[CS_HUFFMAN_SYMBOLS] = {0};
+  uint32_t counts[CS_DEFLATE_HUFFMAN_SYMBOLS] = {0};
   check_lengths(counts, 30, 15);
   counts[7] = 5;
   check_lengths(counts, 30, 15);
   for (int round = 0; round < 200; round++) {
-    int symbols = 2 + (int)random_below(CS_HUFFMAN_SYMBOLS - 1);
+    int symbols = 2 + (int)random_below(CS_DEFLATE_HUFFMAN_SYMBOLS - 1);
     for (int i = 0; i < symbols; i++)
       counts[i] = random_below(3) ? random_below(1u << random_below(20)) : 0;
     check_lengths(counts, symbols, symbols < 100 && round % 2 ? 7 : 15);

@@ -21,12 +21,12 @@ celspan_status cs_png_filter_bytes(cs_deflate *deflate, celspan_context *context
   cs_png_filter chosen = choose(isa, pixel_size, size, row, above);
   unsigned char *out = cs_deflate_space(deflate, context);
   *out = (unsigned char)chosen;
-  CS_TRY(cs_deflate_take(deflate, out, 1));
-  for (size_t at = 0; at < size; at += CS_SEARCH_PART) {
-    size_t part = size - at < CS_SEARCH_PART ? size - at : CS_SEARCH_PART;
+  CS_TRY(cs_deflate_commit(deflate, out, 1));
+  for (size_t at = 0; at < size; at += CS_DEFLATE_SPACE) {
+    size_t part = size - at < CS_DEFLATE_SPACE ? size - at : CS_DEFLATE_SPACE;
     out = cs_deflate_space(deflate, context);
     CS_WIDE_CHOOSE(isa, cs_png_filter_part)(chosen, row + at, above + at, pixel_size, part, out);
-    CS_TRY(cs_deflate_take(deflate, out, part));
+    CS_TRY(cs_deflate_commit(deflate, out, part));
   }
   return CELSPAN_OK;
 }

@@ -40,7 +40,7 @@ typedef struct lane {
 
 struct cs_png_strips {
   cs_png_picture picture;
-  cs_block_write write;
+  cs_deflate_write write;
   void *user;
   int32_t strip_rows, total;
   int32_t row; /* the next one */
@@ -316,7 +316,7 @@ static celspan_status init_strips(cs_png_strips *strips, celspan_context *contex
 }
 
 celspan_status cs_png_strips_create(celspan_context *context, const cs_png_picture *picture,
-                                    cs_block_write write, void *user, cs_png_strips **out) {
+                                    cs_deflate_write write, void *user, cs_png_strips **out) {
   cs_png_strips *strips = cs_mem_array(context->memory, 1, sizeof *strips);
   if (!strips)
     return cs_fail_memory(context);
@@ -327,7 +327,7 @@ celspan_status cs_png_strips_create(celspan_context *context, const cs_png_pictu
   strips->total = (picture->height - 1) / strips->strip_rows + 1;
   strips->lane_count = choose_lanes(strips);
   strips->ring_size = strips->lane_count > 1 ? AHEAD * strips->lane_count : 1;
-  strips->sum = CS_DEFLATE_SUM;
+  strips->sum = CS_DEFLATE_SUM_EMPTY;
   pthread_mutex_init(&strips->mutex, NULL);
   pthread_cond_init(&strips->filled_some, NULL);
   pthread_cond_init(&strips->done_some, NULL);

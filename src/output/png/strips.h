@@ -24,7 +24,7 @@ typedef struct cs_png_picture {
 /* write: called by the thread that calls here, with a part at a time. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_png_strips_create(celspan_context *context,
                                                     const cs_png_picture *picture,
-                                                    cs_block_write write, void *user,
+                                                    cs_deflate_write write, void *user,
                                                     cs_png_strips **out);
 /* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque as was said; those of write.
  */
