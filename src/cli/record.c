@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "base/context.h"
-#include "output/copy.h"
-#include "output/part.h"
+#include "output/file_copy.h"
+#include "output/temporary.h"
 
 enum { LINE_SIZE = 256, PIECE = 1 << 16 };
 
@@ -142,7 +142,7 @@ celspan_status cs_record_open(cs_record *record, const cs_script *script, const 
   if (length >= (int)sizeof record->path)
     return cs_fail(record->context, CELSPAN_OUTPUT, "%.80s...: the name is too long",
                    request->output);
-  cs_part_sweep(request->output, cs_sequence_matches);
+  cs_temporary_sweep(request->output, cs_sequence_matches);
   return read_record(record);
 }
 
@@ -177,7 +177,7 @@ bool cs_record_has(const cs_record *record, cs_shoot_frame *frame) {
   if (record->needs_pixels && !(line && (line->pixels.a || line->pixels.b)))
     return false;
   if (line ? !is_whole(line, frame->path)
-           : !cs_file_stamp_take(frame->path, &there) || there.size == 0)
+           : !cs_file_stamp_read(frame->path, &there) || there.size == 0)
     return false;
   frame->is_named = is_same;
   if (line) {

@@ -7,7 +7,7 @@
 #define CS_FILM_DUPLICATES_H
 
 #include "base/hash.h"
-#include "output/copy.h"
+#include "output/file_copy.h"
 
 typedef struct cs_duplicate {
   cs_hash scene;

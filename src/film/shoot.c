@@ -167,7 +167,7 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
 static void note_duplicate(job *j, const frame_task *task) {
   cs_duplicate *duplicate = &j->duplicates.known[task->duplicate];
   duplicate->number = task->frame.number;
-  duplicate->is_made = !j->shoot->pattern || cs_file_stamp_take(task->frame.path, &duplicate->file);
+  duplicate->is_made = !j->shoot->pattern || cs_file_stamp_read(task->frame.path, &duplicate->file);
   memcpy(duplicate->digest, task->frame.digest, sizeof duplicate->digest);
 }
 

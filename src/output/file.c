@@ -7,11 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "output/part.h"
+#include "output/temporary.h"
 
 enum {
   BUFFER_BYTES = 1 << 16,
-  NAME_BYTES = 200, /* of the name kept in the temporary one, which may have 255 */
+  NAME_BYTES = 200, /* of NAME in the temporary name, which may have 255 bytes in all */
   TEMPORARY_EXTRA = 16,
   NAME_ATTEMPTS = 1000
 };
@@ -20,7 +20,7 @@ struct cs_file {
   const cs_file_system *system;
   size_t allocated;
   int descriptor;
-  const char *failed_to; /* NULL, or what failed first, with the system's `error` */
+  const char *failed_to; /* NULL, or the first failure; `error` is its errno */
   int error;
   uint64_t flushed; /* bytes from the start that the system has */
   size_t buffered;
@@ -107,7 +107,7 @@ static int open_temporary(cs_file *file) {
              NAME_BYTES, name, (start + i) & 0xffff);
     file->descriptor = open_again(file->system, file->temporary,
                                   O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-    if (file->descriptor >= 0 ? cs_part_claim(file->descriptor) : errno != EEXIST)
+    if (file->descriptor >= 0 ? cs_temporary_claim(file->descriptor) : errno != EEXIST)
       break;
     if (file->descriptor >= 0)
       file->system->close(file->descriptor);
@@ -206,7 +206,7 @@ uint64_t cs_file_size(const cs_file *file) { return file->flushed + file->buffer
 
 /* ---------------------------------------------------------------- ending */
 
-/* Some file systems cannot sync and say EINVAL: there is nothing more to be done on those. */
+/* File systems that cannot sync answer EINVAL; nothing more can be done there. */
 static int sync_descriptor(const cs_file_system *system, int descriptor) {
   int result;
   do
@@ -215,7 +215,7 @@ static int sync_descriptor(const cs_file_system *system, int descriptor) {
   return result != 0 && errno == EINVAL ? 0 : result;
 }
 
-/* The descriptor is gone after EINTR too. */
+/* The descriptor is closed even when a signal interrupts the call. */
 static int close_descriptor(const cs_file_system *system, int descriptor) {
   int result = system->close(descriptor);
   return result != 0 && errno == EINTR ? 0 : result;

@@ -1,9 +1,14 @@
 /* Files that appear whole or not at all.
  *
  * Bytes go to a temporary file `.NAME.XXXX.part` in the same folder; cs_file_commit syncs it,
- * checks its size, renames it and syncs the folder. Until the rename whatever stood under the name
- * is untouched, and whichever way it ends no temporary file is left. Errors stick: after a failed
- * write the file can only be discarded or fail to commit.
+ * checks its size, renames it and syncs the folder.
+ *
+ *   write --> buffer --> .NAME.XXXX.part --commit: check, sync, rename--> NAME, sync of the folder
+ *                              +---------discard: unlink
+ *
+ * INVARIANT: until the rename, a file that was there under the name is untouched; and however it
+ * ends, no temporary file is left. Errors stick: after a failed write the file can only be
+ * discarded or fail to commit.
  */
 #ifndef CS_OUTPUT_FILE_H
 #define CS_OUTPUT_FILE_H
@@ -15,7 +20,7 @@
 
 typedef struct cs_file cs_file;
 
-/* What a file asks of the system, as in POSIX; tests put failures in between. */
+/* The system calls that a file needs, as in POSIX; tests replace them to make them fail. */
 typedef struct cs_file_system {
   int (*open)(const char *path, int flags, mode_t mode);
   ssize_t (*pwrite)(int descriptor, const void *bytes, size_t size, off_t offset);
@@ -35,13 +40,13 @@ CELSPAN_CHECKED celspan_status cs_file_create(celspan_context *context,
 /* Appends. */
 CELSPAN_CHECKED celspan_status cs_file_write(cs_file *file, celspan_context *context,
                                              const void *bytes, size_t size);
-/* Writes over or beyond what is there; the place where cs_file_write appends is the end. */
+/* Writes anywhere, over earlier bytes or beyond them; cs_file_write still appends at the end. */
 CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *context,
                                                 uint64_t offset, const void *bytes, size_t size);
 /* Bytes from the start to the end. */
 uint64_t cs_file_size(const cs_file *file);
-/* Hands everything written so far to the system, so that the temporary file can be read: its name
- * is *name, valid until the file ends. */
+/* Hands all bytes so far to the system, so that the temporary file can be read. *name: its name,
+ * borrowed until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
 /* Both end the file, whatever they return. NULL is ignored by discard. */

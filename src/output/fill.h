@@ -1,8 +1,16 @@
-/* Runs of one pixel in blocks at the width of the machine's stores: for kernels (base/wide.h).
+/* Runs of one pixel, filled in blocks of 64 bytes: for kernels (base/wide.h).
  *
- * Blocks lie on the lines of the cache where that can be, which halves their cost: at addresses
- * that are `phase` modulo a block. Phase is the row's address modulo the size of a pixel, so a
- * block begins with a whole pixel.
+ *   cache lines   |        |        |        |        |
+ *   run              xxxxxxxxxxxxxxxxxxxxxxxxx
+ *   blocks           [first ]                             at the run's start
+ *                          [      ][       ]              on cache lines
+ *                                    [ last ]             at the run's end
+ *
+ * Blocks overlap at both ends, which is harmless because every block has the same bytes. A block
+ * inside lies on a cache line, which halves its cost, provided that this is a whole number of
+ * pixels away from the row's start. In general it begins at an address that is `phase` modulo a
+ * block, where phase is the row's address modulo the size of a pixel; so it begins with a whole
+ * pixel.
  */
 #ifndef CS_OUTPUT_FILL_H
 #define CS_OUTPUT_FILL_H
@@ -12,32 +20,32 @@
 
 enum { CS_FILL_BLOCK = 64 };
 
-/* part: pixels as far as a register goes, which a block repeats. */
-static inline void cs_fill_store(unsigned char *out, cs_wide_int part) {
-  for (size_t at = 0; at < CS_FILL_BLOCK; at += sizeof part)
-    memcpy(out + at, &part, sizeof part);
+/* pattern: the pixel, repeated to fill a register. */
+static inline void cs_fill_store(unsigned char *out, cs_wide_int pattern) {
+  for (size_t at = 0; at < CS_FILL_BLOCK; at += sizeof pattern)
+    memcpy(out + at, &pattern, sizeof pattern);
 }
 
-/* All of a run but the block it begins with; up to a block beyond the end is written. */
-static inline void cs_fill_lines(unsigned char *out, const unsigned char *end, cs_wide_int part,
+/* Fills a run without its first block; up to a block beyond its end may be written. */
+static inline void cs_fill_lines(unsigned char *out, const unsigned char *end, cs_wide_int pattern,
                                  uintptr_t phase) {
   out += CS_FILL_BLOCK - ((uintptr_t)out - phase) % CS_FILL_BLOCK;
   for (; out < end; out += CS_FILL_BLOCK)
-    cs_fill_store(out, part);
+    cs_fill_store(out, pattern);
 }
 
-/* A run, and nothing beyond it. */
-static inline void cs_fill_exactly(unsigned char *out, unsigned char *end, cs_wide_int part,
+/* Fills a run and writes nothing beyond it. */
+static inline void cs_fill_exactly(unsigned char *out, unsigned char *end, cs_wide_int pattern,
                                    uintptr_t phase) {
   unsigned char block[CS_FILL_BLOCK];
   if (end - out < CS_FILL_BLOCK) {
-    cs_fill_store(block, part);
+    cs_fill_store(block, pattern);
     memcpy(out, block, (size_t)(end - out));
     return;
   }
-  cs_fill_store(out, part);
-  cs_fill_lines(out, end - CS_FILL_BLOCK, part, phase);
-  cs_fill_store(end - CS_FILL_BLOCK, part);
+  cs_fill_store(out, pattern);
+  cs_fill_lines(out, end - CS_FILL_BLOCK, pattern, phase);
+  cs_fill_store(end - CS_FILL_BLOCK, pattern);
 }
 
 /* ---- fill_wide.c */

@@ -1,9 +1,10 @@
-/* Frames in the formats of the picture module: coded here, row by row, and handed over in batches.
+/* Frames in the formats of the picture module: coded here, row by row, and passed on in batches.
  *
  *   spans --cs_pixels_row--> RGBA --pack--> the file's own channels --batch--> module --put--> file
+ *           R G B A of a depth        R G B, or R G B A
  *
- * What a format can hold is checked before its writer is opened: some writers end the process, wrap
- * the size around, or report success and leave an unreadable file.
+ * The limits of a format are checked before its writer is opened: some writers end the process,
+ * wrap the size around, or report success and leave an unreadable file.
  */
 #include <stdio.h>
 #include <string.h>
@@ -21,13 +22,13 @@
 #define HAS(depth) (1u << (depth))
 
 typedef struct file_format {
-  const char *endings; /* each between spaces */
-  const char *name;    /* the module's */
+  const char *endings; /* of paths, each between spaces */
+  const char *name;    /* in the module */
   int32_t side;        /* pixels, at most */
-  int64_t pixels;      /* in all, at most; 0: no limit of its own */
+  int64_t pixels;      /* width times height at most; 0: any */
   int channels;        /* 4, or 3: the frame over black */
   celspan_depth depth; /* by default */
-  unsigned depths;     /* what it can hold */
+  unsigned depths;     /* a bit for each one that it can hold */
   bool is_film;        /* ten bits and Cineon by default */
   bool is_multiplied;  /* alpha is always premultiplied */
 } file_format;
@@ -48,7 +49,7 @@ static const file_format formats[] = {
      true},
     /* Sixteen bits come out shifted by a byte. */
     {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
-    /* Its writer divides by alpha along a curve of its own, so none is handed to it. */
+    /* Its writer divides by alpha along a curve of its own, so it gets no alpha. */
     {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
     {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
      true},
@@ -57,11 +58,11 @@ static const file_format formats[] = {
 };
 
 typedef struct picture_sink {
-  celspan_context *context; /* of the call that is running, for put */
+  celspan_context *context; /* of the call in progress, for put */
   const file_format *format;
   celspan_coding coding; /* of `pixels` */
   celspan_depth depth;   /* in the file */
-  int bits;              /* kept of each value; 0: all */
+  int bits;              /* of each value that are used; 0: all */
   celspan_status put_status;
   bool is_abandoned;
   char *path, *title; /* title: may be NULL */
@@ -124,7 +125,7 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
     coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   sink->coding = cs_pixels_resolve(&coding, format->depth);
   sink->depth = sink->coding.depth;
-  /* Ten bits are rounded here, from the curve itself. */
+  /* Ten bits are rounded here, directly from the floats that the curve gives. */
   sink->bits = format->is_film && !asked->depth ? 10 : 0;
   if (sink->bits)
     sink->coding.depth = CELSPAN_DEPTH_FLOAT;
@@ -155,7 +156,7 @@ static size_t row_size(const picture_sink *sink) {
   return (size_t)sink->width * (size_t)sink->format->channels * value_size(sink->depth);
 }
 
-/* Ten bits at the top of sixteen, repeated below, as readers widen them. */
+/* Ten bits at the top of sixteen, repeated below them, which is how readers extend them. */
 static void pack_film(const float *pixels, int32_t width, uint16_t *out) {
   for (int32_t x = 0; x < width; x++)
     for (int c = 0; c < 3; c++) {
@@ -176,7 +177,7 @@ static void pack_row(const picture_sink *sink, unsigned char *out) {
     memcpy(out + (size_t)x * to, sink->pixels + (size_t)x * from, to);
 }
 
-/* The file's own sentence, where it was the file that failed, says more than the module's. */
+/* Where writing the file failed, its own error says more than the module's. */
 static celspan_status report(const picture_sink *sink, celspan_context *context,
                              celspan_status status, const cs_picture_failure *failure) {
   if (status == CELSPAN_OK || sink->put_status != CELSPAN_OK)
@@ -276,7 +277,7 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   return sink->batch_count == sink->batch_rows ? flush(sink, context) : CELSPAN_OK;
 }
 
-/* Some writers call a file complete that nobody can read. */
+/* Some writers report success for a file that cannot be read. */
 static celspan_status check_file(const picture_sink *sink, celspan_context *context) {
   cs_picture_request request = {0};
   CS_TRY(cs_file_temporary(sink->file, context, &request.file));

@@ -1,6 +1,6 @@
-/* A row is cut into runs of at most CHUNK pixels with a colour each; a coder turns a run into
- * bytes. There is one coder a depth, and one more for what nearly every frame is written as: 8
- * bits, sRGB, straight.
+/* Each depth has a coder, which turns colours into bytes, many at once. Single spans give it one
+ * colour, arrays all of theirs, and gradients up to CHUNK colours at a time. The coding in which
+ * nearly every frame is written, 8 bits, sRGB, straight, has rows of its own (output/pixels8.h).
  */
 #include "output/pixels.h"
 
@@ -47,17 +47,17 @@ bool cs_pixels_takes_codes(const celspan_coding *coding) {
          coding->alpha == CELSPAN_ALPHA_STRAIGHT;
 }
 
-celspan_span cs_pixels_part(const celspan_span *span, int32_t x, int32_t count) {
-  celspan_span part = *span;
+celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count) {
+  celspan_span cropped = *span;
   size_t cut = 4 * (size_t)(x - span->x0);
-  part.x0 = 0;
-  part.x1 = count;
-  part.origin = span->origin - x;
+  cropped.x0 = 0;
+  cropped.x1 = count;
+  cropped.origin = span->origin - x;
   if (span->kind == CELSPAN_SPAN_ARRAY && span->codes)
-    part.codes += cut;
+    cropped.codes += cut;
   else if (span->kind == CELSPAN_SPAN_ARRAY)
-    part.array += cut;
-  return part;
+    cropped.array += cut;
+  return cropped;
 }
 
 /* ---------------------------------------------------------------- one pixel */
@@ -68,21 +68,22 @@ static uint32_t float_bits(float x) {
   return bits;
 }
 
-/* Round half up of x held to 0..1 times `most`; the product is exact. NaN is 0. */
+/* x, limited to 0..1, times `most`, rounded half up. The product is exact in double. NaN is 0. */
 static unsigned to_integer(float x, double most) {
   return !(x > 0) ? 0 : x >= 1 ? (unsigned)most : (unsigned)((double)x * most + 0.5);
 }
 
-/* IEEE binary16, ties to even; too large becomes 65504, NaN stays one. */
+/* IEEE 754 binary16, rounded half to even. Too large a number becomes 65504; NaN stays NaN. */
 static uint16_t to_half(float x) {
   uint32_t bits = float_bits(x), sign = bits >> 16 & 0x8000, size = bits & 0x7fffffff;
   if (size > 0x7f800000)
     return (uint16_t)(sign | 0x7e00);
   if (size >= 0x477ff000)
     return (uint16_t)(sign | 0x7bff);
-  if (size < 0x38800000) { /* below 2^-14: adding 1/2 leaves steps of 2^-24 */
-    float step = fabsf(x) + 0.5f;
-    return (uint16_t)(sign | (float_bits(step) - 0x3f000000));
+  if (size <
+      0x38800000) { /* below 2^-14, the number is a multiple of 2^-24, and so is one above 1/2 */
+    float above_half = fabsf(x) + 0.5f;
+    return (uint16_t)(sign | (float_bits(above_half) - 0x3f000000));
   }
   uint32_t even = size >> 13 & 1;
   return (uint16_t)(sign | ((size - 0x38000000 + 0xfff + even) >> 13));
@@ -173,20 +174,20 @@ void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pix
 
 /* ---------------------------------------------------------------- spans */
 
-/* Ramps that follow one another, on their way to be coded together: they may be short. */
-typedef struct ramps {
+/* Pixels of adjacent gradients, gathered to be coded together because gradients may be short. */
+typedef struct gathered {
   float rgba[CHUNK][4];
   size_t count; /* pixels waiting */
   unsigned char *out;
-} ramps;
+} gathered;
 
-static void flush(ramps *waiting, const celspan_coding *coding, coder code) {
+static void flush(gathered *waiting, const celspan_coding *coding, coder code) {
   if (waiting->count > 0)
     code(coding, waiting->rgba[0], waiting->count, waiting->out);
   waiting->count = 0;
 }
 
-static void put_gradient(ramps *waiting, const celspan_coding *coding, coder code,
+static void put_gradient(gathered *waiting, const celspan_coding *coding, coder code,
                          const celspan_span *span, size_t pixel_size, unsigned char *out) {
   cs_v4 colour = cs_v4_load(span->colour), slope = cs_v4_load(span->slope);
   for (int32_t x = span->x0; x < span->x1;) {
@@ -219,7 +220,7 @@ static void code_spans(const celspan_coding *coding, const celspan_span *spans, 
                        unsigned char *row) {
   coder code = choose_coder(coding);
   size_t pixel_size = celspan_coding_pixel_size(coding);
-  ramps waiting;
+  gathered waiting;
   waiting.count = 0;
   for (const celspan_span *span = spans; span < spans + span_count; span++) {
     unsigned char *out = row + (size_t)span->x0 * pixel_size;

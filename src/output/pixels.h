@@ -1,4 +1,14 @@
-/* Spans to rows of coded pixels. */
+/* Spans to rows of coded pixels, four channels each, in the machine's byte order (little endian):
+ *
+ *   depth     bytes of a pixel
+ *   8         R G B A                     straight or premultiplied, along a transfer curve
+ *   16        RR GG BB AA
+ *   half      RR GG BB AA                 IEEE 754 binary16
+ *   float     RRRR GGGG BBBB AAAA         IEEE 754 binary32
+ *
+ * INVARIANT: a pixel's bytes depend on its colour and the coding alone; not on the spans around it,
+ * the length of its run, the address of the row or the set of instructions.
+ */
 #ifndef CS_OUTPUT_PIXELS_H
 #define CS_OUTPUT_PIXELS_H
 
@@ -7,14 +17,14 @@
 /* The coding with every default filled in, for integers and floats alike. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);
 
-/* Writes one row of RGBA pixels: the spans cover [0, width) without gap. Fills long single spans
- * by one coded pixel. coding: resolved. Deterministic. Threads: any. */
+/* Writes one row of pixels: the spans cover [0, width) without gap. A single span is coded once and
+ * filled. coding: resolved. Threads: any. */
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row);
-/* Whether a row of that coding is content with spans that hold codes. coding: resolved. */
+/* Whether array spans may hold codes, pixels coded already, in this coding. coding: resolved. */
 bool cs_pixels_takes_codes(const celspan_coding *coding);
-/* [x, x + count) of a span, as a span from column 0. */
-celspan_span cs_pixels_part(const celspan_span *span, int32_t x, int32_t count);
+/* Columns [x, x + count) of a span, as a span from column 0. */
+celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count);
 /* One colour, linear premultiplied, to one coded pixel. */
 void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);
 

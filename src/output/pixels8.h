@@ -1,4 +1,4 @@
-/* Rows of what nearly every frame is written as: 8 bits, sRGB, straight. */
+/* Rows of 8 bits, sRGB, straight alpha, which is how nearly every frame is written. */
 #ifndef CS_OUTPUT_PIXELS8_H
 #define CS_OUTPUT_PIXELS8_H
 

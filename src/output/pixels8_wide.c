@@ -1,13 +1,23 @@
-/* A frame may have a thousand million pixels in rows of this coding, most of them in long runs and
- * most runs a pixel long. Spans are taken a portion at a time:
+/* A frame may have 10^9 pixels in rows of this coding, most of them in long runs, while most runs
+ * have one pixel. Neither should wait for the other, so a portion of spans at a time goes through
+ * three passes (a block is 64 bytes, 16 pixels; lines are blocks on cache lines):
  *
- *   1. their colours are coded, several at once;
- *   2. lines of the cache are filled that begin inside a long run;
- *   3. from left to right every span's first block is written, its head.
+ *   spans      |a|b|         c                       |d| e  |
+ *   lines                |cccccccc|cccccccc|cccccccc|
+ *   heads      |aaaaaaaa|
+ *                |bbbbbbbb|
+ *                  |cccccccc|
+ *                                                    |dddddddd|
+ *                                                      |eeeeeeee|
+ *   row        |a|b|ccccccccccccccccccccccccccccccccc|d|eeee
  *
- * What a head or a line covers beyond its span belongs to spans further right, whose heads come
- * later; only at the end of the row is care taken. So nothing branches on the lengths of runs,
- * which a processor cannot foresee.
+ *   1. the colours of all spans are coded, several at once;
+ *   2. each line that begins inside a run longer than a block is filled with that run's pixel;
+ *   3. from left to right, each span writes a head, the first block from its start.
+ *
+ * Where a line or a head covers more than its span, the pixels belong to spans further right, whose
+ * heads come later. Only at the end of the row must nothing be written beyond. So there is no
+ * branch on the length of a run, which a processor could not predict.
  */
 #include "output/pixels8.h"
 
@@ -19,8 +29,8 @@
 #endif
 
 enum {
-  PORTION = 64, /* spans: a bit each */
-  LINES = 1024, /* of a portion whose runs are filled together */
+  PORTION = 64, /* spans: as many as a word has bits */
+  LINES = 1024, /* in a portion at most; a wider portion is filled run by run */
   LINE_PIXELS = CS_FILL_BLOCK / 4
 };
 
@@ -49,7 +59,7 @@ static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXE
 #endif
 }
 
-/* codes: room for a portion. Those of spans that are not flat mean nothing. */
+/* codes: of a portion. Entries of spans that are not single have no meaning. */
 static inline void code_colours(const celspan_span *spans, size_t count, uint32_t *codes) {
   for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
     const celspan_span *together[CS_SRGB8_PIXELS];
@@ -64,14 +74,14 @@ static inline void code_colours(const celspan_span *spans, size_t count, uint32_
 typedef int32_t quad __attribute__((vector_size(16)));
 
 static inline quad load_place(const celspan_span *span) {
-  quad place; /* x0 and x1, and two fields that do not count here */
+  quad place; /* x0 and x1, and two fields that are not used */
   memcpy(&place, span, sizeof place);
   return place;
 }
 
 static inline bool is_long(const celspan_span *span) { return span->x1 - span->x0 > LINE_PIXELS; }
 
-/* Which of four spans go beyond their heads, a bit each. */
+/* Which of four spans are longer than their heads, a bit for each. */
 static inline uint64_t are_long(const celspan_span *spans) {
 #ifdef __SSE2__
   quad low = __builtin_shufflevector(load_place(spans), load_place(spans + 1), 0, 4, 1, 5);
@@ -87,7 +97,7 @@ static inline uint64_t are_long(const celspan_span *spans) {
 #endif
 }
 
-/* The same of up to 64. */
+/* The same for up to 64 spans. */
 static inline uint64_t find_long(const celspan_span *spans, size_t count) {
   uint64_t longs = 0;
   size_t k = 0;
@@ -98,12 +108,13 @@ static inline uint64_t find_long(const celspan_span *spans, size_t count) {
   return longs;
 }
 
-/* How many lines begin left of a column, from the one on that begins at column `first`. */
+/* How many lines begin in columns [first, x), where a line begins at `first`. */
 static inline size_t lines_before(int32_t x, int32_t first) {
   return (uint32_t)(x - (first - (LINE_PIXELS - 1))) / LINE_PIXELS;
 }
 
-/* Whose every line is, of those that a long run covers the beginning of; anybody's, the others. */
+/* owners[i] becomes the span in which line i begins, if that is a long run; else any span. (Lines
+ * are bytes here, so a fill marks 64 of them.) */
 static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
                               unsigned char *owners) {
   for (size_t line = 0; line < LINES; line += CS_FILL_BLOCK)
@@ -119,7 +130,7 @@ static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t
   }
 }
 
-/* Run by run: where there are few and very long ones. */
+/* Fills the lines run by run: where runs are few and very long. */
 static inline void fill_runs(const target *row, const celspan_span *spans, uint64_t longs,
                              const uint32_t *codes) {
   for (; longs != 0; longs &= longs - 1) {
@@ -135,8 +146,8 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
   uint64_t longs = find_long(spans, count);
   if (longs == 0)
     return;
-  uintptr_t over = ((uintptr_t)row->pixels - row->phase) % CS_FILL_BLOCK;
-  int32_t first = over > 0 ? (int32_t)(CS_FILL_BLOCK - over) / 4 : 0;
+  uintptr_t offset = ((uintptr_t)row->pixels - row->phase) % CS_FILL_BLOCK;
+  int32_t first = offset > 0 ? (int32_t)(CS_FILL_BLOCK - offset) / 4 : 0;
   first += LINE_PIXELS * (int32_t)lines_before(spans[__builtin_ctzll(longs)].x0, first);
   size_t lines = lines_before(spans[63 - __builtin_clzll(longs)].x1, first);
   if (lines > LINES) {
@@ -165,7 +176,7 @@ static inline cs_wide repeat_pixel(const float rgba[4]) {
 #endif
 }
 
-/* 0 for every lane of the first pixel, 1 for those of the second... */
+/* The number of its pixel in each lane: 0, 0, 0, 0, 1, 1, 1, 1, ... */
 static inline cs_wide pixel_numbers(void) {
   float lanes[CS_WIDE_LANES];
   for (int i = 0; i < CS_WIDE_LANES; i++)
@@ -192,7 +203,7 @@ static inline void put_short_gradient(const celspan_span *span, unsigned char *o
 
 #ifdef __AVX512F__
 
-/* Sixteen pixels at once, by channel. */
+/* Sixteen pixels at once, channel by channel. */
 static inline void put_gradient(const celspan_span *span, unsigned char *out, size_t room) {
   const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
@@ -204,8 +215,8 @@ static inline void put_gradient(const celspan_span *span, unsigned char *out, si
     cs_srgb8_planes colours;
     for (int c = 0; c < 4; c++)
       colours.channels[c] = span->colour[c] + span->slope[c] * at;
-    __mmask16 those = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
-    _mm512_mask_storeu_epi32(out, those, (__m512i)cs_srgb8_code_planes(&colours));
+    __mmask16 inside = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
+    _mm512_mask_storeu_epi32(out, inside, (__m512i)cs_srgb8_code_planes(&colours));
   }
 }
 
@@ -238,7 +249,7 @@ static inline void put_heads(const target *row, const celspan_span *spans, size_
       put_varied(row, &spans[k]);
 }
 
-/* Spans too near the end of the row to write beyond them. */
+/* Spans so near the end of the row that nothing may be written beyond them. */
 static inline void put_last(const target *row, const celspan_span *spans, size_t count,
                             const uint32_t *codes) {
   for (size_t k = 0; k < count; k++)

@@ -1,9 +1,10 @@
-/* The sinks: where finished rows go. Each function makes a sink that render/ feeds and `end`
- * destroys. A sink that did not come so far, because its begin failed or was never called, is
- * destroyed by cs_sink_discard: neither begin nor row ever does.
+/* The sinks: where finished rows go.
  *
- * Files are written under a temporary name beside the final one, checked, synced and renamed: a
- * frame appears whole or not at all (output/file.h).
+ *   create --> begin --> row, row, ... (top to bottom) --> end
+ *      \----------\-- a failure or a change of mind: cs_sink_discard
+ *
+ * INVARIANT: a sink is destroyed by its `end` or by cs_sink_discard, and by nothing else: not by a
+ * begin or a row that fails. Files appear whole or not at all (output/file.h).
  */
 #ifndef CS_OUTPUT_SINK_H
 #define CS_OUTPUT_SINK_H
@@ -23,20 +24,21 @@ CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const c
  * premultiplied. */
 CELSPAN_CHECKED celspan_status cs_sink_span(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* RGBA pixels into the caller's memory; pixels NULL: coded and dropped, to measure the making. */
+/* RGBA pixels into the caller's memory; pixels NULL: they are coded and dropped, to measure speed.
+ */
 CELSPAN_CHECKED celspan_status cs_sink_memory(celspan_context *context,
                                               const celspan_coding *coding, void *pixels,
                                               size_t stride, celspan_sink *out);
-/* 128 bits over all coded pixels, written to digest by `end`. */
+/* A hash of all coded pixels, written to digest by `end`. */
 CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
                                               const celspan_coding *coding, uint64_t digest[2],
                                               celspan_sink *out);
-/* By format or the path's ending: PNG, Targa, a span file, or the picture module. */
+/* Chosen by the format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* Whether such a file tells the number of its frame, so that no other frame's is quite the same. */
+/* Whether such a file contains the number of its frame, so that equal frames make unequal files. */
 bool cs_sink_file_is_numbered(const char *path, const celspan_file_desc *file);
-/* Destroys a sink whose end was not called and keeps the recorded sentence. */
+/* Destroys a sink whose end was not called; the context's error stays as it was. */
 void cs_sink_discard(celspan_context *context, celspan_sink *sink);
 
 #endif

@@ -1,25 +1,29 @@
-/* Span files: spans stay spans. Gradients and arrays are coded in pieces, and the library finds in
- * them what is even.
+/* Span files. Single spans become runs without being laid out:
+ *
+ *   single spans --cs_single_colours_code--> runs -------+
+ *   gradients, arrays --cs_pixels_row--> pixels ---------+--> the library spanfile --> file
+ *
+ * In pixels, which come CHUNK at a time, the library itself looks for runs and gradients.
  */
 #include <spanfile.h>
 #include <string.h>
 
-#include "output/colours.h"
 #include "output/file.h"
 #include "output/pixels.h"
+#include "output/single_colours.h"
 #include "output/sink.h"
 
-enum { PIECE = 4096 };
+enum { CHUNK = 4096 };
 
 typedef struct span_sink {
   size_t allocated;
-  celspan_context *context; /* of the call that is running, for put_bytes */
+  celspan_context *context; /* of the call in progress, for put_bytes */
   celspan_coding coding;
   cs_file *file;           /* from begin to end */
   spanfile_writer *writer; /* likewise */
-  cs_colours colours;
-  spanfile_run runs[CS_COLOURS_MOST];
-  unsigned char piece[PIECE * 8];
+  cs_single_colours colours;
+  spanfile_run runs[CS_SINGLE_COLOURS_MOST];
+  unsigned char chunk[CHUNK * 8];
   char path[];
 } span_sink;
 
@@ -34,7 +38,7 @@ static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
   return cs_mem_resize(user, block, old_size, new_size);
 }
 
-/* A failed write has left its sentence. */
+/* A failed write has set the error already. */
 static celspan_status report(const span_sink *sink, spanfile_status status) {
   switch (status) {
   case SPANFILE_OK:
@@ -51,44 +55,40 @@ static celspan_status report(const span_sink *sink, spanfile_status status) {
 
 /* ---------------------------------------------------------------- spans */
 
-static spanfile_status put_pieces(span_sink *sink, const celspan_span *span) {
+static spanfile_status put_varying(span_sink *sink, const celspan_span *span) {
   spanfile_status status = SPANFILE_OK;
-  for (int32_t x = span->x0; x < span->x1 && status == SPANFILE_OK; x += PIECE) {
-    int32_t count = span->x1 - x < PIECE ? span->x1 - x : PIECE;
-    celspan_span piece = *span;
-    piece.x0 = 0;
-    piece.x1 = count;
-    piece.origin = span->origin - x;
-    if (span->kind == CELSPAN_SPAN_ARRAY)
-      piece.array = span->array + 4 * (size_t)(x - span->x0);
-    cs_pixels_row(&sink->coding, &piece, 1, sink->piece);
-    status = spanfile_writer_pixels(sink->writer, sink->piece, (uint32_t)count);
+  for (int32_t x = span->x0; x < span->x1 && status == SPANFILE_OK; x += CHUNK) {
+    int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
+    celspan_span cropped = cs_pixels_crop(span, x, count);
+    cs_pixels_row(&sink->coding, &cropped, 1, sink->chunk);
+    status = spanfile_writer_pixels(sink->writer, sink->chunk, (uint32_t)count);
   }
   return status;
 }
 
-/* At most CS_COLOURS_MOST spans. */
+/* At most CS_SINGLE_COLOURS_MOST spans. */
 static spanfile_status put_group(span_sink *sink, const celspan_span *spans, size_t count) {
   size_t pixel_size = celspan_coding_pixel_size(&sink->coding), run_count = 0;
   spanfile_status status = SPANFILE_OK;
-  cs_colours_code(&sink->colours, &sink->coding, spans, count);
+  cs_single_colours_code(&sink->colours, &sink->coding, spans, count);
   for (size_t i = 0; i < count; i++)
     if (spans[i].kind == CELSPAN_SPAN_SINGLE) {
-      uint64_t pixel = cs_colours_pixel(&sink->colours, pixel_size, i);
+      uint64_t pixel = cs_single_colours_pixel(&sink->colours, pixel_size, i);
       sink->runs[run_count++] = (spanfile_run){(uint32_t)(spans[i].x1 - spans[i].x0), pixel};
     } else {
       (void)spanfile_writer_runs(sink->writer, sink->runs, run_count); /* errors stick */
       run_count = 0;
-      status = put_pieces(sink, &spans[i]);
+      status = put_varying(sink, &spans[i]);
     }
   return run_count > 0 ? spanfile_writer_runs(sink->writer, sink->runs, run_count) : status;
 }
 
 static spanfile_status put_spans(span_sink *sink, const celspan_span *spans, size_t count) {
   spanfile_status status = SPANFILE_OK;
-  for (size_t done = 0; done < count && status == SPANFILE_OK; done += CS_COLOURS_MOST)
-    status = put_group(sink, spans + done,
-                       count - done < CS_COLOURS_MOST ? count - done : CS_COLOURS_MOST);
+  for (size_t done = 0; done < count && status == SPANFILE_OK; done += CS_SINGLE_COLOURS_MOST)
+    status =
+        put_group(sink, spans + done,
+                  count - done < CS_SINGLE_COLOURS_MOST ? count - done : CS_SINGLE_COLOURS_MOST);
   return status;
 }
 

@@ -1,4 +1,3 @@
-/* A sink that feeds two. */
 #include "output/tee.h"
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {

@@ -1,4 +1,7 @@
-/* One row to two sinks: a frame is written and hashed while it is made once.
+/* A sink that passes every row to two others: a frame made once is written and hashed.
+ *
+ * INVARIANT: both sinks get the same calls, the second one only if the first succeeded; but `end`
+ * always reaches both.
  */
 #ifndef CS_OUTPUT_TEE_H
 #define CS_OUTPUT_TEE_H
@@ -10,7 +13,7 @@ typedef struct cs_tee {
   bool is_ended;         /* false after a render: the sinks are the caller's to discard */
 } cs_tee;
 
-/* tee: its sinks are set; kept by the sink as long as it is used. */
+/* tee: its sinks are set; borrowed until the sink ends. */
 celspan_sink cs_tee_sink(cs_tee *tee);
 
 #endif

@@ -1,7 +1,7 @@
 #include "render/strips.h"
 
 #include "base/wait.h"
-#include "output/parts.h"
+#include "output/shares.h"
 #include "span/row_queue.h"
 
 #include <pthread.h>
@@ -31,7 +31,7 @@ typedef struct pool {
   delivery *delivery;
   cs_row_worker *row_workers;
   bool has_parts;
-  cs_parts parts;
+  cs_shares parts;
   void **hands;  /* one a lane, where there are parts */
   strip *strips; /* a ring: band i lies at i % band_count */
   int lane_count, band_count;
@@ -117,7 +117,7 @@ static celspan_status look(pool *p, cs_row_worker *row_worker) {
 }
 
 static celspan_status make_part(pool *p, cs_row_worker *row_worker, strip *b) {
-  const cs_parts *parts = &p->parts;
+  const cs_shares *parts = &p->parts;
   void *hand = p->hands[row_worker - p->row_workers];
   int32_t first = band_first(p, b->index), end = band_end(p, b->index);
   b->counts = (celspan_statistics){0};
@@ -271,23 +271,23 @@ static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
 }
 
 static void close_parts(pool *p) {
-  const cs_parts *parts = &p->parts;
-  for (int i = 0; parts->close_hand && p->hands && i < p->lane_count; i++)
-    parts->close_hand(parts->user, p->context, p->hands[i]);
-  for (int i = 0; parts->close_part && p->strips && i < p->band_count; i++)
-    parts->close_part(parts->user, p->context, p->strips[i].part);
+  const cs_shares *parts = &p->parts;
+  for (int i = 0; parts->close_worker && p->hands && i < p->lane_count; i++)
+    parts->close_worker(parts->user, p->context, p->hands[i]);
+  for (int i = 0; parts->close_share && p->strips && i < p->band_count; i++)
+    parts->close_share(parts->user, p->context, p->strips[i].part);
   cs_mem_free(p->context->memory, p->hands, (size_t)p->lane_count * sizeof *p->hands);
 }
 
 static celspan_status open_parts(pool *p) {
-  const cs_parts *parts = &p->parts;
+  const cs_shares *parts = &p->parts;
   p->hands = cs_mem_array(p->context->memory, (size_t)p->lane_count, sizeof *p->hands);
   if (!p->hands)
     return cs_fail_memory(p->context);
-  for (int i = 0; parts->open_hand && i < p->lane_count; i++)
-    CS_TRY(parts->open_hand(parts->user, p->context, &p->hands[i]));
-  for (int i = 0; parts->open_part && i < p->band_count; i++)
-    CS_TRY(parts->open_part(parts->user, p->context, &p->strips[i].part));
+  for (int i = 0; parts->open_worker && i < p->lane_count; i++)
+    CS_TRY(parts->open_worker(parts->user, p->context, &p->hands[i]));
+  for (int i = 0; parts->open_share && i < p->band_count; i++)
+    CS_TRY(parts->open_share(parts->user, p->context, &p->strips[i].part));
   return CELSPAN_OK;
 }
 
@@ -341,7 +341,7 @@ static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
 
 static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d) {
   pool p = {.context = context, .frame = frame, .delivery = d};
-  p.has_parts = cs_sink_parts(d->sink, &p.parts);
+  p.has_parts = cs_shares_of_sink(d->sink, &p.parts);
   p.strip_height = choose_rows(&p, d->desc);
   int32_t total = p.total = count_bands(frame, p.strip_height);
   p.lane_count = frame->workers < total ? frame->workers : (int)total;

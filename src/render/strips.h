@@ -2,7 +2,7 @@
  *
  *   workers --rows, band by band--> bands --in order, by the calling thread--> sink
  *
- * A sink that takes parts (output/parts.h) gets the rows from the workers themselves; only the
+ * A sink that takes parts (output/shares.h) gets the rows from the workers themselves; only the
  * parts are joined in order. The calling thread works too while it has nothing to deliver.
  * Invariant: the sink sees the same spans whatever the number of workers and the height of bands;
  * the failure reported is that of the topmost row that failed.

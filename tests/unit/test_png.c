@@ -1,4 +1,4 @@
-/* output/png/png.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c
+/* output/png/png_sink.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c
  * makes of them. */
 #include <png.h>
 #include <signal.h>

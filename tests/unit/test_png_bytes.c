@@ -54,7 +54,7 @@ static void check_rows(cs_isa isa, const rows *r, size_t pixel_size, size_t size
   uint64_t costs[CS_PNG_FILTERS] = {0}, expected[CS_PNG_FILTERS] = {0};
   bool is_same = true;
   for (cs_png_filter kind = CS_PNG_NONE; kind < CS_PNG_FILTERS; kind++) {
-    CS_WIDE_CHOOSE(isa, cs_png_filter_part)(kind, row, above, pixel_size, size, found);
+    CS_WIDE_CHOOSE(isa, cs_png_bytes_filter)(kind, row, above, pixel_size, size, found);
     for (size_t i = 0; i < size; i++) {
       unsigned char byte = expected_byte(kind, row + i, above + i, pixel_size);
       is_same = is_same && found[i] == byte;
@@ -63,7 +63,7 @@ static void check_rows(cs_isa isa, const rows *r, size_t pixel_size, size_t size
     }
   }
   CHECK(is_same);
-  CS_WIDE_CHOOSE(isa, cs_png_add_costs)(row, above, pixel_size, size, costs);
+  CS_WIDE_CHOOSE(isa, cs_png_bytes_add_costs)(row, above, pixel_size, size, costs);
   CHECK(memcmp(costs, expected, sizeof costs) == 0);
 }
 
@@ -72,7 +72,7 @@ static void check_dearest(cs_isa isa) {
   rows r = {0};
   uint64_t costs[CS_PNG_FILTERS] = {1, 1, 1, 1, 1};
   memset(r.row + BEFORE, 128, SIZE_MOST);
-  CS_WIDE_CHOOSE(isa, cs_png_add_costs)(r.row + BEFORE, r.above + BEFORE, 4, SIZE_MOST, costs);
+  CS_WIDE_CHOOSE(isa, cs_png_bytes_add_costs)(r.row + BEFORE, r.above + BEFORE, 4, SIZE_MOST, costs);
   CHECK(costs[CS_PNG_NONE] == 1 + (128 + CS_PNG_NOT_ZERO) * (uint64_t)SIZE_MOST);
   CHECK(costs[CS_PNG_UP] == costs[CS_PNG_NONE]);
   CHECK(costs[CS_PNG_SUB] == 1 + (128 + CS_PNG_NOT_ZERO) * (uint64_t)4);
@@ -90,7 +90,7 @@ static void check_pixels(cs_isa isa, test_random *random, size_t count) {
     memcpy(expected + 3 * i, pixels + 4 * i, 3);
     common &= pixel;
   }
-  CHECK(CS_WIDE_CHOOSE(isa, cs_png_drop_alpha)(pixels, count) == common);
+  CHECK(CS_WIDE_CHOOSE(isa, cs_png_bytes_drop_alpha)(pixels, count) == common);
   CHECK(memcmp(pixels, expected, 3 * count) == 0);
 }
 

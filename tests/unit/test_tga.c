@@ -1,4 +1,4 @@
-/* output/tga.c: a plain decoder reads the pixels that output/pixels.c makes of the spans. */
+/* output/tga_sink.c: a plain decoder reads the pixels that output/pixels.c makes of the spans. */
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,8 +1,13 @@
-/* Kernels over rows of bytes of a PNG.
+/* Filters over the bytes of PNG rows (PNG 3rd edition, 9). A filter predicts each byte x from its
+ * neighbours of the same channel and stores the difference:
  *
- * Invariant: each make of a kernel gives the same bytes. Rows have a pixel of zeros before their
- * first byte and CS_PNG_BLOCK zeros after their last; what is written may go on for less than
- * CS_PNG_BLOCK bytes.
+ *   row above      c  b          Sub x - a     Average x - floor((a + b) / 2)
+ *   row            a  x          Up  x - b     Paeth   x - the one nearest to a + b - c
+ *
+ *   in memory   | zeros: a pixel | bytes of the row | zeros: CS_PNG_BLOCK |
+ *
+ * INVARIANT: a kernel gives the same bytes for every set of instructions. Less than CS_PNG_BLOCK
+ * bytes beyond the end of the output may be overwritten.
  */
 #ifndef CS_OUTPUT_PNG_BYTES_H
 #define CS_OUTPUT_PNG_BYTES_H
@@ -14,7 +19,7 @@
 
 enum {
   CS_PNG_BLOCK = 64,
-  CS_PNG_COST_MOST = 56 * CS_PNG_BLOCK /* bytes whose cost is told at once: sums have 16 bits */
+  CS_PNG_COST_MOST = 56 * CS_PNG_BLOCK /* bytes of a call for costs: its sums have 16 bits */
 };
 
 /* By their numbers in the file. */
@@ -27,17 +32,18 @@ typedef enum cs_png_filter {
   CS_PNG_FILTERS
 } cs_png_filter;
 
-/* What `size` bytes of a row leave under a filter. */
-CS_WIDE_DECLARE(void, cs_png_filter_part,
+/* The differences of `size` bytes of a row under a filter. */
+CS_WIDE_DECLARE(void, cs_png_bytes_filter,
                 (cs_png_filter kind, const unsigned char *row, const unsigned char *above,
                  size_t pixel_size, size_t size, unsigned char *out));
-/* Adds to each filter's cost: of a residue its size as a signed byte, and CS_PNG_NOT_ZERO unless it
- * is 0. Sizes alone, the usual guess, think little of the long runs of zeros of drawn pictures. */
+/* Adds to each filter's cost the sizes of the differences as signed bytes, and CS_PNG_NOT_ZERO for
+ * each that is not 0. Sizes alone, the usual estimate, undervalue the long runs of zeros that drawn
+ * pictures have. size: at most CS_PNG_COST_MOST. */
 enum { CS_PNG_NOT_ZERO = 16 };
-CS_WIDE_DECLARE(void, cs_png_add_costs,
+CS_WIDE_DECLARE(void, cs_png_bytes_add_costs,
                 (const unsigned char *row, const unsigned char *above, size_t pixel_size,
                  size_t size, uint64_t costs[CS_PNG_FILTERS]));
-/* Leaves out the alpha of 8-bit pixels, in place; the bits that all of them have. */
-CS_WIDE_DECLARE(uint32_t, cs_png_drop_alpha, (unsigned char *bytes, size_t pixel_count));
+/* Removes the alpha of 8-bit pixels, in place. Returns the bits that are set in all of them. */
+CS_WIDE_DECLARE(uint32_t, cs_png_bytes_drop_alpha, (unsigned char *bytes, size_t pixel_count));
 
 #endif

@@ -14,14 +14,16 @@ static inline bytes choose(bytes condition, bytes yes, bytes no) {
   return (yes & condition) | (no & ~condition);
 }
 
-/* Of a, b and c the one nearest to a + b - c; a before b before c. Its distance to c is that of a
- * and that of b apart, when c is between them; else it is no less than both, and c is not taken. */
+/* Of a, b and c the one nearest to p = a + b - c; of equally near ones the first. p - a is b - c
+ * and p - b is a - c. If c lies between a and b, those two have different signs, and |p - c|, the
+ * size of their sum, is the difference of their sizes. Otherwise |p - c| is the sum of the sizes,
+ * so c cannot be the nearest alone, and a distance of 255 serves as well. */
 static inline bytes paeth(bytes a, bytes b, bytes c) {
   bytes a_is_less = (bytes)(a <= c), b_is_less = (bytes)(b <= c);
   bytes from_b = choose(a_is_less, c - a, a - c), from_a = choose(b_is_less, c - b, b - c);
   bytes a_is_nearer = (bytes)(from_a <= from_b);
-  bytes apart = choose(a_is_nearer, from_b - from_a, from_a - from_b);
-  bytes from_c = apart | (bytes)(a_is_less == b_is_less);
+  bytes between = choose(a_is_nearer, from_b - from_a, from_a - from_b);
+  bytes from_c = between | (bytes)(a_is_less == b_is_less);
   bytes b_or_c = choose((bytes)(from_b <= from_c), b, c);
   return choose(a_is_nearer & (bytes)(from_a <= from_c), a, b_or_c);
 }
@@ -30,8 +32,8 @@ static inline bytes average(bytes a, bytes b) { return (a & b) + ((a ^ b) >> 1);
 
 /* ---------------------------------------------------------------- filters */
 
-static inline bytes residue(cs_png_filter kind, const unsigned char *row,
-                            const unsigned char *above, size_t pixel_size) {
+static inline bytes difference(cs_png_filter kind, const unsigned char *row,
+                               const unsigned char *above, size_t pixel_size) {
   bytes x = load_block(row), a = load_block(row - pixel_size), b = load_block(above);
   switch (kind) {
   case CS_PNG_SUB:
@@ -47,19 +49,19 @@ static inline bytes residue(cs_png_filter kind, const unsigned char *row,
   }
 }
 
-/* kind: known to the compiler. */
+/* kind: a constant for the compiler. */
 static inline void filter_as(cs_png_filter kind, const unsigned char *row,
                              const unsigned char *above, size_t pixel_size, size_t size,
                              unsigned char *out) {
   for (size_t i = 0; i < size; i += BLOCK) {
-    bytes block = residue(kind, row + i, above + i, pixel_size);
+    bytes block = difference(kind, row + i, above + i, pixel_size);
     memcpy(out + i, &block, sizeof block);
   }
 }
 
-void CS_WIDE(cs_png_filter_part)(cs_png_filter kind, const unsigned char *row,
-                                 const unsigned char *above, size_t pixel_size, size_t size,
-                                 unsigned char *out) {
+void CS_WIDE(cs_png_bytes_filter)(cs_png_filter kind, const unsigned char *row,
+                                  const unsigned char *above, size_t pixel_size, size_t size,
+                                  unsigned char *out) {
   switch (kind) {
   case CS_PNG_SUB:
     filter_as(CS_PNG_SUB, row, above, pixel_size, size, out);
@@ -80,11 +82,11 @@ void CS_WIDE(cs_png_filter_part)(cs_png_filter kind, const unsigned char *row,
 
 /* ---------------------------------------------------------------- costs */
 
-/* A word takes two bytes of at most 128 + CS_PNG_NOT_ZERO a block. */
-static inline words cost_of(bytes residue) {
-  bytes negated = -residue;
-  bytes size = choose((bytes)(residue <= negated), residue, negated);
-  words cost = (words)(size + ((bytes)(residue != 0) & CS_PNG_NOT_ZERO));
+/* Each word is the sum for two bytes, at most 2 (128 + CS_PNG_NOT_ZERO). */
+static inline words cost_of(bytes difference) {
+  bytes negated = -difference;
+  bytes size = choose((bytes)(difference <= negated), difference, negated);
+  words cost = (words)(size + ((bytes)(difference != 0) & CS_PNG_NOT_ZERO));
   return (cost & 255) + (cost >> 8);
 }
 
@@ -92,7 +94,7 @@ typedef struct cost_sums {
   words none, sub, up, average, paeth;
 } cost_sums;
 
-/* size: whole blocks. left, corner: row and row above, a pixel earlier. */
+/* size: of whole blocks. left, corner: row and above, a pixel earlier. */
 static inline void add_blocks(cost_sums *sums, const unsigned char *row, const unsigned char *left,
                               const unsigned char *above, const unsigned char *corner,
                               size_t size) {
@@ -114,12 +116,13 @@ static inline uint64_t sum_of(words sums) {
   return sum;
 }
 
-void CS_WIDE(cs_png_add_costs)(const unsigned char *row, const unsigned char *above,
-                               size_t pixel_size, size_t size, uint64_t costs[CS_PNG_FILTERS]) {
+void CS_WIDE(cs_png_bytes_add_costs)(const unsigned char *row, const unsigned char *above,
+                                     size_t pixel_size, size_t size,
+                                     uint64_t costs[CS_PNG_FILTERS]) {
   cost_sums sums = {0};
   size_t rest = size % CS_PNG_BLOCK, whole = size - rest;
   add_blocks(&sums, row, row - pixel_size, above, above - pixel_size, whole);
-  if (rest > 0) { /* with zeros all around, whatever the size of a block */
+  if (rest > 0) { /* padded with zeros, so that the sums do not depend on the size of a block */
     unsigned char ends[4][CS_PNG_BLOCK] = {0};
     memcpy(ends[0], row + whole, rest);
     memcpy(ends[1], row + whole - pixel_size, rest);
@@ -136,11 +139,11 @@ void CS_WIDE(cs_png_add_costs)(const unsigned char *row, const unsigned char *ab
 
 /* ---------------------------------------------------------------- pixels */
 
-/* Four pixels at a time: what is written lies before what is yet to be read. */
-uint32_t CS_WIDE(cs_png_drop_alpha)(unsigned char *from, size_t pixel_count) {
+/* Four pixels at a time. In place, because less is written than was read. */
+uint32_t CS_WIDE(cs_png_bytes_drop_alpha)(unsigned char *from, size_t pixel_count) {
   typedef uint8_t four __attribute__((vector_size(16)));
   four common = ~(four){0};
-  uint32_t parts[4], all = UINT32_MAX;
+  uint32_t lanes[4], all = UINT32_MAX;
   unsigned char *to = from;
   for (; pixel_count >= 4; pixel_count -= 4, from += 16, to += 12) {
     four pixels;
@@ -156,6 +159,6 @@ uint32_t CS_WIDE(cs_png_drop_alpha)(unsigned char *from, size_t pixel_count) {
     memcpy(to, &pixel, 3);
     all &= pixel;
   }
-  memcpy(parts, &common, sizeof parts);
-  return all & parts[0] & parts[1] & parts[2] & parts[3];
+  memcpy(lanes, &common, sizeof lanes);
+  return all & lanes[0] & lanes[1] & lanes[2] & lanes[3];
 }

@@ -87,7 +87,7 @@ static celspan_status put_rows(lane *l, int32_t index, strip *s) {
   for (size_t i = 0; i < s->rows.count; i++) {
     cs_row_queue_row row = cs_row_queue_get(&s->rows, i);
     if (i == 0 && index > 0)
-      CS_TRY(cs_png_rows_pass(&l->rows, &l->context, row.spans, row.count));
+      CS_TRY(cs_png_rows_set_above(&l->rows, &l->context, row.spans, row.count));
     else
       CS_TRY(cs_png_rows_put(&l->rows, &l->context, row.spans, row.count, l->deflate));
   }
@@ -399,7 +399,7 @@ static void close_piece(void *user, celspan_context *context, void *made) {
   cs_mem_free(context->memory, p, sizeof *p);
 }
 
-static void close_hand(void *user, celspan_context *context, void *made) {
+static void close_worker(void *user, celspan_context *context, void *made) {
   worker *h = made;
   (void)user;
   if (h)
@@ -407,7 +407,7 @@ static void close_hand(void *user, celspan_context *context, void *made) {
   cs_mem_free(context->memory, h, sizeof *h);
 }
 
-static celspan_status open_hand(void *user, celspan_context *context, void **out) {
+static celspan_status open_worker(void *user, celspan_context *context, void **out) {
   worker *h = cs_mem_array(context->memory, 1, sizeof *h);
   *out = h;
   return h ? init_lane(user, context, &h->lane) : cs_fail_memory(context);
@@ -429,7 +429,7 @@ static celspan_status pack_piece_row(worker *h, int32_t y, const celspan_span *s
   piece *p = h->piece;
   lane *l = &h->lane;
   if (y < p->first * strips->strip_rows)
-    return cs_png_rows_pass(&l->rows, &l->context, spans, span_count);
+    return cs_png_rows_set_above(&l->rows, &l->context, spans, span_count);
   if (y % strips->strip_rows == 0 && p->count > 0)
     CS_TRY(begin_strip(l, p->first + p->count));
   CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
@@ -457,15 +457,15 @@ static celspan_status join_piece(void *user, celspan_context *context, void *mad
   return CELSPAN_OK;
 }
 
-cs_parts cs_png_strips_parts(cs_png_strips *strips) {
-  return (cs_parts){.user = strips,
-                    .rows = part_strips(strips) * strips->strip_rows,
-                    .takes_above = true,
-                    .open_hand = open_hand,
-                    .close_hand = close_hand,
-                    .open_part = open_piece,
-                    .close_part = close_piece,
-                    .begin = begin_piece,
-                    .row = put_piece_row,
-                    .join = join_piece};
+cs_shares cs_png_strips_shares(cs_png_strips *strips) {
+  return (cs_shares){.user = strips,
+                     .rows = part_strips(strips) * strips->strip_rows,
+                     .takes_above = true,
+                     .open_worker = open_worker,
+                     .close_worker = close_worker,
+                     .open_share = open_piece,
+                     .close_share = close_piece,
+                     .begin = begin_piece,
+                     .row = put_piece_row,
+                     .join = join_piece};
 }

@@ -9,8 +9,8 @@
 #ifndef CS_OUTPUT_PNG_STRIPS_H
 #define CS_OUTPUT_PNG_STRIPS_H
 
-#include "output/parts.h"
 #include "output/png/rows.h"
+#include "output/shares.h"
 
 typedef struct cs_png_strips cs_png_strips;
 
@@ -35,7 +35,7 @@ CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
                                                     celspan_context *context);
 /* How several threads fill strips from the rows that they make themselves; in place of
  * cs_png_strips_row. */
-cs_parts cs_png_strips_parts(cs_png_strips *strips);
+cs_shares cs_png_strips_shares(cs_png_strips *strips);
 /* At any time; NULL is ignored. */
 void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context);
 

@@ -1,6 +1,8 @@
-/* Pixels into the caller's memory, or into rows of the sink's own that are used again and again. */
-#include "output/parts.h"
+/* Pixels into the caller's memory; or, to measure, into one row for each thread, overwritten again
+ * and again.
+ */
 #include "output/pixels.h"
+#include "output/shares.h"
 #include "output/sink.h"
 
 typedef struct memory_sink {
@@ -26,11 +28,11 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
                  (int)width, sink->row_size);
 }
 
-/* hand: a row of the thread's own; NULL: the sink's, or the caller's memory. */
-static celspan_status fill_row(void *user, void *hand, celspan_context *context, int32_t y,
+/* worker: the thread's own row, where rows are dropped; NULL: the sink's row. */
+static celspan_status fill_row(void *user, void *worker, celspan_context *context, int32_t y,
                                const celspan_span *spans, size_t span_count) {
   const memory_sink *sink = user;
-  unsigned char *own = hand ? hand : sink->row;
+  unsigned char *own = worker ? worker : sink->row;
   (void)context;
   cs_pixels_row(&sink->coding, spans, span_count,
                 sink->pixels ? sink->pixels + (size_t)y * sink->stride : own);
@@ -67,20 +69,22 @@ celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *co
 
 /* ---------------------------------------------------------------- several threads */
 
-static celspan_status open_hand(void *user, celspan_context *context, void **hand) {
+static celspan_status open_worker(void *user, celspan_context *context, void **worker) {
   const memory_sink *sink = user;
-  *hand = sink->pixels ? NULL : cs_mem_array(context->memory, 1, sink->row_size);
-  return sink->pixels || *hand ? CELSPAN_OK : cs_fail_memory(context);
+  *worker = sink->pixels ? NULL : cs_mem_array(context->memory, 1, sink->row_size);
+  return sink->pixels || *worker ? CELSPAN_OK : cs_fail_memory(context);
 }
 
-static void close_hand(void *user, celspan_context *context, void *hand) {
-  cs_mem_free(context->memory, hand, ((const memory_sink *)user)->row_size);
+static void close_worker(void *user, celspan_context *context, void *worker) {
+  cs_mem_free(context->memory, worker, ((const memory_sink *)user)->row_size);
 }
 
-bool cs_memory_parts(const celspan_sink *sink, cs_parts *out) {
+bool cs_memory_shares(const celspan_sink *sink, cs_shares *out) {
   if (sink->row != put_row)
     return false;
-  *out = (cs_parts){
-      .user = sink->user, .open_hand = open_hand, .close_hand = close_hand, .row = fill_row};
+  *out = (cs_shares){.user = sink->user,
+                     .open_worker = open_worker,
+                     .close_worker = close_worker,
+                     .row = fill_row};
   return true;
 }

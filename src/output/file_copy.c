@@ -1,4 +1,4 @@
-#include "output/copy.h"
+#include "output/file_copy.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -8,22 +8,23 @@
 
 #include "output/file.h"
 
-enum { PIECE = 1 << 16 };
+enum { CHUNK = 1 << 16 };
 
-static bool take(int outcome, const struct stat *found, cs_file_stamp *out) {
+/* outcome: of the system call that filled `found`. */
+static bool fill_stamp(int outcome, const struct stat *found, cs_file_stamp *out) {
   *out = (cs_file_stamp){found->st_dev, found->st_ino, found->st_size, found->st_ctim};
   return outcome == 0 && S_ISREG(found->st_mode);
 }
 
-bool cs_file_stamp_take(const char *path, cs_file_stamp *out) {
+bool cs_file_stamp_read(const char *path, cs_file_stamp *out) {
   struct stat found = {0};
-  return take(stat(path, &found), &found, out);
+  return fill_stamp(stat(path, &found), &found, out);
 }
 
 static bool is_same(int descriptor, const cs_file_stamp *stamp) {
   struct stat found = {0};
   cs_file_stamp now;
-  return take(fstat(descriptor, &found), &found, &now) && now.device == stamp->device &&
+  return fill_stamp(fstat(descriptor, &found), &found, &now) && now.device == stamp->device &&
          now.number == stamp->number && now.size == stamp->size &&
          now.changed.tv_sec == stamp->changed.tv_sec &&
          now.changed.tv_nsec == stamp->changed.tv_nsec;
@@ -32,14 +33,14 @@ static bool is_same(int descriptor, const cs_file_stamp *stamp) {
 /* false, with errno, when the file could not be read to its end. */
 static bool copy_bytes(celspan_context *context, int descriptor, cs_file *file,
                        celspan_status *status) {
-  unsigned char piece[PIECE];
+  unsigned char chunk[CHUNK];
   ssize_t size;
-  while ((size = read(descriptor, piece, sizeof piece)) != 0) {
+  while ((size = read(descriptor, chunk, sizeof chunk)) != 0) {
     if (size < 0 && errno == EINTR)
       continue;
     if (size < 0)
       return false;
-    *status = cs_file_write(file, context, piece, (size_t)size);
+    *status = cs_file_write(file, context, chunk, (size_t)size);
     if (*status != CELSPAN_OK)
       return true;
   }

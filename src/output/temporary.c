@@ -1,4 +1,4 @@
-#include "output/part.h"
+#include "output/temporary.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -18,15 +18,15 @@ enum {
   TAIL_SIZE = 1 + DIGITS + sizeof TAIL - 1 /* ".12ef.part" */
 };
 
-/* Where locks are not to be had, nobody takes the file for left behind. */
-bool cs_part_claim(int descriptor) {
+/* Where the file system has no locks, no sweep can lock the file either, so it is safe. */
+bool cs_temporary_claim(int descriptor) {
   struct stat there;
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     return errno != EWOULDBLOCK;
   return fstat(descriptor, &there) != 0 || there.st_nlink > 0;
 }
 
-/* The name that a temporary file is to get; false when it is none. */
+/* The name that a temporary file will get; false when `temporary` is not the name of one. */
 static bool final_name(const char *temporary, char name[NAME_SIZE]) {
   size_t length = strlen(temporary);
   if (temporary[0] != '.' || length <= TAIL_SIZE + 1 || length >= NAME_SIZE)
@@ -42,13 +42,13 @@ static bool final_name(const char *temporary, char name[NAME_SIZE]) {
   return true;
 }
 
-/* Whether the name is still that of the open file: its writer may have finished, and another begun
- * under the same name. */
+/* Whether the open file still has that name: its writer may have finished meanwhile, and another
+ * one have begun under the same name. */
 static bool is_named(int descriptor, int folder, const char *temporary) {
-  struct stat held, named;
-  return fstat(descriptor, &held) == 0 &&
+  struct stat opened, named;
+  return fstat(descriptor, &opened) == 0 &&
          fstatat(folder, temporary, &named, AT_SYMLINK_NOFOLLOW) == 0 &&
-         held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 static void sweep(int folder, const char *temporary) {
@@ -60,7 +60,8 @@ static void sweep(int folder, const char *temporary) {
   close(descriptor);
 }
 
-void cs_part_sweep(const char *pattern, bool (*matches)(const char *pattern, const char *name)) {
+void cs_temporary_sweep(const char *pattern,
+                        bool (*matches)(const char *pattern, const char *name)) {
   char path[4096], name[NAME_SIZE];
   const char *slash = strrchr(pattern, '/');
   const char *base = slash ? slash + 1 : pattern;

@@ -1,4 +1,9 @@
-/* Chunks of a PNG file (PNG 3rd edition, 5 and 11) around the parts of png_strips.c. */
+/* PNG files (PNG 3rd edition, 5 and 11): chunks around the image data that strips.c makes.
+ *
+ *   signature | IHDR | sRGB or gAMA | tEXt, iTXt | IDAT, IDAT, ... | IEND
+ *
+ *   a chunk: size of the data (4 bytes) | type (4) | data | CRC-32 of type and data (4)
+ */
 #include <string.h>
 #include <zlib.h>
 
@@ -110,10 +115,10 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
-bool cs_png_parts(const celspan_sink *sink, cs_parts *out) {
+bool cs_png_shares(const celspan_sink *sink, cs_shares *out) {
   if (sink->row != put_row)
     return false;
-  *out = cs_png_strips_parts(((const png_sink *)sink->user)->strips);
+  *out = cs_png_strips_shares(((const png_sink *)sink->user)->strips);
   return true;
 }
 

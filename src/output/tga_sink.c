@@ -1,5 +1,11 @@
-/* Targa 2.0 (Truevision, 1991), true colour, run-length packets, straight from spans: a run costs a
- * packet every 128 pixels. Packets end with the row.
+/* Targa 2.0 (Truevision, 1991), true colour in packets, straight from spans:
+ *
+ *   header (18 bytes) | packets of row 0 | ... | extension (495) | footer (26)
+ *
+ *   a run       1nnnnnnn  B G R A              n + 1 equal pixels, 128 at most
+ *   plain       0nnnnnnn  B G R A  B G R A...  n + 1 pixels, each with its bytes
+ *
+ * Packets end with their row. A is left out of opaque pictures.
  */
 #include <string.h>
 
@@ -10,7 +16,7 @@
 enum {
   SIDE_MOST = 65535,
   PACKET_MOST = 128,
-  WORST_PIXEL = 5, /* bytes: four and a packet's head */
+  WORST_PIXEL = 5, /* bytes of a pixel that is a packet of its own */
   CHUNK = 256,
   HEADER_BYTES = 18,
   EXTENSION_BYTES = 495,
@@ -25,18 +31,18 @@ typedef struct tga_sink {
   size_t pixel_size; /* 3 without alpha, else 4 */
   int32_t width;
   unsigned char *row; /* packets of a row; from begin to end */
-  size_t size;        /* of the packets so far */
+  size_t size;        /* of those packets, in bytes */
   uint32_t run_pixel;
   int32_t run_count; /* pixels not yet in a packet */
-  size_t raw_head;   /* where the head of the packet of plain pixels lies that can still grow */
-  int raw_count;     /* its pixels; 0: there is none */
+  size_t plain_head; /* where the plain packet that can still grow begins */
+  int plain_count;   /* its pixels; 0: there is none */
   bool is_clear;     /* some pixel's alpha is not 1 */
   char text[];
 } tga_sink;
 
 /* ---------------------------------------------------------------- packets */
 
-/* Blue first. */
+/* In the file blue comes first. */
 static void put_pixel(tga_sink *sink, uint32_t rgba) {
   uint32_t bgra = (rgba & 0xff00ff00u) | (rgba >> 16 & 0xff) | (rgba & 0xff) << 16;
   memcpy(sink->row + sink->size, &bgra, sizeof bgra);
@@ -44,11 +50,11 @@ static void put_pixel(tga_sink *sink, uint32_t rgba) {
 }
 
 static void put_plain(tga_sink *sink, uint32_t rgba) {
-  if (sink->raw_count == 0 || sink->raw_count == PACKET_MOST) {
-    sink->raw_head = sink->size++;
-    sink->raw_count = 0;
+  if (sink->plain_count == 0 || sink->plain_count == PACKET_MOST) {
+    sink->plain_head = sink->size++;
+    sink->plain_count = 0;
   }
-  sink->row[sink->raw_head] = (unsigned char)sink->raw_count++;
+  sink->row[sink->plain_head] = (unsigned char)sink->plain_count++;
   put_pixel(sink, rgba);
 }
 
@@ -56,12 +62,12 @@ static void end_run(tga_sink *sink) {
   if (sink->run_count == 1) {
     put_plain(sink, sink->run_pixel);
   } else {
-    for (int32_t left = sink->run_count, part; left > 0; left -= part) {
-      part = left < PACKET_MOST ? left : PACKET_MOST;
-      sink->row[sink->size++] = (unsigned char)(0x80 | (part - 1));
+    for (int32_t left = sink->run_count, count; left > 0; left -= count) {
+      count = left < PACKET_MOST ? left : PACKET_MOST;
+      sink->row[sink->size++] = (unsigned char)(0x80 | (count - 1));
       put_pixel(sink, sink->run_pixel);
     }
-    sink->raw_count = sink->run_count > 0 ? 0 : sink->raw_count;
+    sink->plain_count = sink->run_count > 0 ? 0 : sink->plain_count;
   }
   sink->run_count = 0;
 }
@@ -78,8 +84,8 @@ static void add_varying(tga_sink *sink, const celspan_span *span) {
   uint32_t coded[CHUNK];
   for (int32_t x = span->x0; x < span->x1; x += CHUNK) {
     int32_t count = span->x1 - x < CHUNK ? span->x1 - x : CHUNK;
-    celspan_span part = cs_pixels_part(span, x, count);
-    cs_pixels_row(&sink->coding, &part, 1, coded);
+    celspan_span cropped = cs_pixels_crop(span, x, count);
+    cs_pixels_row(&sink->coding, &cropped, 1, coded);
     for (int32_t i = 0; i < count; i++)
       add_run(sink, coded[i], 1);
   }
@@ -120,7 +126,7 @@ static celspan_status put_header(tga_sink *sink, celspan_context *context, int32
   return cs_file_write(sink->file, context, header, sizeof header);
 }
 
-/* As much of the title as fits, cut between characters. */
+/* As much of the text as fits, cut between UTF-8 characters. */
 static void store_text(unsigned char *at, size_t room, const char *text) {
   size_t size = strlen(text);
   if (size >= room)
@@ -138,7 +144,7 @@ static celspan_status put_footer(tga_sink *sink, celspan_context *context) {
   store_text(tail + 379, 41, sink->title); /* the job's name */
   store_text(tail + 426, 41, "celspan");
   store_16(tail + 467, 100 * CELSPAN_VERSION_MAJOR + 10 * CELSPAN_VERSION_MINOR);
-  tail[469] = ' ';                                        /* no letter to the version */
+  tail[469] = ' ';                                        /* the version has no letter */
   if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR) { /* gamma, as a fraction */
     store_16(tail + 478, 1);
     store_16(tail + 480, 1);
@@ -171,7 +177,7 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   tga_sink *sink = user;
   sink->size = 0;
-  sink->raw_count = 0;
+  sink->plain_count = 0;
   add_spans(sink, spans, span_count);
   if (sink->is_clear && sink->pixel_size == 3)
     return cs_fail(

@@ -1,0 +1,16 @@
+/* The filters of PNG over rows of bytes: the one whose differences cost least is put.
+ *
+ * INVARIANT: rows have zeros around them, as output/png/bytes.h draws.
+ */
+#ifndef CS_OUTPUT_PNG_FILTER_BYTES_H
+#define CS_OUTPUT_PNG_FILTER_BYTES_H
+
+#include "deflate/deflate.h"
+
+/* size: bytes of the row. */
+CELSPAN_CHECKED celspan_status cs_png_filter_bytes_put(cs_deflate *deflate,
+                                                       celspan_context *context, size_t pixel_size,
+                                                       size_t size, const unsigned char *row,
+                                                       const unsigned char *above);
+
+#endif
