@@ -15,6 +15,7 @@
 #ifndef CS_COMPOSE_PROCEDURES_H
 #define CS_COMPOSE_PROCEDURES_H
 
+#include "base/arena.h"
 #include "compose/composer.h"
 #include "scene/scanline.h"
 
