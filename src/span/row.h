@@ -92,4 +92,8 @@ CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *o
                                              const cs_row *rows, const float *weights,
                                              size_t count);
 
+/* Self-check: whether the spans cover the columns [0, width) without gap or overlap, none empty, no
+ * two neighbouring singles alike, and those that are not singles are counted right. */
+bool cs_row_is_whole(const cs_row *row, int32_t width);
+
 #endif

@@ -81,6 +81,30 @@ static void test_exposing(void) {
   cs_row_finish(&sum, context->memory);
 }
 
+#ifdef CELSPAN_CHECKS
+/* The self-check sees what is wrong with a row, and nothing else. */
+static void test_self_check(void) {
+  cs_row row;
+  cs_row_init(&row);
+  CHECK(!cs_row_is_whole(&row, 6));
+  CHECK(cs_row_single(context, &row, 0, 3, grey(0.5f, 1)) == CELSPAN_OK);
+  CHECK(!cs_row_is_whole(&row, 6));
+  CHECK(cs_row_gradient(context, &row, 3, 6, grey(0, 1), grey(0.25f, 0)) == CELSPAN_OK);
+  CHECK(cs_row_is_whole(&row, 6));
+  CHECK(!cs_row_is_whole(&row, 7));
+  row.spans[1].x0 = 4;
+  CHECK(!cs_row_is_whole(&row, 6));
+  row.spans[1].x0 = 3;
+  row.varied.gradients = 0;
+  CHECK(!cs_row_is_whole(&row, 6));
+  row.spans[1].kind = CELSPAN_SPAN_SINGLE;
+  CHECK(cs_row_is_whole(&row, 6));
+  cs_v4_store(row.spans[1].colour, grey(0.5f, 1));
+  CHECK(!cs_row_is_whole(&row, 6));
+  cs_row_finish(&row, context->memory);
+}
+#endif
+
 int main(void) {
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
     return 1;
