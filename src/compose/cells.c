@@ -64,7 +64,7 @@ static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
 
 static void deferred_to(cs_cells *cells, cs_composer *composer, double x) {
   cells->deferred = cs_cells_defer(composer, cells->deferred, cells->deferred_end, x);
-  for (; cells->deferred > cells->first_toggle && cells->deferred[-1].x > x; cells->deferred--)
+  for (; cells->deferred > cells->first_deferred && cells->deferred[-1].x > x; cells->deferred--)
     cs_composer_cross(composer, cells->deferred[-1].layer, -cells->deferred[-1].direction);
 }
 
@@ -73,7 +73,7 @@ static void go_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
   cross_to(cells, composer, goes_right ? cells->count : 0);
   deferred_to(cells, composer, goes_right ? INFINITY : -INFINITY);
   cells->place = goes_right ? 0 : cells->count;
-  cells->deferred = goes_right ? cells->first_toggle : cells->deferred_end;
+  cells->deferred = goes_right ? cells->first_deferred : cells->deferred_end;
 }
 
 void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
@@ -95,7 +95,7 @@ void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
   cs_composer_restart(composer);
   cs_cells_forget(cells);
   cells->place = 0;
-  cells->deferred = cells->first_toggle;
+  cells->deferred = cells->first_deferred;
 }
 
 /* Takes the new order over. What is present between windings that balance is the same as ever, so
@@ -116,7 +116,7 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
            (end - change.low) * sizeof *cells->crossing);
   if (change.low > 0 || change.tail > 0)
     return;
-  cells->first_toggle = cells->deferred = cs_active_deferred(active, &cells->deferred_end);
+  cells->first_deferred = cells->deferred = cs_active_deferred(active, &cells->deferred_end);
 }
 
 /* ---------------------------------------------------------------- making */

@@ -44,10 +44,10 @@ typedef struct cs_cells {
   size_t visible_count;
   size_t known; /* cells that were made, from the left */
   /* where the composer stands: right of the first `place` of `count` boundaries, in this order, and
-   * of the toggles before `toggle` of [first_toggle, toggle_end) */
+   * of the toggles before `toggle` of [first_deferred, toggle_end) */
   size_t place, count;
   cs_crossing *crossing;
-  const cs_deferred *first_toggle, *deferred, *deferred_end;
+  const cs_deferred *first_deferred, *deferred, *deferred_end;
   size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
 } cs_cells;
 
@@ -72,5 +72,10 @@ void cs_cells_list(cs_cells *cells);
 void cs_cells_forget(cs_cells *cells);
 /* The same after a failure: nothing is present where the composer stands. */
 void cs_cells_restart(cs_cells *cells, cs_composer *composer);
+
+/* Self-check: whether the composer's windings and the set of every cell are those of a walk from the
+ * left end of the row. */
+bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer,
+                       const cs_active *active);
 
 #endif

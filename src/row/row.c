@@ -20,6 +20,8 @@
  */
 #include "row/row.h"
 
+#include "base/self_check.h"
+
 /* When a row is this far below the last one, it is cheaper to find its boundaries afresh than to
  * follow them down. */
 #define FAR_ROWS 16
@@ -111,6 +113,8 @@ static celspan_status begin_row(cs_row_maker *maker, int32_t y) {
     CS_TRY(cs_cells_update(&maker->cells, &maker->composer, &maker->active, change));
   }
   CS_TRY(maker->composer.failure);
+  CS_SELF_CHECK(cs_active_is_ordered(&maker->active));
+  CS_SELF_CHECK(cs_cells_are_true(&maker->cells, &maker->composer, &maker->active));
   maker->row = y;
   return CELSPAN_OK;
 }
@@ -144,5 +148,6 @@ celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_row *out) {
     maker->row = CS_ROW_NONE;
     cs_cells_restart(&maker->cells, &maker->composer);
   }
+  CS_SELF_CHECK(status != CELSPAN_OK || cs_row_is_whole(out, maker->plan->width));
   return status;
 }

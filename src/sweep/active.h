@@ -117,4 +117,8 @@ static inline const cs_bend *cs_active_bend(const cs_active *active, size_t i) {
   return at < active->bend_count && active->bends[at].boundary == i ? &active->bends[at] : NULL;
 }
 
+/* Self-check: whether the boundaries are those that the current height crosses, each at its x, in
+ * order, and no other begins while the row is said to be calm. */
+bool cs_active_is_ordered(const cs_active *active);
+
 #endif

@@ -111,6 +111,9 @@ int main(void) {
   test_merging();
   test_cropping();
   test_exposing();
+#ifdef CELSPAN_CHECKS
+  test_self_check();
+#endif
   celspan_context_destroy(context);
   return check_done();
 }
