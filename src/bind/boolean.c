@@ -1,5 +1,5 @@
-/* Boolean objects, by name and by operator. Chains of one operator flatten: a ~ b ~ c is
- * xor{a, b, c}. */
+/* Boolean objects, by name and by operator. A chain of one operator becomes a single object: a ~ b
+ * ~ c is xor{a, b, c}. */
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"

@@ -1,4 +1,4 @@
-/* Cels. */
+/* celspan.cel: a list of objects with its own transform, fade and defocus. */
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
@@ -41,7 +41,7 @@ const cs_kind cs_kind_cel = {.name = "celspan.cel",
 static const cs_field defocus_fields[] = {{"radius", NULL}, {"kernel", "gaussian"}, {0}};
 static const cs_noun noun_defocus = {.name = "cel: defocus", .fields = defocus_fields};
 
-/* A number, or { radius =, kernel = }. */
+/* The field `defocus` is a number or { radius =, kernel = }. */
 static void read_defocus(const cs_form *form, celspan_cel_desc *desc) {
   static const char *const kernels[] = {"gaussian", "box", "disc", NULL};
   lua_State *L = form->L;

@@ -68,8 +68,8 @@ static void clear_list(lua_State *L, int table) {
   }
 }
 
-/* Frozen fields hold both of two that exclude each other: the one that the changes do not name
- * goes, the second if they name none. */
+/* The kept fields of a value can have both of two fields that exclude each other, because the noun
+ * completes them. The one that the changes do not name is removed; the second if they name none. */
 static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
   if (!noun->either[0])
     return;

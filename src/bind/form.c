@@ -68,7 +68,7 @@ static _Noreturn void fail_unknown(const cs_form *form, const char *name) {
   cs_form_fail(form, "unknown field '%s'; the fields are %s", name, lua_tostring(form->L, -1));
 }
 
-static void check_place(const cs_form *form, lua_Integer place, lua_Integer length) {
+static void check_position(const cs_form *form, lua_Integer place, lua_Integer length) {
   if (form->noun->list == CS_LIST_NONE)
     cs_form_fail(form, "takes named fields only, but was given a value at place %I",
                  (LUAI_UACINT)place);
@@ -77,8 +77,8 @@ static void check_place(const cs_form *form, lua_Integer place, lua_Integer leng
                  (LUAI_UACINT)place, (LUAI_UACINT)(length + 1));
 }
 
-/* Checks all names before any value, so that a mistyped name is what people read about. The name
- * that is reported does not depend on the order of the table: the least one is. */
+/* Checks all names before any value, so that a mistyped name is what people read about. Of
+ * several unknown names the least is reported, whatever the order of the table. */
 static void check_names(const cs_form *form) {
   lua_State *L = form->L;
   lua_Integer length = (lua_Integer)lua_rawlen(L, form->table);
@@ -89,7 +89,7 @@ static void check_names(const cs_form *form) {
       if (!is_known(form->noun, name) && (!unknown || strcmp(name, unknown) < 0))
         unknown = name;
     } else if (lua_isinteger(L, -2))
-      check_place(form, lua_tointeger(L, -2), length);
+      check_position(form, lua_tointeger(L, -2), length);
     else
       cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
   }
@@ -115,7 +115,7 @@ cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index) {
 
 /* ---------------------------------------------------------------- fields */
 
-/* Pushes a field and gives its type. */
+/* Pushes a field; the answer is its type. */
 static int get_field(const cs_form *form, const char *name) {
   lua_pushstring(form->L, name);
   return lua_rawget(form->L, form->table);
@@ -156,7 +156,7 @@ int cs_form_integer_or(const cs_form *form, const char *name, int fallback) {
 const char *cs_form_text(const cs_form *form, const char *name) {
   if (get_field(form, name) != LUA_TSTRING)
     fail_type(form, name, "a string");
-  const char *text = lua_tostring(form->L, -1); /* held by the table, so it stays */
+  const char *text = lua_tostring(form->L, -1); /* the table keeps it alive */
   if (strlen(text) != lua_rawlen(form->L, -1))
     cs_form_fail(form, "field '%s' must not hold a zero byte", name);
   lua_pop(form->L, 1);
@@ -247,7 +247,7 @@ bool cs_form_box(const cs_form *form, const char *name, celspan_box *out) {
 
 /* ---------------------------------------------------------------- colours */
 
-/* A paint, or a string that stands for one, at index. */
+/* Reads the value at index: a paint, or a string that names a colour. */
 static bool read_paint(lua_State *L, int index, celspan_paint *out) {
   if (lua_type(L, index) == LUA_TSTRING)
     return celspan_paint_parse(lua_tostring(L, index), out);

@@ -1,9 +1,9 @@
-/* Reading the table that a constructor is given: names and types, each fault told in one sentence
- * at the caller's line. Ranges are the core's affair.
+/* Reading the table that a constructor is given: names and types. A fault is raised in one
+ * sentence, at the caller's line. Ranges are checked by the core.
  *
  * INVARIANT: reading is raw (no metamethods run), so nothing a script does can change a table while
- * it is read. Scratch memory is Lua's and stays on the stack until the constructor returns: an
- * error at any point leaks nothing.
+ * it is read. Scratch memory belongs to Lua and stays on the stack until the constructor returns,
+ * so that an error at any point leaks nothing.
  */
 #ifndef CS_BIND_FORM_H
 #define CS_BIND_FORM_H
@@ -18,13 +18,13 @@ typedef struct cs_form {
   int table; /* absolute index */
 } cs_form;
 
-/* Checks that the value at index is a table without unknown fields or holes. */
+/* Checks that the value at index is a table that has no unknown fields and no holes in its list. */
 cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index);
 /* Raises "noun: ..." with the formats of lua_pushfstring. */
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...);
-/* Pushes a number as messages show it: whole ones without a point. */
+/* Pushes a number as messages show it: a whole number has no point. */
 const char *cs_form_digits(lua_State *L, double number);
-/* Raises the core's refusal unless OK. */
+/* Raises the core's refusal unless the status is OK. */
 void cs_form_try(const cs_form *form, celspan_status status);
 
 /* Fields. Without `_or`, a missing field is an error. */
@@ -43,7 +43,8 @@ celspan_point cs_form_point(const cs_form *form, const char *name);
 bool cs_form_box(const cs_form *form, const char *name, celspan_box *out);
 /* {r, g, b}, {r, g, b, a} or "#rrggbb"; false when missing. */
 bool cs_form_light(const cs_form *form, const char *name, celspan_light *out);
-/* What `texture` may be; NULL when missing. May leave the maker on the stack. Borrowed. */
+/* A texture, a paint or a colour like "#rrggbb"; NULL when missing. Borrowed from a value that is
+ * left on the stack. */
 celspan_texture *cs_form_texture(const cs_form *form, const char *name);
 
 /* The array part. */

@@ -86,8 +86,8 @@ lua_State *cs_host_enter(lua_State *L) {
 
 void cs_host_leave(lua_State *L, lua_State *before) { cs_host_get(L)->state = before; }
 
-/* The context's sentence; the refusals of the core's doors without the noun they begin with
- * ("ellipse: "), because the script may have used another word. */
+/* The context's sentence. A refusal of the core begins with a noun ("ellipse: "), which is left
+ * out, because the script may have used another word. */
 static const char *sentence_of(const cs_host *host) {
   const char *sentence = celspan_context_error(host->context);
   size_t word = strspn(sentence, "abcdefghijklmnopqrstuvwxyz");

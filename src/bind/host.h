@@ -1,8 +1,8 @@
-/* The one context of a Lua state, and what outlives single calls.
+/* The one context of a Lua state, and the state that outlives single calls.
  *
- * INVARIANT: a host is counted. The state holds one reference, dropped when the state closes; every
- * scan-line procedure holds one, because objects may outlive their state. After closing, `state`
- * and `context` are NULL and nothing enters Lua any more.
+ * INVARIANT: a host is reference counted. The Lua state has one reference until it closes, and
+ * every scan-line procedure has one, because objects may outlive their state. After closing,
+ * `state` and `context` are NULL and nothing enters Lua any more.
  */
 #ifndef CS_BIND_HOST_H
 #define CS_BIND_HOST_H
@@ -27,14 +27,14 @@ cs_host *cs_host_get(lua_State *L);
 celspan_context *cs_host_context(lua_State *L);
 void cs_host_unref(cs_host *host);
 
-/* Callbacks run on L until cs_host_leave, which is given what cs_host_enter returned. */
+/* Callbacks run on L until cs_host_leave is called with what cs_host_enter returned. */
 lua_State *cs_host_enter(lua_State *L);
 void cs_host_leave(lua_State *L, lua_State *before);
 
 /* Raises the context's sentence at the caller's line, "noun: sentence", unless status is OK. */
 void cs_host_try(lua_State *L, const char *noun, celspan_status status);
-/* The status behind a message that was raised: that of the core when it holds the core's sentence,
- * else CALLBACK. */
+/* The status of a message that was raised: the core's own when the message contains the core's
+ * sentence, else CALLBACK. */
 celspan_status cs_host_blame(lua_State *L, const char *message);
 
 /* The folder that relative file names are resolved against; "" is the current directory. */

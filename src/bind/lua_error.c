@@ -9,7 +9,6 @@
 
 /* ---------------------------------------------------------------- messages */
 
-/* Where "script.lua:12: " ends; 0 when the message does not begin so. */
 size_t cs_lua_error_position(const char *message) {
   for (const char *colon = strchr(message, ':'); colon; colon = strchr(colon + 1, ':')) {
     size_t digits = strspn(colon + 1, "0123456789");
@@ -19,7 +18,8 @@ size_t cs_lua_error_position(const char *message) {
   return 0;
 }
 
-/* Pushes "script.lua:12: ", where the innermost function that has lines is; "" when none has. */
+/* Pushes "script.lua:12: " for the innermost function on the stack that has lines; "" when none
+ * has. */
 static void push_position(lua_State *L) {
   lua_Debug info;
   for (int level = 1; lua_getstack(L, level, &info); level++) {

@@ -13,7 +13,8 @@
 /* Pushes a message handler for lua_pcall that puts the label, "frame 37: " or "", after the
  * position of the message. */
 void cs_lua_error_push_handler(lua_State *L, const char *label);
-/* Where the position "script.lua:12: " ends that a message begins with; 0: it begins with none. */
+/* The length of the position "script.lua:12: " that a message begins with; 0: it begins with none.
+ */
 size_t cs_lua_error_position(const char *message);
 
 /* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's

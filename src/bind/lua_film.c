@@ -61,7 +61,9 @@ static void check_film(const cs_form *form, cs_userdata *value) {
                  cs_userdata_type(L, -1));
 }
 
-/* What was left out: size, and frames from the duration or the other way round. */
+/* Adds what was left out: the size, and the number of frames from the duration or the other way
+ * round.
+ */
 static void complete(lua_State *L, int table) {
   if (lua_getfield(L, table, "size") == LUA_TNIL) {
     lua_createtable(L, 2, 0);
@@ -142,7 +144,7 @@ static double read_number(lua_State *L, int table, const char *name) {
 
 static const char *read_text(lua_State *L, int table, const char *name) {
   lua_getfield(L, table, name);
-  const char *text = lua_tostring(L, -1); /* held by the film's fields */
+  const char *text = lua_tostring(L, -1); /* the film's fields keep it alive */
   lua_pop(L, 1);
   return text;
 }
@@ -166,8 +168,8 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
 
 /* ---------------------------------------------------------------- frames */
 
-/* Pushes "script.lua:12: the frame function's result": where the function at index begins, because
- * what it returns has no line of its own. */
+/* Pushes "script.lua:12: the frame function's result", with the line where the function begins,
+ * because a result has no line of its own. */
 static const char *push_result_name(lua_State *L, int function) {
   lua_Debug info;
   lua_pushvalue(L, function);
@@ -190,7 +192,8 @@ static int call_frame(lua_State *L) {
   return 1;
 }
 
-/* Pushes exposures or the message; the film at absolute index. */
+/* Pushes the exposures, or the message; the answer is that of lua_pcall. film: an absolute index.
+ */
 static int protected_frame(lua_State *L, int film, int64_t number) {
   cs_film_info info;
   cs_lua_film_read(L, film, &info);

@@ -46,8 +46,7 @@ static uint64_t seed_of(const cs_film_info *film, int64_t number) {
   return hash_integer(seed, (uint64_t)number);
 }
 
-/* 0..span-1, each equally likely: the few highest values that would tip the scale are drawn again.
- */
+/* 0..span-1, each equally likely: the few values that would make some likelier are drawn again. */
 static uint64_t below(uint64_t hash, uint64_t span) {
   uint64_t reject = (0 - span) % span; /* 2^64 mod span */
   while (hash < reject)
@@ -55,7 +54,7 @@ static uint64_t below(uint64_t hash, uint64_t span) {
   return hash % span;
 }
 
-/* Whether the value is a whole number: 2, and 2.0 too. */
+/* Whether the value is a whole number; 2.0 is one too. */
 static bool is_whole(lua_State *L, int index, lua_Integer *out) {
   int good = 0;
   if (lua_type(L, index) == LUA_TNUMBER)
@@ -97,7 +96,7 @@ static int random_number(lua_State *L) {
   return 1;
 }
 
-/* f:on(n): the index held for n frames. */
+/* f:on(n): the index of the first of n frames that share a drawing. */
 static int on(lua_State *L) {
   cs_userdata_self(L, &cs_kind_frame, "on");
   lua_Integer step = 0;

@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- where require looks */
 
-/* Pushes the folder of a path: "" without one. */
+/* Pushes the folder of a path; "" when it has none. */
 static const char *push_folder(lua_State *L, const char *path) {
   const char *slash = strrchr(path, '/');
   if (!slash)
@@ -19,7 +19,7 @@ static const char *push_folder(lua_State *L, const char *path) {
   return lua_pushlstring(L, path, slash == path ? 1 : (size_t)(slash - path));
 }
 
-/* Replaces package[field]: `before`, then what it was without the current directory. */
+/* Puts `before` in front of package[field] and removes the current directory from it. */
 static void set_path(lua_State *L, const char *field, const char *before, const char *const *here) {
   lua_getglobal(L, "package");
   int package = lua_gettop(L);
@@ -33,8 +33,8 @@ static void set_path(lua_State *L, const char *field, const char *before, const 
   lua_settop(L, package - 1);
 }
 
-/* require looks into the script's own folder, then $CELSPAN_PATH, then where Lua is installed;
- * into the current directory only when the script lies there. */
+/* require searches the script's own folder, then $CELSPAN_PATH, then where Lua is installed; the
+ * current directory only when the script is there. */
 static void set_search_path(lua_State *L, const char *folder) {
   static const char *const here[] = {";./?.lua", ";./?/init.lua", NULL};
   static const char *const here_c[] = {";./?.so", NULL};

@@ -1,4 +1,4 @@
-/* luaopen_celspan: the module table, from each noun's file. */
+/* luaopen_celspan: the module table, filled by the file of each noun. */
 #include "bind/module.h"
 
 #include <lauxlib.h>
@@ -24,7 +24,7 @@ static int nearest(lua_State *L) {
   for (size_t i = 0; i < count; i++) {
     if (lua_rawgeti(L, 2, (lua_Integer)i + 1) != LUA_TSTRING)
       return luaL_error(L, "nearest: name %d is not a string", (int)i + 1);
-    names[i] = lua_tostring(L, -1); /* held by the table */
+    names[i] = lua_tostring(L, -1); /* the table keeps it alive */
     lua_pop(L, 1);
   }
   lua_pushstring(L, cs_suggest_name(word, names, count));

@@ -1,4 +1,5 @@
-/* What each file adds to the module table, which is on top of the stack when they are called. */
+/* The openers: each adds the names of its file to the module table, which is on top of the stack.
+ */
 #ifndef CS_BIND_MODULE_H
 #define CS_BIND_MODULE_H
 

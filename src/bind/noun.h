@@ -25,7 +25,7 @@ typedef struct cs_kind {
 
 typedef struct cs_field {
   const char *name;
-  const char *preset; /* what reading gives when it was left out: a number or a word; or NULL */
+  const char *preset; /* what it reads as when it was left out, a number or a word; NULL: nil */
 } cs_field;
 
 /* What the array part of the table holds. */
@@ -43,7 +43,8 @@ typedef struct cs_noun {
   const cs_field *fields; /* ended by a NULL name */
   const char *either[2];  /* fields of which only one may be given; NULL: none */
   void (*create)(const struct cs_form *form, struct cs_userdata *value);
-  void (*complete)(lua_State *L, int fields); /* works out frozen fields; NULL: nothing to do */
+  void (*complete)(lua_State *L,
+                   int fields); /* fills in fields that follow from others; NULL: none */
 } cs_noun;
 
 #endif

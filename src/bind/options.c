@@ -12,7 +12,7 @@
 static const cs_field kernel_fields[] = {{"kernel", NULL}, {"radius", NULL}, {"rows", NULL}, {0}};
 static const cs_noun noun_kernel = {.name = "antialias", .fields = kernel_fields};
 
-/* A kernel given as a function: its values at the places where the core asks for them. */
+/* A kernel given as a function: its values at the points where the core samples it. */
 typedef struct kernel_values {
   double radius;
   double values[CS_ANTIALIAS_SAMPLES];
@@ -25,8 +25,8 @@ static celspan_status kernel_value(void *user, celspan_context *context, double 
   return CELSPAN_OK;
 }
 
-/* Calls the function on top of the stack; the values stay in its place. A radius that the core will
- * refuse asks for no call. */
+/* Samples the function on top of the stack, which is replaced by the values. It is not called for a
+ * radius that the core will refuse. */
 static void sample_function(const cs_form *form, celspan_filter_desc *filter) {
   lua_State *L = form->L;
   int function = lua_gettop(L);

@@ -9,8 +9,8 @@ static void unref_paint(void *handle) { celspan_texture_unref(handle); }
 
 const cs_kind cs_kind_paint = {.name = "celspan.paint", .unref = unref_paint};
 
-/* A paint is at once a texture of one paint: so the core checks it at the door, and objects share
- * it. */
+/* Each paint gets a texture of that paint at once, so that the core checks it here and objects can
+ * share it. */
 static void fill(lua_State *L, const char *noun, cs_userdata *value, celspan_paint paint) {
   celspan_texture *texture = NULL;
   cs_host_try(L, noun, celspan_texture_create_paint(cs_host_context(L), &paint, &texture));
@@ -44,7 +44,7 @@ static void set_triple(lua_State *L, const char *name, const double triple[3]) {
   lua_setfield(L, -2, name);
 }
 
-/* What was left out, so that it can be read. */
+/* Adds what was left out, so that it can be read. */
 static void complete_paint(lua_State *L, int fields) {
   if (lua_getfield(L, fields, "pigment") == LUA_TNIL) {
     lua_settop(L, fields);

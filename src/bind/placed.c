@@ -16,23 +16,23 @@ static cs_userdata *self(lua_State *L, const char *method) {
   return value ? value : cs_userdata_self(L, &cs_kind_cel, method);
 }
 
-/* Pushes a copy of `from` with the same fields and no reference of its own yet. */
-static cs_userdata *push_twin(lua_State *L, const cs_userdata *from) {
-  cs_userdata *twin = cs_userdata_push(L, from->noun);
-  twin->matrix = from->matrix;
-  twin->fade = from->fade;
-  lua_getiuservalue(L, 1, 1); /* frozen, so it can be shared */
+/* Pushes a value with the fields of `from`, but without an object or cel yet. */
+static cs_userdata *push_copy(lua_State *L, const cs_userdata *from) {
+  cs_userdata *copy = cs_userdata_push(L, from->noun);
+  copy->matrix = from->matrix;
+  copy->fade = from->fade;
+  lua_getiuservalue(L, 1, 1); /* never changed, so it can be shared */
   lua_setiuservalue(L, -2, 1);
-  return twin;
+  return copy;
 }
 
 static int push_transformed(lua_State *L, const char *method, const cs_userdata *value,
                             celspan_matrix matrix) {
-  cs_userdata *twin = push_twin(L, value);
+  cs_userdata *copy = push_copy(L, value);
   cs_host_try(
       L, method,
-      value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &twin->handle));
-  twin->matrix = celspan_matrix_then(value->matrix, matrix);
+      value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &copy->handle));
+  copy->matrix = celspan_matrix_then(value->matrix, matrix);
   return 1;
 }
 
@@ -50,7 +50,7 @@ static int scale(lua_State *L) {
   return push_transformed(L, "scale", value, celspan_matrix_scaling(sx, sy));
 }
 
-/* Quarter turns without a rounded sine. */
+/* Quarter turns are exact: no rounded sine is in them. */
 static celspan_matrix rotation(double degrees, celspan_point centre) {
   double turn = fmod(degrees, 360);
   if (fmod(turn, 90) != 0)
@@ -124,10 +124,10 @@ static int quad(lua_State *L) {
 static int fade(lua_State *L) {
   const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
-  cs_userdata *twin = push_twin(L, value);
+  cs_userdata *copy = push_copy(L, value);
   cs_host_try(L, "fade",
-              value->noun->kind->fade(cs_host_context(L), value->handle, k, &twin->handle));
-  twin->fade = value->fade * k;
+              value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
+  copy->fade = value->fade * k;
   return 1;
 }
 

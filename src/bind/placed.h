@@ -9,7 +9,7 @@
 
 extern const luaL_Reg cs_placed_methods[];
 
-/* Degrees to radians, whole turns taken off. */
+/* Degrees to radians, without whole turns. */
 double cs_placed_radians(double degrees);
 
 #endif

@@ -11,7 +11,7 @@ static celspan_rule read_rule(const cs_form *form) {
   return (celspan_rule)cs_form_choice(form, "rule", rules);
 }
 
-/* The number at a place of a rectangle's array part. */
+/* Value number `place` of a rectangle's array part. */
 static double corner(const cs_form *form, int place, const char *name) {
   lua_State *L = form->L;
   if (lua_rawgeti(L, form->table, place) != LUA_TNUMBER)
@@ -64,7 +64,7 @@ static void create_ellipse(const cs_form *form, cs_userdata *value) {
   value->handle = object;
 }
 
-/* The core knows ellipses only: what it says of their radii is said of the circle's radius. */
+/* The core knows ellipses only: its messages about radii are put into words about the radius. */
 static void create_circle(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_context *context = cs_host_context(L);
@@ -101,7 +101,7 @@ static void create_nurbs(const cs_form *form, cs_userdata *value) {
                              .closure =
                                  (celspan_nurbs_closure)cs_form_choice(form, "closed", closures),
                              .rule = read_rule(form)};
-  if (desc.degree == 0) /* which would stand for the default */
+  if (desc.degree == 0) /* 0 means the default in the core */
     cs_form_fail(form, "field 'degree' must be at least 1, got 0");
   lua_pushliteral(L, "points");
   if (lua_rawget(L, form->table) != LUA_TTABLE)

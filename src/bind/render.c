@@ -11,7 +11,7 @@ static const cs_field fields[] = {
     {"depth", NULL},   {"colour", NULL}, {"alpha", NULL},    {0}};
 static const cs_noun noun = {.name = "render", .fields = fields};
 
-/* One run. The sequence is freed by the userdata that holds the job. */
+/* One run, in a userdata that frees the sequence. */
 typedef struct job {
   lua_State *L;
   celspan_context *context;
@@ -23,7 +23,7 @@ typedef struct job {
   const char *pattern;
   cs_sequence sequence;
   size_t done;
-  double share;   /* told last */
+  double share;   /* reported last */
   bool has_error; /* raised by the progress function; the message is on top of the stack */
 } job;
 
@@ -61,13 +61,16 @@ static void read_coding(const cs_form *form, celspan_coding *out) {
   out->alpha = (celspan_alpha)cs_form_choice(form, "alpha", alphas);
 }
 
-/* Tells the share of the whole job that is done, and the first frame that is not, or the last. */
+/* Reports the share of the whole job that is done, and the first frame that is not done, or the
+ * last.
+ */
 static bool report_progress(void *user, double share) {
   job *j = user;
   lua_State *L = j->L;
   size_t last = j->sequence.count - 1;
   share = ((double)j->done + share) / (double)j->sequence.count;
-  j->share = share > j->share ? share : j->share; /* frames that were given up count no more */
+  j->share =
+      share > j->share ? share : j->share; /* it never goes back, even when frames are given up */
   if (!lua_checkstack(L, 4))
     return false;
   lua_pushvalue(L, j->progress);
@@ -95,8 +98,7 @@ static void read_job(const cs_form *form, job *j) {
     j->progress = lua_gettop(L);
 }
 
-/* Pushes a film for argument 1 where it is a rostrum: as large as the film or size that is given.
- */
+/* Pushes the film of argument 1. A rostrum becomes a film as large as the options say. */
 static void read_film(const cs_form *form, job *j) {
   lua_State *L = form->L;
   celspan_frame_desc *desc = &j->frame.desc;

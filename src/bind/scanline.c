@@ -1,8 +1,8 @@
 /* Primitives given by a Lua function that returns its spans on a row.
  *
- * The function stands in the registry, so that it lives as long as the core's object. It is called
- * by the rendering thread alone (any_thread = false), always protected: nothing it does can jump
- * over the core's frames.
+ * The function is kept in the registry, so that it lives as long as the core's object. It is called
+ * by the calling thread only (any_thread = false), and always protected, so that no error can jump
+ * over C frames of the core.
  */
 #include <stdlib.h>
 
@@ -28,7 +28,7 @@ typedef struct request {
   double y;
   const celspan_scanline_row *row;
   celspan_scanline_output *output;
-  celspan_status status; /* of the core, when it refused a span */
+  celspan_status status; /* the core's, when it refused a span */
 } request;
 
 static void push_row(lua_State *L, const celspan_scanline_row *row) {
@@ -58,7 +58,8 @@ static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
   return paints;
 }
 
-/* request: light userdata. Runs protected; raises what is wrong with the function or its result. */
+/* The argument is a request, as light userdata. Runs protected; raises what is wrong with the
+ * function or its result. */
 static int call(lua_State *L) {
   request *r = lua_touserdata(L, 1);
   luaL_checkstack(L, 20, "scanline");

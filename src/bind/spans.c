@@ -86,8 +86,8 @@ static celspan_status fill_rows(lua_State *L, celspan_rows *rows, const int32_t 
   return status;
 }
 
-/* Runs protected, so that the host is left whatever happens: rows (light userdata), range, table.
- */
+/* Arguments: rows, range (light userdata), table. Runs protected, so that cs_host_leave is always
+ * called afterwards. */
 static int fill_protected(lua_State *L) {
   celspan_rows *rows = lua_touserdata(L, 1);
   const int32_t *range = lua_touserdata(L, 2);

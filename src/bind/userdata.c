@@ -142,7 +142,7 @@ static bool push_list(lua_State *L, const cs_noun *noun, int fields) {
   return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_PARTS && push_numbers(L, fields));
 }
 
-/* Joins the text on top to the one below it. */
+/* Appends the text on top of the stack to the one below it. */
 static void join(lua_State *L, int *count) {
   lua_pushstring(L, (*count)++ ? ", " : "{ ");
   lua_insert(L, -2);

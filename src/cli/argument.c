@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "celspan/celspan.h"
-#include "cli/tiles/pyramid.h"
 
 typedef struct choice {
   const char *name;
@@ -28,7 +27,7 @@ static cs_argument_outcome choose(const char *text, void *field, const choice *c
   return CS_ARGUMENT_BAD;
 }
 
-/* `count` whole numbers in [least, most], parted by `separator`, and nothing else. */
+/* Reads `count` whole numbers in [least, most] with `separator` between them, and nothing else. */
 static bool read_integers(const char *text, char separator, int64_t least, int64_t most,
                           int32_t *out, size_t count) {
   for (size_t i = 0; i < count; i++) {

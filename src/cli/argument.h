@@ -1,4 +1,4 @@
-/* Reading the values of options: text to a field, one function a kind of value.
+/* Reading the values of options: from text into a field, one function for each kind of value.
  *
  * A reader changes its field only when it answers READ. Numbers are read in the C locale, which
  * main() sets for its thread.
@@ -25,6 +25,8 @@ typedef enum cs_progress_style {
   CS_PROGRESS_JSON,
   CS_PROGRESS_OPENJD
 } cs_progress_style;
+
+typedef enum cs_pyramid_layout { CS_PYRAMID_DZI = 0, CS_PYRAMID_IIIF } cs_pyramid_layout;
 
 typedef struct cs_given_antialias {
   bool is_given;

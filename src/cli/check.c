@@ -1,4 +1,4 @@
-/* celspan check SCRIPT: every frame built, none rendered.
+/* celspan check SCRIPT: builds every frame and renders none.
  *
  *   first pass   in order: frames that cannot be built, pictures that cannot be read
  *   second pass  a fresh film, last frame first: a frame whose scene now differs was not made by a
@@ -17,7 +17,7 @@
 #include "scene/scene.h"
 
 typedef struct scene_name {
-  bool is_known; /* false: not built, or it holds procedures, which have no name but themselves */
+  bool is_known; /* false: not built, or it contains procedures, which cannot be compared */
   cs_hash hash;
 } scene_name;
 
@@ -26,8 +26,8 @@ typedef struct checkup {
   const cs_request *request;
   scene_name *names;
   size_t fault_count, frames_at_fault;
-  cs_hash *told; /* of the sentences reported so far; owned */
-  size_t told_count, told_capacity;
+  cs_hash *reported; /* of the sentences reported so far; owned */
+  size_t reported_count, reported_capacity;
   cs_exit outcome;
 } checkup;
 
@@ -35,18 +35,17 @@ static bool is_new(checkup *check, const char *sentence) {
   cs_hash hash = cs_hash_begin(0);
   cs_hash_text(&hash, sentence);
   hash = cs_hash_end(hash);
-  for (size_t i = 0; i < check->told_count; i++)
-    if (check->told[i].a == hash.a && check->told[i].b == hash.b)
+  for (size_t i = 0; i < check->reported_count; i++)
+    if (check->reported[i].a == hash.a && check->reported[i].b == hash.b)
       return false;
-  /* Without memory to remember it the sentence is only told again. */
-  if (cs_mem_reserve(check->context, (void **)&check->told, &check->told_capacity,
-                     check->told_count + 1, sizeof *check->told) == CELSPAN_OK)
-    check->told[check->told_count++] = hash;
+  /* Without memory to remember it, the sentence may be reported twice. */
+  if (cs_mem_reserve(check->context, (void **)&check->reported, &check->reported_capacity,
+                     check->reported_count + 1, sizeof *check->reported) == CELSPAN_OK)
+    check->reported[check->reported_count++] = hash;
   return true;
 }
 
-/* Cuts "frame N: " out of a sentence of the film's, so that equal faults of many frames are told
- * once. */
+/* Leaves "frame N: " out of a sentence, so that equal faults of many frames are reported once. */
 static void copy_without_frame(char *out, size_t size, const char *sentence, int64_t frame) {
   char label[40];
   snprintf(label, sizeof label, "frame %lld: ", (long long)frame);
@@ -55,11 +54,11 @@ static void copy_without_frame(char *out, size_t size, const char *sentence, int
   snprintf(out, size, "%.*s%s", before, sentence, at ? at + strlen(label) : sentence);
 }
 
-static void fault(checkup *check, int64_t frame, const char *told, cs_exit code) {
+static void fault(checkup *check, int64_t frame, const char *message, cs_exit code) {
   char sentence[1024];
-  copy_without_frame(sentence, sizeof sentence, told, frame);
+  copy_without_frame(sentence, sizeof sentence, message, frame);
   if (cs_interrupt_signal())
-    return; /* what failed was stopped */
+    return; /* the frame did not fail: it was stopped */
   check->frames_at_fault++;
   if (check->outcome == CS_EXIT_OK)
     check->outcome = code;
@@ -156,6 +155,6 @@ cs_exit cs_verb_check(celspan_context *context, const cs_request *request) {
   if (outcome == CS_EXIT_OK)
     outcome = run(&check, &script);
   cs_script_close(&script);
-  cs_mem_free(context->memory, check.told, check.told_capacity * sizeof *check.told);
+  cs_mem_free(context->memory, check.reported, check.reported_capacity * sizeof *check.reported);
   return outcome;
 }

@@ -34,7 +34,7 @@ static double difference(double a, double b) {
   return a == b ? 0 : fabs(a - b); /* equal infinities are equal */
 }
 
-/* Coded pixels from column x0 on; each stands for `times` columns. */
+/* Compares coded pixels from column x0 on. Each pixel counts for `times` columns. */
 static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, int32_t times,
                            const void *pixels_a, const void *pixels_b) {
   for (int32_t x = 0; x < count; x++) {
@@ -54,7 +54,7 @@ static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, 
   }
 }
 
-/* Columns of a span from x on, coded. */
+/* Codes `count` columns of a span, from column x on. */
 static void code_part(const comparison *c, const celspan_span *span, int32_t x, int32_t count,
                       void *pixels) {
   celspan_span part = *span;
@@ -66,7 +66,8 @@ static void code_part(const comparison *c, const celspan_span *span, int32_t x, 
   cs_pixels_row(&c->coding, &part, 1, pixels);
 }
 
-/* Columns [x0, x1), in one span of each: where both are of one colour, one pixel tells. */
+/* Compares columns [x0, x1), which are in one span of each picture. Where both spans have a single
+ * colour, one pixel is enough. */
 static void compare_part(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
                          int32_t x0, int32_t x1) {
   enum { PIECE = 1024 };

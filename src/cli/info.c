@@ -15,11 +15,11 @@ static void keep_larger(size_t *most, size_t count) {
     *most = count;
 }
 
-typedef struct survey {
-  celspan_rostrum_counts most; /* of each in any frame */
+typedef struct totals {
+  celspan_rostrum_counts most; /* the largest count of each in any frame */
   size_t different;            /* frames that are not equal to one before */
-  cs_duplicates twins;
-} survey;
+  cs_duplicates duplicates;
+} totals;
 
 static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most) {
   celspan_rostrum_counts all = {0, 0, 0};
@@ -35,23 +35,23 @@ static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most
   keep_larger(&most->pictures, all.pictures);
 }
 
-static celspan_status meet_frame(cs_script *script, survey *s) {
+static celspan_status count_scene(cs_script *script, totals *s) {
   const cs_film_frame *frame = &script->frame;
   bool is_new = true;
   size_t index;
   if (!cs_scene_has_procedure(frame->exposures, frame->count))
-    CS_TRY(cs_duplicates_add(&s->twins, script->context,
+    CS_TRY(cs_duplicates_add(&s->duplicates, script->context,
                              cs_scene_hash(frame->exposures, frame->count), script->number, &index,
                              &is_new));
   s->different += is_new;
   return CELSPAN_OK;
 }
 
-static cs_exit survey_all(cs_script *script, survey *s) {
+static cs_exit count_all(cs_script *script, totals *s) {
   for (int64_t i = 0; i < script->film.count && !cs_interrupt_signal(); i++) {
     cs_exit outcome = cs_script_build(script, script->film.first + i);
     if (outcome == CS_EXIT_OK)
-      outcome = cs_report_failure(script->context, meet_frame(script, s), NULL);
+      outcome = cs_report_failure(script->context, count_scene(script, s), NULL);
     if (outcome != CS_EXIT_OK)
       return outcome;
     count_frame(&script->frame, &s->most);
@@ -59,7 +59,7 @@ static cs_exit survey_all(cs_script *script, survey *s) {
   return CS_EXIT_OK;
 }
 
-static void print_info(const cs_script *script, const survey *s) {
+static void print_info(const cs_script *script, const totals *s) {
   const celspan_rostrum_counts *most = &s->most;
   if (script->film.title)
     printf("title %s\n", script->film.title);
@@ -72,7 +72,7 @@ static void print_info(const cs_script *script, const survey *s) {
   printf("different %zu\n", s->different);
 }
 
-/* What the whole of it is made of: so it is read to its end. */
+/* Prints what the whole file consists of. */
 static void print_spans(const cs_span_reader *file, const spanfile_counts *counts) {
   spanfile_info info = cs_span_reader_info(file);
   printf("format span\nsize %" PRIu32 "x%" PRIu32 "\ndepth %s\nbytes %" PRIu64 "\n", info.width,
@@ -101,12 +101,12 @@ cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
     return inform_spans(context, request->operands[0]);
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, &script);
-  survey s = {0};
+  totals s = {0};
   if (outcome == CS_EXIT_OK)
-    outcome = survey_all(&script, &s);
+    outcome = count_all(&script, &s);
   if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
     print_info(&script, &s);
-  cs_duplicates_finish(&s.twins, context);
+  cs_duplicates_finish(&s.duplicates, context);
   cs_script_close(&script);
   return outcome;
 }

@@ -1,4 +1,3 @@
-/* Signals. */
 #include "cli/interrupt.h"
 
 #include <signal.h>
@@ -10,8 +9,8 @@ static volatile sig_atomic_t asked_by;
 
 static void (*volatile also)(void);
 
-/* Seconds after the first signal within which another is taken for the same wish: timeout(1) and
- * shells send a signal to the program and then to its whole group. */
+/* Seconds after the first signal within which another one means the same request: timeout(1)
+ * and shells send a signal to the program and then to its whole group. */
 #define SAME_WISH 0.5
 
 static struct timespec asked_at;
@@ -22,8 +21,8 @@ static double seconds_since_asked(void) {
   return (double)(now.tv_sec - asked_at.tv_sec) + 1e-9 * (double)(now.tv_nsec - asked_at.tv_nsec);
 }
 
-/* The first signal asks; a later one ends the program at once. Only calls that signal handlers may
- * make. */
+/* The first signal asks; a later one ends the program at once. Only functions that are safe in a
+ * signal handler are called. */
 static void ask_to_stop(int number) {
   if (asked_by == 0) {
     clock_gettime(CLOCK_MONOTONIC, &asked_at);

@@ -11,7 +11,7 @@
 void cs_interrupt_install(void);
 /* The signal that asked to stop, or 0. */
 int cs_interrupt_signal(void);
-/* A function that the first signal calls too, NULL for none. It may do only what is safe in a
+/* Sets a function that the first signal calls too; NULL: none. It may do only what is safe in a
  * signal handler. */
 void cs_interrupt_call(void (*function)(void));
 /* Dies by the signal that asked, so that the caller's shell sees 128 + n. */

@@ -1,4 +1,4 @@
-/* The command line: which verb, and what becomes of its outcome.
+/* The command line: chooses the verb, runs it, and turns its outcome into the exit code.
  *
  *   main -> request (what is asked) -> a verb -> report (exit code, one line of error)
  *
@@ -121,7 +121,7 @@ static cs_exit run_verb(const cs_verb *verb, size_t count, char **arguments) {
   cs_progress_choose(request.progress);
   celspan_context *context = NULL;
   celspan_context_desc desc = {.struct_size = sizeof desc};
-  desc.defocus_bytes = (size_t)request.memory.value * 1048576 / 3; /* as the defaults are divided */
+  desc.defocus_bytes = (size_t)request.memory.value * 1048576 / 3; /* divided as the defaults are */
   desc.picture_bytes = 2 * desc.defocus_bytes;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
     cs_report_error("no memory to begin");

@@ -1,4 +1,4 @@
-/* celspan probe SCRIPT X Y: one point by direct evaluation of the tree. */
+/* celspan probe SCRIPT X Y: the colour of one point, by direct evaluation of the scene. */
 #include <stdio.h>
 
 #include "cli/script.h"

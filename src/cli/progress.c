@@ -1,4 +1,3 @@
-/* Progress. */
 #include "cli/progress.h"
 
 #include <stdio.h>
@@ -37,7 +36,7 @@ static void start_json(size_t frame_count) {
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count) {
   *progress =
       (cs_progress){.frame_count = frame_count, .noun = "frame", .started = cs_progress_clock()};
-  /* Unasked, a log gets a line a second at most; asked for, a line for every frame. */
+  /* A log gets a line a second at most by default, and a line for every frame when asked for. */
   progress->pause = style == CS_PROGRESS_LINES ? 0 : 1;
   if (style == CS_PROGRESS_AUTO)
     style = isatty(STDERR_FILENO) ? CS_PROGRESS_BAR : CS_PROGRESS_LINES;

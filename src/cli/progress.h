@@ -1,9 +1,10 @@
-/* How far a render is: a bar on a terminal, a line a frame elsewhere, or what other programs read.
+/* How far a run is: a bar on a terminal, lines in a log, or a form that other programs read.
  *
  *   json     on standard error, an object a line: {"event":"frame","number":3,...}
  *   openjd   on standard output, the lines of Open Job Description: openjd_progress: 12.5
  *
- * INVARIANT  Percent and time left mean the whole job, and 100 % is said only when it is done.
+ * INVARIANT  Percentage and remaining time refer to the whole run; 100 % is shown only when it is
+ * done.
  */
 #ifndef CS_CLI_PROGRESS_H
 #define CS_CLI_PROGRESS_H
@@ -26,14 +27,14 @@ typedef struct cs_progress {
 /* Seconds since some fixed moment; never goes back. */
 double cs_progress_clock(void);
 
-/* Diagnostics take their form from the style from now on. */
+/* From now on diagnostics have the form that goes with the style. */
 void cs_progress_choose(cs_progress_style style);
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count);
-/* share: of the frames on their way, in frames. false once a signal asks to stop. */
+/* share: of the frames that are being made, in frames. false once a signal asks to stop. */
 bool cs_progress_tick(cs_progress *progress, double share);
-/* A frame is finished; what: where it went; how: "made", "copied" or "kept". */
+/* Counts a finished frame. what: where it was written; how: "made", "copied" or "kept". */
 void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, const char *how);
-/* Takes the bar away; says what was done when all frames are. failed: the frames that were not. */
+/* Removes the bar, and sums up the run if all frames are done. failed: the frames that failed. */
 void cs_progress_end(cs_progress *progress, const int64_t *failed, size_t failed_count);
 
 #endif

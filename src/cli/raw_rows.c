@@ -1,4 +1,3 @@
-/* The sink for raw frames. */
 #include "cli/raw_rows.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
-/* Rows as coded pixels, each in the same reused memory: written to a stream.
+/* A sink that writes the rows of a frame to a stream as coded pixels, without any file format. One
+ * row is kept in memory.
  */
 #ifndef CS_CLI_RAW_ROWS_H
 #define CS_CLI_RAW_ROWS_H
@@ -8,7 +9,7 @@
 #include "celspan/celspan.h"
 
 typedef struct cs_raw_rows {
-  celspan_coding coding; /* every default filled in */
+  celspan_coding coding; /* without defaults */
   FILE *stream;
   unsigned char *row;
   size_t row_size;

@@ -1,4 +1,3 @@
-/* The record of finished frames. */
 #include "cli/record.h"
 
 #include <errno.h>
@@ -57,7 +56,7 @@ static cs_hash key_of(const cs_record *record, const cs_shoot_frame *frame) {
 
 static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
-/* Reads the file to its end; false when it cannot be. */
+/* Hashes a whole file; false when it cannot be read. */
 static bool hash_contents(const char *path, cs_hash *out, uint64_t *bytes) {
   unsigned char piece[PIECE];
   FILE *file = fopen(path, "rbe");
@@ -115,7 +114,7 @@ static celspan_status read_lines(cs_record *record, FILE *file) {
   return CELSPAN_OK;
 }
 
-/* A record of another version of celspan has another head, and says nothing. */
+/* A record of another version of celspan has another head and is ignored. */
 static celspan_status read_record(cs_record *record) {
   char head[sizeof HEAD];
   FILE *file = fopen(record->path, "re");
@@ -202,7 +201,7 @@ static bool ends_a_line(int descriptor, off_t size) {
   return pread(descriptor, &last, 1, size - 1) == 1 && last == '\n';
 }
 
-/* Opened with the first line: its folder is there then. */
+/* Called for the first line only, because the folder exists once a frame is written. */
 static celspan_status open_for_lines(cs_record *record) {
   char head[sizeof HEAD] = "";
   record->descriptor = open(record->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
@@ -211,7 +210,7 @@ static celspan_status open_for_lines(cs_record *record) {
   off_t size = lseek(record->descriptor, 0, SEEK_END);
   if (size > 0 &&
       (pread(record->descriptor, head, sizeof HEAD - 1, 0) < 0 || strcmp(head, HEAD) != 0)) {
-    if (ftruncate(record->descriptor, 0) != 0) /* of another version */
+    if (ftruncate(record->descriptor, 0) != 0) /* it was of another version */
       return fail(record, "cannot write");
     size = 0;
   }

@@ -1,9 +1,9 @@
 /* celspan render SCRIPT -o OUT: the frames of a film.
  *
- *   target (where to) -> shoot (film/shoot.h: build, make, copy) -> told, frame by frame
+ *   target (where to) -> shoot (film/shoot.h: build, make, copy) -> finished, frame by frame
  *
  * Everything that can be refused is refused before the first frame is made. A frame that fails ends
- * the run, unless it is to go on: the frames before it are whole and stay.
+ * the run, except under --keep-going; the frames before it are complete and stay.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -47,10 +47,10 @@ static bool tick(void *user, double share) {
   return cs_progress_tick(&job->progress, share);
 }
 
-/* ---------------------------------------------------------------- what is told */
+/* ---------------------------------------------------------------- reports */
 
-/* A frame that failed: reported; under --keep-going it is remembered and the run goes on. */
-static celspan_status take_failure(render_job *job, int64_t number, celspan_status status) {
+/* Reports a frame that failed. Under --keep-going it is remembered and the run goes on. */
+static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
   celspan_context *context = job->script->context;
   cs_exit outcome = cs_report_failure(context, status, NULL);
   if (outcome == CS_EXIT_SIGNAL || !job->request->keeps_going) {
@@ -63,7 +63,7 @@ static celspan_status take_failure(render_job *job, int64_t number, celspan_stat
   return CELSPAN_OK;
 }
 
-static const char *place_of(const cs_request *request, const cs_shoot_frame *frame) {
+static const char *destination_of(const cs_request *request, const cs_shoot_frame *frame) {
   return !request->output                       ? "hashed"
          : cs_target_is_stream(request->output) ? "standard output"
                                                 : frame->path;
@@ -80,11 +80,12 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   if (status == CELSPAN_OK && job->request->resumes)
     status = cs_record_add(&job->record, frame);
   if (status != CELSPAN_OK)
-    return take_failure(job, frame->number, status);
+    return report_failure(job, frame->number, status);
   if (job->request->hash)
     printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
            frame->digest[1]);
-  cs_progress_frame(&job->progress, frame->number, place_of(job->request, frame), ways[frame->way]);
+  cs_progress_frame(&job->progress, frame->number, destination_of(job->request, frame),
+                    ways[frame->way]);
   return CELSPAN_OK;
 }
 
@@ -103,7 +104,7 @@ static void list_failed(const render_job *job, char *out, size_t size) {
   }
 }
 
-static cs_exit tell_end(render_job *job, cs_exit outcome) {
+static cs_exit report_end(render_job *job, cs_exit outcome) {
   char list[1024];
   size_t done = job->progress.frames_done, count = job->frames.count;
   cs_progress_end(&job->progress, job->failed, job->failed_count);
@@ -143,7 +144,7 @@ static cs_exit shoot(render_job *job) {
 
 static cs_exit render_all(render_job *job) {
   cs_progress_start(&job->progress, job->request->progress, job->frames.count);
-  return tell_end(job, shoot(job));
+  return report_end(job, shoot(job));
 }
 
 static cs_exit resume_all(render_job *job) {
@@ -180,7 +181,7 @@ static cs_exit refuse_resume(const cs_request *request) {
   return CS_EXIT_OK;
 }
 
-/* What can be refused without running the script. */
+/* Refuses what can be refused without running the script. */
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   if (!request->output && !request->hash)
     return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");

@@ -1,4 +1,3 @@
-/* Exit codes and diagnostics. */
 #include "cli/report.h"
 
 #include <errno.h>
@@ -114,8 +113,8 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
   const char *sentence = celspan_context_error(context);
   if (!sentence[0])
     sentence = celspan_status_name(status);
-  bool is_placed = where && where[0];
-  cs_report_error("%s%s%s%s", is_placed ? where : "", is_placed ? ": " : "", sentence,
+  bool has_where = where && where[0];
+  cs_report_error("%s%s%s%s", has_where ? where : "", has_where ? ": " : "", sentence,
                   status == CELSPAN_INTERNAL ? " (a fault of celspan itself: please report it)"
                                              : "");
   return cs_report_exit(status);
@@ -127,7 +126,7 @@ cs_exit cs_report_close_output(cs_exit outcome) {
   errno = 0;
   bool had_error = ferror(stdout) != 0;
   if ((fclose(stdout) == 0 && !had_error) || outcome != CS_EXIT_OK)
-    return outcome; /* a run that failed has said why */
+    return outcome; /* a run that failed has reported why */
   cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
   return CS_EXIT_OUTPUT;
 }

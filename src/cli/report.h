@@ -1,4 +1,4 @@
-/* How failure looks from outside: the exit code and one line on standard error.
+/* Diagnostics: exit codes, and lines on standard error.
  *
  * INVARIANT  Every exit code of the program is named here and nowhere else, and every diagnostic
  * leaves through this file, so that a progress bar can be cleared first and standard output
@@ -34,10 +34,10 @@ void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)
 /* Reports an error and returns CS_EXIT_USAGE. */
 cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the
- * exit code. Says nothing about CANCELLED, nor of anything once a signal asked to stop. */
+ * exit code. Reports nothing for CANCELLED, and nothing at all once a signal asked to stop. */
 cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
 
-/* How diagnostics look to who reads them. */
+/* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
   CS_REPORT_JSON,      /* {"event":"error","message":"..."} */
@@ -45,17 +45,18 @@ typedef enum cs_report_form {
 } cs_report_form;
 
 void cs_report_choose(cs_report_form form);
-/* An object that tells what happened, on a line of standard error. */
+/* Writes an event as a line on standard error. */
 void cs_report_event(cs_json *event);
 /* "openjd_NAME: ..." on standard output, at once. */
 void cs_report_openjd(const char *name, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Called before each line on standard error, to clear what stands there; NULL: nothing stands. */
+/* Sets a function that is called before each line on standard error, to clear the progress bar
+ * there; NULL: there is none. */
 void cs_report_before_line(void (*clear)(void));
 
-/* Ends standard output. The outcome, or reported and CS_EXIT_OUTPUT where that was OK but not all
- * of it could be written. */
+/* Closes standard output. The answer is the outcome; where that is OK but not everything could be
+ * written, it is CS_EXIT_OUTPUT, reported. */
 cs_exit cs_report_close_output(cs_exit outcome);
 
 #endif

@@ -175,7 +175,7 @@ static bool is_option(const char *text) {
   return text[0] == '-' && text[1] && !isdigit((unsigned char)text[1]) && text[1] != '.';
 }
 
-static cs_exit take_script_arguments(parser *p) {
+static cs_exit read_script_arguments(parser *p) {
   if (!(p->verb->self & CS_VERBS_WITH_SCRIPT))
     return cs_report_usage("'--' ends the options of verbs that run a script; '%s' runs none",
                            p->verb->name);
@@ -185,7 +185,7 @@ static cs_exit take_script_arguments(parser *p) {
   return CS_EXIT_OK;
 }
 
-static cs_exit take_operand(parser *p) {
+static cs_exit read_operand(parser *p) {
   const char *operand = p->arguments[p->next++];
   if (p->out->operand_count == p->verb->operand_most)
     return cs_report_usage("'%s' is one too many: celspan %s %s [options]", operand, p->verb->name,
@@ -202,11 +202,11 @@ cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *argumen
   while (p.next < count && outcome == CS_EXIT_OK) {
     if (strcmp(arguments[p.next], "--") == 0) {
       p.next++;
-      outcome = take_script_arguments(&p);
+      outcome = read_script_arguments(&p);
     } else if (is_option(arguments[p.next])) {
       outcome = parse_option(&p);
     } else {
-      outcome = take_operand(&p);
+      outcome = read_operand(&p);
     }
   }
   if (outcome == CS_EXIT_OK && out->operand_count < verb->operand_least)

@@ -9,14 +9,13 @@
 #include "celspan/celspan.h"
 #include "cli/argument.h"
 #include "cli/report.h"
-#include "cli/tiles/pyramid.h"
 
 #define CS_OPERANDS_MAX 3
 
 typedef struct cs_request {
   const char *operands[CS_OPERANDS_MAX]; /* borrowed from argv, as are all texts here */
   size_t operand_count;
-  char *const *script_arguments; /* what stands after -- */
+  char *const *script_arguments; /* what follows -- */
   size_t script_argument_count;
   const char *output, *format, *frames; /* NULL: not given */
   cs_given_integer frame;

@@ -1,4 +1,3 @@
-/* Scripts and their frames. */
 #include "cli/script.h"
 
 #include <lauxlib.h>
@@ -24,8 +23,8 @@ static void interrupt_script(void) {
               1);
 }
 
-/* Standard output is for what was asked for: what a script prints goes to standard error. And a
- * script cannot end the program, or a render that did nothing could look like one that did all. */
+/* What a script prints goes to standard error, because standard output is for results. A script
+ * cannot end the program: otherwise a run that did nothing could seem to have done everything. */
 static const char HOUSE_RULES[] =
     "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
     "io.output(stderr)\n"

@@ -1,5 +1,5 @@
-/* A script's film, opened for a verb in a Lua state of its own; its faults are reported in the
- * words of the command line.
+/* A script's film, opened for a verb in a Lua state of its own. Its faults are reported as the
+ * command line reports faults.
  */
 #ifndef CS_CLI_SCRIPT_H
 #define CS_CLI_SCRIPT_H
@@ -7,7 +7,7 @@
 #include "bind/lua_film.h"
 #include "cli/request.h"
 
-#define CS_SCRIPT_FILM 1 /* where the film stands on the state's stack */
+#define CS_SCRIPT_FILM 1 /* index of the film on the state's stack */
 
 typedef struct cs_script {
   celspan_context *context; /* borrowed */
@@ -21,14 +21,14 @@ typedef struct cs_script {
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out);
 void cs_script_close(cs_script *script);
 
-/* Builds a frame of the film; the one before is gone. The sentence, which names the frame, stands
- * in the context. */
+/* Builds a frame of the film and frees the one before. On failure the sentence, which names the
+ * frame, is in the context. */
 celspan_status cs_script_try(cs_script *script, int64_t number);
 /* The same, with failures reported. */
 cs_exit cs_script_build(cs_script *script, int64_t number);
 /* Builds the frame of --frame, or the first, and describes it under the request. */
 cs_exit cs_script_frame(cs_script *script, const cs_request *request, celspan_frame_desc *out);
-/* Reports "frame N: ..." unless status is OK: for what is done with a frame that was built. */
+/* Reports "frame N: ..." unless the status is OK; for failures after the frame was built. */
 cs_exit cs_script_failure(const cs_script *script, celspan_status status);
 
 #endif

@@ -36,7 +36,7 @@ static bool read_all(int descriptor, uint64_t offset, unsigned char *bytes, size
     if (got < 0 && errno == EINTR)
       continue;
     if (got == 0)
-      errno = EIO; /* it has become shorter */
+      errno = EIO; /* the file has become shorter */
     if (got <= 0)
       return false;
     bytes += got;
@@ -162,12 +162,12 @@ static void to_colour(const cs_span_reader *file, const unsigned char *pixel, fl
     rgba[c] = file->light[pixel[c]] * rgba[3];
 }
 
-/* Pixels that a span has among the row's values. */
+/* How many pixels of the row's values belong to a span. */
 static uint32_t values_of(const spanfile_span *span, uint32_t start) {
   return span->kind == SPANFILE_RAW ? span->end - start : span->kind == SPANFILE_GRADIENT ? 2 : 0;
 }
 
-/* The spans of a row that reach into [x0, x1), from `first` on. */
+/* The spans of a row that overlap [x0, x1), from `first` on. */
 typedef struct part_of_row {
   uint32_t x0, x1;
   const spanfile_span *first, *end; /* end: of the row */
@@ -209,7 +209,7 @@ static celspan_status make_room(cs_span_reader *file, const part_of_row *part) {
                         longest * pixel_size, 1);
 }
 
-/* The array's colours into `colours`; one span of a row by itself, so that only it is decoded. */
+/* Writes the array's colours. The span is passed as a row by itself, so that only it is decoded. */
 static void decode_array(const cs_span_reader *file, const spanfile_span *span, uint32_t start,
                          const unsigned char *values, uint32_t from, uint32_t to, float *colours) {
   spanfile_span alone = {span->end - start, span->kind, span->pixel};
@@ -228,8 +228,9 @@ static void set_run(const cs_span_reader *file, const spanfile_span *span, celsp
   to_colour(file, pixel, out->colour);
 }
 
-/* Into file->spans and file->colours, which have room. How many spans. */
-static size_t take_part(cs_span_reader *file, const part_of_row *part) {
+/* Converts the spans into file->spans and file->colours, which are large enough. The answer: how
+ * many. */
+static size_t convert_part(cs_span_reader *file, const part_of_row *part) {
   size_t pixel_size = spanfile_pixel_size(file->info.format);
   const unsigned char *values = part->values;
   celspan_span *out = file->spans;
@@ -260,7 +261,7 @@ celspan_status cs_span_reader_row(cs_span_reader *file, int32_t y, int32_t x0, i
   CS_TRY(report(file, spanfile_reader_row(file->reader, (uint32_t)y, &row, &fault), &fault));
   part_of_row part = find_part(file, &row, (uint32_t)x0, (uint32_t)x1);
   CS_TRY(make_room(file, &part));
-  *span_count = take_part(file, &part);
+  *span_count = convert_part(file, &part);
   *spans = file->spans;
   return CELSPAN_OK;
 }

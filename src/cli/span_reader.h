@@ -11,7 +11,7 @@
 
 typedef struct cs_span_reader cs_span_reader;
 
-/* Whether the file can be read and begins as span files do. */
+/* Whether the file can be read and begins as a span file does. */
 bool cs_span_reader_accepts(const char *path);
 
 /* path: copied. out: new. Errors: INPUT with the byte and the reason, LIMIT, NO_MEMORY. */
@@ -22,7 +22,7 @@ void cs_span_reader_close(cs_span_reader *file);
 spanfile_info cs_span_reader_info(const cs_span_reader *file);
 uint64_t cs_span_reader_bytes(const cs_span_reader *file);
 
-/* The columns [x0, x1) of row y, moved left by x0: sorted, without gap. Gradients come as arrays.
+/* The columns [x0, x1) of row y, moved left by x0: sorted, without gaps. Gradients come as arrays.
  * Valid until the next call. */
 CELSPAN_CHECKED celspan_status cs_span_reader_row(cs_span_reader *file, int32_t y, int32_t x0,
                                                   int32_t x1, const celspan_span **spans,

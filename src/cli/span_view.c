@@ -5,16 +5,16 @@
 
 #include "base/context.h"
 
-/* What steps up and down leave where they should cancel. */
+/* Sums below this are rounding errors of steps that cancel. */
 #define NOTHING 1e-12
 
-/* Of one axis: pixels of the file and of the frame, and the part of the frame that is made. */
-typedef struct view_axis {
+/* One axis: pixels of the file and of the frame, and the part of the frame that is made. */
+typedef struct axis_map {
   int32_t source, target;
   int32_t first, count;
-} view_axis;
+} axis_map;
 
-/* A row of the file on the frame's columns. */
+/* A row of the file, resampled to the columns of the frame. */
 typedef struct view_line {
   int32_t y; /* -1: none */
   float *colours;
@@ -23,28 +23,28 @@ typedef struct view_line {
 struct cs_span_view {
   celspan_context *context;
   cs_span_reader *file;
-  view_axis columns, rows;
-  double *sums;       /* 4 a column, and one column more: the row in the making */
-  view_line lines[2]; /* where rows are between two of the file */
-  float *colours;     /* 4 a column: the row that is given out */
+  axis_map columns, rows;
+  double *sums;       /* 4 a column, and one column more: changes from the column before */
+  view_line lines[2]; /* the last two rows of the file that were used */
+  float *colours;     /* 4 a column: the row that is returned */
   celspan_span span;
 };
 
-static bool is_shrunk(const view_axis *axis) { return axis->target < axis->source; }
+static bool is_shrunk(const axis_map *axis) { return axis->target < axis->source; }
 
-/* ---------------------------------------------------------------- places */
+/* ---------------------------------------------------------------- positions */
 
-static double pixels_each(const view_axis *axis) {
+static double pixels_each(const axis_map *axis) {
   return (double)axis->source / (double)axis->target;
 }
 
 /* Where pixel i of the frame begins in the file: exact at both ends. */
-static double place(const view_axis *axis, int32_t i) {
+static double position(const axis_map *axis, int32_t i) {
   return (double)((int64_t)i * axis->source) / (double)axis->target;
 }
 
 /* The two pixels of the file that pixel i of the frame lies between, and how near the second. */
-static double between(const view_axis *axis, int32_t i, int32_t out[2]) {
+static double between(const axis_map *axis, int32_t i, int32_t out[2]) {
   double at = (i + 0.5) * pixels_each(axis) - 0.5, low = floor(at);
   int32_t last = axis->source - 1;
   out[0] = low < 0 ? 0 : (int32_t)low;
@@ -54,15 +54,16 @@ static double between(const view_axis *axis, int32_t i, int32_t out[2]) {
 
 /* ---------------------------------------------------------------- sums */
 
-/* One that is not finite would spoil the whole row. */
-static double held(float number) {
+/* A number that is not finite would spoil the whole row, because all columns are summed. */
+static double limited(float number) {
   return isnan(number) ? 0 : (double)(number > 65504 ? 65504 : number < -65504 ? -65504 : number);
 }
 
-/* From column x of the file (of those that are seen) on, the colour is another by `step`. Steps are
- * kept at the columns they begin at, and summed when the row is done. */
+/* The colour changes by `step` at column x of the file. The change is shared between the column of
+ * the frame in which it lies and the next one; finish_sums adds all changes up from left to right.
+ */
 static void add_step(cs_span_view *view, int32_t x, const double step[4]) {
-  const view_axis *axis = &view->columns;
+  const axis_map *axis = &view->columns;
   double at = (double)x / pixels_each(axis) - axis->first;
   double column = at < 0 ? 0 : floor(at), rest = at < 0 ? 1 : 1 - (at - column);
   if (column >= axis->count)
@@ -78,7 +79,7 @@ static void add_colour(cs_span_view *view, int32_t x, const float colour[4], dou
                        double before[4]) {
   double step[4];
   for (int c = 0; c < 4; c++) {
-    double now = held(colour[c]) * weight;
+    double now = limited(colour[c]) * weight;
     step[c] = now - before[c];
     before[c] = now;
   }
@@ -111,11 +112,11 @@ static void finish_sums(cs_span_view *view, float *colours) {
 /* ---------------------------------------------------------------- columns */
 
 /* The columns of the file that are needed. */
-static void needed_columns(const view_axis *axis, int32_t *x0, int32_t *x1) {
+static void needed_columns(const axis_map *axis, int32_t *x0, int32_t *x1) {
   int32_t last = axis->first + axis->count - 1, pair[2];
   if (is_shrunk(axis)) {
-    double end = ceil(place(axis, last + 1));
-    *x0 = (int32_t)place(axis, axis->first);
+    double end = ceil(position(axis, last + 1));
+    *x0 = (int32_t)position(axis, axis->first);
     *x1 = end < axis->source ? (int32_t)end : axis->source;
   } else {
     between(axis, axis->first, pair);
@@ -125,7 +126,7 @@ static void needed_columns(const view_axis *axis, int32_t *x0, int32_t *x1) {
   }
 }
 
-/* A cursor over the spans: columns are asked for in ascending order, one step back at most. */
+/* *at: a cursor over the spans; columns are asked for in ascending order, one back at most. */
 static void colour_at(const celspan_span *spans, size_t count, size_t *at, int32_t x,
                       float colour[4]) {
   while (*at > 0 && spans[*at].x0 > x)
@@ -135,7 +136,7 @@ static void colour_at(const celspan_span *spans, size_t count, size_t *at, int32
   celspan_span_colour(&spans[*at], x, colour);
 }
 
-static void enlarge(const view_axis *axis, const celspan_span *spans, size_t count, int32_t x0,
+static void enlarge(const axis_map *axis, const celspan_span *spans, size_t count, int32_t x0,
                     float *colours) {
   size_t at = 0;
   for (int32_t i = 0; i < axis->count; i++) {
@@ -150,7 +151,7 @@ static void enlarge(const view_axis *axis, const celspan_span *spans, size_t cou
   }
 }
 
-/* Row y of the file on the frame's columns. */
+/* Row y of the file, resampled to the columns of the frame. */
 static celspan_status make_line(cs_span_view *view, int32_t y, float *colours) {
   const celspan_span *spans;
   size_t count;
@@ -168,10 +169,10 @@ static celspan_status make_line(cs_span_view *view, int32_t y, float *colours) {
 
 /* ---------------------------------------------------------------- rows */
 
-/* The mean of all rows that row i of the frame covers, both axes shrinking. */
+/* The mean of all rows that row i of the frame covers, where columns are means too. */
 static celspan_status shrink_both(cs_span_view *view, int32_t i) {
-  const view_axis *axis = &view->rows;
-  double top = place(axis, i), bottom = place(axis, i + 1);
+  const axis_map *axis = &view->rows;
+  double top = position(axis, i), bottom = position(axis, i + 1);
   int32_t x0, x1;
   needed_columns(&view->columns, &x0, &x1);
   for (int32_t y = (int32_t)top; y < bottom && y < axis->source; y++) {
@@ -186,7 +187,7 @@ static celspan_status shrink_both(cs_span_view *view, int32_t i) {
 }
 
 static celspan_status find_line(cs_span_view *view, int32_t y, const float **out) {
-  view_line *line = &view->lines[y & 1]; /* rows next to each other are kept together */
+  view_line *line = &view->lines[y & 1]; /* two neighbouring rows are never in one slot */
   if (line->y != y) {
     line->y = -1;
     CS_TRY(make_line(view, y, line->colours));
@@ -196,11 +197,11 @@ static celspan_status find_line(cs_span_view *view, int32_t y, const float **out
   return CELSPAN_OK;
 }
 
-/* The mean of the rows that row i of the frame covers, its columns as they come. */
+/* The mean of the rows that row i of the frame covers, where columns are interpolated. */
 static celspan_status shrink_rows(cs_span_view *view, int32_t i) {
-  const view_axis *axis = &view->rows;
+  const axis_map *axis = &view->rows;
   size_t numbers = 4 * (size_t)view->columns.count;
-  double top = place(axis, i), bottom = place(axis, i + 1);
+  double top = position(axis, i), bottom = position(axis, i + 1);
   memset(view->colours, 0, numbers * sizeof *view->colours);
   for (int32_t y = (int32_t)top; y < bottom && y < axis->source; y++) {
     double from = y > top ? y : top, to = y + 1 < bottom ? y + 1 : bottom;
@@ -232,7 +233,7 @@ static celspan_status scale_row(cs_span_view *view, int32_t i) {
 
 celspan_status cs_span_view_row(cs_span_view *view, int32_t y, const celspan_span **spans,
                                 size_t *span_count) {
-  const view_axis *columns = &view->columns, *rows = &view->rows;
+  const axis_map *columns = &view->columns, *rows = &view->rows;
   int32_t row = rows->first + y;
   if (columns->source == columns->target && rows->source == rows->target)
     return cs_span_reader_row(view->file, row, columns->first, columns->first + columns->count,
@@ -245,7 +246,7 @@ celspan_status cs_span_view_row(cs_span_view *view, int32_t y, const celspan_spa
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- */
+/* ---------------------------------------------------------------- making and freeing */
 
 static bool make_buffers(cs_span_view *view) {
   cs_memory *memory = view->context->memory;
@@ -270,10 +271,10 @@ celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *fil
   view->context = context;
   view->file = file;
   bool is_whole = frame->crop_width == 0;
-  view->columns = (view_axis){(int32_t)info.width, frame->width, frame->crop_x,
-                              is_whole ? frame->width : frame->crop_width};
-  view->rows = (view_axis){(int32_t)info.height, frame->height, frame->crop_y,
-                           is_whole ? frame->height : frame->crop_height};
+  view->columns = (axis_map){(int32_t)info.width, frame->width, frame->crop_x,
+                             is_whole ? frame->width : frame->crop_width};
+  view->rows = (axis_map){(int32_t)info.height, frame->height, frame->crop_y,
+                          is_whole ? frame->height : frame->crop_height};
   if (!make_buffers(view)) {
     cs_span_view_destroy(view);
     return cs_fail_memory(context);

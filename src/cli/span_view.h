@@ -1,9 +1,16 @@
-/* A span file seen at a size and through a crop, row by row.
+/* A span file at another size and through a crop, row by row.
  *
- * At its own size rows come as they are. Each axis else by itself: where the picture shrinks, the
- * mean over what a pixel covers, taken from the spans, in time that follows them and not the
- * pixels; where it grows, linear between the nearest two, in linear light. Only the rows that the
- * crop covers are read. Memory: a few rows.
+ *   file    |---|---|---|---|---|---|     6 columns
+ *   frame   |-----|-----|-----|-----|     4 columns: each is the mean of 1.5 columns of the file
+ *
+ *   file    |-------|-------|-------|     3 columns
+ *   frame   |---|---|---|---|---|---|     6 columns: each lies between two middles of the file's
+ *
+ * At the file's own size rows are returned as they are. Otherwise each axis is resampled by itself,
+ * in linear light. Where the picture shrinks, a pixel is the mean over the area that it covers,
+ * computed from the spans in time proportional to their number; where it grows, it is interpolated
+ * linearly between the nearest two. Only the rows that the crop covers are read. Memory: a few
+ * rows.
  */
 #ifndef CS_CLI_SPAN_VIEW_H
 #define CS_CLI_SPAN_VIEW_H

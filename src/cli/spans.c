@@ -74,7 +74,7 @@ static celspan_status print_spans(celspan_context *context, const celspan_frame_
   return celspan_frame_render(context, frame, &sink, NULL);
 }
 
-/* Rows are a crop of full width: columns stay those of the frame. */
+/* The rows are a crop of full width, so that columns keep their numbers. */
 static cs_exit set_rows(const cs_request *request, celspan_frame_desc *frame) {
   if (request->rows[1] < 0)
     return CS_EXIT_OK;

@@ -1,4 +1,3 @@
-/* Pictures as rows. */
 #include "cli/still.h"
 
 #include <stdio.h>
@@ -14,8 +13,8 @@ static celspan_status make_cel(celspan_context *context, celspan_object *object,
   return celspan_cel_create(context, &desc, out);
 }
 
-/* Behind a picture without alpha is black, which is nowhere to be seen: so files can leave the
- * alpha out that the picture never had. */
+/* The background of a picture without alpha is opaque black. The picture hides it everywhere, but
+ * so the frame is known to be opaque, and files can omit the alpha that the picture never had. */
 static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel, bool has_alpha,
                                    celspan_rostrum **out) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
@@ -138,7 +137,7 @@ static celspan_status put_rows(celspan_context *context, cs_span_view *view,
   return CELSPAN_OK;
 }
 
-/* *is_begun: the sink's end was called. */
+/* *is_begun: the sink was begun, and its `end` has been called. */
 static celspan_status put_view(celspan_context *context, const cs_still *still,
                                const celspan_frame_desc *frame, const celspan_sink *sink,
                                bool *is_begun) {

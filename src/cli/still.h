@@ -1,6 +1,6 @@
-/* A picture as rows of a frame. A span file gives its own spans; any other picture is a scene of
- * its own: one image rectangle at the picture's size, lit white, sampled at pixel centres, so that
- * every pixel comes out as it went in.
+/* A picture as rows of a frame. A span file gives its own spans. Any other picture becomes a scene:
+ * one image rectangle at the picture's size, lit white and sampled at pixel centres, so that every
+ * pixel keeps its value.
  */
 #ifndef CS_CLI_STILL_H
 #define CS_CLI_STILL_H
@@ -16,7 +16,7 @@ typedef struct cs_still {
 
 /* OK, and *out new; or reported. */
 cs_exit cs_still_open(celspan_context *context, const char *path, cs_still *out);
-/* One that was never opened, but zeroed, may be closed too. */
+/* A still that is all zero may be closed too. */
 void cs_still_close(cs_still *still);
 /* The description of its frame under the options. OK, or reported. */
 cs_exit cs_still_frame(const cs_still *still, const cs_request *request, celspan_frame_desc *out);
@@ -31,7 +31,7 @@ CELSPAN_CHECKED celspan_status cs_still_render(celspan_context *context, const c
                                                const celspan_frame_desc *frame,
                                                const celspan_sink *sink);
 
-/* The frame row by row; of the two one is NULL. */
+/* The frame row by row; one of the two is NULL. */
 typedef struct cs_still_rows {
   celspan_rows *rendered;
   cs_span_view *view;
@@ -40,7 +40,7 @@ typedef struct cs_still_rows {
 CELSPAN_CHECKED celspan_status cs_still_rows_create(celspan_context *context, const cs_still *still,
                                                     const celspan_frame_desc *frame,
                                                     cs_still_rows *out);
-/* One that is zeroed may be destroyed too. */
+/* Rows that are all zero may be destroyed too. */
 void cs_still_rows_destroy(cs_still_rows *rows);
 /* y: row of the crop, from 0. Valid until the next call. */
 CELSPAN_CHECKED celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y,

@@ -1,4 +1,3 @@
-/* Where frames go. */
 #include "cli/target.h"
 
 #include <string.h>
@@ -16,7 +15,7 @@ celspan_file_desc cs_target_file(const cs_request *request) {
   return file;
 }
 
-/* A sink is made and dropped: it opens no file before its first row. */
+/* Makes a sink and discards it: a sink opens no file before its first row. */
 static cs_exit refuse_file(celspan_context *context, const char *path, const cs_request *request) {
   celspan_file_desc file = cs_target_file(request);
   celspan_sink sink;

@@ -5,12 +5,12 @@
 #include "cli/script.h"
 #include "film/sequence.h"
 
-/* OK for what this version can write under the options; else reported: unknown formats, codings
- * that a format lacks, video, which is not built in. */
+/* OK for what this version can write under the options. Everything else is reported: unknown
+ * formats, codings that a format lacks, and video, which is not built in. */
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request);
 /* The description of a file under the options, without a frame's own metadata. */
 celspan_file_desc cs_target_file(const cs_request *request);
-/* The frames of --frames, or all, within the film, with a place for each. out: new. OK, or
+/* The frames of --frames, or all; each is in the film and has a name of its own. out: new. OK, or
  * reported. */
 cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_sequence *out);
 /* Standard output, for raw frames. */

@@ -1,9 +1,8 @@
-/* Size, crop, antialiasing and workers of a frame. */
 #include "cli/view.h"
 
 #include "cli/interrupt.h"
 
-/* Film units to pixels, nearest, one at least; -1 when that is more than a frame can have. */
+/* Film units to pixels, rounded, at least 1; -1 when that is more than a frame can have. */
 static int32_t pixels(double units, double scale) {
   double side = units * scale + 0.5;
   if (!(side < CS_SIDE_MAX + 1.0))

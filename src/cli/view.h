@@ -6,8 +6,8 @@
 
 #include "cli/request.h"
 
-/* Fills *out but for its exposures; the film's size is in film units. OK, or reported and
- * CS_EXIT_USAGE or CS_EXIT_LIMIT. */
+/* Fills everything of *out except the exposures; the film's size is in film units. OK, or reported
+ * and CS_EXIT_USAGE or CS_EXIT_LIMIT. */
 cs_exit cs_view_frame(const cs_request *request, double film_width, double film_height,
                       celspan_frame_desc *out);
 

@@ -150,14 +150,14 @@ celspan_status cs_sequence_within(celspan_context *context, const cs_sequence *s
 
 /* ---------------------------------------------------------------- names */
 
-/* Where the number goes: pattern[start .. end) is replaced, padded to width. */
-typedef struct place {
+/* Where the number goes: pattern[start .. end) is replaced by it, padded to `width`. */
+typedef struct number_field {
   size_t start, end;
   int width;
   bool is_found;
-} place;
+} number_field;
 
-/* "%d", "%4d", "%04d" at text: the length, else 0. */
+/* The length of "%d", "%4d" or "%04d" at the beginning of the text; 0 when there is none. */
 static size_t match_percent(const char *text, int *width) {
   size_t digits = text[0] == '%' ? strspn(text + 1, "0123456789") : 0;
   if (text[0] != '%' || text[1 + digits] != 'd' || digits > 3)
@@ -166,9 +166,9 @@ static size_t match_percent(const char *text, int *width) {
   return digits + 2;
 }
 
-static place find_place(const char *pattern) {
+static number_field find_number_field(const char *pattern) {
   const char *slash = strrchr(pattern, '/');
-  place found = {0};
+  number_field found = {0};
   for (const char *at = slash ? slash + 1 : pattern; *at;) {
     int width = 0;
     size_t length = strspn(at, "#");
@@ -178,16 +178,16 @@ static place find_place(const char *pattern) {
       length = match_percent(at, &width);
     size_t start = (size_t)(at - pattern);
     if (length)
-      found = (place){start, start + length, width < MOST_WIDTH ? width : MOST_WIDTH, true};
+      found = (number_field){start, start + length, width < MOST_WIDTH ? width : MOST_WIDTH, true};
     at += length ? length : 1;
   }
   return found;
 }
 
-bool cs_sequence_has_number(const char *pattern) { return find_place(pattern).is_found; }
+bool cs_sequence_has_number(const char *pattern) { return find_number_field(pattern).is_found; }
 
 bool cs_sequence_matches(const char *pattern, const char *name) {
-  place at = find_place(pattern);
+  number_field at = find_number_field(pattern);
   if (!at.is_found)
     return strcmp(pattern, name) == 0;
   size_t tail = strlen(pattern + at.end), length = strlen(name);
@@ -199,7 +199,7 @@ bool cs_sequence_matches(const char *pattern, const char *name) {
 
 celspan_status cs_sequence_name(celspan_context *context, const char *pattern, int64_t frame,
                                 char *name, size_t size) {
-  place at = find_place(pattern);
+  number_field at = find_number_field(pattern);
   int length = at.is_found ? snprintf(name, size, "%.*s%0*lld%s", (int)at.start, pattern, at.width,
                                       (long long)frame, pattern + at.end)
                            : snprintf(name, size, "%s", pattern);

@@ -6,7 +6,7 @@
  *   pattern  shot.####.png or shot.%04d.png: the last run of # in the name, or one %d; padded with
  *            zeros, growing past its width when the number needs it
  *
- * INVARIANT: no frame stands twice in a sequence; the order is the list's own.
+ * INVARIANT: no frame occurs twice in a sequence, and its order is that of the list.
  */
 #ifndef CS_FILM_SEQUENCE_H
 #define CS_FILM_SEQUENCE_H
@@ -21,20 +21,20 @@ typedef struct cs_sequence {
 /* out: new, for cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sequence_parse(celspan_context *context, const char *list,
                                                  cs_sequence *out);
-/* first, first + 1, ... */
+/* The frames first, first + 1, ... of a whole film. Otherwise as above. */
 CELSPAN_CHECKED celspan_status cs_sequence_count(celspan_context *context, int64_t first,
                                                  int64_t count, cs_sequence *out);
 void cs_sequence_finish(cs_sequence *sequence);
-/* BAD_ARGUMENT, naming the frame, when one lies outside first .. first + count - 1. */
+/* BAD_ARGUMENT, naming the frame, when one is outside first .. first + count - 1. */
 CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
                                                   const cs_sequence *sequence, int64_t first,
                                                   int64_t count);
 
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);
-/* Whether the name, without a folder, may be that of a frame of the pattern. */
+/* Whether a name could be that of a frame of the pattern; both without their folder. */
 bool cs_sequence_matches(const char *pattern, const char *name);
-/* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into size. */
+/* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into `size` bytes. */
 CELSPAN_CHECKED celspan_status cs_sequence_name(celspan_context *context, const char *pattern,
                                                 int64_t frame, char *name, size_t size);
 

@@ -111,8 +111,8 @@ static celspan_status make_frame(const job *j, celspan_context *context,
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);
 }
 
-/* Copies the frame from the one that it equals, unless that is gone or was changed. Calling thread.
- */
+/* Copies the frame from the one that it equals, unless the file of that is gone or was changed.
+ * Calling thread. */
 static celspan_status copy_duplicate(const job *j, celspan_context *context, frame_task *task) {
   const cs_duplicate *duplicate = &j->duplicates.known[task->duplicate];
   char from[CS_SHOOT_PATH];

@@ -1,10 +1,10 @@
 /* Shooting a film: its frames are built in order by one thread, made by several workers, and put
  * into files or digests. celspan.render and the command line share it.
  *
- *   build (the caller's) --> keep? --> make, or copy from an equal frame --> finished (the
- * caller's)
- *   \___ calling thread, in order __/  \______ any worker _______________/  \__ in order
- * ___________/
+ *   build --> keep?  -->  make, or copy from an equal frame  -->  finished
+ *   \_____________/      \_________________________________/       \______/
+ *   calling thread,               any worker                   calling thread,
+ *   in order                                                   in order
  *
  * A frame that shows the same as an earlier frame of the run is copied from it. Frames that contain
  * scan-line procedures are never copied: a procedure can be compared with nothing, and it has to be

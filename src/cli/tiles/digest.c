@@ -1,4 +1,3 @@
-/* The name of what tiles are made of. */
 #include "cli/tiles/digest.h"
 
 #include <stdio.h>
@@ -8,10 +7,10 @@
 #include "pictures/store.h"
 #include "scene/scene.h"
 
-typedef struct survey {
+typedef struct scene_facts {
   cs_hash pictures;
   bool has_procedure;
-} survey;
+} scene_facts;
 
 static void add_file_state(cs_hash *hash, const char *path) {
   struct stat found;
@@ -24,15 +23,15 @@ static void add_file_state(cs_hash *hash, const char *path) {
 }
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-static void survey_objects(survey *seen, celspan_object *const *objects, size_t count) {
+static void add_objects(scene_facts *facts, celspan_object *const *objects, size_t count) {
   for (size_t i = 0; i < count; i++) {
     const cs_primitive_data *body = objects[i]->body;
     if (body->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      survey_objects(seen, body->operands, body->operand_count);
+      add_objects(facts, body->operands, body->operand_count);
     else if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
-      seen->has_procedure = true;
+      facts->has_procedure = true;
     else if (body->texture->kind == CS_TEXTURE_PICTURE)
-      add_file_state(&seen->pictures, body->texture->picture->file);
+      add_file_state(&facts->pictures, body->texture->picture->file);
   }
 }
 
@@ -48,19 +47,19 @@ static void add_file(cs_hash *hash, const char *path) {
 }
 
 static void add_scene(cs_hash *hash, const cs_request *request, const celspan_frame_desc *frame) {
-  survey seen = {.pictures = cs_hash_begin(frame->exposure_count)};
+  scene_facts facts = {.pictures = cs_hash_begin(frame->exposure_count)};
   bool has_procedure = false;
   for (size_t i = 0; i < frame->exposure_count; i++) {
     const celspan_rostrum *rostrum = frame->exposures[i].rostrum;
-    seen.has_procedure = false;
+    facts.has_procedure = false;
     for (size_t c = 0; c < rostrum->cel_count; c++)
-      survey_objects(&seen, rostrum->cels[c]->objects, rostrum->cels[c]->object_count);
-    if (!seen.has_procedure)
+      add_objects(&facts, rostrum->cels[c]->objects, rostrum->cels[c]->object_count);
+    if (!facts.has_procedure)
       cs_hash_hash(hash, rostrum->hash);
-    has_procedure |= seen.has_procedure;
+    has_procedure |= facts.has_procedure;
     cs_hash_number(hash, frame->exposures[i].weight);
   }
-  cs_hash_hash(hash, cs_hash_end(seen.pictures));
+  cs_hash_hash(hash, cs_hash_end(facts.pictures));
   if (!has_procedure)
     return;
   add_file(hash, request->operands[0]);

@@ -1,4 +1,3 @@
-/* The record of finished rows of tiles. */
 #include "cli/tiles/log.h"
 
 #include <errno.h>
@@ -17,7 +16,7 @@
 enum {
   LINE_SIZE = 128,
   OPEN_FOLDERS = 16,
-  PAUSE = 2 /* seconds between two waits for the disk */
+  PAUSE = 2 /* least seconds from one wait for the disk to the next */
 };
 
 static celspan_status fail(celspan_context *context, const char *path, const char *what) {
@@ -99,7 +98,7 @@ static int remove_one(const char *path, const struct stat *found, int kind, stru
   return remove(path);
 }
 
-/* The record goes last, so that a run that was stopped on the way can be told to start over too. */
+/* The record is removed last, so that --fresh works after a run that was stopped in here, too. */
 celspan_status cs_tile_log_clear(celspan_context *context, const cs_pyramid *pyramid,
                                  cs_tile_log *log) {
   char folder[4096];

@@ -4,7 +4,7 @@
  *   row LEVEL ROW FIRST END      columns of tiles, half-open
  *
  * INVARIANT  A line is added when all its tiles are on the disk. A line that was cut off by a crash
- * is no line, so its tiles are made again.
+ * is ignored, so its tiles are made again.
  */
 #ifndef CS_CLI_TILES_LOG_H
 #define CS_CLI_TILES_LOG_H
@@ -36,11 +36,11 @@ CELSPAN_CHECKED celspan_status cs_tile_log_read(celspan_context *context, const 
 /* Removes record and tiles. */
 CELSPAN_CHECKED celspan_status cs_tile_log_clear(celspan_context *context,
                                                  const cs_pyramid *pyramid, cs_tile_log *log);
-/* Opens it for more lines, for one process at a time; a new one gets its first. Its folder is made.
- */
+/* Opens the record for more lines, for one process at a time. Its folder is made; a new record gets
+ * its first line. */
 CELSPAN_CHECKED celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log);
 bool cs_tile_log_has(const cs_tile_log *log, cs_tile_row row);
-/* A row is finished; it gets its line with the next ones that are waited for. */
+/* Adds a finished row. Its line is written by a later flush, at most a few seconds from now. */
 CELSPAN_CHECKED celspan_status cs_tile_log_add(celspan_context *context, cs_tile_log *log,
                                                cs_tile_row row);
 /* Waits until all tiles are on the disk, then adds the lines of all finished rows. */

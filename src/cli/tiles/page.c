@@ -1,4 +1,3 @@
-/* Descriptions and the page. */
 #include "cli/tiles/page.h"
 
 #include <errno.h>
@@ -15,7 +14,7 @@ enum { PATH_SIZE = 4096 };
 
 /* ---------------------------------------------------------------- text to files */
 
-/* A text that is written in parts; the first failure sticks. */
+/* A text that is written in parts; after the first failure nothing more is written. */
 typedef struct text_file {
   celspan_context *context;
   cs_file *file;
@@ -117,7 +116,7 @@ static celspan_status write_description(celspan_context *context, const cs_pyram
 
 /* ---------------------------------------------------------------- the page */
 
-/* Which tiles there are: by level, rectangles [row, end of rows, column, end of columns]. */
+/* Which tiles exist, as rectangles [level, row, end of rows, column, end of columns]. */
 static void put_coverage(text_file *out, const cs_tile_log *log) {
   for (size_t i = 0; i < log->count;) {
     cs_tile_row first = log->rows[i];
@@ -132,7 +131,7 @@ static void put_coverage(text_file *out, const cs_tile_log *log) {
   }
 }
 
-/* Places in pixels of the frame. */
+/* The places, in pixels of the frame. */
 static void put_places(text_file *out, const cs_tile_page *page) {
   double across = page->pyramid->width / page->frame->film_width;
   double down = page->pyramid->height / page->frame->film_height;

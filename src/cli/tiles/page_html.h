@@ -1,4 +1,4 @@
-/* src/cli/tiles.html, ended by a zero: the page with a mark where its data goes. */
+/* page.html, ended by a zero: the page, with a mark where its data goes. */
 #ifndef CS_CLI_TILES_PAGE_HTML_H
 #define CS_CLI_TILES_PAGE_HTML_H
 

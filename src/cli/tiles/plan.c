@@ -1,4 +1,3 @@
-/* Which tiles are made. */
 #include "cli/tiles/plan.h"
 
 #include <errno.h>
@@ -9,7 +8,7 @@
 
 #include "base/context.h"
 
-/* Pixels of a level that are made around a place: what a large screen shows. */
+/* Pixels of a level that are made around a place: as many as a large screen shows. */
 enum { PLACE_WIDTH = 2560, PLACE_HEIGHT = 1440, LIMIT_DEFAULT = 200000, LINE_SIZE = 512 };
 
 /* ---------------------------------------------------------------- places */
@@ -78,7 +77,7 @@ static celspan_status add_job(celspan_context *context, cs_tile_plan *plan, cs_t
   return CELSPAN_OK;
 }
 
-static int32_t held(double pixel, int32_t least, int32_t most) {
+static int32_t clamped(double pixel, int32_t least, int32_t most) {
   return pixel < least ? least : pixel > most ? most : (int32_t)pixel;
 }
 
@@ -89,9 +88,9 @@ static cs_pyramid_box around(const cs_tile_place *place, const cs_pyramid *pyram
   double x = place->x / frame->film_width * pyramid->width;
   double y = place->y / frame->film_height * pyramid->height;
   double across = scale * PLACE_WIDTH / 2, down = scale * PLACE_HEIGHT / 2;
-  return (cs_pyramid_box){held(x - across, 0, pyramid->width - 1),
-                          held(y - down, 0, pyramid->height - 1),
-                          held(x + across, 1, pyramid->width), held(y + down, 1, pyramid->height)};
+  return (cs_pyramid_box){
+      clamped(x - across, 0, pyramid->width - 1), clamped(y - down, 0, pyramid->height - 1),
+      clamped(x + across, 1, pyramid->width), clamped(y + down, 1, pyramid->height)};
 }
 
 static celspan_status add_level(celspan_context *context, cs_tile_plan *plan,
@@ -123,7 +122,8 @@ static int64_t count_tiles(const cs_tile_plan *plan) {
   return count;
 }
 
-/* The deepest level that the limit allows, from the first; -1: not even that. */
+/* The deepest level down to which the limit allows all levels from the first; -1: not even the
+ * first. */
 static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_pyramid_box *part,
                             int64_t limit) {
   int32_t last = cs_pyramid_top(pyramid);

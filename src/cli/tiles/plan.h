@@ -24,8 +24,8 @@ typedef struct cs_tile_plan {
   size_t place_count, place_capacity;
 } cs_tile_plan;
 
-/* film: its size in units. out: zeroed; new, also when it fails. OK, or reported: USAGE, INPUT,
- * LIMIT. */
+/* frame: its film size and crop. out: all zero; has to be freed, also after a failure. OK, or
+ * reported: USAGE, INPUT, LIMIT. */
 cs_exit cs_tile_plan_make(celspan_context *context, const cs_request *request,
                           const cs_pyramid *pyramid, const celspan_frame_desc *frame,
                           cs_tile_plan *out);

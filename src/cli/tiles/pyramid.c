@@ -1,4 +1,3 @@
-/* Levels, tiles and their names. */
 #include "cli/tiles/pyramid.h"
 
 #include <inttypes.h>
@@ -83,7 +82,8 @@ int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
 
 static bool fits(int length, size_t size) { return length > 0 && (size_t)length < size; }
 
-/* The tile's part of the frame in full pixels, and its own size. */
+/* IIIF names a tile by the part of the frame that it shows, in pixels of the frame, and by its
+ * size. */
 static bool iiif_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
                       bool is_alias, char *path, size_t size) {
   cs_pyramid_box tile = {column, row, column + 1, row + 1};

@@ -1,4 +1,13 @@
-/* The shape of a pyramid of tiles: its levels, its tiles, and what they are called.
+/* The shape of a pyramid of tiles: its levels, its tiles, and their names.
+ *
+ *   level L      +---+---+---+-+    the frame, cut into tiles; those at the right and at the
+ *                |   |   |   | |    bottom can be smaller
+ *                +---+---+---+-+
+ *                +---+---+---+-+
+ *   level L - 1  +---+---+          half of its width and height
+ *                +---+---+
+ *   ...
+ *   level 0      .                  one pixel
  *
  *   Deep Zoom   NAME.dzi        NAME_files/LEVEL/COLUMN_ROW.png
  *   IIIF        NAME/info.json  NAME/X,Y,W,H/W,H/0/default.png   (Image API 3.0, level 0)
@@ -13,9 +22,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "celspan/celspan.h"
-
-typedef enum cs_pyramid_layout { CS_PYRAMID_DZI = 0, CS_PYRAMID_IIIF } cs_pyramid_layout;
+#include "cli/argument.h"
 
 typedef struct cs_pyramid {
   cs_pyramid_layout layout;
@@ -51,7 +58,7 @@ int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
  * false: no room, or no such name. */
 bool cs_pyramid_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
                      bool is_alias, char *path, size_t size);
-/* The file that describes the pyramid, and the folder of its tiles: what stands in FOLDER. */
+/* The file that describes the pyramid, and the folder of its tiles; both are in FOLDER. */
 bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size);
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);
 

@@ -54,7 +54,7 @@ static bool link_file(const char *from, char *to) {
   if (!is_linked && errno == ENOENT && make_folders(to))
     is_linked = link(from, temporary) == 0;
   is_linked = is_linked && rename(temporary, to) == 0;
-  unlink(temporary); /* still there when both were one file already */
+  unlink(temporary); /* renaming does nothing when both are one file already */
   return is_linked;
 }
 

@@ -51,7 +51,7 @@ void cs_tile_output_skip(cs_tile_output *output, const float rgba[4]);
 
 void cs_tile_writer_init(cs_tile_writer *writer, cs_tile_output *output, cs_tile_source source);
 void cs_tile_writer_finish(cs_tile_writer *writer);
-/* Before the tiles of a row are written, from left to right; rows: of the source, at most. */
+/* Called before tiles of a row are written from left to right. rows: of pixels, in the tiles. */
 CELSPAN_CHECKED celspan_status cs_tile_writer_begin(cs_tile_writer *writer, int32_t rows);
 CELSPAN_CHECKED celspan_status cs_tile_writer_put(cs_tile_writer *writer, int32_t level,
                                                   int32_t column, int32_t row);
