@@ -3,7 +3,7 @@
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/userdata.h"
 
 /* The objects of the array part: scratch memory, left on the stack. */
@@ -54,7 +54,7 @@ static const cs_noun noun_union = {BOOLEAN(union), .list = CS_LIST_ITEMS};
 static const cs_noun noun_intersection = {BOOLEAN(intersection), .list = CS_LIST_ITEMS};
 static const cs_noun noun_difference = {BOOLEAN(difference), .list = CS_LIST_ITEMS};
 static const cs_noun noun_xor = {BOOLEAN(xor), .list = CS_LIST_ITEMS};
-static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_PARTS};
+static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_TUPLE};
 
 static int clip(lua_State *L) {
   static const char *const names[] = {"the art", "the shape"};

@@ -2,7 +2,7 @@
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/placed.h"
 #include "bind/userdata.h"
 

@@ -50,7 +50,7 @@ static void write_opener(FILE *out, const char *name) {
 static const char head[] =
     "/* Made by embed.c from lua/celspan; do not edit. */\n"
     "#include <lauxlib.h>\n\n"
-    "#include \"bind/module.h\"\n#include \"celspan/lua.h\"\n\n"
+    "#include \"bind/openers.h\"\n#include \"celspan/lua.h\"\n\n"
     "static int run(lua_State *L, const char *name, const unsigned char *source, size_t size) {\n"
     "  luaL_requiref(L, \"celspan\", luaopen_celspan, 0);\n"
     "  lua_pop(L, 1);\n"

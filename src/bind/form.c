@@ -363,24 +363,24 @@ double *cs_form_array(const cs_form *form, const char *name, size_t *count) {
   return numbers;
 }
 
-double cs_form_part_number(const cs_form *form, int index, int part, const char *what, int item) {
-  if (lua_rawgeti(form->L, index, part) != LUA_TNUMBER)
-    cs_form_fail(form, "%s %d: its value %d must be a number, got %s", what, item, part,
+double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item) {
+  if (lua_rawgeti(form->L, index, i) != LUA_TNUMBER)
+    cs_form_fail(form, "%s %d: its value %d must be a number, got %s", what, item, i,
                  cs_userdata_type(form->L, -1));
   double number = lua_tonumber(form->L, -1);
   lua_pop(form->L, 1);
   return number;
 }
 
-celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const char *what,
-                                 int item) {
+celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const char *what,
+                                  int item) {
   lua_State *L = form->L;
   index = lua_absindex(L, index);
   const char *subject = NULL;
   celspan_paint paint;
-  lua_rawgeti(L, index, part);
+  lua_rawgeti(L, index, i);
   if (!read_paint(L, -1, &paint)) {
-    subject = lua_pushfstring(L, "%s %d: its value %d", what, item, part);
+    subject = lua_pushfstring(L, "%s %d: its value %d", what, item, i);
     lua_insert(L, -2);
     fail_colour(form, subject, "a paint or a colour like \"#rrggbb\"");
   }

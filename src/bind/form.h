@@ -57,11 +57,11 @@ celspan_point *cs_form_points(const cs_form *form, int index, int count, const d
 /* The numbers of an array field as scratch memory on the stack; NULL when missing. */
 double *cs_form_array(const cs_form *form, const char *name, size_t *count);
 
-/* Paints and numbers in small tables: part `part` of the table at index. `item` is its number, for
- * the message "stop 2". */
-double cs_form_part_number(const cs_form *form, int index, int part, const char *what, int item);
-celspan_paint cs_form_part_paint(const cs_form *form, int index, int part, const char *what,
-                                 int item);
+/* Numbers and paints in tuples such as {at, paint}: value number `i` of the table at index. what,
+ * item: what the tuple is, for the message "stop 2". */
+double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item);
+celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const char *what,
+                                  int item);
 
 /* A plain argument of a function or method that must be a number within 1e12. Raises "function:
  * name must be a number, got ...". */

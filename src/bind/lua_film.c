@@ -7,7 +7,7 @@
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/lua_frame.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/options.h"
 #include "bind/userdata.h"
 

@@ -1,5 +1,5 @@
 /* luaopen_celspan: the module table, filled by the file of each noun. */
-#include "bind/module.h"
+#include "bind/openers.h"
 
 #include <lauxlib.h>
 

@@ -31,7 +31,7 @@ typedef struct cs_field {
 /* What the array part of the table holds. */
 typedef enum cs_list {
   CS_LIST_NONE,
-  CS_LIST_PARTS, /* a fixed number of parts: :with changes them one by one */
+  CS_LIST_TUPLE, /* a fixed number of values: :with changes them one by one */
   CS_LIST_ITEMS  /* any number of items: :with{a, b} replaces them all */
 } cs_list;
 

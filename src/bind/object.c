@@ -1,6 +1,6 @@
 /* What objects and cels can do: transforms, fades, bounds. */
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/placed.h"
 #include "bind/userdata.h"
 

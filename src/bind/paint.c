@@ -2,7 +2,7 @@
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/userdata.h"
 
 static void unref_paint(void *handle) { celspan_texture_unref(handle); }

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/options.h"
 
 #define IMAGE "celspan.pixels"

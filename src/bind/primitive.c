@@ -1,7 +1,7 @@
 /* Primitives: rect, triangle, circle, ellipse, polygon, nurbs, path, image. */
 #include "bind/construct.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/texture.h"
 #include "bind/userdata.h"
 
@@ -158,8 +158,8 @@ static const cs_field image_fields[] = {
 #define OBJECT(noun)                                                                               \
   .name = #noun, .kind = &cs_kind_object, .fields = noun##_fields, .create = create_##noun
 static const cs_noun nouns[] = {
-    {OBJECT(rect), .list = CS_LIST_PARTS, .item = "number"},
-    {OBJECT(triangle), .list = CS_LIST_PARTS, .item = "point"},
+    {OBJECT(rect), .list = CS_LIST_TUPLE, .item = "number"},
+    {OBJECT(triangle), .list = CS_LIST_TUPLE, .item = "point"},
     {OBJECT(circle)},
     {OBJECT(ellipse)},
     {OBJECT(polygon), .list = CS_LIST_ITEMS, .item = "point"},

@@ -1,7 +1,7 @@
 /* celspan.render: a film or a rostrum into files. */
 #include "bind/host.h"
 #include "bind/lua_film.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/options.h"
 #include "bind/userdata.h"
 #include "film/shoot.h"

@@ -1,7 +1,7 @@
 /* The rostrum: cels, lights, camera. */
 #include "bind/construct.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/options.h"
 #include "bind/placed.h"
 #include "bind/userdata.h"

@@ -9,7 +9,7 @@
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/userdata.h"
 
 typedef struct procedure {
@@ -41,7 +41,7 @@ static void push_row(lua_State *L, const celspan_scanline_row *row) {
   lua_setfield(L, -2, "pixel");
 }
 
-/* The paints of the span on top of the stack: parts 3 and 4, or `array`. Scratch memory. */
+/* The paints of the span on top of the stack: values 3 and 4, or `array`. Scratch memory. */
 static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
   lua_State *L = form->L;
   int span = lua_gettop(L), from = span, first = 3;
@@ -54,7 +54,7 @@ static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
     *count = lua_rawlen(L, span) >= 4 ? 2 : 1;
   celspan_paint *paints = cs_form_scratch(L, *count, sizeof *paints);
   for (size_t p = 0; p < *count; p++)
-    paints[p] = cs_form_part_paint(form, from, first + (int)p, "span", i);
+    paints[p] = cs_form_tuple_paint(form, from, first + (int)p, "span", i);
   return paints;
 }
 
@@ -76,8 +76,8 @@ static int call(lua_State *L) {
   int count = cs_form_length(&form);
   for (int i = 1; i <= count && r->status == CELSPAN_OK; i++) {
     cs_form_item(&form, i, LUA_TTABLE, "span", "{x0, x1, paint}");
-    double x0 = cs_form_part_number(&form, -1, 1, "span", i);
-    double x1 = cs_form_part_number(&form, -1, 2, "span", i);
+    double x0 = cs_form_tuple_number(&form, -1, 1, "span", i);
+    double x1 = cs_form_tuple_number(&form, -1, 2, "span", i);
     size_t paint_count;
     const celspan_paint *paints = read_paints(&form, i, &paint_count);
     r->status = celspan_scanline_emit(r->output, x0, x1, paints, paint_count);

@@ -1,6 +1,6 @@
 /* celspan.spans: rows of spans as tables; celspan.probe: one point by direct evaluation. */
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/options.h"
 
 #define ROWS "celspan.rows"

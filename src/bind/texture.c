@@ -3,7 +3,7 @@
 
 #include "bind/construct.h"
 #include "bind/host.h"
-#include "bind/module.h"
+#include "bind/openers.h"
 #include "bind/userdata.h"
 
 static void unref_texture(void *handle) { celspan_texture_unref(handle); }
@@ -18,9 +18,9 @@ static void create_gradient(const cs_form *form, cs_userdata *value) {
   celspan_paint paints[3];
   for (int i = 0; i < 3; i++) {
     cs_form_item(form, i + 1, LUA_TTABLE, "corner", "{x, y, paint}");
-    points[i].x = cs_form_part_number(form, -1, 1, "corner", i + 1);
-    points[i].y = cs_form_part_number(form, -1, 2, "corner", i + 1);
-    paints[i] = cs_form_part_paint(form, -1, 3, "corner", i + 1);
+    points[i].x = cs_form_tuple_number(form, -1, 1, "corner", i + 1);
+    points[i].y = cs_form_tuple_number(form, -1, 2, "corner", i + 1);
+    paints[i] = cs_form_tuple_paint(form, -1, 3, "corner", i + 1);
   }
   celspan_texture *texture = NULL;
   cs_form_try(form,
@@ -33,8 +33,8 @@ static celspan_stop *read_stops(const cs_form *form, int count) {
   celspan_stop *stops = cs_form_scratch(form->L, (size_t)count, sizeof *stops);
   for (int i = 0; i < count; i++) {
     cs_form_item(form, i + 1, LUA_TTABLE, "stop", "{at, paint}");
-    stops[i].at = cs_form_part_number(form, -1, 1, "stop", i + 1);
-    stops[i].paint = cs_form_part_paint(form, -1, 2, "stop", i + 1);
+    stops[i].at = cs_form_tuple_number(form, -1, 1, "stop", i + 1);
+    stops[i].paint = cs_form_tuple_paint(form, -1, 2, "stop", i + 1);
     lua_pop(form->L, 1);
   }
   return stops;
@@ -93,7 +93,7 @@ static const cs_field picture_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"box", NUL
 static const cs_noun nouns[] = {
     {.name = "gradient",
      .kind = &cs_kind_texture,
-     .list = CS_LIST_PARTS,
+     .list = CS_LIST_TUPLE,
      .item = "corner",
      .fields = no_fields,
      .create = create_gradient},

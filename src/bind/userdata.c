@@ -139,7 +139,7 @@ static bool push_list(lua_State *L, const cs_noun *noun, int fields) {
   int count = (int)lua_rawlen(L, fields);
   if (noun->list == CS_LIST_ITEMS)
     lua_pushfstring(L, "%d %s%s", count, noun->item, count == 1 ? "" : "s");
-  return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_PARTS && push_numbers(L, fields));
+  return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_TUPLE && push_numbers(L, fields));
 }
 
 /* Appends the text on top of the stack to the one below it. */

@@ -55,31 +55,31 @@ static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, 
 }
 
 /* Codes `count` columns of a span, from column x on. */
-static void code_part(const comparison *c, const celspan_span *span, int32_t x, int32_t count,
-                      void *pixels) {
-  celspan_span part = *span;
-  part.x0 = 0;
-  part.x1 = count;
-  part.origin = span->origin - x;
+static void code_columns(const comparison *c, const celspan_span *span, int32_t x, int32_t count,
+                         void *pixels) {
+  celspan_span columns = *span;
+  columns.x0 = 0;
+  columns.x1 = count;
+  columns.origin = span->origin - x;
   if (span->kind == CELSPAN_SPAN_ARRAY)
-    part.array = span->array + 4 * (size_t)(x - span->x0);
-  cs_pixels_row(&c->coding, &part, 1, pixels);
+    columns.array = span->array + 4 * (size_t)(x - span->x0);
+  cs_pixels_row(&c->coding, &columns, 1, pixels);
 }
 
 /* Compares columns [x0, x1), which are in one span of each picture. Where both spans have a single
  * colour, one pixel is enough. */
-static void compare_part(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
-                         int32_t x0, int32_t x1) {
-  enum { PIECE = 1024 };
-  float pixels_a[4 * PIECE], pixels_b[4 * PIECE];
+static void compare_columns(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
+                            int32_t x0, int32_t x1) {
+  enum { CHUNK = 1024 };
+  float pixels_a[4 * CHUNK], pixels_b[4 * CHUNK];
   bool is_even = a->kind == CELSPAN_SPAN_SINGLE && b->kind == CELSPAN_SPAN_SINGLE;
   if (is_even && memcmp(a->colour, b->colour, sizeof a->colour) == 0)
     return;
   for (int32_t x = x0, next; x < x1; x = next) {
-    next = is_even || x1 - x < PIECE ? x1 : x + PIECE;
+    next = is_even || x1 - x < CHUNK ? x1 : x + CHUNK;
     int32_t count = is_even ? 1 : next - x;
-    code_part(c, a, x, count, pixels_a);
-    code_part(c, b, x, count, pixels_b);
+    code_columns(c, a, x, count, pixels_a);
+    code_columns(c, b, x, count, pixels_b);
     compare_pixels(c, x, y, count, is_even ? next - x : 1, pixels_a, pixels_b);
   }
 }
@@ -93,7 +93,7 @@ static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_
     status = cs_still_rows_get(rows_b, y, &b, &count_b);
   for (int32_t x = 0, next; x < c->width && status == CELSPAN_OK; x = next) {
     next = a->x1 < b->x1 ? a->x1 : b->x1;
-    compare_part(c, y, a, b, x, next);
+    compare_columns(c, y, a, b, x, next);
     a += a->x1 == next;
     b += b->x1 == next;
   }

@@ -12,7 +12,7 @@
 #include "output/file_copy.h"
 #include "output/temporary.h"
 
-enum { LINE_SIZE = 256, PIECE = 1 << 16 };
+enum { LINE_SIZE = 256, CHUNK = 1 << 16 };
 
 static const char HEAD[] = "celspan frames 1\n";
 
@@ -58,15 +58,15 @@ static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
 /* Hashes a whole file; false when it cannot be read. */
 static bool hash_contents(const char *path, cs_hash *out, uint64_t *bytes) {
-  unsigned char piece[PIECE];
+  unsigned char chunk[CHUNK];
   FILE *file = fopen(path, "rbe");
   if (!file)
     return false;
   cs_hash hash = cs_hash_begin(2);
   size_t size;
   *bytes = 0;
-  while ((size = fread(piece, 1, sizeof piece, file)) > 0) {
-    cs_hash_bytes(&hash, piece, size);
+  while ((size = fread(chunk, 1, sizeof chunk, file)) > 0) {
+    cs_hash_bytes(&hash, chunk, size);
     *bytes += size;
   }
   bool is_whole = !ferror(file);

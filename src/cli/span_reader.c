@@ -168,30 +168,30 @@ static uint32_t values_of(const spanfile_span *span, uint32_t start) {
 }
 
 /* The spans of a row that overlap [x0, x1), from `first` on. */
-typedef struct part_of_row {
+typedef struct row_range {
   uint32_t x0, x1;
   const spanfile_span *first, *end; /* end: of the row */
   uint32_t start;                   /* column of the first */
   const unsigned char *values;      /* of the first */
-} part_of_row;
+} row_range;
 
-static part_of_row find_part(const cs_span_reader *file, const spanfile_row *row, uint32_t x0,
-                             uint32_t x1) {
+static row_range find_range(const cs_span_reader *file, const spanfile_row *row, uint32_t x0,
+                            uint32_t x1) {
   const spanfile_span *span = row->spans, *end = row->spans + row->count;
   uint32_t start = 0;
   size_t pixels = 0;
   for (; span < end && span->end <= x0; start = span++->end)
     pixels += values_of(span, start);
-  return (part_of_row){x0,    x1,
-                       span,  row->spans + row->count,
-                       start, row->values + pixels * spanfile_pixel_size(file->info.format)};
+  return (row_range){x0,    x1,
+                     span,  row->spans + row->count,
+                     start, row->values + pixels * spanfile_pixel_size(file->info.format)};
 }
 
-static celspan_status make_room(cs_span_reader *file, const part_of_row *part) {
+static celspan_status make_room(cs_span_reader *file, const row_range *range) {
   size_t spans = 0, arrays = 0, longest = 0;
-  uint32_t from = part->x0;
-  for (const spanfile_span *span = part->first; span < part->end && from < part->x1; span++) {
-    size_t count = (span->end < part->x1 ? span->end : part->x1) - from;
+  uint32_t from = range->x0;
+  for (const spanfile_span *span = range->first; span < range->end && from < range->x1; span++) {
+    size_t count = (span->end < range->x1 ? span->end : range->x1) - from;
     spans++;
     if (span->kind != SPANFILE_RUN) {
       arrays += count;
@@ -230,15 +230,15 @@ static void set_run(const cs_span_reader *file, const spanfile_span *span, celsp
 
 /* Converts the spans into file->spans and file->colours, which are large enough. The answer: how
  * many. */
-static size_t convert_part(cs_span_reader *file, const part_of_row *part) {
+static size_t convert_range(cs_span_reader *file, const row_range *range) {
   size_t pixel_size = spanfile_pixel_size(file->info.format);
-  const unsigned char *values = part->values;
+  const unsigned char *values = range->values;
   celspan_span *out = file->spans;
   float *colours = file->colours;
-  uint32_t start = part->start, from = part->x0;
-  for (const spanfile_span *span = part->first; span < part->end && from < part->x1; span++) {
-    uint32_t to = span->end < part->x1 ? span->end : part->x1;
-    *out = (celspan_span){.x0 = (int32_t)(from - part->x0), .x1 = (int32_t)(to - part->x0)};
+  uint32_t start = range->start, from = range->x0;
+  for (const spanfile_span *span = range->first; span < range->end && from < range->x1; span++) {
+    uint32_t to = span->end < range->x1 ? span->end : range->x1;
+    *out = (celspan_span){.x0 = (int32_t)(from - range->x0), .x1 = (int32_t)(to - range->x0)};
     if (span->kind == SPANFILE_RUN) {
       set_run(file, span, out);
     } else {
@@ -259,9 +259,9 @@ celspan_status cs_span_reader_row(cs_span_reader *file, int32_t y, int32_t x0, i
   spanfile_row row;
   spanfile_fault fault;
   CS_TRY(report(file, spanfile_reader_row(file->reader, (uint32_t)y, &row, &fault), &fault));
-  part_of_row part = find_part(file, &row, (uint32_t)x0, (uint32_t)x1);
-  CS_TRY(make_room(file, &part));
-  *span_count = convert_part(file, &part);
+  row_range range = find_range(file, &row, (uint32_t)x0, (uint32_t)x1);
+  CS_TRY(make_room(file, &range));
+  *span_count = convert_range(file, &range);
   *spans = file->spans;
   return CELSPAN_OK;
 }

@@ -118,7 +118,7 @@ celspan_status cs_still_rows_get(cs_still_rows *rows, int32_t y, const celspan_s
 /* ---------------------------------------------------------------- sinks and files */
 
 /* Rows from one progress call to the next. */
-enum { STRIP = 64 };
+enum { PROGRESS_ROWS = 64 };
 
 static celspan_status put_rows(celspan_context *context, cs_span_view *view,
                                const celspan_frame_desc *frame, const celspan_sink *sink) {
@@ -131,7 +131,8 @@ static celspan_status put_rows(celspan_context *context, cs_span_view *view,
       status = sink->row(sink->user, context, y, spans, count);
     if (status != CELSPAN_OK)
       return status;
-    if (y % STRIP == 0 && frame->progress && !frame->progress(frame->progress_user, y, height))
+    if (y % PROGRESS_ROWS == 0 && frame->progress &&
+        !frame->progress(frame->progress_user, y, height))
       return CELSPAN_CANCELLED;
   }
   return CELSPAN_OK;

@@ -1,4 +1,4 @@
-/* The face of the picture module (src/picture, C++ over OpenImageIO): a table of C functions.
+/* The face of the picture module (src/oiio, C++ over OpenImageIO): a table of C functions.
  *
  * The module knows files; the core knows light. Readers hand over pixels as they are coded in the
  * file, turned upright and laid into the display window; decoding and premultiplying are the

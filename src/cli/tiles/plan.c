@@ -95,15 +95,15 @@ static cs_pyramid_box around(const cs_tile_place *place, const cs_pyramid *pyram
 
 static celspan_status add_level(celspan_context *context, cs_tile_plan *plan,
                                 const cs_pyramid *pyramid, int32_t level,
-                                const cs_pyramid_box *part) {
-  return add_job(context, plan, (cs_tile_job){level, cs_pyramid_tiles(pyramid, level, part)});
+                                const cs_pyramid_box *region) {
+  return add_job(context, plan, (cs_tile_job){level, cs_pyramid_tiles(pyramid, level, region)});
 }
 
 static celspan_status add_levels(celspan_context *context, cs_tile_plan *plan,
                                  const cs_pyramid *pyramid, const celspan_frame_desc *frame,
-                                 const int32_t levels[2], const cs_pyramid_box *part) {
+                                 const int32_t levels[2], const cs_pyramid_box *region) {
   for (int32_t level = levels[0]; level <= levels[1]; level++)
-    CS_TRY(add_level(context, plan, pyramid, level, part));
+    CS_TRY(add_level(context, plan, pyramid, level, region));
   int32_t top = cs_pyramid_top(pyramid);
   for (int32_t level = levels[1] + 1; level <= top; level++)
     for (size_t i = 0; i < plan->place_count; i++) {
@@ -124,26 +124,26 @@ static int64_t count_tiles(const cs_tile_plan *plan) {
 
 /* The deepest level down to which the limit allows all levels from the first; -1: not even the
  * first. */
-static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_pyramid_box *part,
+static int32_t level_within(const cs_pyramid *pyramid, int32_t first, const cs_pyramid_box *region,
                             int64_t limit) {
   int32_t last = cs_pyramid_top(pyramid);
-  while (last >= first && cs_pyramid_count(pyramid, first, last, part) > limit)
+  while (last >= first && cs_pyramid_count(pyramid, first, last, region) > limit)
     last--;
   return last >= first ? last : -1;
 }
 
 static cs_exit check_limit(const cs_request *request, const cs_tile_plan *plan,
                            const cs_pyramid *pyramid, const int32_t levels[2],
-                           const cs_pyramid_box *part) {
+                           const cs_pyramid_box *region) {
   int64_t limit = request->tile_limit.is_given ? request->tile_limit.value : LIMIT_DEFAULT;
   int64_t count = count_tiles(plan);
   if (count <= limit)
     return CS_EXIT_OK;
-  int32_t last = level_within(pyramid, levels[0], part, limit);
+  int32_t last = level_within(pyramid, levels[0], region, limit);
   char advice[96] = "";
   if (last >= 0)
     snprintf(advice, sizeof advice, "give --levels %d-%d for %" PRId64 " of them, or ", levels[0],
-             last, cs_pyramid_count(pyramid, levels[0], last, part));
+             last, cs_pyramid_count(pyramid, levels[0], last, region));
   cs_report_error("levels %d to %d have %" PRId64 " tiles, and the limit is %" PRId64
                   ": %sraise --tiles-limit",
                   levels[0], plan->jobs[plan->count - 1].level, count, limit, advice);
@@ -170,9 +170,9 @@ cs_exit cs_tile_plan_make(celspan_context *context, const cs_request *request,
                           const cs_pyramid *pyramid, const celspan_frame_desc *frame,
                           cs_tile_plan *out) {
   int32_t levels[2];
-  cs_pyramid_box part = {frame->crop_x, frame->crop_y, frame->crop_x + frame->crop_width,
-                         frame->crop_y + frame->crop_height};
-  const cs_pyramid_box *wanted = frame->crop_width ? &part : NULL;
+  cs_pyramid_box region = {frame->crop_x, frame->crop_y, frame->crop_x + frame->crop_width,
+                           frame->crop_y + frame->crop_height};
+  const cs_pyramid_box *wanted = frame->crop_width ? &region : NULL;
   cs_exit outcome = choose_levels(request, pyramid, levels);
   if (outcome == CS_EXIT_OK && request->places)
     outcome = load_places(context, request->places, frame, out);

@@ -46,15 +46,15 @@ static int32_t tiles_over(int32_t pixels, int32_t tile) {
 static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 
 cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
-                                const cs_pyramid_box *part) {
+                                const cs_pyramid_box *region) {
   int32_t width, height, tile = pyramid->tile, times = cs_pyramid_top(pyramid) - level;
   cs_pyramid_size(pyramid, level, &width, &height);
   cs_pyramid_box all = {0, 0, tiles_over(width, tile), tiles_over(height, tile)};
-  if (!part)
+  if (!region)
     return all;
-  return (cs_pyramid_box){(part->x0 >> times) / tile, (part->y0 >> times) / tile,
-                          least(all.x1, tiles_over(halved(part->x1, times), tile)),
-                          least(all.y1, tiles_over(halved(part->y1, times), tile))};
+  return (cs_pyramid_box){(region->x0 >> times) / tile, (region->y0 >> times) / tile,
+                          least(all.x1, tiles_over(halved(region->x1, times), tile)),
+                          least(all.y1, tiles_over(halved(region->y1, times), tile))};
 }
 
 cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
@@ -69,10 +69,10 @@ cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
 }
 
 int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_pyramid_box *part) {
+                         const cs_pyramid_box *region) {
   int64_t count = 0;
   for (int32_t level = first; level <= last; level++) {
-    cs_pyramid_box tiles = cs_pyramid_tiles(pyramid, level, part);
+    cs_pyramid_box tiles = cs_pyramid_tiles(pyramid, level, region);
     count += (int64_t)(tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
   }
   return count;

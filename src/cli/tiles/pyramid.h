@@ -44,15 +44,15 @@ int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side);
 /* The highest level that is a single tile. */
 int32_t cs_pyramid_single(const cs_pyramid *pyramid);
 void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, int32_t *height);
-/* The tiles of a level, or those that a part of the frame touches; part: NULL for all. */
+/* The tiles of a level, or those that a region of the frame touches; region: NULL for all. */
 cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
-                                const cs_pyramid_box *part);
+                                const cs_pyramid_box *region);
 /* The pixels of a rectangle of tiles, with their overlap. */
 cs_pyramid_box cs_pyramid_pixels(const cs_pyramid *pyramid, int32_t level,
                                  const cs_pyramid_box *tiles);
 /* Tiles of the levels from first to last. */
 int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
-                         const cs_pyramid_box *part);
+                         const cs_pyramid_box *region);
 
 /* "FOLDER/..." of a tile. is_alias: the other name of a level's only tile ("full"), which IIIF has.
  * false: no room, or no such name. */

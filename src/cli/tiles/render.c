@@ -28,7 +28,7 @@ static celspan_status finished(void *user, celspan_context *context, cs_tile_row
   return CELSPAN_OK;
 }
 
-/* Between strips of rows the bar shows what is finished; a row of tiles is the smallest part. */
+/* Draws the bar between strips of rows. Its progress counts finished rows of tiles only. */
 static bool go_on(void *user, int32_t rows_done, int32_t rows_total) {
   cs_tile_render *render = user;
   (void)rows_done, (void)rows_total;
@@ -86,7 +86,7 @@ static celspan_status render_run(cs_tile_render *render, int32_t level, cs_pyram
   return cs_tile_subject_render(render->subject, &frame, &sink);
 }
 
-static celspan_status render_part(cs_tile_render *render, const cs_tile_job *job) {
+static celspan_status render_job(cs_tile_render *render, const cs_tile_job *job) {
   celspan_status status = CELSPAN_OK;
   for (int32_t row = job->tiles.y0; row < job->tiles.y1 && status == CELSPAN_OK;) {
     int32_t end = end_of_run(render, job, row);
@@ -141,7 +141,7 @@ celspan_status cs_tile_render_run(cs_tile_render *render) {
   render->progress.noun = "tile row";
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < render->plan->count && status == CELSPAN_OK; i++)
-    status = render_part(render, &render->plan->jobs[i]);
+    status = render_job(render, &render->plan->jobs[i]);
   cs_progress_end(&render->progress, NULL, 0);
   cs_tile_output_finish(&render->output);
   cs_tile_means_free(render->context, &render->means);

@@ -1,7 +1,7 @@
 /* The openers: each adds the names of its file to the module table, which is on top of the stack.
  */
-#ifndef CS_BIND_MODULE_H
-#define CS_BIND_MODULE_H
+#ifndef CS_BIND_OPENERS_H
+#define CS_BIND_OPENERS_H
 
 #include <lua.h>
 
