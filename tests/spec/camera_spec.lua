@@ -2,6 +2,7 @@
 local celspan = require "celspan"
 local multiplane = require "celspan.multiplane"
 local shutter = require "celspan.shutter"
+local raised = require "tests.support.raised"
 
 local function cel(texture)
   return celspan.cel { celspan.rect { 40, 20, 20, 10, texture = texture } }
@@ -49,19 +50,19 @@ describe("multiplane", function()
   end)
 
   it("says what is wrong at the caller's line", function()
-    local _, message = pcall(function() local _ = multiplane { film = film, focl = 3 } end)
+    local message = raised.message(function() multiplane { film = film, focl = 3 } end)
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: unknown field 'focl'"), message)
-    _, message = pcall(function() local _ = multiplane { film = film, { 3 } } end)
+    message = raised.message(function() multiplane { film = film, { 3 } } end)
     assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 must be"), message)
-    _, message = pcall(function()
-      local _ = multiplane { film = film, { celspan.cel {}, Z = 3 } }
+    message = raised.message(function()
+      multiplane { film = film, { celspan.cel {}, Z = 3 } }
     end)
     assert.is_truthy(message:find(
       "camera_spec.lua:%d+: multiplane: plane 1: unknown field 'Z'; did you mean 'z'"), message)
-    _, message = pcall(function() local _ = multiplane { film = film, focal = 0 / 0 } end)
+    message = raised.message(function() multiplane { film = film, focal = 0 / 0 } end)
     assert.is_truthy(message:find(
       "camera_spec.lua:%d+: multiplane: field 'focal' must be a finite number"), message)
-    assert.is_false(pcall(function() multiplane { { cel() } } end))
+    raised.message(function() multiplane { { cel() } } end)
   end)
 end)
 
@@ -102,8 +103,8 @@ describe("shutter", function()
   end)
 
   it("refuses angles and samples that make no sense", function()
-    assert.is_false(pcall(shutter, { angle = 400, frame = print }))
-    assert.is_false(pcall(shutter, { samples = 0, frame = print }))
-    assert.is_false(pcall(shutter, {}))
+    raised.message(shutter, { angle = 400, frame = print })
+    raised.message(shutter, { samples = 0, frame = print })
+    raised.message(shutter, {})
   end)
 end)

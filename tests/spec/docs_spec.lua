@@ -9,6 +9,7 @@
 local celspan = require "celspan"
 local markdown = require "tests.support.markdown"
 local pictures = require "docs.pictures.list"
+local raised = require "tests.support.raised"
 
 local BINARY = os.getenv "CELSPAN" or "build/celspan"
 
@@ -179,7 +180,7 @@ end
 
 --- The fields that a constructor says it has, when it is given one that cannot be.
 local function fields_of(make)
-  local _, message = pcall(make, { ["@@@@@@@@@@"] = true })
+  local message = raised.message(make, { ["@@@@@@@@@@"] = true })
   local names = {}
   for name in (tostring(message):match "the fields are (.*)" or ""):gmatch "[%w_]+" do
     names[#names + 1] = name

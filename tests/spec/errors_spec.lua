@@ -1,22 +1,9 @@
 -- What a script's author reads when something is wrong: the line, the field, what was given.
 local celspan = require "celspan"
+local raised = require "tests.support.raised"
 
---- The message of a call that must raise.
-local function message_of(call)
-  local good, message = pcall(call)
-  assert.is_false(good)
-  return message
-end
-
---- "errors_spec.lua:12: rest" -> rest, and the line.
-local function split(message)
-  local line, rest = message:match "errors_spec%.lua:(%d+): (.*)$"
-  assert.is_truthy(line, message)
-  return rest, tonumber(line)
-end
-
-local function rest_of(call)
-  return (split(message_of(call)))
+local function sentence(call)
+  return (raised.sentence(call))
 end
 
 describe("the interpreter", function()
@@ -27,61 +14,61 @@ end)
 
 describe("a mistyped name", function()
   it("is told with the nearest known one", function()
-    assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", rest_of(function()
+    assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", sentence(function()
       celspan.circle { centre = { 0, 0 }, raduis = 3 }
     end))
   end)
 
   it("comes before wrong types", function()
-    assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", rest_of(function()
+    assert.are.equal("circle: unknown field 'raduis'; did you mean 'radius'?", sentence(function()
       celspan.circle { centre = "here", raduis = "big" }
     end))
   end)
 
   it("is told with all names when none is near", function()
     assert.are.equal("rect: unknown field 'sparkle'; the fields are radius, texture",
-      rest_of(function() celspan.rect { 0, 0, 1, 1, sparkle = true } end))
+      sentence(function() celspan.rect { 0, 0, 1, 1, sparkle = true } end))
   end)
 
   it("is told where there are no names at all", function()
     assert.are.equal("union: unknown field 'sparkle'; there are no named fields",
-      rest_of(function() celspan.union { sparkle = true } end))
+      sentence(function() celspan.union { sparkle = true } end))
   end)
 
   it("is found in tables inside", function()
     assert.are.equal("rostrum: camera: unknown field 'widht'; did you mean 'width'?",
-      rest_of(function() celspan.rostrum { camera = { widht = 3 } } end))
+      sentence(function() celspan.rostrum { camera = { widht = 3 } } end))
     assert.are.equal("cel: defocus: unknown field 'radus'; did you mean 'radius'?",
-      rest_of(function() celspan.cel { defocus = { radus = 3 } } end))
+      sentence(function() celspan.cel { defocus = { radus = 3 } } end))
   end)
 
   it("is found in the changes of with", function()
     local circle = celspan.circle { centre = { 0, 0 }, radius = 3 }
     assert.are.equal("circle: unknown field 'radios'; did you mean 'radius'?",
-      rest_of(function() circle:with { radios = 4 } end))
+      sentence(function() circle:with { radios = 4 } end))
   end)
 
   it("is found in options", function()
     assert.are.equal("pixels: unknown field 'sise'; did you mean 'size'?",
-      rest_of(function() celspan.pixels(celspan.rostrum {}, { sise = { 1, 1 } }) end))
+      sentence(function() celspan.pixels(celspan.rostrum {}, { sise = { 1, 1 } }) end))
   end)
 end)
 
 describe("an error", function()
   it("stands at the line of the call", function()
     local expected = debug.getinfo(1, "l").currentline + 2
-    local _, line = split(message_of(function()
+    local _, line = raised.sentence(function()
       celspan.circle { radius = "3", centre = { 0, 0 } }
-    end))
+    end)
     assert.are.equal(expected, line)
   end)
 
   it("stands at the line of a method and of an operator", function()
     local circle = celspan.circle { radius = 3, centre = { 0, 0 } }
     local here = debug.getinfo(1, "l").currentline
-    local _, of_method = split(message_of(function() circle:translate("left", 1) end))
-    local _, of_operator = split(message_of(function() return circle | 1 end))
-    local _, of_with = split(message_of(function() circle:with { radius = "x" } end))
+    local _, of_method = raised.sentence(function() circle:translate("left", 1) end)
+    local _, of_operator = raised.sentence(function() return circle | 1 end)
+    local _, of_with = raised.sentence(function() circle:with { radius = "x" } end)
     assert.are.same({ here + 1, here + 2, here + 3 }, { of_method, of_operator, of_with })
   end)
 end)
@@ -135,7 +122,7 @@ describe("a wrong type", function()
   }
   for _, case in ipairs(cases) do
     it("is told: " .. case[1], function()
-      assert.are.equal(case[1], rest_of(case[2]))
+      assert.are.equal(case[1], sentence(case[2]))
     end)
   end
 end)
@@ -153,7 +140,7 @@ describe("a scan-line primitive that would not stand upright", function()
   }
   for i, case in ipairs(cases) do
     it("is refused at the call: " .. case[1] .. " " .. i, function()
-      assert.are.equal(case[1] .. ": " .. refusal, rest_of(case[2]))
+      assert.are.equal(case[1] .. ": " .. refusal, sentence(case[2]))
     end)
   end
 
@@ -185,7 +172,7 @@ describe("a number that is refused", function()
   }
   for _, case in ipairs(cases) do
     it("is told by the name of the script's word: " .. case[1], function()
-      local rest = rest_of(case[2])
+      local rest = sentence(case[2])
       assert.are.equal(case[1], rest:sub(1, #case[1]))
     end)
   end

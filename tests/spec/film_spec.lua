@@ -1,5 +1,6 @@
 -- Films and the f of their frame functions.
 local celspan = require "celspan"
+local raised = require "tests.support.raised"
 
 local empty = celspan.rostrum {}
 
@@ -30,15 +31,15 @@ describe("a film", function()
   end)
 
   it("refuses frames that are not whole, and sizes of nothing", function()
-    local function make(fields)
+    local function refuses(fields)
       fields.frame = print
-      return pcall(celspan.film, fields)
+      raised.message(celspan.film, fields)
     end
-    assert.is_false(make { frames = 2.5 })
-    assert.is_false(make { frames = 0 })
-    assert.is_false(make { size = { 0, 10 } })
-    assert.is_false(make { fps = 0 })
-    assert.is_false(make { duration = -1 })
+    refuses { frames = 2.5 }
+    refuses { frames = 0 }
+    refuses { size = { 0, 10 } }
+    refuses { fps = 0 }
+    refuses { duration = -1 }
   end)
 
   it("names the line and the frame of an error", function()
@@ -46,7 +47,7 @@ describe("a film", function()
     local film = celspan.film { frames = 9, frame = function()
       return celspan.circle { raduis = 3 }
     end }
-    local _, message = pcall(film.at, film, 7)
+    local message = raised.message(film.at, film, 7)
     assert.is_truthy(message:find(("film_spec.lua:%d: frame 7: circle: unknown field"):format(line),
       1, true), message)
   end)
@@ -54,7 +55,7 @@ describe("a film", function()
   it("says what a frame function must return", function()
     local film = celspan.film { frame = function() return celspan.cel {} end }
     local line = debug.getinfo(1, "l").currentline - 1
-    local _, message = pcall(film.at, film, 1)
+    local message = raised.message(film.at, film, 1)
     assert.is_truthy(message:find(("film_spec.lua:%d: frame 1: the frame function's result "
       .. "must be a rostrum or a list"):format(line), 1, true), message)
   end)
@@ -62,7 +63,7 @@ describe("a film", function()
   it("finds a line for an error that has none", function()
     local film = celspan.film { frame = function() error({}) end }
     local line = debug.getinfo(1, "l").currentline - 1
-    local _, message = pcall(film.at, film, 1)
+    local message = raised.message(film.at, film, 1)
     assert.is_truthy(message:find(("film_spec.lua:%d: frame 1: the error is not a message"):format(
       line), 1, true), message)
   end)
@@ -97,12 +98,12 @@ describe("f", function()
     for number = 1, 7 do held[number] = frame_of(number, { frames = 7 }):on(3) end
     assert.are.same({ 0, 0, 0, 3, 3, 3, 6 }, held)
     assert.are.equal(2, frame_of(4, { frames = 7 }):on(4 / 2))
-    assert.is_false(pcall(frame_of(4, { frames = 7 }).on, frame_of(4, { frames = 7 }), 1.5))
+    raised.message(frame_of(4, { frames = 7 }).on, frame_of(4, { frames = 7 }), 1.5)
   end)
 
   it("cannot be changed", function()
     local f = frame_of(1, {})
-    local _, message = pcall(function() f.number = 3 end)
+    local message = raised.message(function() f.number = 3 end)
     assert.is_truthy(message:find("frames are immutable", 1, true))
   end)
 end)
@@ -140,6 +141,6 @@ describe("f:random", function()
     end
     assert.are.equal(3, f:random("x", 3, 3))
     assert.are.equal("integer", math.type(f:random("x", math.mininteger, math.maxinteger)))
-    assert.is_false(pcall(f.random, f, "x", 2, 1))
+    raised.message(f.random, f, "x", 2, 1)
   end)
 end)

@@ -1,5 +1,6 @@
 -- Filters from Lua: antialiasing kernels.
 local celspan = require "celspan"
+local raised = require "tests.support.raised"
 
 local SIZE = { 24, 16 }
 
@@ -16,10 +17,8 @@ local function pixels(rostrum, options)
   return assert(celspan.pixels(rostrum, options))
 end
 
-local function rest_of(f)
-  local ok, message = pcall(f)
-  assert.is_false(ok)
-  return (message:gsub("^[^:]+:%d+: ", ""))
+local function sentence(call)
+  return (raised.sentence(call))
 end
 
 describe("antialiasing kernels", function()
@@ -97,10 +96,10 @@ describe("antialiasing kernels", function()
       { "rostrum: antialias: rows is 1000; it must be between 1 and 256", { kernel = "box", rows = 1000 } },
     }
     for _, case in ipairs(cases) do
-      assert.are.equal(case[1], rest_of(function() edge(case[2]) end))
+      assert.are.equal(case[1], sentence(function() edge(case[2]) end))
     end
     assert.are.equal("out of ink",
-      rest_of(function() edge { kernel = function() error "out of ink" end, radius = 1 } end))
+      sentence(function() edge { kernel = function() error "out of ink" end, radius = 1 } end))
   end)
 end)
 
@@ -184,7 +183,7 @@ describe("defocus", function()
 
   it("is refused in a sentence", function()
     for _, radius in ipairs { -1, 0 / 0, math.huge } do
-      assert.truthy(rest_of(function() celspan.cel { defocus = radius } end)
+      assert.truthy(sentence(function() celspan.cel { defocus = radius } end)
         :find("cel: defocus.radius is", 1, true))
     end
   end)

@@ -1,5 +1,6 @@
 -- Moving along outlines, and wiggling.
 local motion = require "celspan.motion"
+local raised = require "tests.support.raised"
 
 local function near(expected, ...)
   local found = { ... }
@@ -45,7 +46,7 @@ describe("a way", function()
 
   it("complains at the caller's line", function()
     for _, outline in ipairs { "L0 0", "M0", "M0 0 X", "M0 0 z 3", 7, { 3 }, {} } do
-      local _, message = pcall(function() local _ = motion.along(outline) end)
+      local message = raised.message(function() motion.along(outline) end)
       assert.is_truthy(message:find "motion_spec.lua:%d+: motion: ", message)
     end
   end)

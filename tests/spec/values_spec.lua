@@ -1,5 +1,6 @@
 -- Scene values: immutable, readable, copied with changes, combined by operators.
 local celspan = require "celspan"
+local raised = require "tests.support.raised"
 
 local function disc(x, radius)
   return celspan.circle { centre = { x or 0, 0 }, radius = radius or 10, texture = "#ff8800" }
@@ -7,9 +8,9 @@ end
 
 describe("a value", function()
   it("refuses assignment and says what to do", function()
-    local _, message = pcall(function() disc().radius = 3 end)
+    local message = raised.message(function() disc().radius = 3 end)
     assert.is_truthy(message:find("circles are immutable; use :with{...}", 1, true))
-    _, message = pcall(function() celspan.cel {}.front = "#fff" end)
+    message = raised.message(function() celspan.cel {}.front = "#fff" end)
     assert.is_truthy(message:find("cels are immutable; use :with{...}", 1, true))
   end)
 

@@ -1,0 +1,25 @@
+-- What a call that must fail raises.
+--
+--   local raised = require "tests.support.raised"
+--   raised.message(film.at, film, 7)                          the whole message
+--   raised.sentence(function() celspan.circle { r = 3 } end)  without "x_spec.lua:12: ", and 12
+local raised = {}
+
+--- The message of a call that must raise one.
+function raised.message(call, ...)
+  local good, message = pcall(call, ...)
+  if good then error("the call raised no error", 2) end
+  return message
+end
+
+--- What follows the position in the message, and the line. The position must be in the file that
+--- contains the function.
+function raised.sentence(call)
+  local file = debug.getinfo(call, "S").short_src:match "[^/]*$"
+  local message = raised.message(call)
+  local line, rest = tostring(message):match(file:gsub("%p", "%%%0") .. ":(%d+): (.*)$")
+  if not line then error("the message has no line of " .. file .. ": " .. tostring(message), 2) end
+  return rest, tonumber(line)
+end
+
+return raised
