@@ -19,6 +19,11 @@ static inline double random_between(test_random *random, double low, double high
   return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
 }
 
+/* In [0, 1), a multiple of 2^-24. */
+static inline float random_unit(test_random *random) {
+  return (float)(random_bits(random) >> 40) * 0x1p-24f;
+}
+
 /* 0 .. count - 1 */
 static inline int random_below(test_random *random, int count) {
   return (int)(random_bits(random) % (uint64_t)count);

@@ -6,15 +6,12 @@
 #include <stdint.h>
 
 #include "output/sink.h"
+#include "tests/support/random.h"
 
-static uint64_t random_state = 1;
+static test_random numbers = {1};
 
-static uint32_t random_below(uint32_t limit) {
-  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-  return (uint32_t)((random_state >> 32) * limit >> 32);
-}
-
-static float random_unit(void) { return (float)random_below(1001) / 1000; }
+/* 0, 1 and the thousandths between: equal numbers are to be expected. */
+static float random_thousandths(void) { return (float)random_below(&numbers, 1001) / 1000; }
 
 typedef struct frame {
   int32_t width, height;
@@ -26,20 +23,20 @@ typedef struct frame {
 
 static void random_colour(const frame *made, float colour[4]) {
   static const float palette[6] = {0, 1, 0.5f, 0.25f, 0.1f, 0.9f};
-  bool clear = random_below(8) == 0, flat = random_below(2) == 0;
+  bool clear = random_below(&numbers, 8) == 0, flat = random_below(&numbers, 2) == 0;
   for (int c = 0; c < 4; c++)
-    colour[c] = clear ? 0 : flat ? palette[random_below(6)] : random_unit();
-  if (random_below(2) || made->is_opaque)
+    colour[c] = clear ? 0 : flat ? palette[random_below(&numbers, 6)] : random_thousandths();
+  if (random_below(&numbers, 2) || made->is_opaque)
     colour[3] = 1;
 }
 
 static void fill_array(frame *made, celspan_span *span, int32_t y) {
   float *array = made->arrays + 4 * (size_t)span->x0;
-  bool noise = random_below(3) == 0;
+  bool noise = random_below(&numbers, 3) == 0;
   for (int32_t x = span->x0; x < span->x1; x++)
     for (int c = 0; c < 4; c++)
       array[4 * (x - span->x0) + c] = c == 3 && made->is_opaque ? 1
-                                      : noise                   ? random_unit()
+                                      : noise                   ? random_thousandths()
                                               : 0.5f + 0.4f * sinf((float)(x * (c + 1) + y) / 40);
   span->array = array;
 }
@@ -48,30 +45,31 @@ static int32_t span_length(const frame *made) {
   if (made->style == 3)
     return made->width;
   if (made->style == 1)
-    return 1 + (int32_t)random_below(random_below(3) ? 3000 : 100000);
-  return 1 + (int32_t)random_below(random_below(4) ? 12 : 400);
+    return 1 + random_below(&numbers, random_below(&numbers, 3) ? 3000 : 100000);
+  return 1 + random_below(&numbers, random_below(&numbers, 4) ? 12 : 400);
 }
 
 static int span_kind(const frame *made) {
   if (made->style == 2)
-    return random_below(8) ? CELSPAN_SPAN_ARRAY : CELSPAN_SPAN_GRADIENT;
-  return made->style != 0 || random_below(3) ? CELSPAN_SPAN_SINGLE
-                                             : CELSPAN_SPAN_GRADIENT + (int)random_below(2);
+    return random_below(&numbers, 8) ? CELSPAN_SPAN_ARRAY : CELSPAN_SPAN_GRADIENT;
+  return made->style != 0 || random_below(&numbers, 3)
+             ? CELSPAN_SPAN_SINGLE
+             : CELSPAN_SPAN_GRADIENT + random_below(&numbers, 2);
 }
 
 /* A row from its seed alone, so that it can be made again. */
 static size_t make_row(frame *made, int32_t y) {
   size_t count = 0;
-  random_state = 1000003u * (uint64_t)(random_below(2) ? y : y / 7) + 12345;
+  numbers.state = 1000003u * (uint64_t)(random_below(&numbers, 2) ? y : y / 7) + 12345;
   for (int32_t x = 0; x < made->width; count++) {
     celspan_span *span = &made->spans[count];
-    *span = (celspan_span){.x0 = x, .origin = x - (int32_t)random_below(10)};
+    *span = (celspan_span){.x0 = x, .origin = x - random_below(&numbers, 10)};
     int32_t length = span_length(made);
     span->x1 = length < made->width - x ? x + length : made->width;
     span->kind = (celspan_span_kind)span_kind(made);
     random_colour(made, span->colour);
     for (int c = 0; c < 4; c++)
-      span->slope[c] = c == 3 && made->is_opaque ? 0 : (random_unit() - 0.5f) / 50;
+      span->slope[c] = c == 3 && made->is_opaque ? 0 : (random_thousandths() - 0.5f) / 50;
     if (span->kind == CELSPAN_SPAN_ARRAY)
       fill_array(made, span, y);
     x = span->x1;
@@ -79,9 +77,9 @@ static size_t make_row(frame *made, int32_t y) {
   return count;
 }
 
-/* Rows repeat in sevens in part: their seeds must not depend on what was drawn before. */
+/* Some rows repeat the one above: seven at most share a seed. No seed depends on earlier rows. */
 static size_t row_of(frame *made, int32_t y) {
-  random_state = (uint64_t)y * 0x9e3779b97f4a7c15u;
+  numbers.state = 77 * (uint64_t)y;
   return make_row(made, y);
 }
 

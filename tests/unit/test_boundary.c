@@ -5,9 +5,9 @@
 #include "geometry/bezier.h"
 #include "geometry/boundary.h"
 #include "geometry/matrix.h"
-#include "support/check.h"
-#include "support/memory.h"
-#include "support/random.h"
+#include "tests/support/check.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
 
 static celspan_context *context;
 

@@ -7,13 +7,9 @@
 
 #include "deflate/huffman.h"
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
-static uint64_t random_state = 1;
-
-static uint32_t random_below(uint32_t limit) {
-  random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-  return (uint32_t)((random_state >> 32) * limit >> 32);
-}
+static test_random numbers = {1};
 
 /* ---------------------------------------------------------------- streams */
 
@@ -48,22 +44,23 @@ static void check_inflates(const store *plain, const store *packed) {
 
 static uint64_t random_pixel(int style) {
   static const uint64_t palette[4] = {0, 0xff00000000ff8040u, 0x0101010101010101u, 0x80};
-  uint64_t pixel = palette[random_below(4)];
-  if (style % 3 == 2 || random_below(8) == 0)
-    pixel ^= (uint64_t)random_below(0xffffffffu) << 32 | random_below(0xffffffffu);
+  uint64_t pixel = palette[random_below(&numbers, 4)];
+  if (style % 3 == 2 || random_below(&numbers, 8) == 0)
+    pixel ^= random_bits(&numbers);
   return pixel;
 }
 
 static size_t random_count(int style) {
-  uint32_t most[] = {2, 8, 100, 600, style % 2 ? 20000u : 3u, style > 6 ? 1000000u : 2u};
-  return 1 + random_below(most[random_below(6)]);
+  int most[] = {2, 8, 100, 600, style % 2 ? 20000 : 3, style > 6 ? 1000000 : 2};
+  return 1 + (size_t)random_below(&numbers, most[random_below(&numbers, 6)]);
 }
 
 static void add_bytes(store *plain, cs_deflate *deflate, celspan_context *context, int style) {
   unsigned char bytes[3000];
-  size_t size = random_below(style % 4 == 3 ? 3000 : 20);
+  size_t size = (size_t)random_below(&numbers, style % 4 == 3 ? 3000 : 20);
   for (size_t i = 0; i < size; i++)
-    bytes[i] = (unsigned char)(style & 1 ? random_below(256) : random_below(3) * 50);
+    bytes[i] =
+        (unsigned char)(style & 1 ? random_below(&numbers, 256) : random_below(&numbers, 3) * 50);
   append(plain, bytes, size);
   unsigned char *space = cs_deflate_space(deflate, context);
   memcpy(space, bytes, size);
@@ -93,13 +90,13 @@ static void begin_stream(stream *made) {
   append(&made->packed, header, sizeof header);
 }
 
-/* `pieces` bytes and runs, as one part. */
-static void add_part(stream *made, store *plain, celspan_context *context, cs_deflate *deflate,
-                     int style, size_t pixel_size, int pieces) {
+/* `items` bytes and runs, as one segment. */
+static void add_segment(stream *made, store *plain, celspan_context *context, cs_deflate *deflate,
+                        int style, size_t pixel_size, int items) {
   cs_deflate_sum sum;
   cs_deflate_begin(deflate);
-  for (int i = 0; i < pieces; i++)
-    switch (random_below(4)) {
+  for (int i = 0; i < items; i++)
+    switch (random_below(&numbers, 4)) {
     case 0:
       add_bytes(plain, deflate, context, style);
       break;
@@ -123,34 +120,34 @@ static void end_stream(stream *made, const store *plain) {
   free(made->packed.bytes);
 }
 
-static void check_stream(celspan_context *context, int style, size_t pixel_size, int pieces) {
+static void check_stream(celspan_context *context, int style, size_t pixel_size, int items) {
   store plain = {0};
   stream made;
   cs_deflate *deflate;
   begin_stream(&made);
   CHECK(cs_deflate_create(context, pixel_size, write_store, &made.packed, &deflate) == CELSPAN_OK);
-  for (uint32_t parts = random_below(4); parts < 4; parts++)
-    add_part(&made, &plain, context, deflate, style, pixel_size, pieces);
+  for (int segments = random_below(&numbers, 4); segments < 4; segments++)
+    add_segment(&made, &plain, context, deflate, style, pixel_size, items);
   cs_deflate_destroy(deflate, context);
   append(&plain, "", 0);
   end_stream(&made, &plain);
   free(plain.bytes);
 }
 
-/* A part's bytes do not tell what its compressor did before. */
-static void check_parts_are_alone(celspan_context *context) {
-  uint64_t begun = random_state;
+/* A segment's bytes do not depend on what the compressor did before. */
+static void check_segments_are_independent(celspan_context *context) {
+  const test_random begun = numbers;
   store plain = {0};
   stream made[2] = {{.sum = CS_DEFLATE_SUM_EMPTY}, {.sum = CS_DEFLATE_SUM_EMPTY}};
   for (int i = 0; i < 2; i++) {
     cs_deflate *deflate;
     CHECK(cs_deflate_create(context, 3, write_store, &made[i].packed, &deflate) == CELSPAN_OK);
-    random_state = 17;
+    numbers.state = 17;
     for (int other = 0; other < 3 * i; other++)
-      add_part(&made[i], &plain, context, deflate, other, 3, 100);
+      add_segment(&made[i], &plain, context, deflate, other, 3, 100);
     size_t start = made[i].packed.size;
-    random_state = begun;
-    add_part(&made[i], &plain, context, deflate, 3, 3, 400);
+    numbers = begun;
+    add_segment(&made[i], &plain, context, deflate, 3, 3, 400);
     made[i].packed.size -= start;
     memmove(made[i].packed.bytes, made[i].packed.bytes + start, made[i].packed.size);
     cs_deflate_destroy(deflate, context);
@@ -162,23 +159,23 @@ static void check_parts_are_alone(celspan_context *context) {
   free(plain.bytes);
 }
 
-/* Bytes of few values, so that whatever lies behind their end may match too. */
+/* Bytes of few values, so that whatever lies beyond their end might match too. */
 static void add_few(cs_deflate *deflate, celspan_context *context, uint64_t seed) {
   cs_deflate_sum sum;
-  random_state = seed;
+  numbers.state = seed;
   cs_deflate_begin(deflate);
   for (int i = 0; i < 20; i++) {
     unsigned char *space = cs_deflate_space(deflate, context);
-    size_t size = 1 + random_below(128);
+    size_t size = 1 + (size_t)random_below(&numbers, 128);
     for (size_t k = 0; k < size; k++)
-      space[k] = (unsigned char)(40 * random_below(3));
+      space[k] = (unsigned char)(40 * random_below(&numbers, 3));
     CHECK(cs_deflate_commit(deflate, space, size) == CELSPAN_OK);
   }
   CHECK(cs_deflate_end(deflate, context, &sum) == CELSPAN_OK);
 }
 
-/* Nor do the last of them tell what stood behind them in its buffer. */
-static void check_ends_are_alone(celspan_context *context) {
+/* Nor do the last bytes of a segment depend on what was beyond them in the buffer. */
+static void check_ends_are_independent(celspan_context *context) {
   for (uint64_t seed = 1; seed <= 40; seed++) {
     store packed[2] = {{0}};
     for (uint64_t others = 0; others < 2; others++) {
@@ -226,7 +223,7 @@ static void check_errors_stick(celspan_context *context) {
   celspan_status status = CELSPAN_OK;
   cs_deflate_begin(deflate);
   for (int i = 0; i < 300000; i++) {
-    cs_deflate_run run = {random_below(0xffffffffu), 1};
+    cs_deflate_run run = {random_bits(&numbers) >> 32, 1};
     status = cs_deflate_runs(deflate, context, &run, 1);
   }
   CHECK(status == CELSPAN_OUTPUT);
@@ -291,9 +288,11 @@ static void check_huffman(void) {
   counts[7] = 5;
   check_lengths(counts, 30, 15);
   for (int round = 0; round < 200; round++) {
-    int symbols = 2 + (int)random_below(CS_DEFLATE_HUFFMAN_SYMBOLS - 1);
+    int symbols = 2 + random_below(&numbers, CS_DEFLATE_HUFFMAN_SYMBOLS - 1);
     for (int i = 0; i < symbols; i++)
-      counts[i] = random_below(3) ? random_below(1u << random_below(20)) : 0;
+      counts[i] = random_below(&numbers, 3)
+                      ? (uint32_t)random_below(&numbers, 1 << random_below(&numbers, 20))
+                      : 0;
     check_lengths(counts, symbols, symbols < 100 && round % 2 ? 7 : 15);
   }
   uint32_t a = 1, b = 1; /* Fibonacci's numbers make the deepest tree */
@@ -313,12 +312,12 @@ int main(void) {
   check_huffman();
   for (int style = 0; style < 9; style++)
     for (size_t pixel_size = 1; pixel_size <= 8; pixel_size++)
-      for (int pieces = 0; pieces < 80; pieces += 1 + pieces)
-        check_stream(context, style, pixel_size, pieces);
+      for (int items = 0; items < 80; items += 1 + items)
+        check_stream(context, style, pixel_size, items);
   for (int style = 0; style < 6; style++)
     check_stream(context, style, style % 2 ? 8 : 4, 4000);
-  check_parts_are_alone(context);
-  check_ends_are_alone(context);
+  check_segments_are_independent(context);
+  check_ends_are_independent(context);
   check_long_white(context);
   check_errors_stick(context);
   size_t bytes, peak;

@@ -5,16 +5,12 @@
 #include "paint/over_row.h"
 #include "paint/shade.h"
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 #define LEAVES 6
 #define WIDTH 200
 
-static uint32_t state = 5;
-
-static float random_unit(void) {
-  state = state * 1664525u + 1013904223u;
-  return (float)(state >> 8) * 0x1p-24f;
-}
+static test_random numbers = {5};
 
 static cs_layer layers[LEAVES];
 static cs_layer_rule rules[LEAVES];
@@ -34,10 +30,10 @@ static cs_stack stack = {.layers = layers,
 static celspan_texture *linear, *radial;
 
 static celspan_paint random_paint(void) {
-  celspan_paint paint = {.beta = random_unit()};
+  celspan_paint paint = {.beta = random_unit(&numbers)};
   for (int c = 0; c < 3; c++) {
-    paint.pigment[c] = random_unit();
-    paint.medium[c] = random_unit();
+    paint.pigment[c] = random_unit(&numbers);
+    paint.medium[c] = random_unit(&numbers);
   }
   return paint;
 }
@@ -53,12 +49,12 @@ static void make_textures(celspan_context *context) {
 
 static void make_layers(bool is_grouped, double perspective) {
   for (uint32_t i = 0; i < LEAVES; i++) {
-    layers[i] = (cs_layer){.fade = random_unit(),
+    layers[i] = (cs_layer){.fade = random_unit(&numbers),
                            .group = is_grouped && i > 0 && i < 4 ? 0 : CS_STACK_NONE,
                            .detail = i,
-                           .front = {random_unit(), 1, random_unit(), 0},
-                           .s = {0.1f, 0.2f, random_unit(), 0},
-                           .t = {0.5f, random_unit(), 0.7f, 0}};
+                           .front = {random_unit(&numbers), 1, random_unit(&numbers), 0},
+                           .s = {0.1f, 0.2f, random_unit(&numbers), 0},
+                           .t = {0.5f, random_unit(&numbers), 0.7f, 0}};
     rules[i] = (cs_layer_rule){.key = {(uint64_t)1 << i | (uint64_t)i << 40, ~(uint64_t)i << i}};
     shades[i] = (cs_shade){.texture = i % 2 ? linear : radial,
                            .inverse = {{1, 0.1 * i, 3, -0.2, 1, 5, perspective, 0, 1}}};

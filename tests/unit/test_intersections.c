@@ -2,16 +2,12 @@
 #include "area/intersections.h"
 
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 #define MOST 60
 #define BENDS 4
 
-static uint32_t state = 5;
-
-static double random_unit(void) {
-  state = state * 1664525u + 1013904223u;
-  return (state >> 8) * 0x1p-24;
-}
+static test_random numbers = {5};
 
 static celspan_point points[MOST][BENDS + 2];
 static int point_counts[MOST];
@@ -20,13 +16,14 @@ static double tops[MOST], feet[MOST];
 /* Polylines from height 2 to 3, from left to right at the top. */
 static void make_polylines(size_t count, int bends) {
   for (size_t i = 0; i < count; i++) {
-    int inner = (int)(random_unit() * (bends + 1)), last = inner + 1;
+    int inner = random_below(&numbers, bends + 1), last = inner + 1;
     double step = 1.0 / (inner + 1);
     point_counts[i] = inner + 2;
     points[i][0] = (celspan_point){(double)i / 8, 2};
     for (int k = 1; k <= inner; k++)
-      points[i][k] = (celspan_point){8 * random_unit(), 2 + step * (k - 0.5 + 0.4 * random_unit())};
-    points[i][last] = (celspan_point){8 * random_unit(), 3};
+      points[i][k] = (celspan_point){random_between(&numbers, 0, 8),
+                                     2 + step * (k - 0.5 + random_between(&numbers, 0, 0.4))};
+    points[i][last] = (celspan_point){random_between(&numbers, 0, 8), 3};
     tops[i] = points[i][0].x;
     feet[i] = points[i][last].x;
   }
@@ -98,10 +95,10 @@ static size_t count_inversions(size_t count) {
   return inversions;
 }
 
-static void test_random(celspan_context *context) {
+static void test_polylines(celspan_context *context) {
   cs_intersections m = {0};
   for (int round = 0; round < 200; round++) {
-    size_t count = 1 + (size_t)(random_unit() * (MOST - 1));
+    size_t count = 1 + (size_t)random_below(&numbers, MOST - 1);
     int bends = round % 2 == 0 ? 0 : BENDS;
     make_polylines(count, bends);
     find(context, &m, count, 2, 3);
@@ -130,7 +127,7 @@ static void test_touching(celspan_context *context) {
 int main(void) {
   celspan_context *context;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  test_random(context);
+  test_polylines(context);
   test_touching(context);
   celspan_context_destroy(context);
   return check_done();

@@ -5,6 +5,7 @@
 #include "base/elementary.h"
 #include "render/frame.h"
 #include "span/row.h"
+#include "tests/support/random.h"
 #include "tests/support/scene.h"
 
 #define SIDE 40
@@ -276,20 +277,15 @@ static void check_gradients(void) {
 
 /* ---------------------------------------------------------------- rows on their own */
 
-static double random_unit(uint64_t *state) {
-  *state = *state * 6364136223846793005u + 1442695040888963407u;
-  return (double)(*state >> 11) * 0x1p-53;
-}
-
 static celspan_rostrum *random_scene(studio *s, uint64_t seed) {
   celspan_object *objects[12];
-  uint64_t state = seed;
+  test_random random = {seed};
   for (int k = 0; k < 12; k++) {
-    float c = (float)random_unit(&state), d = (float)random_unit(&state);
+    float c = random_unit(&random), d = random_unit(&random);
     celspan_texture *t =
         k % 4 == 3 ? ramp(s) : studio_paint(s, celspan_paint_rgb(c, d, 1 - c, 0.3f + 0.7f * d));
-    double x = 44 * random_unit(&state) - 2, y = 44 * random_unit(&state) - 2;
-    double size = 1 + 14 * random_unit(&state);
+    double x = random_between(&random, -2, 42), y = random_between(&random, -2, 42);
+    double size = random_between(&random, 1, 15);
     objects[k] =
         k % 2 ? studio_circle(s, x, y, size, t) : studio_rect(s, x, y, size, size * 0.7, t);
   }

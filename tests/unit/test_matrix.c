@@ -1,6 +1,6 @@
 #include "geometry/matrix.h"
-#include "support/check.h"
-#include "support/random.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
 
 static celspan_point apply(celspan_matrix matrix, double x, double y) {
   cs_hpoint p = cs_matrix_apply(&matrix, (cs_hpoint){x, y, 1});

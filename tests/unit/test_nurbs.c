@@ -1,7 +1,7 @@
 /* NURBS against the Cox-de Boor definition, and what is refused. */
 #include "geometry/bezier.h"
-#include "support/check.h"
-#include "support/random.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
 
 #define MOST 64
 

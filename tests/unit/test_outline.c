@@ -1,8 +1,8 @@
 /* Primitive outlines: their invariants, their shapes, their boxes. */
 #include "geometry/bezier.h"
 #include "geometry/matrix.h"
-#include "support/check.h"
-#include "support/random.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
 
 static celspan_context *context;
 static const double pi = 3.14159265358979323846;

@@ -3,13 +3,9 @@
 
 #include "colour/srgb8.h"
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
-static uint32_t state = 11;
-
-static float random_unit(void) {
-  state = state * 1664525u + 1013904223u;
-  return (float)(state >> 8) * 0x1p-24f;
-}
+static test_random numbers = {11};
 
 static float rgba[CS_OVER_ROW_BATCH][4], s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
 static cs_layer all_layers[6];
@@ -27,18 +23,18 @@ static const cs_stack stack = {.layers = all_layers,
 static void fill(void) {
   for (int i = 0; i < CS_OVER_ROW_BATCH; i++)
     for (int c = 0; c < 4; c++) {
-      rgba[i][c] = c == 3 ? 0.5f + 0.5f * random_unit() : 0.4f * random_unit();
-      s[i][c] = 0.4f * random_unit();
-      t[i][c] = random_unit();
+      rgba[i][c] = c == 3 ? 0.5f + 0.5f * random_unit(&numbers) : 0.4f * random_unit(&numbers);
+      s[i][c] = 0.4f * random_unit(&numbers);
+      t[i][c] = random_unit(&numbers);
     }
   for (uint32_t i = 0; i < 6; i++) {
-    all_layers[i] = (cs_layer){.fade = i == 5 ? 1 : random_unit(),
+    all_layers[i] = (cs_layer){.fade = i == 5 ? 1 : random_unit(&numbers),
                                .group = i == 0 || i == 5  ? CS_STACK_NONE
                                         : i < 2 || i == 4 ? 0
                                                           : 1,
-                               .front = {random_unit(), 1, 2 * random_unit(), 0},
-                               .s = {0.1f, 0.2f, random_unit(), 0},
-                               .t = {0.5f, random_unit(), 0.7f, 0}};
+                               .front = {random_unit(&numbers), 1, 2 * random_unit(&numbers), 0},
+                               .s = {0.1f, 0.2f, random_unit(&numbers), 0},
+                               .t = {0.5f, random_unit(&numbers), 0.7f, 0}};
   }
 }
 

@@ -3,16 +3,12 @@
 #include "compose/over_table.h"
 
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 #define LEAVES 700
 #define WORDS ((LEAVES + 63) / 64)
 
-static uint32_t state = 3;
-
-static float random_unit(void) {
-  state = state * 1664525u + 1013904223u;
-  return (float)(state >> 8) * 0x1p-24f;
-}
+static test_random numbers = {3};
 
 static cs_layer layers[LEAVES];
 static cs_stack stack = {.layers = layers, .layer_count = LEAVES};
@@ -23,8 +19,8 @@ static uint8_t filled[(WORDS + 7) / 8 * 8];
 static void make_layers(float through) {
   for (int i = 0; i < LEAVES; i++)
     for (int c = 0; c < 3; c++) {
-      layers[i].t[c] = through + (1 - through) * random_unit();
-      layers[i].s[c] = (1 - layers[i].t[c]) * random_unit();
+      layers[i].t[c] = through + (1 - through) * random_unit(&numbers);
+      layers[i].s[c] = (1 - layers[i].t[c]) * random_unit(&numbers);
     }
 }
 
@@ -70,13 +66,13 @@ static void test_walk(celspan_context *context, float through, float density) {
   CHECK(cs_over_table_init(&folds, context, &stack) == CELSPAN_OK);
   for (int step = 0; step < 300; step++) {
     for (int k = 0; k < 1 + step % 9; k++)
-      put((int)(random_unit() * LEAVES), random_unit() < density);
+      put((int)(random_unit(&numbers) * LEAVES), random_unit(&numbers) < density);
     cs_over_pair light = light_of(&folds);
     int last = check_light(light);
     CHECK(cs_over_table_init(&stranger, context, &stack) == CELSPAN_OK);
     CHECK(same(light, light_of(&stranger)));
     for (int k = 0; k < 5 && last > 64; k++) /* nobody sees them */
-      put((int)(random_unit() * (float)(last - 64)), random_unit() < 0.5f);
+      put((int)(random_unit(&numbers) * (float)(last - 64)), random_unit(&numbers) < 0.5f);
     CHECK(last <= 64 || same(light, light_of(&folds)));
     cs_over_table_finish(&stranger);
   }

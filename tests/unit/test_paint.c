@@ -1,21 +1,17 @@
 /* Paints: the algebra of the Beta colour model in its two forms. */
 #include "colour/paint.h"
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 #define TINY 1e-6
 
-static unsigned random_state = 12345;
-
-static float random_share(void) {
-  random_state = random_state * 1664525u + 1013904223u;
-  return (float)(random_state >> 8) / 16777216.0f;
-}
+static test_random numbers = {12345};
 
 static celspan_paint random_paint(void) {
-  celspan_paint paint = {.beta = random_share()};
+  celspan_paint paint = {.beta = random_unit(&numbers)};
   for (int c = 0; c < 3; c++) {
-    paint.pigment[c] = random_share();
-    paint.medium[c] = random_share();
+    paint.pigment[c] = random_unit(&numbers);
+    paint.medium[c] = random_unit(&numbers);
   }
   return paint;
 }
@@ -49,7 +45,7 @@ static void test_named_paints(void) {
 static void test_mix(void) {
   for (int i = 0; i < 1000; i++) {
     celspan_paint p = random_paint(), q = random_paint();
-    float u = random_share();
+    float u = random_unit(&numbers);
     celspan_paint mix = celspan_paint_mix(p, q, u);
     cs_paint a = cs_paint_from_straight(&p), b = cs_paint_from_straight(&q), expected;
     expected.beta = (1 - u) * a.beta + u * b.beta;

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 
 #include "geometry/bezier.h"
-#include "support/check.h"
-#include "support/random.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
 
 static celspan_context *context;
 

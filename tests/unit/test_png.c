@@ -85,7 +85,8 @@ static bool same_files(const char *path, const char *other) {
 static void check_frame(celspan_context *context, int32_t width, int32_t height, int style,
                         celspan_coding asked, const char *title) {
   static const int workers[] = {1, 2, 5};
-  frame made = {.width = width, .height = height, .style = style, .is_opaque = random_below(2)};
+  frame made = {
+      .width = width, .height = height, .style = style, .is_opaque = random_below(&numbers, 2)};
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = "png";
   char paths[3][40];

@@ -72,7 +72,8 @@ static void check_dearest(cs_isa isa) {
   rows r = {0};
   uint64_t costs[CS_PNG_FILTERS] = {1, 1, 1, 1, 1};
   memset(r.row + BEFORE, 128, SIZE_MOST);
-  CS_WIDE_CHOOSE(isa, cs_png_bytes_add_costs)(r.row + BEFORE, r.above + BEFORE, 4, SIZE_MOST, costs);
+  CS_WIDE_CHOOSE(isa, cs_png_bytes_add_costs)
+  (r.row + BEFORE, r.above + BEFORE, 4, SIZE_MOST, costs);
   CHECK(costs[CS_PNG_NONE] == 1 + (128 + CS_PNG_NOT_ZERO) * (uint64_t)SIZE_MOST);
   CHECK(costs[CS_PNG_UP] == costs[CS_PNG_NONE]);
   CHECK(costs[CS_PNG_SUB] == 1 + (128 + CS_PNG_NOT_ZERO) * (uint64_t)4);

@@ -3,6 +3,7 @@
 #include "colour/srgb8.h"
 #include "sample/sampler_parts.h"
 #include "tests/support/picture.h"
+#include "tests/support/random.h"
 
 #define SIDE 200
 
@@ -14,11 +15,9 @@ static float noise[SIDE][SIDE][4];
 /* ---------------------------------------------------------------- the pictures */
 
 static void paint_noise(int x, int y, float rgba[4]) {
-  uint32_t seed = (uint32_t)x * 73856093u ^ (uint32_t)y * 19349663u;
-  for (int c = 0; c < 4; c++) {
-    seed = seed * 1664525u + 1013904223u;
-    rgba[c] = (float)(seed >> 8) / 16777216.0f;
-  }
+  test_random random = {(uint64_t)(y * SIDE + x)};
+  for (int c = 0; c < 4; c++)
+    rgba[c] = random_unit(&random);
 }
 
 static void paint_check(int x, int y, float rgba[4]) {

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "tests/support/check.h"
+#include "tests/support/random.h"
 
 enum { PIXELS = 4096 };
 
@@ -31,26 +32,21 @@ static void check_every_float(cs_isa isa) {
   CHECK(wrong == 0);
 }
 
-static uint32_t state = 7;
-
-static float random_unit(void) {
-  state = state * 1664525u + 1013904223u;
-  return (float)(state >> 8) * 0x1p-24f;
-}
+static test_random numbers = {7};
 
 static float strange(void) {
   static const float values[] = {0, -0.0f, 1, -1, 2, 1e-30f, INFINITY, -INFINITY, NAN, 0.5f};
-  return values[state / 7 % (sizeof values / sizeof *values)];
+  return values[random_below(&numbers, sizeof values / sizeof *values)];
 }
 
 static void check_translucent(cs_isa isa, int strangers) {
   int wrong = 0;
   for (int i = 0; i < PIXELS; i++) {
-    colours[i][3] = i % 5 ? random_unit() : 1;
+    colours[i][3] = i % 5 ? random_unit(&numbers) : 1;
     for (int c = 0; c < 3; c++)
-      colours[i][c] = random_unit() * colours[i][3];
+      colours[i][c] = random_unit(&numbers) * colours[i][3];
     if (strangers && i % strangers == 0)
-      colours[i][state % 4] = strange();
+      colours[i][random_below(&numbers, 4)] = strange();
   }
   cs_srgb8_choose(isa)(colours[0], PIXELS, codes);
   for (int i = 0; i < PIXELS; i++) {

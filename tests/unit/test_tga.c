@@ -98,7 +98,7 @@ static void check_frame(celspan_context *context, int32_t width, int32_t height,
       "a title that goes on beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4 of 40";
   static const char cut_title[] =
       "a title that goes on beyond the \xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4";
-  bool is_opaque = random_below(2), is_long = random_below(2);
+  bool is_opaque = random_below(&numbers, 2), is_long = random_below(&numbers, 2);
   frame made = {.width = width, .height = height, .style = style, .is_opaque = is_opaque};
   celspan_file_desc file = CELSPAN_FILE_DESC;
   made.arrays = calloc((size_t)width, 4 * sizeof(float));
