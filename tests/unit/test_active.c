@@ -1,5 +1,6 @@
-/* The active boundaries: what is listed at a height, and in which order, depends on the height
- * alone; and the cull leaves out only what cannot be seen. */
+/* The active boundaries: which ones there are at a height, and in which order, depends on the
+ * height alone; and culling leaves out only boundaries that cannot be seen.
+ */
 #include "base/number.h"
 #include "geometry/matrix.h"
 #include "sweep/active.h"

@@ -1,4 +1,5 @@
-/* Defocused cels against a brute-force convolution of probe samples, and what must hold besides. */
+/* Defocused cels against a brute-force convolution of probe samples; and their invariants.
+ */
 #include <stdlib.h>
 
 #include "defocus/bands.h"
@@ -47,14 +48,14 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
                calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
                {0, 0, 0}};
   cs_frame frame = {0};
-  cs_row_worker lane = {0};
+  cs_row_worker worker = {0};
   studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&lane, s->context, &frame));
+  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
   for (int32_t first = 0; first < step; first++)
     for (int32_t y = first; y < v->height; y += step) {
       const cs_row *row = NULL;
-      if (!CHECK(cs_row_worker_row(&lane, y, &row) == CELSPAN_OK)) {
-        fprintf(stderr, "  %s\n", celspan_context_error(&lane.context));
+      if (!CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK)) {
+        fprintf(stderr, "  %s\n", celspan_context_error(&worker.context));
         continue;
       }
       for (size_t i = 0; i < row->count; i++) {
@@ -63,15 +64,15 @@ static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t st
           celspan_span_colour(&row->spans[i], x, out.rgba[y * v->width + x]);
       }
     }
-  cs_row_worker_finish(&lane);
+  cs_row_worker_finish(&worker);
   cs_frame_free(&frame, s->context->memory);
   return out;
 }
 
 /* ---------------------------------------------------------------- scenes */
 
-typedef struct stage { /* one cel, sharp and soft, seen alike */
-  celspan_rostrum *sharp, *soft;
+typedef struct stage { /* one cel, sharp and defocused, seen alike */
+  celspan_rostrum *sharp, *defocused;
   double camera_scale, camera_turn;
 } stage;
 
@@ -141,7 +142,7 @@ static stage random_stage(studio *s, int kind, double radius, celspan_defocus_ke
     s->cels[s->cel_count++] = cels[i];
   }
   out.sharp = show(s, cels[0], &out);
-  out.soft = show(s, cels[1], &out);
+  out.defocused = show(s, cels[1], &out);
   return out;
 }
 
@@ -159,14 +160,14 @@ static double weight_at(celspan_defocus_kernel kernel, double radius, double x, 
 /* The mean of probes under the kernel about a point of the film; stratified. */
 static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
                      celspan_point at, double out[4]) {
-  double reach = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius, total = 0;
+  double extent = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius, total = 0;
   double c = cos(-set->camera_turn), d = sin(-set->camera_turn);
   celspan_exposure exposure = {set->sharp, 1};
   memset(out, 0, 4 * sizeof *out);
   for (int j = 0; j < CELLS; j++)
     for (int i = 0; i < CELLS; i++) {
-      double u = ((i + random_unit()) * 2 / CELLS - 1) * reach;
-      double v = ((j + random_unit()) * 2 / CELLS - 1) * reach;
+      double u = ((i + random_unit()) * 2 / CELLS - 1) * extent;
+      double v = ((j + random_unit()) * 2 / CELLS - 1) * extent;
       double weight = weight_at(kernel, radius, u, v), rgba[4] = {0, 0, 0, 0};
       if (weight == 0)
         continue;
@@ -183,7 +184,7 @@ static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel,
 
 static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
                     const view *v, int points, const char *what) {
-  image soft = make(s, set->soft, v, 1);
+  image defocused = make(s, set->defocused, v, 1);
   double worst = 0;
   for (int k = 0; k < points; k++) {
     /* the film's edges are looked at first */
@@ -193,11 +194,11 @@ static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, 
     double want[4];
     convolve(s, set, kernel, radius, at, want);
     for (int c = 0; c < 4; c++)
-      worst = fmax(worst, fabs(want[c] - (double)soft.rgba[y * v->width + x][c]));
+      worst = fmax(worst, fabs(want[c] - (double)defocused.rgba[y * v->width + x][c]));
   }
   if (!CHECK_NEAR(worst, 0, 0.004))
     fprintf(stderr, "  %s: radius %g, kernel %d\n", what, radius, (int)kernel);
-  free(soft.rgba);
+  free(defocused.rgba);
 }
 
 static void check_brute_force(void) {
@@ -271,7 +272,7 @@ static void check_orders(void) {
       CHECK(celspan_context_create(way == 2 ? &small : NULL, &s.context) == CELSPAN_OK);
       random_state = 5 + (uint64_t)k;
       stage set = random_stage(&s, k % 4, k < 3 ? 0.7 : 8, (celspan_defocus_kernel)(k % 3), 0);
-      images[way] = make(&s, set.soft, &v, way == 1 ? 37 : 1);
+      images[way] = make(&s, set.defocused, &v, way == 1 ? 37 : 1);
       studio_finish(&s);
       celspan_context_destroy(s.context);
     }
@@ -282,8 +283,8 @@ static void check_orders(void) {
   }
 }
 
-static celspan_rostrum *soft_disc(studio *s, double x, double size, double radius,
-                                  celspan_defocus_kernel kernel, double opacity) {
+static celspan_rostrum *defocused_disc(studio *s, double x, double size, double radius,
+                                       celspan_defocus_kernel kernel, double opacity) {
   celspan_object *disc =
       studio_circle(s, x, 24, size, studio_paint(s, celspan_paint_rgb(1, 1, 1, 1)));
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
@@ -302,8 +303,8 @@ static void check_kept(void) {
   const double places[] = {20, 20, 20, 21}, opacities[] = {1, 1, 0.5, 1};
   uint64_t made = 0;
   for (int k = 0; k < 4; k++) {
-    image i =
-        make(&s, soft_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]), &v, 1);
+    image i = make(&s, defocused_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]),
+                   &v, 1);
     cs_defocus_bands_counts counts = cs_defocus_bands_count(s.context);
     CHECK(counts.bytes > 0 && (k == 0 || k == 3 ? counts.made > made : counts.made == made));
     made = counts.made;
@@ -313,7 +314,7 @@ static void check_kept(void) {
   celspan_context_destroy(s.context);
 }
 
-/* Light is kept, what the kernel does not reach is one span and exact, from a tenth of a pixel up.
+/* Light is kept, what the kernel does not extent is one span and exact, from a tenth of a pixel up.
  */
 static void check_light(void) {
   static const double radii[] = {0.1, 0.3, 0.45, 1, 1.9, 2.1, 4, 7};
@@ -322,7 +323,8 @@ static void check_light(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 24; k++) {
     double radius = radii[k / 3], sum = 0;
-    image i = make(&s, soft_disc(&s, 24.2, 9, radius, (celspan_defocus_kernel)(k % 3), 1), &v, 1);
+    image i =
+        make(&s, defocused_disc(&s, 24.2, 9, radius, (celspan_defocus_kernel)(k % 3), 1), &v, 1);
     for (int32_t p = 0; p < SIDE * SIDE; p++)
       sum += (double)i.rgba[p][3];
     CHECK_NEAR(sum / (3.14159265358979 * 81), 1, 0.001);
@@ -342,12 +344,13 @@ static void check_tiny(void) {
   view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 3; k++) {
-    image sharp = make(&s, soft_disc(&s, 24.2, 9, 0, CELSPAN_DEFOCUS_GAUSSIAN, 1), &v, 1);
-    image soft = make(&s, soft_disc(&s, 24.2, 9, 0.03, (celspan_defocus_kernel)k, 1), &v, 1);
+    image sharp = make(&s, defocused_disc(&s, 24.2, 9, 0, CELSPAN_DEFOCUS_GAUSSIAN, 1), &v, 1);
+    image defocused =
+        make(&s, defocused_disc(&s, 24.2, 9, 0.03, (celspan_defocus_kernel)k, 1), &v, 1);
     for (int32_t p = 0; p < SIDE * SIDE; p++)
-      CHECK_NEAR((double)sharp.rgba[p][0], (double)soft.rgba[p][0], 0.02);
+      CHECK_NEAR((double)sharp.rgba[p][0], (double)defocused.rgba[p][0], 0.02);
     free(sharp.rgba);
-    free(soft.rgba);
+    free(defocused.rgba);
   }
   studio_finish(&s);
   celspan_context_destroy(s.context);
@@ -408,7 +411,7 @@ static void check_failures_of(studio *s, memory_watch *watch, celspan_rostrum *r
   CHECK(failures > 30 && watch->size_errors == 0);
 }
 
-/* Every way to soften a cel, and a kernel over a picture that varies. */
+/* Every way to defocus a cel, and a kernel over a picture that varies. */
 static void check_memory(void) {
   static const double radii[] = {12, 2, 110}; /* film units: 5, 0.8 and 46 pixels */
   memory_watch watch = {0};
@@ -422,7 +425,7 @@ static void check_memory(void) {
     random_state = 31 + (uint64_t)k;
     stage set =
         random_stage(&s, k / 9 ? 4 : k % 2, radii[k % 3], (celspan_defocus_kernel)(k / 3 % 3), 0);
-    check_failures_of(&s, &watch, set.soft, NULL);
+    check_failures_of(&s, &watch, set.defocused, NULL);
     celspan_filter_desc kernel = {.kernel = k / 9 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_BOX};
     if (k % 9 == 0)
       check_failures_of(&s, &watch, set.sharp, &kernel);

@@ -1,5 +1,6 @@
-/* Strokes: spans are the mean over each pixel, tile the row, and are the same bits whichever
- * instructions draw them. */
+/* Direct edges: spans are the mean over each pixel, cover the row, and have the same bits under
+ * every set of instructions.
+ */
 #include "area/direct.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"

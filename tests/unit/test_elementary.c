@@ -1,5 +1,6 @@
-/* base/elementary.c against the C library in long double, which is right to more than a double's
- * last bit; and its bits, which must be the same under every compiler. */
+/* base/elementary.c against the C library in long double, which is right beyond the last bit of a
+ * double; and its bits, which must be the same under every compiler.
+ */
 #include "base/elementary.h"
 
 #include <stdint.h>

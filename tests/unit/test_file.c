@@ -1,5 +1,6 @@
-/* output/file.c: with the n-th call to the system failing, for every n, a file is there whole, or
- * as it was before; and nothing temporary is left. */
+/* output/file.c: whichever call to the system fails, afterwards the file is there whole, or it is
+ * as it was before; and no temporary file is left.
+ */
 #include "output/file.h"
 
 #include <dirent.h>

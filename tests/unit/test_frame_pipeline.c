@@ -1,6 +1,6 @@
 /* film/frame_pipeline.c: whatever the number of workers and wherever frames are made, they are
- * built and finished in order, made once, released once; the first that fails is the one that is
- * told. */
+ * built and finished in order, made once and released once; and the first failure is reported.
+ */
 #include "film/frame_pipeline.h"
 
 #include <pthread.h>
@@ -99,19 +99,19 @@ static bool tick(void *user, double share) {
 }
 
 static celspan_status run(studio *s, celspan_context *context, int workers, bool keeps_going) {
-  const cs_frame_pipeline reel = {.count = FRAMES,
-                                  .workers = workers,
-                                  .keeps_going = keeps_going,
-                                  .frame_size = sizeof(frame),
-                                  .user = s,
-                                  .build = build,
-                                  .make = make,
-                                  .finish = finish,
-                                  .release = release,
-                                  .tick = tick};
+  const cs_frame_pipeline pipeline = {.count = FRAMES,
+                                      .workers = workers,
+                                      .keeps_going = keeps_going,
+                                      .frame_size = sizeof(frame),
+                                      .user = s,
+                                      .build = build,
+                                      .make = make,
+                                      .finish = finish,
+                                      .release = release,
+                                      .tick = tick};
   s->context = context;
   s->thread = pthread_self();
-  return cs_frame_pipeline_run(context, &reel);
+  return cs_frame_pipeline_run(context, &pipeline);
 }
 
 static studio quiet(void) {

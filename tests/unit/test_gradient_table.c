@@ -1,5 +1,7 @@
-/* paint/gradient_table.c and gradient_run.c: programs of gradients show what a fold of paints
- * shows, and their runs are right within 1/1023 from fewer colours than columns. */
+/* paint/gradient_table.c and paint/gradient_run.c: programs of gradients have the colours that
+ * folding their paints gives, and their runs are right within 1/1023 from fewer colours than
+ * columns.
+ */
 #include "paint/gradient_run.h"
 
 #include "paint/over_row.h"

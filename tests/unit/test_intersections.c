@@ -1,4 +1,5 @@
-/* area/intersections.c: boundaries that go down together meet in order, and end in order. */
+/* area/intersections.c: boundaries that go down together intersect in order, and end in order.
+ */
 #include "area/intersections.h"
 
 #include "tests/support/check.h"

@@ -48,18 +48,18 @@ static image make(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc
     desc.filter = *kernel;
   image out = {width, height, calloc((size_t)(width * height), sizeof *out.rgba), {0, 0, 0}};
   cs_frame frame;
-  cs_row_worker lane;
+  cs_row_worker worker;
   studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&lane, s->context, &frame));
+  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
   for (int32_t first = 0; first < step; first++)
     for (int32_t y = first; y < height; y += step) {
       const cs_row *row = NULL;
-      if (CHECK(cs_row_worker_row(&lane, y, &row) == CELSPAN_OK))
+      if (CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
         fill(&out, y, row);
       else
-        fprintf(stderr, "  %s\n", celspan_context_error(&lane.context));
+        fprintf(stderr, "  %s\n", celspan_context_error(&worker.context));
     }
-  cs_row_worker_finish(&lane);
+  cs_row_worker_finish(&worker);
   cs_frame_free(&frame, s->context->memory);
   return out;
 }

@@ -1,5 +1,6 @@
-/* Light through filters: what a single small shape makes of all pixels together is its area, by
- * whatever kernel and wherever it lies between the pixels. */
+/* Light through filters: the sum over all pixels of a single small shape is its area, under every
+ * kernel and wherever it lies between the pixels.
+ */
 #include <math.h>
 
 #include "render/frame.h"
@@ -23,13 +24,13 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
   if (kernel)
     desc.filter = *kernel;
   cs_frame frame = {0};
-  cs_row_worker lane = {0};
+  cs_row_worker worker = {0};
   double sum = 0;
   studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&lane, s->context, &frame));
+  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
   for (int32_t y = 0; y < side; y++) {
     const cs_row *row = NULL;
-    if (!CHECK(cs_row_worker_row(&lane, y, &row) == CELSPAN_OK))
+    if (!CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
       continue;
     for (size_t i = 0; i < row->count; i++)
       for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
@@ -38,7 +39,7 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
         sum += (double)rgba[3];
       }
   }
-  cs_row_worker_finish(&lane);
+  cs_row_worker_finish(&worker);
   cs_frame_free(&frame, s->context->memory);
   return sum;
 }
@@ -57,14 +58,14 @@ typedef struct shares {
   double least, most, mean;
 } shares;
 
-typedef struct look { /* what the shape is seen through */
+typedef struct setting { /* what the shape is seen through */
   const celspan_filter_desc *kernel;
   double defocus;
   celspan_defocus_kernel defocus_kernel;
-} look;
+} setting;
 
 /* The disc, or a bar that reaches beyond the frame above and below. */
-static shares measure(studio *s, const look *l, int32_t side, bool is_bar) {
+static shares measure(studio *s, const setting *l, int32_t side, bool is_bar) {
   shares out = {INFINITY, -INFINITY, 0};
   int rows = is_bar ? 1 : PLACES;
   for (int k = 0; k < PLACES * rows; k++) {
@@ -99,9 +100,9 @@ static void check_defocus(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
     for (int kernel = 0; kernel < 3; kernel++) {
-      double reach = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radii[i] : radii[i];
-      look l = {NULL, radii[i], (celspan_defocus_kernel)kernel};
-      shares found = measure(&s, &l, 2 * (int32_t)ceil(reach + DISC + 2), false);
+      double extent = kernel == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radii[i] : radii[i];
+      setting l = {NULL, radii[i], (celspan_defocus_kernel)kernel};
+      shares found = measure(&s, &l, 2 * (int32_t)ceil(extent + DISC + 2), false);
       check_each(&found, names[kernel], radii[i]);
     }
   celspan_context_destroy(s.context);
@@ -135,7 +136,7 @@ static void check_kernels(void) {
                                   .radius = radius,
                                   .function = tent,
                                   .function_user = &radius};
-    look l = {.kernel = &kernel};
+    setting l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (int32_t)ceil(radius + DISC + 2), false);
     check_each(&found, kept[i / 10].name, radius);
   }
@@ -153,7 +154,7 @@ static void check_signed(void) {
                                       i % 2 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_MITCHELL,
                                   .has_radius = true,
                                   .radius = radii[i / 2]};
-    look l = {.kernel = &kernel};
+    setting l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (int32_t)ceil(kernel.radius + DISC + 2), true);
     check_each(&found, i % 2 ? "lanczos" : "mitchell", kernel.radius);
   }
@@ -172,7 +173,7 @@ static void check_narrow(void) {
                                   .radius = radius,
                                   .function = tent,
                                   .function_user = &radius};
-    look l = {.kernel = &kernel};
+    setting l = {.kernel = &kernel};
     shares found = measure(&s, &l, 2 * (DISC + 4), false);
     if (!CHECK_NEAR(found.mean, 1, 0.001))
       fprintf(stderr, "  %s, radius %g\n", kept[i % 3].name, radius);

@@ -1,4 +1,5 @@
-/* NURBS against the Cox-de Boor definition, and what is refused. */
+/* NURBS against the Cox-de Boor definition, and which descriptions are refused.
+ */
 #include "geometry/bezier.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"

@@ -1,4 +1,5 @@
-/* paint/over_row.c: every set of instructions folds alike, and every pixel by itself. */
+/* paint/over_row.c: every set of instructions gives the same fold, and every pixel is independent.
+ */
 #include "paint/over_row.h"
 
 #include "colour/srgb8.h"

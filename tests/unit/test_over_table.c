@@ -1,5 +1,6 @@
-/* compose/over_table.c: the light of a set is that of its leaves one over the other, however the
- * set was reached and whatever lies behind the end of the light. */
+/* compose/over_table.c: the light of a set is that of its layers one over the other, by whatever
+ * changes the set was arrived at, and whatever follows the last layer that counts.
+ */
 #include "compose/over_table.h"
 
 #include "tests/support/check.h"

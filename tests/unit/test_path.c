@@ -1,4 +1,5 @@
-/* SVG path data: what is read, what the arcs are, what is refused and where. */
+/* SVG path data: what is read, how arcs are converted, what is refused and where.
+ */
 #include <stdlib.h>
 
 #include "geometry/bezier.h"

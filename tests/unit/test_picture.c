@@ -1,4 +1,5 @@
-/* Pictures in and out: what is written is read back as light, and what is broken is refused. */
+/* Pictures out and in: what is written is read back as light, and broken files are refused.
+ */
 #include <pthread.h>
 #include <sys/stat.h>
 

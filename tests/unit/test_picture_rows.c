@@ -1,4 +1,4 @@
-/* Pictures in frames: the same pixels with codes and without, on any number of workers, from tiles
+/* Pictures in frames: the same pixels with codes and without, on any number of workers, from blocks
  * that are clear, opaque or neither.
  */
 #include "output/pixels.h"

@@ -1,4 +1,6 @@
-/* Frames in the picture module's formats: what each can hold, and files whole or not at all. */
+/* Frames in the picture module's formats: what each can hold, and files that appear whole or not at
+ * all.
+ */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -1,5 +1,6 @@
-/* output/png/png_sink.c: whatever rows of spans go in, libpng reads the pixels that output/pixels.c
- * makes of them. */
+/* output/png/png_sink.c: whatever rows of spans it gets, libpng reads the pixels that
+ * output/pixels.c makes of them.
+ */
 #include <png.h>
 #include <signal.h>
 #include <stdatomic.h>

@@ -1,4 +1,5 @@
-/* output/png/bytes_wide.c: every make of a kernel gives what PNG's definitions give, byte by byte.
+/* output/png/bytes_wide.c: every set of instructions gives what PNG's definitions give, byte by
+ * byte.
  */
 #include "output/png/bytes.h"
 

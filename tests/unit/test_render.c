@@ -1,5 +1,6 @@
 /* Frames through the public interface: the same bits whatever the number of workers, the height of
- * strips, the order of rows, and the sink; failures of sinks and callbacks are handed on. */
+ * strips, the order of rows, and the sink; failures of sinks and callbacks are passed on.
+ */
 #include <stdlib.h>
 
 #include "tests/support/random.h"

@@ -1,5 +1,6 @@
-/* What a scan-line procedure emits on a row: checked, cut to the bounds, and its paints left where
- * they were. */
+/* What a scan-line procedure emits on a row: it is checked and cut to the bounds, and its paints
+ * stay at the columns where they were.
+ */
 #include "scene/scanline.h"
 
 #include "tests/support/check.h"

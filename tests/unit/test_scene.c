@@ -1,7 +1,9 @@
-/* Scene values: what their doors refuse and how they say it, bounds, hashes, limits, counting, and
- * that every failed allocation leaves nothing behind. */
+/* Scene values: which descriptions are refused with which sentence, bounds, hashes, limits, counts,
+ * and that a failed allocation leaves nothing behind.
+ */
 #include "scene/scene.h"
 
+#include "base/context.h"
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 
@@ -521,73 +523,92 @@ static void test_values_outlive_their_context(void) {
 
 /* ---------------------------------------------------------------- the n-th allocation fails */
 
-#define TRY(call)                                                                                  \
-  do {                                                                                             \
-    status = (call);                                                                               \
-    if (status != CELSPAN_OK)                                                                      \
-      goto done;                                                                                   \
-  } while (0)
+/* One value of every kind. */
+typedef struct everything {
+  celspan_texture *textures[4];
+  celspan_object *objects[9], *operands[2];
+  celspan_cel *cel, *cels[2];
+  celspan_rostrum *rostrum;
+} everything;
 
-/* One value of every noun, built and let go. */
-static celspan_status build_everything(celspan_context *context) {
-  const celspan_point square[] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}};
+static const celspan_point square[] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}};
+
+static celspan_status build_textures(celspan_context *context, everything *all) {
   const celspan_paint paints[3] = {red, red, celspan_paint_clear()};
   const celspan_stop stops[2] = {{0, red}, {1, celspan_paint_clear()}};
-  const celspan_matrix half = celspan_matrix_scaling(0.5, 0.5);
-  celspan_texture *textures[4] = {NULL};
-  celspan_object *objects[9] = {NULL}, *operands[2] = {NULL, NULL};
-  celspan_cel *cel = NULL, *cels[2] = {NULL, NULL};
-  celspan_rostrum *rostrum = NULL;
-  celspan_status status;
-  TRY(celspan_texture_create_gradient(context, square, paints, &textures[0]));
-  TRY(celspan_texture_create_linear(context, square[0], square[2], stops, 2, &textures[1]));
-  TRY(celspan_texture_create_radial(context, square[0], 5, stops, 2, &textures[2]));
-  TRY(celspan_texture_create_picture(context, &(celspan_picture_desc){.file = "a.png"},
-                                     &textures[3]));
-  TRY(celspan_object_create_rect(context, &(celspan_rect_desc){0, 0, 9, 9, 2, textures[0]},
-                                 &objects[0]));
-  TRY(celspan_object_create_triangle(
-      context, &(celspan_triangle_desc){{{0, 0}, {9, 0}, {0, 9}}, textures[1]}, &objects[1]));
-  TRY(celspan_object_create_ellipse(context, &(celspan_ellipse_desc){{9, 9}, 4, 5, textures[2]},
-                                    &objects[2]));
-  TRY(celspan_object_create_polygon(
-      context, &(celspan_polygon_desc){square, 4, CELSPAN_RULE_EVENODD, NULL}, &objects[3]));
-  TRY(celspan_object_create_nurbs(
-      context, &(celspan_nurbs_desc){.points = square, .point_count = 4}, &objects[4]));
-  TRY(celspan_object_create_path(
-      context, &(celspan_path_desc){"M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z", 0, NULL}, &objects[5]));
-  TRY(celspan_object_create_scanline(
-      context, &(celspan_scanline_desc){{0, 0, 9, 9}, no_spans, NULL, NULL, false}, &objects[6]));
-  TRY(celspan_object_create_image(
+  CS_TRY(celspan_texture_create_gradient(context, square, paints, &all->textures[0]));
+  CS_TRY(celspan_texture_create_linear(context, square[0], square[2], stops, 2, &all->textures[1]));
+  CS_TRY(celspan_texture_create_radial(context, square[0], 5, stops, 2, &all->textures[2]));
+  CS_TRY(celspan_texture_create_picture(context, &(celspan_picture_desc){.file = "a.png"},
+                                        &all->textures[3]));
+  return CELSPAN_OK;
+}
+
+static celspan_status build_primitives(celspan_context *context, everything *all) {
+  CS_TRY(celspan_object_create_rect(context, &(celspan_rect_desc){0, 0, 9, 9, 2, all->textures[0]},
+                                    &all->objects[0]));
+  CS_TRY(celspan_object_create_triangle(
+      context, &(celspan_triangle_desc){{{0, 0}, {9, 0}, {0, 9}}, all->textures[1]},
+      &all->objects[1]));
+  CS_TRY(celspan_object_create_ellipse(
+      context, &(celspan_ellipse_desc){{9, 9}, 4, 5, all->textures[2]}, &all->objects[2]));
+  CS_TRY(celspan_object_create_polygon(
+      context, &(celspan_polygon_desc){square, 4, CELSPAN_RULE_EVENODD, NULL}, &all->objects[3]));
+  CS_TRY(celspan_object_create_nurbs(
+      context, &(celspan_nurbs_desc){.points = square, .point_count = 4}, &all->objects[4]));
+  CS_TRY(celspan_object_create_path(
+      context, &(celspan_path_desc){"M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z", 0, NULL},
+      &all->objects[5]));
+  CS_TRY(celspan_object_create_scanline(
+      context, &(celspan_scanline_desc){{0, 0, 9, 9}, no_spans, NULL, NULL, false},
+      &all->objects[6]));
+  CS_TRY(celspan_object_create_image(
       context, &(celspan_image_desc){.picture = {.file = "b.png"}, .width = 3, .height = 3},
-      &objects[7]));
-  TRY(celspan_object_create_boolean(context, CELSPAN_XOR, objects, 7, &operands[0]));
-  TRY(celspan_object_transform(context, operands[0], &half, &operands[1]));
-  TRY(celspan_object_fade(context, operands[1], 0.5, &objects[8]));
+      &all->objects[7]));
+  return CELSPAN_OK;
+}
+
+static celspan_status build_film(celspan_context *context, everything *all) {
+  const celspan_matrix half = celspan_matrix_scaling(0.5, 0.5);
+  CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, all->objects, 7, &all->operands[0]));
+  CS_TRY(celspan_object_transform(context, all->operands[0], &half, &all->operands[1]));
+  CS_TRY(celspan_object_fade(context, all->operands[1], 0.5, &all->objects[8]));
   celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;
-  cel_desc.objects = objects;
+  cel_desc.objects = all->objects;
   cel_desc.object_count = 7;
-  TRY(celspan_cel_create(context, &cel_desc, &cel));
-  TRY(celspan_cel_transform(context, cel, &half, &cels[0]));
-  TRY(celspan_cel_fade(context, cel, 0.5, &cels[1]));
+  CS_TRY(celspan_cel_create(context, &cel_desc, &all->cel));
+  CS_TRY(celspan_cel_transform(context, all->cel, &half, &all->cels[0]));
+  CS_TRY(celspan_cel_fade(context, all->cel, 0.5, &all->cels[1]));
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  desc.cels = cels;
+  desc.cels = all->cels;
   desc.cel_count = 2;
-  TRY(celspan_rostrum_create(context, &desc, &rostrum));
-  celspan_exposure exposure = {rostrum, 1};
+  CS_TRY(celspan_rostrum_create(context, &desc, &all->rostrum));
+  celspan_exposure exposure = {all->rostrum, 1};
   double rgba[4];
-  TRY(celspan_probe(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba));
-done:
-  celspan_rostrum_unref(rostrum);
-  celspan_cel_unref(cel);
+  return celspan_probe(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba);
+}
+
+static void release(everything *all) {
+  celspan_rostrum_unref(all->rostrum);
+  celspan_cel_unref(all->cel);
   for (int i = 0; i < 2; i++) {
-    celspan_cel_unref(cels[i]);
-    celspan_object_unref(operands[i]);
+    celspan_cel_unref(all->cels[i]);
+    celspan_object_unref(all->operands[i]);
   }
   for (int i = 0; i < 9; i++)
-    celspan_object_unref(objects[i]);
+    celspan_object_unref(all->objects[i]);
   for (int i = 0; i < 4; i++)
-    celspan_texture_unref(textures[i]);
+    celspan_texture_unref(all->textures[i]);
+}
+
+static celspan_status build_everything(celspan_context *context) {
+  everything all = {0};
+  celspan_status status = build_textures(context, &all);
+  if (status == CELSPAN_OK)
+    status = build_primitives(context, &all);
+  if (status == CELSPAN_OK)
+    status = build_film(context, &all);
+  release(&all);
   return status;
 }
 

@@ -1,4 +1,5 @@
-/* Span files hold the very pixels that other sinks get, whatever the spans were. */
+/* Span files hold exactly the pixels that other sinks get, whatever the spans were.
+ */
 #include <fcntl.h>
 #include <spanfile.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* colour/srgb8.c: every set of instructions codes every colour alike. */
+/* colour/srgb8.c: every set of instructions gives the same code for every colour.
+ */
 #include "colour/srgb8.h"
 
 #include <math.h>

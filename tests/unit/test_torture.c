@@ -1,6 +1,6 @@
-/* A frame under a memory that fails: whatever allocation fails, the status says so, nothing is
- * lost, and the same context then makes the same frame. And one that has been seen: it allocates no
- * more. */
+/* A frame while memory fails: whichever allocation fails, the status says so, nothing leaks, and
+ * the same context then makes the same frame. A frame that was made before allocates nothing more.
+ */
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"

@@ -1,5 +1,6 @@
-/* colour/transfer.c against the formulas in long double; and the bits, the same under every
- * compiler. */
+/* colour/transfer.c against the formulas in long double; and its bits, which must be the same under
+ * every compiler.
+ */
 #include "colour/transfer.h"
 
 #include <math.h>

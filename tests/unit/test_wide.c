@@ -1,4 +1,5 @@
-/* The sweep's vector code gives the same bits whichever instructions it runs with. */
+/* The sweep's vector code gives the same bits under every set of instructions.
+ */
 #include "area/edges.h"
 #include "geometry/polyline.h"
 #include "row/centre.h"
