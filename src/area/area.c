@@ -112,7 +112,7 @@ static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low,
   cs_cells_stand(area->parts.cells, area->parts.composer, low, least);
   sweep->left = left;
   sweep->deferred = area->parts.cells->deferred;
-  sweep->deferred_end = area->parts.cells->deferred_end;
+  sweep->deferred.first = sweep->deferred.next;
   return cs_target_begin_item(&area->target, least);
 }
 

@@ -1,8 +1,18 @@
-/* Strokes: edges drawn as they are met, straight from what has been measured of them, without a
- * window's fragments: one that shares its pixels with no other, and a few that share pixels with
- * each other and with nothing else. So are nearly all edges of nearly all rows.
+/* Direct edges: boundaries that are drawn into the row at once, from what has been measured of
+ * them, without the segments of a window. That works for an edge that shares its pixels with no
+ * other one, and for a few that share pixels with each other and with nothing else. Nearly all
+ * edges of nearly all rows are such.
  *
- * Invariant: what is drawn is what a window would sum; the bits are the same whichever
+ *       first           end              first, end: the columns that it crosses
+ *         |              |
+ *     +---+---+---+---+--+---+
+ *     | L |  /|###|###|##| R |           L, R: the cells on its sides
+ *     +---+-/-+---+---+--+---+
+ *       L  one second .. two  R          what is right of it in a pixel: one in the first column,
+ *              \_______/                 two in the last, second and `fall` a column more between
+ *                 ramp                   pixel = L + share * (R - L)
+ *
+ * Invariant: what is drawn is what a window would sum, and the bits are the same whichever
  * instructions draw it.
  */
 #ifndef CS_AREA_DIRECT_H
@@ -27,49 +37,45 @@ typedef struct cs_direct_edges {
   int32_t width;
 } cs_direct_edges;
 
-/* Draws from the first boundary on, up to one that lies between cells that vary, or that more must
- * be known of. Returns how many. Room for CS_DIRECT_EACH spans a boundary and
- * CS_DIRECT_TOGETHER more is enough for one at least. */
+/* Draws boundaries from the first one on and returns how many. It ends before a boundary that lies
+ * between cells that vary along the row, and before one that only a window can draw. Room for
+ * CS_DIRECT_EACH spans a boundary and CS_DIRECT_TOGETHER more is enough for at least one. */
 CS_WIDE_DECLARE(size_t, cs_direct_draw, (const cs_direct_edges *direct, cs_row_writer *writer));
 
-/* Light is never negative and alpha at most 1: sums may miss that by a last bit. */
-static inline cs_v4 cs_direct_hold(cs_v4 colour) {
-  const cs_v4 most = {INFINITY, INFINITY, INFINITY, 1};
-  return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
-}
-
-/* What is right of a straight edge in the pixels of a row, as colours are weighted by it: in the
- * first column it crosses, in the second and the last, and what each column between has more. */
-typedef struct cs_direct_edge {
+/* The area right of a straight edge in the pixels of a row, as the weight of colours: in the first
+ * column that it crosses, in the second and in the last, and what each column between has more than
+ * the one before. */
+typedef struct cs_direct_shares {
   float one, second, two, fall;
-} cs_direct_edge;
+} cs_direct_shares;
 
-/* Draws one over more than two columns, [first, last]: its ends, and a ramp between them. */
+/* Draws an edge over more than two columns, [first, last]: its ends, and a ramp between them. base:
+ * the colour on its left; step: from there to its right. */
 static inline void cs_direct_ramp(cs_row_writer *writer, int32_t first, int32_t last, cs_v4 base,
-                                  cs_v4 step, cs_direct_edge stroke) {
-  cs_v4 ramp = base + step * stroke.second, slope = step * stroke.fall;
+                                  cs_v4 step, cs_direct_shares shares) {
+  cs_v4 ramp = base + step * shares.second, slope = step * shares.fall;
   cs_row_writer_to(writer, first, base);
-  cs_row_writer_to(writer, first + 1, cs_direct_hold(base + step * stroke.one));
+  cs_row_writer_to(writer, first + 1, cs_v4_bounded(base + step * shares.one));
   if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
     cs_row_writer_ramp(writer, last, ramp, slope);
   else
-    cs_row_writer_to(writer, last, cs_direct_hold(ramp));
-  cs_row_writer_to(writer, last + 1, cs_direct_hold(base + step * stroke.two));
+    cs_row_writer_to(writer, last, cs_v4_bounded(ramp));
+  cs_row_writer_to(writer, last + 1, cs_v4_bounded(base + step * shares.two));
 }
 
-/* Four doubles: sums of colour steps. Aligned as memory is that nobody aligned. */
+/* Four doubles: sums of colour steps. The alignment is that of any memory from an allocator. */
 typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 
-/* A function would return it by the rules of AVX. */
+/* From a cs_v4. A macro, because a function that returns it would need the calling rules of AVX. */
 #define CS_SUM4(v) __builtin_convertvector(v, cs_sum4)
 
-/* Adds to change[k] what a straight piece, from xa to xb over a share of the row's height, adds to
- * the sum from column `from` + k - 1 to the next. It crosses the columns [first, end); step: of
- * colour, from its left to its right. Which columns a piece crosses cannot be foreseen: nothing
- * here is a branch but whether they are more than two. */
+/* Adds a straight piece, from xa to xb over a share of the row's height, to sums by column:
+ * change[k] is what column `from` + k has more than the column before. The piece crosses the
+ * columns [first, end); step: of colour, from its left to its right. Which columns a piece crosses
+ * cannot be foreseen, so the only branch here is whether they are more than two. */
 static inline void cs_direct_add(cs_sum4 *change, int32_t from, double xa, double xb, double height,
                                  int32_t first, int32_t end, const cs_sum4 *step) {
-  const double thin = 0x1p-100; /* at least: of 0 width it is 0 from 0, all in one column */
+  const double thin = 0x1p-100; /* least width: that of an upright piece would divide by 0 */
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;
   change += first - from;

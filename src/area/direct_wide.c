@@ -1,4 +1,22 @@
+/* Drawing direct edges along the row.
+ *
+ *      from     first    end       first_next
+ *        |        |       |           |
+ *        +--------+---+---+-----------+---
+ *        |  base  |one|two|  base of the next boundary ...
+ *        +--------+---+---+-----------+---
+ *         1 span   1   1               a plain edge: three spans, or two where it crosses one
+ * column
+ *
+ *      |##|/##|###|   two edges share a pixel: their colour steps are summed column by column
+ *      |#/|###|\##|   (draw_group), which is exact whatever the order
+ *
+ * Plain edges come first because nearly all are: what is written does not depend on a branch that
+ * could not be foreseen.
+ */
 #include "area/direct.h"
+
+#include "sweep/pieces.h"
 
 #include <stddef.h>
 
@@ -21,58 +39,67 @@ static inline void put_span(celspan_span *span, head at, cs_v4 colour) {
 }
 
 /* The span between the ends of a straight edge over more than two columns: a ramp, or one pixel of
- * it. Returns false where it might look as its neighbours do, or has no slope. */
+ * it. Returns false where it might have the colour of a neighbour, or has no slope. */
 static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v4 ramp, cs_v4 slope,
                               cs_v4 one, cs_v4 two) {
   bool is_ramp = columns > 3;
-  cs_v4 middle = cs_v4_choose(is_ramp, ramp, cs_direct_hold(ramp));
+  cs_v4 middle = cs_v4_choose(is_ramp, ramp, cs_v4_bounded(ramp));
   if (cs_v4_same(slope, cs_v4_all(0)) || cs_v4_same(one, middle) || cs_v4_same(middle, two))
     return false;
   put_span(span, at + (head){1, columns - 1, is_ramp, 1}, middle);
-  cs_v4_store(span->slope, slope); /* a single has none, and nobody looks */
+  cs_v4_store(span->slope, slope); /* a single has none, and nobody reads it */
   return true;
 }
 
+/* Writes the spans of boundary i: its left cell from `start` on, and its columns from `first` on.
+ * Of one or two columns the spans of both are written, so there is no branch on whether the second
+ * counts. Returns the end of the spans; NULL where two neighbours would have the same colour, or
+ * more must be known of the edge. */
+static inline celspan_span *put_plain(celspan_span *span, head start, int32_t first,
+                                      const cs_edges *edges, size_t i, const cs_cell *left) {
+  int32_t columns = edges->end[i] - first;
+  cs_v4 base = left->colour, step = left[1].colour - base;
+  cs_v4 one = cs_v4_bounded(base + step * edges->one[i]);
+  cs_v4 two = cs_v4_bounded(base + step * edges->two[i]);
+  if (cs_v4_same(cs_v4_load(span[-1].colour), base) || cs_v4_same(base, one) ||
+      cs_v4_same(one, two))
+    return NULL;
+  head at = head_at(first);
+  put_span(span, (start & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
+  put_span(span + 1, at + (head){0, 1, 0, 0}, one);
+  if (columns <= 2) {
+    put_span(span + 2, at + (head){1, 2, 0, 1}, two);
+    return span + columns + 1;
+  }
+  float fall = edges->fall[i];
+  if (!(fall > 0) ||
+      !put_middle(span + 2, at, columns, base + step * edges->second[i], step * fall, one, two))
+    return NULL;
+  put_span(span + 3, at + (head){columns - 1, columns, 0, columns - 1}, two);
+  return span + 4;
+}
+
 /* Draws from the first boundary on while all is plain: straight or over one or two columns, pixels
- * of its own, flat cells that show, no two neighbouring spans alike. Of one or two columns the
- * spans of both are written, and there is no branch on whether the second counts. Returns how many;
- * at least the last is left. */
+ * of its own, flat cells that show, no two neighbouring spans of one colour. Returns how many; at
+ * least the last boundary is left over. */
 static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
                                 const cs_edges *edges, size_t done) {
   const uint32_t *boundaries = s->boundaries + done;
   size_t n = 0, last = s->count - done - 1, i = boundaries[0], ramps = 0;
   int32_t first = edges->first[i], from = writer->from;
-  celspan_span *span = writer->next;
+  celspan_span *span = writer->next, *next;
   if (span == writer->row->spans)
     return 0;
   head start = head_at(from);
   while (n < last) {
     size_t i_next = boundaries[n + 1];
-    int32_t end = edges->end[i], first_next = edges->first[i_next], columns = end - first;
+    int32_t end = edges->end[i], first_next = edges->first[i_next];
     const cs_cell *left = &s->cells[i];
-    if (end > first_next || columns == 0 || first <= from || (left->length | left[1].length) != 0)
+    if (end > first_next || end == first || first <= from || (left->length | left[1].length) != 0 ||
+        !(next = put_plain(span, start, first, edges, i, left)))
       break;
-    cs_v4 base = left->colour, step = left[1].colour - base;
-    cs_v4 one = cs_direct_hold(base + step * edges->one[i]);
-    cs_v4 two = cs_direct_hold(base + step * edges->two[i]);
-    if (cs_v4_same(cs_v4_load(span[-1].colour), base) || cs_v4_same(base, one) ||
-        cs_v4_same(one, two))
-      break;
-    head at = head_at(first);
-    put_span(span, (start & (head){-1, 0, 0, -1}) | (at & (head){0, -1, 0, 0}), base);
-    put_span(span + 1, at + (head){0, 1, 0, 0}, one);
-    if (columns <= 2) {
-      put_span(span + 2, at + (head){1, 2, 0, 1}, two);
-      span += columns + 1;
-    } else {
-      float fall = edges->fall[i];
-      if (!(fall > 0) ||
-          !put_middle(span + 2, at, columns, base + step * edges->second[i], step * fall, one, two))
-        break;
-      put_span(span + 3, at + (head){columns - 1, columns, 0, columns - 1}, two);
-      span += 4;
-      ramps += columns > 3;
-    }
+    ramps += end - first > 3;
+    span = next;
     start = head_at(from = end);
     i = i_next;
     first = first_next;
@@ -86,16 +113,16 @@ static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
   return n;
 }
 
-/* Over at most two columns. */
+/* Draws an edge over at most two columns. */
 static inline void draw_short(cs_row_writer *writer, const cs_edges *edges, size_t i,
                               const cs_cell *left) {
   int32_t first = edges->first[i], end = edges->end[i];
   cs_v4 base = left->colour, step = left[1].colour - base;
   cs_row_writer_to(writer, first, base);
   if (end > first)
-    cs_row_writer_to(writer, first + 1, cs_direct_hold(base + step * edges->one[i]));
+    cs_row_writer_to(writer, first + 1, cs_v4_bounded(base + step * edges->one[i]));
   if (end > first + 1)
-    cs_row_writer_to(writer, end, cs_direct_hold(base + step * edges->two[i]));
+    cs_row_writer_to(writer, end, cs_v4_bounded(base + step * edges->two[i]));
 }
 
 /* ---------------------------------------------------------------- together */
@@ -110,19 +137,13 @@ static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspa
 static void add_pieces(cs_sum4 *change, int32_t from, const cs_direct_edges *s, size_t i,
                        const cs_sum4 *step) {
   const cs_active *active = s->active;
-  celspan_point above = {active->x[i], active->y}, foot = {active->x_next[i], active->y_next};
-  double passed = 0;
-  if (s->edges->is_bent[i]) {
-    const cs_bend *bend = cs_active_bend(active, i);
-    for (uint32_t k = 0; k < bend->vertex_count; k++) {
-      celspan_point below = active->vertices[bend->vertex + k];
-      double reached = cs_edges_round(below.y - active->y);
-      add_piece(change, from, above, below, reached - passed, s->width, step);
-      above = below;
-      passed = reached;
-    }
+  const cs_bend *bend = s->edges->is_bent[i] ? cs_active_bend(active, i) : NULL;
+  double passed = 0; /* of the row's height */
+  for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
+    double reached = p.rest > 0 ? cs_edges_round(p.below.y - active->y) : 1;
+    add_piece(change, from, p.above, p.below, reached - passed, s->width, step);
+    passed = reached;
   }
-  add_piece(change, from, above, foot, 1 - passed, s->width, step);
 }
 
 static inline void add_edge(cs_sum4 *change, int32_t from, const cs_direct_edges *s, size_t i) {
@@ -141,8 +162,8 @@ static inline void add_edge(cs_sum4 *change, int32_t from, const cs_direct_edges
   change[2] += step * (1 - rest);
 }
 
-/* How many boundaries from `done` on share pixels with each other and with nothing else; 0: more
- * must be known. end: of their columns. */
+/* How many boundaries from `done` on share pixels with each other and with nothing else; 0 where
+ * that is not known, or they are too wide. *end: of their columns. */
 static inline size_t find_group(const cs_direct_edges *s, size_t done, int32_t *end) {
   const cs_edges *edges = s->edges;
   const uint32_t *boundaries = s->boundaries;
@@ -160,7 +181,7 @@ static inline size_t find_group(const cs_direct_edges *s, size_t done, int32_t *
   return n - done;
 }
 
-/* Out of line: the loop along the row needs the registers. */
+/* Draws them. Out of line, because the loop along the row needs the registers. */
 static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const cs_direct_edges *s,
                                                    size_t done) {
   int32_t end;
@@ -182,14 +203,14 @@ static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const 
   cs_row_writer_to(writer, from, base);
   for (int32_t k = 0; k < end - from; k++) {
     sum += change[k];
-    cs_row_writer_to(writer, from + k + 1, cs_direct_hold(__builtin_convertvector(sum, cs_v4)));
+    cs_row_writer_to(writer, from + k + 1, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
   }
   return count;
 }
 
 /* ---------------------------------------------------------------- along the row */
 
-/* As draw_group, with the pen at hand. */
+/* As draw_group, with the writer in registers. */
 static inline size_t try_group(cs_row_writer *writer, const cs_direct_edges *s, size_t done) {
   cs_row_writer lent = *writer;
   size_t drawn = draw_group(&lent, s, done);
@@ -211,14 +232,14 @@ static inline size_t draw_next(cs_row_writer *writer, const cs_direct_edges *s,
   if (end - first > 2)
     cs_direct_ramp(
         writer, first, end - 1, left->colour, left[1].colour - left->colour,
-        (cs_direct_edge){edges->one[i], edges->second[i], edges->two[i], edges->fall[i]});
+        (cs_direct_shares){edges->one[i], edges->second[i], edges->two[i], edges->fall[i]});
   else
     draw_short(writer, edges, i, left);
   return 1;
 }
 
 size_t CS_WIDE(cs_direct_draw)(const cs_direct_edges *direct, cs_row_writer *out) {
-  const cs_direct_edges s = *direct; /* at hand, whatever is written */
+  const cs_direct_edges s = *direct; /* copies: nothing that is written changes them */
   const cs_edges edges = *direct->edges;
   cs_row_writer writer = *out;
   size_t done = 0, drawn = 1;

@@ -48,11 +48,6 @@ static inline int32_t cs_edges_ceil(double x, int32_t width) {
   return column + (column < x && column < width);
 }
 
-/* Whether boundary i stays within the row's sides. */
-static inline bool cs_edges_is_inside(const cs_edges *edges, size_t i, int32_t width) {
-  return edges->low[i] >= 0 && edges->high[i] <= width;
-}
-
 /* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
 static inline double cs_edges_round(double x) {
   const double bias = 0x1.8p24;

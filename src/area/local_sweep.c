@@ -39,15 +39,15 @@ static const cs_cell *left_of(const cs_local_sweep *sweep, size_t j) {
   return j > 0 ? sweep->members[j - 1]->right : sweep->left;
 }
 
-/* A boundary at some height, between two cells. */
-typedef struct stay {
+/* A boundary at some height. */
+typedef struct position {
   const cs_member *member;
   double x, y;
-  uint32_t at; /* a segment that y is on */
-} stay;
+  uint32_t at; /* a segment that y is on ends at points[at] */
+} position;
 
-/* Gives the window what a boundary draws from there down to (x, y). */
-static celspan_status draw_to(cs_local_sweep *sweep, const stay *from, double x, double y,
+/* Draws a boundary from there down to (x, y), between two cells. */
+static celspan_status draw_to(cs_local_sweep *sweep, const position *from, double x, double y,
                               const cs_cell *left, const cs_cell *right) {
   const celspan_point *points = from->member->points;
   if (!(y > from->y) || cs_composer_same(sweep->composer, left, right))
@@ -63,10 +63,10 @@ static celspan_status draw_to(cs_local_sweep *sweep, const stay *from, double x,
   return cs_target_add(sweep->target, &last, left, right);
 }
 
-/* The same for member j since its last event, between the cells it stands between. */
+/* Draws member j since its last event, between the cells on its sides. */
 static celspan_status flush(cs_local_sweep *sweep, size_t j, double x, double y) {
   cs_member *member = sweep->members[j];
-  const stay from = {member, member->x, member->y, member->at};
+  const position from = {member, member->x, member->y, member->at};
   CS_TRY(draw_to(sweep, &from, x, y, left_of(sweep, j), member->right));
   while (member->points[member->at].y < y)
     member->at++;
@@ -90,8 +90,8 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
     cs_composer_cross_span(composer, member->layer, member->span, sign * member->direction);
 }
 
-/* Walks the composer to just right of the first `place` members. */
-static void stand(cs_local_sweep *sweep, size_t place) {
+/* Moves the composer to just right of the first `place` members. */
+static void cross_to(cs_local_sweep *sweep, size_t place) {
   cs_composer *composer = sweep->composer;
   for (; sweep->crossed < place; sweep->crossed++)
     cross(composer, sweep->members[sweep->crossed], 1);
@@ -99,15 +99,7 @@ static void stand(cs_local_sweep *sweep, size_t place) {
     cross(composer, sweep->members[sweep->crossed - 1], -1);
 }
 
-/* And past the toggles at or left of x. */
-static void stand_toggles(cs_local_sweep *sweep, double x) {
-  cs_composer *composer = sweep->composer;
-  sweep->passed = cs_cells_defer(composer, sweep->passed, sweep->deferred_end, x);
-  for (; sweep->passed > sweep->deferred && sweep->passed[-1].x > x; sweep->passed--)
-    cs_composer_cross(composer, sweep->passed[-1].layer, -sweep->passed[-1].direction);
-}
-
-/* The cell at the composer's place; `known` when it is the same. */
+/* The cell at the composer's place; `known` where it is the same. */
 static const cs_cell *find_cell(cs_local_sweep *sweep, const cs_cell *known) {
   if (known && cs_set_hash_same(known->hash, sweep->composer->hash))
     return known;
@@ -123,15 +115,15 @@ static const cs_cell *find_cell(cs_local_sweep *sweep, const cs_cell *known) {
 static celspan_status refresh(cs_local_sweep *sweep, size_t first, size_t last) {
   for (size_t j = first; j <= last; j++) {
     cs_member *member = sweep->members[j];
-    stand(sweep, j + 1);
-    stand_toggles(sweep, member->x);
+    cross_to(sweep, j + 1);
+    cs_deferred_to(&sweep->deferred, sweep->composer, member->x);
     member->right = find_cell(sweep, member->right);
     CS_TRY(sweep->composer->failure);
   }
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- bands */
+/* ---------------------------------------------------------------- slabs */
 
 /* The height of the next begin or end. */
 static double next_height(const cs_local_sweep *sweep) {
@@ -148,36 +140,36 @@ static inline cs_intersection *intersection_at(const cs_local_sweep *sweep, uint
   return index == CS_INTERSECTIONS_NONE ? NULL : &sweep->intersections.intersections[index];
 }
 
-/* Composes what is seen right of place j after each of the meetings there. */
+/* Composes the cell right of place j after each of the intersections there. */
 static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
   cs_composer *composer = sweep->composer;
   cs_member *const *members = sweep->members;
   cs_intersection *first = intersection_at(sweep, sweep->intersections.first[j]);
   if (!first)
     return CELSPAN_OK;
-  const cs_intersection *stays =
-      first->left == j ? first : NULL; /* it leaves before it is crossed */
-  stand(sweep, stays ? j : j + 1);
+  const cs_intersection *leaves =
+      first->left == j ? first : NULL; /* member j leaves: not yet crossed */
+  cross_to(sweep, leaves ? j : j + 1);
   for (cs_intersection *intersection = first; intersection;
        intersection = intersection_at(sweep, intersection->next)) {
-    if (intersection != stays)
+    if (intersection != leaves)
       cross(composer, members[intersection->left], -1);
     cross(composer, members[intersection->right], 1);
-    stand_toggles(sweep, intersection->right_x);
+    cs_deferred_to(&sweep->deferred, sweep->composer, intersection->right_x);
     intersection->cell = find_cell(sweep, NULL);
     CS_TRY(composer->failure);
   }
   for (cs_intersection *intersection = first; intersection;
        intersection = intersection_at(sweep, intersection->next)) {
     cross(composer, members[intersection->right], -1);
-    if (intersection != stays)
+    if (intersection != leaves)
       cross(composer, members[intersection->left], 1);
   }
   return CELSPAN_OK;
 }
 
-/* Follows place j down the band: whoever stands there draws, from one meeting with a neighbour to
- * the next. left: the cell left of the place at the top. */
+/* Follows place j down the slab: the member that is there is drawn from one intersection with a
+ * neighbour to the next. left: the cell left of the place at the top. */
 static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell *left) {
   cs_member *const *members = sweep->members;
   const cs_intersections *intersections = &sweep->intersections;
@@ -185,7 +177,7 @@ static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell 
   const cs_intersection *before =
       j > 0 ? intersection_at(sweep, intersections->first[j - 1]) : NULL;
   const cs_intersection *after = intersection_at(sweep, intersections->first[j]);
-  stay s = {members[j], members[j]->x, members[j]->y, members[j]->at};
+  position s = {members[j], members[j]->x, members[j]->y, members[j]->at};
   while (before || after) {
     bool is_after = !before || (after && after < before); /* as they happened */
     const cs_intersection *intersection = is_after ? after : before;
@@ -207,7 +199,7 @@ static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell 
   return CELSPAN_OK;
 }
 
-/* Puts the members where they are at the foot of a band. */
+/* Puts the members in their order at the foot of a slab. */
 static void commit_places(cs_local_sweep *sweep) {
   const cs_intersections *intersections = &sweep->intersections;
   cs_member **members = sweep->spare;
@@ -223,7 +215,7 @@ static void commit_places(cs_local_sweep *sweep) {
   sweep->members = members;
 }
 
-/* Draws the meetings of a band, and leaves the members as they are at its foot. */
+/* Draws the intersections of a slab, and leaves the members as they are at its foot. */
 static celspan_status draw_intersections(cs_local_sweep *sweep) {
   const cs_cell *left = sweep->left;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -231,28 +223,28 @@ static celspan_status draw_intersections(cs_local_sweep *sweep) {
     CS_TRY(draw_place(sweep, j, left));
     left = sweep->members[j]->right;
   }
-  stand(sweep, 0);
+  cross_to(sweep, 0);
   commit_places(sweep);
   return CELSPAN_OK;
 }
 
-/* The same for a band with one meeting, as most are. */
+/* The same for a slab with one intersection, as most are. */
 static celspan_status draw_intersection(cs_local_sweep *sweep,
                                         const cs_intersection *intersection) {
-  size_t j = intersection->left; /* nobody has left his place before */
+  size_t j = intersection->left; /* no member has changed its place before */
   cs_member *a = sweep->members[j], *b = sweep->members[j + 1];
   const cs_cell *right = b->right;
   CS_TRY(flush(sweep, j, intersection->left_x, intersection->y));
   CS_TRY(flush(sweep, j + 1, intersection->right_x, intersection->y));
   if (sweep->crossed > j)
-    stand(sweep, j);
+    cross_to(sweep, j);
   sweep->members[j] = b;
   sweep->members[j + 1] = a;
   a->right = right; /* cells belong to places */
   return refresh(sweep, j, j);
 }
 
-/* Runs the members from y0 down to y1, where the next of them begins or ends. */
+/* Follows the members from y0 down to y1, where the next of them begins or ends. */
 static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
   cs_intersections *intersections = &sweep->intersections;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -274,9 +266,9 @@ static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- between bands */
+/* ---------------------------------------------------------------- between slabs */
 
-/* Slope below a height, for settling equal x. */
+/* dx/dy just below a height. */
 static double slope_below(const cs_member *member, double y) {
   uint32_t at = member->at;
   while (member->points[at].y <= y && at + 1 < member->point_count)
@@ -285,7 +277,7 @@ static double slope_below(const cs_member *member, double y) {
   return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
 }
 
-/* Whether a belongs right of b at the height that both have reached. */
+/* Whether a belongs right of b at the height y of both. */
 static bool is_right(const cs_member *a, const cs_member *b, double y) {
   if (a->foot != b->foot)
     return a->foot > b->foot;
@@ -316,7 +308,7 @@ static void drop_ended(cs_local_sweep *sweep) {
   sweep->count = kept;
 }
 
-/* Lets the members that begin at y in, at the end of the order. */
+/* Appends the members that begin at y to the order. */
 static void begin_members(cs_local_sweep *sweep, double y) {
   for (; sweep->begin_count > 0 && sweep->begins->points[0].y <= y; sweep->begin_count--) {
     cs_member *member = sweep->begins++;
@@ -325,7 +317,7 @@ static void begin_members(cs_local_sweep *sweep, double y) {
   }
 }
 
-/* Members that meet in a point and part in another order. */
+/* Notes members that meet in a point and part in another order. */
 static void note_disorder(const cs_local_sweep *sweep, double y, cs_extent *changed) {
   const cs_member *last = NULL;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -374,14 +366,15 @@ static celspan_status refresh_inside(cs_local_sweep *sweep, const cs_extent *cha
   return first < end ? refresh(sweep, first, end - 1) : CELSPAN_OK;
 }
 
-/* The events at height y, at the foot of the band just run. */
+/* The events at height y, at the foot of a slab. What is present changes between the least and the
+ * greatest x of them only: outside windings balance, so the cells there are kept. */
 static celspan_status change_members(cs_local_sweep *sweep, double y) {
   cs_extent changed = cs_extent_nowhere();
   CS_TRY(end_members(sweep, y, &changed));
   note_begins(sweep, y, &changed);
   note_disorder(sweep, y, &changed);
   CS_TRY(flush_inside(sweep, &changed, y));
-  stand(sweep, 0);
+  cross_to(sweep, 0);
   drop_ended(sweep);
   begin_members(sweep, y);
   sort(sweep, y);
@@ -393,14 +386,13 @@ celspan_status cs_local_sweep_replay(cs_local_sweep *sweep) {
   CS_TRY(cs_intersections_reserve(&sweep->intersections, sweep->composer->context,
                                   sweep->count + sweep->begin_count));
   sweep->crossed = 0;
-  sweep->passed = sweep->deferred;
   for (;;) {
     double next = next_height(sweep);
     if (next > y)
       CS_TRY(run_slab(sweep, y, next));
     if (next >= sweep->y1) {
-      stand(sweep, 0);
-      stand_toggles(sweep, -INFINITY);
+      cross_to(sweep, 0);
+      cs_deferred_to(&sweep->deferred, sweep->composer, -INFINITY);
       return flush_all(sweep, sweep->y1);
     }
     y = next;
@@ -426,13 +418,11 @@ static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, do
   if (!cell)
     return CELSPAN_NO_MEMORY;
   cs_composer_cross(composer, second.layer, second.direction);
-  const cs_deferred *deferred = sweep->deferred;
-  const cs_deferred *passed = cs_cells_defer(composer, deferred, sweep->deferred_end, x);
+  cs_deferred_forward(&sweep->deferred, composer, x);
   cs_composer_cell(composer, cell);
   *out = cell;
   cs_composer_cross(composer, second.layer, -second.direction);
-  for (; passed > deferred; passed--)
-    cs_composer_cross(composer, passed[-1].layer, -passed[-1].direction);
+  cs_deferred_to(&sweep->deferred, composer, -INFINITY);
   return composer->failure;
 }
 

@@ -52,14 +52,13 @@ typedef struct cs_local_sweep {
   const cs_cell *left; /* of all its members */
   cs_member *begins;   /* those still to begin, by height, then x, then order */
   size_t begin_count;
-  const cs_deferred *deferred, *deferred_end; /* those right of the least x of the members */
+  cs_deferred_cursor deferred; /* from the least x of the members on */
   /* while it runs */
   cs_member **members; /* those that are there at the current height, in order */
   size_t count;
   cs_member **spare;           /* room for as many */
   const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
-  size_t crossed;              /* the composer is right of so many members, */
-  const cs_deferred *passed;   /* and past the deferred changes before this one */
+  size_t crossed;              /* the composer is right of so many members */
   /* its own room, kept from one replay to the next */
   cs_intersections intersections;
   cs_member *entering; /* the members at the top of the row */
@@ -75,11 +74,11 @@ void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
 /* Draws the members through the row. The composer is left of them all, and is there again
- * afterwards. deferred, deferred_end: as the composer's place has them. */
+ * afterwards. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
 
 /* The same for boundaries i and i + 1, straight through the row, that cross once, which is what
- * nearly all local sweeps are. Given are left, of both, and the deferred changes; *between: the
+ * nearly all local sweeps are. Given are left, of both, and deferred. *between: the
  * cell between them after they have crossed, good until the row is done. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
                                                    size_t i, const cs_cell **between);

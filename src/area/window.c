@@ -58,11 +58,11 @@ static celspan_status close_lone(cs_window *window) {
   cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
   int32_t last = f->end - 1;
   double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
-  cs_direct_edge stroke = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
-                           (float)cover(f, last), (float)(f->height / across)};
+  cs_direct_shares shares = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
+                             (float)cover(f, last), (float)(f->height / across)};
   CS_TRY(cs_row_reserve(window->composer->context, window->out, CS_DIRECT_EACH));
   cs_row_writer p = cs_row_writer_take(window->out, window->from);
-  cs_direct_ramp(&p, f->first, last, base, step, stroke);
+  cs_direct_ramp(&p, f->first, last, base, step, shares);
   cs_row_writer_put(&p);
   return CELSPAN_OK;
 }
@@ -96,7 +96,7 @@ static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_s
 static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
-    cs_row_writer_to(p, p->from + 1, cs_direct_hold(__builtin_convertvector(*sum, cs_v4)));
+    cs_row_writer_to(p, p->from + 1, cs_v4_bounded(__builtin_convertvector(*sum, cs_v4)));
   }
 }
 
@@ -111,7 +111,7 @@ static celspan_status close_wide(cs_window *window) {
       add_changes(&window->segments[i], next, stop, change);
     CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
     cs_row_writer p = cs_row_writer_take(window->out, window->from);
-    cs_row_writer_to(&p, next, cs_direct_hold(__builtin_convertvector(sum, cs_v4)));
+    cs_row_writer_to(&p, next, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
     draw_sums(&p, stop, change, &sum);
     cs_row_writer_put(&p);
     window->from = p0 = stop;
@@ -262,7 +262,7 @@ static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, flo
 
 static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, float *sum) {
   for (int32_t k = 0; k < p1 - p0; k++) {
-    cs_v4 colour = cs_direct_hold(cs_v4_load(sum + 4 * k));
+    cs_v4 colour = cs_v4_bounded(cs_v4_load(sum + 4 * k));
     if (p1 - p0 > FEW)
       cs_v4_store(sum + 4 * k, colour);
     else

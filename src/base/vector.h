@@ -67,6 +67,13 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
 #endif
 }
 
+/* A premultiplied colour within its bounds: light is never negative and alpha at most 1. Sums of
+ * weighted colours may miss that by a last bit. */
+static inline cs_v4 cs_v4_bounded(cs_v4 colour) {
+  const cs_v4 most = {__builtin_inff(), __builtin_inff(), __builtin_inff(), 1};
+  return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
+}
+
 /* One of two, without a branch. */
 static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
   typedef int lanes __attribute__((vector_size(16)));

@@ -62,18 +62,12 @@ static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   cells->place = place;
 }
 
-static void deferred_to(cs_cells *cells, cs_composer *composer, double x) {
-  cells->deferred = cs_cells_defer(composer, cells->deferred, cells->deferred_end, x);
-  for (; cells->deferred > cells->first_deferred && cells->deferred[-1].x > x; cells->deferred--)
-    cs_composer_cross(composer, cells->deferred[-1].layer, -cells->deferred[-1].direction);
-}
-
 /* At both ends nothing is present, so from the one to the other it is but a step. */
 static void go_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
   cross_to(cells, composer, goes_right ? cells->count : 0);
-  deferred_to(cells, composer, goes_right ? INFINITY : -INFINITY);
+  cs_deferred_to(&cells->deferred, composer, goes_right ? INFINITY : -INFINITY);
   cells->place = goes_right ? 0 : cells->count;
-  cells->deferred = goes_right ? cells->first_deferred : cells->deferred_end;
+  cells->deferred.next = goes_right ? cells->deferred.first : cells->deferred.end;
 }
 
 void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
@@ -81,21 +75,21 @@ void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double
   if (2 * away > cells->count) /* the other way is the nearer one */
     go_round(cells, composer, place < from);
   cross_to(cells, composer, place);
-  deferred_to(cells, composer, x);
+  cs_deferred_to(&cells->deferred, composer, x);
 }
 
 void cs_cells_home(cs_cells *cells, cs_composer *composer) {
   if (2 * cells->place > cells->count)
     go_round(cells, composer, true);
   cross_to(cells, composer, 0);
-  deferred_to(cells, composer, -INFINITY);
+  cs_deferred_to(&cells->deferred, composer, -INFINITY);
 }
 
 void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
   cs_composer_restart(composer);
   cs_cells_forget(cells);
   cells->place = 0;
-  cells->deferred = cells->first_deferred;
+  cells->deferred.next = cells->deferred.first;
 }
 
 /* Takes the new order over. What is present between windings that balance is the same as ever, so
@@ -116,7 +110,7 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
            (end - change.low) * sizeof *cells->crossing);
   if (change.low > 0 || change.tail > 0)
     return;
-  cells->first_deferred = cells->deferred = cs_active_deferred(active, &cells->deferred_end);
+  cells->deferred.first = cells->deferred.next = cs_active_deferred(active, &cells->deferred.end);
 }
 
 /* ---------------------------------------------------------------- making */
@@ -132,7 +126,7 @@ static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
 static inline void step(cs_cells *cells, cs_composer *composer, double x) {
   cs_crossing crossing = cells->crossing[cells->place++];
   cs_composer_cross(composer, crossing.layer, crossing.direction);
-  cells->deferred = cs_cells_defer(composer, cells->deferred, cells->deferred_end, x);
+  cs_deferred_forward(&cells->deferred, composer, x);
 }
 
 celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_active *active,

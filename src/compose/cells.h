@@ -14,13 +14,27 @@
 #include "compose/composer.h"
 #include "sweep/active.h"
 
-/* Crosses the toggles up to and at x: culled boundaries take effect there, unseen. A cell is
- * composed with the toggles at or left of its own left end, neither more nor fewer. */
-static inline const cs_deferred *cs_cells_defer(cs_composer *composer, const cs_deferred *next,
-                                                const cs_deferred *end, double x) {
-  for (; next < end && next->x <= x; next++)
+/* Where the composer is among the deferred winding changes of a row: culled boundaries take effect
+ * there, unseen. A cell is composed with the changes at or left of its own left end, neither more
+ * nor fewer. */
+typedef struct cs_deferred_cursor {
+  const cs_deferred *first, *next, *end; /* those before next have been crossed */
+} cs_deferred_cursor;
+
+/* Crosses the changes up to and at x. */
+static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *composer,
+                                       double x) {
+  const cs_deferred *next = cursor->next;
+  for (; next < cursor->end && next->x <= x; next++)
     cs_composer_cross(composer, next->layer, next->direction);
-  return next;
+  cursor->next = next;
+}
+
+/* The same, or back across those right of x. */
+static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *composer, double x) {
+  cs_deferred_forward(cursor, composer, x);
+  for (; cursor->next > cursor->first && cursor->next[-1].x > x; cursor->next--)
+    cs_composer_cross(composer, cursor->next[-1].layer, -cursor->next[-1].direction);
 }
 
 /* Crosses the boundaries [low, high): from left to right where sign is 1, back where it is -1. */
@@ -43,11 +57,11 @@ typedef struct cs_cells {
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
   size_t known; /* cells that were made, from the left */
-  /* where the composer stands: right of the first `place` of `count` boundaries, in this order, and
-   * of the toggles before `toggle` of [first_deferred, toggle_end) */
+  /* where the composer is: right of the first `place` of `count` boundaries, in this order, and
+   * past the deferred changes before the cursor */
   size_t place, count;
   cs_crossing *crossing;
-  const cs_deferred *first_deferred, *deferred, *deferred_end;
+  cs_deferred_cursor deferred;
   size_t cell_capacity, flag_capacity, visible_capacity, crossing_capacity;
 } cs_cells;
 

@@ -25,7 +25,7 @@ static void cross(replay *r, uint32_t layer, int32_t direction) {
 /* Whether the composer, which has crossed the first `place` boundaries and some of the deferred
  * winding changes, is where a walk over just these comes to. */
 static bool composer_agrees(const cs_cells *cells, replay *r) {
-  for (const cs_deferred *d = cells->first_deferred; d < cells->deferred; d++)
+  for (const cs_deferred *d = cells->deferred.first; d < cells->deferred.next; d++)
     cross(r, d->layer, d->direction);
   for (size_t i = 0; i < cells->place; i++)
     cross(r, cells->crossing[i].layer, cells->crossing[i].direction);
@@ -55,7 +55,7 @@ bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer,
   bool agrees = composer_agrees(cells, &walk);
   /* Deferred winding changes take effect where nothing of them is seen, a little earlier or later
    * from row to row: only without them are the sets of all cells exact. */
-  if (agrees && cells->known == active->count + 1 && cells->first_deferred == cells->deferred_end) {
+  if (agrees && cells->known == active->count + 1 && cells->deferred.first == cells->deferred.end) {
     memset(walk.windings, 0, count * sizeof *walk.windings);
     walk.hash = (cs_set_hash){0, 0};
     agrees = cells_agree(cells, active, &walk);

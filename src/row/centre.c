@@ -116,7 +116,7 @@ typedef struct merged_walk {
   const cs_active *active;
   cs_procedure_edges edges;
   size_t boundary, edge; /* the next of each */
-  const cs_deferred *deferred, *deferred_end;
+  cs_deferred_cursor deferred;
 } merged_walk;
 
 static bool is_done(const merged_walk *w) {
@@ -144,10 +144,6 @@ static void cross_next(merged_walk *w) {
   }
   const cs_procedure_edge *e = &w->edges.edges[w->edge++];
   cs_composer_cross_span(w->composer, e->layer, e->span, e->direction);
-}
-
-static void defer_to(merged_walk *w, double x) {
-  w->deferred = cs_cells_defer(w->composer, w->deferred, w->deferred_end, x);
 }
 
 /* The columns [from, to) that one cell has been found to fill so far. */
@@ -179,11 +175,11 @@ static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
   CS_TRY(cs_procedures_collect(centre->parts.procedures, y + 0.5, &w.edges));
   cs_procedures_sort(&w.edges);
   cs_cells_home(centre->parts.cells, centre->parts.composer);
-  w.deferred = cs_active_deferred(centre->parts.active, &w.deferred_end);
+  w.deferred.next = cs_active_deferred(centre->parts.active, &w.deferred.end);
   for (;;) {
     int32_t to = cs_number_first_centre(next_x(&w, centre->parts.width));
     to = is_done(&w) || to > centre->parts.width ? centre->parts.width : to;
-    defer_to(&w, x);
+    cs_deferred_forward(&w.deferred, w.composer, x);
     if (to > f.to)
       CS_TRY(fill_to(&w, &f, to, y + 0.5, out));
     if (is_done(&w))
@@ -191,7 +187,7 @@ static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
     x = next_x(&w, centre->parts.width);
     cross_next(&w);
   }
-  defer_to(&w, INFINITY);
+  cs_deferred_forward(&w.deferred, w.composer, INFINITY);
   return cs_painter_run(w.painter, &f.cell, (cs_run){f.from, centre->parts.width, y + 0.5}, out);
 }
 

@@ -86,12 +86,6 @@ static int32_t swing_end(const node_row *row, int32_t from) {
   return row->last;
 }
 
-/* Light is never negative and a matte at most 1. */
-static cs_v4 hold(cs_v4 value) {
-  const cs_v4 most = {INFINITY, INFINITY, INFINITY, 1};
-  return cs_v4_min(cs_v4_max(value, cs_v4_all(0)), most);
-}
-
 /* What a line between two nodes adds to the sum of the nodes between them. */
 static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t to) {
   const float(*nodes)[4] = row->planes[plane];
@@ -121,7 +115,7 @@ static void balance(const node_row *row, cs_defocused_knots *knots, size_t first
       if (moves) {
         float *value = knots->values[k * planes + p];
         float wide = 0.5f * (float)(knots->at[k + 1] - knots->at[k - 1]);
-        cs_v4_store(value, hold(cs_v4_load(value) - (owed + here) * (1 / wide)));
+        cs_v4_store(value, cs_v4_bounded(cs_v4_load(value) - (owed + here) * (1 / wide)));
       }
       owed = moves ? added - here : added;
     }
