@@ -3,22 +3,12 @@
  * A cell has one colour everywhere, or a program: the layers that show in it, front to back, of
  * which at least one varies along a row. What a program looks like is for paint/ to find out.
  *
- * Invariant: equal sets of layers have equal hashes, and a cell depends on its set alone.
+ * Invariant: a cell depends on its set of layers alone, and on the procedure spans it lies in.
  */
 #ifndef CS_COMPOSE_CELL_H
 #define CS_COMPOSE_CELL_H
 
-#include "base/vector.h"
-#include "colour/paint.h"
-
-/* Names a set of layers: the keys of its members, exclusive-ored. */
-typedef struct cs_set_hash {
-  uint64_t a, b;
-} cs_set_hash;
-
-static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) {
-  return p.a == q.a && p.b == q.b;
-}
+#include "compose/set.h"
 
 /* One layer of a program. */
 typedef struct cs_item {

@@ -45,8 +45,7 @@ static inline void cs_cells_cross(cs_composer *composer, const cs_crossing *cros
   uint8_t *filled = composer->filled;
   cs_set_hash hash = composer->hash; /* in registers on the way */
   for (size_t i = low; i < high; i++)
-    cs_composer_turn(presences, set, filled, &hash, crossing[i].layer,
-                     sign * crossing[i].direction);
+    cs_set_cross(presences, set, filled, &hash, crossing[i].layer, sign * crossing[i].direction);
   composer->hash = hash;
 }
 

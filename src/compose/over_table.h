@@ -1,35 +1,31 @@
-/* Folds: the light of sets of plain leaves, flat and one over the other with nothing between.
+/* The fold of over.h by table, for frames of flat layers in no group and with no back light between
+ * them: no move is ever due, so layers can be folded beforehand.
  *
- * Neighbouring cells differ in few leaves, so what every word of a set gives by itself is kept, and
- * only words that changed are folded anew: from what any of four neighbouring leaves give, which is
- * looked up. Words are then folded from the front, until nothing shines through.
+ *     set    [........ word 1 ........][........ word 0 ........]     64 layers a word
+ *                                       0110 0000 ... 1011 0100       4 layers a quad
+ *                                         |              |
+ *                                    table of 16    table of 16       light of any choice of 4
+ *                                         \_____ over ___/
+ *                                              |
+ *                         light of word 1 over light of word 0        kept; made again when the
+ *                                                                     word of the set has changed
  *
- * Invariant: the light of a set depends on the set alone, to the bit: the leaves of a word fold
- * along the bits of their numbers, whatever was known before; the word in which the light ends
- * folds leaf by leaf, and what lies behind the end does not count.
+ * Neighbouring cells differ in few layers, so few words are folded again. Words are folded from the
+ * front until nothing shines through.
+ *
+ * Invariant: the light of a set depends on the set alone, to the bit. The layers of a word are
+ * folded in an order given by their numbers, whatever was known before; the word in which the light
+ * ends is folded layer by layer, and what lies behind the end counts for nothing.
  */
 #ifndef CS_COMPOSE_OVER_TABLE_H
 #define CS_COMPOSE_OVER_TABLE_H
 
-#include "base/context.h"
-#include "compose/stack.h"
+#include "compose/over.h"
 
-/* Light gathered from some leaves by themselves, and what they let through. */
-typedef struct cs_over_pair {
-  cs_v4 e, t;
-} cs_over_pair;
-
-static const cs_over_pair cs_over_pair_clear = {{0, 0, 0, 0}, {1, 1, 1, 1}};
-
-/* One glimpse over another: exactly the other where one of them is clear. */
-static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair back) {
-  return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
-}
-
-/* The leaves of one word of a set. */
+/* The layers of one word of a set. */
 typedef struct cs_over_word {
   uint64_t word;       /* those present */
-  cs_over_pair *parts; /* what any of each four leaves give, 16 times 16; NULL: not asked for yet */
+  cs_over_pair *quads; /* what any choice of each four layers gives, 16 times 16; NULL: not yet */
   cs_over_pair all;    /* of the whole word */
 } cs_over_word;
 
@@ -40,27 +36,14 @@ typedef struct cs_over_table {
   size_t count;
 } cs_over_table;
 
-/* Whether the leaves of a stack are plain. */
+/* Whether the layers of a stack are of that kind. */
 bool cs_over_table_suits(const cs_stack *stack);
 /* Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_over_table_init(cs_over_table *folds, celspan_context *context,
+CELSPAN_CHECKED celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                                   const cs_stack *stack);
-void cs_over_table_finish(cs_over_table *folds);
-/* The light of a set. filled: for every word of it, and on to a multiple of eight, 0 where it is 0.
- * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *folds, const uint64_t *set,
+void cs_over_table_finish(cs_over_table *table);
+/* The light of a set; filled: of its words, see set.h. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set,
                                                    const uint8_t *filled, cs_over_pair *out);
-
-/* The end of the first eight words at or below `end` that are not all empty; end: a multiple of
- * eight. */
-static inline uint32_t cs_over_table_skip(const uint8_t *filled, uint32_t end) {
-  uint64_t eight = 0;
-  for (; end > 0; end -= 8) {
-    memcpy(&eight, filled + end - 8, sizeof eight);
-    if (eight != 0)
-      break;
-  }
-  return end;
-}
 
 #endif

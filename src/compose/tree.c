@@ -1,24 +1,4 @@
-/* Boolean trees on sets of leaves.
- *
- * Every operator yields the present operands one over the other, or nothing, so a tree only decides
- * which leaves contribute. Its leaves are a contiguous range of bits, so operators over leaves
- * alone are answered a word at a time, however many there are.
- */
-#include "compose/stack.h"
-
-void cs_stack_finish(cs_stack *stack, cs_memory *memory) {
-  cs_mem_free(memory, stack->layers, stack->layer_capacity * sizeof *stack->layers);
-  cs_mem_free(memory, stack->rules, stack->rule_capacity * sizeof *stack->rules);
-  cs_mem_free(memory, stack->shades, stack->shade_capacity * sizeof *stack->shades);
-  cs_mem_free(memory, stack->images, stack->image_capacity * sizeof *stack->images);
-  cs_mem_free(memory, stack->procedures, stack->procedure_capacity * sizeof *stack->procedures);
-  cs_mem_free(memory, stack->defocused, stack->defocused_capacity * sizeof *stack->defocused);
-  cs_mem_free(memory, stack->groups, stack->group_capacity * sizeof *stack->groups);
-  cs_mem_free(memory, stack->lights, stack->light_capacity * sizeof *stack->lights);
-  cs_mem_free(memory, stack->steps, stack->step_capacity * sizeof *stack->steps);
-  cs_mem_free(memory, stack->trees, stack->tree_capacity * sizeof *stack->trees);
-  *stack = (cs_stack){0};
-}
+#include "compose/tree.h"
 
 /* The bits of word `word` that lie in [first, end). */
 static uint64_t range_mask(uint32_t word, uint32_t first, uint32_t end) {
@@ -55,7 +35,8 @@ static bool has_bit(const uint64_t *set, uint32_t layer) {
 }
 
 /* The operator's own presence, given how many operands are present and whether the first is. */
-static bool operator_holds(celspan_operator op, uint32_t operands, uint32_t present, bool first) {
+static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t present,
+                                bool first) {
   if (present == 0)
     return false;
   switch (op) {
@@ -73,9 +54,9 @@ static bool operator_holds(celspan_operator op, uint32_t operands, uint32_t pres
 }
 
 /* Clears what the operator does not paint: everything where it is absent; where a clip is present,
- * its shape. `first_end` is where the first operand's leaves end. */
-static void clear_hidden(const cs_step *step, uint32_t first_end, bool holds, uint64_t *set) {
-  if (!holds)
+ * its shape. first_end: where the layers of the first operand end. */
+static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_present, uint64_t *set) {
+  if (!is_present)
     clear_range(set, step->first, step->end);
   else if (step->op == CELSPAN_CLIP)
     clear_range(set, first_end, step->end);
@@ -96,9 +77,9 @@ static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
     present = count_range(set, step->first, step->end);
     first = has_bit(set, step->first);
   }
-  bool holds = operator_holds(step->op, step->operands, present, first);
-  clear_hidden(step, first_end, holds, set);
-  return (cs_tree_result){step->first, step->end, holds};
+  bool is_present = is_operator_present(step->op, step->operands, present, first);
+  clear_hidden(step, first_end, is_present, set);
+  return (cs_tree_result){step->first, step->end, is_present};
 }
 
 static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *set,

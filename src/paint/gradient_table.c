@@ -47,7 +47,7 @@ cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y)
     e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
     t = layer->t * (through * t);
   }
-  e[3] = 1 - table->keep * cs_stack_mean(t);
+  e[3] = 1 - table->keep * cs_over_mean(t);
   return e;
 }
 

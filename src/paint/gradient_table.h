@@ -15,6 +15,7 @@
 #include "base/number.h"
 #include "base/wide.h"
 #include "compose/cell.h"
+#include "compose/stack.h"
 #include "paint/shade.h"
 
 /* From one stop to the next. */

@@ -11,7 +11,7 @@
 
 #include "base/arena.h"
 #include "base/wide.h"
-#include "compose/stack.h"
+#include "compose/over.h"
 
 #define CS_OVER_ROW_BATCH 256 /* pixels, a multiple of those in a register */
 

@@ -65,7 +65,7 @@ void CS_WIDE(cs_over_row_add_group)(cs_over_row_level *outer, int32_t count, flo
     add(outer, i, fade * cs_wide_load(inner->e[i]), (1 - fade) + fade * cs_wide_load(inner->t[i]));
 }
 
-/* Alpha is the mean of the three mattes, as cs_stack_mean takes it. */
+/* Alpha is the mean of the three mattes, as cs_over_mean. */
 static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
   cs_wide first = CS_WIDE_SPREAD(t, 0), second = CS_WIDE_SPREAD(t, 1), third = CS_WIDE_SPREAD(t, 2);

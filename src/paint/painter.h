@@ -20,6 +20,9 @@
 
 #include "base/arena.h"
 #include "compose/composer.h"
+#include "pictures/block_cache.h"
+#include "sample/defocused.h"
+#include "sample/sampler.h"
 
 /* An image layer as this worker sees it: the header of its picture is read when it is needed. */
 typedef struct cs_image_view {

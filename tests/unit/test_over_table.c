@@ -33,9 +33,9 @@ static void put(int layer, bool is_present) {
 
 static bool has(int layer) { return set[layer / 64] >> layer % 64 & 1; }
 
-static cs_over_pair light_of(cs_over_table *folds) {
+static cs_over_pair light_of(cs_over_table *table) {
   cs_over_pair light = cs_over_pair_clear;
-  CHECK(cs_over_table_light(folds, set, filled, &light) == CELSPAN_OK);
+  CHECK(cs_over_table_light(table, set, filled, &light) == CELSPAN_OK);
   return light;
 }
 
@@ -62,22 +62,22 @@ static int check_light(cs_over_pair light) {
 
 /* A walk from set to set; a stranger who has seen none of them finds the same light. */
 static void test_walk(celspan_context *context, float through, float density) {
-  cs_over_table folds, stranger;
+  cs_over_table table, stranger;
   make_layers(through);
-  CHECK(cs_over_table_init(&folds, context, &stack) == CELSPAN_OK);
+  CHECK(cs_over_table_init(&table, context, &stack) == CELSPAN_OK);
   for (int step = 0; step < 300; step++) {
     for (int k = 0; k < 1 + step % 9; k++)
       put((int)(random_unit(&numbers) * LEAVES), random_unit(&numbers) < density);
-    cs_over_pair light = light_of(&folds);
+    cs_over_pair light = light_of(&table);
     int last = check_light(light);
     CHECK(cs_over_table_init(&stranger, context, &stack) == CELSPAN_OK);
     CHECK(same(light, light_of(&stranger)));
     for (int k = 0; k < 5 && last > 64; k++) /* nobody sees them */
       put((int)(random_unit(&numbers) * (float)(last - 64)), random_unit(&numbers) < 0.5f);
-    CHECK(last <= 64 || same(light, light_of(&folds)));
+    CHECK(last <= 64 || same(light, light_of(&table)));
     cs_over_table_finish(&stranger);
   }
-  cs_over_table_finish(&folds);
+  cs_over_table_finish(&table);
 }
 
 int main(void) {

@@ -1,0 +1,84 @@
+/* One layer of a compiled frame, and what belongs to layers of each kind.
+ *
+ * A layer is one primitive in its place: what it paints and how it is lit. Where it is present is
+ * for the sweep to say. What a layer of a kind needs besides lies in an array of that kind, and
+ * `detail` is its place there.
+ *
+ * Invariant: nothing here changes while rows are made, so workers share it.
+ */
+#ifndef CS_COMPOSE_LAYER_H
+#define CS_COMPOSE_LAYER_H
+
+#include <assert.h>
+
+#include "base/vector.h"
+#include "colour/paint.h"
+#include "scene/scene.h"
+
+#define CS_STACK_NONE UINT32_MAX /* no group, no layer */
+
+typedef enum cs_layer_kind {
+  CS_LAYER_FLAT,
+  CS_LAYER_SHADED,   /* triangle, linear or radial: varies along a row, as a formula */
+  CS_LAYER_PICTURE,  /* varies from pixel to pixel */
+  CS_LAYER_SCANLINE, /* paints come with the procedure spans of the row */
+  CS_LAYER_DEFOCUSED /* a defocused cel */
+} cs_layer_kind;
+
+typedef struct cs_layer {
+  cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
+  cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
+  uint32_t group;  /* innermost faded group, or CS_STACK_NONE */
+  uint32_t detail; /* all but FLAT: index into the array of its kind */
+  float fade;      /* of its paint, where that varies */
+  uint8_t kind;    /* a cs_layer_kind */
+  bool is_opaque;  /* lets nothing through, wherever it is present */
+} cs_layer;
+static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
+
+/* What the walk along a row needs of a layer. */
+typedef struct cs_layer_rule {
+  uint64_t key[2];      /* names the layer in the hash of a set */
+  int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
+} cs_layer_rule;
+
+/* A formula as planes, value = a x + b y + c.
+ * TRIANGLE: premultiplied s, t and beta over own units.
+ * LINEAR: where a point lies along the stops, over frame pixels; RADIAL: the two legs of its
+ * distance from the centre, as shares of the radius. Both are to be divided by the w of the point
+ * unless is_affine. */
+typedef struct cs_shade {
+  const celspan_texture *texture; /* borrowed from the scene */
+  celspan_matrix inverse;         /* frame pixels to own units */
+  double plane[7][3];
+  bool is_affine; /* and w above 0 everywhere */
+} cs_shade;
+
+typedef struct cs_image_layer {
+  const celspan_texture *texture; /* borrowed from the scene */
+  celspan_matrix inverse;         /* frame pixels to own units */
+  celspan_box box;                /* what the picture fills, own units */
+  celspan_wrap wrap;
+} cs_image_layer;
+
+typedef struct cs_procedure {
+  const celspan_scanline_desc *desc; /* borrowed from the scene */
+  uint32_t layer;
+  double scale_x, shift_x, scale_y, shift_y; /* own units to frame pixels */
+} cs_procedure;
+
+/* A faded boolean or cel: composited by itself, then mixed with clear. */
+typedef struct cs_group {
+  uint32_t parent; /* or CS_STACK_NONE */
+  uint32_t first;  /* its rearmost layer */
+  float fade;
+} cs_group;
+
+/* A back light, met on the way from the camera before every layer below `below`. */
+typedef struct cs_back_light {
+  uint32_t below;
+  cs_v4 light; /* brightness included; lane 3 is 0 */
+  float keep;  /* 1 - matte */
+} cs_back_light;
+
+#endif

@@ -1,0 +1,106 @@
+/* Layers one over the other, folded from the camera backwards: the light gathered so far (e), and
+ * the share of what lies behind that still shines through (t), channel by channel.
+ *
+ *       camera
+ *          |               e = 0, t = 1
+ *       layer 9            add:   e += t * s9, t *= t9
+ *          |
+ *      +-- | ---+          enter a faded group: e and t are put aside,
+ *      | layer 8|                 and inside it begins again with 0 and 1
+ *      | layer 7|
+ *      +-- | ---+          leave: faded as a whole, it is added to what was put aside
+ *          |
+ *      =========           meet a back light: e += t * light;
+ *          |                      its matte takes its share of the transparency
+ *       layer 5
+ *          |
+ *        rear              colour e, alpha = 1 - keep * the mean of t
+ *
+ * Before a layer is added three moves may be due, in this order: leave the groups that end in front
+ * of it, meet the back lights in front of it, enter the groups it is in.
+ *
+ * The same fold is written three times, since it must be fast on three kinds of data:
+ *   over.h            one cell, layer by layer;
+ *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
+ *                     of neighbouring cells are the same, so their light is looked up;
+ *   paint/over_row.h  up to 256 pixels of one program at once, a register at a time.
+ * Names and arithmetic are the same in all three.
+ */
+#ifndef CS_COMPOSE_OVER_H
+#define CS_COMPOSE_OVER_H
+
+#include "compose/stack.h"
+
+/* Light of some layers by themselves, and what they let through. Lane 3 of e counts for nothing. */
+typedef struct cs_over_pair {
+  cs_v4 e, t;
+} cs_over_pair;
+
+static const cs_over_pair cs_over_pair_clear = {{0, 0, 0, 0}, {1, 1, 1, 1}};
+
+/* One pair over another: exactly the other where one of them is clear. */
+static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair back) {
+  return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
+}
+
+/* Whether nothing shines through. Lane 3 of a transmission is 0 once something has been painted. */
+static inline bool cs_over_is_opaque(cs_v4 t) {
+  return !cs_v4_any_above(t, cs_v4_all(CS_PAINT_OPAQUE));
+}
+
+/* The mean of the three channels of a transmission: exactly their value where they are equal. */
+static inline float cs_over_mean(cs_v4 t) {
+  return t[0] + ((t[1] - t[0]) + (t[2] - t[0])) * (1.0f / 3);
+}
+
+/* A fold under way. */
+typedef struct cs_over {
+  const cs_stack *stack;
+  cs_v4 e, t;     /* of the innermost group */
+  float keep;     /* what the mattes of back lights leave of transparency */
+  uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
+  size_t light;   /* the next back light to be met */
+  uint32_t depth;
+  cs_over_pair outer[CS_SCENE_DEPTH + 2]; /* put aside, of the groups around */
+} cs_over;
+
+static inline void cs_over_begin(cs_over *over, const cs_stack *stack) {
+  over->stack = stack;
+  over->e = cs_v4_all(0);
+  over->t = cs_v4_all(1);
+  over->keep = 1;
+  over->group = CS_STACK_NONE;
+  over->light = 0;
+  over->depth = 0;
+}
+
+void cs_over_leave_group(cs_over *over);
+void cs_over_meet_light(cs_over *over);
+/* And the groups around it that were not entered yet. */
+void cs_over_enter_group(cs_over *over, uint32_t group);
+
+/* Moves back to just in front of a layer, which is in `group`. */
+static inline void cs_over_move(cs_over *over, uint32_t layer, uint32_t group) {
+  while (over->group != CS_STACK_NONE && layer < over->stack->groups[over->group].first)
+    cs_over_leave_group(over);
+  while (over->light < over->stack->light_count && layer < over->stack->lights[over->light].below)
+    cs_over_meet_light(over);
+  if (group != over->group)
+    cs_over_enter_group(over, group);
+}
+
+static inline void cs_over_add(cs_over *over, cs_v4 s, cs_v4 t) {
+  over->e += over->t * s;
+  over->t *= t;
+}
+
+/* Where the fold goes on once nothing shines through: behind the group, which hides the rest of
+ * itself, or nowhere. */
+static inline uint32_t cs_over_hidden_end(const cs_over *over) {
+  return over->group == CS_STACK_NONE ? 0 : over->stack->groups[over->group].first;
+}
+
+/* Premultiplied RGBA; alpha is the mean of the three mattes. */
+cs_v4 cs_over_end(cs_over *over);
+
+#endif

@@ -1,0 +1,31 @@
+/* Boolean trees on sets of layers.
+ *
+ * Every operator yields the present operands one over the other, or nothing, so a tree only decides
+ * which layers contribute. The layers of a tree are a range of neighbouring bits, so operators over
+ * layers alone are answered a word at a time, however many there are.
+ *
+ *     difference( union(0, 1, 2), intersection(3, 4) )          steps, in post-order:
+ *
+ *                difference                                       union         [0, 3)
+ *               /          \                                      intersection  [3, 5)
+ *           union        intersection                             difference    [0, 5)
+ *          /  |  \         /      \
+ *     set  1  0  1        1        0        union: present; intersection: 4 is missing
+ *     after                                 difference: only its first operand is present
+ *          1  0  1        0        0        bits 3 and 4 are cleared, 0 and 2 contribute
+ */
+#ifndef CS_COMPOSE_TREE_H
+#define CS_COMPOSE_TREE_H
+
+#include "compose/stack.h"
+
+typedef struct cs_tree_result {
+  uint32_t first, end; /* layers below */
+  bool is_present;
+} cs_tree_result;
+
+/* Turns presence into contribution in place: clears the bits of layers that their boolean trees
+ * hide. results: room for step_depth entries. */
+void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *results);
+
+#endif
