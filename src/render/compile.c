@@ -374,9 +374,15 @@ static celspan_status cull(compiler *c) {
   for (size_t t = 0; t < stack->tree_count; t++)
     for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
       layers[i].through = 1;
-  celspan_status status = cs_cull_create(
-      c->context, &c->plan->boundaries, layers, stack->layer_count, c->plan->width, c->plan->height,
-      c->plan->margin, (double)CS_PAINT_OPAQUE * 0.999, c->workers, &c->plan->cull);
+  const cs_cull_desc desc = {.set = &c->plan->boundaries,
+                             .layers = layers,
+                             .layer_count = stack->layer_count,
+                             .width = c->plan->width,
+                             .height = c->plan->height,
+                             .margin = c->plan->margin,
+                             .opaque = (double)CS_PAINT_OPAQUE * 0.999,
+                             .workers = c->workers};
+  celspan_status status = cs_cull_create(c->context, &desc, &c->plan->cull);
   cs_mem_free(c->context->memory, layers, stack->layer_count * sizeof *layers);
   return status;
 }

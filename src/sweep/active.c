@@ -4,13 +4,33 @@
 #include <math.h>
 #include <string.h>
 
-/* Bytes of one boundary over all arrays: seven doubles, a crossing, four indices, a walk. */
-#define ITEM_SIZE                                                                                  \
-  (7 * sizeof(double) + sizeof(cs_crossing) + 4 * sizeof(uint32_t) + sizeof(cs_boundary_walk))
+/* The arrays that are kept in order, one item a boundary. Whoever adds such an array to cs_active
+ * adds it here; x_next is not listed because it is made anew in every row. */
+#define EACH_ORDERED(DO)                                                                           \
+  DO(active->x)                                                                                    \
+  DO(active->segments.x0)                                                                          \
+  DO(active->segments.y0)                                                                          \
+  DO(active->segments.slope)                                                                       \
+  DO(active->segments.curve)                                                                       \
+  DO(active->segments.y1)                                                                          \
+  DO(active->crossing)                                                                             \
+  DO(active->slot)
 
-/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
-static size_t block_size(size_t capacity) {
-  return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
+/* All arrays of the block, wider items first, so that each is aligned. */
+#define EACH_ARRAY(DO)                                                                             \
+  DO(active->walks)                                                                                \
+  DO(active->x_next)                                                                               \
+  EACH_ORDERED(DO)                                                                                 \
+  DO(active->store.free_slots)                                                                     \
+  DO(active->bend_of)                                                                              \
+  DO(active->ended)
+
+/* The bytes of a block for `capacity` boundaries, with what aligning it may cost. */
+static size_t block_size(const cs_active *active, size_t capacity) {
+#define ITEM_SIZE(array) +sizeof *(array)
+  (void)active;
+  return capacity > 0 ? capacity * (EACH_ARRAY(ITEM_SIZE)) + CS_WIDE_LINE : 0;
+#undef ITEM_SIZE
 }
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
@@ -18,7 +38,7 @@ void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
-  cs_mem_free(memory, active->block, block_size(active->capacity));
+  cs_mem_free(memory, active->store.block, block_size(active, active->store.capacity));
   cs_mem_free(memory, active->bends, active->bend_capacity * sizeof *active->bends);
   cs_mem_free(memory, active->vertices, active->vertex_capacity * sizeof *active->vertices);
   *active = (cs_active){0};
@@ -35,129 +55,109 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
   return array;
 }
 
-/* All arrays lie in one block: the wider items first, so that each is aligned. Vector code goes
- * beyond the count: zeros are quick there, what happens to lie in memory may be denormal numbers,
- * which are not. */
+/* The block is zeroed, because vector code goes beyond the count: zeros are quick there, whereas
+ * whatever lies in fresh memory may be denormal numbers, which are slow. */
 static celspan_status grow(celspan_context *context, cs_active *active) {
-  size_t old = active->capacity, wanted = old ? 2 * old : 64;
-  void *block = cs_mem_array(context->memory, 1, block_size(wanted));
+  cs_active_store *store = &active->store;
+  size_t old = store->capacity, wanted = old ? 2 * old : 64;
+  void *block = cs_mem_array(context->memory, 1, block_size(active, wanted));
   if (!block)
     return cs_fail_memory(context);
   unsigned char *at = cs_wide_align(block);
-  active->walks = carve(&at, active->walks, old, wanted, sizeof *active->walks);
-  active->x = carve(&at, active->x, old, wanted, sizeof *active->x);
-  active->x_next = carve(&at, active->x_next, old, wanted, sizeof *active->x_next);
-  active->x0 = carve(&at, active->x0, old, wanted, sizeof *active->x0);
-  active->y0 = carve(&at, active->y0, old, wanted, sizeof *active->y0);
-  active->slope = carve(&at, active->slope, old, wanted, sizeof *active->slope);
-  active->curve = carve(&at, active->curve, old, wanted, sizeof *active->curve);
-  active->y1 = carve(&at, active->y1, old, wanted, sizeof *active->y1);
-  active->crossing = carve(&at, active->crossing, old, wanted, sizeof *active->crossing);
-  active->slot = carve(&at, active->slot, old, wanted, sizeof *active->slot);
-  active->free_slots = carve(&at, active->free_slots, old, wanted, sizeof *active->free_slots);
-  active->bend_of = carve(&at, active->bend_of, old, wanted, sizeof *active->bend_of);
-  active->ended = carve(&at, active->ended, 0, wanted, sizeof *active->ended);
-  cs_mem_free(context->memory, active->block, block_size(old));
-  active->block = block;
-  active->capacity = wanted;
+#define CARVE(array) array = carve(&at, array, old, wanted, sizeof *(array));
+  EACH_ARRAY(CARVE)
+#undef CARVE
+  cs_mem_free(context->memory, store->block, block_size(active, old));
+  store->block = block;
+  store->capacity = wanted;
   for (size_t slot = wanted; slot-- > old;)
-    active->free_slots[active->free_count++] = (uint32_t)slot;
+    store->free_slots[store->free_count++] = (uint32_t)slot;
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- one boundary */
 
-/* Copies the segment the walk stands on into the arrays. */
-static void take_segment(cs_active *active, size_t i) {
+/* Copies the walk's current segment into the arrays. */
+static void copy_segment(cs_active *active, size_t i) {
   const cs_boundary_walk *walk = &active->walks[active->slot[i]];
-  active->x0[i] = walk->x0;
-  active->y0[i] = walk->y0;
-  active->slope[i] = walk->slope;
-  active->curve[i] = walk->curve;
-  active->y1[i] = walk->y1;
+  active->segments.x0[i] = walk->x0;
+  active->segments.y0[i] = walk->y0;
+  active->segments.slope[i] = walk->slope;
+  active->segments.curve[i] = walk->curve;
+  active->segments.y1[i] = walk->y1;
+}
+
+static void free_slot(cs_active *active, size_t i) {
+  active->store.free_slots[active->store.free_count++] = active->slot[i];
 }
 
 static celspan_status append(celspan_context *context, cs_active *active, uint32_t chain,
                              double y) {
-  if (active->count + CS_ADVANCE_BATCH >= active->capacity)
+  if (active->count + CS_ADVANCE_BATCH >= active->store.capacity)
     CS_TRY(grow(context, active));
-  uint32_t slot = active->free_slots[--active->free_count];
+  uint32_t slot = active->store.free_slots[--active->store.free_count];
   const cs_boundary_chain *c = &active->set->chains[chain];
   size_t i = active->count++;
   active->slot[i] = slot;
   active->crossing[i] = (cs_crossing){c->layer, c->direction};
   cs_boundary_start(active->set, chain, y, &active->walks[slot]);
-  take_segment(active, i);
+  copy_segment(active, i);
   active->x[i] = cs_boundary_x(&active->walks[slot], y);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- moving */
 
-/* Moves boundaries [from, from + count) to `to`; what they leave behind is to be written over. */
+/* Moves boundaries [from, from + count) to `to`. */
 static void move_boundaries(cs_active *active, size_t to, size_t from, size_t count) {
-  memmove(active->x + to, active->x + from, count * sizeof *active->x);
-  memmove(active->x0 + to, active->x0 + from, count * sizeof *active->x0);
-  memmove(active->y0 + to, active->y0 + from, count * sizeof *active->y0);
-  memmove(active->slope + to, active->slope + from, count * sizeof *active->slope);
-  memmove(active->curve + to, active->curve + from, count * sizeof *active->curve);
-  memmove(active->y1 + to, active->y1 + from, count * sizeof *active->y1);
-  memmove(active->crossing + to, active->crossing + from, count * sizeof *active->crossing);
-  memmove(active->slot + to, active->slot + from, count * sizeof *active->slot);
+#define MOVE(array) memmove((array) + to, (array) + from, count * sizeof *(array));
+  EACH_ORDERED(MOVE)
+#undef MOVE
 }
 
-/* Moves boundary `from` left to place `to`; those between make room. */
+/* Moves item `from` left to index `to`; the items between move right by one. */
+static inline void rotate_items(void *array, size_t size, size_t to, size_t from) {
+  unsigned char *items = array, moved[sizeof(uint64_t)];
+  memcpy(moved, items + from * size, size);
+  memmove(items + (to + 1) * size, items + to * size, (from - to) * size);
+  memcpy(items + to * size, moved, size);
+}
+
+/* The same with boundaries. */
 static void insert_boundary(cs_active *active, size_t to, size_t from) {
-  double x = active->x[from], x0 = active->x0[from], y0 = active->y0[from];
-  double slope = active->slope[from], curve = active->curve[from], y1 = active->y1[from];
-  cs_crossing crossing = active->crossing[from];
-  uint32_t slot = active->slot[from];
-  move_boundaries(active, to + 1, to, from - to);
-  active->x[to] = x;
-  active->x0[to] = x0;
-  active->y0[to] = y0;
-  active->slope[to] = slope;
-  active->curve[to] = curve;
-  active->y1[to] = y1;
-  active->crossing[to] = crossing;
-  active->slot[to] = slot;
+#define ROTATE(array)                                                                              \
+  static_assert(sizeof *(array) <= sizeof(uint64_t), "");                                          \
+  rotate_items(array, sizeof *(array), to, from);
+  EACH_ORDERED(ROTATE)
+#undef ROTATE
 }
 
-/* Items of 8 bytes. */
-static inline void permute_items(void *array, size_t low, size_t count, const uint32_t *places,
-                                 uint64_t *room) {
-  char *items = array;
+static inline void permute_items(void *array, size_t size, size_t low, size_t count,
+                                 const uint32_t *places, uint64_t *room) {
+  unsigned char *items = array;
   for (size_t k = 0; k < count; k++)
-    memcpy(&room[k], items + places[k] * sizeof *room, sizeof *room);
+    memcpy(&room[k], items + places[k] * size, size);
   for (size_t k = 0; k < count; k++)
-    memcpy(items + (low + k) * sizeof *room, &room[k], sizeof *room);
+    memcpy(items + (low + k) * size, &room[k], size);
 }
 
 void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
                        uint64_t *room) {
-  static_assert(sizeof(cs_crossing) == sizeof *room && sizeof(double) == sizeof *room, "");
-  permute_items(active->x, low, count, places, room);
-  permute_items(active->x_next, low, count, places, room);
-  permute_items(active->x0, low, count, places, room);
-  permute_items(active->y0, low, count, places, room);
-  permute_items(active->slope, low, count, places, room);
-  permute_items(active->curve, low, count, places, room);
-  permute_items(active->y1, low, count, places, room);
-  permute_items(active->crossing, low, count, places, room);
-  for (size_t k = 0; k < count; k++)
-    room[k] = active->slot[places[k]];
-  for (size_t k = 0; k < count; k++)
-    active->slot[low + k] = (uint32_t)room[k];
+#define PERMUTE(array) permute_items(array, sizeof *(array), low, count, places, room);
+  EACH_ORDERED(PERMUTE)
+  PERMUTE(active->x_next)
+#undef PERMUTE
 }
 
 /* ---------------------------------------------------------------- order */
 
 /* dx/dy at the current height. */
 static inline double slope_at(const cs_active *active, size_t i) {
-  return active->slope[i] + 2 * active->curve[i] * (active->y - active->y0[i]);
+  return active->segments.slope[i] +
+         2 * active->segments.curve[i] * (active->y - active->segments.y0[i]);
 }
 
-/* Whether boundary i belongs right of boundary j. */
+/* Whether boundary i belongs to the right of boundary j. */
 static inline bool is_right(const cs_active *active, size_t i, size_t j) {
   if (active->x[i] != active->x[j])
     return active->x[i] > active->x[j];
@@ -167,8 +167,8 @@ static inline bool is_right(const cs_active *active, size_t i, size_t j) {
   return active->walks[active->slot[i]].chain > active->walks[active->slot[j]].chain;
 }
 
-/* Where boundary i belongs among 0..i-1, which are in order: near its place when it is about right,
- * by halves when it is new. */
+/* The index where boundary i belongs among 0..i-1, which are in order. The search goes left in
+ * doubling strides and then by halves: quick for a boundary that is almost in its place. */
 static size_t find_place(const cs_active *active, size_t i) {
   size_t high = i, step = 1;
   while (high >= step && is_right(active, high - step, i)) {
@@ -186,13 +186,13 @@ static size_t find_place(const cs_active *active, size_t i) {
   return low;
 }
 
-/* Brings the order about. */
+/* Sorts the order at the current height, which is nearly sorted. */
 static void sort(cs_active *active, cs_change *change) {
   const double *x = active->x;
   if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
     return;
   for (size_t i = 1; i < active->count; i++) {
-    if (x[i - 1] < x[i]) /* equal x too: slopes and chains decide */
+    if (x[i - 1] < x[i]) /* where x is equal, slopes and chains decide */
       continue;
     size_t to = find_place(active, i);
     if (to == i)
@@ -204,7 +204,7 @@ static void sort(cs_active *active, cs_change *change) {
 
 /* ---------------------------------------------------------------- heights */
 
-/* Above this height no chain begins and no other row of tiles does. */
+/* The height above which no chain begins and no other row of tiles does. */
 static double find_calm(const cs_active *active) {
   const cs_cull *cull = active->cull;
   const cs_boundary_set *set = active->set;
@@ -219,7 +219,7 @@ static int32_t tile_row_of(const cs_active *active, double y) {
   return active->cull->tile_rows > 0 ? cs_cull_row(active->cull, y) : 0;
 }
 
-/* Lets the chains in that begin at or above y, each at its place. */
+/* Inserts the chains that begin at or above y. */
 static celspan_status begin_chains(celspan_context *context, cs_active *active, double y,
                                    cs_change *change) {
   const cs_boundary_chain *chains = active->set->chains;
@@ -237,9 +237,9 @@ static celspan_status begin_chains(celspan_context *context, cs_active *active, 
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
-  cs_change change = cs_change_none; /* nobody asks */
+  cs_change change = cs_change_none; /* of no interest to the caller */
   for (size_t i = 0; i < active->count; i++)
-    active->free_slots[active->free_count++] = active->slot[i];
+    free_slot(active, i);
   active->count = 0;
   active->next = 0;
   active->y = active->y_next = y;
@@ -270,20 +270,20 @@ static celspan_status note_bend(celspan_context *context, cs_active *active, con
   return CELSPAN_OK;
 }
 
-/* Steps boundary i on until its segment holds y or its chain ends. */
+/* Advances boundary i until its segment contains y or its chain ends. */
 static celspan_status step(celspan_context *context, cs_active *active, size_t i, double y) {
   cs_boundary_walk *walk = &active->walks[active->slot[i]];
   bool goes_on = true;
   while (walk->y1 <= y && goes_on)
     goes_on = cs_boundary_next(active->set, walk);
-  take_segment(active, i);
+  copy_segment(active, i);
   active->x_next[i] = goes_on ? cs_boundary_x(walk, y) : walk->x1;
   return goes_on ? CELSPAN_OK
                  : note_bend(context, active, &(cs_bend){.boundary = (uint32_t)i, .ends = true});
 }
 
-/* The same, noting the vertices passed. Displaced vertices may run back a little; those hold no
- * height and are not noted. */
+/* The same, noting the vertices on the way. Displaced vertices may lie a little above the one
+ * before; those are not noted. */
 static celspan_status bend(celspan_context *context, cs_active *active, size_t i, double y) {
   cs_boundary_walk *walk = &active->walks[active->slot[i]];
   cs_bend noted = {.boundary = (uint32_t)i, .vertex = (uint32_t)active->vertex_count};
@@ -299,27 +299,26 @@ static celspan_status bend(celspan_context *context, cs_active *active, size_t i
   }
   noted.ends_above = noted.ends && walk->y1 < y;
   noted.vertex_count = (uint32_t)active->vertex_count - noted.vertex;
-  take_segment(active, i);
+  copy_segment(active, i);
   if (!noted.ends)
     active->x_next[i] = cs_boundary_x(walk, y);
   widen(&noted, active->x_next[i]);
-  if (noted.vertex_count == 0 && !noted.ends) /* the joint lies at y */
+  if (noted.vertex_count == 0 && !noted.ends) /* the two segments join at y itself */
     return CELSPAN_OK;
   return note_bend(context, active, &noted);
 }
 
-/* How many neighbours of boundary i are out of order with it at the height reached. */
+/* How many neighbours of boundary i are out of order with it at y_next. */
 static size_t count_falls(const cs_active *active, size_t i) {
   const double *x = active->x_next;
   return (i > 0 && !(x[i - 1] < x[i])) + (i + 1 < active->count && !(x[i] < x[i + 1]));
 }
 
 celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
-  cs_segments segments = {active->x0, active->y0, active->slope, active->curve, active->y1};
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
-  cs_advanced found = CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&segments, active->count, y,
-                                                                 active->x_next, active->ended);
+  cs_advanced found = CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&active->segments, active->count,
+                                                                 y, active->x_next, active->ended);
   for (size_t k = 0; k < found.ended; k++) {
     size_t i = active->ended[k];
     found.falls -= count_falls(active, i);
@@ -330,14 +329,14 @@ celspan_status cs_active_reach(celspan_context *context, cs_active *active, doub
   return CELSPAN_OK;
 }
 
-/* Takes the chains that have ended out of the order. */
+/* Removes the chains that have ended. */
 static void drop_ended(cs_active *active, cs_change *change) {
   size_t kept = 0, from = 0, old_count = active->count;
   for (size_t k = 0; k < active->bend_count; k++) {
     size_t i = active->bends[k].boundary;
     if (!active->bends[k].ends)
       continue;
-    active->free_slots[active->free_count++] = active->slot[i];
+    free_slot(active, i);
     if (kept < from)
       move_boundaries(active, kept, from, i - from);
     kept += i - from;
@@ -349,15 +348,15 @@ static void drop_ended(cs_active *active, cs_change *change) {
   active->count = kept + (old_count - from);
 }
 
-/* Takes the chains that the next row of tiles does not keep out of the order, and those that only
- * it keeps in. */
+/* Removes the chains that the new row of tiles does not keep, and appends those that the row of
+ * tiles before did not keep. */
 static celspan_status change_tile_row(celspan_context *context, cs_active *active) {
   const cs_cull *cull = active->cull;
   size_t kept = 0;
   for (size_t i = 0; i < active->count; i++) {
     uint32_t chain = active->walks[active->slot[i]].chain;
     if (!cs_cull_keeps(cull, chain, active->tile_row))
-      active->free_slots[active->free_count++] = active->slot[i];
+      free_slot(active, i);
     else
       move_boundaries(active, kept++, i, 1);
   }
@@ -369,22 +368,22 @@ static celspan_status change_tile_row(celspan_context *context, cs_active *activ
   return CELSPAN_OK;
 }
 
-/* Makes the height reached the current one. */
-static void take_next(cs_active *active) {
+/* Makes y_next the current height. */
+static void move_to_next(cs_active *active) {
   double *left_behind = active->x;
   active->x = active->x_next;
   active->x_next = left_behind;
   active->y = active->y_next;
 }
 
-/* Lets in, takes out and puts in order what the height reached asks for. */
+/* Removes, sorts and inserts what the new height needs. */
 static celspan_status settle_events(celspan_context *context, cs_active *active,
                                     cs_change *change) {
   int32_t tile_row = tile_row_of(active, active->y_next);
   *change = cs_change_all;
   if (tile_row > active->tile_row + 1)
     return cs_active_start(context, active, active->y_next);
-  take_next(active);
+  move_to_next(active);
   *change = cs_change_none;
   if (active->bend_count > 0)
     drop_ended(active, change);
@@ -405,7 +404,7 @@ static celspan_status settle_events(celspan_context *context, cs_active *active,
 celspan_status cs_active_settle(celspan_context *context, cs_active *active, cs_change *change) {
   if (!active->rises || active->bend_count > 0 || active->y_next >= active->calm_until)
     return settle_events(context, active, change);
-  take_next(active);
+  move_to_next(active);
   *change = cs_change_none;
   return CELSPAN_OK;
 }

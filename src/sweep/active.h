@@ -1,10 +1,17 @@
-/* The active boundaries: the chains that a row height crosses, from left to right.
+/* The active boundaries: the chains that cross the current height, from left to right.
  *
- * The fields that every row reads lie in arrays of like fields, in order, so that advancing and
- * order checking run at memory speed; the walk of a boundary is found by its slot.
+ *      |      \      |     \
+ *   ---*-------*-----*------*------- y       current height: the order is known
+ *      |        \    |     /
+ *   ---*---------*---o----*--------- y_next  height advanced to (bend.h)
+ *
+ * Advancing leaves the order as it is at y, so that a row can be made from both ends of every
+ * boundary. Settling then moves to y_next: it removes the chains that ended, sorts those that
+ * crossed each other, and inserts the chains that begin. What every row reads lies in arrays of
+ * like fields; the walk of a boundary down its chain is found by the boundary's slot.
  *
  * Invariants, at height y
- *   - exactly the chains with y0 <= y < y1 are listed that the cull keeps in y's row of tiles;
+ *   - exactly those chains with y0 <= y < y1 are listed that the cull keeps in y's row of tiles;
  *   - they are ordered by x at y, then by slope, then by chain: an order that depends on y and the
  *     set alone, not on the rows swept before (so strips agree to the bit);
  *   - x[i] is cs_boundary_x at y on the segment that holds y.
@@ -13,91 +20,73 @@
 #define CS_SWEEP_ACTIVE_H
 
 #include "sweep/advance.h"
+#include "sweep/bend.h"
+#include "sweep/change.h"
 #include "sweep/cull.h"
 
-/* What a boundary does between two heights, when that is not one straight piece. */
-typedef struct cs_bend {
-  uint32_t boundary; /* index into the order at the upper height */
-  uint32_t vertex;   /* its vertices strictly between the heights: downwards */
-  uint32_t vertex_count;
-  bool ends;        /* it is not there at the lower height */
-  bool ends_above;  /* it ended before, at its last vertex */
-  double low, high; /* the least and the greatest x on the way, both ends included */
-} cs_bend;
-
-/* What crossing a boundary from left to right changes. */
+/* The change of winding that crossing a boundary from left to right makes. */
 typedef struct cs_crossing {
   uint32_t layer;
   int32_t direction;
 } cs_crossing;
 
-/* Where the order at a height differs from the one before: the boundaries left of place `low` and
- * the last `tail` ones are the same as before, and what lies between two of them too. */
-typedef struct cs_change {
-  size_t low, tail;
-} cs_change;
-
-static const cs_change cs_change_none = {SIZE_MAX, SIZE_MAX};
-static const cs_change cs_change_all = {0, 0};
-
-static inline bool cs_change_is_none(cs_change change) { return change.low == SIZE_MAX; }
-
-static inline cs_change cs_change_join(cs_change a, cs_change b) {
-  return (cs_change){a.low < b.low ? a.low : b.low, a.tail < b.tail ? a.tail : b.tail};
-}
+/* The memory behind the arrays, and its free slots. */
+typedef struct cs_active_store {
+  uint32_t *free_slots;
+  size_t free_count;
+  void *block;     /* one block holds all arrays of cs_active except bends and vertices */
+  size_t capacity; /* of each of them */
+} cs_active_store;
 
 typedef struct cs_active {
   const cs_boundary_set *set;
   const cs_cull *cull;
   cs_isa isa;
-  int32_t tile_row; /* that holds the current height */
-  /* arrays of like fields, `count` of each, in order, with room for CS_ADVANCE_BATCH more */
+  bool notes_bends; /* false: only x counts, and bends are noted for chains that end alone */
+  /* The order: `count` of each, with room for CS_ADVANCE_BATCH more. */
   double *x;      /* at the current height */
-  double *x_next; /* at the height reached; where the chain ends, if it ends before */
-  double *x0, *y0, *slope, *curve, *y1; /* the segment: its top, how x goes on, its bottom */
+  double *x_next; /* at the height advanced to; where the chain ends, if it ends before */
+  cs_segments segments;
   cs_crossing *crossing;
   uint32_t *slot;
   size_t count;
-  bool rises;       /* x_next is in order, no two alike */
-  bool notes_bends; /* false: only where boundaries stand counts, bends hold those that end */
-  /* by slot */
-  cs_boundary_walk *walks;
-  uint32_t *free_slots;
-  size_t free_count;
-  uint32_t *ended;   /* scratch: whose segments end on the way */
-  void *block;       /* that holds all the arrays above */
-  size_t capacity;   /* of each of them */
-  size_t next;       /* the first chain of the set that has not begun */
+  cs_boundary_walk *walks; /* by slot */
+  /* The heights. */
   double y;          /* the current height */
-  double y_next;     /* the height reached */
-  double calm_until; /* above this height no chain begins, and no other row of tiles */
-  cs_bend *bends;    /* between the two, in order of their boundaries */
-  uint32_t *bend_of; /* by boundary: the only place in bends where its bend may be */
+  double y_next;     /* the height advanced to */
+  double calm_until; /* above this height no chain begins and no other row of tiles does */
+  size_t next;       /* the first chain of the set that has not begun */
+  int32_t tile_row;  /* that holds the current height */
+  /* What happens between the heights. */
+  bool rises;        /* x_next is in order, no two alike */
+  cs_bend *bends;    /* in the order of their boundaries */
+  uint32_t *bend_of; /* by boundary: the only index in bends where its bend can be */
   celspan_point *vertices;
   size_t bend_count, bend_capacity;
   size_t vertex_count, vertex_capacity;
+  uint32_t *ended; /* scratch: the boundaries whose segments end */
+  cs_active_store store;
 } cs_active;
 
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull);
 void cs_active_finish(cs_active *active, cs_memory *memory);
-/* Stands at height y, from nothing. Errors: NO_MEMORY. */
+/* Begins at height y, whatever the height was before. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_active *active,
                                                double y);
-/* Looks down to height y, at or below the current one: fills x_next and bends; the order stays as
- * it is at the current height. Errors: NO_MEMORY. */
+/* Advances to height y, at or below the current one: fills x_next, bends and vertices. The order
+ * remains the one at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
                                                double y);
-/* Puts boundary places[k] at place low + k, as it stands at both heights; between reach and settle.
- * places: low..low + count - 1 in some order. room: for count numbers. */
+/* Moves boundary places[k] to index low + k, with its x at both heights. To be called between
+ * advancing and settling. places: low..low + count - 1 in some order. room: for count numbers. */
 void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,
                        uint64_t *room);
-/* Moves down to the height reached. *change: where boundaries began, ended or changed places; all
- * of the order when another row of tiles has begun.
- * Errors: NO_MEMORY. */
+/* Makes the height advanced to the current one. *change: where boundaries began, ended or changed
+ * places; the whole order when another row of tiles has begun. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
                                                 cs_change *change);
 
-/* The toggles that stand for culled chains at the current height, from left to right. */
+/* The deferred winding changes of culled chains at the current height, from left to right. */
 static inline const cs_deferred *cs_active_deferred(const cs_active *active,
                                                     const cs_deferred **end) {
   const cs_cull *cull = active->cull;

@@ -1,5 +1,14 @@
-/* What every row does to every boundary, in vector code: x at the next height, which segments end
- * on the way, and whether the order still holds. */
+/* The part of advancing that every row does to every boundary, in vector code: x at the next
+ * height, which segments end before it, and whether the order still holds.
+ *
+ *        (x0, y0)  top of the segment
+ *            *
+ *             \          with d = y - y0:   x(y) = x0 + d * (slope + d * curve)
+ *   ----------- + ------------------------------------------ y
+ *                |       curve is 0 on a straight segment and not on an arc
+ *                *
+ *              y1        y1 <= y: the segment has ended
+ */
 #ifndef CS_SWEEP_ADVANCE_H
 #define CS_SWEEP_ADVANCE_H
 
@@ -7,27 +16,29 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Boundaries are taken so many at a time, at most, and some beyond the last with them: all arrays
- * have room for CS_ADVANCE_BATCH more than the count. What is there does not matter. */
+/* The most boundaries that one instruction handles. The last batch may go beyond the count, so all
+ * arrays have room for CS_ADVANCE_BATCH more; what those elements hold does not matter. */
 #define CS_ADVANCE_BATCH 16
 
-/* The numbers [0, n) in whole batches. */
+/* n rounded up to whole batches. */
 static inline size_t cs_advance_whole(size_t n) {
   return (n + CS_ADVANCE_BATCH - 1) / CS_ADVANCE_BATCH * CS_ADVANCE_BATCH;
 }
 
-/* Segments: their tops, how x goes on from there, their feet; arrays of `count`. */
+/* The current segments of the boundaries: five arrays. */
 typedef struct cs_segments {
-  const double *x0, *y0, *slope, *curve, *y1;
+  double *x0, *y0;       /* top */
+  double *slope, *curve; /* dx/dy at the top, and half of d2x/dy2 */
+  double *y1;            /* foot */
 } cs_segments;
 
-/* How many segments end at or above the height reached, and how many boundaries do not lie right of
- * the one before them there. */
+/* How many segments end at or above the height, and how many boundaries do not lie to the right of
+ * the boundary before them there. */
 typedef struct cs_advanced {
   size_t ended, falls;
 } cs_advanced;
 
-/* Fills x_next with x at height y, and `ended` with the numbers of those that end. */
+/* Fills x_next with x at height y, and `ended` with the indices of the segments that end. */
 CS_WIDE_DECLARE(cs_advanced, cs_advance_to,
                 (const cs_segments *segments, size_t count, double y, double *x_next,
                  uint32_t *ended));

@@ -1,3 +1,13 @@
+/* Sixty-four boundaries at a time, LANES of them in one instruction:
+ *
+ *      boundary   0 1 2 3 | 4 5 6 7 | ...            (four lanes)
+ *      ends       0 0 1 0   0 0 0 0                  a bit for each segment with y1 <= y
+ *      rises      1 1 1 1   0 1 1 1                  a bit for each x_next right of the one before
+ * it: |                        vector 4..7 is compared with 3..6, which boundary 4 crossed 3
+ * shift() makes of the last vector and this one
+ *
+ * The set bits of `ends` become a list; of `rises` only the number of clear bits matters.
+ */
 #include "sweep/advance.h"
 
 #ifdef __x86_64__
@@ -15,7 +25,7 @@ static inline lanes load(const double *from) {
   return v;
 }
 
-/* Where a < b, and where a <= b, a bit a lane. */
+/* One bit a lane: where a < b, and where a <= b. */
 static inline uint64_t are_less(lanes a, lanes b) {
 #ifdef __AVX512F__
   return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
@@ -38,7 +48,7 @@ static inline uint64_t are_at_most(lanes a, lanes b) {
 #endif
 }
 
-/* The last lane of the one, then all but the last of the other. */
+/* The last lane of `before`, then all lanes of v but the last. */
 static inline lanes shift(lanes before, lanes v) {
 #ifdef __AVX512F__
   return (lanes)_mm512_alignr_epi64((__m512i)v, (__m512i)before, 7);
@@ -54,8 +64,8 @@ static inline uint64_t first_bits(size_t count) {
   return count < 64 ? ((uint64_t)1 << count) - 1 : UINT64_MAX;
 }
 
-/* Appends the numbers of the bits that are set to a list; returns its new length. Most often few
- * are, how many nobody can foresee. */
+/* Appends first + the index of every set bit to a list; returns its new length. Mostly few bits are
+ * set, but how many cannot be predicted: the first FEW are written without a branch. */
 static inline size_t list_bits(uint64_t bits, size_t first, uint32_t *list, size_t length) {
   for (int k = 0; k < FEW; k++) {
     list[length] = (uint32_t)first + (uint32_t)__builtin_ctzll(bits | (uint64_t)1 << 63);

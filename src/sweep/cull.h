@@ -1,31 +1,43 @@
-/* The cull: which boundaries can be left out because nothing shines through to them.
+/* The cull: which boundaries can be left out because nothing of them can be seen.
  *
- * The frame is laid out in rows of tiles, 64 columns each, a machine word a row. The tiles are
- * filled leaf by leaf from the camera backwards; where the leaves that cover a whole tile let
- * (almost) nothing through, the tile is dead for all leaves behind. In a row of tiles
+ * The frame is divided into rows of tiles, 64 tiles a row, so that a row of tiles is one machine
+ * word. The tiles are filled layer by layer from the camera backwards. Where the layers that cover
+ * a whole tile let (almost) nothing through, the tile is dead for every layer behind them.
  *
- *   a chain is kept if it touches a tile that is live for its leaf, or begins or ends there;
- *   else it becomes a toggle: its crossing happens at the left edge of its first tile, unseen.
+ *            tile 0   1   2   3   4   5   6   7       d: dead for the layer that is being culled
+ *               +---+---+---+---+---+---+---+---+
+ *               |   |   |   | d | d | d | d | d |     chain A meets a live tile: kept
+ *     tile row  | A |   |   | d |B\ | d | d | d |     chain B meets dead tiles alone: culled; its
+ *               |/  |   |   | d | d\| d | d | d |     winding change is deferred to the left edge
+ * of
+ *               +---+---+---+---+---+---+---+---+     its first tile, 4, where it cannot be seen
+ *                               ^
+ *                               deferred winding change of B
  *
- * Invariants: no composed colour changes by it: in a dead tile composing stops before the leaf is
- * reached, so where in such a tile its presence changes does not show; a cell that begins in a dead
- * tile is opaque as far as it goes. What is kept depends on the frame and the row alone.
+ * In a row of tiles a chain is kept if it touches a tile that is live for its layer, or if it
+ * begins or ends in the row; otherwise a deferred winding change takes its place.
+ *
+ * Invariants
+ *   - no composed colour changes: in a dead tile composing stops before it comes to the layer, so
+ * it does not matter where in the tile the layer's presence changes; and a cell that begins in a
+ *     dead tile is opaque as far as it goes;
+ *   - what is kept depends on the frame and on the row of tiles alone.
  */
 #ifndef CS_SWEEP_CULL_H
 #define CS_SWEEP_CULL_H
 
 #include "geometry/boundary.h"
 
-#define CS_CULL_COLUMNS 64
+#define CS_CULL_COLUMNS 64 /* tiles in a row of tiles */
 
-/* A leaf as the cull sees it, in order from the rear to the camera. */
+/* A layer as the cull needs to know it. */
 typedef struct cs_cull_layer {
-  double
-      through; /* the most that any channel lets through wherever the leaf is present; 1: unknown */
-  int32_t winding_mask;
+  /* The most that any channel lets through wherever the layer is present; 1 where unknown. */
+  double through;
+  int32_t winding_mask; /* the layer is present where the winding and this is not 0 */
 } cs_cull_layer;
 
-/* A crossing that takes the place of a culled chain in one row of tiles. */
+/* A deferred winding change: it takes the place of a culled chain in one row of tiles. */
 typedef struct cs_deferred {
   double x;
   uint32_t layer;
@@ -33,7 +45,7 @@ typedef struct cs_deferred {
 } cs_deferred;
 
 typedef struct cs_cull {
-  int32_t tile_rows;          /* 0: nothing is culled */
+  int32_t tile_rows;          /* 0: nothing is culled, and no other field is set */
   int32_t tile_height;        /* pixels */
   cs_deferred *deferred_list; /* by row of tiles, then by x */
   uint32_t *deferred_starts;  /* tile_rows + 1 */
@@ -45,13 +57,19 @@ typedef struct cs_cull {
   size_t deferred_count, enter_count, kept_count, chain_count;
 } cs_cull;
 
-/* Culls a set in its final order, for heights from -margin to height + margin; the outermost tiles
- * reach into the margin. opaque: what counts as nothing shining through. workers: threads at most.
+typedef struct cs_cull_desc {
+  const cs_boundary_set *set;  /* in its final order */
+  const cs_cull_layer *layers; /* from the rear to the camera */
+  size_t layer_count;
+  int32_t width, height, margin; /* pixels */
+  double opaque;                 /* what lets through no more than this lets nothing through */
+  int workers;                   /* threads at most */
+} cs_cull_desc;
+
+/* Culls for heights from -margin to height + margin; the outermost tiles extend into the margin.
  * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_boundary_set *set,
-                                              const cs_cull_layer *layers, size_t layer_count,
-                                              int32_t width, int32_t height, int32_t margin,
-                                              double opaque, int workers, cs_cull *out);
+CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs_cull_desc *desc,
+                                              cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);
 
 /* The row of tiles that holds a height; the first or last for heights beyond the frame. */

@@ -9,7 +9,7 @@
 
 #define WIDTH 120
 #define HEIGHT 90
-#define LEAVES 24
+#define LAYERS 24
 
 static celspan_context *context;
 
@@ -33,7 +33,7 @@ static void add_blob(cs_boundary_set *set, test_random *random, uint32_t layer) 
 static void make_set(cs_boundary_set *set, uint64_t seed) {
   test_random random = {seed};
   cs_boundary_init(set);
-  for (uint32_t layer = 0; layer < LEAVES; layer++)
+  for (uint32_t layer = 0; layer < LAYERS; layer++)
     add_blob(set, &random, layer);
   cs_boundary_sort(set);
 }
@@ -43,7 +43,7 @@ static bool same_order(const cs_active *a, const cs_active *b) {
     return false;
   for (size_t i = 0; i < a->count; i++)
     if (a->walks[a->slot[i]].chain != b->walks[b->slot[i]].chain || a->x[i] != b->x[i] ||
-        a->slope[i] != b->slope[i])
+        a->segments.slope[i] != b->segments.slope[i])
       return false;
   return true;
 }
@@ -89,7 +89,7 @@ static int64_t winding_of(const cs_active *active, uint32_t layer, double x) {
 static void check_presence(const cs_active *all, const cs_active *culled,
                            const cs_cull_layer *layers, double x) {
   double through = 1;
-  for (uint32_t layer = LEAVES; layer-- > 0 && through > 0x1p-16;) {
+  for (uint32_t layer = LAYERS; layer-- > 0 && through > 0x1p-16;) {
     bool present = winding_of(all, layer, x) != 0;
     CHECK(present == (winding_of(culled, layer, x) != 0));
     through *= present ? layers[layer].through : 1;
@@ -118,14 +118,20 @@ static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
 static void check_case(uint64_t seed) {
   cs_boundary_set set;
   cs_cull none = {0}, cull;
-  cs_cull_layer layers[LEAVES];
+  cs_cull_layer layers[LAYERS];
   test_random random = {seed + 1000};
-  for (int layer = 0; layer < LEAVES; layer++)
+  for (int layer = 0; layer < LAYERS; layer++)
     layers[layer] =
         (cs_cull_layer){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
   make_set(&set, seed);
-  CHECK(cs_cull_create(context, &set, layers, LEAVES, WIDTH, HEIGHT, 0, 0x1p-16, 3, &cull) ==
-        CELSPAN_OK);
+  const cs_cull_desc desc = {.set = &set,
+                             .layers = layers,
+                             .layer_count = LAYERS,
+                             .width = WIDTH,
+                             .height = HEIGHT,
+                             .opaque = 0x1p-16,
+                             .workers = 3};
+  CHECK(cs_cull_create(context, &desc, &cull) == CELSPAN_OK);
   CHECK(cull.tile_rows > 0);
   check_walk(&set, &none, 1);
   check_walk(&set, &none, 0.37);
