@@ -6,13 +6,14 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Cells in a radius: between nodes a Gaussian then bends by less than 1/2046 (its second derivative
- * is at most 0.242/sigma^2), the rim of a disc leaves less than 0.9/1023, and the kinks of a box
- * less than those of an edge. */
+/* Nodes in a radius. Between two nodes a Gaussian then deviates from a line by less than 1/2046
+ * (its second derivative is at most 0.242/sigma^2), the rim of a disc by less than 0.9/1023, and
+ * the kinks of a box by less than those of an edge. */
 #define FINE_GAUSSIAN 16
 #define FINE_DISC 28
 #define FINE_BOX 64
-/* Radii in cells from which on flat art is weighed line by line: a box when its kinks allow. */
+/* The least radii, in nodes, at which flat art is blurred line by line; a box is then wide enough
+ * for its kinks. */
 #define EDGES_GAUSSIAN 3
 #define EDGES_BOX 40
 #define BAND_BYTES (16 << 20)
@@ -21,7 +22,7 @@
 
 /* ---------------------------------------------------------------- the grid */
 
-/* The reach of a blur along an axis, radii for Gaussian and disc. */
+/* The extent of a box along an axis; the radius of a Gaussian or a disc. */
 static double radius_along(const cs_blur *blur, int axis) {
   return blur->kind != CELSPAN_DEFOCUS_BOX
              ? (axis == 0 ? blur->radius_x : blur->radius_y)
@@ -51,7 +52,7 @@ static void release(const cs_defocused *grid, celspan_context *context, cs_defoc
   cs_defocus_bands_release(context, band);
 }
 
-/* Boundaries know nothing of what lies between them: where that varies, cells are taken. */
+/* Boundaries alone are not enough where colours vary between them: then samples are summed. */
 static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   if (varies)
@@ -96,33 +97,33 @@ celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, 
   return status;
 }
 
-/* Pixels of the shots in a node's width, and beyond the nodes' own on each side. */
-static int32_t find_reach(const cs_defocus *defocus, int32_t *x, int32_t *y) {
-  *x = defocus->edges.reach_x + defocus->sums.reach_x + defocus->slices.reach_x;
-  *y = defocus->edges.reach_y + defocus->sums.reach_y + defocus->slices.reach_y;
+/* The plans' pixels in a node's width, and those beyond the nodes' own on each side. */
+static int32_t find_extent(const cs_defocus *defocus, int32_t *x, int32_t *y) {
+  *x = defocus->edges.extent_x + defocus->sums.extent_x + defocus->slices.extent_x;
+  *y = defocus->edges.extent_y + defocus->sums.extent_y + defocus->slices.extent_y;
   return defocus->way == CS_DEFOCUS_SUMS     ? defocus->sums.factor
          : defocus->way == CS_DEFOCUS_SLICES ? defocus->slices.factor
                                              : 1;
 }
 
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height) {
-  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
-  *width = factor * defocus->grid.columns + 2 * reach_x;
-  *height = factor * defocus->grid.rows + 2 * reach_y;
+  int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
+  *width = factor * defocus->grid.columns + 2 * extent_x;
+  *height = factor * defocus->grid.rows + 2 * extent_y;
 }
 
 celspan_matrix cs_defocus_matrix(const cs_defocus *defocus) {
-  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
+  int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
   return celspan_matrix_then(
       celspan_matrix_scaling(factor / defocus->grid.pitch_x, factor / defocus->grid.pitch_y),
-      celspan_matrix_translation(factor + reach_x, factor + reach_y));
+      celspan_matrix_translation(factor + extent_x, factor + extent_y));
 }
 
-/* Through what boundaries are seen in cells: a square as wide as the blur, which pictures do not
- * know, or as a cell, over a cell. *out: NULL where the means of cells will do. */
-static celspan_status cell_kernel(celspan_context *context, const cs_defocus *defocus,
-                                  cs_kernel **out) {
-  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
+/* The kernel through which samples see boundaries: a square as wide as the blur's own square (which
+ * pictures do not need) or as one sample. *out: NULL where means over the samples will do. */
+static celspan_status sample_kernel(celspan_context *context, const cs_defocus *defocus,
+                                    cs_kernel **out) {
+  int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
   double blur = defocus->blur.blur * factor;
   double x = fmax(1, blur / defocus->grid.pitch_x), y = fmax(1, blur / defocus->grid.pitch_y);
   bool is_fine = defocus->grid.pitch_x > 1 && defocus->grid.pitch_y > 1;
@@ -140,7 +141,7 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
     return CELSPAN_OK;
   case CS_DEFOCUS_SUMS:
   case CS_DEFOCUS_SLICES:
-    return cell_kernel(context, defocus, out);
+    return sample_kernel(context, defocus, out);
   case CS_DEFOCUS_KERNEL:
     return cs_kernel_create_defocus(context, &defocus->blur, out);
   }
@@ -194,15 +195,15 @@ static celspan_status fill_rows(const cs_defocus *defocus, cs_row_maker *maker, 
   return CELSPAN_OK;
 }
 
-/* Rows filled at a time: cells of pictures take much room, so no more are held than make up for
- * those that are made twice. */
+/* Node rows filled at a time. Rows of samples take much memory, so only as many are kept as make up
+ * for those that are made twice. */
 static int32_t rows_together(const cs_defocus *defocus) {
-  int32_t reach_x, reach_y, factor = find_reach(defocus, &reach_x, &reach_y);
-  bool has_cells = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
-  int32_t rows = 4 * reach_y / factor;
-  return !has_cells || rows > defocus->grid.band_rows ? defocus->grid.band_rows
-         : rows < BAND_ROWS_LEAST                     ? BAND_ROWS_LEAST
-                                                      : rows;
+  int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
+  bool has_samples = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
+  int32_t rows = 4 * extent_y / factor;
+  return !has_samples || rows > defocus->grid.band_rows ? defocus->grid.band_rows
+         : rows < BAND_ROWS_LEAST                       ? BAND_ROWS_LEAST
+                                                        : rows;
 }
 
 static celspan_status fill_plane(const cs_defocus *defocus, celspan_context *context, int plane,
@@ -217,7 +218,8 @@ static celspan_status fill_plane(const cs_defocus *defocus, celspan_context *con
   return status;
 }
 
-/* Rows that are not blended with others are kept as knots, unless pictures leave none straight. */
+/* Whether bands are kept as knots: rows that are never interpolated between, of art in which runs
+ * of nodes are straight. */
 static bool is_thin(const cs_defocus *defocus) {
   return defocus->grid.pitch_y == 1 &&
          (defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL);

@@ -1,13 +1,22 @@
-/* A Gaussian or an upright box over flat art: rows of boundaries, weighed along x, then lines of
- * them along y.
+/* A Gaussian or an upright box over flat art: the edges of a row, weighed along x, make lines; the
+ * lines, weighed along y, make nodes.
  *
- *   trace of a row --each piece, by the integral of the kernel--> its share in the lines above
- *   and below it --weights by distance--> rows of nodes
+ *             edge at x
+ *      colour a  |  colour b
+ *   ------+------|--+--------+-----  line y      (1 - d) of the edge counts for the line above it
+ *         |      |  |        |       row y       d, its mean depth, decides
+ *   ------+------|--+--------+-----  line y + 1  d of the edge counts for the line below it
+ *         ^         ^        ^
+ *      columns: of each the line gets a + share * (b - a), where share is the integral of the
+ * kernel left of the edge, from a table by the edge's place in its column
  *
- * A line stands on the edge between two rows and sees both through a tent, so that neither axis
- * shows where in its cell an edge lies. That rounds the kinks that a box of radius r leaves, by
- * 1/(12 r). The cost follows the pieces along x, and along y the nodes
- * that some piece comes near: blocks of columns that nothing reaches are one colour.
+ *   node = sum over k of weights[k] * (line k above the node's middle + line k below it)
+ *
+ * A line lies on the border between two rows and sees both of them through a tent, so that neither
+ * axis shows where inside a sample an edge lies. For a box of radius r this rounds its kinks by
+ * 1/(12 r). The cost along x follows the number of edges. Along y it follows the number of nodes
+ * that are near some edge: columns are kept in groups, and a group that no edge came near for all
+ * lines under a node is one colour.
  */
 #ifndef CS_DEFOCUS_EDGES_H
 #define CS_DEFOCUS_EDGES_H
@@ -16,25 +25,25 @@
 #include "row/row.h"
 
 typedef struct cs_defocus_edges {
-  int32_t reach_x, reach_y; /* cells */
-  float *shares;            /* by phase and column: of the kernel left of an edge */
-  float *weights;           /* reach_y: of lines k + 1/2 rows away */
+  int32_t extent_x, extent_y; /* of the kernel: samples */
+  float *shares;              /* by phase and column: of the kernel left of an edge */
+  float *weights;             /* extent_y of them: of lines k + 1/2 rows away */
 } cs_defocus_edges;
 
-/* Softness in cells: a Gaussian, or a box along the axes. Errors: NO_MEMORY. */
+/* blur: in samples; a Gaussian, or a box along the axes. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *blur,
                                                      cs_defocus_edges *out);
 void cs_defocus_edges_finish(cs_defocus_edges *edges, cs_memory *memory);
-/* Fills the rows [first, end) of `columns` nodes each. scan: of the cells, of which reach_x columns
- * and reach_y rows lie before the first node's. Errors: of its rows. */
+/* Fills the rows [first, end) of `columns` nodes each. maker: of the samples, of which extent_x
+ * columns and extent_y rows lie before those of the first node. Errors: those of its rows. */
 CELSPAN_CHECKED celspan_status cs_defocus_edges_fill(const cs_defocus_edges *edges,
                                                      cs_row_maker *maker, int32_t columns,
                                                      int32_t first, int32_t end, float (*nodes)[4]);
 
-/* ---- soft_edges_wide.c */
+/* ---- edges_wide.c */
 
-/* The floats [first, end) of a row of nodes: sums over `pairs` pairs of lines, from the middle
- * outwards, by their weights. */
+/* Fills the floats [first, end) of a row of nodes with weighed sums over `pairs` pairs of lines.
+ * The pairs are given from the middle outwards: lines[2 k] and lines[2 k + 1] have weights[k]. */
 CS_WIDE_DECLARE(void, cs_defocus_edges_weigh,
                 (const float *const *lines, const float *weights, int32_t pairs, int32_t first,
                  int32_t end, float *nodes));

@@ -1,10 +1,18 @@
-/* Lines weighed along y: the sums of many floats that stand beside each other. */
+/* Lines weighed along y, floats beside each other in one register:
+ *
+ *   lines[2]   . . . . . . . .   weights[1]
+ *   lines[0]   . . . . . . . .   weights[0]
+ *   node       = = = = = = = =               every column sums up for itself, from the outermost
+ *   lines[1]   . . . . . . . .   weights[0]  pair to the middle
+ *   lines[3]   . . . . . . . .   weights[1]
+ */
 #include "defocus/edges.h"
 
-#define TOGETHER 4 /* registers */
-#define SAME 1e-6f /* of a value */
+#define TOGETHER 4 /* registers that are summed in one pass */
+#define SAME 1e-6f /* a relative difference that is rounding */
 
-/* Sums of equal values miss them by some last bits: what is as near to one of them is that one. */
+/* The weighed mean of equal values misses them by the last bits: a sum so near to the middle line
+ * is replaced by it. */
 static inline cs_wide settle(cs_wide sum, cs_wide centre) {
   cs_wide away = sum - centre;
   cs_wide slack = SAME * cs_wide_choose(centre < 0, -centre, centre);
@@ -26,7 +34,7 @@ static inline void weigh(const float *const *lines, const float *weights, int32_
                   settle(sum[j], cs_wide_load(lines[0] + at + j * CS_WIDE_LANES)));
 }
 
-/* One float, by the same steps. */
+/* One float, by the same operations. */
 static float weigh_one(const float *const *lines, const float *weights, int32_t pairs, int32_t at) {
   float sum = 0, centre = lines[0][at];
   for (int32_t k = pairs - 1; k >= 0; k--)

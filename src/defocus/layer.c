@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-#define LEAST_RADIUS (1.0 / 64) /* pixels; blur below it does not tell */
-/* Up to SHARP pixels of radius a layer is averaged over each pixel besides; from SMOOTH on it is
- * smooth at their scale, and its value at the centre is shown. */
+#define LEAST_RADIUS (1.0 / 64) /* pixels; less cannot be seen */
+/* A layer whose radius is at most SHARP pixels is also averaged over each pixel. One of SMOOTH
+ * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
 #define SMOOTH 2.0
 
@@ -40,8 +40,8 @@ bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
   return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
 }
 
-/* How far it reaches along an axis, pixels. */
-static double reach(const cs_blur *blur, int axis) {
+/* Its extent along an axis, pixels. */
+static double extent(const cs_blur *blur, int axis) {
   if (blur->kind == CELSPAN_DEFOCUS_BOX)
     return fabs(blur->edges[0][axis]) + fabs(blur->edges[1][axis]);
   double radius = axis == 0 ? blur->radius_x : blur->radius_y;
@@ -62,15 +62,15 @@ static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
   return true;
 }
 
-/* The art's box grown by the kernel and by what lies between nodes, in whole pixels, cut to what
- * can be seen. */
+/* The art's box grown by the blur and by the distance between nodes, in whole pixels, cut to the
+ * part of the frame that can be seen. */
 static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_defocused *grid,
                      cs_boundary_frame *out) {
   cs_boundary_frame art;
   if (!find_art(place, &art))
     return false;
-  double grow_x = reach(blur, 0) + 2 * grid->pitch_x + 1;
-  double grow_y = reach(blur, 1) + 2 * grid->pitch_y + 1;
+  double grow_x = extent(blur, 0) + 2 * grid->pitch_x + 1;
+  double grow_y = extent(blur, 1) + 2 * grid->pitch_y + 1;
   out->left = fmax(floor(art.left - grow_x), place->frame.left);
   out->right = fmin(ceil(art.right + grow_x), place->frame.right);
   out->top = fmax(floor(art.top - grow_y), place->frame.top);
@@ -80,7 +80,7 @@ static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_
 
 /* ---------------------------------------------------------------- planes */
 
-/* Whether the cel lets the three channels through alike, as far as can be told. */
+/* Whether the cel is known to let the three channels through alike. */
 static bool stack_is_grey(const cs_stack *stack) {
   if (stack->procedure_count > 0)
     return false;
@@ -98,13 +98,13 @@ static bool stack_is_grey(const cs_stack *stack) {
 }
 
 static bool object_varies(const celspan_object *object) {
-  const cs_primitive_data *body = object->body;
-  if (body->kind == CS_PRIMITIVE_DATA_OUTLINE)
-    return body->texture->kind != CS_TEXTURE_FLAT;
-  for (size_t i = 0; i < body->operand_count; i++)
-    if (object_varies(body->operands[i]))
+  const cs_primitive_data *data = object->body;
+  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    return data->texture->kind != CS_TEXTURE_FLAT;
+  for (size_t i = 0; i < data->operand_count; i++)
+    if (object_varies(data->operands[i]))
       return true;
-  return body->kind == CS_PRIMITIVE_DATA_SCANLINE;
+  return data->kind == CS_PRIMITIVE_DATA_SCANLINE;
 }
 
 static bool cel_varies(const celspan_cel *cel) {
@@ -138,7 +138,7 @@ static celspan_status compile_planes(celspan_context *context, const cs_defocus_
 
 /* ---------------------------------------------------------------- the key */
 
-/* All that the nodes depend on. */
+/* Everything that the nodes depend on. */
 static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
   const celspan_cel *cel = cel_of(place);
   cs_hash hash = cs_hash_begin(0x736f6674u);
@@ -164,20 +164,20 @@ celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocu
                                        const cs_defocus_compiler *compiler, cs_outline *box,
                                        cs_defocus **out) {
   cs_blur blur = find_blur(place);
-  cs_boundary_frame seen;
+  cs_boundary_frame visible;
   cs_defocus *defocus;
   *out = NULL;
   CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
                            &defocus));
-  if (!find_box(place, &blur, &defocus->grid, &seen)) {
+  if (!find_box(place, &blur, &defocus->grid, &visible)) {
     cs_defocus_free(defocus, context->memory);
     return CELSPAN_OK;
   }
   defocus->key = find_key(place, &blur);
   celspan_status status = compile_planes(context, place, compiler, defocus);
   if (status == CELSPAN_OK)
-    status = cs_outline_rect(context, box, seen.left, seen.top, seen.right - seen.left,
-                             seen.bottom - seen.top, 0);
+    status = cs_outline_rect(context, box, visible.left, visible.top, visible.right - visible.left,
+                             visible.bottom - visible.top, 0);
   if (status == CELSPAN_OK)
     *out = defocus;
   else

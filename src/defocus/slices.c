@@ -4,17 +4,17 @@
 
 #include <math.h>
 
-#define CELLS 16   /* in the lesser radius, where the factor allows */
-#define FACTOR 9   /* at most; odd, so that a node stands in the middle of a cell */
-#define TILE 32    /* nodes of a row summed at a time */
+#define SAMPLES 16 /* in the lesser radius, where the factor allows it */
+#define FACTOR 9   /* at most; odd, so that a node lies in the middle of a sample */
+#define TILE 32    /* nodes in a tile: what is summed at a time */
 #define SHORT 1e-6 /* slices that are shorter are left out */
 
 /* ---------------------------------------------------------------- slices */
 
 static celspan_status add_slice(celspan_context *context, cs_defocus_slices *slices,
                                 const cs_kernel *kernel, int32_t row) {
-  double centre_x = slices->reach_x + 0.5 * slices->factor;
-  double centre_y = slices->reach_y + 0.5 * slices->factor, from, to;
+  double centre_x = slices->extent_x + 0.5 * slices->factor;
+  double centre_y = slices->extent_y + 0.5 * slices->factor, from, to;
   double top = cs_number_clamp(row - centre_y, -kernel->radius_y, kernel->radius_y);
   double foot = cs_number_clamp(row + 1 - centre_y, -kernel->radius_y, kernel->radius_y);
   double weight = cs_kernel_above(kernel, foot) - cs_kernel_above(kernel, top);
@@ -40,7 +40,7 @@ celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *b
   cs_blur fine = *blur;
   *out = (cs_defocus_slices){0};
   double least = fmin(blur->radius_x, blur->radius_y);
-  double factor = cs_number_clamp(ceil(CELLS / least), 1, FACTOR);
+  double factor = cs_number_clamp(ceil(SAMPLES / least), 1, FACTOR);
   fine.blur = 0;
   fine.radius_x *= factor;
   fine.radius_y *= factor;
@@ -49,10 +49,10 @@ celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *b
   cs_kernel *kernel;
   CS_TRY(cs_kernel_create_defocus(context, &fine, &kernel));
   out->factor = (int32_t)factor;
-  out->reach_x = cs_number_ceil(kernel->radius_x) + 1;
-  out->reach_y = cs_number_ceil(kernel->radius_y) + 1;
+  out->extent_x = cs_number_ceil(kernel->radius_x) + 1;
+  out->extent_y = cs_number_ceil(kernel->radius_y) + 1;
   celspan_status status = CELSPAN_OK;
-  for (int32_t row = 0; row < out->factor + 2 * out->reach_y && status == CELSPAN_OK; row++)
+  for (int32_t row = 0; row < out->factor + 2 * out->extent_y && status == CELSPAN_OK; row++)
     status = add_slice(context, out, kernel, row);
   cs_kernel_free(kernel, context->memory);
   return status;
@@ -67,19 +67,19 @@ void cs_defocus_slices_finish(cs_defocus_slices *slices, cs_memory *memory) {
 
 typedef struct summing {
   const cs_defocus_slices *slices;
-  cs_row *rows; /* of cells: those under all nodes of the band */
+  cs_row *rows; /* of samples: those under all nodes */
   size_t *from; /* by row: the first span that may meet the tile */
   int32_t row_count;
   int32_t x0, x1; /* nodes of the tile */
   size_t stride;  /* of a row of sums */
-  cs_v4 *sums;    /* by row: of the cells of the tile's width left of each */
+  cs_v4 *sums;    /* by row: of the samples from the tile's left edge up to each */
 } summing;
 
-/* The sums of a row's cells from the tile's left on. */
-static void sum_cells(summing *s, int32_t k) {
+/* The prefix sums of a row's samples from the tile's left edge on. */
+static void sum_samples(summing *s, int32_t k) {
   const cs_row *row = &s->rows[k];
   const cs_defocus_slices *slices = s->slices;
-  int32_t left = s->x0 * slices->factor, end = s->x1 * slices->factor + 2 * slices->reach_x;
+  int32_t left = s->x0 * slices->factor, end = s->x1 * slices->factor + 2 * slices->extent_x;
   cs_v4 *sums = s->sums + (size_t)k * s->stride, sum = cs_v4_all(0);
   while (row->spans[s->from[k]].x1 <= left)
     s->from[k]++;
@@ -99,7 +99,7 @@ static inline cs_v4 sum_up_to(const cs_v4 *sums, float share) {
   return sums[0] + share * (sums[1] - sums[0]);
 }
 
-/* The node whose first cell under the kernel has the sums at `sums`, in their first row. */
+/* The node whose kernel begins at the sample that `sums` points to. */
 static cs_v4 sum_node(const summing *s, const cs_v4 *sums) {
   cs_v4 value = cs_v4_all(0);
   for (size_t i = 0; i < s->slices->count; i++) {
@@ -113,7 +113,7 @@ static cs_v4 sum_node(const summing *s, const cs_v4 *sums) {
 
 static void sum_tile(summing *s, int32_t columns, int32_t band_rows, float (*nodes)[4]) {
   for (int32_t k = 0; k < s->row_count; k++)
-    sum_cells(s, k);
+    sum_samples(s, k);
   for (int32_t y = 0; y < band_rows; y++)
     for (int32_t x = s->x0; x < s->x1; x++) {
       const cs_v4 *sums =
@@ -138,8 +138,8 @@ celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_ma
                                       float (*nodes)[4]) {
   cs_memory *memory = maker->context->memory;
   summing s = {.slices = slices};
-  s.row_count = (end - first) * slices->factor + 2 * slices->reach_y;
-  s.stride = (size_t)(TILE * slices->factor + 2 * slices->reach_x + 1);
+  s.row_count = (end - first) * slices->factor + 2 * slices->extent_y;
+  s.stride = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
   size_t rows = (size_t)s.row_count;
   s.rows = cs_mem_array(memory, rows, sizeof *s.rows);
   s.from = cs_mem_array(memory, rows, sizeof *s.from);
