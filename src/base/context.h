@@ -29,6 +29,8 @@ typedef struct cs_service {
   void (*trim)(struct cs_service *service); /* drops what nobody holds; any thread */
 } cs_service;
 
+enum { CS_ERROR_SIZE = 1024 }; /* bytes of a failure's sentence */
+
 struct celspan_context {
   cs_memory *memory;
   celspan_context *root; /* itself, or the context it was branched from */
@@ -36,7 +38,7 @@ struct celspan_context {
       *pictures; /* root only; owned; made on first use, by any thread, by pictures/picture.c */
   cs_service *soft_bands; /* likewise, by defocus/bands.c */
   size_t picture_bytes, defocus_bytes;
-  char error[1024];
+  char error[CS_ERROR_SIZE];
 };
 
 cs_memory *cs_memory_ref(cs_memory *memory);

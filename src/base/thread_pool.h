@@ -1,13 +1,32 @@
-/* A crew: threads that do the numbered steps of one job, side by side. */
+/* Threads: the one place where they are started, and the fork-join over numbered steps.
+ *
+ * INVARIANTS
+ *   The calling thread works too, as worker 0; it is the only one that signals are delivered to.
+ *   Where the system gives fewer threads than are wanted, fewer do the same work.
+ */
 #ifndef CS_BASE_THREAD_POOL_H
 #define CS_BASE_THREAD_POOL_H
 
+#include <pthread.h>
 #include <stdint.h>
 
-/* Calls step(user, i) once for every i in [0, count), in no particular order, from up to `workers`
- * threads, the caller's one of them; returns when all are done. Where no more threads can be had,
- * fewer do the same. */
-void cs_thread_pool_run(int workers, int32_t count, void (*step)(void *user, int32_t i),
+typedef struct cs_thread {
+  pthread_t id;
+  void (*run)(void *user, int worker);
+  void *user;
+  int worker;
+} cs_thread;
+
+/* Starts up to `wanted` threads that call run(user, worker), workers being numbered from 1 on.
+ * Returns how many there are: the first ones of `threads`, which stay where they are until the
+ * threads are joined. */
+int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int worker),
+                     void *user);
+void cs_threads_join(cs_thread *threads, int count);
+
+/* Calls step(user, worker, i) once for every i in [0, count), in no particular order, from up to
+ * `workers` threads, the caller's one of them; returns when all are done. */
+void cs_thread_pool_run(int workers, int32_t count, void (*step)(void *user, int worker, int32_t i),
                         void *user);
 
 #endif

@@ -46,15 +46,15 @@ static celspan_status find_duplicate(job *j, frame_task *task) {
                         : CELSPAN_OK;
 }
 
-static cs_frame_pipeline_step choose_step(const job *j, const frame_task *task) {
+static cs_pipeline_step choose_step(const job *j, const frame_task *task) {
   if (task->frame.way == CS_SHOOT_KEPT)
-    return CS_FRAME_PIPELINE_NOTHING;
+    return CS_PIPELINE_NOTHING;
   if (!task->frame.is_named || j->shoot->put)
-    return CS_FRAME_PIPELINE_HERE;
-  return task->is_known && !task->is_first ? CS_FRAME_PIPELINE_IN_TURN : CS_FRAME_PIPELINE_ANYWHERE;
+    return CS_PIPELINE_HERE;
+  return task->is_known && !task->is_first ? CS_PIPELINE_IN_TURN : CS_PIPELINE_ANYWHERE;
 }
 
-static celspan_status build(void *user, size_t index, void *carried, cs_frame_pipeline_step *step) {
+static celspan_status build(void *user, size_t index, void *carried, cs_pipeline_step *step) {
   job *j = user;
   frame_task *task = carried;
   const cs_shoot *shoot = j->shoot;
@@ -146,7 +146,7 @@ static celspan_status make_or_copy(const job *j, celspan_context *context, frame
 }
 
 static celspan_status make(void *user, celspan_context *context, void *carried, int workers,
-                           cs_frame_pipeline_turn *turn) {
+                           cs_frame_pipeline_frame *turn) {
   const job *j = user;
   frame_task *task = carried;
   celspan_frame_desc desc = j->shoot->frame;

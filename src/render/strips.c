@@ -1,61 +1,48 @@
 #include "render/strips.h"
 
-#include "base/wait.h"
+#include "base/pipeline.h"
 #include "output/shares.h"
 #include "span/row_queue.h"
 
-#include <pthread.h>
-
-/* Bands that may be made ahead of delivery, a worker. */
+/* Strips that may be made ahead of delivery, for each worker. */
 #define AHEAD 3
-/* Rows of a part at most, where the sink has no wish. */
-#define PART_ROWS 1024
-/* Rows from one look for a stop to the next. */
-#define LOOK_ROWS 32
+/* Rows of a share at most, where the sink asks for no number. */
+#define SHARE_ROWS 1024
+/* Rows of a share between two questions whether it is still wanted. */
+#define CHECK_ROWS 32
 
 typedef struct strip {
-  int32_t index; /* of the band held, or -1 */
-  bool is_done;
-  celspan_status status;
-  char error[sizeof((celspan_context *)0)->error];
-  cs_row_queue rows;         /* where the sink takes no parts */
-  void *part;                /* else */
-  celspan_statistics counts; /* of the part's rows */
+  cs_row_queue rows;         /* where the sink takes no shares */
+  void *share;               /* where it does */
+  celspan_statistics counts; /* of the share's rows */
 } strip;
 
-typedef struct delivery delivery;
-
-typedef struct pool {
-  celspan_context *context;
-  const cs_frame *frame;
-  delivery *delivery;
-  cs_row_worker *row_workers;
-  bool has_parts;
-  cs_shares parts;
-  void **hands;  /* one a lane, where there are parts */
-  strip *strips; /* a ring: band i lies at i % band_count */
-  int lane_count, band_count;
-  int32_t strip_height;
-  int32_t total;   /* bands of the frame */
-  int32_t claimed; /* the next band to be made */
-  int32_t delivered;
-  bool is_stopped;
-  atomic_bool is_cancelled; /* read without the mutex, amid parts */
-  pthread_mutex_t mutex;
-  pthread_cond_t done, room;
-} pool;
-
-struct delivery {
+typedef struct delivery {
   celspan_context *context;
   const celspan_frame_desc *desc;
   const celspan_sink *sink;
   celspan_statistics *statistics;
   int32_t rows_done, rows_total;
-};
+} delivery;
+
+typedef struct strips {
+  celspan_context *context;
+  const cs_frame *frame;
+  delivery *delivery;
+  cs_pipeline *pipeline;
+  bool has_shares;
+  cs_shares shares;
+  cs_row_worker *row_workers; /* one a worker */
+  void **share_workers;       /* what the sink keeps for a worker, where there are shares */
+  strip *ring;                /* strip i lies at i % ring_size */
+  int worker_count, ring_size;
+  int32_t strip_height;
+  int32_t total; /* strips of the frame */
+} strips;
 
 /* ---------------------------------------------------------------- delivery */
 
-/* Spans are looked at only where there are arrays. */
+/* Goes through the spans only where there are arrays. */
 static inline void count_spans(celspan_statistics *statistics, const celspan_span *spans,
                                size_t count, cs_varied varied) {
   statistics->rows++;
@@ -89,106 +76,72 @@ static celspan_status report_progress(const delivery *d) {
   return goes_on(d) ? CELSPAN_OK : stop(d);
 }
 
-/* ---------------------------------------------------------------- making bands */
+/* ---------------------------------------------------------------- making a strip */
 
-static int32_t band_first(const pool *p, int32_t index) { return index * p->strip_height; }
+static int32_t first_row(const strips *s, int32_t index) { return index * s->strip_height; }
 
-static int32_t band_end(const pool *p, int32_t index) {
-  int64_t end = (int64_t)band_first(p, index) + p->strip_height;
-  return end < p->frame->crop_height ? (int32_t)end : p->frame->crop_height;
+static int32_t end_row(const strips *s, int32_t index) {
+  int64_t end = (int64_t)first_row(s, index) + s->strip_height;
+  return end < s->frame->crop_height ? (int32_t)end : s->frame->crop_height;
 }
 
-static celspan_status make_part_row(pool *p, cs_row_worker *row_worker, strip *b, int32_t y) {
+/* Whether the rest of a share is wanted, which may take long. Only the calling thread may ask the
+ * caller; what it is told ends the shares of the others. */
+static bool is_wanted(strips *s, int worker, int32_t index) {
+  if (worker == 0 && !goes_on(s->delivery))
+    cs_pipeline_end_at(s->pipeline, 0);
+  return cs_pipeline_is_wanted(s->pipeline, (size_t)index);
+}
+
+static celspan_status make_share_row(strips *s, int worker, strip *made, int32_t y, bool counts) {
+  cs_row_worker *row_worker = &s->row_workers[worker];
   const cs_row *row;
   CS_TRY(cs_row_worker_row(row_worker, y, &row));
-  if (y >= band_first(p, b->index))
-    count_spans(&b->counts, row->spans, row->count, row->varied);
-  return p->parts.row ? p->parts.row(p->parts.user, p->hands[row_worker - p->row_workers],
-                                     &row_worker->context, y, row->spans, row->count)
-                      : CELSPAN_OK;
+  if (counts)
+    count_spans(&made->counts, row->spans, row->count, row->varied);
+  return s->shares.row ? s->shares.row(s->shares.user, s->share_workers[worker],
+                                       &row_worker->context, y, row->spans, row->count)
+                       : CELSPAN_OK;
 }
 
-/* Parts may take long. The calling thread, which has the first lane, asks whether to go on; the
- * others hear of it. */
-static celspan_status look(pool *p, cs_row_worker *row_worker) {
-  if (row_worker == p->row_workers && !goes_on(p->delivery))
-    atomic_store(&p->is_cancelled, true);
-  return atomic_load(&p->is_cancelled) ? CELSPAN_CANCELLED : CELSPAN_OK;
-}
-
-static celspan_status make_part(pool *p, cs_row_worker *row_worker, strip *b) {
-  const cs_shares *parts = &p->parts;
-  void *hand = p->hands[row_worker - p->row_workers];
-  int32_t first = band_first(p, b->index), end = band_end(p, b->index);
-  b->counts = (celspan_statistics){0};
-  if (parts->begin)
-    CS_TRY(parts->begin(hand, &row_worker->context, b->part, b->index));
-  for (int32_t y = first - (parts->takes_above && first > 0); y < end; y++) {
-    CS_TRY(make_part_row(p, row_worker, b, y));
-    if ((y - first) % LOOK_ROWS == LOOK_ROWS - 1)
-      CS_TRY(look(p, row_worker));
+static celspan_status make_share(strips *s, int worker, int32_t index, strip *made) {
+  const cs_shares *shares = &s->shares;
+  celspan_context *context = &s->row_workers[worker].context;
+  int32_t first = first_row(s, index), end = end_row(s, index);
+  made->counts = (celspan_statistics){0};
+  if (shares->begin)
+    CS_TRY(shares->begin(s->share_workers[worker], context, made->share, index));
+  for (int32_t y = first - (shares->takes_above && first > 0); y < end; y++) {
+    CS_TRY(make_share_row(s, worker, made, y, y >= first));
+    if ((y - first) % CHECK_ROWS == CHECK_ROWS - 1 && !is_wanted(s, worker, index))
+      return CELSPAN_CANCELLED;
   }
-  return parts->end ? parts->end(hand, &row_worker->context) : CELSPAN_OK;
+  return shares->end ? shares->end(s->share_workers[worker], context) : CELSPAN_OK;
 }
 
-static celspan_status make_rows(pool *p, cs_row_worker *row_worker, strip *b) {
-  int32_t end = band_end(p, b->index);
-  cs_row_queue_clear(&b->rows);
-  for (int32_t y = band_first(p, b->index); y < end; y++) {
+static celspan_status make_rows(strips *s, int worker, int32_t index, strip *made) {
+  cs_row_worker *row_worker = &s->row_workers[worker];
+  int32_t end = end_row(s, index);
+  cs_row_queue_clear(&made->rows);
+  for (int32_t y = first_row(s, index); y < end; y++) {
     const cs_row *row;
     CS_TRY(cs_row_worker_row(row_worker, y, &row));
-    CS_TRY(cs_row_queue_add(&row_worker->context, &b->rows, row->spans, row->count));
+    CS_TRY(cs_row_queue_add(&row_worker->context, &made->rows, row->spans, row->count));
   }
   return CELSPAN_OK;
 }
 
-static void make_band(pool *p, cs_row_worker *row_worker, strip *b) {
-  b->status = p->has_parts ? make_part(p, row_worker, b) : make_rows(p, row_worker, b);
-  if (b->status != CELSPAN_OK)
-    memcpy(b->error, row_worker->context.error, sizeof b->error);
+static celspan_status make_strip(void *user, celspan_context *context, int worker, size_t item) {
+  strips *s = user;
+  strip *made = &s->ring[item % (size_t)s->ring_size];
+  celspan_status status = s->has_shares ? make_share(s, worker, (int32_t)item, made)
+                                        : make_rows(s, worker, (int32_t)item, made);
+  return status == CELSPAN_OK
+             ? CELSPAN_OK
+             : cs_fail(context, status, "%s", s->row_workers[worker].context.error);
 }
 
-/* The next band to be made, if there is one and room for it; the mutex is held. */
-static strip *claim(pool *p) {
-  if (p->is_stopped || p->claimed == p->total || p->claimed >= p->delivered + p->band_count)
-    return NULL;
-  strip *b = &p->strips[p->claimed % p->band_count];
-  b->index = p->claimed++;
-  b->is_done = false;
-  return b;
-}
-
-/* Makes a claimed band with the mutex let go. */
-static void work(pool *p, cs_row_worker *row_worker, strip *b) {
-  pthread_mutex_unlock(&p->mutex);
-  make_band(p, row_worker, b);
-  pthread_mutex_lock(&p->mutex);
-  b->is_done = true;
-  pthread_cond_signal(&p->done);
-}
-
-typedef struct worker {
-  pool *pool;
-  cs_row_worker *row_worker;
-  pthread_t thread;
-} worker;
-
-static void *worker_main(void *argument) {
-  worker *w = argument;
-  pool *p = w->pool;
-  pthread_mutex_lock(&p->mutex);
-  while (!p->is_stopped && p->claimed < p->total) {
-    strip *b = claim(p);
-    if (b)
-      work(p, w->row_worker, b);
-    else
-      pthread_cond_wait(&p->room, &p->mutex);
-  }
-  pthread_mutex_unlock(&p->mutex);
-  return NULL;
-}
-
-/* ---------------------------------------------------------------- the pool */
+/* ---------------------------------------------------------------- delivering strips in order */
 
 static void add_counts(celspan_statistics *sum, const celspan_statistics *counts) {
   sum->rows += counts->rows;
@@ -199,115 +152,89 @@ static void add_counts(celspan_statistics *sum, const celspan_statistics *counts
   sum->pixels_in_arrays += counts->pixels_in_arrays;
 }
 
-static celspan_status join_part(const pool *p, delivery *d, const strip *b) {
-  add_counts(d->statistics, &b->counts);
-  d->rows_done += (int32_t)b->counts.rows;
-  if (p->parts.join)
-    CS_TRY(p->parts.join(p->parts.user, d->context, b->part, b->index));
+static celspan_status join_share(const strips *s, const strip *made, int32_t index) {
+  delivery *d = s->delivery;
+  add_counts(d->statistics, &made->counts);
+  d->rows_done += (int32_t)made->counts.rows;
+  if (s->shares.join)
+    CS_TRY(s->shares.join(s->shares.user, d->context, made->share, index));
   return report_progress(d);
 }
 
-static celspan_status deliver_band(const pool *p, delivery *d, const strip *b) {
-  if (b->status != CELSPAN_OK)
-    return cs_fail(d->context, b->status, "%s", b->error);
-  if (p->has_parts)
-    return join_part(p, d, b);
-  for (size_t k = 0; k < b->rows.count; k++) {
-    cs_row_queue_row row = cs_row_queue_get(&b->rows, k);
-    CS_TRY(deliver_row(d, row.spans, row.count, row.varied));
+static celspan_status deliver_strip(void *user, celspan_context *context, size_t item,
+                                    celspan_status status) {
+  const strips *s = user;
+  const strip *made = &s->ring[item % (size_t)s->ring_size];
+  (void)context;
+  if (!cs_pipeline_is_wanted(s->pipeline, item))
+    return stop(s->delivery);
+  CS_TRY(status);
+  if (s->has_shares)
+    return join_share(s, made, (int32_t)item);
+  for (size_t k = 0; k < made->rows.count; k++) {
+    cs_row_queue_row row = cs_row_queue_get(&made->rows, k);
+    CS_TRY(deliver_row(s->delivery, row.spans, row.count, row.varied));
   }
-  return report_progress(d);
+  return report_progress(s->delivery);
 }
 
-/* While others work: the mutex is held, and let go meanwhile. */
-static celspan_status look_up(pool *p, const delivery *d) {
-  pthread_mutex_unlock(&p->mutex);
-  celspan_status status = report_progress(d);
-  pthread_mutex_lock(&p->mutex);
+static celspan_status report_idle(void *user, celspan_context *context) {
+  (void)context;
+  return report_progress(((const strips *)user)->delivery);
+}
+
+static celspan_status deliver_all(strips *s) {
+  for (int32_t i = 0; i < s->total; i++) {
+    CS_TRY(cs_pipeline_deliver(s->pipeline, s->context, (size_t)s->ring_size - 1));
+    if (!cs_pipeline_has_room(s->pipeline))
+      break;
+    cs_pipeline_add(s->pipeline, s->context, CS_PIPELINE_ANYWHERE, CELSPAN_OK);
+  }
+  return cs_pipeline_deliver(s->pipeline, s->context, 0);
+}
+
+static celspan_status run_pipeline(strips *s) {
+  const cs_pipeline_desc desc = {.count = (size_t)s->total,
+                                 .slots = (size_t)s->ring_size,
+                                 .threads = s->worker_count - 1,
+                                 .owner_claims = true,
+                                 .user = s,
+                                 .make = make_strip,
+                                 .deliver = deliver_strip,
+                                 .idle = report_idle};
+  CS_TRY(cs_pipeline_create(s->context, &desc, &s->pipeline));
+  celspan_status status = deliver_all(s);
+  cs_pipeline_destroy(s->pipeline);
   return status;
 }
 
-/* Delivers bands in order, making one whenever the next is not there yet; the mutex is held, and
- * let go while the sink works. */
-static celspan_status deliver_all(pool *p, delivery *d) {
-  while (p->delivered < p->total) {
-    if (atomic_load(&p->is_cancelled))
-      return stop(d);
-    strip *next = &p->strips[p->delivered % p->band_count];
-    if (next->index == p->delivered && next->is_done) {
-      pthread_mutex_unlock(&p->mutex);
-      celspan_status status = deliver_band(p, d, next);
-      pthread_mutex_lock(&p->mutex);
-      CS_TRY(status);
-      p->delivered++;
-      pthread_cond_broadcast(&p->room);
-      continue;
-    }
-    strip *own = claim(p);
-    if (own)
-      work(p, &p->row_workers[0], own);
-    else if (!cs_wait_moment(&p->done, &p->mutex))
-      CS_TRY(look_up(p, d));
-  }
+/* ---------------------------------------------------------------- several workers */
+
+static void close_shares(strips *s) {
+  const cs_shares *shares = &s->shares;
+  for (int i = 0; shares->close_worker && s->share_workers && i < s->worker_count; i++)
+    shares->close_worker(shares->user, s->context, s->share_workers[i]);
+  for (int i = 0; shares->close_share && s->ring && i < s->ring_size; i++)
+    shares->close_share(shares->user, s->context, s->ring[i].share);
+  cs_mem_free(s->context->memory, s->share_workers,
+              (size_t)s->worker_count * sizeof *s->share_workers);
+}
+
+static celspan_status open_shares(strips *s) {
+  const cs_shares *shares = &s->shares;
+  s->share_workers =
+      cs_mem_array(s->context->memory, (size_t)s->worker_count, sizeof *s->share_workers);
+  if (!s->share_workers)
+    return cs_fail_memory(s->context);
+  for (int i = 0; shares->open_worker && i < s->worker_count; i++)
+    CS_TRY(shares->open_worker(shares->user, s->context, &s->share_workers[i]));
+  for (int i = 0; shares->open_share && i < s->ring_size; i++)
+    CS_TRY(shares->open_share(shares->user, s->context, &s->ring[i].share));
   return CELSPAN_OK;
 }
 
-static celspan_status run_pool(pool *p, delivery *d, worker *workers) {
-  int started = 1; /* the calling thread is worker 0 */
-  for (; started < p->lane_count; started++) {
-    workers[started] = (worker){.pool = p, .row_worker = &p->row_workers[started]};
-    if (pthread_create(&workers[started].thread, NULL, worker_main, &workers[started]) != 0)
-      break; /* fewer workers make the same rows */
-  }
-  pthread_mutex_lock(&p->mutex);
-  celspan_status status = deliver_all(p, d);
-  p->is_stopped = true;
-  atomic_store(&p->is_cancelled, true); /* parts that nobody waits for any more */
-  pthread_cond_broadcast(&p->room);
-  pthread_mutex_unlock(&p->mutex);
-  while (--started > 0)
-    pthread_join(workers[started].thread, NULL);
-  return status;
-}
-
-static void close_parts(pool *p) {
-  const cs_shares *parts = &p->parts;
-  for (int i = 0; parts->close_worker && p->hands && i < p->lane_count; i++)
-    parts->close_worker(parts->user, p->context, p->hands[i]);
-  for (int i = 0; parts->close_share && p->strips && i < p->band_count; i++)
-    parts->close_share(parts->user, p->context, p->strips[i].part);
-  cs_mem_free(p->context->memory, p->hands, (size_t)p->lane_count * sizeof *p->hands);
-}
-
-static celspan_status open_parts(pool *p) {
-  const cs_shares *parts = &p->parts;
-  p->hands = cs_mem_array(p->context->memory, (size_t)p->lane_count, sizeof *p->hands);
-  if (!p->hands)
-    return cs_fail_memory(p->context);
-  for (int i = 0; parts->open_worker && i < p->lane_count; i++)
-    CS_TRY(parts->open_worker(parts->user, p->context, &p->hands[i]));
-  for (int i = 0; parts->open_share && i < p->band_count; i++)
-    CS_TRY(parts->open_share(parts->user, p->context, &p->strips[i].part));
-  return CELSPAN_OK;
-}
-
-static void free_pool(pool *p, worker *workers) {
-  cs_memory *memory = p->context->memory;
-  close_parts(p);
-  for (int i = 0; p->row_workers && i < p->lane_count; i++)
-    cs_row_worker_finish(&p->row_workers[i]);
-  for (int i = 0; p->strips && i < p->band_count; i++)
-    cs_row_queue_finish(&p->strips[i].rows, memory);
-  cs_mem_free(memory, p->row_workers, (size_t)p->lane_count * sizeof *p->row_workers);
-  cs_mem_free(memory, p->strips, (size_t)p->band_count * sizeof *p->strips);
-  cs_mem_free(memory, workers, (size_t)p->lane_count * sizeof *workers);
-  pthread_cond_destroy(&p->done);
-  pthread_cond_destroy(&p->room);
-  pthread_mutex_destroy(&p->mutex);
-}
-
-static celspan_status init_lanes(celspan_context *context, const cs_frame *frame,
-                                 cs_row_worker *row_workers, int count) {
+static celspan_status init_workers(celspan_context *context, const cs_frame *frame,
+                                   cs_row_worker *row_workers, int count) {
   for (int i = 0; i < count; i++) {
     celspan_status status = cs_row_worker_init(&row_workers[i], context, frame);
     if (status != CELSPAN_OK)
@@ -316,56 +243,59 @@ static celspan_status init_lanes(celspan_context *context, const cs_frame *frame
   return CELSPAN_OK;
 }
 
+static celspan_status open_strips(strips *s) {
+  cs_memory *memory = s->context->memory;
+  s->row_workers = cs_mem_array(memory, (size_t)s->worker_count, sizeof *s->row_workers);
+  s->ring = cs_mem_array(memory, (size_t)s->ring_size, sizeof *s->ring);
+  if (!s->row_workers || !s->ring)
+    return cs_fail_memory(s->context);
+  CS_TRY(init_workers(s->context, s->frame, s->row_workers, s->worker_count));
+  return s->has_shares ? open_shares(s) : CELSPAN_OK;
+}
+
+static void close_strips(strips *s) {
+  cs_memory *memory = s->context->memory;
+  close_shares(s);
+  for (int i = 0; s->row_workers && i < s->worker_count; i++)
+    cs_row_worker_finish(&s->row_workers[i]);
+  for (int i = 0; s->ring && i < s->ring_size; i++)
+    cs_row_queue_finish(&s->ring[i].rows, memory);
+  cs_mem_free(memory, s->row_workers, (size_t)s->worker_count * sizeof *s->row_workers);
+  cs_mem_free(memory, s->ring, (size_t)s->ring_size * sizeof *s->ring);
+}
+
 static uint64_t sum_evaluations(const cs_row_worker *row_workers, int count) {
   uint64_t sum = 0;
-  for (int i = 0; i < count; i++)
+  for (int i = 0; row_workers && i < count; i++)
     sum += cs_row_worker_evaluations(&row_workers[i]);
   return sum;
 }
 
-static int32_t count_bands(const cs_frame *frame, int32_t strip_height) {
-  return (int32_t)(((int64_t)frame->crop_height + strip_height - 1) / strip_height);
-}
-
-/* A lane that goes on to its next band passes over the rows of the others. Where nothing of a band
- * is kept it may be high, so that this is seldom. */
-static int32_t choose_rows(const pool *p, const celspan_frame_desc *desc) {
-  const cs_frame *frame = p->frame;
+/* A worker that goes on to its next strip passes over the rows of the others. Where no rows of a
+ * strip are kept it may be high, so that this happens seldom. */
+static int32_t choose_rows(const strips *s, const celspan_frame_desc *desc) {
+  const cs_frame *frame = s->frame;
   int32_t share = frame->crop_height / (frame->workers * 16);
-  if (p->parts.rows > 0)
-    return p->parts.rows;
-  if (!p->has_parts || desc->strip_rows > 0 || share <= frame->strip_height)
+  if (s->shares.rows > 0)
+    return s->shares.rows;
+  if (!s->has_shares || desc->strip_rows > 0 || share <= frame->strip_height)
     return frame->strip_height;
-  return share < PART_ROWS ? share : PART_ROWS;
+  return share < SHARE_ROWS ? share : SHARE_ROWS;
 }
 
-static celspan_status render_pool(celspan_context *context, const cs_frame *frame, delivery *d) {
-  pool p = {.context = context, .frame = frame, .delivery = d};
-  p.has_parts = cs_shares_of_sink(d->sink, &p.parts);
-  p.strip_height = choose_rows(&p, d->desc);
-  int32_t total = p.total = count_bands(frame, p.strip_height);
-  p.lane_count = frame->workers < total ? frame->workers : (int)total;
-  p.band_count = p.lane_count * AHEAD;
-  pthread_mutex_init(&p.mutex, NULL);
-  cs_wait_init(&p.done);
-  pthread_cond_init(&p.room, NULL);
-  p.row_workers = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *p.row_workers);
-  p.strips = cs_mem_array(context->memory, (size_t)p.band_count, sizeof *p.strips);
-  worker *workers = cs_mem_array(context->memory, (size_t)p.lane_count, sizeof *workers);
-  celspan_status status = CELSPAN_OK;
-  if (!p.row_workers || !p.strips || !workers)
-    status = cs_fail_memory(context);
-  for (int i = 0; status == CELSPAN_OK && i < p.band_count; i++)
-    p.strips[i].index = -1;
+static celspan_status render_together(celspan_context *context, const cs_frame *frame,
+                                      delivery *d) {
+  strips s = {.context = context, .frame = frame, .delivery = d};
+  s.has_shares = cs_shares_of_sink(d->sink, &s.shares);
+  s.strip_height = choose_rows(&s, d->desc);
+  s.total = (int32_t)(((int64_t)frame->crop_height + s.strip_height - 1) / s.strip_height);
+  s.worker_count = frame->workers < s.total ? frame->workers : (int)s.total;
+  s.ring_size = s.worker_count * AHEAD;
+  celspan_status status = open_strips(&s);
   if (status == CELSPAN_OK)
-    status = init_lanes(context, frame, p.row_workers, p.lane_count);
-  if (status == CELSPAN_OK && p.has_parts)
-    status = open_parts(&p);
-  if (status == CELSPAN_OK)
-    status = run_pool(&p, d, workers);
-  if (p.row_workers)
-    d->statistics->colour_evaluations += sum_evaluations(p.row_workers, p.lane_count);
-  free_pool(&p, workers);
+    status = run_pipeline(&s);
+  d->statistics->colour_evaluations += sum_evaluations(s.row_workers, s.worker_count);
+  close_strips(&s);
   return status;
 }
 
@@ -384,10 +314,10 @@ static celspan_status deliver_rows(cs_row_worker *row_worker, const cs_frame *fr
   return CELSPAN_OK;
 }
 
-/* Rows go from the scan to the sink without a copy. */
+/* Rows go from their maker to the sink without a copy. */
 static celspan_status render_alone(celspan_context *context, const cs_frame *frame, delivery *d) {
   cs_row_worker row_worker;
-  celspan_status status = init_lanes(context, frame, &row_worker, 1);
+  celspan_status status = init_workers(context, frame, &row_worker, 1);
   if (status == CELSPAN_OK)
     status = deliver_rows(&row_worker, frame, d);
   d->statistics->colour_evaluations += cs_row_worker_evaluations(&row_worker);
@@ -401,5 +331,5 @@ celspan_status cs_strips_render(celspan_context *context, const cs_frame *frame,
   delivery d = {context, desc, sink, statistics, 0, frame->crop_height};
   if (frame->workers == 1 || frame->crop_height <= frame->strip_height)
     return render_alone(context, frame, &d);
-  return render_pool(context, frame, &d);
+  return render_together(context, frame, &d);
 }

@@ -1,10 +1,11 @@
-/* Bands: a frame's rows made by several workers, delivered in order.
+/* Strips: rows of a frame made together by a worker, delivered in order.
  *
- *   workers --rows, band by band--> bands --in order, by the calling thread--> sink
+ *   workers --rows, strip by strip--> strips --in order, by the calling thread--> sink
  *
- * A sink that takes parts (output/shares.h) gets the rows from the workers themselves; only the
- * parts are joined in order. The calling thread works too while it has nothing to deliver.
- * Invariant: the sink sees the same spans whatever the number of workers and the height of bands;
+ * A sink that takes shares (output/shares.h) gets the rows from the workers themselves; only the
+ * shares are joined in order. The calling thread works too while it has nothing to deliver.
+ *
+ * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
  * the failure reported is that of the topmost row that failed.
  */
 #ifndef CS_RENDER_STRIPS_H

@@ -162,8 +162,9 @@ static void find_chain_columns(const culler *c, uint32_t chain, column_range *co
     find_piece_columns(c, &c->desc->set->pieces[ch->piece + k], first, last, columns);
 }
 
-static void find_columns_job(void *user, int32_t number) {
+static void find_columns_job(void *user, int worker, int32_t number) {
   const culler *c = user;
+  (void)worker;
   size_t first = (size_t)number * JOB_CHAINS, end = first + JOB_CHAINS;
   for (size_t chain = first; chain < end && chain < c->desc->set->chain_count; chain++)
     find_chain_columns(c, (uint32_t)chain, c->columns + c->cull->places[chain]);
@@ -296,8 +297,9 @@ static celspan_status cull_layer(const culler *c, job *s, uint32_t layer) {
   return CELSPAN_OK;
 }
 
-static void run_cull_job(void *user, int32_t number) {
+static void run_cull_job(void *user, int worker, int32_t number) {
   const culler *c = user;
+  (void)worker;
   job *s = &c->jobs[number];
   for (size_t layer = c->desc->layer_count; layer-- > 0 && s->status == CELSPAN_OK;)
     s->status = cull_layer(c, s, (uint32_t)layer);

@@ -13,7 +13,7 @@ enum { FRAMES = 40, NOWHERE = -1 };
 typedef struct studio {
   celspan_context *context;
   pthread_t thread; /* the calling one */
-  cs_frame_pipeline_step steps[FRAMES];
+  cs_pipeline_step steps[FRAMES];
   int fails_to_build, fails_to_make, fails_to_finish; /* a frame, or NOWHERE */
   int stops_after;                                    /* frames finished, or NOWHERE */
   atomic_int made[FRAMES];
@@ -30,12 +30,12 @@ typedef struct frame {
 
 static bool is_calling_thread(const studio *s) { return pthread_equal(pthread_self(), s->thread); }
 
-static celspan_status build(void *user, size_t index, void *carried, cs_frame_pipeline_step *step) {
+static celspan_status build(void *user, size_t index, void *carried, cs_pipeline_step *step) {
   studio *s = user;
   frame *f = carried;
   s->faults += !is_calling_thread(s) || (int)index != s->built || f->index != 0 || f->made != 0;
   for (int i = 0; i < s->built; i++)
-    s->faults += s->steps[i] == CS_FRAME_PIPELINE_HERE && i != s->fails_to_build && !s->made[i];
+    s->faults += s->steps[i] == CS_PIPELINE_HERE && i != s->fails_to_build && !s->made[i];
   s->built++;
   f->index = (int)index;
   *step = s->steps[index];
@@ -53,7 +53,7 @@ static void be_busy(int index) {
 }
 
 static celspan_status make(void *user, celspan_context *context, void *carried, int workers,
-                           cs_frame_pipeline_turn *turn) {
+                           cs_frame_pipeline_frame *turn) {
   studio *s = user;
   frame *f = carried;
   bool is_here = is_calling_thread(s);
@@ -74,8 +74,8 @@ static celspan_status finish(void *user, void *carried, celspan_status status) {
   const frame *f = carried;
   int index = s->finished + s->failed;
   s->faults += !is_calling_thread(s) || f->index != index;
-  s->faults += status == CELSPAN_OK && f->made != (s->steps[index] != CS_FRAME_PIPELINE_NOTHING);
-  s->faults += s->steps[index] == CS_FRAME_PIPELINE_IN_TURN && f->made && f->before != s->finished;
+  s->faults += status == CELSPAN_OK && f->made != (s->steps[index] != CS_PIPELINE_NOTHING);
+  s->faults += s->steps[index] == CS_PIPELINE_IN_TURN && f->made && f->before != s->finished;
   if (status != CELSPAN_OK) {
     s->failed++;
     return s->fails_to_finish == NOWHERE ? status : CELSPAN_OK;
@@ -128,13 +128,13 @@ static void test_order(celspan_context *context, int workers) {
   for (int kinds = 1; kinds <= 4; kinds++) {
     studio s = quiet();
     for (int i = 0; i < FRAMES; i++)
-      s.steps[i] = (cs_frame_pipeline_step)(i * 7 % 11 % kinds);
+      s.steps[i] = (cs_pipeline_step)(i * 7 % 11 % kinds);
     CHECK(run(&s, context, workers, false) == CELSPAN_OK);
     CHECK(s.finished == FRAMES && s.built == FRAMES && s.released == FRAMES);
     CHECK(s.faults == 0);
     CHECK(s.share == 0);
     for (int i = 0; i < FRAMES; i++)
-      CHECK(s.made[i] == (s.steps[i] != CS_FRAME_PIPELINE_NOTHING));
+      CHECK(s.made[i] == (s.steps[i] != CS_PIPELINE_NOTHING));
   }
 }
 

@@ -1,42 +1,38 @@
 #include "output/png/strips.h"
 
-#include <pthread.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/pipeline.h"
 #include "span/row_queue.h"
 
 enum {
-  STRIP_PIXELS = 1 << 18,      /* enough to be worth a thread's while */
-  STRIP_ROWS = 64,             /* flat rows are short: take so many where that is not too much */
+  STRIP_PIXELS = 1 << 18,      /* enough for a thread of its own to pay */
+  STRIP_ROWS = 64,             /* flat rows are short: so many where that is not too much */
   STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures are 16 bytes a pixel */
   WORKERS_MOST = 64,
-  AHEAD = 2 /* strips in hand, a lane */
+  AHEAD = 2 /* strips filled and not yet written, for each worker */
 };
 
-/* A part of the stream, as it grows. */
-typedef struct part {
+/* Bytes of the stream, as they grow. */
+typedef struct buffer {
   unsigned char *bytes;
   size_t size, capacity;
-} part;
+} buffer;
 
 typedef struct strip {
   cs_row_queue rows; /* with the one above, unless it is the first strip */
-  bool is_done;
-  celspan_status status;
-  char error[sizeof((celspan_context *)0)->error];
-  part packed;
+  buffer packed;
   cs_deflate_sum sum;
 } strip;
 
-typedef struct lane {
+typedef struct worker {
   celspan_context context; /* a branch */
   cs_png_strips *strips;
   cs_png_rows rows;
   cs_deflate *deflate;
-  part *packed; /* of the strip in hand */
-  pthread_t thread;
-} lane;
+  buffer *packed; /* where its stream goes now */
+} worker;
 
 struct cs_png_strips {
   cs_png_picture picture;
@@ -45,20 +41,17 @@ struct cs_png_strips {
   int32_t strip_rows, total;
   int32_t row; /* the next one */
   cs_deflate_sum sum;
-  lane *lanes;             /* the first is the caller's, the others have threads */
-  int lane_count, started; /* lanes: from the first row on */
-  strip *ring;             /* strip i lies at i % ring_size */
-  int32_t ring_size;
-  pthread_mutex_t mutex;
-  pthread_cond_t filled_some, done_some;
-  int32_t filled, claimed, written; /* strips, in this order */
-  bool is_stopped;
+  int worker_count;
+  worker *workers;       /* from the first row on */
+  strip *ring;           /* strip i lies at i % ring_size */
+  int32_t ring_size;     /* 1 where one worker does without the pipeline */
+  cs_pipeline *pipeline; /* NULL where there is one worker, or no row yet */
 };
 
 /* ---------------------------------------------------------------- one strip */
 
 static celspan_status append(void *user, celspan_context *context, const void *bytes, size_t size) {
-  part *packed = *(part **)user;
+  buffer *packed = *(buffer **)user;
   CS_TRY(
       cs_mem_reserve(context, (void **)&packed->bytes, &packed->capacity, packed->size + size, 1));
   memcpy(packed->bytes + packed->size, bytes, size);
@@ -66,43 +59,37 @@ static celspan_status append(void *user, celspan_context *context, const void *b
   return CELSPAN_OK;
 }
 
-static celspan_status begin_strip(lane *l, int32_t index) {
+static celspan_status begin_strip(worker *w, int32_t index) {
   unsigned char header[CS_DEFLATE_HEADER];
-  cs_deflate_begin(l->deflate);
-  cs_png_rows_restart(&l->rows);
+  cs_deflate_begin(w->deflate);
+  cs_png_rows_restart(&w->rows);
   if (index > 0)
     return CELSPAN_OK;
   cs_deflate_header(header);
-  return append(&l->packed, &l->context, header, sizeof header);
+  return append(&w->packed, &w->context, header, sizeof header);
 }
 
-static void empty(lane *l, part *packed) {
+static void empty(worker *w, buffer *packed) {
   packed->size = 0;
-  l->packed = packed;
+  w->packed = packed;
 }
 
-static celspan_status put_rows(lane *l, int32_t index, strip *s) {
-  empty(l, &s->packed);
-  CS_TRY(begin_strip(l, index));
+static celspan_status put_rows(worker *w, int32_t index, strip *s) {
+  empty(w, &s->packed);
+  CS_TRY(begin_strip(w, index));
   for (size_t i = 0; i < s->rows.count; i++) {
     cs_row_queue_row row = cs_row_queue_get(&s->rows, i);
     if (i == 0 && index > 0)
-      CS_TRY(cs_png_rows_set_above(&l->rows, &l->context, row.spans, row.count));
+      CS_TRY(cs_png_rows_set_above(&w->rows, &w->context, row.spans, row.count));
     else
-      CS_TRY(cs_png_rows_put(&l->rows, &l->context, row.spans, row.count, l->deflate));
+      CS_TRY(cs_png_rows_put(&w->rows, &w->context, row.spans, row.count, w->deflate));
   }
-  return cs_deflate_end(l->deflate, &l->context, &s->sum);
-}
-
-static void pack_strip(lane *l, int32_t index, strip *s) {
-  s->status = put_rows(l, index, s);
-  if (s->status != CELSPAN_OK)
-    memcpy(s->error, l->context.error, sizeof s->error);
+  return cs_deflate_end(w->deflate, &w->context, &s->sum);
 }
 
 /* Writes what was packed from `start` on: a strip's own. The last one ends the stream. */
 static celspan_status write_strip(cs_png_strips *strips, celspan_context *context, int32_t index,
-                                  cs_deflate_sum sum, part *packed, size_t start, size_t end) {
+                                  cs_deflate_sum sum, buffer *packed, size_t start, size_t end) {
   unsigned char trailer[CS_DEFLATE_TRAILER];
   strips->sum = cs_deflate_join(strips->sum, sum);
   if (index == strips->total - 1) {
@@ -136,19 +123,19 @@ static celspan_status report(celspan_context *context, celspan_status status, co
 
 static celspan_status pack_row(cs_png_strips *strips, const celspan_span *spans,
                                size_t span_count) {
-  lane *l = strips->lanes;
+  worker *w = strips->workers;
   strip *s = strips->ring;
   if (row_of_strip(strips) == 0) {
-    empty(l, &s->packed);
-    CS_TRY(begin_strip(l, strips->row / strips->strip_rows));
+    empty(w, &s->packed);
+    CS_TRY(begin_strip(w, strips->row / strips->strip_rows));
   }
-  CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
-  return ends_strip(strips) ? cs_deflate_end(l->deflate, &l->context, &s->sum) : CELSPAN_OK;
+  CS_TRY(cs_png_rows_put(&w->rows, &w->context, spans, span_count, w->deflate));
+  return ends_strip(strips) ? cs_deflate_end(w->deflate, &w->context, &s->sum) : CELSPAN_OK;
 }
 
 static celspan_status put_row_alone(cs_png_strips *strips, celspan_context *context,
                                     const celspan_span *spans, size_t span_count) {
-  CS_TRY(report(context, pack_row(strips, spans, span_count), strips->lanes->context.error));
+  CS_TRY(report(context, pack_row(strips, spans, span_count), strips->workers->context.error));
   if (!ends_strip(strips))
     return CELSPAN_OK;
   return write_whole(strips, context, strips->row / strips->strip_rows, strips->ring);
@@ -156,103 +143,56 @@ static celspan_status put_row_alone(cs_png_strips *strips, celspan_context *cont
 
 /* ---------------------------------------------------------------- several threads */
 
-/* The next strip to be packed, or -1; the mutex is held. */
-static int32_t claim(cs_png_strips *strips) {
-  return strips->is_stopped || strips->claimed == strips->filled ? -1 : strips->claimed++;
+static celspan_status pack_strip(void *user, celspan_context *context, int number, size_t item) {
+  cs_png_strips *strips = user;
+  worker *w = &strips->workers[number];
+  celspan_status status =
+      put_rows(w, (int32_t)item, &strips->ring[item % (size_t)strips->ring_size]);
+  return report(context, status, w->context.error);
 }
 
-/* Packs a claimed strip with the mutex let go. */
-static void work(lane *l, int32_t index) {
-  cs_png_strips *strips = l->strips;
-  strip *s = &strips->ring[index % strips->ring_size];
-  pthread_mutex_unlock(&strips->mutex);
-  pack_strip(l, index, s);
-  pthread_mutex_lock(&strips->mutex);
-  s->is_done = true;
-  pthread_cond_signal(&strips->done_some);
+static celspan_status write_packed(void *user, celspan_context *context, size_t item,
+                                   celspan_status status) {
+  cs_png_strips *strips = user;
+  CS_TRY(status);
+  return write_whole(strips, context, (int32_t)item,
+                     &strips->ring[item % (size_t)strips->ring_size]);
 }
 
-static void *lane_main(void *argument) {
-  lane *l = argument;
-  cs_png_strips *strips = l->strips;
-  pthread_mutex_lock(&strips->mutex);
-  while (!strips->is_stopped) {
-    int32_t index = claim(strips);
-    if (index >= 0)
-      work(l, index);
-    else
-      pthread_cond_wait(&strips->filled_some, &strips->mutex);
-  }
-  pthread_mutex_unlock(&strips->mutex);
-  return NULL;
+static celspan_status start_pipeline(cs_png_strips *strips, celspan_context *context) {
+  const cs_pipeline_desc desc = {.count = (size_t)strips->total,
+                                 .slots = (size_t)strips->ring_size,
+                                 .threads = strips->worker_count - 1,
+                                 .owner_claims = true,
+                                 .user = strips,
+                                 .make = pack_strip,
+                                 .deliver = write_packed};
+  return cs_pipeline_create(context, &desc, &strips->pipeline);
 }
 
-static void start_threads(cs_png_strips *strips) {
-  for (strips->started = 1; strips->started < strips->lane_count; strips->started++) {
-    lane *l = &strips->lanes[strips->started];
-    if (pthread_create(&l->thread, NULL, lane_main, l) != 0)
-      break; /* fewer threads make the same bytes */
-  }
-}
-
-static void stop_threads(cs_png_strips *strips) {
-  pthread_mutex_lock(&strips->mutex);
-  strips->is_stopped = true;
-  pthread_cond_broadcast(&strips->filled_some);
-  pthread_mutex_unlock(&strips->mutex);
-  for (; strips->started > 1; strips->started--)
-    pthread_join(strips->lanes[strips->started - 1].thread, NULL);
-}
-
-/* Writes strips in order until no more than `left` wait, packing one itself where the next is not
- * done; the mutex is held, and let go while it writes. */
-static celspan_status write_until(cs_png_strips *strips, celspan_context *context, int32_t left) {
-  while (strips->filled - strips->written > left) {
-    int32_t index = strips->written;
-    strip *s = &strips->ring[index % strips->ring_size];
-    if (s->is_done) {
-      pthread_mutex_unlock(&strips->mutex);
-      celspan_status status = report(context, s->status, s->error);
-      if (status == CELSPAN_OK)
-        status = write_whole(strips, context, index, s);
-      pthread_mutex_lock(&strips->mutex);
-      CS_TRY(status);
-      strips->written++;
-      continue;
-    }
-    int32_t own = claim(strips);
-    if (own >= 0)
-      work(strips->lanes, own);
-    else
-      pthread_cond_wait(&strips->done_some, &strips->mutex);
-  }
-  return CELSPAN_OK;
-}
-
-/* Hands the strip that is full to the threads and makes room for another. */
+/* Hands the strip that is full to the workers and makes room for another. */
 static celspan_status hand_over(cs_png_strips *strips, celspan_context *context) {
-  pthread_mutex_lock(&strips->mutex);
-  strips->filled++;
-  pthread_cond_signal(&strips->filled_some);
-  celspan_status status = write_until(strips, context, strips->ring_size - 1);
-  pthread_mutex_unlock(&strips->mutex);
-  return status;
+  cs_pipeline_add(strips->pipeline, context, CS_PIPELINE_ANYWHERE, CELSPAN_OK);
+  return cs_pipeline_deliver(strips->pipeline, context, (size_t)strips->ring_size - 1);
+}
+
+static strip *strip_of_row(const cs_png_strips *strips, int32_t y) {
+  return &strips->ring[y / strips->strip_rows % strips->ring_size];
 }
 
 /* With the last row of the strip before, which nobody overwrites until the ring comes round. */
 static celspan_status begin_keeping(cs_png_strips *strips, celspan_context *context, strip *s) {
   cs_row_queue_clear(&s->rows);
-  s->is_done = false;
-  if (strips->filled == 0)
+  if (strips->row == 0)
     return CELSPAN_OK;
-  const cs_row_queue *before = &strips->ring[(strips->filled - 1) % strips->ring_size].rows;
+  const cs_row_queue *before = &strip_of_row(strips, strips->row - 1)->rows;
   cs_row_queue_row above = cs_row_queue_get(before, before->count - 1);
   return cs_row_queue_add(context, &s->rows, above.spans, above.count);
 }
 
 static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *context,
                                      const celspan_span *spans, size_t span_count) {
-  strip *s = &strips->ring[strips->filled % strips->ring_size];
+  strip *s = strip_of_row(strips, strips->row);
   if (row_of_strip(strips) == 0)
     CS_TRY(begin_keeping(strips, context, s));
   CS_TRY(cs_row_queue_add(context, &s->rows, spans, span_count));
@@ -265,19 +205,16 @@ static celspan_status init_strips(cs_png_strips *strips, celspan_context *contex
 
 celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
                                  const celspan_span *spans, size_t span_count) {
-  if (!strips->lanes)
+  if (!strips->workers)
     CS_TRY(init_strips(strips, context));
-  CS_TRY(strips->lane_count > 1 ? put_row_shared(strips, context, spans, span_count)
-                                : put_row_alone(strips, context, spans, span_count));
+  CS_TRY(strips->pipeline ? put_row_shared(strips, context, spans, span_count)
+                          : put_row_alone(strips, context, spans, span_count));
   strips->row++;
   return CELSPAN_OK;
 }
 
 celspan_status cs_png_strips_finish(cs_png_strips *strips, celspan_context *context) {
-  pthread_mutex_lock(&strips->mutex);
-  celspan_status status = write_until(strips, context, 0);
-  pthread_mutex_unlock(&strips->mutex);
-  return status;
+  return strips->pipeline ? cs_pipeline_deliver(strips->pipeline, context, 0) : CELSPAN_OK;
 }
 
 static int32_t choose_strip_rows(int32_t width) {
@@ -286,33 +223,33 @@ static int32_t choose_strip_rows(int32_t width) {
   return least > rows ? least : rows > 1 ? rows : 1;
 }
 
-static int choose_lanes(const cs_png_strips *strips) {
-  int64_t lanes = strips->picture.workers;
-  if (lanes <= 0)
-    lanes = sysconf(_SC_NPROCESSORS_ONLN);
-  lanes = lanes > WORKERS_MOST ? WORKERS_MOST : lanes < 1 ? 1 : lanes;
-  return lanes < strips->total ? (int)lanes : (int)strips->total;
+static int choose_workers(const cs_png_strips *strips) {
+  int64_t workers = strips->picture.workers;
+  if (workers <= 0)
+    workers = sysconf(_SC_NPROCESSORS_ONLN);
+  workers = workers > WORKERS_MOST ? WORKERS_MOST : workers < 1 ? 1 : workers;
+  return workers < strips->total ? (int)workers : (int)strips->total;
 }
 
-static celspan_status init_lane(cs_png_strips *strips, celspan_context *context, lane *l) {
-  cs_context_branch(&l->context, context);
-  l->strips = strips;
-  cs_png_rows_begin(&l->rows, strips->picture.coding, strips->picture.width,
+static celspan_status init_worker(cs_png_strips *strips, celspan_context *context, worker *w) {
+  cs_context_branch(&w->context, context);
+  w->strips = strips;
+  cs_png_rows_begin(&w->rows, strips->picture.coding, strips->picture.width,
                     strips->picture.is_opaque);
   return report(context,
-                cs_deflate_create(&l->context, l->rows.pixel_size, append, &l->packed, &l->deflate),
-                l->context.error);
+                cs_deflate_create(&w->context, w->rows.pixel_size, append, &w->packed, &w->deflate),
+                w->context.error);
 }
 
 static celspan_status init_strips(cs_png_strips *strips, celspan_context *context) {
-  strips->lanes = cs_mem_array(context->memory, (size_t)strips->lane_count, sizeof *strips->lanes);
+  strips->workers =
+      cs_mem_array(context->memory, (size_t)strips->worker_count, sizeof *strips->workers);
   strips->ring = cs_mem_array(context->memory, (size_t)strips->ring_size, sizeof *strips->ring);
-  if (!strips->lanes || !strips->ring)
+  if (!strips->workers || !strips->ring)
     return cs_fail_memory(context);
-  for (int i = 0; i < strips->lane_count; i++)
-    CS_TRY(init_lane(strips, context, &strips->lanes[i]));
-  start_threads(strips);
-  return CELSPAN_OK;
+  for (int i = 0; i < strips->worker_count; i++)
+    CS_TRY(init_worker(strips, context, &strips->workers[i]));
+  return strips->worker_count > 1 ? start_pipeline(strips, context) : CELSPAN_OK;
 }
 
 celspan_status cs_png_strips_create(celspan_context *context, const cs_png_picture *picture,
@@ -325,12 +262,9 @@ celspan_status cs_png_strips_create(celspan_context *context, const cs_png_pictu
   strips->user = user;
   strips->strip_rows = choose_strip_rows(picture->width);
   strips->total = (picture->height - 1) / strips->strip_rows + 1;
-  strips->lane_count = choose_lanes(strips);
-  strips->ring_size = strips->lane_count > 1 ? AHEAD * strips->lane_count : 1;
+  strips->worker_count = choose_workers(strips);
+  strips->ring_size = strips->worker_count > 1 ? AHEAD * strips->worker_count : 1;
   strips->sum = CS_DEFLATE_SUM_EMPTY;
-  pthread_mutex_init(&strips->mutex, NULL);
-  pthread_cond_init(&strips->filled_some, NULL);
-  pthread_cond_init(&strips->done_some, NULL);
   *out = strips;
   return CELSPAN_OK;
 }
@@ -340,59 +274,56 @@ static void free_strip(strip *s, cs_memory *memory) {
   cs_mem_free(memory, s->packed.bytes, s->packed.capacity);
 }
 
-static void free_lane(lane *l, celspan_context *context) {
-  cs_png_rows_end(&l->rows, context);
-  cs_deflate_destroy(l->deflate, context);
+static void free_worker(worker *w, celspan_context *context) {
+  cs_png_rows_end(&w->rows, context);
+  cs_deflate_destroy(w->deflate, context);
 }
 
 void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context) {
   if (!strips)
     return;
   cs_memory *memory = context->memory;
-  stop_threads(strips);
-  for (int i = 0; strips->lanes && i < strips->lane_count; i++)
-    free_lane(&strips->lanes[i], context);
-  for (int32_t i = 0; strips->lanes && strips->ring && i < strips->ring_size; i++)
+  cs_pipeline_destroy(strips->pipeline);
+  for (int i = 0; strips->workers && i < strips->worker_count; i++)
+    free_worker(&strips->workers[i], context);
+  for (int32_t i = 0; strips->workers && strips->ring && i < strips->ring_size; i++)
     free_strip(&strips->ring[i], memory);
-  cs_mem_free(memory, strips->lanes, (size_t)strips->lane_count * sizeof *strips->lanes);
+  cs_mem_free(memory, strips->workers, (size_t)strips->worker_count * sizeof *strips->workers);
   cs_mem_free(memory, strips->ring, (size_t)strips->ring_size * sizeof *strips->ring);
-  pthread_cond_destroy(&strips->done_some);
-  pthread_cond_destroy(&strips->filled_some);
-  pthread_mutex_destroy(&strips->mutex);
   cs_mem_free(memory, strips, sizeof *strips);
 }
 
-/* ---------------------------------------------------------------- parts */
+/* ---------------------------------------------------------------- shares */
 
-/* So many strips in a part that the row above it, which is made twice, counts for little. */
-enum { PART_STRIPS = 4, PARTS_A_LANE = 8 };
+/* So many strips in a share that the row above it, which is made twice, counts for little. */
+enum { SHARE_STRIPS = 4, SHARES_A_WORKER = 8 };
 
-typedef struct piece {
-  part packed;
+typedef struct share {
+  buffer packed;
   int32_t first; /* strip */
   int32_t count; /* strips that are packed */
-  size_t ends[PART_STRIPS];
-  cs_deflate_sum sums[PART_STRIPS];
-} piece;
+  size_t ends[SHARE_STRIPS];
+  cs_deflate_sum sums[SHARE_STRIPS];
+} share;
 
-typedef struct worker {
-  lane lane;
-  piece *piece;
-} worker;
+typedef struct worker_state {
+  worker worker;
+  share *share;
+} worker_state;
 
-static int32_t part_strips(const cs_png_strips *strips) {
-  int32_t share = strips->total / (strips->lane_count * PARTS_A_LANE);
-  return share < 1 ? 1 : share < PART_STRIPS ? share : PART_STRIPS;
+static int32_t share_strips(const cs_png_strips *strips) {
+  int32_t count = strips->total / (strips->worker_count * SHARES_A_WORKER);
+  return count < 1 ? 1 : count < SHARE_STRIPS ? count : SHARE_STRIPS;
 }
 
-static celspan_status open_piece(void *user, celspan_context *context, void **out) {
+static celspan_status open_share(void *user, celspan_context *context, void **out) {
   (void)user;
-  *out = cs_mem_array(context->memory, 1, sizeof(piece));
+  *out = cs_mem_array(context->memory, 1, sizeof(share));
   return *out ? CELSPAN_OK : cs_fail_memory(context);
 }
 
-static void close_piece(void *user, celspan_context *context, void *made) {
-  piece *p = made;
+static void close_share(void *user, celspan_context *context, void *made) {
+  share *p = made;
   (void)user;
   if (p)
     cs_mem_free(context->memory, p->packed.bytes, p->packed.capacity);
@@ -400,56 +331,57 @@ static void close_piece(void *user, celspan_context *context, void *made) {
 }
 
 static void close_worker(void *user, celspan_context *context, void *made) {
-  worker *h = made;
+  worker_state *state = made;
   (void)user;
-  if (h)
-    free_lane(&h->lane, context);
-  cs_mem_free(context->memory, h, sizeof *h);
+  if (state)
+    free_worker(&state->worker, context);
+  cs_mem_free(context->memory, state, sizeof *state);
 }
 
 static celspan_status open_worker(void *user, celspan_context *context, void **out) {
-  worker *h = cs_mem_array(context->memory, 1, sizeof *h);
-  *out = h;
-  return h ? init_lane(user, context, &h->lane) : cs_fail_memory(context);
+  worker_state *state = cs_mem_array(context->memory, 1, sizeof *state);
+  *out = state;
+  return state ? init_worker(user, context, &state->worker) : cs_fail_memory(context);
 }
 
-static celspan_status begin_piece(void *made, celspan_context *context, void *filled,
+static celspan_status begin_share(void *made, celspan_context *context, void *filled,
                                   int32_t index) {
-  worker *h = made;
-  h->piece = filled;
-  h->piece->first = index * part_strips(h->lane.strips);
-  h->piece->count = 0;
-  empty(&h->lane, &h->piece->packed);
-  return report(context, begin_strip(&h->lane, h->piece->first), h->lane.context.error);
+  worker_state *state = made;
+  state->share = filled;
+  state->share->first = index * share_strips(state->worker.strips);
+  state->share->count = 0;
+  empty(&state->worker, &state->share->packed);
+  return report(context, begin_strip(&state->worker, state->share->first),
+                state->worker.context.error);
 }
 
-static celspan_status pack_piece_row(worker *h, int32_t y, const celspan_span *spans,
+static celspan_status pack_share_row(worker_state *state, int32_t y, const celspan_span *spans,
                                      size_t span_count) {
-  const cs_png_strips *strips = h->lane.strips;
-  piece *p = h->piece;
-  lane *l = &h->lane;
+  const cs_png_strips *strips = state->worker.strips;
+  share *p = state->share;
+  worker *w = &state->worker;
   if (y < p->first * strips->strip_rows)
-    return cs_png_rows_set_above(&l->rows, &l->context, spans, span_count);
+    return cs_png_rows_set_above(&w->rows, &w->context, spans, span_count);
   if (y % strips->strip_rows == 0 && p->count > 0)
-    CS_TRY(begin_strip(l, p->first + p->count));
-  CS_TRY(cs_png_rows_put(&l->rows, &l->context, spans, span_count, l->deflate));
+    CS_TRY(begin_strip(w, p->first + p->count));
+  CS_TRY(cs_png_rows_put(&w->rows, &w->context, spans, span_count, w->deflate));
   if (!is_last_row(strips, y))
     return CELSPAN_OK;
-  CS_TRY(cs_deflate_end(l->deflate, &l->context, &p->sums[p->count]));
+  CS_TRY(cs_deflate_end(w->deflate, &w->context, &p->sums[p->count]));
   p->ends[p->count++] = p->packed.size;
   return CELSPAN_OK;
 }
 
-static celspan_status put_piece_row(void *user, void *made, celspan_context *context, int32_t y,
+static celspan_status put_share_row(void *user, void *made, celspan_context *context, int32_t y,
                                     const celspan_span *spans, size_t span_count) {
-  worker *h = made;
+  worker_state *state = made;
   (void)user;
-  return report(context, pack_piece_row(h, y, spans, span_count), h->lane.context.error);
+  return report(context, pack_share_row(state, y, spans, span_count), state->worker.context.error);
 }
 
-static celspan_status join_piece(void *user, celspan_context *context, void *made, int32_t index) {
+static celspan_status join_share(void *user, celspan_context *context, void *made, int32_t index) {
   cs_png_strips *strips = user;
-  piece *p = made;
+  share *p = made;
   (void)index;
   for (int32_t i = 0; i < p->count; i++)
     CS_TRY(write_strip(strips, context, p->first + i, p->sums[i], &p->packed,
@@ -459,13 +391,13 @@ static celspan_status join_piece(void *user, celspan_context *context, void *mad
 
 cs_shares cs_png_strips_shares(cs_png_strips *strips) {
   return (cs_shares){.user = strips,
-                     .rows = part_strips(strips) * strips->strip_rows,
+                     .rows = share_strips(strips) * strips->strip_rows,
                      .takes_above = true,
                      .open_worker = open_worker,
                      .close_worker = close_worker,
-                     .open_share = open_piece,
-                     .close_share = close_piece,
-                     .begin = begin_piece,
-                     .row = put_piece_row,
-                     .join = join_piece};
+                     .open_share = open_share,
+                     .close_share = close_share,
+                     .begin = begin_share,
+                     .row = put_share_row,
+                     .join = join_share};
 }

@@ -1,0 +1,94 @@
+/* Ordered work: numbered items made by several workers, delivered in order by the thread that
+ * owns the pipeline.
+ *
+ *   add (owner, in order) --> make (any worker) --> deliver (owner, in order)
+ *
+ *      0 .. d-1        d   ..   c-1           c  ..  a-1         a .. end-1       end .. count-1
+ *   +-------------+----------------------+------------------+------------------+-----------------+
+ *   |  delivered  |  made or being made  |  to be claimed   |   to be added    |   not wanted    |
+ *   +-------------+----------------------+------------------+------------------+-----------------+
+ *                 ^ delivered            ^ claimed          ^ added            ^ end
+ *                 |<----------- at most `slots` items ----->|
+ *
+ * What an item needs while it is on its way belongs to the user, in a ring: item i uses the slot
+ * i % slots, which is free for item i + slots once item i has been delivered.
+ *
+ * INVARIANTS
+ *   delivered <= claimed <= added <= delivered + slots, and none of them goes back; `end` only goes
+ *   down. The owner alone moves `delivered` and `added`. Cursors move under the pipeline's lock,
+ *   except `end`, which is atomic.
+ *   Workers claim items in order, so every item before a claimed one has been claimed as well or is
+ *   left to the owner. An item that is at or after `end` is not claimed any more, and one that is
+ *   being made may ask whether it is still wanted.
+ *   An item that fails moves `end` to the one after it. All items before it are still made, so the
+ *   failure that is delivered first is that of the lowest number, whatever the number of workers.
+ *   Functions of the user run without the lock. `make` runs at most once an item, in the owner's
+ *   thread (worker 0) or another; all other functions run in the owner's thread.
+ *   With fewer threads than were wanted, or none, the same items are delivered in the same order.
+ */
+#ifndef CS_BASE_PIPELINE_H
+#define CS_BASE_PIPELINE_H
+
+#include "base/context.h"
+
+typedef struct cs_pipeline cs_pipeline;
+
+/* Who makes an item. */
+typedef enum cs_pipeline_step {
+  CS_PIPELINE_ANYWHERE = 0, /* any worker */
+  CS_PIPELINE_HERE,         /* the owner, at once */
+  CS_PIPELINE_IN_TURN,      /* the owner, when all items before it have been delivered */
+  CS_PIPELINE_NOTHING       /* nobody: it is complete as it is */
+} cs_pipeline_step;
+
+typedef struct cs_pipeline_desc {
+  size_t count; /* of items that may be added in all */
+  size_t slots; /* at least 1 */
+  int threads;  /* besides the owner's */
+  /* The owner claims items too while it waits for one; else it makes only those left to it. */
+  bool owner_claims;
+  bool keeps_going; /* an item that fails does not keep later ones from being made */
+  void *user;
+  /* worker: 0 for the owner, up to `threads` for the others, each with a context of its own. The
+   * sentence of a failure is expected in the context. */
+  celspan_status (*make)(void *user, celspan_context *context, int worker, size_t item);
+  /* status: of the item, with its sentence in the context, which is the owner's. What is returned
+   * goes to whoever called cs_pipeline_deliver; unless it is OK the item counts as not delivered.
+   */
+  celspan_status (*deliver)(void *user, celspan_context *context, size_t item,
+                            celspan_status status);
+  /* Called when the owner has waited for a tenth of a second; what it returns ends the waiting
+   * unless it is OK. NULL: the owner waits for as long as it takes. */
+  celspan_status (*idle)(void *user, celspan_context *context);
+} cs_pipeline_desc;
+
+/* Starts the threads. desc: copied. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_pipeline_create(celspan_context *context,
+                                                  const cs_pipeline_desc *desc, cs_pipeline **out);
+/* Nothing is wanted any more; returns when all threads have ended. NULL is ignored. */
+void cs_pipeline_destroy(cs_pipeline *pipeline);
+
+/* The functions below are the owner's, with the owner's context. */
+
+/* How many threads there are besides the owner's. */
+int cs_pipeline_threads(const cs_pipeline *pipeline);
+/* Whether another item may be added: there is one that is wanted, and a slot for it. */
+bool cs_pipeline_has_room(const cs_pipeline *pipeline);
+/* Adds the next item; there is a free slot, which has been filled. With a status other than OK the
+ * item has failed already, with its sentence in the context, and nobody makes it. */
+void cs_pipeline_add(cs_pipeline *pipeline, celspan_context *context, cs_pipeline_step step,
+                     celspan_status status);
+/* Whether the next item to be delivered is complete or left to the owner, so that
+ * cs_pipeline_deliver does not have to wait. */
+bool cs_pipeline_is_ready(cs_pipeline *pipeline);
+/* Delivers until no more than `left` of the added items are not delivered.
+ * Errors: those of deliver and of idle. */
+CELSPAN_CHECKED celspan_status cs_pipeline_deliver(cs_pipeline *pipeline, celspan_context *context,
+                                                   size_t left);
+
+/* Items from this one on are not wanted. Any thread. */
+void cs_pipeline_end_at(cs_pipeline *pipeline, size_t item);
+/* Any thread. */
+bool cs_pipeline_is_wanted(const cs_pipeline *pipeline, size_t item);
+
+#endif
