@@ -1,8 +1,8 @@
-/* A roll: copies of finished rows, one after the other, for whoever takes them later.
+/* A row queue: copies of finished rows, one after the other, for later use.
  *
- * Invariant: row i of a roll is the i-th that was added since it was cleared; its spans and the
- * arrays they point to stay valid until the next clear, and what a clear leaves reserved is used
- * again.
+ * INVARIANT: row i of a queue is the i-th that was added since it was cleared; its spans and the
+ * arrays they point to stay valid until the next clear, which leaves the memory reserved for the
+ * rows that follow.
  */
 #ifndef CS_SPAN_ROW_QUEUE_H
 #define CS_SPAN_ROW_QUEUE_H
@@ -29,12 +29,16 @@ typedef struct cs_row_queue_row {
   cs_varied varied;
 } cs_row_queue_row;
 
-/* A zeroed roll is empty. */
+/* A zeroed queue is empty. */
 void cs_row_queue_finish(cs_row_queue *queue, cs_memory *memory);
 void cs_row_queue_clear(cs_row_queue *queue);
 /* spans: copied, with their arrays. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,
                                                 const celspan_span *spans, size_t count);
+/* The same for a row that covers its columns from 0 on; where its colours take less room than its
+ * spans it is kept as one array of those. */
+CELSPAN_CHECKED celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *queue,
+                                                      const celspan_span *spans, size_t count);
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row);
 
 #endif

@@ -7,19 +7,13 @@
 #ifndef CS_CLI_TILES_ROWS_H
 #define CS_CLI_TILES_ROWS_H
 
-#include "base/arena.h"
 #include "cli/tiles/writer.h"
+#include "span/row_queue.h"
 
 /* One row of tiles: columns half-open. */
 typedef struct cs_tile_row {
   int32_t level, row, first, end;
 } cs_tile_row;
-
-typedef struct cs_kept_row {
-  celspan_span *spans;
-  size_t count, capacity;
-  cs_arena colours;
-} cs_kept_row;
 
 typedef struct cs_tile_rows {
   cs_tile_output *output;
@@ -31,7 +25,7 @@ typedef struct cs_tile_rows {
   /* After each finished row of tiles. */
   celspan_status (*finished)(void *user, celspan_context *context, cs_tile_row row);
   void *user;
-  cs_kept_row *ring; /* row y of the level lies at y % ring_count */
+  cs_row_queue *ring; /* row y of the level is the one row of y % ring_count */
   int32_t ring_count;
   cs_tile_writer *writers;
 } cs_tile_rows;
