@@ -161,10 +161,10 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
 void celspan_context_destroy(celspan_context *context) {
   if (!context)
     return;
-  if (context->pictures)
-    context->pictures->destroy(context->pictures);
-  if (context->soft_bands)
-    context->soft_bands->destroy(context->soft_bands);
+  for (cs_service *service = atomic_load(&context->services), *next; service; service = next) {
+    next = service->next;
+    service->kind->destroy(service);
+  }
   cs_memory *memory = context->memory;
   cs_mem_free(memory, context, sizeof *context);
   cs_memory_unref(memory);
@@ -187,15 +187,43 @@ void cs_context_branch(celspan_context *branch, celspan_context *from) {
                               .defocus_bytes = from->defocus_bytes};
 }
 
-static void trim(cs_service **place) {
-  cs_service *service = __atomic_load_n(place, __ATOMIC_ACQUIRE);
-  if (service)
-    service->trim(service);
+/* ---------------------------------------------------------------- services */
+
+static cs_service *find_service(cs_service *service, const cs_service_kind *kind) {
+  while (service && service->kind != kind)
+    service = service->next;
+  return service;
+}
+
+cs_service *cs_context_find_service(const celspan_context *context, const cs_service_kind *kind) {
+  return find_service(atomic_load_explicit(&context->root->services, memory_order_acquire), kind);
+}
+
+/* Another thread may be first to make the service; then its own is used. */
+celspan_status cs_context_service(celspan_context *context, const cs_service_kind *kind,
+                                  cs_service **out) {
+  celspan_context *root = context->root;
+  cs_service *made, *head = atomic_load_explicit(&root->services, memory_order_acquire);
+  *out = find_service(head, kind);
+  if (*out)
+    return CELSPAN_OK;
+  CS_TRY(kind->create(context, &made));
+  made->kind = kind;
+  do {
+    *out = find_service(head, kind);
+    made->next = head;
+  } while (!*out && !atomic_compare_exchange_weak(&root->services, &head, made));
+  if (*out)
+    kind->destroy(made);
+  else
+    *out = made;
+  return CELSPAN_OK;
 }
 
 void cs_context_trim(celspan_context *context) {
-  trim(&context->root->pictures);
-  trim(&context->root->soft_bands);
+  for (cs_service *service = atomic_load(&context->root->services); service;
+       service = service->next)
+    service->kind->trim(service);
 }
 
 #define CS_TEXT_(x) #x

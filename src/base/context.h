@@ -22,21 +22,26 @@ typedef struct cs_memory {
   atomic_uint_fast64_t allocations;
 } cs_memory;
 
-/* Something a higher folder keeps in the context, such as the store of picture tiles: destroyed
- * with the root context. */
-typedef struct cs_service {
-  void (*destroy)(struct cs_service *service);
-  void (*trim)(struct cs_service *service); /* drops what nobody holds; any thread */
-} cs_service;
+/* What a higher folder keeps for a context, such as decoded pictures: the first member of it. A
+ * context has at most one service of a kind, made on first use and destroyed with the context. */
+typedef struct cs_service cs_service;
+typedef struct cs_service_kind {
+  celspan_status (*create)(celspan_context *context, cs_service **out);
+  void (*destroy)(cs_service *service);
+  void (*trim)(cs_service *service); /* drops what is not in use; any thread */
+} cs_service_kind;
+
+struct cs_service {
+  const cs_service_kind *kind;
+  cs_service *next;
+};
 
 enum { CS_ERROR_SIZE = 1024 }; /* bytes of a failure's sentence */
 
 struct celspan_context {
   cs_memory *memory;
-  celspan_context *root; /* itself, or the context it was branched from */
-  cs_service
-      *pictures; /* root only; owned; made on first use, by any thread, by pictures/picture.c */
-  cs_service *soft_bands; /* likewise, by defocus/bands.c */
+  celspan_context *root;          /* itself, or the context it was branched from */
+  _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes;
   char error[CS_ERROR_SIZE];
 };
@@ -72,7 +77,12 @@ celspan_status cs_fail_memory(celspan_context *context);
  * counted; must not outlive the context it is branched from. */
 void cs_context_branch(celspan_context *branch, celspan_context *from);
 
-/* Drops what is kept for later frames and what no frame holds now. Any thread. */
+/* The service of that kind, made where there is none yet. Any thread. Errors: those of create. */
+CELSPAN_CHECKED celspan_status cs_context_service(celspan_context *context,
+                                                  const cs_service_kind *kind, cs_service **out);
+/* NULL: there is none yet. Any thread. */
+cs_service *cs_context_find_service(const celspan_context *context, const cs_service_kind *kind);
+/* Drops what is kept for later frames and what no frame uses now. Any thread. */
 void cs_context_trim(celspan_context *context);
 
 #define CS_TRY(call)                                                                               \

@@ -75,7 +75,7 @@ celspan_status cs_painter_image(cs_painter *painter, uint32_t image, const cs_im
     return CELSPAN_OK;
   const cs_image_layer *layer = &painter->stack->images[image];
   celspan_picture_info info;
-  CS_TRY(cs_picture_info(painter->context, layer->texture->picture, &info));
+  CS_TRY(cs_store_info(painter->context, layer->texture->picture, &info));
   prepare_view(painter, layer, &info, view);
   return CELSPAN_OK;
 }

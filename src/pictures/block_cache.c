@@ -1,5 +1,7 @@
 #include "pictures/block_cache.h"
 
+#include "pictures/load.h"
+
 #define LEAST_PAIRS 16
 #define ROWS_AHEAD 4
 #define SHARE 8 /* of the memory for pictures, what one thread may pin */
@@ -25,9 +27,9 @@ void cs_block_cache_init(cs_block_cache *texels, celspan_context *context) {
     texels->looks[i].sampler = NULL;
 }
 
-static void empty(cs_block_cache *texels, cs_block_cache_slot *slot) {
+static void empty(cs_block_cache_slot *slot) {
   if (slot->texels)
-    cs_picture_release(texels->context, slot->block);
+    cs_store_release(slot->block);
   slot->texels = NULL;
 }
 
@@ -41,30 +43,30 @@ void cs_block_cache_fetch(cs_block_cache *texels, const cs_block_cache_source *s
                           cs_block_cache_slot *pair, int level, int32_t column, int32_t row) {
   cs_block_cache_slot *slot = pair;
   texels->fetches++;
-  empty(texels, pair + 1);
+  empty(pair + 1);
   pair[1] = pair[0];
   slot->texels = NULL;
   slot->codes = NULL;
   if (texels->status == CELSPAN_OK)
     texels->status =
-        cs_picture_acquire(texels->context, source->picture, level, column, row, &slot->block);
+        cs_load_block(texels->context, source->picture, level, column, row, &slot->block);
   if (texels->status != CELSPAN_OK)
     return;
-  bool is_coded = cs_picture_is_coded(slot->block);
+  const cs_picture_block *block = slot->block;
   *slot = (cs_block_cache_slot){.picture = source->picture,
                                 .level = level,
                                 .column = column,
                                 .row = row,
-                                .look = cs_picture_block_opacity(slot->block),
-                                .texels = cs_picture_texels(slot->block),
-                                .codes = is_coded ? cs_picture_codes(slot->block) : NULL,
+                                .look = block->opacity,
+                                .texels = block->texels,
+                                .codes = block->is_coded ? block->codes[0] : NULL,
                                 .block = slot->block};
-  texels->curve = cs_picture_curve(slot->block);
-  if (is_coded)
+  texels->curve = block->entry->curve;
+  if (block->is_coded)
     prefetch_codes(slot->codes);
 }
 
 void cs_block_cache_finish(cs_block_cache *texels) {
   for (int i = 0; i < CS_BLOCK_CACHE_SLOTS; i++)
-    empty(texels, &texels->slots[i]);
+    empty(&texels->slots[i]);
 }

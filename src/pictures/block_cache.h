@@ -8,7 +8,7 @@
 #ifndef CS_PICTURES_BLOCK_CACHE_H
 #define CS_PICTURES_BLOCK_CACHE_H
 
-#include "pictures/picture.h"
+#include "pictures/store.h"
 
 #define CS_BLOCK_CACHE_SLOTS 512
 

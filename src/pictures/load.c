@@ -1,21 +1,19 @@
-/* Blocks that are not held: read from the file in one pass from top to bottom, or made from the
- * level below.
+/* How a block is made.
  *
- *   level <= base   a pass over the rows of the file that a row of blocks needs; means are taken on
- *                   the way, with one row waiting a level, and the blocks of every column in a
- *                   window are filled at once
+ *   level <= base   in a pass over the rows of the file that a row of blocks needs, from top to
+ *                   bottom; means are taken on the way, with one row waiting for each level, and
+ *                   the blocks of every column in a window are filled together
  *   level > base    from the four blocks below, all of which fit in memory together
  */
-#include <string.h>
+#include "pictures/load.h"
 
-#include "pictures/store.h"
+#include <string.h>
 
 #define BATCH_BYTES ((size_t)4 << 20)
 #define LEVELS 24
 
 typedef struct file_pass {
   celspan_context *context;
-  cs_picture_store *store;
   cs_picture_entry *entry;
   int level;                          /* that is filled */
   int32_t column, row, columns, rows; /* the rectangle of its blocks */
@@ -96,7 +94,7 @@ static size_t waiting_bytes(const file_pass *pass, int level) {
 }
 
 static bool make_buffers(file_pass *pass) {
-  cs_memory *memory = pass->store->memory;
+  cs_memory *memory = pass->context->memory;
   int32_t rows = pass->y1 - pass->y0;
   size_t fitting = BATCH_BYTES / row_bytes(pass);
   if (!pass->entry->header.is_turned)
@@ -116,14 +114,14 @@ static size_t block_count(const file_pass *pass) {
 }
 
 static celspan_status make_blocks(file_pass *pass) {
-  pass->blocks = cs_mem_array(pass->store->memory, block_count(pass), sizeof(cs_picture_block *));
+  pass->blocks = cs_mem_array(pass->context->memory, block_count(pass), sizeof(cs_picture_block *));
   if (!pass->blocks)
     return cs_fail_memory(pass->context);
   for (size_t i = 0; i < block_count(pass); i++) {
     int32_t row = (int32_t)(i / (size_t)pass->columns),
             column = (int32_t)(i % (size_t)pass->columns);
-    CS_TRY(cs_store_make(pass->context, pass->store, pass->entry, pass->level,
-                         pass->column + column, pass->row + row, &pass->blocks[i]));
+    CS_TRY(cs_store_create_block(pass->context, pass->entry, pass->level, pass->column + column,
+                                 pass->row + row, &pass->blocks[i]));
   }
   return CELSPAN_OK;
 }
@@ -163,8 +161,8 @@ static celspan_status read_rows(file_pass *pass) {
   int32_t width = pass->x1 - pass->x0;
   for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {
     int32_t rows = least(pass->y1 - y, pass->batch_rows);
-    celspan_status status = pass->store->module->read(pass->entry->reader, pass->x0, y, width, rows,
-                                                      pass->batch, &failure);
+    celspan_status status = pass->entry->store->module->read(pass->entry->reader, pass->x0, y,
+                                                             width, rows, pass->batch, &failure);
     if (status != CELSPAN_OK)
       return cs_fail(pass->context, status, "%s", failure.text);
     cs_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
@@ -177,14 +175,14 @@ static celspan_status read_rows(file_pass *pass) {
 /* ---------------------------------------------------------------- what is known of a block */
 
 /* One row of texels: bit 0 while all are opaque, bit 1 while all are clear. */
-static int look_along(const float *texels, int32_t count) {
+static int common_bits(const float *texels, int32_t count) {
   static const float clear[4];
-  int look = 3;
-  for (int32_t i = 0; i < count && look != 0; i++, texels += 4) {
-    look &= texels[3] == 1 ? ~0 : ~1;
-    look &= memcmp(texels, clear, sizeof clear) == 0 ? ~0 : ~2;
+  int bits = 3;
+  for (int32_t i = 0; i < count && bits != 0; i++, texels += 4) {
+    bits &= texels[3] == 1 ? ~0 : ~1;
+    bits &= memcmp(texels, clear, sizeof clear) == 0 ? ~0 : ~2;
   }
-  return look;
+  return bits;
 }
 
 static bool is_decoded(const cs_picture_block *block) {
@@ -203,11 +201,11 @@ static void describe(cs_picture_block *block) {
   const celspan_picture_info *info = &block->entry->header.info;
   int32_t width = cs_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
   int32_t height = cs_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
-  int look = 3;
-  for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && look != 0; y++)
-    look &= look_along(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
-                       least(width, CS_PICTURE_BLOCK));
-  block->look = look & 1 ? CS_PICTURE_OPAQUE : look & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
+  int bits = 3;
+  for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && bits != 0; y++)
+    bits &= common_bits(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
+                        least(width, CS_PICTURE_BLOCK));
+  block->opacity = bits & 1 ? CS_PICTURE_OPAQUE : bits & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
   if (block->level != 0)
     return;
   for (size_t y = 0; y < CS_PICTURE_BLOCK; y++)
@@ -237,7 +235,7 @@ static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row)
     bool is_wanted = block->column == column && block->row == row;
     pass->blocks[i] = NULL;
     join(pass, block, (i + 1) % (size_t)pass->columns ? pass->blocks[i + 1] : NULL);
-    block = cs_store_insert(pass->store, block, is_wanted);
+    block = cs_store_insert(block, is_wanted);
     if (is_wanted)
       wanted = block;
   }
@@ -245,20 +243,19 @@ static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row)
 }
 
 static void finish_pass(file_pass *pass) {
-  cs_memory *memory = pass->store->memory;
+  cs_memory *memory = pass->context->memory;
   for (size_t i = 0; pass->blocks && i < block_count(pass); i++)
-    cs_store_discard(pass->store, pass->blocks[i]);
+    cs_store_discard(pass->blocks[i]);
   cs_mem_free(memory, pass->blocks, block_count(pass) * sizeof *pass->blocks);
   for (int level = 0; level < pass->level; level++)
     cs_mem_free(memory, pass->waiting[level], waiting_bytes(pass, level));
   cs_mem_free(memory, pass->batch, (size_t)pass->batch_rows * row_bytes(pass));
 }
 
-static celspan_status run_pass(celspan_context *context, cs_picture_store *store,
-                               cs_picture_entry *entry, int level, int32_t column, int32_t row,
-                               cs_picture_block **out) {
-  CS_TRY(cs_store_reader(context, store, entry));
-  file_pass pass = {.context = context, .store = store, .entry = entry};
+static celspan_status run_pass(celspan_context *context, cs_picture_entry *entry, int level,
+                               int32_t column, int32_t row, cs_picture_block **out) {
+  CS_TRY(cs_store_open_reader(context, entry));
+  file_pass pass = {.context = context, .entry = entry};
   cover(&pass, level, column, row);
   celspan_status status = make_buffers(&pass) ? make_blocks(&pass) : cs_fail_memory(context);
   if (status == CELSPAN_OK)
@@ -266,9 +263,9 @@ static celspan_status run_pass(celspan_context *context, cs_picture_store *store
   if (status == CELSPAN_OK) {
     *out = hand_over(&pass, column, row);
     entry->next_strip = pass.row + pass.rows;
-    /* Everything is held: the file and what its reader keeps are not needed any more. */
+    /* All blocks are in the store: neither the file nor what its reader keeps is needed. */
     if (entry->base == 0 && entry->next_strip == rows_of(entry, 0))
-      cs_store_close(store, entry);
+      cs_store_close_reader(entry);
   }
   finish_pass(&pass);
   return status;
@@ -276,12 +273,8 @@ static celspan_status run_pass(celspan_context *context, cs_picture_store *store
 
 /* ---------------------------------------------------------------- from the level below */
 
-static celspan_status find_or_load(celspan_context *context, cs_picture_store *store,
-                                   cs_picture_entry *entry, int level, int32_t column, int32_t row,
-                                   cs_picture_block **out) {
-  *out = cs_store_pin(store, entry, level, column, row);
-  return *out ? CELSPAN_OK : cs_load_block(context, store, entry, level, column, row, out);
-}
+static celspan_status load(celspan_context *context, cs_picture_entry *entry, int level,
+                           int32_t column, int32_t row, cs_picture_block **out);
 
 /* A quarter of `block` from `from`, one of the four blocks below it. */
 static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
@@ -300,8 +293,7 @@ static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
   }
 }
 
-static celspan_status fill_from_below(celspan_context *context, cs_picture_store *store,
-                                      cs_picture_block *block) {
+static celspan_status fill_from_below(celspan_context *context, cs_picture_block *block) {
   cs_picture_entry *entry = block->entry;
   int level = block->level - 1;
   for (int i = 0; i < 4; i++) {
@@ -309,30 +301,59 @@ static celspan_status fill_from_below(celspan_context *context, cs_picture_store
     if (column >= columns_of(entry, level) || row >= rows_of(entry, level))
       continue;
     cs_picture_block *below;
-    CS_TRY(find_or_load(context, store, entry, level, column, row, &below));
+    CS_TRY(load(context, entry, level, column, row, &below));
     shrink_into(block, below);
-    cs_store_unpin(store, below);
+    cs_store_release(below);
   }
   return CELSPAN_OK;
 }
 
-celspan_status cs_load_block(celspan_context *context, cs_picture_store *store,
-                             cs_picture_entry *entry, int level, int32_t column, int32_t row,
-                             cs_picture_block **out) {
-  cs_picture_block *block = cs_store_pin(store, entry, level, column, row);
-  if (block) {
-    *out = block;
-    return CELSPAN_OK;
-  }
-  if (level <= entry->base)
-    return run_pass(context, store, entry, level, column, row, out);
-  CS_TRY(cs_store_make(context, store, entry, level, column, row, &block));
-  celspan_status status = fill_from_below(context, store, block);
+static celspan_status make_from_below(celspan_context *context, cs_picture_entry *entry, int level,
+                                      int32_t column, int32_t row, cs_picture_block **out) {
+  cs_picture_block *block;
+  CS_TRY(cs_store_create_block(context, entry, level, column, row, &block));
+  celspan_status status = fill_from_below(context, block);
   if (status != CELSPAN_OK) {
-    cs_store_discard(store, block);
+    cs_store_discard(block);
     return status;
   }
   describe(block);
-  *out = cs_store_insert(store, block, 1);
+  *out = cs_store_insert(block, true);
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a block of any level */
+
+/* `reading` is locked. */
+static celspan_status load(celspan_context *context, cs_picture_entry *entry, int level,
+                           int32_t column, int32_t row, cs_picture_block **out) {
+  *out = cs_store_pin(entry, level, column, row);
+  if (*out)
+    return CELSPAN_OK;
+  return level <= entry->base ? run_pass(context, entry, level, column, row, out)
+                              : make_from_below(context, entry, level, column, row, out);
+}
+
+static bool is_inside(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
+  return level >= 0 && level < entry->level_count && column >= 0 && row >= 0 &&
+         column < columns_of(entry, level) && row < rows_of(entry, level);
+}
+
+celspan_status cs_load_block(celspan_context *context, const cs_picture *picture, int level,
+                             int32_t column, int32_t row, cs_picture_block **out) {
+  cs_picture_entry *entry;
+  CS_TRY(cs_store_entry(context, picture, &entry));
+  if (!is_inside(entry, level, column, row))
+    return cs_fail(context, CELSPAN_INTERNAL, "%s: block %d, %d of level %d does not exist",
+                   picture->file, (int)column, (int)row, level);
+  cs_picture_block *block = cs_store_pin(entry, level, column, row);
+  celspan_status status = CELSPAN_OK;
+  if (!block) {
+    pthread_mutex_lock(&entry->reading);
+    status = load(context, entry, level, column, row, &block);
+    pthread_mutex_unlock(&entry->reading);
+  }
+  if (status == CELSPAN_OK)
+    *out = block;
+  return status;
 }

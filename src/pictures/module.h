@@ -1,4 +1,5 @@
-/* The face of the picture module (src/oiio, C++ over OpenImageIO): a table of C functions.
+/* The face of the picture module: a table of C functions, which src/oiio (C++ over OpenImageIO)
+ * implements.
  *
  * The module knows files; the core knows light. Readers hand over pixels as they are coded in the
  * file, turned upright and laid into the display window; decoding and premultiplying are the

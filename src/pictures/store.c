@@ -29,11 +29,7 @@ static void destroy_entry(cs_picture_store *store, cs_picture_entry *entry) {
 
 static void destroy_store(cs_service *service) {
   cs_picture_store *store = (cs_picture_store *)service;
-  for (size_t i = 0; i < store->bucket_count; i++)
-    for (cs_picture_block *block = store->buckets[i], *next; block; block = next) {
-      next = block->next;
-      cs_mem_free(store->memory, block, sizeof *block);
-    }
+  cs_cache_finish(&store->blocks);
   for (size_t i = 0; i < sizeof store->entries / sizeof *store->entries; i++)
     for (cs_picture_entry *entry = store->entries[i], *next; entry; entry = next) {
       next = entry->next;
@@ -42,33 +38,35 @@ static void destroy_store(cs_service *service) {
   for (int transfer = 0; transfer < 8; transfer++)
     for (int bits = 0; bits <= 16; bits++)
       cs_mem_free(store->memory, store->tables[transfer][bits], sizeof(float) << bits);
-  cs_mem_free(store->memory, store->buckets, store->bucket_count * sizeof *store->buckets);
   pthread_mutex_destroy(&store->lock);
   cs_mem_free(store->memory, store, sizeof *store);
 }
 
-static void trim_store(cs_service *service);
+static celspan_status create_store(celspan_context *context, cs_service **out) {
+  cs_picture_store *store = cs_mem_array(context->memory, 1, sizeof *store);
+  if (!store)
+    return cs_fail_memory(context);
+  store->memory = context->memory;
+  store->blocks = (cs_cache){.memory = context->memory,
+                             .entry_size = sizeof(cs_picture_block),
+                             .budget = context->root->picture_bytes};
+  cs_cache_init(&store->blocks);
+  cs_srgb8_make_curve(&store->curve);
+  pthread_mutex_init(&store->lock, NULL);
+  *out = &store->service;
+  return CELSPAN_OK;
+}
 
-celspan_status cs_store_get(celspan_context *context, cs_picture_store **out) {
-  celspan_context *root = context->root;
-  cs_service *held = __atomic_load_n(&root->pictures, __ATOMIC_ACQUIRE);
-  if (!held) {
-    cs_picture_store *store = cs_mem_array(context->memory, 1, sizeof *store);
-    if (!store)
-      return cs_fail_memory(context);
-    store->service = (cs_service){destroy_store, trim_store};
-    store->memory = context->memory;
-    store->budget = root->picture_bytes;
-    cs_srgb8_make_curve(&store->curve);
-    pthread_mutex_init(&store->lock, NULL);
-    /* Another thread may have been first. */
-    if (__atomic_compare_exchange_n(&root->pictures, &held, &store->service, false,
-                                    __ATOMIC_ACQ_REL, __ATOMIC_ACQUIRE))
-      held = &store->service;
-    else
-      destroy_store(&store->service);
-  }
-  *out = (cs_picture_store *)held;
+static void trim_store(cs_service *service) {
+  cs_cache_trim(&((cs_picture_store *)service)->blocks);
+}
+
+static const cs_service_kind store_kind = {create_store, destroy_store, trim_store};
+
+static celspan_status get_store(celspan_context *context, cs_picture_store **out) {
+  cs_service *service;
+  CS_TRY(cs_context_service(context, &store_kind, &service));
+  *out = (cs_picture_store *)service;
   return CELSPAN_OK;
 }
 
@@ -89,7 +87,7 @@ static celspan_status load_module(celspan_context *context, cs_picture_store *st
 celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                const cs_picture_module **out) {
   cs_picture_store *store;
-  CS_TRY(cs_store_get(context, &store));
+  CS_TRY(get_store(context, &store));
   pthread_mutex_lock(&store->lock);
   celspan_status status = load_module(context, store, failure);
   pthread_mutex_unlock(&store->lock);
@@ -100,128 +98,26 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 
 /* ---------------------------------------------------------------- blocks */
 
-static size_t bucket_of(const cs_picture_store *store, const cs_picture_entry *entry, int level,
-                        int32_t column, int32_t row) {
-  uint64_t key = ((uint64_t)(uint32_t)column << 20 ^ (uint64_t)(uint32_t)row) * 0x9e3779b97f4a7c15u;
-  key ^= ((uint64_t)entry->number * 32 + (uint64_t)level) * 0xc2b2ae3d27d4eb4fu;
-  return (size_t)(key >> 32 ^ key >> 7) & (store->bucket_count - 1);
+static cs_cache_key key_of(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
+  return (cs_cache_key){(uint64_t)entry->number << 32 | (uint32_t)level, (uint64_t)column,
+                        (uint64_t)row};
 }
 
-static cs_picture_block *find_block(const cs_picture_store *store, const cs_picture_entry *entry,
-                                    int level, int32_t column, int32_t row) {
-  if (!store->bucket_count)
-    return NULL;
-  cs_picture_block *block = store->buckets[bucket_of(store, entry, level, column, row)];
-  while (block && !(block->entry == entry && block->level == level && block->column == column &&
-                    block->row == row))
-    block = block->next;
-  return block;
+cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
+                               int32_t row) {
+  return (cs_picture_block *)cs_cache_pin(&entry->store->blocks, key_of(entry, level, column, row));
 }
 
-static void list_remove(cs_picture_store *store, cs_picture_block *block) {
-  *(block->older ? &block->older->newer : &store->oldest) = block->newer;
-  *(block->newer ? &block->newer->older : &store->newest) = block->older;
-  block->older = block->newer = NULL;
+void cs_store_release(cs_picture_block *block) {
+  cs_cache_unpin(&block->entry->store->blocks, &block->cached);
 }
 
-static void list_append(cs_picture_store *store, cs_picture_block *block) {
-  block->older = store->newest;
-  block->newer = NULL;
-  *(store->newest ? &store->newest->newer : &store->oldest) = block;
-  store->newest = block;
-}
-
-static void bucket_remove(cs_picture_store *store, cs_picture_block *block) {
-  cs_picture_block **link =
-      &store->buckets[bucket_of(store, block->entry, block->level, block->column, block->row)];
-  while (*link != block)
-    link = &(*link)->next;
-  *link = block->next;
-  store->block_count--;
-}
-
-static void free_block(cs_picture_store *store, cs_picture_block *block) {
-  cs_mem_free(store->memory, block, sizeof *block);
-  store->bytes -= sizeof *block;
-}
-
-/* Drops what was not used for longest until no more than `size` bytes are left, or nothing that can
- * be dropped. */
-static void shrink(cs_picture_store *store, size_t size) {
-  while (store->oldest && store->bytes > size) {
-    cs_picture_block *block = store->oldest;
-    list_remove(store, block);
-    bucket_remove(store, block);
-    free_block(store, block);
-  }
-}
-
-static void make_room(cs_picture_store *store, size_t size) {
-  shrink(store, store->budget > size ? store->budget - size : 0);
-}
-
-static void trim_store(cs_service *service) {
-  cs_picture_store *store = (cs_picture_store *)service;
-  pthread_mutex_lock(&store->lock);
-  shrink(store, 0);
-  pthread_mutex_unlock(&store->lock);
-}
-
-static bool grow_buckets(cs_picture_store *store) {
-  if (store->block_count < store->bucket_count)
-    return true;
-  size_t old_count = store->bucket_count, new_count = old_count ? 2 * old_count : 1024;
-  cs_picture_block **old = store->buckets;
-  cs_picture_block **grown = cs_mem_array(store->memory, new_count, sizeof(cs_picture_block *));
-  if (!grown)
-    return old_count > 0;
-  store->buckets = grown;
-  store->bucket_count = new_count;
-  for (size_t i = 0; i < old_count; i++)
-    for (cs_picture_block *block = old[i], *next; block; block = next) {
-      next = block->next;
-      size_t to = bucket_of(store, block->entry, block->level, block->column, block->row);
-      block->next = grown[to];
-      grown[to] = block;
-    }
-  cs_mem_free(store->memory, old, old_count * sizeof(cs_picture_block *));
-  return true;
-}
-
-static void pin(cs_picture_store *store, cs_picture_block *block) {
-  if (block->pins++ == 0)
-    list_remove(store, block);
-}
-
-cs_picture_block *cs_store_pin(cs_picture_store *store, const cs_picture_entry *entry, int level,
-                               int32_t column, int32_t row) {
-  pthread_mutex_lock(&store->lock);
-  cs_picture_block *block = find_block(store, entry, level, column, row);
-  if (block)
-    pin(store, block);
-  pthread_mutex_unlock(&store->lock);
-  return block;
-}
-
-void cs_store_unpin(cs_picture_store *store, cs_picture_block *block) {
-  pthread_mutex_lock(&store->lock);
-  if (--block->pins == 0)
-    list_append(store, block);
-  pthread_mutex_unlock(&store->lock);
-}
-
-celspan_status cs_store_make(celspan_context *context, cs_picture_store *store,
-                             cs_picture_entry *entry, int level, int32_t column, int32_t row,
-                             cs_picture_block **out) {
-  pthread_mutex_lock(&store->lock);
-  make_room(store, sizeof(cs_picture_block));
-  cs_picture_block *block =
-      grow_buckets(store) ? cs_mem_array(store->memory, 1, sizeof(cs_picture_block)) : NULL;
-  if (block)
-    store->bytes += sizeof *block;
-  pthread_mutex_unlock(&store->lock);
-  if (!block)
-    return cs_fail_memory(context);
+celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry *entry, int level,
+                                     int32_t column, int32_t row, cs_picture_block **out) {
+  cs_cache_entry *cached;
+  CS_TRY(cs_cache_create(&entry->store->blocks, context, key_of(entry, level, column, row),
+                         sizeof(cs_picture_block), &cached));
+  cs_picture_block *block = (cs_picture_block *)cached;
   block->entry = entry;
   block->level = level;
   block->column = column;
@@ -230,34 +126,14 @@ celspan_status cs_store_make(celspan_context *context, cs_picture_store *store,
   return CELSPAN_OK;
 }
 
-cs_picture_block *cs_store_insert(cs_picture_store *store, cs_picture_block *block, uint32_t pins) {
-  pthread_mutex_lock(&store->lock);
-  cs_picture_block *held = find_block(store, block->entry, block->level, block->column, block->row);
-  if (held) {
-    free_block(store, block);
-    if (pins)
-      pin(store, held);
-  } else {
-    held = block;
-    held->pins = pins;
-    cs_picture_block **bucket =
-        &store->buckets[bucket_of(store, held->entry, held->level, held->column, held->row)];
-    held->next = *bucket;
-    *bucket = held;
-    store->block_count++;
-    if (!pins)
-      list_append(store, held);
-  }
-  pthread_mutex_unlock(&store->lock);
-  return held;
+cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned) {
+  return (cs_picture_block *)cs_cache_insert(&block->entry->store->blocks, &block->cached,
+                                             is_pinned);
 }
 
-void cs_store_discard(cs_picture_store *store, cs_picture_block *block) {
-  if (!block)
-    return;
-  pthread_mutex_lock(&store->lock);
-  free_block(store, block);
-  pthread_mutex_unlock(&store->lock);
+void cs_store_discard(cs_picture_block *block) {
+  if (block)
+    cs_cache_discard(&block->entry->store->blocks, &block->cached);
 }
 
 /* ---------------------------------------------------------------- entries */
@@ -287,8 +163,7 @@ static size_t blocks_across(int32_t size, int level) {
 static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
   size_t least = blocks_across(info->width, 0) * sizeof(cs_picture_block) * 5 / 4;
-  store->budget = store->budget < least ? least : store->budget;
-  entry->share = store->budget / 2 / sizeof(cs_picture_block);
+  entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / sizeof(cs_picture_block);
   entry->level_count = cs_levels_count(info->width, info->height);
   while (entry->base < entry->level_count - 1 &&
          blocks_across(info->width, entry->base) * blocks_across(info->height, entry->base) >
@@ -340,6 +215,7 @@ static celspan_status open_entry(celspan_context *context, cs_picture_store *sto
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
   entry->hash = picture->hash;
   entry->curve = &store->curve;
+  entry->store = store;
   *out = entry;
   return CELSPAN_OK;
 }
@@ -394,8 +270,10 @@ static celspan_status add_entry(celspan_context *context, cs_picture_store *stor
   return CELSPAN_OK;
 }
 
-celspan_status cs_store_entry(celspan_context *context, cs_picture_store *store,
-                              const cs_picture *picture, cs_picture_entry **out) {
+celspan_status cs_store_entry(celspan_context *context, const cs_picture *picture,
+                              cs_picture_entry **out) {
+  cs_picture_store *store;
+  CS_TRY(get_store(context, &store));
   pthread_mutex_lock(&store->lock);
   cs_picture_entry *entry = find_entry(store, picture->hash);
   pthread_mutex_unlock(&store->lock);
@@ -405,13 +283,32 @@ celspan_status cs_store_entry(celspan_context *context, cs_picture_store *store,
   return CELSPAN_OK;
 }
 
+celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
+                             celspan_picture_info *out) {
+  cs_picture_entry *entry;
+  CS_TRY(cs_store_entry(context, picture, &entry));
+  *out = entry->header.info;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_picture_inspect(celspan_context *context, const celspan_picture_desc *desc,
+                                       celspan_picture_info *out) {
+  cs_picture *picture;
+  CS_TRY(cs_picture_create(context, desc, &picture));
+  celspan_status status = cs_store_info(context, picture, out);
+  cs_picture_unref(picture);
+  return status;
+}
+
+/* ---------------------------------------------------------------- readers */
+
 static bool is_same_file(const cs_picture_header *a, const cs_picture_header *b) {
   return a->file_size == b->file_size && a->file_time == b->file_time &&
          a->file_number == b->file_number;
 }
 
-celspan_status cs_store_reader(celspan_context *context, cs_picture_store *store,
-                               cs_picture_entry *entry) {
+celspan_status cs_store_open_reader(celspan_context *context, cs_picture_entry *entry) {
+  cs_picture_store *store = entry->store;
   if (entry->reader)
     return CELSPAN_OK;
   cs_picture_request request = request_of(entry->picture);
@@ -434,7 +331,8 @@ celspan_status cs_store_reader(celspan_context *context, cs_picture_store *store
   return CELSPAN_OK;
 }
 
-void cs_store_close(cs_picture_store *store, cs_picture_entry *entry) {
+void cs_store_close_reader(cs_picture_entry *entry) {
+  cs_picture_store *store = entry->store;
   if (!entry->reader)
     return;
   store->module->close(entry->reader);

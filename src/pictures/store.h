@@ -1,52 +1,67 @@
 /* The store of decoded pictures: blocks of texels in one budget, shared by all threads.
  *
- *   entry   one a picture: its header, its open reader, how its codes become light
- *   block   64 x 64 texels of one level of an entry; pinned, or in the list of what may be dropped
+ *   entry   one for each picture: its header, its open reader, how its codes become light
+ *   block   64 x 64 texels of one level of an entry, in the store's cache (base/cache.h)
  *
- * Locks: `lock` guards entries, blocks and the list, and is never held while a file is read; an
- * entry's `reading` guards its reader and is taken before `lock`. What a block holds is a function
- * of the file alone, so neither budget nor threads show in the pictures.
+ * Reading goes through the picture module (pictures/module.h), a shared object that is loaded on
+ * first use: nothing of it is touched by a film without pictures.
+ *
+ * Locks: `lock` guards entries and tables, and is never held while a file is read; an entry's
+ * `reading` guards its reader and is locked before `lock`. What a block contains is a function of
+ * the file alone, so neither budget nor threads show in the pictures.
  */
 #ifndef CS_PICTURES_STORE_H
 #define CS_PICTURES_STORE_H
 
-#include <pthread.h>
-
+#include "base/cache.h"
+#include "colour/srgb8.h"
 #include "pictures/levels.h"
 #include "pictures/picture.h"
 
-struct cs_picture {
-  atomic_size_t references;
-  cs_memory *memory;
-  cs_hash hash;
-  char *file, *colour, *layer; /* colour, layer: may be NULL */
-  int subimage;
-};
+/* Texels of a block's side. */
+#define CS_PICTURE_BLOCK 64
+/* Codes of a row of a block: its own, and that of the texel right of it. */
+#define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
+/* The size of a block's texels and their codes. */
+#define CS_PICTURE_BLOCK_BYTES                                                                     \
+  ((size_t)CS_PICTURE_BLOCK * (16 * CS_PICTURE_BLOCK + 4 * CS_PICTURE_CODES_ROW))
+
+/* What texels of a block have in common, those beyond the picture left out. */
+typedef enum cs_picture_opacity {
+  CS_PICTURE_MIXED,
+  CS_PICTURE_OPAQUE, /* alpha is 1 */
+  CS_PICTURE_CLEAR   /* all is 0 */
+} cs_picture_opacity;
 
 typedef struct cs_picture_entry cs_picture_entry;
 typedef struct cs_picture_store cs_picture_store;
 
-struct cs_picture_block {
+/* One block of a picture at a mip level (a texel is the mean of 2^level x 2^level pixels, in linear
+ * light). Constant once it is in the store. */
+typedef struct cs_picture_block {
+  cs_cache_entry cached; /* key: the entry's number, level, column and row */
   cs_picture_entry *entry;
   int level;
   int32_t column, row;
-  uint32_t pins;
-  cs_picture_block *next;          /* in its bucket */
-  cs_picture_block *older, *newer; /* while it has no pins */
-  cs_picture_opacity look;
+  cs_picture_opacity opacity;
+  /* Whether the codes determine all: cs_srgb8_colour makes the very texels of them, and those right
+   * of the block unless the picture ends there. */
   bool is_coded;
+  /* Premultiplied linear RGBA, row-major; clear beyond the picture. */
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
-  unsigned char codes[CS_PICTURE_BLOCK][4 * CS_PICTURE_CODES_ROW]; /* of level 0 */
-};
+  /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them. */
+  unsigned char codes[CS_PICTURE_BLOCK][4 * CS_PICTURE_CODES_ROW];
+} cs_picture_block;
 
 struct cs_picture_entry {
   cs_picture_entry *next;
+  cs_picture_store *store;
   uint32_t number; /* in order of making */
   cs_hash hash;
   cs_picture *picture; /* kept */
   cs_picture_header header;
   cs_levels_decoder decoder;
-  const cs_srgb8_curve *curve; /* the store's */
+  const cs_srgb8_curve *curve; /* the store's: the light of all codes */
   int level_count;
   /* The first level of which all blocks fit `share`. Levels below it are read from the file in
    * rows, those above are made from it. */
@@ -60,50 +75,46 @@ struct cs_picture_entry {
 struct cs_picture_store {
   cs_service service;
   cs_memory *memory;
-  pthread_mutex_t lock;
   const cs_picture_module *module; /* NULL until it is needed */
-  size_t budget, bytes; /* the budget holds a row of blocks of the widest picture at least */
+  cs_cache blocks; /* its budget is at least a row of blocks of the widest picture */
+  pthread_mutex_t lock;
   cs_picture_entry *entries[256]; /* by hash */
   uint32_t entry_count;
-  size_t reader_count; /* readers open now */
-  cs_picture_block **buckets;
-  size_t bucket_count, block_count;
-  cs_picture_block *oldest, *newest;
+  size_t reader_count;  /* readers open now */
   float *tables[8][17]; /* light by code: of a transfer, for codes of so many bits */
   cs_srgb8_curve curve;
 };
 
-/* The context's store, made on first use. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_store_get(celspan_context *context, cs_picture_store **out);
+/* The header, read once a context. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
+                                             celspan_picture_info *out);
 /* The picture module. failure: INPUT or OUTPUT, when there is none. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);
-/* The entry of a picture, its header read. Errors: INPUT, LIMIT, NO_MEMORY, BAD_ARGUMENT. */
-CELSPAN_CHECKED celspan_status cs_store_entry(celspan_context *context, cs_picture_store *store,
-                                              const cs_picture *picture, cs_picture_entry **out);
-/* The block with a pin more, or NULL when it is not held. */
-cs_picture_block *cs_store_pin(cs_picture_store *store, const cs_picture_entry *entry, int level,
-                               int32_t column, int32_t row);
-/* A new block, zeroed, not yet in the store, but counted. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_store_make(celspan_context *context, cs_picture_store *store,
-                                             cs_picture_entry *entry, int level, int32_t column,
-                                             int32_t row, cs_picture_block **out);
-/* Gives the block to the store with `pins` 0 or 1; one that is held already wins, and is what
- * comes back. */
-cs_picture_block *cs_store_insert(cs_picture_store *store, cs_picture_block *block, uint32_t pins);
-/* Frees a block that was never inserted. NULL is ignored. */
-void cs_store_discard(cs_picture_store *store, cs_picture_block *block);
-void cs_store_unpin(cs_picture_store *store, cs_picture_block *block);
-/* The entry's reader, open. The caller holds `reading`. */
-CELSPAN_CHECKED celspan_status cs_store_reader(celspan_context *context, cs_picture_store *store,
-                                               cs_picture_entry *entry);
-/* Closes it until it is wanted again. The caller holds `reading`. */
-void cs_store_close(cs_picture_store *store, cs_picture_entry *entry);
+/* Removes a pin. */
+void cs_store_release(cs_picture_block *block);
 
-/* picture_load.c: a block that is not held, with a pin. The caller holds `reading`.
- * Errors: INPUT, NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_load_block(celspan_context *context, cs_picture_store *store,
-                                             cs_picture_entry *entry, int level, int32_t column,
-                                             int32_t row, cs_picture_block **out);
+/* ---------------------------------------------------------------- for pictures/load.c */
+
+/* The entry of a picture, its header read. Errors: INPUT, LIMIT, NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_store_entry(celspan_context *context, const cs_picture *picture,
+                                              cs_picture_entry **out);
+/* The block with a pin more, or NULL when it is not in the store. */
+cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
+                               int32_t row);
+/* A new block, zeroed, not yet in the store, but counted. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
+                                                     cs_picture_entry *entry, int level,
+                                                     int32_t column, int32_t row,
+                                                     cs_picture_block **out);
+/* Puts the block into the store; one that is there already is returned instead. */
+cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
+/* Frees a block that was never inserted. NULL is ignored. */
+void cs_store_discard(cs_picture_block *block);
+/* Opens the entry's reader. The caller has locked `reading`. */
+CELSPAN_CHECKED celspan_status cs_store_open_reader(celspan_context *context,
+                                                    cs_picture_entry *entry);
+/* Closes the reader until it is needed again. The caller has locked `reading`. */
+void cs_store_close_reader(cs_picture_entry *entry);
 
 #endif

@@ -159,7 +159,7 @@ static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t coun
   size_t texel = reads_codes ? 4 : 4 * sizeof(float), size = (size_t)count * texel;
   size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
   const char *from = !slot->texels ? (const char *)cs_block_cache_none
-                     : reads_codes ? (const char *)cs_picture_codes(slot->block)
+                     : reads_codes ? (const char *)slot->block->codes
                                    : (const char *)slot->texels;
   from += (size_t)(y % CS_PICTURE_BLOCK) * row + (size_t)(x % CS_PICTURE_BLOCK) * texel;
   if (reads_codes && what == LIGHT)

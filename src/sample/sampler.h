@@ -75,7 +75,7 @@ CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *texels, const cs_sa
                                              const int32_t *columns, int32_t count, double y,
                                              float (*rgba)[4]);
 
-/* A picture that is copied: the codes of its texels (cs_picture_codes), 4 bytes a pixel. */
+/* A picture that is copied: the codes of its texels (cs_picture_block), 4 bytes a pixel. */
 CELSPAN_CHECKED celspan_status cs_sampler_codes(cs_block_cache *texels, const cs_sampler *sampler,
                                                 int32_t x0, int32_t count, double y,
                                                 unsigned char *codes);

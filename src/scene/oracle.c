@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "pictures/load.h"
 #include "scene/scanline.h"
 
 const cs_oracle_paint cs_oracle_clear = {{0, 0, 0}, {1, 1, 1}, 0};
@@ -101,12 +102,11 @@ static int32_t wrap_texel(double texel, int32_t size, celspan_wrap wrap) {
 static celspan_status add_texel(celspan_context *context, const cs_picture *picture, int32_t x,
                                 int32_t y, double weight, double rgba[4]) {
   cs_picture_block *block;
-  CS_TRY(
-      cs_picture_acquire(context, picture, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK, &block));
+  CS_TRY(cs_load_block(context, picture, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK, &block));
   size_t texel = (size_t)(y % CS_PICTURE_BLOCK) * CS_PICTURE_BLOCK + (size_t)(x % CS_PICTURE_BLOCK);
   for (size_t c = 0; c < 4; c++)
-    rgba[c] += weight * (double)cs_picture_texels(block)[4 * texel + c];
-  cs_picture_release(context, block);
+    rgba[c] += weight * (double)block->texels[4 * texel + c];
+  cs_store_release(block);
   return CELSPAN_OK;
 }
 
@@ -139,7 +139,7 @@ static celspan_status shade_picture(celspan_context *context, const celspan_text
       !(u >= 0 && u < 1 && v >= 0 && v < 1))
     return CELSPAN_OK;
   celspan_picture_info info;
-  CS_TRY(cs_picture_info(context, texture->picture, &info));
+  CS_TRY(cs_store_info(context, texture->picture, &info));
   double rgba[4] = {0, 0, 0, 0};
   CS_TRY(read_bilinear(context, texture, &info, u * info.width, v * info.height, rgba));
   float sample[4] = {(float)rgba[0], (float)rgba[1], (float)rgba[2], (float)rgba[3]};

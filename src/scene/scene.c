@@ -53,7 +53,7 @@ static celspan_status check_primitive(celspan_context *context, void *user,
   (void)user;
   celspan_picture_info info;
   const cs_picture *picture = picture_of(primitive);
-  return picture ? cs_picture_info(context, picture, &info) : CELSPAN_OK;
+  return picture ? cs_store_info(context, picture, &info) : CELSPAN_OK;
 }
 
 celspan_status celspan_rostrum_check(celspan_context *context, const celspan_rostrum *rostrum) {

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "output/sink.h"
-#include "pictures/picture.h"
+#include "pictures/load.h"
 #include "tests/support/check.h"
 
 /* Linear premultiplied RGBA of pixel (x, y). */
@@ -52,7 +52,7 @@ static inline celspan_status picture_open(celspan_context *context, const char *
   celspan_picture_desc desc = {.file = path};
   cs_picture *picture;
   CS_TRY(cs_picture_create(context, &desc, &picture));
-  celspan_status status = cs_picture_info(context, picture, info);
+  celspan_status status = cs_store_info(context, picture, info);
   if (status == CELSPAN_OK)
     *out = picture;
   else
@@ -63,13 +63,13 @@ static inline celspan_status picture_open(celspan_context *context, const char *
 static inline celspan_status picture_texel(celspan_context *context, const cs_picture *picture,
                                            int level, int x, int y, float rgba[4]) {
   cs_picture_block *block;
-  CS_TRY(cs_picture_acquire(context, picture, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK,
+  CS_TRY(cs_load_block(context, picture, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK,
                             &block));
   memcpy(rgba,
-         cs_picture_texels(block) +
+         block->texels +
              4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK),
          4 * sizeof(float));
-  cs_picture_release(context, block);
+  cs_store_release(block);
   return CELSPAN_OK;
 }
 

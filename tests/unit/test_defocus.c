@@ -305,7 +305,7 @@ static void check_kept(void) {
   for (int k = 0; k < 4; k++) {
     image i = make(&s, defocused_disc(&s, places[k], 9, 5, CELSPAN_DEFOCUS_GAUSSIAN, opacities[k]),
                    &v, 1);
-    cs_defocus_bands_counts counts = cs_defocus_bands_count(s.context);
+    cs_cache_counts counts = cs_defocus_bands_count(s.context);
     CHECK(counts.bytes > 0 && (k == 0 || k == 3 ? counts.made > made : counts.made == made));
     made = counts.made;
     free(i.rgba);

@@ -188,12 +188,12 @@ typedef struct reading {
 static uint64_t digest_block(celspan_context *on, const cs_picture *picture, int level, int column,
                              int row, celspan_status *status) {
   cs_picture_block *block;
-  *status = cs_picture_acquire(on, picture, level, column, row, &block);
+  *status = cs_load_block(on, picture, level, column, row, &block);
   if (*status != CELSPAN_OK)
     return 0;
   uint32_t words[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
-  memcpy(words, cs_picture_texels(block), sizeof words);
-  cs_picture_release(on, block);
+  memcpy(words, block->texels, sizeof words);
+  cs_store_release(block);
   uint64_t digest = (uint64_t)(level * 1000 + column * 100 + row);
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
     digest = (digest ^ words[i]) * 0x100000001b3u;
@@ -478,7 +478,7 @@ static void test_orientation(void) {
     float rgba[3][4];
     CHECK(celspan_context_create(NULL, &own) == CELSPAN_OK);
     CHECK(cs_picture_create(own, &desc, &picture) == CELSPAN_OK);
-    if (CHECK(cs_picture_info(own, picture, &info) == CELSPAN_OK) &&
+    if (CHECK(cs_store_info(own, picture, &info) == CELSPAN_OK) &&
         CHECK(info.width == (orientation < 5 ? 3 : 2) &&
               info.height == (orientation < 5 ? 2 : 3)) &&
         CHECK(picture_texel(own, picture, 0, 0, 0, rgba[0]) == CELSPAN_OK) &&
@@ -555,7 +555,7 @@ static void check_texel(const char *name, const char *layer, int width, int heig
   float rgba[4] = {0};
   CHECK(cs_picture_create(context, &desc, &picture) == CELSPAN_OK);
   bool is_right =
-      CHECK(cs_picture_info(context, picture, &info) == CELSPAN_OK) &&
+      CHECK(cs_store_info(context, picture, &info) == CELSPAN_OK) &&
       CHECK(info.width == width && info.height == height) &&
       CHECK(picture_texel(context, picture, 0, x, y, rgba) == CELSPAN_OK) &
           CHECK_NEAR((double)rgba[0], r, tolerance) & CHECK_NEAR((double)rgba[1], g, tolerance) &

@@ -566,22 +566,22 @@ static void test_coded(void) {
     const bool is_last = column == SIDE / CS_PICTURE_BLOCK;
     int wrong = 0, width = is_last ? SIDE % CS_PICTURE_BLOCK : CS_PICTURE_BLOCK + 1;
     cs_picture_block *block, *floats;
-    CHECK(cs_picture_acquire(context, coded_picture, 0, column, 1, &block) == CELSPAN_OK);
-    CHECK(cs_picture_is_coded(block));
+    CHECK(cs_load_block(context, coded_picture, 0, column, 1, &block) == CELSPAN_OK);
+    CHECK(block->is_coded);
     for (int y = 0; y < CS_PICTURE_BLOCK; y++)
       for (int x = 0; x < width; x++) {
         float light[4], wanted[4];
-        cs_srgb8_colour(&curve, cs_picture_codes(block) + 4 * (y * CS_PICTURE_CODES_ROW + x),
+        cs_srgb8_colour(&curve, block->codes[0] + 4 * (y * CS_PICTURE_CODES_ROW + x),
                         light);
         CHECK(picture_texel(context, coded_picture, 0, column * CS_PICTURE_BLOCK + x,
                             CS_PICTURE_BLOCK + y, wanted) == CELSPAN_OK);
         wrong += memcmp(light, wanted, sizeof light) != 0;
       }
     CHECK(wrong == 0);
-    cs_picture_release(context, block);
-    CHECK(cs_picture_acquire(context, noise_picture, 0, column, 1, &floats) == CELSPAN_OK);
-    CHECK(!cs_picture_is_coded(floats));
-    cs_picture_release(context, floats);
+    cs_store_release(block);
+    CHECK(cs_load_block(context, noise_picture, 0, column, 1, &floats) == CELSPAN_OK);
+    CHECK(!floats->is_coded);
+    cs_store_release(floats);
   }
 }
 

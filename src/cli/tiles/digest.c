@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "pictures/store.h"
+#include "pictures/picture.h"
 #include "scene/scene.h"
 
 typedef struct scene_facts {

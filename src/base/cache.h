@@ -1,0 +1,97 @@
+/* A cache: entries found by a key, shared by all threads, within a budget of bytes.
+ *
+ *              bucket of a key          pins > 0: in use, never dropped
+ *   buckets --> entry -> entry -> ...   pins = 0: in the idle list
+ *
+ *   oldest <-> ... <-> newest           dropped from the oldest on, appended when the last pin goes
+ *
+ * INVARIANTS
+ *   At most one entry of a key is in the cache, and an entry is either pinned or in the idle list.
+ *   An entry's contents are a function of its key, and do not change while it is in the cache; so
+ *   neither budget nor threads show in what is made from it.
+ *   `bytes` is the sum over all entries, those that are not in the cache yet included. It exceeds
+ *   the budget only by what is pinned, or was pinned when the last entry was made.
+ *   The lock is never held while an entry is being made.
+ *
+ * An entry is made in one of two ways. cs_cache_acquire lets one thread make it while others that
+ * want it wait. With cs_cache_create, _insert and _discard a thread makes several entries together;
+ * when two threads made the same, the first to insert it wins.
+ */
+#ifndef CS_BASE_CACHE_H
+#define CS_BASE_CACHE_H
+
+#include <pthread.h>
+
+#include "base/context.h"
+
+typedef struct cs_cache_key {
+  uint64_t a, b, c;
+} cs_cache_key;
+
+/* The first member of what a user keeps. */
+typedef struct cs_cache_entry cs_cache_entry;
+struct cs_cache_entry {
+  cs_cache_key key;
+  size_t bytes; /* that it counts for */
+  uint32_t pins;
+  bool is_made;
+  cs_cache_entry *next;          /* in its bucket */
+  cs_cache_entry *older, *newer; /* while it has no pins */
+};
+
+typedef struct cs_cache_counts { /* since the cache was made; now */
+  uint64_t made, found;
+  size_t bytes;
+} cs_cache_counts;
+
+typedef struct cs_cache {
+  cs_memory *memory;
+  size_t entry_size; /* of what a user keeps, cs_cache_entry included */
+  /* Frees what an entry owns, which may be made in part or not at all; NULL: it owns nothing. */
+  void (*clear)(cs_cache_entry *entry, cs_memory *memory);
+  bool shrinks_on_unpin; /* goes back to its budget when a pin goes, not only before an entry */
+  size_t budget;
+  pthread_mutex_t lock;
+  pthread_cond_t settled; /* an entry was made, or could not be */
+  cs_cache_entry **buckets;
+  size_t bucket_count, entry_count;
+  cs_cache_entry *oldest, *newest;
+  cs_cache_counts counts;
+} cs_cache;
+
+/* The first four fields and the budget are set, the rest is zero. */
+void cs_cache_init(cs_cache *cache);
+/* No entry is pinned any more. */
+void cs_cache_finish(cs_cache *cache);
+
+/* All functions below: any thread. */
+
+/* The budget from now on is at least `least`; returns it. */
+size_t cs_cache_raise_budget(cs_cache *cache, size_t least);
+/* Drops all that is not pinned. */
+void cs_cache_trim(cs_cache *cache);
+cs_cache_counts cs_cache_count(cs_cache *cache);
+
+/* The entry with a pin more; waits while another thread makes it. NULL: it is not there. */
+cs_cache_entry *cs_cache_pin(cs_cache *cache, cs_cache_key key);
+void cs_cache_unpin(cs_cache *cache, cs_cache_entry *entry);
+
+/* Fills a zeroed entry and sets its bytes. */
+typedef celspan_status (*cs_cache_make)(void *user, celspan_context *context,
+                                        cs_cache_entry *entry);
+/* The entry with a pin more, made where it is not there. Errors: NO_MEMORY and those of make. */
+CELSPAN_CHECKED celspan_status cs_cache_acquire(cs_cache *cache, celspan_context *context,
+                                                cs_cache_key key, cs_cache_make make, void *user,
+                                                cs_cache_entry **out);
+
+/* A new entry, zeroed but for its key, counted with `bytes`, not in the cache.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_cache_create(cs_cache *cache, celspan_context *context,
+                                               cs_cache_key key, size_t bytes,
+                                               cs_cache_entry **out);
+/* Puts it into the cache, with a pin or none; one that is there already is returned instead. */
+cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_pinned);
+/* Frees an entry that was not inserted. */
+void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
+
+#endif
