@@ -1,5 +1,7 @@
 #include "area/edges.h"
 
+#include "sweep/pieces.h"
+
 #include <string.h>
 
 /* Bytes of one boundary over all arrays. */
@@ -15,8 +17,8 @@ void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
   *edges = (cs_edges){0};
 }
 
-/* The wider items first, so that each is aligned. Vector code goes beyond the count: zeros are
- * quick there, what happens to lie in memory may be denormal numbers, which are not. */
+/* The wider items come first, so that each array is aligned. Vector code works beyond the count:
+ * there zeros are quick, while leftover memory may hold denormal numbers, which are slow. */
 static celspan_status make_room(celspan_context *context, cs_edges *edges, size_t count) {
   if (count <= edges->capacity)
     return CELSPAN_OK;
@@ -45,7 +47,7 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 
 /* ---------------------------------------------------------------- bent */
 
-/* What is right of a piece in the column that ends at `split`, and in the one after. */
+/* Adds what is right of a piece in the column that ends at `split`, and in the one after it. */
 static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
                       double height, double split) {
   double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
@@ -65,15 +67,10 @@ static void add_piece(double *area, double *rest, celspan_point above, celspan_p
 /* The areas of a bent boundary over at most two columns. */
 static void measure_pieces(cs_edges *edges, const cs_active *active, const cs_bend *bend) {
   size_t i = bend->boundary;
-  const celspan_point *vertices = &active->vertices[bend->vertex];
-  celspan_point above = {active->x[i], active->y};
   double area = 0, rest = 0, split = edges->first[i] + 1, passed = 0;
-  for (uint32_t k = 0; k <= bend->vertex_count; k++) {
-    celspan_point below =
-        k < bend->vertex_count ? vertices[k] : (celspan_point){active->x_next[i], active->y_next};
-    double reached = cs_edges_round(below.y - active->y);
-    add_piece(&area, &rest, above, below, reached - passed, split);
-    above = below;
+  for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
+    double reached = cs_edges_round(p.below.y - active->y);
+    add_piece(&area, &rest, p.above, p.below, reached - passed, split);
     passed = reached;
   }
   edges->area[i] = area;
@@ -92,8 +89,8 @@ static void measure_bent(cs_edges *edges, const cs_active *active, const cs_bend
   edges->fall[i] = 0;
   edges->first[i] = cs_edges_floor(bend->low, width);
   edges->end[i] = cs_edges_ceil(bend->high, width);
-  bool layers = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);
-  if (layers && edges->end[i] < edges->first[i] + 3)
+  bool leaves = (bend->low < 0 && bend->high > 0) || (bend->high > width && bend->low < width);
+  if (leaves && edges->end[i] < edges->first[i] + 3)
     edges->end[i] = edges->first[i] + 3;
   if (edges->end[i] <= edges->first[i] + 2)
     measure_pieces(edges, active, bend);

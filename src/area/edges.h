@@ -1,10 +1,21 @@
 /* The edges of a row: where every active boundary lies in it, and the area right of it in the
- * pixels it crosses, for all boundaries at once, several at a time.
+ * pixels that it crosses, for all boundaries at once and several at a time.
+ *
+ *           low                     high
+ *            |                       |
+ *      +-----+-----+-----------+-----+-----+
+ *      |     \_    |###########|###########|     area: the part of its first column that lies
+ *      |       \__ |###########|###########|           right of it (###)
+ *      |          \+__#########|###########|     rest: the same of its last column
+ *      |           |  \___#####|###########|     fall: from its second column on, each column has
+ *      |           |      \____|###########|           so much more than the one before it
+ *      +-----------+-----------+\__########+
+ *      first       second       last       end
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
- * 2^-28 (see window.h), of a whole row's height, and given where the boundary crosses at most two
- * columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways is at
- * least first + 3, or first when it does not enter it.
+ * 2^-28 (see window.h) of a whole row's height. They are given where the boundary crosses at most
+ * two columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways
+ * is at least first + 3, or first when it does not enter it.
  */
 #ifndef CS_AREA_EDGES_H
 #define CS_AREA_EDGES_H
@@ -16,7 +27,7 @@
 typedef struct cs_edges {
   cs_isa isa;           /* what straight boundaries are measured with */
   double *low, *high;   /* least and greatest x in the row */
-  double *area, *rest;  /* right of it in its first column and in its last; 1: all */
+  double *area, *rest;  /* right of it in its first column and in its last; 1: all of it */
   float *one, *two;     /* area and rest again, as colours are weighted by them */
   float *second, *fall; /* over more than two columns: the area in its second, and what each column
                            after that has more; fall is 0 where areas are not given */
@@ -27,7 +38,7 @@ typedef struct cs_edges {
 } cs_edges;
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory);
-/* Measures the boundaries between the heights they stand at and have reached. width: of the row.
+/* Measures the boundaries between the current height and the height advanced to. width: of the row.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges,
                                                 const cs_active *active, int32_t width);
@@ -38,7 +49,7 @@ CS_WIDE_DECLARE(void, cs_edges_straight,
                 (cs_edges * edges, const double *top, const double *foot, size_t count,
                  int32_t width));
 
-/* Columns of the frame at or left of x (floor) and at or right of it (ceil), held to the row. */
+/* Columns of the frame at or left of x (floor) and at or right of it (ceil), clamped to the row. */
 static inline int32_t cs_edges_floor(double x, int32_t width) {
   return x <= 0 ? 0 : x >= width ? width : (int32_t)x;
 }
@@ -54,7 +65,7 @@ static inline double cs_edges_round(double x) {
   return (x + bias) - bias;
 }
 
-/* The integral, up to x, of the share of a piece's height at which it lies left. */
+/* The integral up to x of the share of a piece's height at which the piece is left of that x. */
 static inline double cs_edges_passed(double low, double high, double x) {
   return x <= low    ? 0
          : x >= high ? (x - high) + 0.5 * (high - low)

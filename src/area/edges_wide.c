@@ -1,4 +1,5 @@
-/* Plain loops for the compiler to make vectors of: each step is one operation on every boundary. */
+/* Plain loops that the compiler turns into vector code: each line is one operation on every
+ * boundary. See edges.h for what area, rest, second and fall are. */
 #include "area/edges.h"
 
 void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
@@ -12,19 +13,19 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
 #pragma omp simd
   for (size_t i = 0; i < count; i++) {
     double a = top[i] < foot[i] ? top[i] : foot[i], b = top[i] < foot[i] ? foot[i] : top[i];
-    double held = a > 0 ? a : 0, held_high = b > 0 ? b : 0;
-    held = held < right ? held : right;
-    held_high = held_high < right ? held_high : right;
-    double near = (held + whole) - whole, near_high = (held_high + whole) - whole;
-    double column = near - (near > held ? 1.0 : 0.0);
-    double last = near_high + (near_high < held_high ? 1.0 : 0.0);
+    double clamped = a > 0 ? a : 0, clamped_high = b > 0 ? b : 0;
+    clamped = clamped < right ? clamped : right;
+    clamped_high = clamped_high < right ? clamped_high : right;
+    double near = (clamped + whole) - whole, near_high = (clamped_high + whole) - whole;
+    double column = near - (near > clamped ? 1.0 : 0.0);
+    double last = near_high + (near_high < clamped_high ? 1.0 : 0.0);
     double split = column + 1, by_twice = 0.5 / (b - a);
     double less = split - 0.5 * (a + b);
     double until = b - (last - 1);
     double more = (split - a) * (split - a) * by_twice;
     double more_rest = 1 - until * until * by_twice;
-    double layers = (a < 0 ? held_high : 0) + (b > right ? right - held : 0);
-    double least = layers > 0 ? column + 3 : last;
+    double outside = (a < 0 ? clamped_high : 0) + (b > right ? right - clamped : 0);
+    double least = outside > 0 ? column + 3 : last;
     low[i] = a;
     high[i] = b;
     double in_first = cs_edges_round(b > split ? more : less);
@@ -34,7 +35,7 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
     one[i] = (float)in_first;
     two[i] = (float)in_last;
     second[i] = (float)cs_edges_round((2 * (split - a) + 1) * by_twice);
-    fall[i] = (float)(layers > 0 ? 0 : 2 * by_twice);
+    fall[i] = (float)(outside > 0 ? 0 : 2 * by_twice);
     first[i] = (int32_t)column;
     end[i] = (int32_t)(last < least ? least : last);
   }

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-#define BLOCK 16 /* places whose least share is known */
+#define BLOCK 16 /* places of which the least share is kept */
 
-/* Bytes of one mover over all arrays. */
+/* Bytes of one edge over all arrays. */
 #define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
@@ -14,7 +14,7 @@ void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory)
   *intersections = (cs_intersections){0};
 }
 
-/* The wider items first, so that each is aligned. */
+/* The wider items come first, so that each array is aligned. */
 celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan_context *context,
                                         size_t edges) {
   if (edges <= intersections->edge_capacity)
@@ -38,8 +38,8 @@ celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan
 
 /* ---------------------------------------------------------------- shares of a step */
 
-/* Where in the step the boundary at a place meets its right neighbour. Whether it does can hardly
- * be foreseen, so the division is always made. */
+/* At which share of the step the boundary at a place crosses its right neighbour. Whether it does
+ * can hardly be foreseen, so the division is always made. */
 static inline double find_share(const cs_intersections *m, size_t place) {
   double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
   double top = gap > 0 ? gap : 0, share = top / (top + foot);
@@ -48,7 +48,7 @@ static inline double find_share(const cs_intersections *m, size_t place) {
 
 static inline size_t block_count(size_t count) { return (count + BLOCK - 1) / BLOCK; }
 
-static void look_at_block(cs_intersections *m, size_t block) {
+static void find_block_least(cs_intersections *m, size_t block) {
   const double *shares = m->shares + block * BLOCK;
   double least[4]; /* four chains, not one long one */
   for (size_t i = 0; i < 4; i++)
@@ -63,19 +63,19 @@ static void look_at_block(cs_intersections *m, size_t block) {
 /* Whether there are so many places that the least share of every block is kept. */
 static inline bool has_blocks(size_t count) { return count > BLOCK; }
 
-/* Finds all shares. Returns whether any two meet. */
-static bool look_at_all(cs_intersections *m, size_t count) {
-  int64_t meets = 0;
+/* Finds all shares. Returns whether any two cross. */
+static bool find_shares(cs_intersections *m, size_t count) {
+  int64_t crossings = 0;
   for (size_t place = 0; place + 1 < count; place++) {
     m->shares[place] = find_share(m, place);
-    meets += m->foot[place] > m->foot[place + 1];
+    crossings += m->foot[place] > m->foot[place + 1];
   }
-  if (meets == 0 || !has_blocks(count))
-    return meets > 0;
+  if (crossings == 0 || !has_blocks(count))
+    return crossings > 0;
   for (size_t place = count - 1; place < block_count(count) * BLOCK; place++)
     m->shares[place] = INFINITY;
   for (size_t block = 0; block < block_count(count); block++)
-    look_at_block(m, block);
+    find_block_least(m, block);
   return true;
 }
 
@@ -90,7 +90,7 @@ static inline size_t find_least(const double *shares, size_t count) {
   return place;
 }
 
-/* The place of the next meeting; false: there is none any more. */
+/* The place of the next intersection; false: there is none left. */
 static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
   if (!has_blocks(count)) {
     *place = find_least(m->shares, count - 1);
@@ -101,7 +101,7 @@ static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
   return m->shares[*place] < INFINITY;
 }
 
-/* ---------------------------------------------------------------- meetings */
+/* ---------------------------------------------------------------- swaps */
 
 static inline void exchange(double *a, double *b) {
   double kept = *a;
@@ -116,8 +116,8 @@ static inline void move_to(cs_active_edge *edge, double x, double y) {
 }
 
 /* The boundaries at `place` and right of it change places, in that share of the step. */
-static celspan_status change_places(cs_intersections *m, celspan_context *context, size_t place,
-                                    double share, double y) {
+static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
+                                  double share, double y) {
   if (m->count == m->capacity)
     CS_TRY(cs_mem_reserve(context, (void **)&m->intersections, &m->capacity, m->count + 1,
                           sizeof *m->intersections));
@@ -139,29 +139,29 @@ static celspan_status change_places(cs_intersections *m, celspan_context *contex
   return CELSPAN_OK;
 }
 
-/* Finds the meetings of a step. */
-static celspan_status take_step(cs_intersections *m, celspan_context *context, size_t count,
-                                double y0, double y1) {
-  double reached = 0;
-  if (!look_at_all(m, count))
+/* Finds the intersections of a step. */
+static celspan_status find_in_step(cs_intersections *m, celspan_context *context, size_t count,
+                                   double y0, double y1) {
+  double share = 0; /* of the step, so far */
+  if (!find_shares(m, count))
     return CELSPAN_OK;
   for (size_t place; find_next(m, count, &place);) {
-    reached = m->shares[place] > reached ? m->shares[place] : reached;
-    CS_TRY(change_places(m, context, place, reached, y0 + (y1 - y0) * reached));
+    share = m->shares[place] > share ? m->shares[place] : share;
+    CS_TRY(swap_places(m, context, place, share, y0 + (y1 - y0) * share));
     size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
     for (size_t i = first; i <= last; i++)
       m->shares[i] = find_share(m, i);
     if (has_blocks(count))
-      look_at_block(m, first / BLOCK);
+      find_block_least(m, first / BLOCK);
     if (last / BLOCK != first / BLOCK)
-      look_at_block(m, last / BLOCK);
+      find_block_least(m, last / BLOCK);
   }
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- steps */
 
-/* x of a mover at a height of its segment: that of its end, or in between. Which of them can hardly
+/* x of an edge at a height of its segment: that of its end, or in between. Which of them can hardly
  * be foreseen, so the division is always made. */
 static inline double edge_x(const cs_active_edge *edge, double y) {
   const celspan_point *a = &edge->points[edge->at - 1], *b = &edge->points[edge->at];
@@ -198,7 +198,7 @@ celspan_status cs_intersections_find(cs_intersections *m, celspan_context *conte
       m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
       m->foot[place] = edge_x(&m->edges[m->order[place]], end);
     }
-    CS_TRY(take_step(m, context, count, y, end));
+    CS_TRY(find_in_step(m, context, count, y, end));
   }
   return CELSPAN_OK;
 }

@@ -1,8 +1,18 @@
-/* Meetings: where boundaries that go down together cross, from the highest to the lowest.
+/* Intersections: where boundaries that go down together cross, from the highest to the lowest.
  *
- * They go down in steps from one bend to the next, straight in between, and two neighbours whose
- * feet are out of order meet on the way. Only places and heights are found here: what is seen
- * between them is composed afterwards, place by place (cluster.c).
+ *      y0   a    b     c
+ *            \  /      |      step: all are straight, from one bend to the next
+ *             \/       |
+ *             /\       |      intersection: a and b change places, at share 0.5 of the step
+ *      step  b  a      c
+ *            |   \    /       the next step
+ *            |    \  /
+ *            |     \/         intersection of a and c
+ *      y1    b     c a
+ *
+ * In each step, two neighbours whose feet are out of order cross on the way. Only places and
+ * heights are found here; the cells between them are composed afterwards, place by place
+ * (local_sweep.c).
  *
  * Invariant: swaps are always of neighbours, so an order exists at every moment, there are no more
  * of them than inversions, and at the foot all are in order.
@@ -14,43 +24,43 @@
 
 #define CS_INTERSECTIONS_NONE UINT32_MAX
 
-/* A boundary on its way down its polyline. */
+/* An edge on its way down its polyline. */
 typedef struct cs_active_edge {
   const celspan_point *points; /* ascending in y */
   uint32_t at;                 /* the segment it is on ends at points[at] */
-  uint32_t last_at;            /* and where it last changed places */
-  double last_x, last_y;
+  uint32_t last_at;            /* the same where it last changed places */
+  double last_x, last_y;       /* and that point */
 } cs_active_edge;
 
 /* Two neighbours change places. */
 typedef struct cs_intersection {
   double y, left_x, right_x;  /* where each of them is */
   uint32_t left_at, right_at; /* on which segment */
-  uint32_t left, right;       /* movers: left goes from the place to the one right of it */
-  uint32_t next;              /* the next meeting at the same place, or NONE */
-  const void *cell;           /* for the finder's user: what is seen between them from then on */
+  uint32_t left, right;       /* edges: left goes from the place to the one right of it */
+  uint32_t next;              /* the next intersection at the same place, or NONE */
+  const void *cell;           /* for the caller: the cell between them from then on */
 } cs_intersection;
 
 typedef struct cs_intersections {
   cs_active_edge *edges; /* in their order at the top */
   /* by place, from left to right */
-  uint32_t *order;    /* which mover stands there */
-  double *top, *foot; /* its x at both ends of the step, at last: where the way ends */
-  double *shares; /* of the step, at which it meets its right neighbour; INFINITY: it does not */
+  uint32_t *order;    /* which edge is there */
+  double *top, *foot; /* its x at both ends of the step; in the end, at the lower height */
+  double *shares; /* of the step, at which it crosses its right neighbour; INFINITY: it does not */
   double *least;  /* of every 16 shares, where there are more */
-  uint32_t *first, *last;         /* meetings of the place and the one right of it, or NONE */
+  uint32_t *first, *last;         /* intersections of the place and the one right of it, or NONE */
   cs_intersection *intersections; /* from the highest to the lowest */
   size_t count, capacity;
-  void *block; /* that holds the arrays above but for the meetings */
+  void *block; /* that holds the arrays above, except the intersections */
   size_t edge_capacity;
 } cs_intersections;
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory);
-/* Makes room for so many movers. Errors: NO_MEMORY. */
+/* Makes room for so many edges. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_reserve(cs_intersections *intersections,
                                                         celspan_context *context, size_t edges);
-/* Finds the meetings of the first `count` movers between two heights; all reach the lower. Given
- * are the movers, on a segment at or above the first height, and as `foot` their x there.
+/* Finds the intersections of the first `count` edges between two heights; all extend to the lower.
+ * Given are the edges, on a segment at or above the first height, and as `foot` their x there.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_find(cs_intersections *intersections,
                                                      celspan_context *context, size_t count,

@@ -1,6 +1,7 @@
 #include "area/intervals.h"
 
-#include <math.h>
+#include "sweep/pieces.h"
+
 #include <stdlib.h>
 
 static void *take(const cs_intervals *b, size_t count, size_t size) {
@@ -42,15 +43,13 @@ celspan_status cs_intervals_member(const cs_intervals *b, size_t i, cs_member *m
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- x-ranges */
+/* ---------------------------------------------------------------- extents */
 
-/* Where boundary i is inside the row. */
+/* Of boundary i inside the row. */
 static inline cs_extent boundary_extent(const cs_intervals *b, size_t i) {
   const cs_edges *edges = b->edges;
   return (cs_extent){edges->low[i], edges->high[i]};
 }
-
-/* ---------------------------------------------------------------- blocks */
 
 static celspan_status add_interval(cs_intervals *b, cs_interval interval) {
   if (b->count == b->capacity) {
@@ -69,25 +68,17 @@ static celspan_status add_interval(cs_intervals *b, cs_interval interval) {
 
 /* ---------------------------------------------------------------- disorder
  *
- * The order at the top of the row holds at every height iff no two neighbours cross, and those are
- * looked at only where the foot is out of order or one of them bends. */
+ * The order at the top of the row holds at every height if and only if no two neighbours cross.
+ * That is examined only where the foot is out of order or a neighbour bends. */
 
 /* x of boundary i at a height of the row; one that has ended goes on straight down. */
 static double boundary_x(const cs_intervals *b, size_t i, double y) {
-  const cs_active *active = b->active;
-  const cs_bend *bend = cs_active_bend(active, i);
-  celspan_point above = {active->x[i], b->y0}, below = {active->x_next[i], b->y1};
-  for (uint32_t k = 0; bend && k < bend->vertex_count; k++) {
-    celspan_point vertex = active->vertices[bend->vertex + k];
-    if (vertex.y >= y) {
-      below = vertex;
-      break;
-    }
-    above = vertex;
-  }
-  if (y >= below.y)
-    return below.x;
-  return above.x + (below.x - above.x) * ((y - above.y) / (below.y - above.y));
+  cs_pieces p = cs_pieces_of(b->active, i, cs_active_bend(b->active, i));
+  while (cs_pieces_next(&p) && p.below.y < y)
+    continue;
+  if (y >= p.below.y)
+    return p.below.x;
+  return p.above.x + (p.below.x - p.above.x) * ((y - p.above.y) / (p.below.y - p.above.y));
 }
 
 /* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or
@@ -106,7 +97,7 @@ static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour,
   return false;
 }
 
-/* Neighbours that must be replayed together, as they grow. */
+/* Neighbours that cross and must be replayed together, while more are still being found. */
 typedef struct inversion_group {
   size_t low, high;
   cs_extent extent, foot; /* of its boundaries, in the row and at its foot */
@@ -126,13 +117,14 @@ static void join_groups(inversion_group *k, const inversion_group *other) {
   k->is_bent |= other->is_bent;
 }
 
-/* Straight boundaries cross iff the row permutes them; bent ones might wherever they reach over. */
+/* Straight boundaries cross if and only if the row permutes them; bent ones may cross wherever
+ * their extents overlap. */
 static bool may_cross(const inversion_group *left, const inversion_group *right) {
   return left->foot.high > right->foot.low ||
          ((left->is_bent || right->is_bent) && left->extent.high > right->extent.low);
 }
 
-/* Takes neighbours in until none is left that the inversion_group may cross. */
+/* Adds neighbours until none is left that the group may cross. */
 static void grow_group(const cs_intervals *b, inversion_group *k) {
   const cs_active *active = b->active;
   bool grows = true;
@@ -150,8 +142,8 @@ static void grow_group(const cs_intervals *b, inversion_group *k) {
   }
 }
 
-/* Ties boundaries i and i + 1 together. groups: those found so far, from left to right. */
-static void tie(const cs_intervals *b, size_t i, inversion_group *groups, size_t *count) {
+/* Puts boundaries i and i + 1 into one group. groups: those found so far, from left to right. */
+static void group_pair(const cs_intervals *b, size_t i, inversion_group *groups, size_t *count) {
   if (*count > 0 && groups[*count - 1].high >= i + 2)
     return;
   inversion_group *k = &groups[*count], other = group_of(b, i + 1);
@@ -168,9 +160,11 @@ static void tie(const cs_intervals *b, size_t i, inversion_group *groups, size_t
   ++*count;
 }
 
-/* Ties what the bent boundaries below place `end` pass, in order of place. */
-static void tie_bends(const cs_intervals *b, size_t end, size_t *bend, inversion_group *groups,
-                      size_t *count) {
+/* Groups the bent boundaries below place `end` with the neighbours that they pass, from left to
+ * right.
+ */
+static void group_bends(const cs_intervals *b, size_t end, size_t *bend, inversion_group *groups,
+                        size_t *count) {
   const cs_active *active = b->active;
   for (; *bend < active->bend_count && active->bends[*bend].boundary < end; ++*bend) {
     const cs_bend *at = &active->bends[*bend];
@@ -178,9 +172,9 @@ static void tie_bends(const cs_intervals *b, size_t end, size_t *bend, inversion
     if (at->vertex_count == 0)
       continue;
     if (i > 0 && passes(b, at, i - 1, -1))
-      tie(b, i - 1, groups, count);
+      group_pair(b, i - 1, groups, count);
     if (i + 1 < active->count && passes(b, at, i + 1, 1))
-      tie(b, i, groups, count);
+      group_pair(b, i, groups, count);
   }
 }
 
@@ -193,10 +187,10 @@ static celspan_status add_groups(cs_intervals *b) {
     return CELSPAN_NO_MEMORY;
   for (size_t i = 1; i < active->count; i++)
     if (foot[i - 1] > foot[i]) {
-      tie_bends(b, i, &bend, groups, &count);
-      tie(b, i - 1, groups, &count);
+      group_bends(b, i, &bend, groups, &count);
+      group_pair(b, i - 1, groups, &count);
     }
-  tie_bends(b, active->count, &bend, groups, &count);
+  group_bends(b, active->count, &bend, groups, &count);
   for (size_t k = 0; k < count; k++)
     CS_TRY(add_interval(b, (cs_interval){groups[k].low, groups[k].high, groups[k].low,
                                          cs_extent_nowhere(), groups[k].extent}));
@@ -230,7 +224,7 @@ static size_t find_place(const cs_active *active, double x) {
   return low;
 }
 
-/* The inversion_group that holds boundary i, or NULL. */
+/* The group that boundary i is in, or NULL. */
 static const cs_interval *find_group(const cs_intervals *b, size_t i) {
   size_t low = 0, high = b->group_count;
   while (low < high) {
@@ -249,9 +243,9 @@ static cs_interval unit_at(const cs_intervals *b, size_t i) {
   return group ? *group : (cs_interval){i, i + 1, i, cs_extent_nowhere(), boundary_extent(b, i)};
 }
 
-/* The block of the boundaries whose x-range meets that of something, or the place between two.
- * Units do not cross, so their ranges rise with their places. */
-static celspan_status add_range(cs_intervals *b, cs_extent r, cs_interval *out) {
+/* Adds the interval of the boundaries whose extents meet that of some events, or the place between
+ * two. Units do not cross, so their extents rise with their places. */
+static celspan_status add_extent_interval(cs_intervals *b, cs_extent r, cs_interval *out) {
   const cs_active *active = b->active;
   size_t place = find_place(active, r.low), first = place, end = place;
   cs_extent extent = r;
@@ -269,9 +263,9 @@ static celspan_status add_range(cs_intervals *b, cs_extent r, cs_interval *out) 
   return add_interval(b, *out);
 }
 
-/* A chain that begins and ends inside the row ties the blocks of both events together. */
-static celspan_status tie_ends(cs_intervals *b, const cs_interval_event *events, size_t count,
-                               cs_interval at) {
+/* A chain that begins and ends inside the row joins the intervals of both events. */
+static celspan_status join_ends(cs_intervals *b, const cs_interval_event *events, size_t count,
+                                cs_interval at) {
   for (size_t i = 0; i < count; i++) {
     if (events[i].begin < 0)
       continue;
@@ -288,7 +282,7 @@ static celspan_status tie_ends(cs_intervals *b, const cs_interval_event *events,
   return CELSPAN_OK;
 }
 
-/* Blocks of begins and ends: one for all of a leaf at one height. */
+/* Adds the intervals of begins and ends: one for all of a layer at one height. */
 static celspan_status add_events(cs_intervals *b) {
   if (b->event_count > 1)
     qsort(b->events, b->event_count, sizeof *b->events, compare_events);
@@ -302,8 +296,8 @@ static celspan_status add_events(cs_intervals *b) {
       r = cs_extent_join(r, next->extent);
     }
     cs_interval at;
-    CS_TRY(add_range(b, r, &at));
-    CS_TRY(tie_ends(b, e, end - first, at));
+    CS_TRY(add_extent_interval(b, r, &at));
+    CS_TRY(join_ends(b, e, end - first, at));
   }
   return CELSPAN_OK;
 }
@@ -328,8 +322,8 @@ static void join(cs_interval *last, const cs_interval *next) {
   last->extent = cs_extent_join(next->extent, last->extent);
 }
 
-/* Joins blocks that share a boundary or an x at which something begins, and places that touch a
- * block; a block that grew may reach the one before it. */
+/* Joins intervals that share a boundary or an x at which something begins, and places that touch an
+ * interval; one that has grown may then extend to the one before it. */
 static void merge_intervals(cs_intervals *b) {
   size_t kept = 0;
   if (b->count > 1)
@@ -438,12 +432,12 @@ static celspan_status find_events(cs_intervals *b) {
   return CELSPAN_OK;
 }
 
-/* The block of all strips: their edges begin and end at every height of the row. */
+/* Adds the interval of all procedures: their edges begin and end at every height of the row. */
 static celspan_status add_procedures(cs_intervals *b) {
   cs_interval at;
   if (b->procedure_edge_count == 0)
     return CELSPAN_OK;
-  CS_TRY(add_range(b, b->procedures, &at));
+  CS_TRY(add_extent_interval(b, b->procedures, &at));
   for (size_t k = b->chain_count; k < b->begin_count; k++)
     b->begin_intervals[k] = at;
   return CELSPAN_OK;
@@ -456,7 +450,7 @@ static int compare_begin_order(const void *p, const void *q) {
   return (a->begin > b->begin) - (a->begin < b->begin);
 }
 
-/* Lists the begins from left to right, as the walk along the row asks for them. */
+/* Lists the begins from left to right, in which order the walk along the row asks for them. */
 static celspan_status order_begins(cs_intervals *b) {
   b->begin_order = take(b, b->begin_count, sizeof *b->begin_order);
   if (!b->begin_order)

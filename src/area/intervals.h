@@ -1,15 +1,23 @@
-/* Blocks: which boundaries of a row must be replayed together.
+/* Intervals: which neighbouring boundaries of a row must be replayed together.
  *
- *   knot    neighbours that cross, with all that they may cross on the way
- *   range   what begins and ends at one height in one leaf (its windings balance only together),
- * all
- *           between, and all it may meet further down
+ *      places   0     1   2      3        4   5
+ *      y    ----|-----\---/------|--------|---|----
+ *               |      \ /       |    .   |   |
+ *               |       x        |   / \  |   |         1 and 2 cross: an inversion group
+ *               |      / \       |  /   \ |   |         something begins at the dot
+ *      y+1  ----|-----/---\------|-/-----\|---|----
+ *                     [---]      [--------]
+ *                    interval     interval: 3 and 4 with what begins, because it may meet them
  *
- * A block is a knot or a range, or several that touch; blocks in which what begins could meet are
- * one. Work is done where something happens, not over the whole row.
+ *   inversion group   neighbours that cross, with all that they may cross on the way
+ *   events            what begins and ends at one height in one layer (its windings balance only
+ *                     together), with all between, and all that it may meet further down
  *
- * Invariant: after cs_intervals_find the blocks ascend and share no boundary; a place between two
- * boundaries (low == high) touches no other block.
+ * An interval is one of these, or several that touch; intervals in which what begins could meet are
+ * one. So work is done where something happens, and not over the whole row.
+ *
+ * Invariant: after cs_intervals_find the intervals ascend and share no boundary; a place between
+ * two boundaries (low == high) touches no other interval.
  */
 #ifndef CS_AREA_INTERVALS_H
 #define CS_AREA_INTERVALS_H

@@ -1,6 +1,7 @@
 #include "area/local_sweep.h"
 
 #include "area/extent.h"
+#include "sweep/order.h"
 
 #include <math.h>
 
@@ -281,8 +282,7 @@ static double slope_below(const cs_member *member, double y) {
 static bool is_right(const cs_member *a, const cs_member *b, double y) {
   if (a->foot != b->foot)
     return a->foot > b->foot;
-  double slope_a = slope_below(a, y), slope_b = slope_below(b, y);
-  return slope_a != slope_b ? slope_a > slope_b : a->order > b->order;
+  return cs_order_is_right(slope_below(a, y), a->order, slope_below(b, y), b->order);
 }
 
 static bool has_ended(const cs_member *member) { return member->at == member->point_count; }

@@ -1,3 +1,10 @@
+/* Closing windows: how the pixels of one are made from its segments.
+ *
+ *   one segment over several columns, flat cells    its ends and a ramp            close_lone
+ *   flat cells, few columns                         the sums made on the way       close_narrow
+ *   flat cells, many columns                        sums, tile by tile             close_wide
+ *   cells that vary                                 colours weighted by areas      close_varying
+ */
 #include "area/window.h"
 
 #include "area/direct.h"
@@ -10,9 +17,9 @@
 #include <stdlib.h>
 
 #define TILE 256 /* pixels summed at a time */
-#define FEW 2    /* pixels: those of a window between cells that vary become spans of their own */
+#define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
 
-/* Forgets what has been summed of the open window. */
+/* Clears the sums of the open window. */
 static void clear_change(cs_window *window) {
   int32_t columns = window->end - window->from;
   columns = columns < CS_WINDOW_NARROW ? columns : CS_WINDOW_NARROW;
@@ -45,14 +52,14 @@ void cs_window_open_row(cs_window *window) {
   window->varies = window->base->length > 0;
 }
 
-/* The area right of the fragment in the pixel of column p, 0..height. */
+/* The area right of the segment in the pixel of column p, 0..height. */
 static inline double cover(const cs_window_segment *f, int32_t p) {
   return cs_edges_cover(f->xa, f->xb, f->height, p);
 }
 
 /* ---------------------------------------------------------------- closing */
 
-/* One fragment that crosses columns, between flat cells. */
+/* One segment that crosses columns, between flat cells. */
 static celspan_status close_lone(cs_window *window) {
   const cs_window_segment *f = &window->segments[0];
   cs_v4 base = window->base->colour, step = f->right->colour - f->left->colour;
@@ -67,7 +74,7 @@ static celspan_status close_lone(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* The first column at or right of p where some fragment changes the sum; end when none does. */
+/* The first column at or right of p where some segment changes the sum; end when none does. */
 static int32_t next_change(const cs_window *window, int32_t p) {
   int32_t next = window->end;
   for (size_t i = 0; i < window->segment_count; i++) {
@@ -79,7 +86,9 @@ static int32_t next_change(const cs_window *window, int32_t p) {
   return next;
 }
 
-/* Adds to change[k] what the fragment adds to the sum from column p0 + k to the columns after. */
+/* Adds a segment to the sums by column: change[k] is what column p0 + k has more than the one
+ * before.
+ */
 static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
   cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
   int32_t p = f->first > p0 ? f->first : p0, end = f->end < p1 - 1 ? f->end : p1 - 1;
@@ -91,8 +100,7 @@ static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_s
   }
 }
 
-/* Draws the pixels from where the pen stands to p1 and leaves the sum as it is in the last of
- * them. */
+/* Draws the pixels from the writer's end to p1, and leaves the sum as it is in the last of them. */
 static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
@@ -100,7 +108,7 @@ static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change
   }
 }
 
-/* Flat cells on all sides: sums of colour steps, in the order of the fragments. */
+/* Flat cells on all sides: sums of colour steps, in the order of the segments. */
 static celspan_status close_wide(cs_window *window) {
   cs_sum4 change[TILE], sum = CS_SUM4(window->base->colour);
   for (int32_t p0 = window->from; p0 < window->end;) {
@@ -119,7 +127,7 @@ static celspan_status close_wide(cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* The same where the window is a few pixels wide, as nearly all are: summed already. */
+/* The same where the window is a few pixels wide, as nearly all are: it has been summed already. */
 static celspan_status close_narrow(cs_window *window) {
   cs_sum4 sum = CS_SUM4(window->base->colour);
   CS_TRY(
@@ -132,82 +140,83 @@ static celspan_status close_narrow(cs_window *window) {
 
 /* ---- cells that vary: every cell's colour at the pixel's centre, weighted by its area there
  *
- * The window is worked off in tiles from left to right. A fragment takes area from the cell on its
- * left and gives it to the one on its right: pixel by pixel while it is crossed, and as a whole
- * (the cell's carry) for all tiles after. Areas add exactly, so a cell that is not there weighs
- * 0. */
+ * The window is made in tiles from left to right. A segment takes area from the cell on its left
+ * and gives it to the one on its right: pixel by pixel in the columns that it crosses, and as a
+ * whole (the cell's carry) in all tiles after. Areas add exactly, so a cell that is not in a pixel
+ * weighs 0 there. */
 
-typedef struct seen_cell {
+typedef struct weighted_cell {
   const cs_cell *cell;
-  double carry;    /* its weight in pixels that no fragment crosses */
+  double carry;    /* its weight in pixels that no segment crosses */
   double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
-} seen_cell;
+} weighted_cell;
 
-typedef struct crossing {
+typedef struct cell_edge {
   const cs_window_segment *segment;
-  uint32_t left, right; /* into seen */
-} crossing;
+  uint32_t left, right; /* into cells */
+} cell_edge;
 
-typedef struct blend {
+typedef struct mixture {
   cs_window *window;
-  seen_cell *seen;
-  size_t seen_count;
-  crossing *crossings; /* by first column */
-  size_t crossing_count;
-  size_t begun, ended; /* crossings [ended, begun) may cross the tile */
-} blend;
+  weighted_cell *cells;
+  size_t cell_count;
+  cell_edge *edges; /* by first column */
+  size_t edge_count;
+  size_t begun, ended; /* edges [ended, begun) may cross the tile */
+} mixture;
 
-/* The place of a cell, or of one that looks like it. */
-static uint32_t place_cell(blend *b, const cs_cell *cell) {
-  for (size_t i = 0; i < b->seen_count; i++)
-    if (b->seen[i].cell == cell || cs_composer_same(b->window->composer, b->seen[i].cell, cell))
+/* The index of a cell, or of one that looks the same. */
+static uint32_t find_cell(mixture *m, const cs_cell *cell) {
+  for (size_t i = 0; i < m->cell_count; i++)
+    if (m->cells[i].cell == cell || cs_composer_same(m->window->composer, m->cells[i].cell, cell))
       return (uint32_t)i;
-  b->seen[b->seen_count] = (seen_cell){.cell = cell};
-  return (uint32_t)b->seen_count++;
+  m->cells[m->cell_count] = (weighted_cell){.cell = cell};
+  return (uint32_t)m->cell_count++;
 }
 
-static int compare_crossings(const void *p, const void *q) {
-  const cs_window_segment *a = ((const crossing *)p)->segment, *b = ((const crossing *)q)->segment;
+static int compare_edges(const void *p, const void *q) {
+  const cs_window_segment *a = ((const cell_edge *)p)->segment,
+                          *b = ((const cell_edge *)q)->segment;
   if (a->first != b->first)
     return a->first < b->first ? -1 : 1;
   return (a > b) - (a < b);
 }
 
-static celspan_status begin_blend(cs_window *window, blend *b) {
+static celspan_status begin_mixture(cs_window *window, mixture *m) {
   celspan_context *context = window->composer->context;
   size_t count = window->segment_count;
-  *b = (blend){.window = window, .crossing_count = count};
-  b->seen = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *b->seen);
-  b->crossings = cs_arena_take(context, window->arena, count * sizeof *b->crossings);
-  if (!b->seen || !b->crossings)
+  *m = (mixture){.window = window, .edge_count = count};
+  m->cells = cs_arena_take(context, window->arena, (2 * count + 1) * sizeof *m->cells);
+  m->edges = cs_arena_take(context, window->arena, count * sizeof *m->edges);
+  if (!m->cells || !m->edges)
     return CELSPAN_NO_MEMORY;
-  b->seen[place_cell(b, window->base)].carry = 1;
+  m->cells[find_cell(m, window->base)].carry = 1;
   for (size_t i = 0; i < count; i++) {
     const cs_window_segment *f = &window->segments[i];
-    uint32_t left = place_cell(b, f->left);
-    b->crossings[i] = (crossing){f, left, place_cell(b, f->right)};
+    uint32_t left = find_cell(m, f->left);
+    m->edges[i] = (cell_edge){f, left, find_cell(m, f->right)};
   }
   if (count > 1)
-    qsort(b->crossings, count, sizeof *b->crossings, compare_crossings);
+    qsort(m->edges, count, sizeof *m->edges, compare_edges);
   return CELSPAN_OK;
 }
 
-static celspan_status open_weights(blend *b, seen_cell *seen, int32_t count) {
-  if (seen->weights)
+static celspan_status open_weights(mixture *m, weighted_cell *cell, int32_t count) {
+  if (cell->weights)
     return CELSPAN_OK;
-  seen->weights = cs_arena_take(b->window->composer->context, &b->window->tiles,
-                                (size_t)count * sizeof *seen->weights);
-  for (int32_t k = 0; seen->weights && k < count; k++)
-    seen->weights[k] = seen->carry;
-  return seen->weights ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+  cell->weights = cs_arena_take(m->window->composer->context, &m->window->tiles,
+                                (size_t)count * sizeof *cell->weights);
+  for (int32_t k = 0; cell->weights && k < count; k++)
+    cell->weights[k] = cell->carry;
+  return cell->weights ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
-/* What a crossing does to the pixels of the tile. */
-static celspan_status cross_tile(blend *b, const crossing *c, int32_t p0, int32_t p1) {
+/* Moves area from cell to cell in the pixels of the tile. */
+static celspan_status add_edge(mixture *m, const cell_edge *c, int32_t p0, int32_t p1) {
   const cs_window_segment *f = c->segment;
-  seen_cell *left = &b->seen[c->left], *right = &b->seen[c->right];
-  CS_TRY(open_weights(b, left, p1 - p0));
-  CS_TRY(open_weights(b, right, p1 - p0));
+  weighted_cell *left = &m->cells[c->left], *right = &m->cells[c->right];
+  CS_TRY(open_weights(m, left, p1 - p0));
+  CS_TRY(open_weights(m, right, p1 - p0));
   for (int32_t p = f->first > p0 ? f->first : p0; p < p1; p++) {
     double area = p < f->end ? cover(f, p) : f->height;
     left->weights[p - p0] -= area;
@@ -216,39 +225,39 @@ static celspan_status cross_tile(blend *b, const crossing *c, int32_t p0, int32_
   return CELSPAN_OK;
 }
 
-/* Turns the crossings that end in the tile into carries; the others stay in line. */
-static void retire_crossings(blend *b, int32_t p1) {
-  size_t kept = b->begun;
-  for (size_t i = b->begun; i-- > b->ended;) {
-    const crossing c = b->crossings[i];
+/* Turns the edges that end in the tile into carries; the others remain listed. */
+static void retire_edges(mixture *m, int32_t p1) {
+  size_t kept = m->begun;
+  for (size_t i = m->begun; i-- > m->ended;) {
+    const cell_edge c = m->edges[i];
     if (c.segment->end > p1) {
-      b->crossings[--kept] = c;
+      m->edges[--kept] = c;
       continue;
     }
-    b->seen[c.left].carry -= c.segment->height;
-    b->seen[c.right].carry += c.segment->height;
+    m->cells[c.left].carry -= c.segment->height;
+    m->cells[c.right].carry += c.segment->height;
   }
-  b->ended = kept;
+  m->ended = kept;
 }
 
-static inline double weight_in(const seen_cell *seen, int32_t k) {
-  return seen->weights ? seen->weights[k] : seen->carry;
+static inline double weight_in(const weighted_cell *cell, int32_t k) {
+  return cell->weights ? cell->weights[k] : cell->carry;
 }
 
-/* Adds a cell where it has area; only there is it asked for colours. sum: 4 floats a pixel. */
-static celspan_status add_cell(const blend *b, const seen_cell *seen, int32_t p0, int32_t p1,
+/* Adds a cell where it has area; only there its colours are asked for. sum: 4 floats a pixel. */
+static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int32_t p0, int32_t p1,
                                float *sum) {
   float rgba[TILE][4];
   int32_t first = 0, end = p1 - p0;
-  while (first < end && weight_in(seen, first) == 0)
+  while (first < end && weight_in(cell, first) == 0)
     first++;
-  while (end > first && weight_in(seen, end - 1) == 0)
+  while (end > first && weight_in(cell, end - 1) == 0)
     end--;
-  CS_TRY(cs_painter_colours(b->window->painter, seen->cell,
-                            (cs_run){p0 + first, p0 + end, b->window->centre}, rgba));
+  CS_TRY(cs_painter_colours(m->window->painter, cell->cell,
+                            (cs_run){p0 + first, p0 + end, m->window->centre}, rgba));
   for (int32_t k = first; k < end; k++)
     cs_v4_store(sum + 4 * k,
-                cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(seen, k));
+                cs_v4_load(sum + 4 * k) + cs_v4_load(rgba[k - first]) * (float)weight_in(cell, k));
   return CELSPAN_OK;
 }
 
@@ -271,26 +280,26 @@ static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, floa
   return CELSPAN_OK;
 }
 
-static celspan_status close_tile(blend *b, int32_t p0, int32_t p1) {
-  cs_window *window = b->window;
+static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
+  cs_window *window = m->window;
   float room[4 * FEW], *sum;
   cs_arena_reset(&window->tiles);
-  for (size_t i = 0; i < b->seen_count; i++)
-    b->seen[i].weights = NULL;
-  while (b->begun < b->crossing_count && b->crossings[b->begun].segment->first < p1)
-    b->begun++;
-  for (size_t i = b->ended; i < b->begun; i++)
-    CS_TRY(cross_tile(b, &b->crossings[i], p0, p1));
+  for (size_t i = 0; i < m->cell_count; i++)
+    m->cells[i].weights = NULL;
+  while (m->begun < m->edge_count && m->edges[m->begun].segment->first < p1)
+    m->begun++;
+  for (size_t i = m->ended; i < m->begun; i++)
+    CS_TRY(add_edge(m, &m->edges[i], p0, p1));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   memset(sum, 0, (size_t)(p1 - p0) * 4 * sizeof *sum);
-  for (size_t i = 0; i < b->seen_count; i++)
-    if (b->seen[i].weights || b->seen[i].carry != 0)
-      CS_TRY(add_cell(b, &b->seen[i], p0, p1, sum));
-  retire_crossings(b, p1);
+  for (size_t i = 0; i < m->cell_count; i++)
+    if (m->cells[i].weights || m->cells[i].carry != 0)
+      CS_TRY(add_cell(m, &m->cells[i], p0, p1, sum));
+  retire_edges(m, p1);
   return put_pixels(window, p0, p1, sum);
 }
 
-/* The same where one fragment goes through the row between two looks, as through most windows. */
+/* The same where one segment goes through the row between two cells, as in most windows. */
 static celspan_status close_between(cs_window *window) {
   const cs_window_segment *f = window->segments;
   int32_t p0 = window->from, p1 = window->end;
@@ -317,12 +326,12 @@ static bool is_between(const cs_window *window) {
 }
 
 static celspan_status close_varying(cs_window *window) {
-  blend b;
+  mixture m;
   if (is_between(window))
     return close_between(window);
-  CS_TRY(begin_blend(window, &b));
+  CS_TRY(begin_mixture(window, &m));
   for (int32_t p = window->from; p < window->end; p += TILE)
-    CS_TRY(close_tile(&b, p, window->end - p < TILE ? window->end : p + TILE));
+    CS_TRY(close_tile(&m, p, window->end - p < TILE ? window->end : p + TILE));
   return CELSPAN_OK;
 }
 

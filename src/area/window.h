@@ -1,16 +1,26 @@
-/* Windows: the pixels of a row that boundaries cross, summed from fragments.
+/* Windows: the pixels of a row that edges cross, summed from their segments.
  *
- * Composite first, integrate after: each visible piece of boundary (a fragment: straight, between
- * two cells whose looks do not change beside it) adds its colour step times the area right of it in
- * every pixel. Between windows a row is whole cells. So coverage is never used as alpha, and
- * abutting shapes cannot leak.
+ *      from            end
+ *       |   window      |
+ *   +---+---+---+---+---+---+---+---+
+ *   |   |  /|###|###|\  |   |   |   |      two items, an edge of a disc and an edge of a bar, whose
+ *   |   | / |###|##/|#\ |   |   |   |      columns touch: one window
+ *   |   |/  |###|#/ |##\|   |   |   |
+ *   +---+---+---+---+---+---+---+---+
+ *   base     pixels: base + sum of      cell: right of all items so far
+ *            share * colour step
  *
- * Areas are rounded to multiples of 2^-28 such that the pieces of a whole pixel sum to it exactly:
+ * Composite first, integrate after: each segment of a visible edge (straight, between two cells
+ * that do not change along it) adds its colour step times the area right of it to every pixel.
+ * Between windows a row is whole cells. So coverage is never used as alpha, and abutting shapes
+ * cannot leak.
+ *
+ * Areas are rounded to multiples of 2^-28 such that the parts of a whole pixel sum to it exactly:
  * a pixel that abutting black shapes cover together is black, not nearly so.
  *
- * Invariants: a window's pixels are summed from its own fragments only, starting from the exact
+ * Invariants: a window's pixels are summed from its own segments only, starting from the exact
  * colour of the cell on its left; windows and cells tile [0, width). Items (lone boundaries or
- * clusters) come from left to right. Between windows `change` is all 0.
+ * local sweeps) come from left to right. Between windows `change` is all 0.
  */
 #ifndef CS_AREA_WINDOW_H
 #define CS_AREA_WINDOW_H

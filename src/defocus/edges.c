@@ -261,8 +261,8 @@ static void finish_line(filling *f) {
 
 static celspan_status add_row(filling *f, cs_row_maker *maker, int32_t row) {
   CS_TRY(cs_row_retain(maker, row, &f->retained));
-  for (size_t i = 0; i < f->retained.piece_count; i++)
-    add_piece(f, &f->retained.pieces[i]);
+  for (size_t i = 0; i < f->retained.edge_count; i++)
+    add_piece(f, &f->retained.edges[i]);
   finish_line(f);
   return CELSPAN_OK;
 }

@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-/* A stretch parts few columns more than the kernel does. */
+/* Columns in which an edge is summed at a time: few more than the kernel has. */
 static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
 
 celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
@@ -33,9 +33,9 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
     is_whole = is_whole && convolve->sums;
   }
   if (kernel->is_signed) {
-    convolve->passages_at = cs_mem_array(memory, columns, sizeof *convolve->passages_at);
+    convolve->passed_at = cs_mem_array(memory, columns, sizeof *convolve->passed_at);
     convolve->near = cs_mem_array(memory, columns, sizeof *convolve->near);
-    is_whole = is_whole && convolve->passages_at && convolve->near;
+    is_whole = is_whole && convolve->passed_at && convolve->near;
   }
   return is_whole ? CELSPAN_OK : cs_fail_memory(context);
 }
@@ -50,24 +50,24 @@ void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
   cs_mem_free(memory, convolve->sums, sum_count(convolve->kernel) * sizeof *convolve->sums);
   cs_mem_free(memory, convolve->touched, cs_convolve_words(convolve->width) * sizeof(uint64_t));
   cs_mem_free(memory, convolve->shifts_at, columns * sizeof(uint32_t));
-  cs_mem_free(memory, convolve->passages_at, columns * sizeof(uint32_t));
+  cs_mem_free(memory, convolve->passed_at, columns * sizeof(uint32_t));
   cs_mem_free(memory, convolve->near, columns * sizeof *convolve->near);
-  cs_mem_free(memory, convolve->looks, convolve->look_capacity * sizeof *convolve->looks);
+  cs_mem_free(memory, convolve->terms, convolve->term_capacity * sizeof *convolve->terms);
   cs_mem_free(memory, convolve->shifts, convolve->shift_capacity * sizeof *convolve->shifts);
-  cs_mem_free(memory, convolve->passeds, convolve->passage_capacity * sizeof *convolve->passeds);
-  cs_mem_free(memory, convolve->sub_rows, convolve->slab_capacity * sizeof *convolve->sub_rows);
+  cs_mem_free(memory, convolve->passed, convolve->passed_capacity * sizeof *convolve->passed);
+  cs_mem_free(memory, convolve->sub_rows, convolve->sub_row_capacity * sizeof *convolve->sub_rows);
   cs_mem_free(memory, convolve->ranges, convolve->range_capacity * sizeof *convolve->ranges);
   *convolve = (cs_convolve){0};
 }
 
 /* ---------------------------------------------------------------- summing */
 
-/* Slabs beyond the kernel are left out as those that vary are. */
-static celspan_status begin_slabs(cs_convolve *convolve, celspan_context *context,
-                                  const cs_retained_row *const *retained_rows, size_t rows,
-                                  int32_t y) {
+/* Sub-rows beyond the kernel have no range, like those with layers that vary. */
+static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *context,
+                                     const cs_retained_row *const *retained_rows, size_t rows,
+                                     int32_t y) {
   size_t count = convolve->kernel->is_signed ? rows * CS_CONVOLVE_SUB_ROWS : 0;
-  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->slab_capacity, count,
+  CS_TRY(cs_mem_reserve(context, (void **)&convolve->sub_rows, &convolve->sub_row_capacity, count,
                         sizeof *convolve->sub_rows));
   CS_TRY(cs_mem_reserve(context, (void **)&convolve->ranges, &convolve->range_capacity,
                         count / CS_CONVOLVE_SUB_ROWS, sizeof *convolve->ranges));
@@ -89,20 +89,20 @@ typedef struct summing {
   cs_row *out;
   double y;                /* centre */
   size_t rows;             /* under the kernel */
-  int32_t at;              /* the column that was reached, */
-  double sum[4];           /* the flat colours, weighed, there, */
-  double slope[4];         /* and their change from column to column after it */
-  cs_v4 here;              /* what is seen at it besides */
-  size_t varying;          /* looks whose weight is not nothing */
-  cs_convolve_range range; /* of what lies under the kernel, but near pieces */
+  int32_t at;              /* the current column */
+  double sum[4];           /* there: the flat colours, weighted */
+  double slope[4];         /* its change from column to column after it */
+  cs_v4 here;              /* what is added at that column only */
+  size_t varying;          /* terms whose weight is not nothing */
+  cs_convolve_range range; /* of the colours under the kernel, except near edges */
 } summing;
 
-/* Sums of floats times weights that make 1: rounding beyond the 40th bit is dropped, so that what
+/* Sums of floats times weights that sum to 1: rounding beyond the 40th bit is dropped, so that what
  * began as one colour ends as that colour. */
 static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
 
-/* The range of what is seen at the heights of a row. */
-static void see_row(cs_convolve *convolve, size_t row) {
+/* Finds the range of the colours at the heights of a row. */
+static void find_range(cs_convolve *convolve, size_t row) {
   cs_convolve_range range = cs_convolve_nothing();
   const cs_convolve_sub_row *sub_row = &convolve->sub_rows[row * CS_CONVOLVE_SUB_ROWS];
   for (int i = 0; i < CS_CONVOLVE_SUB_ROWS; i++)
@@ -111,14 +111,14 @@ static void see_row(cs_convolve *convolve, size_t row) {
   convolve->ranges[row] = range;
 }
 
-static void see_rows(summing *s) {
+static void join_ranges(summing *s) {
   s->range = s->convolve->ranges[0];
   for (size_t row = 1; row < s->rows; row++)
     s->range = cs_convolve_both(s->range, s->convolve->ranges[row]);
 }
 
-static void pass_piece(cs_convolve *convolve, const cs_convolve_passed *passed) {
-  for (int k = passed->sub_row; k < passed->slab_end; k++) {
+static void apply_passed(cs_convolve *convolve, const cs_convolve_passed *passed) {
+  for (int k = passed->sub_row; k < passed->sub_row_end; k++) {
     cs_convolve_sub_row *sub_row =
         &convolve->sub_rows[passed->row * CS_CONVOLVE_SUB_ROWS + (size_t)k];
     sub_row->varies += passed->varies;
@@ -126,20 +126,20 @@ static void pass_piece(cs_convolve *convolve, const cs_convolve_passed *passed) 
   }
 }
 
-/* Passages of a row stand together in a list. */
-static void pass_pieces(summing *s, int32_t p) {
+/* Applies the passed events at column p. Those of a row are neighbours in the list. */
+static void apply_passed_events(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
-  for (uint32_t at = convolve->passages_at[p]; at != 0;) {
-    const cs_convolve_passed *passed = &convolve->passeds[at - 1];
-    pass_piece(convolve, passed);
+  for (uint32_t at = convolve->passed_at[p]; at != 0;) {
+    const cs_convolve_passed *passed = &convolve->passed[at - 1];
+    apply_passed(convolve, passed);
     at = passed->next;
-    if (at == 0 || convolve->passeds[at - 1].row != passed->row)
-      see_row(convolve, passed->row);
+    if (at == 0 || convolve->passed[at - 1].row != passed->row)
+      find_range(convolve, passed->row);
   }
-  see_rows(s);
+  join_ranges(s);
 }
 
-static void reach_column(summing *s, int32_t p) {
+static void advance_to(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
   for (int c = 0; c < 4; c++) {
     s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
@@ -149,16 +149,16 @@ static void reach_column(summing *s, int32_t p) {
   s->at = p;
   for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
     const cs_convolve_shift *shift = &convolve->shifts[at - 1];
-    double *weight = &convolve->looks[shift->look].weight;
+    double *weight = &convolve->terms[shift->term].weight;
     s->varying -= fabs(*weight) > NOTHING;
     *weight += shift->weight;
     s->varying += fabs(*weight) > NOTHING;
   }
-  if (convolve->kernel->is_signed && convolve->passages_at[p] != 0)
-    pass_pieces(s, p);
+  if (convolve->kernel->is_signed && convolve->passed_at[p] != 0)
+    apply_passed_events(s, p);
 }
 
-static cs_v4 hold(cs_v4 colour, cs_convolve_range range) {
+static cs_v4 clamp(cs_v4 colour, cs_convolve_range range) {
   for (int c = 0; c < 4; c++)
     colour[c] = cs_number_clampf(colour[c], range.least[c], range.most[c]);
   return colour;
@@ -178,21 +178,21 @@ static cs_v4 flat_slope(const summing *s) {
   return slope;
 }
 
-static cs_v4 hold_alpha(cs_v4 colour) {
+static cs_v4 clamp_alpha(cs_v4 colour) {
   colour[3] = cs_number_clampf(colour[3], 0, 1);
   return colour;
 }
 
-/* Adds a look, in its weight, to what the columns from x0 on have so far. */
-static celspan_status add_look(summing *s, const cs_convolve_term *look, int32_t x0, int32_t x1,
+/* Adds a term, by its weight, to the colours of the columns from x0 on. */
+static celspan_status add_term(summing *s, const cs_convolve_term *term, int32_t x0, int32_t x1,
                                cs_v4 *colours, cs_convolve_range *ranges) {
   float rgba[64][4];
   for (int32_t x = x0; x < x1; x += 64) {
     int32_t end = x1 - x < 64 ? x1 : x + 64;
-    CS_TRY(cs_painter_program_colours(s->painter, look->program, (cs_run){x, end, s->y}, rgba));
+    CS_TRY(cs_painter_program_colours(s->painter, term->program, (cs_run){x, end, s->y}, rgba));
     for (int32_t k = x; k < end; k++) {
       cs_v4 colour = cs_v4_load(rgba[k - x]);
-      colours[k - x0] += (float)look->weight * colour;
+      colours[k - x0] += (float)term->weight * colour;
       cs_convolve_widen(&ranges[k - x0], colour);
     }
   }
@@ -201,9 +201,9 @@ static celspan_status add_look(summing *s, const cs_convolve_term *look, int32_t
 
 #define MIXED 64 /* columns mixed at a time */
 
-/* Up to MIXED columns in which layers that vary are seen with some weight. */
-static celspan_status mix_batch(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
-                                float *out) {
+/* Up to MIXED columns in which layers that vary have some weight. */
+static celspan_status mix_some(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
+                               float *out) {
   cs_convolve *convolve = s->convolve;
   cs_v4 colours[MIXED];
   cs_convolve_range ranges[MIXED];
@@ -211,12 +211,12 @@ static celspan_status mix_batch(summing *s, int32_t x0, int32_t x1, cs_convolve_
     colours[k] = flat_sum(s, x0 + k);
     ranges[k] = range;
   }
-  for (size_t i = 0; i < convolve->look_count; i++)
-    if (fabs(convolve->looks[i].weight) > NOTHING)
-      CS_TRY(add_look(s, &convolve->looks[i], x0, x1, colours, ranges));
+  for (size_t i = 0; i < convolve->term_count; i++)
+    if (fabs(convolve->terms[i].weight) > NOTHING)
+      CS_TRY(add_term(s, &convolve->terms[i], x0, x1, colours, ranges));
   for (int32_t k = 0; k < x1 - x0; k++) {
-    cs_v4 colour = convolve->kernel->is_signed ? hold(colours[k], ranges[k]) : colours[k];
-    cs_v4_store(out + 4 * (size_t)k, hold_alpha(colour));
+    cs_v4 colour = convolve->kernel->is_signed ? clamp(colours[k], ranges[k]) : colours[k];
+    cs_v4_store(out + 4 * (size_t)k, clamp_alpha(colour));
   }
   return CELSPAN_OK;
 }
@@ -226,25 +226,25 @@ static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range 
   CS_TRY(cs_row_array(s->painter->context, s->out, x0, x1, &colours));
   for (int32_t x = x0; x < x1; x += MIXED) {
     int32_t end = x1 - x < MIXED ? x1 : x + MIXED;
-    CS_TRY(mix_batch(s, x, end, range, colours + 4 * (size_t)(x - x0)));
+    CS_TRY(mix_some(s, x, end, range, colours + 4 * (size_t)(x - x0)));
   }
   return CELSPAN_OK;
 }
 
-/* The one program that is seen, and nothing else; or NULL. */
+/* The program that alone is visible; NULL where there is more than one, or flat colours. */
 static const cs_program *lone_program(const summing *s) {
   if (s->varying != 1)
     return NULL;
   for (int c = 0; c < 4; c++)
     if (fabs(s->sum[c]) > NOTHING || fabs(s->slope[c]) > NOTHING)
       return NULL;
-  for (size_t i = 0; i < s->convolve->look_count; i++)
-    if (fabs(s->convolve->looks[i].weight - 1) <= NOTHING)
-      return s->convolve->looks[i].program;
+  for (size_t i = 0; i < s->convolve->term_count; i++)
+    if (fabs(s->convolve->terms[i].weight - 1) <= NOTHING)
+      return s->convolve->terms[i].program;
   return NULL;
 }
 
-/* The columns [x0, x1), after x0 nothing changes but by its slope. */
+/* Writes the columns [x0, x1); after x0 nothing changes except by its slope. */
 static celspan_status write(summing *s, int32_t x0, int32_t x1) {
   const cs_convolve *convolve = s->convolve;
   cs_convolve_range range = s->range;
@@ -257,8 +257,8 @@ static celspan_status write(summing *s, int32_t x0, int32_t x1) {
     return mix(s, x0, x1, range);
   cs_v4 colour = flat_sum(s, x0);
   if (convolve->kernel->is_signed)
-    colour = hold(colour, range);
-  return cs_row_gradient(s->painter->context, s->out, x0, x1, hold_alpha(colour), flat_slope(s));
+    colour = clamp(colour, range);
+  return cs_row_gradient(s->painter->context, s->out, x0, x1, clamp_alpha(colour), flat_slope(s));
 }
 
 static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
@@ -275,7 +275,7 @@ static celspan_status sum_row(summing *s) {
   int32_t width = s->convolve->width;
   for (int32_t p = 0; p < width;) {
     int32_t next = next_touched(s->convolve, p + 1);
-    reach_column(s, p);
+    advance_to(s, p);
     CS_TRY(write(s, p, next));
     p = next;
   }
@@ -285,7 +285,7 @@ static celspan_status sum_row(summing *s) {
 celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
                                const cs_retained_row *const *retained_rows, size_t count, int32_t y,
                                cs_row *out) {
-  CS_TRY(begin_slabs(convolve, painter->context, retained_rows, count, y));
+  CS_TRY(begin_sub_rows(convolve, painter->context, retained_rows, count, y));
   CS_TRY(cs_scatter_rows(convolve, painter, retained_rows, count, y));
   summing s = {.convolve = convolve,
                .painter = painter,
@@ -296,6 +296,6 @@ celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
   for (int c = 0; c < 4; c++)
     s.sum[c] = (double)retained_rows[0]->base[c];
   if (convolve->kernel->is_signed)
-    see_rows(&s);
+    join_ranges(&s);
   return sum_row(&s);
 }

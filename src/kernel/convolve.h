@@ -1,16 +1,20 @@
-/* Rows through a filter kernel: the pieces of the traces around a row, each weighed by the part of
- * the kernel that it leads.
+/* Rows through a filter kernel: the retained edges of the rows around a row, each weighted by the
+ * share of the kernel that lies right of it.
  *
- *   traces of the rows under the kernel --cut, weigh--> changes by column --sum--> spans
+ *   rows y - 1 .. y + 1     |     /          retained edges
+ *                     ______|____/_____
+ *   kernel of pixel p  (    |   / )          the edges divide it: so much of it is left of them
+ *                     ------|--/-------
+ *   row y   [ flat ][ changes ][ flat ]      changes by column --sum--> spans
  *
- * A piece at x with the colour step d adds d times its height's share of the kernel to every pixel
+ * An edge at x with the colour step d adds d times its height's share of the kernel to every pixel
  * right of it, and to those within the radius the share of that which lies right of x. So the cost
- * follows the pieces, and stretches that no piece comes near stay one span.
+ * follows the edges, and stretches that no edge comes near remain one span.
  *
- * Layers that vary along a row are not filtered: a program is one more colour that is seen with
- * some weight, sampled at the centre of the pixel that is made.
+ * Layers that vary along a row are not filtered: a program is one more colour with some weight,
+ * sampled at the centre of the pixel that is made.
  *
- * Invariant: a row is a function of the traces around it, added in order of their rows.
+ * Invariant: a row is a function of the retained rows around it, added in order of their rows.
  */
 #ifndef CS_KERNEL_CONVOLVE_H
 #define CS_KERNEL_CONVOLVE_H
@@ -21,8 +25,8 @@
 CELSPAN_CHECKED celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
                                                 const cs_kernel *kernel, int32_t width);
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory);
-/* Row y from the traces of `count` rows, sealed, from the topmost under its kernel to the lowest.
- */
+/* Row y from `count` retained rows, sealed, from the topmost under its kernel to the lowest.
+ * Errors: NO_MEMORY and what painting meets. */
 CELSPAN_CHECKED celspan_status cs_convolve_row(cs_convolve *convolve, cs_painter *painter,
                                                const cs_retained_row *const *retained_rows,
                                                size_t count, int32_t y, cs_row *out);

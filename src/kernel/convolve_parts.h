@@ -1,6 +1,13 @@
 /* What the two halves of a filtered row share: scatter.c fills it from the retained edges under the
  * kernel, convolve.c sums it along the row.
  *
+ *     column        0   1   2   3   4   5   6   7
+ *     touched       x       x   x   x       x          something changes here
+ *     changes       .       d   d   d       .          added to the running sum, from here on
+ *     values                v   v   v                  added at this column only
+ *     shifts                        s                  weights of programs change, from here on
+ *     passed                            p              the kernel has passed an edge (signed ones)
+ *
  * Invariant: lists by column are only valid for columns that are touched; each begins with 0, which
  * is the empty list, and is linked by index + 1.
  */
@@ -16,30 +23,34 @@
 
 #define CS_CONVOLVE_SUB_ROWS 16
 
-/* A program among those under the kernel. */
+/* A program among those under the kernel, and its share of it. */
 typedef struct cs_convolve_term {
   const cs_program *program;
   double weight; /* at the column that is made */
 } cs_convolve_term;
 
-/* What changes from a column on; lists by column, linked by index + 1. */
-typedef struct cs_convolve_shift { /* of a look's weight */
-  uint32_t next, look;
+/* ---- what changes from a column on: lists by column, linked by index + 1 */
+/* The weight of a term changes. */
+typedef struct cs_convolve_shift {
+  uint32_t next, term;
   double weight;
 } cs_convolve_shift;
 
-typedef struct cs_convolve_passed { /* the whole kernel is right of a piece now */
+/* A passed event: from this column on the whole kernel is right of an edge. */
+typedef struct cs_convolve_passed {
   uint32_t next, row;
-  int sub_row, slab_end;
-  cs_v4d step;
-  int varies; /* +1: a layer that varies begins, -1: one ends */
+  int sub_row, sub_row_end; /* heights of the row, [sub_row, sub_row_end) */
+  cs_v4d step;              /* of colour */
+  int varies;               /* +1: a layer that varies begins, -1: one ends */
 } cs_convolve_passed;
 
-typedef struct cs_convolve_sub_row { /* what is seen at one height, left of the kernel */
+/* What is visible at one height, left of the kernel. */
+typedef struct cs_convolve_sub_row {
   cs_v4d colour;
-  int varies;
+  int varies; /* not 0: layers that vary, or beyond the kernel; it has no range */
 } cs_convolve_sub_row;
 
+/* Colours, channel by channel. */
 typedef struct cs_convolve_range {
   cs_v4 least, most;
 } cs_convolve_range;
@@ -47,22 +58,22 @@ typedef struct cs_convolve_range {
 typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
-  double (*changes)[4];              /* by column */
-  double (*slopes)[4];               /* even shapes: of the change from column to column */
-  cs_v4 *values;                     /* by column: what is seen there alone */
-  float *sums;                       /* separable kernels: scratch */
-  uint64_t *touched;                 /* columns at which something changes, one bit each */
-  uint32_t *shifts_at, *passages_at; /* lists by column; 0: empty */
-  cs_convolve_range *near;           /* signed kernels: of the looks near a column */
-  cs_convolve_term *looks;
+  double (*changes)[4];            /* by column: of the sum of flat colours */
+  double (*slopes)[4];             /* even shapes: of the change from column to column */
+  cs_v4 *values;                   /* by column: what is added there alone */
+  float *sums;                     /* separable kernels: scratch */
+  uint64_t *touched;               /* columns at which something changes, one bit each */
+  uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
+  cs_convolve_range *near;         /* signed kernels: of the colours near a column */
+  cs_convolve_term *terms;
   cs_convolve_shift *shifts;
-  cs_convolve_passed *passeds;
+  cs_convolve_passed *passed;
   cs_convolve_sub_row *sub_rows; /* CS_CONVOLVE_SUB_ROWS a row */
-  size_t look_count, look_capacity;
+  size_t term_count, term_capacity;
   size_t shift_count, shift_capacity;
-  size_t passage_count, passage_capacity;
-  cs_convolve_range *ranges; /* of the slabs of each row */
-  size_t slab_capacity, range_capacity;
+  size_t passed_count, passed_capacity;
+  cs_convolve_range *ranges; /* of the sub-rows of each row */
+  size_t sub_row_capacity, range_capacity;
 } cs_convolve;
 
 static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }

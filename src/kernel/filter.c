@@ -5,7 +5,7 @@
 celspan_status cs_filter_init(cs_filter *filter, const cs_kernel *kernel, cs_painter *painter,
                               int32_t width, cs_filter_retain *retain, void *user) {
   celspan_context *context = painter->context;
-  size_t count = 2 * (size_t)cs_kernel_reach(kernel) + 1;
+  size_t count = 2 * (size_t)cs_kernel_extent(kernel) + 1;
   *filter = (cs_filter){
       .kernel = kernel, .painter = painter, .retain = retain, .user = user, .row_count = count};
   filter->rows = cs_mem_array(context->memory, count, sizeof *filter->rows);

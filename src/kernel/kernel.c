@@ -7,8 +7,7 @@
 #include <string.h>
 
 #define SAMPLES CS_ANTIALIAS_SAMPLES
-/* Even shapes smaller than this, averaged over a pixel, are taken to be separable: no edge tells.
- */
+/* Even shapes smaller than this, averaged over a pixel, count as separable: no edge shows it. */
 #define SMALL 0.4
 #define OFFSETS 4
 #define PLACES 256       /* in a pixel, at which light is measured */
@@ -43,25 +42,26 @@ static celspan_status make(celspan_context *context, cs_kernel **out) {
   return *out ? CELSPAN_OK : cs_fail_memory(context);
 }
 
-/* What the columns left and right of an edge at -x make together, more than x: it is the same for
- * every x where the kernel's values at whole distances always sum to 1. */
+/* The sum of the shares at the columns around an edge at -x, less x: the same for every x if the
+ * kernel's values at whole distances always sum to 1. */
 static double light_at(const double *first, double radius, double x) {
-  int32_t reach = cs_number_ceil(radius) + 1;
+  int32_t columns = cs_number_ceil(radius) + 1;
   double sum = 0;
-  for (int32_t k = -reach; k <= reach; k++)
-    sum += cs_kernel_look_up(first, (x + k) / radius);
+  for (int32_t k = -columns; k <= columns; k++)
+    sum += cs_kernel_interpolate(first, (x + k) / radius);
   return sum - x;
 }
 
-/* Where light that is missing is added: a trapezoid over `width` columns, whose values at whole
- * distances sum to 1. */
+/* How missing light is spread: a trapezoid over `width` columns, whose values at whole distances
+ * sum to 1. */
 static double window(double width, double x) {
   return width > 1 ? cs_number_clamp(0.5 * width - fabs(x), 0, 1) / (width - 1)
                    : fabs(x) <= 0.5 * width;
 }
 
-/* Pixels are samples of the filtered picture, and what a shape makes of them together may depend on
- * where it lies between them. Evens that out as far as no edge is changed by more than `most`. */
+/* Pixels are samples of the filtered picture, and the light that a shape gives them together may
+ * depend on where it lies between them. This evens that out as far as no edge changes by more than
+ * `most`. */
 static void balance(double *first, double radius, double most) {
   double missing[PLACES], mean = 0, worst = 0, width = floor(2 * radius);
   if (width < 1)
@@ -92,7 +92,7 @@ static double peak(const double *first, double radius) {
   return most * (SAMPLES / 2) / radius;
 }
 
-/* Tabulates the shares along x, of a kernel whose table along y is there. */
+/* Tabulates the shares along x of a kernel whose table along y is complete. */
 static celspan_status finish(celspan_context *context, const double *first, cs_kernel *kernel) {
   kernel->per_radius_y = 1 / kernel->radius_y;
   double fineness = sqrt(peak(first, kernel->radius_x) * peak(kernel->above, kernel->radius_y));
@@ -100,16 +100,16 @@ static celspan_status finish(celspan_context *context, const double *first, cs_k
   kernel->phases = PHASES;
   while (kernel->phases < PHASES_MOST && kernel->phases * kernel->radius_x < PHASES)
     kernel->phases *= 2;
-  kernel->reach = cs_number_ceil(kernel->radius_x);
-  kernel->stride = (2 * kernel->reach + 2 + 3) / 4 * 4;
+  kernel->columns = cs_number_ceil(kernel->radius_x);
+  kernel->stride = (2 * kernel->columns + 2 + 3) / 4 * 4;
   kernel->shares = cs_mem_array(context->memory, share_count(kernel), sizeof *kernel->shares);
   if (!kernel->shares)
     return cs_fail_memory(context);
   for (int phase = 0; phase <= kernel->phases; phase++)
     for (int32_t k = 0; k < kernel->stride; k++) {
-      double x = k - kernel->reach - (double)phase / kernel->phases;
+      double x = k - kernel->columns - (double)phase / kernel->phases;
       kernel->shares[phase * kernel->stride + k] =
-          (float)cs_kernel_look_up(first, x / kernel->radius_x);
+          (float)cs_kernel_interpolate(first, x / kernel->radius_x);
     }
   return CELSPAN_OK;
 }
@@ -138,12 +138,12 @@ void cs_kernel_free(cs_kernel *kernel, cs_memory *memory) {
   cs_mem_free(memory, kernel, sizeof *kernel);
 }
 
-int32_t cs_kernel_reach(const cs_kernel *kernel) {
+int32_t cs_kernel_extent(const cs_kernel *kernel) {
   double radius = kernel->radius_x > kernel->radius_y ? kernel->radius_x : kernel->radius_y;
   return cs_number_ceil(radius + 0.5 * kernel->spread + 0.5);
 }
 
-/* ---------------------------------------------------------------- soft layers */
+/* ---------------------------------------------------------------- defocused cels */
 
 typedef struct axis { /* room for making a table */
   double samples[SAMPLES];
@@ -163,8 +163,8 @@ static double integral(const axis *work, double u) {
   return work->twice[i] + (2.0 / SAMPLES) * t * (low + 0.5 * t * (high - low));
 }
 
-/* One axis of a soft kernel: the shares left of the table's places. *radius: how far it reaches;
- * made wider by the blur. */
+/* One axis of a defocus kernel: the shares left of the table's places. *radius: of the shape;
+ * becomes that of the shape with the blur. */
 static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, double *radius,
                       double *first) {
   double narrow = *radius;

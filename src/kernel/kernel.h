@@ -1,16 +1,24 @@
 /* A filter kernel as rows use it: its antiderivatives, tabulated, or an even shape.
  *
- * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts; its
- * integral H is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
- * that H gives to parts of a whole sum to 1. An even shape (a disc, a turned box) is cut at a
- * height into one interval, in which the kernel is constant.
+ *       share of the kernel                    an edge at x cuts the kernel of a pixel: what lies
+ *       1 |         _____                      right of the edge is weighted by the share right of
+ *         |       /                            it, read from the table
+ *      .5 |      /
+ *         |     /                                 |<- radius ->|
+ *       0 |____/______ x                        (      *  |      )   kernel of the pixel at *
+ *         -1    0     1   times the radius                edge
+ *
+ * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts. Its
+ * integral is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
+ * that the integral gives to the parts of a whole sum to 1. An even shape (a disc, a turned box) is
+ * cut at a height into one interval, in which the kernel is constant.
  */
 #ifndef CS_KERNEL_KERNEL_H
 #define CS_KERNEL_KERNEL_H
 
 #include "scene/antialias.h"
 
-/* The blur of a defocused cel, in the cells of a grid. */
+/* The blur of a defocused cel, in the samples of a grid. */
 typedef struct cs_blur {
   celspan_defocus_kernel kind;
   double radius_x, radius_y; /* GAUSSIAN: of two sigmas, it reaches twice as far; DISC */
@@ -31,35 +39,35 @@ typedef struct cs_kernel {
   cs_kernel_shape shape;
   double radius_x, radius_y; /* pixels: how far it reaches */
   double per_radius_y;       /* 1 / radius_y */
-  int rows;                  /* pieces a slanted boundary is cut into, a row */
+  int rows;                  /* parts that a slanted edge is cut into, a row */
   bool is_signed;            /* negative somewhere */
-  double sharpness;   /* SEPARABLE: how finely a slanted boundary is cut; 1 for the sharpest */
-  double edges[2][2]; /* PARALLELOGRAM: half of two sides; the second is the steeper */
-  int offsets;        /* even shapes: the mean of so many by so many of them, */
-  double spread;      /* evenly over a square of this width */
+  double sharpness;          /* SEPARABLE: how finely a slanted edge is cut; 1 for the sharpest */
+  double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
+  int offsets;               /* even shapes: the mean of so many by so many of them */
+  double spread;             /* that lie evenly over a square of this width */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
   double above[CS_ANTIALIAS_SAMPLES + 1]; /* over a height */
-  /* SEPARABLE: shares right of an edge that stands phase/phases right of a pixel's centre, at the
-   * columns from `reach` left of that pixel on: `stride` of them, after which they are 1. */
+  /* SEPARABLE: shares right of an edge that is phase/phases right of a pixel's centre, at the
+   * columns from `columns` left of that pixel on: `stride` of them, after which they are 1. */
   float *shares;
   int phases;
-  int32_t reach, stride;
+  int32_t columns, stride;
 } cs_kernel;
 
 /* Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_kernel_create(celspan_context *context,
                                                 const cs_antialias *antialias, cs_kernel **out);
-/* The kernel of a soft layer, as separable or even shape. Errors: NO_MEMORY. */
+/* The kernel of a defocused cel, as separable or even shape. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_kernel_create_defocus(celspan_context *context,
                                                         const cs_blur *blur, cs_kernel **out);
 void cs_kernel_free(cs_kernel *kernel, cs_memory *memory);
 /* An even shape at height d from its centre: from *from to *to; false beyond it. */
 bool cs_kernel_slice(const cs_kernel *kernel, double d, double *from, double *to);
-/* Rows and columns a pixel's kernel may reach beyond it. */
-int32_t cs_kernel_reach(const cs_kernel *kernel);
+/* Rows and columns that a kernel may extend beyond its pixel. */
+int32_t cs_kernel_extent(const cs_kernel *kernel);
 
-/* A table at u, in units of the radius. */
-static inline double cs_kernel_look_up(const double *table, double u) {
+/* The value of a table at u, in units of the radius. */
+static inline double cs_kernel_interpolate(const double *table, double u) {
   double at = (u + 1) * (CS_ANTIALIAS_SAMPLES / 2);
   if (!(at > 0))
     return 0;
@@ -71,7 +79,7 @@ static inline double cs_kernel_look_up(const double *table, double u) {
 
 /* The share of the kernel above the height d below its centre. */
 static inline double cs_kernel_above(const cs_kernel *kernel, double d) {
-  return cs_kernel_look_up(kernel->above, d * kernel->per_radius_y);
+  return cs_kernel_interpolate(kernel->above, d * kernel->per_radius_y);
 }
 
 #endif

@@ -1,7 +1,7 @@
 #include "kernel/retained.h"
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory) {
-  cs_mem_free(memory, retained->pieces, retained->piece_capacity * sizeof *retained->pieces);
+  cs_mem_free(memory, retained->edges, retained->edge_capacity * sizeof *retained->edges);
   cs_mem_free(memory, retained->programs, retained->program_capacity * sizeof *retained->programs);
   cs_mem_free(memory, retained->items, retained->item_capacity * sizeof *retained->items);
   cs_mem_free(memory, retained->procedure_spans,
@@ -14,7 +14,7 @@ void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base) {
   retained->row = row;
   retained->base = base;
   retained->is_sealed = false;
-  retained->piece_count = retained->program_count = retained->item_count = 0;
+  retained->edge_count = retained->program_count = retained->item_count = 0;
   cs_arena_reset(&retained->paints);
 }
 
@@ -47,7 +47,7 @@ static celspan_status keep_program(cs_retained_row *retained, const cs_composer 
   return CELSPAN_OK;
 }
 
-static celspan_status take_look(cs_retained_row *retained, const cs_composer *composer,
+static celspan_status copy_side(cs_retained_row *retained, const cs_composer *composer,
                                 const cs_cell *cell, cs_retained_side *out) {
   *out = (cs_retained_side){cs_v4_all(0), -1};
   if (cell->length > 0)
@@ -59,25 +59,25 @@ static celspan_status take_look(cs_retained_row *retained, const cs_composer *co
 celspan_status cs_retained_add(cs_retained_row *retained, const cs_composer *composer,
                                const cs_segment *segment, const cs_cell *left,
                                const cs_cell *right) {
-  CS_TRY(cs_mem_reserve(composer->context, (void **)&retained->pieces, &retained->piece_capacity,
-                        retained->piece_count + 1, sizeof *retained->pieces));
-  cs_retained_edge *piece = &retained->pieces[retained->piece_count++];
-  piece->xa = segment->xa;
-  piece->ya = segment->ya;
-  piece->xb = segment->xb;
-  piece->yb = segment->yb;
-  CS_TRY(take_look(retained, composer, left, &piece->left));
-  return take_look(retained, composer, right, &piece->right);
+  CS_TRY(cs_mem_reserve(composer->context, (void **)&retained->edges, &retained->edge_capacity,
+                        retained->edge_count + 1, sizeof *retained->edges));
+  cs_retained_edge *edge = &retained->edges[retained->edge_count++];
+  edge->xa = segment->xa;
+  edge->ya = segment->ya;
+  edge->xb = segment->xb;
+  edge->yb = segment->yb;
+  CS_TRY(copy_side(retained, composer, left, &edge->left));
+  return copy_side(retained, composer, right, &edge->right);
 }
 
-static bool uses_strips(const cs_retained_row *retained, const cs_composer *composer) {
+static bool uses_procedures(const cs_retained_row *retained, const cs_composer *composer) {
   for (size_t i = 0; i < retained->item_count; i++)
     if (composer->stack->layers[retained->items[i].layer].kind == CS_LAYER_SCANLINE)
       return true;
   return false;
 }
 
-static celspan_status copy_strips(cs_retained_row *retained, const cs_composer *composer) {
+static celspan_status copy_procedure_spans(cs_retained_row *retained, const cs_composer *composer) {
   celspan_context *context = composer->context;
   CS_TRY(cs_mem_reserve(context, (void **)&retained->procedure_spans,
                         &retained->procedure_span_capacity, composer->procedure_span_count,
@@ -95,8 +95,8 @@ static celspan_status copy_strips(cs_retained_row *retained, const cs_composer *
 }
 
 celspan_status cs_retained_seal(cs_retained_row *retained, const cs_composer *composer) {
-  if (uses_strips(retained, composer))
-    CS_TRY(copy_strips(retained, composer));
+  if (uses_procedures(retained, composer))
+    CS_TRY(copy_procedure_spans(retained, composer));
   for (size_t i = 0; i < retained->program_count; i++) {
     cs_retained_program *program = &retained->programs[i];
     program->program =

@@ -1,23 +1,32 @@
-/* Gathering: where the steps of the pieces under a kernel go, column by column (the first half of
- * a filtered row; convolve.h has the second).
+/* Scattering: where the colour steps of the edges under a kernel go, column by column. It is the
+ * first half of a filtered row; convolve.c is the second.
  *
- *   gather.c            what is under a row: traces, pieces, looks
- *   gather_separable.c  a piece under a separable kernel
- *   gather_even.c       a piece under an even shape
+ *      kernel of the pixel at column p       a retained edge, cut to the heights of the kernel and
+ *          _____                             into parts so short that each may be upright
+ *         /     \
+ *      --|---p---|--------/------            columns whose kernel is left of the part: nothing
+ *         \_____/        /                   columns whose kernel it divides: a share of the step
+ *                       /                    columns whose kernel is right of it: the whole step,
+ *                                            which is a change at the first of them, and for signed
+ *                                            kernels a passed event
+ *
+ *   scatter.c            what is under a row: retained rows, edges, programs
+ *   scatter_separable.c  an edge under a separable kernel
+ *   scatter_even.c       an edge under an even shape
  */
 #ifndef CS_KERNEL_SCATTER_H
 #define CS_KERNEL_SCATTER_H
 
 #include "kernel/convolve_parts.h"
 
-/* One row's worth of work. */
+/* The work of one row. */
 typedef struct cs_scatter {
   cs_convolve *convolve;
   celspan_context *context;
-  double centre;                   /* of the row that is made */
-  const cs_retained_row *retained; /* of the row that is read, */
+  double centre;                   /* height of the row that is made */
+  const cs_retained_row *retained; /* the row that is read */
   uint32_t row;                    /* its place among those under the kernel */
-  int32_t *looks;                  /* of the trace's programs */
+  int32_t *terms;                  /* of the retained row's programs */
 } cs_scatter;
 
 /* Fills changes, values, slopes, shifts and passed events from the retained edges of `count` rows.
@@ -28,22 +37,24 @@ CELSPAN_CHECKED celspan_status cs_scatter_rows(cs_convolve *convolve, cs_painter
 
 /* ---- one edge, in scatter_separable.c and scatter_even.c */
 
-CELSPAN_CHECKED celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *piece);
-CELSPAN_CHECKED celspan_status cs_scatter_even(cs_scatter *g, const cs_retained_edge *piece);
+CELSPAN_CHECKED celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *edge);
+CELSPAN_CHECKED celspan_status cs_scatter_even(cs_scatter *g, const cs_retained_edge *edge);
+
+/* ---- for both */
 
 /* Something changes at column p. */
 void cs_scatter_touch(cs_convolve *convolve, int32_t p);
-/* From column p on, which is touched, `weight` more of what is seen is what lies right of the
- * piece: as a colour, */
-void cs_scatter_step(cs_scatter *g, const cs_retained_edge *piece, int32_t p, double weight);
-/* and as a program. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_scatter_shift(cs_scatter *g, const cs_retained_edge *piece,
+/* From column p on, which is touched, `weight` more of the sum is what lies right of the edge, and
+ * so much less what lies left of it: as flat colours. */
+void cs_scatter_step(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double weight);
+/* The same as programs. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_scatter_shift(cs_scatter *g, const cs_retained_edge *edge,
                                                 int32_t p, double weight);
-/* The part of a piece between two heights; false: there is none. */
-bool cs_scatter_cut(const cs_retained_edge *piece, double top, double foot, cs_retained_edge *out);
+/* The part of an edge between two heights; false: there is none. */
+bool cs_scatter_cut(const cs_retained_edge *edge, double top, double foot, cs_retained_edge *out);
 
-static inline bool cs_scatter_is_flat(const cs_retained_edge *piece) {
-  return piece->left.program < 0 && piece->right.program < 0;
+static inline bool cs_scatter_is_flat(const cs_retained_edge *edge) {
+  return edge->left.program < 0 && edge->right.program < 0;
 }
 
 #endif

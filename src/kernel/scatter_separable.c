@@ -1,9 +1,13 @@
-/* A piece under a separable kernel.
+/* An edge under a separable kernel.
  *
- * It is taken in parts so short that each may stand upright in its middle and count with the share
- * of the kernel at its heights. What a part shows at each column is a row of the kernel's table of
- * shares, so the parts of a stretch of the piece are summed as numbers first, and its step of
- * colour is added once a column.
+ *          /  ya        It is taken in parts so short that each may be upright in its middle and
+ * count /  } part     with the share of the kernel at its heights. What a part adds at each column
+ *        /   } part     is a row of the kernel's table of shares, which depends on where in a pixel
+ *       /  yb           the part is.
+ *
+ *      column    p-2   p-1    p    p+1   p+2      parts within a stretch of about a column are
+ * summed share      0    .1    .5    .9     1       as numbers first, so the edge's colour step is
+ * added once a column.
  */
 #include "kernel/scatter.h"
 
@@ -14,14 +18,15 @@
 #define STRETCH 1.0 /* columns that parts summed together may lie apart */
 #define WIDEST 0.25 /* columns that a part may cross */
 
-/* Parts in a piece: their error is the product of what they cross along both axes. */
+/* Parts of an edge: their error is the product of what they cross along both axes. */
 static int count_parts(const cs_kernel *kernel, double height, double across) {
   double wanted = kernel->rows * kernel->sharpness * sqrt(height * across);
   double least = across * kernel->sharpness / WIDEST;
   return (int)ceil(fmax(wanted, fmax(least, 1)));
 }
 
-/* Parts summed together: what they show at the columns [first, end); beyond, the weight. */
+/* Parts summed together: they divide the kernel of the columns [first, end); beyond, their weight
+ * counts as a whole. */
 typedef struct stretch {
   int32_t first, end;
   double weight;
@@ -33,7 +38,7 @@ static void add_part(const cs_kernel *kernel, const stretch *s, double x, float 
   int32_t row = (int32_t)phase, stride = kernel->stride;
   float t = (float)(phase - row);
   const float *low = kernel->shares + (size_t)row * (size_t)stride, *high = low + stride;
-  float *out = sums + ((int32_t)column - kernel->reach - s->first);
+  float *out = sums + ((int32_t)column - kernel->columns - s->first);
   cs_v4 near = cs_v4_all(weight * (1 - t)), far = cs_v4_all(weight * t);
   for (int32_t k = 0; k < stride; k += 4)
     cs_v4_store(out + k,
@@ -42,61 +47,60 @@ static void add_part(const cs_kernel *kernel, const stretch *s, double x, float 
     *rest += weight;
 }
 
-/* The first slab of the trace's row whose middle is at or below height y. */
-static int first_slab(const cs_scatter *g, double y) {
+/* The first sub-row of the retained row whose middle is at or below height y. */
+static int first_sub_row(const cs_scatter *g, double y) {
   double sub_row = ceil((y - g->retained->row) * CS_CONVOLVE_SUB_ROWS - 0.5);
   return (int)cs_number_clamp(sub_row, 0, CS_CONVOLVE_SUB_ROWS);
 }
 
-/* The kernel is past the heights y0..y1 of a piece from column p on. */
-static celspan_status pass(cs_scatter *g, const cs_retained_edge *piece, int32_t p, double y0,
-                           double y1) {
+/* Notes that from column p on the kernel has passed the heights y0..y1 of an edge. */
+static celspan_status add_passed(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double y0,
+                                 double y1) {
   cs_convolve *convolve = g->convolve;
-  int sub_row = first_slab(g, y0), slab_end = first_slab(g, y1);
-  if (sub_row == slab_end)
+  int sub_row = first_sub_row(g, y0), sub_row_end = first_sub_row(g, y1);
+  if (sub_row == sub_row_end)
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->passeds, &convolve->passage_capacity,
-                        convolve->passage_count + 1, sizeof *convolve->passeds));
-  cs_convolve_passed *passed = &convolve->passeds[convolve->passage_count++];
-  *passed =
-      (cs_convolve_passed){.next = convolve->passages_at[p],
-                           .row = g->row,
-                           .sub_row = sub_row,
-                           .slab_end = slab_end,
-                           .varies = (piece->right.program >= 0) - (piece->left.program >= 0)};
-  passed->step = cs_v4d_step(piece->left.colour, piece->right.colour);
-  convolve->passages_at[p] = (uint32_t)convolve->passage_count;
+  CS_TRY(cs_mem_reserve(g->context, (void **)&convolve->passed, &convolve->passed_capacity,
+                        convolve->passed_count + 1, sizeof *convolve->passed));
+  cs_convolve_passed *passed = &convolve->passed[convolve->passed_count++];
+  *passed = (cs_convolve_passed){.next = convolve->passed_at[p],
+                                 .row = g->row,
+                                 .sub_row = sub_row,
+                                 .sub_row_end = sub_row_end,
+                                 .varies = (edge->right.program >= 0) - (edge->left.program >= 0)};
+  passed->step = cs_v4d_step(edge->left.colour, edge->right.colour);
+  convolve->passed_at[p] = (uint32_t)convolve->passed_count;
   return CELSPAN_OK;
 }
 
-static cs_convolve_range looks_range(const cs_retained_edge *piece) {
+static cs_convolve_range range_of(const cs_retained_edge *edge) {
   cs_convolve_range range = cs_convolve_nothing();
-  if (piece->left.program < 0)
-    cs_convolve_widen(&range, piece->left.colour);
-  if (piece->right.program < 0)
-    cs_convolve_widen(&range, piece->right.colour);
+  if (edge->left.program < 0)
+    cs_convolve_widen(&range, edge->left.colour);
+  if (edge->right.program < 0)
+    cs_convolve_widen(&range, edge->right.colour);
   return range;
 }
 
-/* The columns that a stretch parts. */
-static celspan_status deposit(cs_scatter *g, const cs_retained_edge *piece, const stretch *s,
-                              const float *sums) {
+/* Adds a stretch to its columns. */
+static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, const stretch *s,
+                                  const float *sums) {
   cs_convolve *convolve = g->convolve;
-  cs_v4 step = piece->right.colour - piece->left.colour;
+  cs_v4 step = edge->right.colour - edge->left.colour;
   int32_t first = s->first > 0 ? s->first : 0;
   int32_t end = s->end < convolve->width ? s->end : convolve->width;
-  bool is_flat = cs_scatter_is_flat(piece);
+  bool is_flat = cs_scatter_is_flat(edge);
   double before = 0;
   for (int32_t p = first; p < end; p++) {
     float share = sums[p - s->first];
     cs_scatter_touch(convolve, p);
     convolve->values[p] += share * step;
     if (!is_flat)
-      CS_TRY(cs_scatter_shift(g, piece, p, (double)share - before));
+      CS_TRY(cs_scatter_shift(g, edge, p, (double)share - before));
     before = (double)share;
   }
   if (convolve->kernel->is_signed) {
-    cs_convolve_range range = looks_range(piece);
+    cs_convolve_range range = range_of(edge);
     for (int32_t p = first; p < end; p++)
       convolve->near[p] = cs_convolve_both(convolve->near[p], range);
   }
@@ -104,18 +108,19 @@ static celspan_status deposit(cs_scatter *g, const cs_retained_edge *piece, cons
     return CELSPAN_OK;
   int32_t rest = s->end > 0 ? s->end : 0;
   cs_scatter_touch(convolve, rest);
-  cs_scatter_step(g, piece, rest, s->weight);
-  return cs_scatter_shift(g, piece, rest, s->weight - before);
+  cs_scatter_step(g, edge, rest, s->weight);
+  return cs_scatter_shift(g, edge, rest, s->weight - before);
 }
 
-/* Part of a piece whose parts are summed together. */
-static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *piece,
+/* Adds a stretch of an edge, the cut, whose parts are summed together. */
+static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
                                   const cs_retained_edge *cut, int parts) {
   const cs_kernel *kernel = g->convolve->kernel;
   float *sums = g->convolve->sums;
   double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
   double above = cs_kernel_above(kernel, cut->ya - g->centre), begin = above;
-  stretch s = {(int32_t)floor(low) - kernel->reach, (int32_t)floor(high) + kernel->reach + 2, 0};
+  stretch s = {(int32_t)floor(low) - kernel->columns, (int32_t)floor(high) + kernel->columns + 2,
+               0};
   if (s.first >= g->convolve->width)
     return CELSPAN_OK;
   memset(sums, 0, (size_t)(s.end - s.first + kernel->stride) * sizeof *sums);
@@ -128,27 +133,27 @@ static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *piece,
     above = below;
   }
   s.weight = above - begin;
-  CS_TRY(deposit(g, piece, &s, sums));
+  CS_TRY(put_stretch(g, edge, &s, sums));
   return kernel->is_signed && s.end < g->convolve->width
-             ? pass(g, piece, s.end > 0 ? s.end : 0, cut->ya, cut->yb)
+             ? add_passed(g, edge, s.end > 0 ? s.end : 0, cut->ya, cut->yb)
              : CELSPAN_OK;
 }
 
-celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *piece) {
+celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *edge) {
   const cs_kernel *kernel = g->convolve->kernel;
-  cs_retained_edge seen, cut;
-  if (!cs_scatter_cut(piece, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &seen))
+  cs_retained_edge within, cut;
+  if (!cs_scatter_cut(edge, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &within))
     return CELSPAN_OK;
-  double height = seen.yb - seen.ya, across = seen.xb - seen.xa;
+  double height = within.yb - within.ya, across = within.xb - within.xa;
   int stretches = (int)ceil(fmax(fabs(across) / STRETCH, 1));
   int parts = count_parts(kernel, height, fabs(across));
   parts = (parts + stretches - 1) / stretches;
-  cut = seen;
+  cut = within;
   for (int k = 1; k <= stretches; k++) {
     double u = (double)k / stretches;
-    cut.xb = k == stretches ? seen.xb : seen.xa + u * across;
-    cut.yb = k == stretches ? seen.yb : seen.ya + u * height;
-    CS_TRY(add_stretch(g, piece, &cut, parts));
+    cut.xb = k == stretches ? within.xb : within.xa + u * across;
+    cut.yb = k == stretches ? within.yb : within.ya + u * height;
+    CS_TRY(add_stretch(g, edge, &cut, parts));
     cut.xa = cut.xb;
     cut.ya = cut.yb;
   }

@@ -417,7 +417,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   cs_plan plan = {.width = view->width, .height = view->height, .antialias = antialias->mode};
   if (antialias->mode == CELSPAN_ANTIALIAS_FILTER) {
     CS_TRY(cs_kernel_create(context, antialias, &plan.kernel));
-    plan.margin = cs_kernel_reach(plan.kernel);
+    plan.margin = cs_kernel_extent(plan.kernel);
   }
   compiler c;
   begin(&c, context, &plan, view->first_row, view->end_row);
@@ -447,7 +447,7 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
   const compiler *outer = user;
   cs_plan plan = {.width = job->width,
                   .height = job->height,
-                  .margin = job->kernel ? cs_kernel_reach(job->kernel) : 0,
+                  .margin = job->kernel ? cs_kernel_extent(job->kernel) : 0,
                   .kernel = job->kernel};
   compiler c;
   begin(&c, outer->context, &plan, 0, job->height);

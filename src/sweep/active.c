@@ -1,5 +1,7 @@
 #include "sweep/active.h"
 
+#include "sweep/order.h"
+
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -161,10 +163,8 @@ static inline double slope_at(const cs_active *active, size_t i) {
 static inline bool is_right(const cs_active *active, size_t i, size_t j) {
   if (active->x[i] != active->x[j])
     return active->x[i] > active->x[j];
-  double slope_i = slope_at(active, i), slope_j = slope_at(active, j);
-  if (slope_i != slope_j)
-    return slope_i > slope_j;
-  return active->walks[active->slot[i]].chain > active->walks[active->slot[j]].chain;
+  return cs_order_is_right(slope_at(active, i), active->walks[active->slot[i]].chain,
+                           slope_at(active, j), active->walks[active->slot[j]].chain);
 }
 
 /* The index where boundary i belongs among 0..i-1, which are in order. The search goes left in
