@@ -109,7 +109,7 @@ static double least_x(const cs_member *members, size_t count, double least) {
 /* Brings the composer to the left of an interval, and the target to its least x. */
 static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low, double least) {
   cs_local_sweep *sweep = &area->sweep;
-  cs_cells_stand(area->parts.cells, area->parts.composer, low, least);
+  cs_cells_walk_to(area->parts.cells, area->parts.composer, low, least);
   sweep->left = left;
   sweep->deferred = area->parts.cells->deferred;
   sweep->deferred.first = sweep->deferred.next;

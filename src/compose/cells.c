@@ -35,7 +35,7 @@ void cs_cells_list(cs_cells *cells) {
   uint32_t *visible = cells->visible;
   if (cells->is_listed)
     return;
-  for (size_t i = 0; i < count; i++) { /* which are visible cannot be foreseen: no branch */
+  for (size_t i = 0; i < count; i++) { /* which are visible can hardly be foreseen: no branch */
     visible[found] = (uint32_t)i;
     found += is_visible[i];
   }
@@ -43,7 +43,7 @@ void cs_cells_list(cs_cells *cells) {
   cells->is_listed = true;
 }
 
-/* Moves what belongs to the last `tail` boundaries to where they stand among `count`. */
+/* Moves what belongs to the last `tail` boundaries to their places among `count`. */
 static void move_tail(cs_cells *cells, size_t count, size_t tail) {
   size_t to = count - tail, from = cells->known - 1 - tail;
   if (to == from)
@@ -52,7 +52,7 @@ static void move_tail(cs_cells *cells, size_t count, size_t tail) {
   memmove(&cells->is_visible[to], &cells->is_visible[from], tail * sizeof *cells->is_visible);
 }
 
-/* ---------------------------------------------------------------- where the composer stands */
+/* ---------------------------------------------------------------- the walk */
 
 static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   if (cells->place < place)
@@ -62,25 +62,26 @@ static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   cells->place = place;
 }
 
-/* At both ends nothing is present, so from the one to the other it is but a step. */
-static void go_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
+/* Leaves the row at one end and enters it at the other: nothing is present at either, so the two
+ * ends are the same place. */
+static void walk_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
   cross_to(cells, composer, goes_right ? cells->count : 0);
   cs_deferred_to(&cells->deferred, composer, goes_right ? INFINITY : -INFINITY);
   cells->place = goes_right ? 0 : cells->count;
   cells->deferred.next = goes_right ? cells->deferred.first : cells->deferred.end;
 }
 
-void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x) {
+void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x) {
   size_t from = cells->place, away = place > from ? place - from : from - place;
-  if (2 * away > cells->count) /* the other way is the nearer one */
-    go_round(cells, composer, place < from);
+  if (2 * away > cells->count) /* the way round the ends is shorter */
+    walk_round(cells, composer, place < from);
   cross_to(cells, composer, place);
   cs_deferred_to(&cells->deferred, composer, x);
 }
 
-void cs_cells_home(cs_cells *cells, cs_composer *composer) {
+void cs_cells_walk_home(cs_cells *cells, cs_composer *composer) {
   if (2 * cells->place > cells->count)
-    go_round(cells, composer, true);
+    walk_round(cells, composer, true);
   cross_to(cells, composer, 0);
   cs_deferred_to(&cells->deferred, composer, -INFINITY);
 }
@@ -92,13 +93,13 @@ void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
   cells->deferred.next = cells->deferred.first;
 }
 
-/* Takes the new order over. What is present between windings that balance is the same as ever, so
- * the composer has to move only where it stands amid the change. */
-static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *active,
-                       cs_change change) {
+/* Adopts the new order of boundaries. Outside the range that changed the windings balance as
+ * before, so the walk has to move only if its place is inside. */
+static void adopt_order(cs_cells *cells, cs_composer *composer, const cs_active *active,
+                        cs_change change) {
   size_t high = cells->count - change.tail;
   if (change.low == 0 && change.tail == 0)
-    cs_cells_home(cells, composer);
+    cs_cells_walk_home(cells, composer);
   else if (cells->place > change.low && cells->place < high)
     cross_to(cells, composer, change.low);
   if (cells->place > change.low)
@@ -115,15 +116,15 @@ static void take_order(cs_cells *cells, cs_composer *composer, const cs_active *
 
 /* ---------------------------------------------------------------- making */
 
-/* The cell right of i boundaries, where the composer stands. */
+/* The cell right of i boundaries, which is where the walk is. */
 static inline void make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
   cs_cell *cell = &cells->cells[i];
   if (i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash))
     cs_composer_cell(composer, cell);
 }
 
-/* Steps over the boundary right of the composer, which is at x. */
-static inline void step(cs_cells *cells, cs_composer *composer, double x) {
+/* Crosses the boundary right of the walk, which is at x. */
+static inline void cross_next(cs_cells *cells, cs_composer *composer, double x) {
   cs_crossing crossing = cells->crossing[cells->place++];
   cs_composer_cross(composer, crossing.layer, crossing.direction);
   cs_deferred_forward(&cells->deferred, composer, x);
@@ -134,15 +135,15 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   CS_TRY(make_room(cells, composer->context, active->count));
   if (cells->known == 0)
     change = cs_change_all;
-  take_order(cells, composer, active, change);
-  cs_cells_stand(cells, composer, change.low, change.low > 0 ? active->x[change.low - 1] : 0);
+  adopt_order(cells, composer, active, change);
+  cs_cells_walk_to(cells, composer, change.low, change.low > 0 ? active->x[change.low - 1] : 0);
   if (change.low == 0)
     make_cell(cells, composer, 0);
   if (cells->known == 0)
     cells->known = 1; /* the one just made */
   move_tail(cells, active->count, change.tail);
   for (size_t i = change.low; i < active->count - change.tail; i++) {
-    step(cells, composer, active->x[i]);
+    cross_next(cells, composer, active->x[i]);
     make_cell(cells, composer, i + 1);
     cells->is_visible[i] = !cs_composer_same(composer, &cells->cells[i + 1], &cells->cells[i]);
   }

@@ -1,12 +1,24 @@
-/* The cells between the active boundaries of a row, which boundaries can be seen, and where along
- * them the composer stands.
+/* The cells of a row between its active boundaries, and which boundaries can be seen.
+ *
+ *     boundary           0        1        2                 3
+ *                        |        |        |        :        |        :
+ *     cells        0     |   1    |   2    |   3    :        |   4    :
+ *                        |        |        |        :        |        :
+ *     deferred changes                           culled             culled
+ *
+ *     the walk:  - - - - - - - - -> * place 2: right of boundaries 0 and 1
+ *
+ * A boundary that is culled is not active, yet the winding of its layer changes there: such a
+ * deferred change takes effect from its x on without being a boundary of its own, and nobody sees
+ * it. A cell is composed with the deferred changes at or left of its own left end, neither more nor
+ * fewer.
  *
  * Invariants: cells[0] is left of every boundary, cells[i + 1] right of boundary i; a boundary is
- * visible iff the cells on its two sides look different, and then listed once the cells are asked
- * for the list. Cells belong to places in the order, not to boundaries: where the set of leaves at
- * a place is the same as before, its cell is kept; so a swap composes one cell and a row without
- * events none. The composer stays where it was asked for last, from row to row: what happens beside
- * it changes nothing of what is present there.
+ * visible iff the cells on its two sides differ. Cells belong to places in the order, not to
+ * boundaries: where the set of layers at a place is the same as before, its cell is kept; so a swap
+ * of two boundaries composes one cell and a row without events none. The walk of the composer
+ * stays where it was last asked for, from row to row: events elsewhere change nothing of what is
+ * present there.
  */
 #ifndef CS_COMPOSE_CELLS_H
 #define CS_COMPOSE_CELLS_H
@@ -14,9 +26,7 @@
 #include "compose/composer.h"
 #include "sweep/active.h"
 
-/* Where the composer is among the deferred winding changes of a row: culled boundaries take effect
- * there, unseen. A cell is composed with the changes at or left of its own left end, neither more
- * nor fewer. */
+/* Where the walk is among the deferred winding changes of a row. */
 typedef struct cs_deferred_cursor {
   const cs_deferred *first, *next, *end; /* those before next have been crossed */
 } cs_deferred_cursor;
@@ -56,8 +66,8 @@ typedef struct cs_cells {
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
   size_t known; /* cells that were made, from the left */
-  /* where the composer is: right of the first `place` of `count` boundaries, in this order, and
-   * past the deferred changes before the cursor */
+  /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
+   * past the deferred changes before the cursor. */
   size_t place, count;
   cs_crossing *crossing;
   cs_deferred_cursor deferred;
@@ -68,22 +78,23 @@ void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
 /* Brings the cells up to date with the active boundaries. change: where they differ from those of
  * the last update.
- * Errors: NO_MEMORY; what composing meets stays in composer->failure. */
+ * Errors: NO_MEMORY; failures of composing stay in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change);
-/* The boundaries low..low + count - 1 have changed places among themselves, and known cells lie
- * right of them now, of which copies are put there. The composer does not stand between them. */
+/* The boundaries low..low + count - 1 have changed places among themselves. right[k]: the cell now
+ * right of boundary low + k, which is copied. The walk is not between them. */
 void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_active *active,
                      size_t low, size_t count, const cs_cell *const *right);
-/* Lets the composer stand left of boundary `place`, right of the toggles at or left of x. */
-void cs_cells_stand(cs_cells *cells, cs_composer *composer, size_t place, double x);
-/* Lets it stand where nothing is present. */
-void cs_cells_home(cs_cells *cells, cs_composer *composer);
+/* Moves the walk to just left of boundary `place`, right of the deferred changes at or left of x:
+ * by the shorter way round. */
+void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x);
+/* Moves it to where nothing is present. */
+void cs_cells_walk_home(cs_cells *cells, cs_composer *composer);
 /* Lists the visible boundaries. */
 void cs_cells_list(cs_cells *cells);
-/* Forgets every cell; the composer stays. */
+/* Forgets every cell; the walk stays. */
 void cs_cells_forget(cs_cells *cells);
-/* The same after a failure: nothing is present where the composer stands. */
+/* The same after a failure: nothing is present at the place of the walk. */
 void cs_cells_restart(cs_cells *cells, cs_composer *composer);
 
 /* Self-check: whether the composer's windings and the set of every cell are those of a walk from the

@@ -50,17 +50,18 @@ static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
                                      const cs_batch *batch, float (*rgba)[4]) {
   const cs_image_view *view;
   CS_TRY(cs_painter_image(painter, layer->detail, &view));
-  return batch->columns ? cs_sampler_at(painter->blocks, &view->sampler, batch->columns,
-                                        batch->count, batch->y, rgba)
-                        : cs_sampler_run(painter->blocks, &view->sampler, batch->x0, batch->count,
-                                         batch->y, rgba);
+  if (batch->columns)
+    return cs_sampler_at(painter->blocks, &view->sampler, batch->columns, batch->count, batch->y,
+                         rgba);
+  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
+  return cs_sampler_run(painter->blocks, &view->sampler, run, rgba);
 }
 
 static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
                                        const cs_batch *batch, samples *out) {
   const cs_defocused *defocused = painter->stack->defocused[layer->detail];
   cs_defocused_view *view = &painter->defocused[layer->detail];
-  CS_TRY(cs_defocused_stand(defocused, painter->context, view, batch->y));
+  CS_TRY(cs_defocused_move(defocused, painter->context, view, batch->y));
   size_t piece = 0;
   for (int32_t k = 0; k < batch->count; k++) {
     cs_v4 s, t;

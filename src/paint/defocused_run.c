@@ -2,20 +2,21 @@
 
 #include "paint/over_row.h"
 
-/* Light through flat layers is affine in what the soft one scatters (s) and lets through (t). */
+/* Light through flat layers is affine in what the defocused one scatters (s) and lets through (t).
+ */
 typedef struct light {
   cs_v4 base, s, t;
-  cs_v4 clear;    /* where the soft layer is clear */
+  cs_v4 clear;    /* where the defocused layer is clear */
   float matte[3]; /* of alpha: what each channel of t adds */
 } light;
 
-typedef struct walk {
+typedef struct drawing {
   cs_painter *painter;
   const cs_program *program;
-  const cs_defocused *soft;
-  const cs_defocused_view *seen;
+  const cs_defocused *defocused;
+  const cs_defocused_view *view;
   light light;
-} walk;
+} drawing;
 
 bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uint32_t *item) {
   uint32_t found = 0;
@@ -32,7 +33,8 @@ bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uin
 
 /* ---------------------------------------------------------------- colours */
 
-/* Paints that the soft layer is tried with: clear, all scattered, and each channel let through. */
+/* Paints that the defocused layer is tried with: none, all scattered, clear, and each channel let
+ * through by itself. */
 enum { NONE, SCATTERED, CLEAR, RED, GREEN, BLUE, TRIALS };
 
 typedef struct trials {
@@ -40,7 +42,7 @@ typedef struct trials {
 } trials;
 
 /* The colours of the trials, through the layers before and behind. */
-static celspan_status try_paints(walk *w, trials *room) {
+static celspan_status try_paints(drawing *w, trials *room) {
   cs_painter *painter = w->painter;
   celspan_context *context = painter->context;
   cs_arena *scratch = &painter->scratch;
@@ -53,7 +55,7 @@ static celspan_status try_paints(walk *w, trials *room) {
   return CELSPAN_OK;
 }
 
-static celspan_status find_light(walk *w) {
+static celspan_status find_light(drawing *w) {
   cs_arena *scratch = &w->painter->scratch;
   cs_arena_reset(scratch);
   trials *room = cs_arena_take(w->painter->context, scratch, sizeof *room);
@@ -74,64 +76,65 @@ static celspan_status find_light(walk *w) {
   return CELSPAN_OK;
 }
 
-static inline cs_v4 knot_colour(const walk *w, size_t k) {
+static inline cs_v4 vertex_colour(const drawing *w, size_t k) {
   const light *l = &w->light;
-  cs_v4 s = cs_defocused_value(w->soft, w->seen, k, 0);
-  if (w->soft->planes == 1)
+  cs_v4 s = cs_defocused_value(w->defocused, w->view, k, 0);
+  if (w->defocused->planes == 1)
     return l->base + l->s * s + l->t * (1 - s[3]);
-  cs_v4 t = cs_defocused_value(w->soft, w->seen, k, 1), colour = l->base + l->s * s + l->t * t;
+  cs_v4 t = cs_defocused_value(w->defocused, w->view, k, 1), colour = l->base + l->s * s + l->t * t;
   colour[3] = l->base[3] + (l->matte[0] * t[0] + l->matte[1] * t[1] + l->matte[2] * t[2]);
   return colour;
 }
 
-static bool is_still(const walk *w, size_t k) {
-  size_t planes = (size_t)w->soft->planes;
-  const float(*values)[4] = w->seen->values + k * planes;
+static bool is_constant(const drawing *w, size_t k) {
+  size_t planes = (size_t)w->defocused->planes;
+  const float(*values)[4] = w->view->values + k * planes;
   return memcmp(values, values + planes, planes * sizeof *values) == 0;
 }
 
-/* The colour of a constant piece: where it is clear, exactly what it would be without the layer. */
-static cs_v4 still_colour(const walk *w, size_t k) {
-  cs_v4 s = cs_defocused_value(w->soft, w->seen, k, 0);
+/* The colour of a constant line: where it is clear, exactly that without the layer. */
+static cs_v4 constant_colour(const drawing *w, size_t k) {
+  cs_v4 s = cs_defocused_value(w->defocused, w->view, k, 0);
   bool is_clear = cs_v4_same(s, cs_v4_all(0));
-  if (is_clear && w->soft->planes == 2) {
-    cs_v4 t = cs_defocused_value(w->soft, w->seen, k, 1);
+  if (is_clear && w->defocused->planes == 2) {
+    cs_v4 t = cs_defocused_value(w->defocused, w->view, k, 1);
     is_clear = t[0] == 1 && t[1] == 1 && t[2] == 1;
   }
-  return is_clear ? w->light.clear : knot_colour(w, k);
+  return is_clear ? w->light.clear : vertex_colour(w, k);
 }
 
-/* ---------------------------------------------------------------- pieces */
+/* ---------------------------------------------------------------- lines */
 
-/* The column after those up to knot k, at most x1. */
-static int32_t column_after(const walk *w, size_t k, int32_t x1) {
-  double x = (w->seen->at[k] - 0.5) * w->soft->pitch_x - 0.5;
+/* The column after those up to vertex k, at most x1. */
+static int32_t column_after(const drawing *w, size_t k, int32_t x1) {
+  double x = (w->view->at[k] - 0.5) * w->defocused->pitch_x - 0.5;
   int32_t column = x < 0 ? 0 : (int32_t)x + 1;
-  return k + 1 >= w->seen->count || column > x1 ? x1 : column;
+  return k + 1 >= w->view->count || column > x1 ? x1 : column;
 }
 
-/* Whether all that is left of a piece at column x is its last knot's column, and the next piece can
- * begin there. */
-static bool is_joint(const walk *w, size_t k, int32_t x) {
-  const int32_t *at = w->seen->at;
-  return w->soft->pitch_x == 1 && at[k + 1] == at[k] + 1 && k + 2 < w->seen->count &&
-         !is_still(w, k + 1) && cs_defocused_at(w->soft, x + 0.5) > at[k];
+/* Whether column x is left to the next line: it is the last of this one, and that of the vertex at
+ * which the next begins. */
+static bool is_handed_on(const drawing *w, size_t k, int32_t x) {
+  const int32_t *at = w->view->at;
+  return w->defocused->pitch_x == 1 && at[k + 1] == at[k] + 1 && k + 2 < w->view->count &&
+         !is_constant(w, k + 1) && cs_defocused_at(w->defocused, x + 0.5) > at[k];
 }
 
-static celspan_status walk_pieces(walk *w, cs_run run, cs_row *row) {
+static celspan_status put_lines(drawing *w, cs_run run, cs_row *row) {
   celspan_context *context = w->painter->context;
-  const int32_t *at = w->seen->at;
-  size_t k = cs_defocused_find(w->seen, cs_defocused_at(w->soft, run.x0 + 0.5), 0);
-  cs_v4 left = knot_colour(w, k);
+  const int32_t *at = w->view->at;
+  size_t k = cs_defocused_find(w->view, cs_defocused_at(w->defocused, run.x0 + 0.5), 0);
+  cs_v4 left = vertex_colour(w, k);
   for (int32_t x = run.x0, to; x < run.x1; x = to, k++) {
-    cs_v4 right = knot_colour(w, k + 1);
-    to = is_joint(w, k, x) ? x : column_after(w, k + 1, run.x1);
-    if (to > x && is_still(w, k)) {
-      CS_TRY(cs_row_single(context, row, x, to, still_colour(w, k)));
+    cs_v4 right = vertex_colour(w, k + 1);
+    to = is_handed_on(w, k, x) ? x : column_after(w, k + 1, run.x1);
+    if (to > x && is_constant(w, k)) {
+      CS_TRY(cs_row_single(context, row, x, to, constant_colour(w, k)));
     } else if (to > x) {
       cs_v4 slope = (right - left) * (1 / (float)(at[k + 1] - at[k]));
-      cs_v4 start = left + (float)(cs_defocused_at(w->soft, x + 0.5) - at[k]) * slope;
-      CS_TRY(cs_row_gradient(context, row, x, to, start, slope * (float)(1 / w->soft->pitch_x)));
+      cs_v4 start = left + (float)(cs_defocused_at(w->defocused, x + 0.5) - at[k]) * slope;
+      CS_TRY(
+          cs_row_gradient(context, row, x, to, start, slope * (float)(1 / w->defocused->pitch_x)));
     }
     w->painter->evaluations++;
     left = right;
@@ -142,10 +145,10 @@ static celspan_status walk_pieces(walk *w, cs_run run, cs_row *row) {
 celspan_status cs_defocused_run(cs_painter *painter, const cs_program *program, uint32_t item,
                                 cs_run run, cs_row *row) {
   uint32_t detail = painter->stack->layers[program->items[item].layer].detail;
-  walk w = {.painter = painter, .program = program};
-  w.soft = painter->stack->defocused[detail];
-  w.seen = &painter->defocused[detail];
-  CS_TRY(cs_defocused_stand(w.soft, painter->context, &painter->defocused[detail], run.y));
+  drawing w = {.painter = painter, .program = program};
+  w.defocused = painter->stack->defocused[detail];
+  w.view = &painter->defocused[detail];
+  CS_TRY(cs_defocused_move(w.defocused, painter->context, &painter->defocused[detail], run.y));
   CS_TRY(find_light(&w));
-  return walk_pieces(&w, run, row);
+  return put_lines(&w, run, row);
 }

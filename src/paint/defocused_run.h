@@ -1,5 +1,12 @@
-/* Spans of one soft layer among flat ones: the usual defocused cel, made from its nodes without
- * going through the program column by column. */
+/* Runs of one defocused layer among flat ones, which is the usual defocused cel: its row is a
+ * polyline already (sample/defocused.h), so every line becomes a span without going through the
+ * program column by column.
+ *
+ *     vertices      v---------v    .    .    v-------v
+ *     node             .    .   `-.  .  . -'    .
+ *     spans         |  single |  gradient  ^ gradient|    colours of the vertices, through the flat
+ *                                                         layers before and behind
+ */
 #ifndef CS_PAINT_DEFOCUSED_RUN_H
 #define CS_PAINT_DEFOCUSED_RUN_H
 
@@ -7,7 +14,7 @@
 #include "span/row.h"
 #include "span/run.h"
 
-/* Whether a program holds one soft layer and else flat ones; *item: which. */
+/* Whether a program has one defocused layer and else flat ones; *item: which. */
 bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uint32_t *item);
 /* As cs_painter_run_program. */
 CELSPAN_CHECKED celspan_status cs_defocused_run(cs_painter *painter, const cs_program *program,

@@ -1,5 +1,16 @@
-/* Runs of one gradient without perspective: pieces end where its stops are, and how far a piece
- * bends is known without looking at its colours.
+/* Runs of one gradient without perspective: cut at its stops, and halved between them as far as its
+ * geometry asks for, without comparing colours.
+ *
+ *     RADIAL, a row through the circles of its stops:
+ *
+ *              . - ~ ~ ~ - .
+ *            '   . - ~ - .   '
+ *     ------+---+----+----+---+------ row       cut where it meets a circle, and at the foot of
+ *           '   '    |    '   '                 the centre, where the distance turns round
+ *            ' .  '- o -'  . '
+ *                 centre
+ *
+ *     LINEAR: where the row meets the lines of its stops
  */
 #ifndef CS_PAINT_GRADIENT_RUN_H
 #define CS_PAINT_GRADIENT_RUN_H

@@ -1,14 +1,17 @@
-/* One linear piece of a row: the span between the colours of two columns, and when a curve of
- * colour is near enough to it.
+/* Curves of colour along a row as linear spans: a piece of a curve becomes one line if it is
+ * straight enough, else it is halved.
  *
  *     colour
- *       |              . - ' *   last
- *       |        . o '       :
- *       |    . o     - - - - : - -  the line; at three quarters of the way the curve is compared
- *       |  o                 :
+ *       |              . o ' *   last
+ *       |        . o - '     :
+ *       |    . o - '         :      o  the curve, compared with the line
+ *       |  .-'               :         at the three quarters of the way
  *       | *  first           :
  *       +-+--+-----+-----+---+----> column
- *         x0 1/4  2/4   3/4  x1 - 1
+ *         x0      / \      x1 - 1
+ *                where it is halved: two neighbouring columns, so the halves do not overlap
+ *
+ * A piece of two columns is always straight, so the depth of halving is at most log2 of the width.
  */
 #ifndef CS_PAINT_LINE_H
 #define CS_PAINT_LINE_H
@@ -19,16 +22,60 @@
 /* A line is accepted when it is this near the curve at its quarters: half of what is promised. */
 #define CS_LINE_TOLERANCE (0.5f / 1023)
 
+/* A point of a curve: at the middle of a column. */
+typedef struct cs_line_point {
+  int32_t column;
+  double at; /* for the curve's own use */
+  cs_v4 colour;
+} cs_line_point;
+
+typedef struct cs_curve cs_curve;
+struct cs_curve {
+  celspan_context *context;
+  cs_row *row; /* that the spans are appended to */
+  /* Whether the line from one point to another is near the curve between them. */
+  celspan_status (*test)(cs_curve *curve, const cs_line_point *first, const cs_line_point *last,
+                         bool *is_straight);
+  /* The points of two neighbouring columns, the left of which is `column`. */
+  celspan_status (*split)(cs_curve *curve, int32_t column, cs_line_point points[2]);
+};
+
+/* Appends the piece between two points, their columns included. Errors: those of the curve, and
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_line_fit(cs_curve *curve, const cs_line_point *first,
+                                           const cs_line_point *last);
+/* The same of a piece that is known not to be straight. */
+CELSPAN_CHECKED celspan_status cs_line_halve(cs_curve *curve, const cs_line_point *first,
+                                             const cs_line_point *last);
+
 /* The last column of a run that is `quarter` quarters on. */
 static inline int32_t cs_line_quarter(cs_run run, int quarter) {
   return run.x0 + (int32_t)((int64_t)(run.x1 - 1 - run.x0) * quarter / 4);
 }
 
-/* Appends the line between the colours of the first and the last column of a run. */
-static inline CELSPAN_CHECKED celspan_status cs_line_put(celspan_context *context, cs_row *row,
-                                                         cs_run run, cs_v4 first, cs_v4 last) {
-  float steps = run.x1 - run.x0 > 1 ? (float)(run.x1 - 1 - run.x0) : 1;
-  return cs_row_gradient(context, row, run.x0, run.x1, first, (last - first) / steps);
+/* The run of columns from one point to another, which both belong to it. */
+static inline cs_run cs_line_run(const cs_line_point *first, const cs_line_point *last) {
+  return (cs_run){first->column, last->column + 1, 0};
+}
+
+/* Whether a colour is near the line between two points, which are more than a column apart. */
+static inline bool cs_line_is_near(const cs_line_point *first, const cs_line_point *last,
+                                   int32_t column, cs_v4 colour) {
+  float share = (float)(column - first->column) / (float)(last->column - first->column);
+  cs_v4 line = first->colour + share * (last->colour - first->colour);
+  for (int c = 0; c < 4; c++)
+    if (!(__builtin_fabsf(colour[c] - line[c]) <= CS_LINE_TOLERANCE))
+      return false;
+  return true;
+}
+
+/* Appends the line between two points. */
+static inline CELSPAN_CHECKED celspan_status cs_line_put(const cs_curve *curve,
+                                                         const cs_line_point *first,
+                                                         const cs_line_point *last) {
+  float steps = last->column > first->column ? (float)(last->column - first->column) : 1;
+  return cs_row_gradient(curve->context, curve->row, first->column, last->column + 1, first->colour,
+                         (last->colour - first->colour) / steps);
 }
 
 #endif

@@ -1,5 +1,13 @@
-/* Programs that are straight between some columns: gradients, procedures, soft layers, and pictures
- * enlarged so far that a texel is some pixels wide.
+/* Programs that vary as formulas, cut into linear pieces: gradients, procedures, defocused cels,
+ * and pictures enlarged so far that a texel is some pixels wide.
+ *
+ *     colour
+ *       |        ___                       a run is cut where a formula bends or a texel begins
+ *       |       /   `-._                   (ends.h); each piece becomes one span if it is straight
+ *       |   ___/        `-._               enough, else it is halved (line.h)
+ *       |  |   :   :    :   |
+ *       +--+---+---+----+---+---> column
+ *          x0              x1
  */
 #ifndef CS_PAINT_LINES_H
 #define CS_PAINT_LINES_H

@@ -39,7 +39,7 @@ void cs_painter_finish(cs_painter *painter) {
     cs_block_cache_finish(painter->blocks);
   cs_mem_free(memory, painter->blocks, sizeof(cs_block_cache));
   for (size_t i = 0; painter->defocused && i < stack->defocused_count; i++)
-    cs_defocused_leave(stack->defocused[i], painter->context, &painter->defocused[i]);
+    cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
   cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
   cs_gradient_tables_destroy(painter->gradients, memory);
   cs_arena_finish(&painter->scratch, memory);

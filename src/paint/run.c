@@ -27,7 +27,7 @@ static bool is_copy(const cs_painter *painter, const cs_program *shown, bool end
     return false;
   const cs_layer *layer = &painter->stack->layers[shown->items[0].layer];
   return cs_painter_is_bare(painter, shown->items[0]) &&
-         painter->images[layer->detail].sampler.way == CS_SAMPLER_COPY;
+         painter->images[layer->detail].sampler.placement == CS_SAMPLER_COPY;
 }
 
 static celspan_status run_copy(cs_painter *painter, const cs_program *shown, cs_run run,
@@ -35,8 +35,7 @@ static celspan_status run_copy(cs_painter *painter, const cs_program *shown, cs_
   const cs_layer *layer = &painter->stack->layers[shown->items[0].layer];
   unsigned char *codes;
   CS_TRY(cs_row_codes(painter->context, row, run.x0, run.x1, &codes));
-  return cs_sampler_codes(painter->blocks, &painter->images[layer->detail].sampler, run.x0,
-                          run.x1 - run.x0, run.y, codes);
+  return cs_sampler_codes(painter->blocks, &painter->images[layer->detail].sampler, run, codes);
 }
 
 /* Pixels coded while they are in the cache. */
@@ -101,7 +100,7 @@ static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run r
     *out = CS_PICTURE_OPAQUE;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_sampler_look(painter->blocks, &view->sampler, run.x0, run.x1, run.y, out));
+  CS_TRY(cs_sampler_opacity(painter->blocks, &view->sampler, run, out));
   if (*out == CS_PICTURE_OPAQUE &&
       painter->stack->images[layer->detail].texture->use == CELSPAN_PICTURE_GEL)
     *out = CS_PICTURE_MIXED;
@@ -186,8 +185,8 @@ static celspan_status find_stride(cs_painter *painter, const cs_program *program
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
     CS_TRY(cs_painter_image(painter, layer->detail, &view));
-    if (!view->is_opaque && view->sampler.look_columns < *out)
-      *out = view->sampler.look_columns;
+    if (!view->is_opaque && view->sampler.opacity_columns < *out)
+      *out = view->sampler.opacity_columns;
   }
   return CELSPAN_OK;
 }

@@ -187,9 +187,9 @@ size_t cs_shade_break_limit(const cs_shade *shade) {
   return shade->texture->kind == CS_TEXTURE_TRIANGLE ? 21 : 2 * shade->texture->stop_count + 2;
 }
 
-size_t cs_shade_breaks(const cs_shade *shade, double y, double x0, double x1, double *out) {
-  breaks list = {x0, x1, out, 0};
-  row_map map = map_row(shade, y);
+size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *out) {
+  breaks list = {run.x0, run.x1, out, 0};
+  row_map map = map_row(shade, run.y);
   break_plane(&list, &map, 0, 0, 1); /* the horizon */
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     break_triangle(&list, shade, &map);

@@ -6,7 +6,8 @@
 #ifndef CS_PAINT_SHADE_H
 #define CS_PAINT_SHADE_H
 
-#include "compose/stack.h"
+#include "compose/layer.h"
+#include "span/run.h"
 
 #include <math.h>
 
@@ -34,10 +35,9 @@ typedef struct cs_shade_lanes {
 
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
-/* Where on the row at height y the formula bends, x0 < x < x1: at most CS_SHADE_BREAKS(shade)
- * values, in no order. Returns how many. */
-size_t cs_shade_breaks(const cs_shade *shade, double y, double x0, double x1, double *breaks);
-/* Room that cs_shade_breaks needs at most. */
+/* The places x inside a run at which the formula bends, in no order; at most as many as the limit
+ * says. Returns how many. */
+size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);
 size_t cs_shade_break_limit(const cs_shade *shade);
 
 #endif

@@ -23,8 +23,8 @@ void cs_block_cache_init(cs_block_cache *texels, celspan_context *context) {
     texels->pairs *= 2;
   for (int i = 0; i < CS_BLOCK_CACHE_SLOTS; i++)
     texels->slots[i].texels = NULL;
-  for (int i = 0; i < CS_BLOCK_CACHE_LOOKS; i++)
-    texels->looks[i].sampler = NULL;
+  for (int i = 0; i < CS_BLOCK_CACHE_OPACITIES; i++)
+    texels->opacities[i].sampler = NULL;
 }
 
 static void empty(cs_block_cache_slot *slot) {
@@ -57,7 +57,7 @@ void cs_block_cache_fetch(cs_block_cache *texels, const cs_block_cache_source *s
                                 .level = level,
                                 .column = column,
                                 .row = row,
-                                .look = block->opacity,
+                                .opacity = block->opacity,
                                 .texels = block->texels,
                                 .codes = block->is_coded ? block->codes[0] : NULL,
                                 .block = slot->block};

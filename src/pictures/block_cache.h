@@ -16,21 +16,21 @@ typedef struct cs_block_cache_slot {
   const cs_picture *picture;
   int level;
   int32_t column, row;
-  cs_picture_opacity look;
+  cs_picture_opacity opacity;
   const float *texels;        /* NULL: empty */
   const unsigned char *codes; /* of the texels, where these tell all; else NULL */
   cs_picture_block *block;
 } cs_block_cache_slot;
 
 /* What some columns of a picture have in common, on rows from one height to another. */
-typedef struct cs_block_cache_look {
+typedef struct cs_block_cache_opacity {
   const void *sampler; /* of the picture as it lies; NULL: nothing yet */
   int32_t x0, x1;
   double from, to;
-  cs_picture_opacity look;
-} cs_block_cache_look;
+  cs_picture_opacity opacity;
+} cs_block_cache_opacity;
 
-#define CS_BLOCK_CACHE_LOOKS 1024
+#define CS_BLOCK_CACHE_OPACITIES 1024
 
 typedef struct cs_block_cache {
   celspan_context *context;
@@ -39,7 +39,7 @@ typedef struct cs_block_cache {
   uint32_t fetches;            /* so far */
   uint32_t pairs;              /* in use, a power of two: fewer where memory is short */
   cs_block_cache_slot slots[CS_BLOCK_CACHE_SLOTS];
-  cs_block_cache_look looks[CS_BLOCK_CACHE_LOOKS]; /* the last of each part of a row */
+  cs_block_cache_opacity opacities[CS_BLOCK_CACHE_OPACITIES]; /* the last of each part of a row */
 } cs_block_cache;
 
 /* A picture as its texels are asked for. */

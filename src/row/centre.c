@@ -174,7 +174,7 @@ static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
   double x = 0; /* where the cell at hand begins */
   CS_TRY(cs_procedures_collect(centre->parts.procedures, y + 0.5, &w.edges));
   cs_procedures_sort(&w.edges);
-  cs_cells_home(centre->parts.cells, centre->parts.composer);
+  cs_cells_walk_home(centre->parts.cells, centre->parts.composer);
   w.deferred.next = cs_active_deferred(centre->parts.active, &w.deferred.end);
   for (;;) {
     int32_t to = cs_number_first_centre(next_x(&w, centre->parts.width));

@@ -1,36 +1,52 @@
-/* Soft layers: a defocused cel as values at the nodes of a grid over the frame.
+/* Defocused cels as values at the nodes of a grid over the frame.
  *
- *   bands (defocus/defocus.c makes them) --a row, or two blended--> knots: straight pieces of a row
- *                                      --between two knots, linear--> paint at a place
+ *     node (i, j) is at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels
  *
- * Node (i, j) stands at ((i - 1/2) pitch_x, (j - 1/2) pitch_y) pixels: in the middles of the grid's
- * cells, the first of which lies before the frame. A plane holds four values a node: the paint's S
- * and its matte (1 - the mean of T); where T differs from channel to channel a second plane holds
- * T.
+ *         o - - - - o - - - - o - - - - o       j      o  nodes; the first column and row of them
+ *         :    |    :         :         :              lie outside the frame
+ *         :  --+----:---------:---------:---  y = 0
+ *         :    |    :         :         :
+ *         o - - - - o - - - - o - - - - o       j + 1
+ *         :    |    :         :         :
+ *      -  -  - | -  -  -  -  -  -  -  -  -  -   a row of the frame: mixed from the rows of nodes
+ *         :    |    :         :         :       above and below
+ *              x = 0
  *
- * Invariant: what a node holds is a function of the cel, its placement and the frame's size; lines
- * from knot to knot stray from the nodes by at most a quarter of 1/1023.
+ *     value   v-----v                              a row of nodes is kept as a polyline: its
+ *       |    /       `v--.                         vertices are nodes, the values between two of
+ *       |   v  .  .  .    ` v  .  . v              them lie on the line from one to the other
+ *       +---+--+--+--+--+---+--+----+--> node
+ *
+ *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
+ *
+ * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
+ * differs from channel to channel a second plane holds T.
+ *
+ * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
+ * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them.
  */
 #ifndef CS_SAMPLE_DEFOCUSED_H
 #define CS_SAMPLE_DEFOCUSED_H
 
 #include "base/context.h"
 #include "base/vector.h"
+#include "span/run.h"
 
-/* Rows as straight pieces: equal values at two knots are a constant stretch. */
-typedef struct cs_defocused_knots {
+/* Rows of nodes as polylines: equal values at two vertices are a constant stretch. */
+typedef struct cs_defocused_polyline {
   int32_t *at;        /* nodes, ascending in each row, from the first to the last */
-  float (*values)[4]; /* of each knot, plane after plane */
-  bool *still;        /* scratch: of the row being made, which pieces are constant */
-  size_t count, at_capacity, value_capacity, still_capacity;
-} cs_defocused_knots;
+  float (*values)[4]; /* of each vertex, plane after plane */
+  bool *constant;     /* scratch: of the row being made, which lines are constant */
+  size_t count, at_capacity, value_capacity, constant_capacity;
+} cs_defocused_polyline;
 
-/* band_rows rows of nodes: plane after plane, or as knots. */
+/* A band: band_rows rows of nodes that are made and kept together, plane after plane or as
+ * polylines. */
 typedef struct cs_defocus_band {
-  float (*nodes)[4]; /* NULL where they are knots */
+  float (*nodes)[4]; /* NULL where they are polylines */
   size_t node_count;
-  cs_defocused_knots knots;
-  size_t *rows; /* the first knot of each row, and the end: band_rows + 1 */
+  cs_defocused_polyline polyline;
+  size_t *rows; /* the first vertex of each row, and the end: band_rows + 1 */
   size_t row_capacity;
 } cs_defocus_band;
 
@@ -40,62 +56,62 @@ struct cs_defocused {
   int32_t columns, rows;   /* nodes, at least 2 */
   int32_t band_rows;
   int planes;
-  /* Bands are shared; one that was acquired stays until it is released. Threads: any.
+  /* Bands are shared; one that was acquired is kept until it is released. Threads: any.
    * Errors: NO_MEMORY, and those of the rows of the cel. */
-  celspan_status (*acquire)(const cs_defocused *soft, celspan_context *context, int32_t band,
+  celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
                             cs_defocus_band **out);
-  void (*release)(const cs_defocused *soft, celspan_context *context, cs_defocus_band *band);
+  void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
 };
 
-/* A soft layer as one worker sees it. */
+/* A defocused cel as one worker sees it, along one row. */
 typedef struct cs_defocused_view {
-  cs_defocus_band *bands[2]; /* held; NULL: none */
+  cs_defocus_band *bands[2]; /* acquired; NULL: none */
   int32_t numbers[2];        /* theirs */
-  bool stands;               /* the knots are those at height y */
+  bool is_placed;            /* the vertices are those at height y */
   double y;
-  const int32_t *at; /* the knots of the row: a band's, or its own */
+  const int32_t *at; /* the vertices of the row: of a band, or its own */
   const float (*values)[4];
   size_t count;
-  cs_defocused_knots own;
-  float (*blended)[4]; /* a row of nodes, plane after plane */
+  cs_defocused_polyline own;
+  float (*mixed)[4]; /* a row of nodes, plane after plane */
 } cs_defocused_view;
 
 /* ---- bands */
 
 void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory);
 size_t cs_defocus_band_bytes(const cs_defocus_band *band);
-/* Turns the nodes of a band of `rows` rows into knots. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_defocus_band_thin(const cs_defocused *soft,
+/* Turns the nodes of a band of `rows` rows into polylines. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_band_thin(const cs_defocused *defocused,
                                                     celspan_context *context, int32_t rows,
                                                     cs_defocus_band *band);
 
 /* ---- rows */
 
-void cs_defocused_leave(const cs_defocused *soft, celspan_context *context,
-                        cs_defocused_view *seen);
-/* Brings `seen` to the height y, pixels. */
-CELSPAN_CHECKED celspan_status cs_defocused_stand(const cs_defocused *soft,
-                                                  celspan_context *context, cs_defocused_view *seen,
-                                                  double y);
-/* Where x lies among the nodes. */
-static inline double cs_defocused_at(const cs_defocused *soft, double x) {
-  double at = x / soft->pitch_x + 0.5, last = soft->columns - 1;
+/* Gives up all that a view has acquired. */
+void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
+                          cs_defocused_view *view);
+/* Moves a view to the height y, pixels. Errors: NO_MEMORY, and those of making a band. */
+CELSPAN_CHECKED celspan_status cs_defocused_move(const cs_defocused *defocused,
+                                                 celspan_context *context, cs_defocused_view *view,
+                                                 double y);
+/* Where x lies among the nodes of a row. */
+static inline double cs_defocused_at(const cs_defocused *defocused, double x) {
+  double at = x / defocused->pitch_x + 0.5, last = defocused->columns - 1;
   return at < 0 ? 0 : at > last ? last : at;
 }
-static inline cs_v4 cs_defocused_value(const cs_defocused *soft, const cs_defocused_view *seen,
-                                       size_t knot, int plane) {
-  return cs_v4_load(seen->values[knot * (size_t)soft->planes + (size_t)plane]);
+static inline cs_v4 cs_defocused_value(const cs_defocused *defocused, const cs_defocused_view *view,
+                                       size_t vertex, int plane) {
+  return cs_v4_load(view->values[vertex * (size_t)defocused->planes + (size_t)plane]);
 }
-/* The piece that holds a place: its first knot. hint: where to look first. */
-size_t cs_defocused_find(const cs_defocused_view *seen, double at, size_t hint);
-/* The paint at x, at the height where `seen` stands. *piece: a hint, and where x was found. */
-void cs_defocused_paint(const cs_defocused *soft, const cs_defocused_view *seen, double x,
-                        size_t *piece, cs_v4 *s, cs_v4 *t);
-/* The knots in x0 < x < x1, as places along the row: at most cs_defocused_break_limit. Returns how
- * many.
- */
-size_t cs_defocused_breaks(const cs_defocused *soft, const cs_defocused_view *seen, double x0,
-                           double x1, double *breaks);
-size_t cs_defocused_break_limit(const cs_defocused *soft);
+/* The line that a place among the nodes is on: its first vertex. hint: where to search first. */
+size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint);
+/* The paint at x, at the height of the view. *line: a hint, and the line that x is on. */
+void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
+                        size_t *line, cs_v4 *s, cs_v4 *t);
+/* The vertices inside a run, as places x along the row; at most as many as the limit says. Returns
+ * how many. */
+size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_view *view, cs_run run,
+                           double *breaks);
+size_t cs_defocused_break_limit(const cs_defocused *defocused);
 
 #endif

@@ -1,8 +1,14 @@
-#include "sample/sampler_parts.h"
+#include "sample/sampler.h"
+
+#include "sample/sampler_codes.h"
+#include "sample/sampler_level.h"
+#include "sample/sampler_pixel.h"
+#include "sample/sampler_row.h"
+#include "sample/sampler_taps.h"
 
 #define SAME_SCALE 1e-12
 
-/* ---------------------------------------------------------------- which way */
+/* ---------------------------------------------------------------- how samples are made */
 
 typedef struct footprint {
   double ux, vx; /* what a pixel to the right adds to its place on the picture */
@@ -22,29 +28,15 @@ static bool is_enlarged(const footprint *f) {
   return (wide <= most && high <= most) || (right <= most && below <= most);
 }
 
-int cs_sampler_level(int level_count, double shorter, double longer, double texels, double most) {
-  int level = 0;
-  while (level + 1 < level_count && (shorter >= 2 * texels || longer > most)) {
-    level++;
-    shorter *= 0.5;
-    longer *= 0.5;
-  }
-  return level;
-}
-
-static int taps_along(double length, int level) {
-  double taps = ceil(length / (double)((int64_t)1 << level) - CS_SAMPLER_SAME);
-  return (int)cs_number_clamp(taps, 1, CS_SAMPLER_MOST_TAPS);
-}
-
 static void plan_tilted(cs_sampler *s, const footprint *f) {
-  double right = sqrt(f->ux * f->ux + f->vx * f->vx), below = sqrt(f->uy * f->uy + f->vy * f->vy);
+  double right = f->ux * f->ux + f->vx * f->vx, below = f->uy * f->uy + f->vy * f->vy;
+  double shorter = sqrt(fmin(right, below)), longer = sqrt(fmax(right, below));
   s->kernel = CS_SAMPLER_TILTED;
-  s->level =
-      cs_sampler_level(s->level_count, right < below ? right : below, right < below ? below : right,
-                       CS_SAMPLER_TAP_TEXELS, CS_SAMPLER_MOST_TAPS);
-  s->columns = taps_along(right, s->level);
-  s->rows = taps_along(below, s->level);
+  s->level = cs_sampler_level(s->level_count, shorter, longer, CS_SAMPLER_TAP_TEXELS,
+                              CS_SAMPLER_MOST_TAPS);
+  double texel = (double)((int64_t)1 << s->level);
+  s->columns = cs_sampler_tap_count(right, texel);
+  s->rows = cs_sampler_tap_count(below, texel);
 }
 
 static void plan_box(cs_sampler *s, const footprint *f) {
@@ -62,18 +54,18 @@ static void plan_box(cs_sampler *s, const footprint *f) {
 static void plan_affine(cs_sampler *s) {
   footprint f = {.ux = s->m[0], .vx = s->m[3], .uy = s->m[1], .vy = s->m[4]};
   double kept = fabs(f.ux) + fabs(f.vy), crossed = fabs(f.vx) + fabs(f.uy);
-  bool stays = crossed <= SAME_SCALE * kept, turns = kept <= SAME_SCALE * crossed;
-  s->way = stays ? CS_SAMPLER_ROW : CS_SAMPLER_TAPS;
+  bool is_upright = crossed <= SAME_SCALE * kept, is_sideways = kept <= SAME_SCALE * crossed;
+  s->placement = is_upright ? CS_SAMPLER_UPRIGHT : CS_SAMPLER_AFFINE;
   if (s->sampling == CELSPAN_SAMPLING_NEAREST) {
     s->kernel = CS_SAMPLER_NEAREST;
   } else if (s->sampling == CELSPAN_SAMPLING_BICUBIC && is_enlarged(&f)) {
-    s->kernel = CS_SAMPLER_CUBIC;
-    s->way = CS_SAMPLER_PIXEL;
+    s->kernel = CS_SAMPLER_BICUBIC;
+    s->placement = CS_SAMPLER_SINGLE;
   } else if (s->sampling == CELSPAN_SAMPLING_BILINEAR || is_enlarged(&f)) {
-    s->kernel = CS_SAMPLER_LINEAR;
-  } else if (stays || turns) {
+    s->kernel = CS_SAMPLER_BILINEAR;
+  } else if (is_upright || is_sideways) {
     plan_box(s, &f);
-    s->way = stays ? CS_SAMPLER_ROW : CS_SAMPLER_PIXEL;
+    s->placement = is_upright ? CS_SAMPLER_UPRIGHT : CS_SAMPLER_SINGLE;
   } else {
     plan_tilted(s, &f);
   }
@@ -84,25 +76,25 @@ static cs_sampler_kernel perspective_kernel(celspan_sampling sampling) {
   case CELSPAN_SAMPLING_NEAREST:
     return CS_SAMPLER_NEAREST;
   case CELSPAN_SAMPLING_BILINEAR:
-    return CS_SAMPLER_LINEAR;
+    return CS_SAMPLER_BILINEAR;
   case CELSPAN_SAMPLING_BICUBIC:
-    return CS_SAMPLER_CUBIC;
+    return CS_SAMPLER_BICUBIC;
   case CELSPAN_SAMPLING_AUTO:
     break;
   }
   return CS_SAMPLER_TILTED;
 }
 
-/* How far from its centre a sample may reach, in picture pixels. */
-static double reach_of(const cs_sampler *s) {
+/* How far from its centre the texels of a sample may lie, in picture pixels. */
+static double radius_of(const cs_sampler *s) {
   double texel = (double)((int64_t)1 << s->level);
   double slant = fabs(s->m[0]) + fabs(s->m[1]), fall = fabs(s->m[3]) + fabs(s->m[4]);
-  switch (s->way == CS_SAMPLER_COPY ? CS_SAMPLER_NEAREST : s->kernel) {
+  switch (s->placement == CS_SAMPLER_COPY ? CS_SAMPLER_NEAREST : s->kernel) {
   case CS_SAMPLER_NEAREST:
     return 0.25;
-  case CS_SAMPLER_LINEAR:
+  case CS_SAMPLER_BILINEAR:
     return 0.51;
-  case CS_SAMPLER_CUBIC:
+  case CS_SAMPLER_BICUBIC:
     return 2;
   case CS_SAMPLER_BOX:
     return 0.5 * fmax(s->wide, s->high) + texel;
@@ -113,7 +105,7 @@ static double reach_of(const cs_sampler *s) {
 }
 
 /* As many columns as lie on the texels of one block, a power of two. */
-static int32_t look_columns(const cs_sampler *s) {
+static int32_t opacity_columns(const cs_sampler *s) {
   double across = fmax(fabs(s->m[0]), fabs(s->m[3]));
   int32_t columns = CS_PICTURE_BLOCK;
   while (columns < 1 << 20 && 2 * columns * across <= CS_PICTURE_BLOCK)
@@ -127,19 +119,19 @@ void cs_sampler_prepare(cs_sampler *s) {
   s->level_count = cs_levels_count(s->width, s->height);
   memcpy(s->m, s->inverse.m, sizeof s->m);
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
-    s->way = CS_SAMPLER_PERSPECTIVE;
+    s->placement = CS_SAMPLER_PERSPECTIVE;
     s->kernel = perspective_kernel(s->sampling);
-    s->look_columns = INT32_MAX;
+    s->opacity_columns = INT32_MAX;
     return;
   }
   for (int i = 0; i < 9; i++)
     s->m[i] /= s->inverse.m[8];
   if (is_copy(s->m))
-    s->way = CS_SAMPLER_COPY;
+    s->placement = CS_SAMPLER_COPY;
   else
     plan_affine(s);
-  s->reach = reach_of(s);
-  s->look_columns = look_columns(s);
+  s->radius = radius_of(s);
+  s->opacity_columns = opacity_columns(s);
 }
 
 /* ---------------------------------------------------------------- copies */
@@ -154,7 +146,7 @@ static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t coun
                       unsigned char *out) {
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
-      run->texels, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
+      run->blocks, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
   bool reads_codes = slot->texels && (what == CODES || (slot->codes && s->reads_codes));
   size_t texel = reads_codes ? 4 : 4 * sizeof(float), size = (size_t)count * texel;
   size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
@@ -164,14 +156,15 @@ static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t coun
   from += (size_t)(y % CS_PICTURE_BLOCK) * row + (size_t)(x % CS_PICTURE_BLOCK) * texel;
   if (reads_codes && what == LIGHT)
     CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)
-  (run->texels->curve, (const unsigned char *)from, count, (float(*)[4])(void *)out);
+  (run->blocks->curve, (const unsigned char *)from, count, (float(*)[4])(void *)out);
   else memcpy(out, from, size);
   /* The row below follows in the block: fetched now, it is there in time. */
   for (size_t ahead = 0; ahead < size; ahead += 64)
     __builtin_prefetch(from + row + ahead);
 }
 
-/* `count` texels of row v from u on, both wherever. */
+/* `count` texels of row v, from column u on. The row and the columns need not be in the picture:
+ * what lies beyond its edges is what the wrap mode says. */
 static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, copied what,
                         unsigned char *out) {
   const cs_sampler *s = run->sampler;
@@ -198,51 +191,53 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
   }
 }
 
-static void copy_run(const cs_sampling *run, int32_t x0, int32_t count, double y, copied what,
-                     void *out) {
-  const double *m = run->sampler->m;
-  copy_texels(run, x0 + (int64_t)rint(m[2]), (int64_t)floor(y + rint(m[5])), count, what, out);
+static void copy_run(const cs_sampling *sampling, cs_run run, copied what, void *out) {
+  const double *m = sampling->sampler->m;
+  int64_t u = run.x0 + (int64_t)rint(m[2]), v = (int64_t)floor(run.y + rint(m[5]));
+  copy_texels(sampling, u, v, run.x1 - run.x0, what, out);
 }
 
-celspan_status cs_sampler_codes(cs_block_cache *texels, const cs_sampler *sampler, int32_t x0,
-                                int32_t count, double y, unsigned char *codes) {
-  texels->status = CELSPAN_OK;
-  copy_run(&(cs_sampling){sampler, texels}, x0, count, y, CODES, codes);
-  return texels->status;
+celspan_status cs_sampler_codes(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
+                                unsigned char *codes) {
+  blocks->status = CELSPAN_OK;
+  copy_run(&(cs_sampling){sampler, blocks}, run, CODES, codes);
+  return blocks->status;
 }
 
 /* ---------------------------------------------------------------- runs */
 
-celspan_status cs_sampler_run(cs_block_cache *texels, const cs_sampler *sampler, int32_t x0,
-                              int32_t count, double y, float (*rgba)[4]) {
-  cs_sampling run = {sampler, texels};
-  texels->status = CELSPAN_OK;
-  switch (sampler->way) {
+celspan_status cs_sampler_run(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
+                              float (*rgba)[4]) {
+  cs_sampling sampling = {sampler, blocks};
+  blocks->status = CELSPAN_OK;
+  switch (sampler->placement) {
   case CS_SAMPLER_COPY:
-    copy_run(&run, x0, count, y, LIGHT, rgba);
+    copy_run(&sampling, run, LIGHT, rgba);
     break;
-  case CS_SAMPLER_ROW:
-    cs_sampler_row_run(&run, x0, count, y, rgba);
+  case CS_SAMPLER_UPRIGHT:
+    cs_sampler_row_run(&sampling, run, rgba);
     break;
-  case CS_SAMPLER_TAPS:
+  case CS_SAMPLER_AFFINE:
   case CS_SAMPLER_PERSPECTIVE:
-    cs_sampler_taps_run(&run, x0, count, y, rgba);
+    cs_sampler_taps_run(&sampling, run, rgba);
     break;
-  case CS_SAMPLER_PIXEL:
-    cs_sampler_pixel_run(&run, x0, count, y, rgba);
+  case CS_SAMPLER_SINGLE:
+    cs_sampler_pixel_run(&sampling, run, rgba);
     break;
   }
-  return texels->status;
+  return blocks->status;
 }
 
-celspan_status cs_sampler_at(cs_block_cache *texels, const cs_sampler *sampler,
+celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sampler *sampler,
                              const int32_t *columns, int32_t count, double y, float (*rgba)[4]) {
-  if (sampler->way != CS_SAMPLER_ROW) {
-    for (int32_t i = 0; i < count; i++)
-      CS_TRY(cs_sampler_run(texels, sampler, columns[i], 1, y, rgba + i));
+  if (sampler->placement != CS_SAMPLER_UPRIGHT) {
+    for (int32_t i = 0; i < count; i++) {
+      cs_run pixel = {columns[i], columns[i] + 1, y};
+      CS_TRY(cs_sampler_run(blocks, sampler, pixel, rgba + i));
+    }
     return CELSPAN_OK;
   }
-  texels->status = CELSPAN_OK;
-  cs_sampler_row_at(&(cs_sampling){sampler, texels}, columns, count, y, rgba);
-  return texels->status;
+  blocks->status = CELSPAN_OK;
+  cs_sampler_row_at(&(cs_sampling){sampler, blocks}, columns, count, y, rgba);
+  return blocks->status;
 }

@@ -4,7 +4,7 @@
  * 64 codes up in 128 bytes of it. So 16 texels are fetched as 64 bytes, not 256, and decoded in
  * fewer instructions than it would take to load them one by one.
  */
-#include "sample/sampler_parts.h"
+#include "sample/sampler_codes.h"
 
 #define SAME CS_SAMPLER_SAME
 
@@ -17,7 +17,7 @@ static inline double begin(double u, float *share) {
   return whole;
 }
 
-/* The same held to the picture. */
+/* The same clamped to the picture. */
 static inline int32_t hold(double u, int32_t last, float *share) {
   double whole = begin(u, share);
   bool is_inside = (whole >= 0) & (whole < last);
@@ -27,24 +27,24 @@ static inline int32_t hold(double u, int32_t last, float *share) {
   return at < last ? at : last;
 }
 
-void CS_WIDE(cs_sampler_hold_quads)(const cs_sampler *sampler, int32_t count,
-                                    const double *restrict u, const double *restrict v,
-                                    cs_sampler_held *restrict held) {
+void CS_WIDE(cs_sampler_clamp_quads)(const cs_sampler *sampler, int32_t count,
+                                     const double *restrict u, const double *restrict v,
+                                     cs_sampler_clamped *restrict clamped) {
   int32_t last_x = sampler->width - 1, last_y = sampler->height - 1;
   int32_t left = last_x, top = last_y, right = 0, bottom = 0;
   for (int32_t i = 0; i < count; i++) {
-    int32_t x = hold(u[i], last_x, &held->across[i]), y = hold(v[i], last_y, &held->down[i]);
-    held->x[i] = x;
-    held->y[i] = y;
+    int32_t x = hold(u[i], last_x, &clamped->across[i]), y = hold(v[i], last_y, &clamped->down[i]);
+    clamped->x[i] = x;
+    clamped->y[i] = y;
     left = x < left ? x : left;
     right = x > right ? x : right;
     top = y < top ? y : top;
     bottom = y > bottom ? y : bottom;
   }
-  held->left = left;
-  held->top = top;
-  held->right = right;
-  held->bottom = bottom;
+  clamped->left = left;
+  clamped->top = top;
+  clamped->right = right;
+  clamped->bottom = bottom;
 }
 
 /* Where a texel's code is, which lies in a tile. first: the number of the picture's first block, as
@@ -59,31 +59,31 @@ static inline int32_t find(uint32_t x, uint32_t y, int32_t columns, int32_t firs
 }
 
 uint32_t CS_WIDE(cs_sampler_tile_quads)(const cs_sampler *sampler, const cs_sampler_tiles *tiles,
-                                        int32_t count, cs_sampler_held *restrict held) {
+                                        int32_t count, cs_sampler_clamped *restrict clamped) {
   int32_t columns = tiles->columns, first = -tiles->row * columns - tiles->column;
   int32_t last = sampler->height - 1;
   uint32_t touched = 0;
   for (int32_t i = 0; i < count; i++) {
-    int32_t x = held->x[i], y = held->y[i];
-    held->above[i] = find((uint32_t)x, (uint32_t)y, columns, first, &touched);
-    held->below[i] = find((uint32_t)x, (uint32_t)(y + (y < last)), columns, first, &touched);
+    int32_t x = clamped->x[i], y = clamped->y[i];
+    clamped->above[i] = find((uint32_t)x, (uint32_t)y, columns, first, &touched);
+    clamped->below[i] = find((uint32_t)x, (uint32_t)(y + (y < last)), columns, first, &touched);
   }
   return touched;
 }
 
 uint32_t CS_WIDE(cs_sampler_place_quads)(const cs_sampler *sampler, int32_t x0, int32_t count,
                                          double y, const cs_sampler_tiles *tiles,
-                                         cs_sampler_held *restrict held) {
+                                         cs_sampler_clamped *restrict clamped) {
   const double *m = sampler->m;
   double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5], m0 = m[0], m3 = m[3];
   int32_t columns = tiles->columns, first = -tiles->row * columns - tiles->column;
   uint32_t touched = 0;
   for (int32_t i = 0; i < count; i++) {
     double x = (double)(x0 + i) + 0.5;
-    uint32_t left = (uint32_t)(int32_t)begin(m0 * x + row_u, &held->across[i]);
-    uint32_t top = (uint32_t)(int32_t)begin(m3 * x + row_v, &held->down[i]);
-    held->above[i] = find(left, top, columns, first, &touched);
-    held->below[i] = find(left, top + 1, columns, first, &touched);
+    uint32_t left = (uint32_t)(int32_t)begin(m0 * x + row_u, &clamped->across[i]);
+    uint32_t top = (uint32_t)(int32_t)begin(m3 * x + row_v, &clamped->down[i]);
+    clamped->above[i] = find(left, top, columns, first, &touched);
+    clamped->below[i] = find(left, top + 1, columns, first, &touched);
   }
   return touched;
 }
@@ -96,18 +96,18 @@ static inline const unsigned char *pair_at(const cs_sampler_tiles *tiles, int32_
 }
 
 static inline void mix_one_by_one(const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
-                                  const cs_sampler_held *held, int32_t from, int32_t count,
+                                  const cs_sampler_clamped *clamped, int32_t from, int32_t count,
                                   float (*rgba)[4]) {
   for (int32_t i = from; i < count; i++) {
-    const unsigned char *above = pair_at(tiles, held->above[i]);
-    const unsigned char *below = pair_at(tiles, held->below[i]);
+    const unsigned char *above = pair_at(tiles, clamped->above[i]);
+    const unsigned char *below = pair_at(tiles, clamped->below[i]);
     float quad[4][4];
     for (int k = 0; k < 4; k++)
       cs_srgb8_colour(curve, (k < 2 ? above : below) + 4 * (k % 2), quad[k]);
     for (int c = 0; c < 4; c++) {
-      float left = quad[0][c] + held->down[i] * (quad[2][c] - quad[0][c]);
-      float right = quad[1][c] + held->down[i] * (quad[3][c] - quad[1][c]);
-      rgba[i][c] = left + held->across[i] * (right - left);
+      float left = quad[0][c] + clamped->down[i] * (quad[2][c] - quad[0][c]);
+      float right = quad[1][c] + clamped->down[i] * (quad[3][c] - quad[1][c]);
+      rgba[i][c] = left + clamped->across[i] * (right - left);
     }
   }
 }
@@ -286,28 +286,28 @@ BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool a
 }
 
 BYTES void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
-                                         const cs_sampler_held *held, int32_t count,
+                                         const cs_sampler_clamped *clamped, int32_t count,
                                          ptrdiff_t ahead, float (*rgba)[4]) {
   const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
   const unsigned char *above[CS_SAMPLER_BATCH], *below[CS_SAMPLER_BATCH];
   tables t = load_tables(curve);
   int32_t whole = count / TEXELS * TEXELS;
-  find_pairs(tiles, held->above, whole, above);
-  find_pairs(tiles, held->below, whole, below);
+  find_pairs(tiles, clamped->above, whole, above);
+  find_pairs(tiles, clamped->below, whole, below);
   for (int32_t i = 0; i < whole; i += TEXELS) {
     for (int k = 0; k < TEXELS; k += NEAR)
       __builtin_prefetch(above[i + k] + ahead);
     codes quads =
         turn(load_quads(above + i, below + i), load_quads(above + i + 4, below + i + 4),
              load_quads(above + i + 8, below + i + 8), load_quads(above + i + 12, below + i + 12));
-    __m512 across = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(held->across + i));
-    __m512 down = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(held->down + i));
+    __m512 across = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->across + i));
+    __m512 down = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->down + i));
     if (tiles->are_opaque)
       mix_sixteen(&t, &quads, true, across, down, rgba + i);
     else
       mix_sixteen(&t, &quads, false, across, down, rgba + i);
   }
-  mix_one_by_one(curve, tiles, held, whole, count, rgba);
+  mix_one_by_one(curve, tiles, clamped, whole, count, rgba);
 }
 
 #else
@@ -318,10 +318,10 @@ void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const unsigne
 }
 
 void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
-                                   const cs_sampler_held *held, int32_t count, ptrdiff_t ahead,
-                                   float (*rgba)[4]) {
+                                   const cs_sampler_clamped *clamped, int32_t count,
+                                   ptrdiff_t ahead, float (*rgba)[4]) {
   (void)ahead;
-  mix_one_by_one(curve, tiles, held, 0, count, rgba);
+  mix_one_by_one(curve, tiles, clamped, 0, count, rgba);
 }
 
 #endif

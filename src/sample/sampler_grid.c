@@ -1,27 +1,33 @@
-/* Where texels begin along a row, by the very arithmetic that samples them: a column belongs to the
- * texel that its centre is found in.
+/* Where texels begin along a row that is enlarged, by the very arithmetic that samples them: a
+ * column belongs to the texel that its centre is found in.
+ *
+ *     texels    |     0     |     1     |     2     |
+ *     pixels    | . | . | . | . | . | . | . | . | . |
+ *     edges                 ^           ^                first columns of another texel (nearest)
+ *                     ^           ^                      or of another pair of centres (bilinear)
  */
-#include "sample/sampler_parts.h"
+#include "sample/sampler_texel.h"
 
 /* Pixels: from here on a span a texel costs less than its pixels. */
 #define WIDE_TEXEL 4
 
 bool cs_sampler_is_grid(const cs_sampler *s) {
-  return s->way == CS_SAMPLER_ROW &&
-         (s->kernel == CS_SAMPLER_NEAREST || s->kernel == CS_SAMPLER_LINEAR) &&
+  return s->placement == CS_SAMPLER_UPRIGHT &&
+         (s->kernel == CS_SAMPLER_NEAREST || s->kernel == CS_SAMPLER_BILINEAR) &&
          fabs(s->m[0]) * WIDE_TEXEL <= 1 + CS_SAMPLER_SAME && fabs(s->m[0]) > 0;
 }
 
-/* What is at or above a whole number k where the texel under a centre, or left of it, is k or one
- * after it. */
+/* The place of a column as a number whose whole part is the texel under its centre, or left of it.
+ */
 static inline double place_of(const cs_sampler *s, int32_t column, double y) {
   double u = cs_sampler_row_u(s, column, y);
   return s->kernel == CS_SAMPLER_NEAREST ? u + CS_SAMPLER_SAME : u - 0.5 + CS_SAMPLER_SAME;
 }
 
-/* Appends the columns inside (x0, x1) at which the texel is another; a texel is some columns wide.
- */
-static size_t walk_texels(const cs_sampler *s, int32_t x0, int32_t x1, double y, int32_t *columns) {
+/* Appends the columns inside a run at which the texel changes; a texel is some columns wide. */
+static size_t walk_texels(const cs_sampler *s, cs_run run, int32_t *columns) {
+  const int32_t x0 = run.x0, x1 = run.x1;
+  const double y = run.y;
   double start = place_of(s, x0, y), across = 1 / s->m[0];
   bool grows = s->m[0] > 0;
   double edge = floor(start) + grows; /* the next to be passed */
@@ -50,12 +56,10 @@ static bool is_clear(const cs_sampler *s, int32_t column, double y) {
   return cs_sampler_is_outside(cs_sampler_row_u(s, column, y), s->width, s->wrap);
 }
 
-typedef struct stretch {
-  int32_t x0, x1;
-} stretch;
-
 /* The columns of a picture that ends: beyond them the row is of one colour. */
-static stretch find_picture(const cs_sampler *s, int32_t x0, int32_t x1, double y) {
+static cs_run find_picture(const cs_sampler *s, cs_run run) {
+  const int32_t x0 = run.x0, x1 = run.x1;
+  const double y = run.y;
   int32_t left = column_of(s, s->m[0] > 0 ? 0 : s->width, x0, x1, y);
   int32_t right = column_of(s, s->m[0] > 0 ? s->width : 0, left, x1, y);
   while (left > x0 && !is_clear(s, left - 1, y) && s->wrap == CELSPAN_WRAP_CLEAR)
@@ -66,28 +70,28 @@ static stretch find_picture(const cs_sampler *s, int32_t x0, int32_t x1, double 
     right++;
   while (right > left && is_clear(s, right - 1, y))
     right--;
-  return (stretch){left, right};
+  return cs_run_between(run, left, right);
 }
 
-size_t cs_sampler_step_limit(const cs_sampler *s, int32_t x0, int32_t x1) {
-  double texels = fabs(s->m[0]) * (double)(x1 - x0);
+size_t cs_sampler_texel_edge_limit(const cs_sampler *s, cs_run run) {
+  double texels = fabs(s->m[0]) * (double)(run.x1 - run.x0);
   double most = s->wrap == CELSPAN_WRAP_REPEAT || texels < s->width ? texels : s->width;
   return (size_t)most + 8;
 }
 
-size_t cs_sampler_steps(const cs_sampler *s, int32_t x0, int32_t x1, double y, int32_t *columns) {
+size_t cs_sampler_texel_edges(const cs_sampler *s, cs_run run, int32_t *columns) {
   size_t count = 0;
-  stretch seen = {x0, x1};
-  if (cs_sampler_is_outside(cs_sampler_row_v(s, y), s->height, s->wrap))
+  cs_run seen = run;
+  if (cs_sampler_is_outside(cs_sampler_row_v(s, run.y), s->height, s->wrap))
     return 0;
   if (s->wrap != CELSPAN_WRAP_REPEAT)
-    seen = find_picture(s, x0, x1, y);
+    seen = find_picture(s, run);
   if (seen.x0 >= seen.x1)
     return 0;
-  if (seen.x0 > x0)
+  if (seen.x0 > run.x0)
     columns[count++] = seen.x0;
-  count += walk_texels(s, seen.x0, seen.x1, y, columns + count);
-  if (seen.x1 < x1)
+  count += walk_texels(s, seen, columns + count);
+  if (seen.x1 < run.x1)
     columns[count++] = seen.x1;
   return count;
 }

@@ -1,5 +1,4 @@
-/* Samples that are taken one by one: Catmull-Rom, and the mean over a box. */
-#include "sample/sampler_parts.h"
+#include "sample/sampler_pixel.h"
 
 /* Catmull-Rom weights: interpolating, so that scale 1 gives the texels back. */
 static void cubic_weights(float t, float weights[4]) {
@@ -10,9 +9,9 @@ static void cubic_weights(float t, float weights[4]) {
   weights[3] = 0.5f * (t3 - t2);
 }
 
-/* Held to the range of the texels under the kernel: its negative lobes make no light or dark of
- * their own. */
-void cs_sampler_cubic(const cs_sampling *run, double u, double v, float rgba[4]) {
+/* Clamped to the range of the texels under the kernel, so that its negative lobes add neither light
+ * nor dark of their own. */
+void cs_sampler_bicubic(const cs_sampling *run, double u, double v, float rgba[4]) {
   float across, down, wx[4], wy[4];
   int32_t x = cs_sampler_split(u, &across), y = cs_sampler_split(v, &down);
   cubic_weights(across, wx);
@@ -32,7 +31,7 @@ void cs_sampler_cubic(const cs_sampling *run, double u, double v, float rgba[4])
 /* ---------------------------------------------------------------- the box */
 
 void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double width, int32_t size,
-                           cs_extent *out) {
+                           cs_sampler_extent *out) {
   double low = centre - 0.5 * width, high = low + width;
   double side = (double)((int64_t)1 << sampler->level);
   if (sampler->wrap != CELSPAN_WRAP_REPEAT) { /* a box far larger than the picture is the picture */
@@ -53,7 +52,7 @@ void cs_sampler_cut_extent(const cs_sampler *sampler, double centre, double widt
 
 static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]) {
   const cs_sampler *s = run->sampler;
-  cs_extent across, down;
+  cs_sampler_extent across, down;
   cs_sampler_cut_extent(s, u, s->wide, s->width, &across);
   cs_sampler_cut_extent(s, v, s->high, s->height, &down);
   cs_v4 first = {0}, sum = {0};
@@ -70,22 +69,21 @@ static void sample_box(const cs_sampling *run, double u, double v, float rgba[4]
   cs_v4_store(rgba, first + sum / total);
 }
 
-void cs_sampler_pixel_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
-                          float (*rgba)[4]) {
+void cs_sampler_pixel_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   const double *m = s->m;
-  double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5];
-  for (int32_t i = 0; i < count; i++) {
-    double x = (double)(x0 + i) + 0.5, u = m[0] * x + row_u, v = m[3] * x + row_v;
+  double row_u = m[1] * pixels.y + m[2], row_v = m[4] * pixels.y + m[5];
+  for (int32_t i = 0; i < pixels.x1 - pixels.x0; i++) {
+    double x = (double)(pixels.x0 + i) + 0.5, u = m[0] * x + row_u, v = m[3] * x + row_v;
     if (cs_sampler_is_outside(u, s->width, s->wrap) ||
         cs_sampler_is_outside(v, s->height, s->wrap)) {
       memset(rgba[i], 0, sizeof *rgba);
       continue;
     }
-    u = cs_sampler_home(u, s->width, s->wrap);
-    v = cs_sampler_home(v, s->height, s->wrap);
-    if (s->kernel == CS_SAMPLER_CUBIC)
-      cs_sampler_cubic(run, u, v, rgba[i]);
+    u = cs_sampler_reduce(u, s->width, s->wrap);
+    v = cs_sampler_reduce(v, s->height, s->wrap);
+    if (s->kernel == CS_SAMPLER_BICUBIC)
+      cs_sampler_bicubic(run, u, v, rgba[i]);
     else
       sample_box(run, u, v, rgba[i]);
   }

@@ -1,9 +1,8 @@
-/* Pictures that lie at an angle or in perspective: the mean of taps spread over the pixel, each the
- * mix of the four texels about it, or the texel under it.
- *
- *   centres of pixels --moved by a tap--> quads of texels --by stretches in one block--> mixes
- */
-#include "sample/sampler_parts.h"
+#include "sample/sampler_taps.h"
+
+#include "sample/sampler_codes.h"
+#include "sample/sampler_pixel.h"
+#include "sample/sampler_row.h"
 
 #define ENLARGED (1 << 8 | 1) /* the plan of pixels that one tap is enough for */
 #define ROWS_AHEAD 3.5 /* texels are fetched into the cache so many rows before they are mixed */
@@ -11,10 +10,10 @@
 
 /* ---------------------------------------------------------------- one tap a pixel */
 
-static void bring_home(const cs_sampler *s, int32_t count, double *u, double *v) {
+static void reduce(const cs_sampler *s, int32_t count, double *u, double *v) {
   for (int32_t i = 0; i < count; i++) {
-    u[i] = cs_sampler_home(u[i], s->width, s->wrap);
-    v[i] = cs_sampler_home(v[i], s->height, s->wrap);
+    u[i] = cs_sampler_reduce(u[i], s->width, s->wrap);
+    v[i] = cs_sampler_reduce(v[i], s->height, s->wrap);
   }
 }
 
@@ -30,7 +29,7 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
 }
 
 /* Texels from a quad to one that the row after the next mixes. u, v, near: of a centre. */
-static ptrdiff_t reach_ahead(const cs_sampler *s, int level, double u, double v, double near) {
+static ptrdiff_t texels_ahead(const cs_sampler *s, int level, double u, double v, double near) {
   double rows = ROWS_AHEAD * near / (double)((int64_t)1 << level);
   double across = (s->m[1] - u * s->m[7]) * rows, down = (s->m[4] - v * s->m[7]) * rows;
   if (!(fabs(across) < CS_PICTURE_BLOCK && fabs(down) < CS_PICTURE_BLOCK))
@@ -52,57 +51,57 @@ static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_qu
     while (end < count && quads->key[end] == key)
       end++;
     const float *block =
-        cs_block_cache_block(run->texels, &run->sampler->source, level, key & 0x7fff, key >> 15);
+        cs_block_cache_block(run->blocks, &run->sampler->source, level, key & 0x7fff, key >> 15);
     WIDE(run, cs_sampler_mix_quads)
     (block, quads, i, end - i, 4 * (ptrdiff_t)sizeof(float) * ahead, rgba + i);
   }
 }
 
-/* Looks up the blocks of the tiles that are touched; false if they are not all coded, or too many
- * to be held at a time. */
+/* Finds the blocks of the tiles that are touched; false if they are not all coded, or too many for
+ * the cache at a time. */
 static bool find_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tiles *tiles) {
-  cs_block_cache *texels = run->texels;
-  const uint32_t before = texels->fetches;
+  cs_block_cache *blocks = run->blocks;
+  const uint32_t before = blocks->fetches;
   tiles->are_opaque = true;
   for (uint32_t rest = touched; rest; rest &= rest - 1) {
     int32_t tile = __builtin_ctz(rest);
-    const cs_block_cache_slot *slot = cs_block_cache_slot_of(texels, &run->sampler->source, 0,
+    const cs_block_cache_slot *slot = cs_block_cache_slot_of(blocks, &run->sampler->source, 0,
                                                              tiles->column + tile % tiles->columns,
                                                              tiles->row + tile / tiles->columns);
     if (!slot->codes)
       return false;
     tiles->codes[tile] = slot->codes;
-    tiles->are_opaque = tiles->are_opaque && slot->look == CS_PICTURE_OPAQUE;
+    tiles->are_opaque = tiles->are_opaque && slot->opacity == CS_PICTURE_OPAQUE;
   }
-  return texels->fetches == before;
+  return blocks->fetches == before;
 }
 
 static bool mix_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tiles *tiles,
-                      const cs_sampler_held *held, int32_t count, ptrdiff_t ahead,
+                      const cs_sampler_clamped *clamped, int32_t count, ptrdiff_t ahead,
                       float (*rgba)[4]) {
   /* The second time all are there. */
   if (!find_tiles(run, touched, tiles) && !find_tiles(run, touched, tiles))
     return false;
-  WIDE(run, cs_sampler_mix_codes)(run->texels->curve, tiles, held, count, 4 * ahead, rgba);
+  WIDE(run, cs_sampler_mix_codes)(run->blocks->curve, tiles, clamped, count, 4 * ahead, rgba);
   return true;
 }
 
-/* Quads that are not at home are held to the picture. */
+/* Quads outside the picture are clamped to it. */
 static bool mix_coded(const cs_sampling *run, int32_t count, const double *u, const double *v,
                       ptrdiff_t ahead, float (*rgba)[4]) {
-  cs_sampler_held held;
+  cs_sampler_clamped clamped;
   cs_sampler_tiles tiles;
-  WIDE(run, cs_sampler_hold_quads)(run->sampler, count, u, v, &held);
-  if (!cs_sampler_lay_tiles(run->sampler, &held, &tiles))
+  WIDE(run, cs_sampler_clamp_quads)(run->sampler, count, u, v, &clamped);
+  if (!cs_sampler_lay_tiles(run->sampler, &clamped, &tiles))
     return false;
-  uint32_t touched = WIDE(run, cs_sampler_tile_quads)(run->sampler, &tiles, count, &held);
-  return mix_tiles(run, touched, &tiles, &held, count, ahead, rgba);
+  uint32_t touched = WIDE(run, cs_sampler_tile_quads)(run->sampler, &tiles, count, &clamped);
+  return mix_tiles(run, touched, &tiles, &clamped, count, ahead, rgba);
 }
 
 /* Bounds of the quads of an affine map, of which the first and the last are the outermost; false if
  * they are not all in the picture. */
 static bool bound_quads(const cs_sampler *s, int32_t x0, int32_t count, double y,
-                        cs_sampler_held *out) {
+                        cs_sampler_clamped *out) {
   const double *m = s->m;
   double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5], last = x0 + count - 0.5;
   double u[2] = {m[0] * (x0 + 0.5) + row_u, m[0] * last + row_u};
@@ -122,13 +121,13 @@ static bool bound_quads(const cs_sampler *s, int32_t x0, int32_t count, double y
 static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double y,
                        float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
-  cs_sampler_held held;
+  cs_sampler_clamped clamped;
   cs_sampler_tiles tiles;
-  if (!s->reads_codes || !bound_quads(s, x0, count, y, &held) ||
-      !cs_sampler_lay_tiles(s, &held, &tiles))
+  if (!s->reads_codes || !bound_quads(s, x0, count, y, &clamped) ||
+      !cs_sampler_lay_tiles(s, &clamped, &tiles))
     return false;
-  uint32_t touched = WIDE(run, cs_sampler_place_quads)(s, x0, count, y, &tiles, &held);
-  return mix_tiles(run, touched, &tiles, &held, count, reach_ahead(s, 0, 0, 0, 1), rgba);
+  uint32_t touched = WIDE(run, cs_sampler_place_quads)(s, x0, count, y, &tiles, &clamped);
+  return mix_tiles(run, touched, &tiles, &clamped, count, texels_ahead(s, 0, 0, 0, 1), rgba);
 }
 
 /* Between the texels about places of a level. */
@@ -149,17 +148,17 @@ static void tap_linear(const cs_sampling *run, int level, cs_sampler_tap tap, in
   double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
   WIDE(run, cs_sampler_move)(s, tap, from, count, centres, u, v);
   if (s->wrap == CELSPAN_WRAP_REPEAT)
-    bring_home(s, count, u, v);
+    reduce(s, count, u, v);
   mix_places(run, level, count, u, v, centres->all_seen ? NULL : centres->seen + from,
-             reach_ahead(s, level, centres->u[from], centres->v[from], centres->near[from]), rgba);
+             texels_ahead(s, level, centres->u[from], centres->v[from], centres->near[from]), rgba);
 }
 
 static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_centres *centres,
                         float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   for (int32_t i = 0; i < count; i++) {
-    double u = cs_sampler_home(centres->u[i], s->width, s->wrap) + CS_SAMPLER_SAME;
-    double v = cs_sampler_home(centres->v[i], s->height, s->wrap) + CS_SAMPLER_SAME;
+    double u = cs_sampler_reduce(centres->u[i], s->width, s->wrap) + CS_SAMPLER_SAME;
+    double v = cs_sampler_reduce(centres->v[i], s->height, s->wrap) + CS_SAMPLER_SAME;
     if (centres->all_seen || centres->seen[i])
       memcpy(rgba[i], cs_sampling_texel(run, 0, cs_sampler_floor(u), cs_sampler_floor(v)),
              sizeof *rgba);
@@ -171,8 +170,8 @@ static void tap_cubic(const cs_sampling *run, int32_t from, int32_t count,
   const cs_sampler *s = run->sampler;
   for (int32_t i = from; i < from + count; i++)
     if (centres->all_seen || centres->seen[i])
-      cs_sampler_cubic(run, cs_sampler_home(centres->u[i], s->width, s->wrap),
-                       cs_sampler_home(centres->v[i], s->height, s->wrap), rgba[i - from]);
+      cs_sampler_bicubic(run, cs_sampler_reduce(centres->u[i], s->width, s->wrap),
+                         cs_sampler_reduce(centres->v[i], s->height, s->wrap), rgba[i - from]);
 }
 
 /* ---------------------------------------------------------------- means */
@@ -204,7 +203,7 @@ static void tap_plans(const cs_sampling *run, int32_t count, const cs_sampler_ce
   for (int32_t i = 0, end; i < count; i = end) {
     for (end = i + 1; end < count && plans[end] == plans[i];)
       end++;
-    if (run->sampler->kernel == CS_SAMPLER_CUBIC && plans[i] == ENLARGED)
+    if (run->sampler->kernel == CS_SAMPLER_BICUBIC && plans[i] == ENLARGED)
       tap_cubic(run, i, end - i, centres, rgba + i);
     else
       tap_mean(run, plans[i] >> 16, plans[i] >> 8 & 0xff, plans[i] & 0xff, i, end - i, centres,
@@ -219,9 +218,9 @@ static void tap_batch(const cs_sampling *run, int32_t count, const cs_sampler_ce
   const cs_sampler *s = run->sampler;
   if (s->kernel == CS_SAMPLER_NEAREST)
     tap_nearest(run, count, centres, rgba);
-  else if (s->kernel == CS_SAMPLER_LINEAR)
+  else if (s->kernel == CS_SAMPLER_BILINEAR)
     tap_linear(run, 0, (cs_sampler_tap){0, 0}, 0, count, centres, rgba);
-  else if (s->way == CS_SAMPLER_PERSPECTIVE)
+  else if (s->placement == CS_SAMPLER_PERSPECTIVE)
     tap_plans(run, count, centres, rgba);
   else
     tap_mean(run, s->level, s->columns, s->rows, 0, count, centres, rgba);
@@ -235,28 +234,29 @@ static void tap_plainly(const cs_sampling *run, int32_t x0, int32_t count, doubl
   if (tap_inside(run, x0, count, y, rgba))
     return;
   WIDE(run, cs_sampler_place_taps)(s, x0, count, y, u, v);
-  mix_places(run, 0, count, u, v, NULL, reach_ahead(s, 0, 0, 0, 1), rgba);
+  mix_places(run, 0, count, u, v, NULL, texels_ahead(s, 0, 0, 0, 1), rgba);
 }
 
-void cs_sampler_taps_run(const cs_sampling *run, int32_t x0, int32_t count, double y,
-                         float (*rgba)[4]) {
+void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
+  const int32_t x0 = pixels.x0, count = pixels.x1 - pixels.x0;
+  const double y = pixels.y;
   cs_sampler_centres centres;
-  bool is_plain =
-      s->way == CS_SAMPLER_TAPS && s->kernel == CS_SAMPLER_LINEAR && s->wrap == CELSPAN_WRAP_CLAMP;
+  bool is_plain = s->placement == CS_SAMPLER_AFFINE && s->kernel == CS_SAMPLER_BILINEAR &&
+                  s->wrap == CELSPAN_WRAP_CLAMP;
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
     if (is_plain) {
       tap_plainly(run, x0 + done, batch, y, rgba + done);
       continue;
     }
-    if (s->way == CS_SAMPLER_PERSPECTIVE)
+    if (s->placement == CS_SAMPLER_PERSPECTIVE)
       WIDE(run, cs_sampler_map_perspective)(s->m, x0 + done, batch, y, &centres);
     else
       WIDE(run, cs_sampler_map_affine)(s->m, x0 + done, batch, y, &centres);
-    centres.all_seen = s->way == CS_SAMPLER_TAPS && s->wrap != CELSPAN_WRAP_CLEAR;
+    centres.all_seen = s->placement == CS_SAMPLER_AFFINE && s->wrap != CELSPAN_WRAP_CLEAR;
     if (!centres.all_seen)
-      WIDE(run, cs_sampler_see)(s, batch, &centres);
+      WIDE(run, cs_sampler_mark_seen)(s, batch, &centres);
     tap_batch(run, batch, &centres, rgba + done);
     if (!centres.all_seen)
       WIDE(run, cs_sampler_clear_unseen)(centres.seen, batch, rgba + done);

@@ -1,7 +1,9 @@
 /* The sampler's loops over pixels. What must not depend on the instructions is written out: no
  * division where a product is meant, every sum in its order.
  */
-#include "sample/sampler_parts.h"
+#include "sample/sampler_level.h"
+#include "sample/sampler_row.h"
+#include "sample/sampler_taps.h"
 
 #define SAME CS_SAMPLER_SAME
 
@@ -35,8 +37,8 @@ void CS_WIDE(cs_sampler_map_perspective)(const double m[9], int32_t x0, int32_t 
   }
 }
 
-void CS_WIDE(cs_sampler_see)(const cs_sampler *sampler, int32_t count,
-                             cs_sampler_centres *restrict centres) {
+void CS_WIDE(cs_sampler_mark_seen)(const cs_sampler *sampler, int32_t count,
+                                   cs_sampler_centres *restrict centres) {
   double last = 0, right = 0, bottom = 0;
   if (sampler->wrap == CELSPAN_WRAP_CLEAR) {
     last = -SAME;
@@ -55,24 +57,6 @@ void CS_WIDE(cs_sampler_see)(const cs_sampler *sampler, int32_t count,
 
 /* ---------------------------------------------------------------- taps */
 
-/* Halvings until a length, given squared, is below `limit`: at most 31. */
-static inline int32_t halvings(double squared, double limit) {
-  double ratio = squared / (limit * limit);
-  int64_t bits;
-  memcpy(&bits, &ratio, sizeof bits);
-  int32_t octaves = (int32_t)(bits >> 52) - 1023;
-  int32_t count = octaves < 0 ? 0 : octaves / 2 + 1;
-  return count > 31 ? 31 : count;
-}
-
-static inline int32_t taps_along(double squared, double side) {
-  double taps = sqrt(squared) / side - SAME;
-  taps = taps > 1 ? taps : 1;
-  taps = taps < CS_SAMPLER_MOST_TAPS ? taps : CS_SAMPLER_MOST_TAPS;
-  int32_t whole = (int32_t)taps;
-  return whole + (whole < taps);
-}
-
 void CS_WIDE(cs_sampler_plan_taps)(const cs_sampler *sampler, int32_t count,
                                    const cs_sampler_centres *restrict centres,
                                    int32_t *restrict plans) {
@@ -85,13 +69,14 @@ void CS_WIDE(cs_sampler_plan_taps)(const cs_sampler *sampler, int32_t count,
     double uy = (m1 - u * m7) * near, vy = (m4 - v * m7) * near;
     double right = ux * ux + vx * vx, below = uy * uy + vy * vy;
     double shorter = right < below ? right : below, longer = right < below ? below : right;
-    int32_t level = halvings(shorter, 2 * CS_SAMPLER_TAP_TEXELS);
-    int32_t needed = halvings(longer, CS_SAMPLER_MOST_TAPS);
+    int32_t level = cs_sampler_halvings(shorter, 2 * CS_SAMPLER_TAP_TEXELS);
+    int32_t needed = cs_sampler_halvings(longer, CS_SAMPLER_MOST_TAPS);
     level = level > needed ? level : needed;
     level = level < top ? level : top;
     double side = (double)((int64_t)1 << level);
     bool fits = (fabs(ux) + fabs(uy) <= 1 + SAME) & (fabs(vx) + fabs(vy) <= 1 + SAME);
-    int32_t columns = fits ? 1 : taps_along(right, side), rows = fits ? 1 : taps_along(below, side);
+    int32_t columns = fits ? 1 : cs_sampler_tap_count(right, side),
+            rows = fits ? 1 : cs_sampler_tap_count(below, side);
     plans[i] = level << 16 | columns << 8 | rows;
   }
 }
@@ -138,7 +123,7 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
   }
 }
 
-static inline double held(double u) {
+static inline double clamped(double u) {
   u = u > -1e9 ? u : -1e9;
   return u < 1e9 ? u : 1e9;
 }
@@ -149,8 +134,8 @@ void CS_WIDE(cs_sampler_place_taps)(const cs_sampler *sampler, int32_t x0, int32
   double row_u = m[1] * y + m[2], row_v = m[4] * y + m[5], m0 = m[0], m3 = m[3];
   for (int32_t i = 0; i < count; i++) {
     double x = (double)(x0 + i) + 0.5;
-    u[i] = held(m0 * x + row_u);
-    v[i] = held(m3 * x + row_v);
+    u[i] = clamped(m0 * x + row_u);
+    v[i] = clamped(m3 * x + row_v);
   }
 }
 
@@ -209,9 +194,9 @@ void CS_WIDE(cs_sampler_place_columns)(const cs_sampler *sampler, const int32_t 
     u[i] = step * ((double)columns[i] + 0.5) + start;
 }
 
-void CS_WIDE(cs_sampler_hold_row)(int32_t count, double *u) {
+void CS_WIDE(cs_sampler_clamp_row)(int32_t count, double *u) {
   for (int32_t i = 0; i < count; i++)
-    u[i] = held(u[i]);
+    u[i] = clamped(u[i]);
 }
 
 void CS_WIDE(cs_sampler_floor_row)(const double *restrict u, int32_t count, int32_t *restrict at) {

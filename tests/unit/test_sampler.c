@@ -1,7 +1,10 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
  */
 #include "colour/srgb8.h"
-#include "sample/sampler_parts.h"
+#include "sample/sampler_codes.h"
+#include "sample/sampler_level.h"
+#include "sample/sampler_row.h"
+#include "sample/sampler_taps.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
 
@@ -80,9 +83,11 @@ static celspan_matrix affine(double a, double b, double c, double d, double e, d
   return (celspan_matrix){{a, b, c, d, e, f, 0, 0, 1}};
 }
 
+static cs_run run_of(int32_t x0, int32_t count, double y) { return (cs_run){x0, x0 + count, y}; }
+
 static void sample(const cs_sampler *sampler, int x, int y, float rgba[4]) {
   float row[1][4];
-  CHECK(cs_sampler_run(&texels, sampler, x, 1, y + 0.5, row) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, sampler, run_of(x, 1, y + 0.5), row) == CELSPAN_OK);
   memcpy(rgba, row[0], sizeof row[0]);
 }
 
@@ -99,7 +104,7 @@ static void test_copy(void) {
     float row[SIDE + 40][4];
     int wrong = 0;
     for (int y = -10; y < SIDE; y++) {
-      CHECK(cs_sampler_run(&texels, &s, -5, SIDE + 40, y + 0.5, row) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, run_of(-5, SIDE + 40, y + 0.5), row) == CELSPAN_OK);
       for (int x = 0; x < SIDE + 40; x++) {
         static const float clear[4];
         int u = x - 5 - 13, v = y + 7;
@@ -122,7 +127,7 @@ static void test_quarter_turns(void) {
     int wrong = 0;
     for (int y = 0; y < SIDE; y++) {
       float row[SIDE][4];
-      CHECK(cs_sampler_run(&texels, &s, 0, SIDE, y + 0.5, row) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, run_of(0, SIDE, y + 0.5), row) == CELSPAN_OK);
       for (int x = 0; x < SIDE; x++) {
         int u = t == 0 ? y : t == 1 ? SIDE - 1 - x : SIDE - 1 - y;
         int v = t == 0 ? SIDE - 1 - x : t == 1 ? SIDE - 1 - y : x;
@@ -166,9 +171,9 @@ static void test_runs(void) {
       cs_sampler s = make_sampler(noise_picture, SIDE, SIDE, placements[p], CELSPAN_SAMPLING_AUTO,
                                   CELSPAN_WRAP_REPEAT);
       float whole[150][4], part[150][4];
-      CHECK(cs_sampler_run(&texels, &s, -20, 150, y + 0.5, whole) == CELSPAN_OK);
+      CHECK(cs_sampler_run(&texels, &s, run_of(-20, 150, y + 0.5), whole) == CELSPAN_OK);
       for (int x = 0; x < 150; x += 30)
-        CHECK(cs_sampler_run(&texels, &s, x - 20, 30, y + 0.5, part + x) == CELSPAN_OK);
+        CHECK(cs_sampler_run(&texels, &s, run_of(x - 20, 30, y + 0.5), part + x) == CELSPAN_OK);
       CHECK(memcmp(whole, part, sizeof whole) == 0);
     }
 }
@@ -455,11 +460,11 @@ static void try_instructions(cs_sampler *s, double y) {
   float wanted[RUN][4], made[RUN][4];
   s->isa = CS_ISA_ANY;
   s->reads_codes = false;
-  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, wanted) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), wanted) == CELSPAN_OK);
   for (int k = 0; k < 2 * ((int)cs_isa_best() + 1); k++) {
     s->isa = (cs_isa)(k / 2);
     s->reads_codes = k % 2 == 1 && (s->isa != CS_ISA_AVX512 || cs_sampler_decodes(s->isa));
-    CHECK(cs_sampler_run(&texels, s, -20, RUN, y, made) == CELSPAN_OK);
+    CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), made) == CELSPAN_OK);
     CHECK(memcmp(made, wanted, sizeof made) == 0);
   }
 }
@@ -469,7 +474,7 @@ static void try_columns(cs_sampler *s, double y) {
   int32_t columns[RUN], count = 0;
   for (int32_t x = -20; x < RUN - 20; x += 1 + (x & 3))
     columns[count++] = x;
-  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, whole) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), whole) == CELSPAN_OK);
   CHECK(cs_sampler_at(&texels, s, columns, count, y, some) == CELSPAN_OK);
   for (int32_t i = 0; i < count; i++)
     CHECK(same(some[i], whole[columns[i] + 20]));
@@ -482,11 +487,11 @@ static void try_steps(cs_sampler *s, double y) {
   enum { WIDE = 1200 };
   static float row[WIDE][4];
   int32_t ends[WIDE + 2] = {-20};
-  size_t limit = cs_sampler_step_limit(s, -20, WIDE - 20);
-  size_t count = cs_sampler_steps(s, -20, WIDE - 20, y, ends + 1);
+  size_t limit = cs_sampler_texel_edge_limit(s, run_of(-20, WIDE, y));
+  size_t count = cs_sampler_texel_edges(s, run_of(-20, WIDE, y), ends + 1);
   CHECK(count <= limit && limit < WIDE / 2);
   ends[count + 1] = WIDE - 20;
-  CHECK(cs_sampler_run(&texels, s, -20, WIDE, y, row) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, s, run_of(-20, WIDE, y), row) == CELSPAN_OK);
   int wrong = 0;
   for (size_t i = 0; i <= count; i++) {
     wrong += ends[i] >= ends[i + 1];
@@ -504,10 +509,10 @@ static void try_steps(cs_sampler *s, double y) {
 static void try_codes(cs_sampler *s, double y) {
   float row[RUN][4];
   unsigned char codes[RUN][4];
-  if (s->way != CS_SAMPLER_COPY)
+  if (s->placement != CS_SAMPLER_COPY)
     return;
-  CHECK(cs_sampler_run(&texels, s, -20, RUN, y, row) == CELSPAN_OK);
-  CHECK(cs_sampler_codes(&texels, s, -20, RUN, y, codes[0]) == CELSPAN_OK);
+  CHECK(cs_sampler_run(&texels, s, run_of(-20, RUN, y), row) == CELSPAN_OK);
+  CHECK(cs_sampler_codes(&texels, s, run_of(-20, RUN, y), codes[0]) == CELSPAN_OK);
   int wrong = 0;
   for (int x = 0; x < RUN; x++) {
     uint32_t code = cs_srgb8_pixel(row[x]);
@@ -529,7 +534,7 @@ static void paint_tiles(int x, int y, float rgba[4]) {
     rgba[c] = 0;
 }
 
-/* What a look says of samples is true of them, and it says something. */
+/* What a opacity says of samples is true of them, and it says something. */
 static void test_looks(void) {
   cs_picture *tiles = make_picture("tiles.exr", TILES, TILES, paint_tiles);
   int told[3] = {0}, wrong = 0;
@@ -541,14 +546,14 @@ static void test_looks(void) {
             cs_sampler s = make_sampler(tiles, TILES, TILES, all_placements[p],
                                         (celspan_sampling)sampling, (celspan_wrap)wrap);
             float row[16][4];
-            cs_picture_opacity look;
-            CHECK(cs_sampler_look(&texels, &s, x, x + 16, y + 0.5, &look) == CELSPAN_OK);
-            told[look]++;
-            if (look == CS_PICTURE_MIXED)
+            cs_picture_opacity opacity;
+            CHECK(cs_sampler_opacity(&texels, &s, run_of(x, 16, y + 0.5), &opacity) == CELSPAN_OK);
+            told[opacity]++;
+            if (opacity == CS_PICTURE_MIXED)
               continue;
-            CHECK(cs_sampler_run(&texels, &s, x, 16, y + 0.5, row) == CELSPAN_OK);
+            CHECK(cs_sampler_run(&texels, &s, run_of(x, 16, y + 0.5), row) == CELSPAN_OK);
             for (int i = 0; i < 16; i++)
-              wrong += look == CS_PICTURE_OPAQUE
+              wrong += opacity == CS_PICTURE_OPAQUE
                            ? row[i][3] != 1
                            : row[i][0] != 0 || row[i][1] != 0 || row[i][2] != 0 || row[i][3] != 0;
           }
@@ -592,7 +597,7 @@ static void test_errors(void) {
   cs_sampler s = make_sampler(picture, 10, 10, affine(1, 0, 0, 0, 1, 0), CELSPAN_SAMPLING_AUTO,
                               CELSPAN_WRAP_CLEAR);
   float row[10][4];
-  CHECK(cs_sampler_run(&texels, &s, 0, 10, 0.5, row) == CELSPAN_INPUT);
+  CHECK(cs_sampler_run(&texels, &s, run_of(0, 10, 0.5), row) == CELSPAN_INPUT);
   CHECK(strstr(celspan_context_error(context), "/nonexistent/picture.png"));
   cs_picture_unref(picture);
 }
