@@ -64,7 +64,7 @@ static void make_layers(bool is_grouped, double perspective) {
   }
 }
 
-/* varying: a bit for every leaf that is a gradient. */
+/* varying: a bit for every layer that is a gradient. */
 static cs_program make_program(cs_item *items, unsigned varying) {
   for (uint32_t i = 0; i < LEAVES; i++) {
     uint32_t layer = LEAVES - 1 - i;
@@ -143,7 +143,7 @@ static void check_program(cs_painter *painter, const cs_program *program, double
     check_run(painter, table, y, (const float(*)[4])wanted);
 }
 
-/* All programs of six leaves with one gradient or more, in rows near and far from the centre. */
+/* All programs of six layers with one gradient or more, in rows near and far from the centre. */
 static void test_programs(celspan_context *context, bool is_grouped, double perspective) {
   cs_composer composer;
   cs_painter painter;
@@ -152,7 +152,7 @@ static void test_programs(celspan_context *context, bool is_grouped, double pers
   CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
   CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
   for (unsigned varying = 1; varying < 1u << LEAVES; varying++) {
-    /* A leaf's kind never changes, so tables are named by their leaves alone. */
+    /* A layer's kind never changes, so tables are named by their layers alone. */
     cs_gradient_tables_destroy(painter.gradients, context->memory);
     CHECK(cs_gradient_tables_create(context, &stack, painter.isa, &painter.scratch,
                                     &painter.gradients) == CELSPAN_OK);

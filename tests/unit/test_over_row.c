@@ -66,7 +66,7 @@ static double by_hand_alpha(int i) {
   for (int c = 0; c < 3; c++) {
     const cs_layer *l = all_layers;
     double alpha = (double)rgba[i][3],
-           front = 1 - alpha; /* leaf 5 is a picture that is not faded */
+           front = 1 - alpha; /* layer 5 is a picture that is not faded */
     through[c] *= front;
     inner[c] *= 1 - (double)l[4].fade + (double)l[4].fade * (double)t[i][c];
     innermost[c] *= (double)l[3].t[c];

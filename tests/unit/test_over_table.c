@@ -16,7 +16,7 @@ static cs_stack stack = {.layers = layers, .layer_count = LEAVES};
 static uint64_t set[WORDS];
 static uint8_t filled[(WORDS + 7) / 8 * 8];
 
-/* through: what every leaf lets through at least. */
+/* through: what every layer lets through at least. */
 static void make_layers(float through) {
   for (int i = 0; i < LEAVES; i++)
     for (int c = 0; c < 3; c++) {
@@ -43,7 +43,7 @@ static bool same(cs_over_pair a, cs_over_pair b) {
   return cs_v4_same(a.e, b.e) && cs_v4_same(a.t, b.t);
 }
 
-/* One leaf after the other, in doubles. Returns the last leaf that is seen. */
+/* One layer after the other, in doubles. Returns the last layer that is seen. */
 static int check_light(cs_over_pair light) {
   double e[3] = {0}, t[3] = {1, 1, 1};
   int last = LEAVES;
