@@ -11,10 +11,11 @@
 
 #include "base/context.h"
 #include "base/hash.h"
+#include "cli/tiles/pyramid.h"
 
 typedef struct cs_tile_known {
   cs_hash hash; /* 0 0: a free slot */
-  int32_t level, column, row;
+  cs_pyramid_tile tile;
 } cs_tile_known;
 
 typedef struct cs_tile_known_table {

@@ -84,11 +84,11 @@ static bool fits(int length, size_t size) { return length > 0 && (size_t)length 
 
 /* IIIF names a tile by the part of the frame that it shows, in pixels of the frame, and by its
  * size. */
-static bool iiif_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
-                      bool is_alias, char *path, size_t size) {
-  cs_pyramid_box tile = {column, row, column + 1, row + 1};
-  cs_pyramid_box pixels = cs_pyramid_pixels(pyramid, level, &tile);
-  int32_t times = cs_pyramid_top(pyramid) - level;
+static bool iiif_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_alias, char *path,
+                      size_t size) {
+  cs_pyramid_box tiles = {tile.column, tile.row, tile.column + 1, tile.row + 1};
+  cs_pyramid_box pixels = cs_pyramid_pixels(pyramid, tile.level, &tiles);
+  int32_t times = cs_pyramid_top(pyramid) - tile.level;
   int64_t x = (int64_t)pixels.x0 << times, y = (int64_t)pixels.y0 << times;
   int32_t right = least((int64_t)pixels.x1 << times, pyramid->width);
   int32_t bottom = least((int64_t)pixels.y1 << times, pyramid->height);
@@ -101,14 +101,14 @@ static bool iiif_path(const cs_pyramid *pyramid, int32_t level, int32_t column, 
               size);
 }
 
-bool cs_pyramid_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
-                     bool is_alias, char *path, size_t size) {
-  if (is_alias && (pyramid->layout == CS_PYRAMID_DZI || level > cs_pyramid_single(pyramid)))
+bool cs_pyramid_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_alias, char *path,
+                     size_t size) {
+  if (is_alias && (pyramid->layout == CS_PYRAMID_DZI || tile.level > cs_pyramid_single(pyramid)))
     return false;
   if (pyramid->layout == CS_PYRAMID_IIIF)
-    return iiif_path(pyramid, level, column, row, is_alias, path, size);
-  return fits(snprintf(path, size, "%s/%s_files/%d/%d_%d.%s", pyramid->folder, pyramid->name, level,
-                       column, row, pyramid->ending),
+    return iiif_path(pyramid, tile, is_alias, path, size);
+  return fits(snprintf(path, size, "%s/%s_files/%d/%d_%d.%s", pyramid->folder, pyramid->name,
+                       tile.level, tile.column, tile.row, pyramid->ending),
               size);
 }
 

@@ -33,6 +33,11 @@ typedef struct cs_pyramid {
   const char *ending; /* of a tile: "png", "jpg" */
 } cs_pyramid;
 
+/* One tile. */
+typedef struct cs_pyramid_tile {
+  int32_t level, column, row;
+} cs_pyramid_tile;
+
 /* Half-open: pixels of a level, or its tiles. */
 typedef struct cs_pyramid_box {
   int32_t x0, y0, x1, y1;
@@ -56,8 +61,8 @@ int64_t cs_pyramid_count(const cs_pyramid *pyramid, int32_t first, int32_t last,
 
 /* "FOLDER/..." of a tile. is_alias: the other name of a level's only tile ("full"), which IIIF has.
  * false: no room, or no such name. */
-bool cs_pyramid_path(const cs_pyramid *pyramid, int32_t level, int32_t column, int32_t row,
-                     bool is_alias, char *path, size_t size);
+bool cs_pyramid_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_alias, char *path,
+                     size_t size);
 /* The file that describes the pyramid, and the folder of its tiles; both are in FOLDER. */
 bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size);
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);

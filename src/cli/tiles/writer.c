@@ -60,8 +60,7 @@ static bool link_file(const char *from, char *to) {
 
 static bool link_to(const cs_pyramid *pyramid, const cs_tile_known *known, char *path) {
   char from[PATH_SIZE];
-  return cs_pyramid_path(pyramid, known->level, known->column, known->row, false, from,
-                         sizeof from) &&
+  return cs_pyramid_path(pyramid, known->tile, false, from, sizeof from) &&
          (strcmp(from, path) == 0 || link_file(from, path));
 }
 
@@ -97,12 +96,12 @@ static celspan_span cut_span(celspan_span span, int32_t x0, int32_t x1) {
 }
 
 /* Cuts the tile's part out of a row. The search for it begins where the tile to the left ended. */
-static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *area, int32_t y,
+static celspan_status cut_row(cs_tile_writer *writer, const cs_pyramid_box *box, int32_t y,
                               size_t *out_count) {
   size_t count, kept = 0;
-  size_t *start = &writer->starts[y - area->y0];
+  size_t *start = &writer->starts[y - box->y0];
   const celspan_span *spans = writer->source.row(writer->source.user, y, &count);
-  int32_t x0 = area->x0 - writer->source.left, x1 = area->x1 - writer->source.left;
+  int32_t x0 = box->x0 - writer->source.left, x1 = box->x1 - writer->source.left;
   while (*start < count && spans[*start].x1 <= x0)
     ++*start;
   size_t end = *start;
@@ -129,18 +128,18 @@ static bool is_all(const unsigned char *row, size_t size, const unsigned char *p
          memcmp(row, row + pixel_size, size - pixel_size) == 0;
 }
 
-static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box *area,
+static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box *box,
                                    tile_content *out) {
   const cs_tile_output *output = writer->output;
   const celspan_coding *coding = &output->file.coding;
   size_t pixel_size = celspan_coding_pixel_size(coding);
-  size_t size = (size_t)(area->x1 - area->x0) * pixel_size, count;
+  size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
   CS_TRY(
       cs_mem_reserve(&writer->context, (void **)&writer->pixels, &writer->pixel_capacity, size, 1));
-  cs_hash hash = cs_hash_begin((uint64_t)(area->x1 - area->x0));
+  cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
   out->is_empty = output->skips_empty;
-  for (int32_t y = area->y0; y < area->y1; y++) {
-    CS_TRY(cut_row(writer, area, y, &count));
+  for (int32_t y = box->y0; y < box->y1; y++) {
+    CS_TRY(cut_row(writer, box, y, &count));
     cs_pixels_row(coding, writer->spans, count, writer->pixels);
     cs_hash_bytes(&hash, writer->pixels, size);
     out->is_empty = out->is_empty && is_all(writer->pixels, size, output->empty, pixel_size);
@@ -149,22 +148,22 @@ static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box 
   return CELSPAN_OK;
 }
 
-static celspan_status put_rows(cs_tile_writer *writer, const cs_pyramid_box *area,
+static celspan_status put_rows(cs_tile_writer *writer, const cs_pyramid_box *box,
                                const celspan_sink *sink) {
   size_t count;
-  CS_TRY(sink->begin(sink->user, &writer->context, area->x1 - area->x0, area->y1 - area->y0));
-  for (int32_t y = area->y0; y < area->y1; y++) {
-    CS_TRY(cut_row(writer, area, y, &count));
-    CS_TRY(sink->row(sink->user, &writer->context, y - area->y0, writer->spans, count));
+  CS_TRY(sink->begin(sink->user, &writer->context, box->x1 - box->x0, box->y1 - box->y0));
+  for (int32_t y = box->y0; y < box->y1; y++) {
+    CS_TRY(cut_row(writer, box, y, &count));
+    CS_TRY(sink->row(sink->user, &writer->context, y - box->y0, writer->spans, count));
   }
   return CELSPAN_OK;
 }
 
-static celspan_status write_tile(cs_tile_writer *writer, const cs_pyramid_box *area,
+static celspan_status write_tile(cs_tile_writer *writer, const cs_pyramid_box *box,
                                  const char *path) {
   celspan_sink sink;
   CS_TRY(cs_sink_file(&writer->context, path, &writer->output->file, &sink));
-  return sink.end(sink.user, &writer->context, put_rows(writer, area, &sink));
+  return sink.end(sink.user, &writer->context, put_rows(writer, box, &sink));
 }
 
 static celspan_status refuse_path(cs_tile_writer *writer) {
@@ -172,39 +171,39 @@ static celspan_status refuse_path(cs_tile_writer *writer) {
                  writer->output->pyramid->folder);
 }
 
-static celspan_status put_alias(cs_tile_writer *writer, const cs_pyramid_box *area,
-                                const cs_tile_known *tile) {
+static celspan_status put_alias(cs_tile_writer *writer, const cs_pyramid_box *box,
+                                const cs_tile_known *known) {
   char path[PATH_SIZE];
   const cs_pyramid *pyramid = writer->output->pyramid;
-  if (!cs_pyramid_path(pyramid, tile->level, tile->column, tile->row, true, path, sizeof path) ||
-      link_to(pyramid, tile, path))
+  if (!cs_pyramid_path(pyramid, known->tile, true, path, sizeof path) ||
+      link_to(pyramid, known, path))
     return CELSPAN_OK;
-  return write_tile(writer, area, path);
+  return write_tile(writer, box, path);
 }
 
 celspan_status cs_tile_writer_put(cs_tile_writer *writer, int32_t level, int32_t column,
                                   int32_t row) {
   cs_tile_output *output = writer->output;
-  cs_pyramid_box tile = {column, row, column + 1, row + 1};
-  cs_pyramid_box area = cs_pyramid_pixels(output->pyramid, level, &tile);
+  cs_pyramid_box tiles = {column, row, column + 1, row + 1};
+  cs_pyramid_box box = cs_pyramid_pixels(output->pyramid, level, &tiles);
   char path[PATH_SIZE];
   tile_content content;
   cs_tile_known known;
-  CS_TRY(read_content(writer, &area, &content));
+  CS_TRY(read_content(writer, &box, &content));
   if (content.is_empty) {
     output->skipped++;
     return CELSPAN_OK;
   }
-  if (!cs_pyramid_path(output->pyramid, level, column, row, false, path, sizeof path))
+  cs_tile_known made = {content.hash, {level, column, row}};
+  if (!cs_pyramid_path(output->pyramid, made.tile, false, path, sizeof path))
     return refuse_path(writer);
-  cs_tile_known made = {content.hash, level, column, row};
   if (cs_tile_known_find(&output->known, content.hash, &known) &&
       link_to(output->pyramid, &known, path)) {
     output->linked++;
   } else {
-    CS_TRY(write_tile(writer, &area, path));
+    CS_TRY(write_tile(writer, &box, path));
     CS_TRY(cs_tile_known_add(&output->known, &writer->context, made));
     output->written++;
   }
-  return put_alias(writer, &area, &made);
+  return put_alias(writer, &box, &made);
 }
