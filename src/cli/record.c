@@ -1,7 +1,6 @@
 #include "cli/record.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
+#include "cli/lines.h"
 #include "output/file_copy.h"
 #include "output/temporary.h"
 
@@ -188,23 +188,14 @@ bool cs_record_has(const cs_record *record, cs_shoot_frame *frame) {
 
 /* ---------------------------------------------------------------- writing */
 
-static celspan_status append(cs_record *record, const char *text) {
-  size_t size = strlen(text);
-  ssize_t written = write(record->descriptor, text, size);
-  if (written >= 0 && (size_t)written != size)
-    errno = ENOSPC;
-  return written == (ssize_t)size ? CELSPAN_OK : fail(record, "cannot write");
-}
-
-static bool ends_a_line(int descriptor, off_t size) {
-  char last;
-  return pread(descriptor, &last, 1, size - 1) == 1 && last == '\n';
+static celspan_status append(const cs_record *record, const char *text) {
+  return cs_lines_add(record->descriptor, text) ? CELSPAN_OK : fail(record, "cannot write");
 }
 
 /* Called for the first line only, because the folder exists once a frame is written. */
 static celspan_status open_for_lines(cs_record *record) {
   char head[sizeof HEAD] = "";
-  record->descriptor = open(record->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  record->descriptor = cs_lines_open(record->path);
   if (record->descriptor < 0)
     return fail(record, "cannot write");
   off_t size = lseek(record->descriptor, 0, SEEK_END);
@@ -216,7 +207,7 @@ static celspan_status open_for_lines(cs_record *record) {
   }
   if (size <= 0)
     return append(record, HEAD);
-  return ends_a_line(record->descriptor, size) ? CELSPAN_OK : append(record, "\n");
+  return cs_lines_end_last(record->descriptor) ? CELSPAN_OK : fail(record, "cannot write");
 }
 
 celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {

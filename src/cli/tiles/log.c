@@ -1,7 +1,6 @@
 #include "cli/tiles/log.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <ftw.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
+#include "cli/lines.h"
 #include "cli/progress.h"
 
 enum {
@@ -113,29 +113,16 @@ celspan_status cs_tile_log_clear(celspan_context *context, const cs_pyramid *pyr
 
 /* ---------------------------------------------------------------- writing */
 
-static celspan_status append(celspan_context *context, cs_tile_log *log, const char *line) {
-  size_t size = strlen(line);
-  ssize_t written = write(log->descriptor, line, size);
-  if (written >= 0 && (size_t)written != size)
-    errno = ENOSPC;
-  return written == (ssize_t)size ? CELSPAN_OK : fail(context, log->path, "cannot write");
-}
-
-static bool ends_a_line(int descriptor, off_t size) {
-  char last;
-  return size == 0 || (pread(descriptor, &last, 1, size - 1) == 1 && last == '\n');
+static celspan_status append(celspan_context *context, const cs_tile_log *log, const char *line) {
+  return cs_lines_add(log->descriptor, line) ? CELSPAN_OK
+                                             : fail(context, log->path, "cannot write");
 }
 
 celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log) {
   char head[LINE_SIZE];
-  for (char *slash = log->path; (slash = strchr(slash + 1, '/'));) {
-    *slash = '\0';
-    int result = mkdir(log->path, 0777);
-    *slash = '/';
-    if (result != 0 && errno != EEXIST)
-      return fail(context, log->path, "cannot make its folder");
-  }
-  log->descriptor = open(log->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (!cs_lines_make_folders(log->path))
+    return fail(context, log->path, "cannot make its folder");
+  log->descriptor = cs_lines_open(log->path);
   if (log->descriptor < 0)
     return fail(context, log->path, "cannot write");
   if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
@@ -145,7 +132,7 @@ celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log) {
   write_head(log, head);
   if (size <= 0)
     return append(context, log, head);
-  return ends_a_line(log->descriptor, size) ? CELSPAN_OK : append(context, log, "\n");
+  return cs_lines_end_last(log->descriptor) ? CELSPAN_OK : fail(context, log->path, "cannot write");
 }
 
 celspan_status cs_tile_log_flush(celspan_context *context, cs_tile_log *log) {

@@ -3,10 +3,10 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/context.h"
+#include "cli/lines.h"
 #include "output/pixels.h"
 #include "output/sink.h"
 
@@ -32,18 +32,6 @@ void cs_tile_output_skip(cs_tile_output *output, const float rgba[4]) {
 
 /* ---------------------------------------------------------------- links */
 
-/* Makes the folders that a path names, one after the other. */
-static bool make_folders(char *path) {
-  for (char *slash = path + 1; (slash = strchr(slash, '/')); slash++) {
-    *slash = '\0';
-    int result = mkdir(path, 0777);
-    *slash = '/';
-    if (result != 0 && errno != EEXIST)
-      return false;
-  }
-  return true;
-}
-
 /* Links under a temporary name and renames that, because a link cannot replace a file. false: this
  * file system has no links, or this file has too many, so that the tile has to be written. */
 static bool link_file(const char *from, char *to) {
@@ -51,7 +39,7 @@ static bool link_file(const char *from, char *to) {
   snprintf(temporary, sizeof temporary, "%s.link.part", to);
   unlink(temporary);
   bool is_linked = link(from, temporary) == 0;
-  if (!is_linked && errno == ENOENT && make_folders(to))
+  if (!is_linked && errno == ENOENT && cs_lines_make_folders(to))
     is_linked = link(from, temporary) == 0;
   is_linked = is_linked && rename(temporary, to) == 0;
   unlink(temporary); /* renaming does nothing when both are one file already */
