@@ -6,9 +6,9 @@
 #include "geometry/matrix.h"
 
 #define HORIZON 1e-9  /* of the outline's largest |w| */
-#define ROOT_DEPTH 46 /* halvings: below this two roots are one */
+#define ROOT_DEPTH 46 /* halvings: two roots that are nearer than this count as one */
 #define CLIP_DEPTH 40
-#define NOISE 4e-15 /* of its terms: a coefficient that is rounding and nothing else */
+#define NOISE 4e-15 /* relative to its terms: a smaller coefficient is rounding */
 #define COEFFICIENTS (2 * CS_BEZIER_DEGREE + 1)
 
 /* ---------------------------------------------------------------- pieces */
@@ -60,7 +60,7 @@ double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis) {
   return (axis == CS_BEZIER_X ? point.x : point.y) / point.w;
 }
 
-/* In this form the mean of equals is the same number. */
+/* In this form the mean of two equal numbers is the same number. */
 static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
   return (cs_hpoint){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
 }
@@ -119,7 +119,7 @@ static void halve(const double *coefficients, int degree, double *low, double *h
   }
 }
 
-/* The signs along the coefficients, noise left out; 0: there is nothing but noise. */
+/* The signs of the coefficients, without those that are noise; 0 if all are noise. */
 typedef struct sign_pattern {
   int first, last, changes;
 } sign_pattern;
@@ -137,8 +137,8 @@ static sign_pattern signs_of(const double *coefficients, int degree, double nois
   return signs;
 }
 
-/* The only root, by regula falsi (Illinois) held to a bracket that halves at least every third
- * step; `sign` is that of the polynomial at 0. */
+/* The only root, by regula falsi (the Illinois variant), whose bracket is halved at least every
+ * third step; `sign`: of the polynomial at 0. */
 static double bracketed_root(const double *coefficients, int degree, int sign) {
   double low = 0, high = 1;
   double at_low = coefficients[0] * sign, at_high = coefficients[degree] * sign;
@@ -172,21 +172,22 @@ static void add_root(root_list *list, double root) {
     list->roots[list->count++] = root;
 }
 
-/* Both roots in closed form: extrema of cubics, the most frequent of all. */
+/* Both roots in closed form: extrema of cubics, the most frequent case. */
 static void find_quadratic_roots(const double *c, root_list *list) {
   double square = c[0] - 2 * c[1] + c[2], half = c[1] - c[0];
   double discriminant = c[1] * c[1] - c[0] * c[2];
   if (!(discriminant > 0))
     return;
-  /* Of the two forms of each root the one without cancellation. */
+  /* Each root has two formulas; this is the one without cancellation. */
   double sum = half < 0 ? -half + sqrt(discriminant) : -half - sqrt(discriminant);
   double one = c[0] / sum, other = sum / square;
   add_root(list, one < other ? one : other);
   add_root(list, one < other ? other : one);
 }
 
-/* Isolates by halving (variation diminishing: no change of sign, no root; one change, one root).
- * Recursion ends at ROOT_DEPTH. */
+/* Isolates roots by halving. By the variation diminishing property there is no root without a
+ * change of sign of the coefficients, and exactly one with one change. Recursion ends at
+ * ROOT_DEPTH. */
 static void find_roots(const double *coefficients, int degree, double noise, double from, double to,
                        int depth, root_list *list) {
   sign_pattern signs = signs_of(coefficients, degree, noise);
@@ -209,7 +210,7 @@ static void find_roots(const double *coefficients, int degree, double noise, dou
   double low[COEFFICIENTS], high[COEFFICIENTS];
   halve(coefficients, degree, low, high);
   find_roots(low, degree, noise, from, middle, depth + 1, list);
-  /* A root at the middle itself is an end of both halves and seen by neither. */
+  /* A root at the middle itself is an end of both halves, which both leave it out. */
   if (signs_of(low, degree, noise).last * signs_of(high, degree, noise).first < 0)
     add_root(list, middle);
   find_roots(high, degree, noise, middle, to, depth + 1, list);
@@ -274,7 +275,7 @@ int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[
       coefficients[i] = b - a;
       size = fmax(size, fabs(a) + fabs(b));
     }
-    size *= 0.05; /* a difference has one rounding, not a sum's */
+    size *= 0.05; /* a difference has only one rounding */
   } else {
     degree = 2 * piece->degree - 1;
     size = slope_numerator(piece, axis, coefficients);
@@ -306,8 +307,7 @@ static double least_weight(const cs_bezier *piece) {
   return least;
 }
 
-/* A part may be before the horizon with control points behind it: halves it until all are
- * before. */
+/* A part in front of the horizon may have control points behind it: it is halved until none has. */
 static celspan_status visit_front(const cs_bezier *part, double least, cs_bezier_visit visit,
                                   void *user, int depth) {
   if (least_weight(part) >= 0.5 * least)

@@ -1,5 +1,12 @@
 /* Single rational Bezier pieces: splitting, roots, extrema, the horizon.
  *
+ *          o-----m-----o               split at t: every side of the control polygon is divided at
+ *         /     / \     \              t, then the sides of the new one, until one point is left;
+ *        /     l---j-----h             it is the joint j of both halves
+ *       m     / \       / \
+ *      /                    \          halves: * m l j   and   j h m *
+ *     *                      *
+ *
  * Invariants: points are homogeneous. Everything is a pure function of the control points in their
  * given order; cs_bezier_canonise gives a piece and its reversed copy the same order. Where all
  * weights are equal bitwise, splitting keeps them so.
@@ -10,7 +17,7 @@
 #include "geometry/outline.h"
 
 #define CS_BEZIER_DEGREE 15
-/* The most roots of any polynomial met here: that of the extrema of a rational piece. */
+/* The most roots of any polynomial here: those of the extrema of a rational piece. */
 #define CS_BEZIER_ROOTS (2 * CS_BEZIER_DEGREE)
 
 typedef struct cs_bezier {
@@ -28,11 +35,12 @@ typedef struct cs_bezier_form {
 /* A piece of an outline under a matrix. */
 void cs_bezier_load(const cs_outline *outline, size_t piece, const celspan_matrix *matrix,
                     cs_bezier *out);
-/* Copies no more points than there are: most pieces have few. */
+/* Copies only the points in use: most pieces have few. */
 void cs_bezier_copy(const cs_bezier *piece, cs_bezier *copy);
 cs_bezier cs_bezier_line(cs_hpoint from, cs_hpoint to);
 void cs_bezier_reverse(cs_bezier *piece);
-/* Reverses the piece unless it is the lesser of the two directions; true when it did. */
+/* Chooses one of the two directions of the piece, always the same one; returns whether that
+ * reversed it. */
 bool cs_bezier_canonise(cs_bezier *piece);
 bool cs_bezier_is_polynomial(const cs_bezier *piece); /* all weights equal */
 /* Projected coordinate of a point with w > 0. */
@@ -40,21 +48,21 @@ double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis);
 
 /* low and high share the joint bitwise; either may be the piece itself. */
 void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high);
-/* Cuts off the part of *rest up to parameter t of the whole piece, of which `from` (advanced to t)
- * is where *rest begins: for walking down a list of ascending roots. */
+/* Moves the beginning of *rest to part, up to parameter t of the whole piece. *from: the parameter
+ * at which *rest begins; becomes t. For a list of ascending roots. */
 void cs_bezier_take(cs_bezier *rest, double *from, double t, cs_bezier *part);
 
 /* Parameters inside (0, 1) where a form changes its sign, ascending; their number. */
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form, double roots[CS_BEZIER_ROOTS]);
-/* Parameters inside (0, 1) where a projected coordinate turns; weights must be > 0. */
+/* Parameters inside (0, 1) where a projected coordinate has an extremum; weights must be > 0. */
 int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[CS_BEZIER_ROOTS]);
 
-/* The least w that counts as before the horizon for an outline under a matrix, > 0; false when no
- * point can be seen (w is 0 everywhere, or a number is not finite). */
+/* The least w, > 0, that counts as in front of the horizon for an outline under a matrix; false
+ * when no point can be seen (w is 0 everywhere, or a number is not finite). */
 bool cs_bezier_horizon(const cs_outline *outline, const celspan_matrix *matrix, double *least);
 
-/* Calls visit for every part of the piece before the horizon, in order of parameter; their weights
- * are all > 0. Stops at the first status that is not OK and returns it. */
+/* Calls visit for every part of the piece in front of the horizon, in order of parameter; all
+ * weights of a part are > 0. Stops at the first status that is not OK and returns it. */
 typedef celspan_status (*cs_bezier_visit)(void *user, const cs_bezier *part);
 CELSPAN_CHECKED celspan_status cs_bezier_clip(const cs_bezier *piece, double least,
                                               cs_bezier_visit visit, void *user);

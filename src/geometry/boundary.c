@@ -34,7 +34,7 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
 
 /* ---------------------------------------------------------------- order */
 
-/* Never false both ways: a chain's first piece is its own, and rises with the place of origin. */
+/* A strict order: no two chains share a first piece, and pieces are numbered as they are added. */
 static bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
   if (a->y0 != b->y0)
     return a->y0 < b->y0;
@@ -70,8 +70,8 @@ void cs_boundary_sort(cs_boundary_set *set) {
 
 /* ---------------------------------------------------------------- walks */
 
-/* Stands on the segment the walk names, of a group that has been made. */
-static inline void take_segment(cs_boundary_walk *walk) {
+/* Makes the segment that the walk names the current one; its group has been made. */
+static inline void copy_segment(cs_boundary_walk *walk) {
   const cs_boundary_group *made = &walk->made;
   uint32_t at = walk->segment;
   walk->x0 = made->x[at];
@@ -82,7 +82,8 @@ static inline void take_segment(cs_boundary_walk *walk) {
   walk->curve = made->curve[at];
 }
 
-/* leaps: false where the group before it is known not to be of the same leap. */
+/* leaps: false where the group is not the first one of its leap, whose arc has then been rejected.
+ */
 static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk, uint32_t group,
                         bool leaps) {
   cs_polyline_group(set, &set->pieces[walk->piece], group, leaps, &walk->made);
@@ -104,7 +105,7 @@ bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk) {
   } else {
     return false;
   }
-  take_segment(walk);
+  copy_segment(walk);
   return true;
 }
 
@@ -121,8 +122,8 @@ static uint32_t find_piece(const cs_boundary_set *set, const cs_boundary_chain *
   return low;
 }
 
-/* A group of the piece at or before the first that ends below y: where one ends may have been moved
- * by half a pixel, to a whole height. */
+/* A group at or before the first one of the piece that ends below y. Half a pixel of margin,
+ * because the end of a group may have been moved to a whole height. */
 static uint32_t find_group(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
   double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1)), safe = y - 0.5 - rounding;
   uint32_t low = 0, high = piece->chords / piece->group - 1;
@@ -141,7 +142,7 @@ void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
   walk->chain = chain;
   walk->piece = find_piece(set, &set->chains[chain], y);
   begin_group(set, walk, find_group(set, &set->pieces[walk->piece], y), true);
-  take_segment(walk);
+  copy_segment(walk);
   while (walk->y1 <= y && cs_boundary_next(set, walk)) {
   }
 }

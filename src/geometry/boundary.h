@@ -1,22 +1,26 @@
 /* Boundaries: an outline cut into y-monotone chains in the pixels of a frame, and the polyline that
- * the sweep walks, made vertex by vertex as it is needed.
+ * the sweep walks down each of them, made group by group as it is needed (polyline.h).
  *
  *   outline --matrix, horizon--> pieces --y extrema--> monotone pieces --frame--> chains
+ *
+ *           *  y extremum      chain A runs downwards along the contour (+1), chain B upwards (-1)
+ *         /   \
+ *      A o     \ B             a row height y crosses a chain iff y0 <= y < y1: half open, so that
+ *        |      o              at every height as many chains go down as up
+ *         \    /
+ *           *                  o: pieces of a chain join
  *
  * Invariants
  *   - A chain runs from its top y0 to its bottom y1 > y0 and is hit by row height y iff
  *     y0 <= y < y1. Pieces inside it share their ends bitwise, so the windings of a contour sum to
- *     0 at every y whatever the rounding.
- *   - x at a height is a function of that height, the chain and the frame alone: not of the row the
- *     walk began at, nor of strips or crops. Two chains over the same control points, in either
- *     direction, give the same bits.
+ *     0 at every y, whatever the rounding.
+ *   - x at a height is a function of that height, the chain and the frame alone, independent of the
+ *     row where the walk began and of strips and crops. Two chains over the same control points, in
+ *     either direction, give the same bits.
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
- *   - The curve is walked in groups of chords, or in arcs where one is near enough to some groups,
- *     to one or to half of one: x is of the second degree in y there. Both deviate from the curve
- *     by at most about CS_BOUNDARY_TOLERANCE pixels and keep the area left of it, chords by
- *     vertices that are displaced outwards (C'' h^2 / 12). Vertices are moved along the curve to
- *     whole heights where one is near: a row then sees few of them.
+ *   - Chords and arcs deviate from the curve by at most about CS_BOUNDARY_TOLERANCE pixels and keep
+ *     the area left of it.
  */
 #ifndef CS_GEOMETRY_BOUNDARY_H
 #define CS_GEOMETRY_BOUNDARY_H
@@ -30,12 +34,12 @@
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
   double left, right;  /* no vertex lies outside them */
-  double sag;          /* how far a chord of mean length may be from the curve */
+  double sag;          /* the most that a chord of mean length is away from the curve */
   double step;         /* 1 / chords: of the parameter from vertex to vertex */
   uint32_t point;      /* its degree + 1 points; none where there is but one chord */
   uint32_t chords;     /* a multiple of group */
-  uint8_t group, half; /* in chords: of a group, and of what it is cut into; half: may be all */
-  uint8_t leap;        /* groups that one arc is tried for, from a multiple of it on; or 1 */
+  uint8_t group, half; /* in chords: a group, and its upper half (which may be all of it) */
+  uint8_t leap;        /* groups that one arc is tried for, beginning at a multiple of it; or 1 */
   uint8_t degree;
   bool is_power; /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
@@ -76,20 +80,20 @@ CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boun
                                                const celspan_matrix *matrix,
                                                const cs_boundary_frame *frame, uint32_t layer);
 
-/* Orders the chains by y0, then x0, then leaf and place of origin: the order in which a sweep meets
- * them, free of memory addresses. Call once, when all is added. */
+/* Orders the chains by y0, then x0, then layer, then the order of adding: the order in which a
+ * sweep meets them. Call once, after the last outline. */
 void cs_boundary_sort(cs_boundary_set *set);
 
-/* What a group is walked in: segments from vertex to vertex, from the top. */
+/* The segments of a group, from vertex to vertex, from the top. */
 typedef struct cs_boundary_group {
   double x[CS_BOUNDARY_GROUP + 1], y[CS_BOUNDARY_GROUP + 1];
   double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 without height */
   double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
-  uint32_t count;                      /* of segments: an arc is one */
+  uint32_t count;                      /* of segments; an arc is one */
   uint32_t first, groups;              /* of the piece: one, or those of a leap */
 } cs_boundary_group;
 
-/* Where a walk down one chain stands: on the segment from (x0, y0) to (x1, y1). */
+/* A walk down one chain: its current segment is from (x0, y0) to (x1, y1). */
 typedef struct cs_boundary_walk {
   double x0, y0, x1, y1;
   double slope, curve; /* as in cs_boundary_group */
@@ -100,10 +104,10 @@ typedef struct cs_boundary_walk {
   cs_boundary_group made;
 } cs_boundary_walk;
 
-/* Stands at the first segment whose y1 is below y (greater): needs y < chain's y1. */
+/* Begins at the first segment whose y1 is below y (greater); y must be above the chain's y1. */
 void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
                        cs_boundary_walk *walk);
-/* On to the next segment; false, and the walk unchanged, at the end of the chain. */
+/* Advances to the next segment; at the end of the chain returns false and changes nothing. */
 bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk);
 
 /* x at a height on the walk's segment. */

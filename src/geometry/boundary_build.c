@@ -1,5 +1,19 @@
-/* cs_boundary_add: contours to chains. Every step works on a piece in its canonical order and gives
- * `parts` from top to bottom; slices of parts are then turned into the order of the contour. */
+/* cs_boundary_add: contours to chains.
+ *
+ *   horizon: what is behind it     y extrema: from each one     sides of the frame: what is beyond
+ *   is cut off                     to the next a part           them becomes a vertical line
+ *
+ *        .---.                         *--.                       left |    .
+ *      /       \                      /    \                           |  .
+ *   --o---------o--- horizon         /      *  extremum                |.   the curve leaves here
+ *     :         :                   |       :                         .|
+ *      (cut off)                    part    part                    .  |   the part goes on
+ *                                                                      |   along the side
+ *
+ * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
+ * the same bits, and makes parts from top to bottom. The parts of a piece are then put into the
+ * order of the contour, and consecutive parts of one direction joined to chains.
+ */
 #include <math.h>
 
 #include "base/number.h"
@@ -8,9 +22,10 @@
 #include "geometry/matrix.h"
 #include "geometry/polyline.h"
 
-#define WEIGHT_RATIO 2 /* the most within a piece that is fitted as one */
+#define WEIGHT_RATIO 2 /* the most within a piece that is fitted as a whole */
 #define WEIGHT_DEPTH 40
-#define LEAST_REACH 1024 /* pixels a piece may go beyond top or bottom before it is cut there */
+#define LEAST_OUTSIDE                                                                              \
+  1024 /* pixels that a piece may extend beyond top or bottom before it is cut there */
 
 typedef struct part {
   cs_boundary_piece piece;
@@ -22,12 +37,12 @@ typedef struct builder {
   cs_boundary_set *set;
   const cs_boundary_frame *frame;
   uint32_t layer;
-  part *parts; /* of the present contour */
+  part *parts; /* of the current contour */
   size_t part_count, part_capacity;
-  cs_bezier *fronts; /* what the horizon left of the present piece */
+  cs_bezier *fronts; /* the parts of the current piece in front of the horizon */
   size_t front_count, front_capacity;
   bool has_pen;
-  cs_hpoint first, pen; /* where the contour began, and stands */
+  cs_hpoint first, pen; /* the beginning of the contour, and its current point */
 } builder;
 
 /* ---------------------------------------------------------------- parts */
@@ -73,8 +88,8 @@ static void reverse_parts(builder *b, size_t begin, bool turns_direction) {
 
 /* ---------------------------------------------------------------- the frame */
 
-/* The height at which an edge reaches x, from the nearer of its ends: the other may be at the
- * horizon, with few digits left. */
+/* The height at which a line crosses x, computed from the nearer end: the other one may be close to
+ * the horizon, with few exact digits. */
 static double edge_height(celspan_point top, celspan_point bottom, double x) {
   double rise = (bottom.y - top.y) / (bottom.x - top.x);
   bool is_top_near = fabs(x - top.x) <= fabs(x - bottom.x);
@@ -116,7 +131,7 @@ static celspan_point project(cs_hpoint point) {
   return (celspan_point){point.x / point.w, point.y / point.w};
 }
 
-/* The end of a part, held to the frame and below what came before it. */
+/* The end of a part, clamped to the frame and to below the part before it. */
 static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_point from,
                            celspan_point to) {
   celspan_point end = project(curve->points[curve->degree]);
@@ -124,7 +139,8 @@ static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_poi
                          cs_number_clamp(end.y, from.y, to.y)};
 }
 
-/* A curve inside the frame; halved until its weights are alike. Recursion ends at WEIGHT_DEPTH. */
+/* A curve inside the frame, halved until its weights are similar. Recursion ends at WEIGHT_DEPTH.
+ */
 static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_point from,
                                 celspan_point to, int depth) {
   if (depth == WEIGHT_DEPTH || weight_ratio(curve) <= WEIGHT_RATIO)
@@ -136,9 +152,9 @@ static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_poin
   return add_curve(b, &lower, middle, to, depth + 1);
 }
 
-/* A curve that meets neither side of the frame on the way: inside or outside as its middle is. */
-static celspan_status add_slice(builder *b, const cs_bezier *curve, celspan_point from,
-                                celspan_point to) {
+/* A curve that crosses neither side of the frame: it is inside or outside as its middle is. */
+static celspan_status add_one_side(builder *b, const cs_bezier *curve, celspan_point from,
+                                   celspan_point to) {
   cs_bezier upper, lower;
   cs_bezier_split(curve, 0.5, &upper, &lower);
   double x = project(lower.points[0]).x;
@@ -179,13 +195,13 @@ static celspan_status add_cut_curve(builder *b, const cs_bezier *curve, celspan_
     cs_bezier_take(&rest, &position, cuts.at[i], &upper);
     celspan_point cut = joint(b, &upper, from, to);
     cut.x = cuts.x[i];
-    CS_TRY(add_slice(b, &upper, from, cut));
+    CS_TRY(add_one_side(b, &upper, from, cut));
     from = cut;
   }
-  return add_slice(b, &rest, from, to);
+  return add_one_side(b, &rest, from, to);
 }
 
-/* y0, y1: where the curve begins and ends. */
+/* y0, y1: the heights of its ends. */
 static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, double y1) {
   double left = b->frame->left, right = b->frame->right;
   double least = HUGE_VAL, largest = -HUGE_VAL;
@@ -204,8 +220,8 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
                                            : add_cut_curve(b, curve, from, to);
 }
 
-/* curve: falls from its first point to its last. Beyond top and bottom it may go on for a while,
- * which costs little and keeps its vertices where they would be in a larger frame. */
+/* curve: goes down from its first point to its last. It may extend a little beyond top and bottom:
+ * that costs little, and its vertices are then those of a larger frame. */
 static celspan_status add_falling(builder *b, cs_bezier *curve) {
   const cs_boundary_frame *frame = b->frame;
   celspan_point from = project(curve->points[0]), to = project(curve->points[curve->degree]);
@@ -213,7 +229,7 @@ static celspan_status add_falling(builder *b, cs_bezier *curve) {
     return CELSPAN_OK;
   if (curve->degree == 1)
     return add_line(b, from, to);
-  double roots[CS_BEZIER_ROOTS], reach = fmax(LEAST_REACH, frame->bottom - frame->top);
+  double roots[CS_BEZIER_ROOTS], reach = fmax(LEAST_OUTSIDE, frame->bottom - frame->top);
   cs_bezier outside;
   if (from.y < frame->top - reach &&
       cs_bezier_crossings(curve, (cs_bezier_form){.y = 1, .w = -frame->top}, roots) > 0) {
@@ -246,7 +262,8 @@ static celspan_status add_monotone(builder *b, cs_bezier *curve) {
   return CELSPAN_OK;
 }
 
-/* With positive weights a line crosses a curve no more often than its control polygon. */
+/* With positive weights a line crosses a curve no more often than it crosses its control polygon.
+ */
 static bool has_monotone_polygon(const cs_bezier *curve) {
   bool rises = false, falls = false;
   double last = cs_bezier_coordinate(curve->points[0], CS_BEZIER_Y);
@@ -259,7 +276,7 @@ static bool has_monotone_polygon(const cs_bezier *curve) {
   return !(rises && falls);
 }
 
-/* curve: canonical and before the horizon; is_turned: the contour runs against it. */
+/* curve: canonical and in front of the horizon; is_turned: the contour has the other direction. */
 static celspan_status add_canonical(builder *b, const cs_bezier *curve, bool is_turned) {
   double roots[CS_BEZIER_ROOTS], position = 0;
   int count = has_monotone_polygon(curve) ? 0 : cs_bezier_extrema(curve, CS_BEZIER_Y, roots);
@@ -280,7 +297,7 @@ static celspan_status add_canonical(builder *b, const cs_bezier *curve, bool is_
 
 static bool are_same(cs_hpoint a, cs_hpoint b) { return a.x == b.x && a.y == b.y && a.w == b.w; }
 
-/* Closes what the horizon opened. */
+/* Closes the gap between two parts that the horizon has cut apart. */
 static celspan_status add_gap(builder *b, cs_hpoint to) {
   if (!b->has_pen || are_same(b->pen, to))
     return CELSPAN_OK;
@@ -321,7 +338,7 @@ static celspan_status add_piece(builder *b, const cs_outline *outline, size_t pi
 
 /* ---------------------------------------------------------------- chains */
 
-/* Whether b goes on, along the contour, where a ends. */
+/* Whether b continues a, along the contour. */
 static bool joins(const part *a, const part *b) {
   if (a->direction != b->direction)
     return false;

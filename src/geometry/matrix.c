@@ -94,7 +94,7 @@ bool celspan_matrix_inverse(celspan_matrix matrix, celspan_matrix *out) {
   double terms[3] = {m[0] * c[0], m[1] * c[3], m[2] * c[6]};
   double determinant = terms[0] + terms[1] + terms[2];
   double size = fabs(terms[0]) + fabs(terms[1]) + fabs(terms[2]);
-  /* Below this the determinant is nothing but rounding. */
+  /* A determinant below this is rounding. */
   if (!(fabs(determinant) > 1e-15 * size))
     return false;
   celspan_matrix inverse = scaled(&cofactors, 1 / determinant);
@@ -132,7 +132,7 @@ static bool from_frame(const celspan_point p[4], celspan_matrix *out) {
   return true;
 }
 
-/* Turns the signs so that the first point lies before the horizon, and w is 1 there. */
+/* Scales the matrix so that w is 1 at the first point, which is then in front of the horizon. */
 static bool face(celspan_matrix *matrix, celspan_point point) {
   double w = cs_matrix_apply(matrix, (cs_hpoint){point.x, point.y, 1}).w;
   if (w == 0)

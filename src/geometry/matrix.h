@@ -1,4 +1,16 @@
-/* 3x3 homogeneous matrices, row-major, column vectors. */
+/* 3x3 homogeneous matrices, row-major, column vectors.
+ *
+ *        x' = X / W      ( X )   ( m0 m1 m2 ) ( x )
+ *        y' = Y / W      ( Y ) = ( m3 m4 m5 ) ( y )
+ *                        ( W )   ( m6 m7 m8 ) ( w )
+ *
+ *   W > 0: in front of the horizon     - - - - - - - -  W = 0: the horizon
+ *   W <= 0: behind it, not visible       \         /
+ *                                         \       /      lines that are parallel in the plane meet
+ *                                          \     /       at the horizon of a perspective map
+ *
+ * An affine matrix (m6 = m7 = 0) has no horizon.
+ */
 #ifndef CS_GEOMETRY_MATRIX_H
 #define CS_GEOMETRY_MATRIX_H
 
@@ -10,7 +22,7 @@ bool cs_matrix_is_sane(const celspan_matrix *matrix); /* every entry passes cs_n
 bool cs_matrix_is_affine(const celspan_matrix *matrix);
 /* Affine without rotation or skew: rows stay rows and columns columns. */
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
-/* The same map with all signs turned where that brings an affine one before the horizon. */
+/* The same map; an affine one with m8 < 0 gets all its signs changed, so that W > 0. */
 celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
 
 #endif

@@ -1,10 +1,18 @@
 /* NURBS to rational Bezier pieces by blossoms.
  * Source: Ramshaw, Blossoms are polar forms, 1989; Piegl and Tiller, The NURBS book, 1997.
  *
+ *      o           o           o  control points of the curve
+ *          .--*--.
+ *        .'       '.              every knot span that is not empty becomes one Bezier piece;
+ *       *           *--.          the pieces join (*) at the knots
+ *                       '*
+ *   ---+------+-----+----+---     knots;  [a, c] is one span
+ *      a      c
+ *
  * Bezier point j of the knot span [a, c] is the blossom at (degree - j) times a and j times c: de
  * Boor's recursion with another argument at every level. Its denominators cover [a, c], so they are
- * never 0 in a span that is not empty. Knots enter only as sums of differences from a, so moving
- * them all moves no bit, and a period has no seam.
+ * never 0 in a span that is not empty. Knots enter only as sums of differences from a. So adding a
+ * number to all knots changes no bit, and a periodic curve has no seam.
  */
 #include <math.h>
 
@@ -16,7 +24,7 @@
 #define WEIGHT_RATIO 1e6
 #define DEFAULT_DEGREE 3
 
-/* A description that was checked, its defaults filled in. */
+/* A checked description, with its defaults filled in. */
 typedef struct curve {
   const celspan_nurbs_desc *desc;
   size_t count; /* points */
@@ -85,8 +93,8 @@ static celspan_status check_order(celspan_context *context, const curve *c) {
   return CELSPAN_OK;
 }
 
-/* How often the knot at `from` stands in a row, and where the row ends. A period's last knot is its
- * first, so a row there goes on at the other end. */
+/* How many equal knots there are from `from` on, and where they end. The last knot of a period is
+ * its first one, so there the count continues at the other end. */
 static size_t knot_row(const curve *c, size_t from, size_t *end) {
   const double *knots = c->desc->knots;
   size_t next = from + 1, count;
@@ -114,7 +122,7 @@ static celspan_status check_rows(celspan_context *context, const curve *c) {
 
 /* ---------------------------------------------------------------- knot spans */
 
-/* From knot i to the next. Uniform knots of a clamped curve stand in a row at both ends. */
+/* The distance from knot i to the next. At both ends of a clamped curve uniform knots are equal. */
 static double knot_step(const curve *c, size_t i) {
   if (c->knot_count > 0)
     return c->desc->knots[i + 1] - c->desc->knots[i];
@@ -123,18 +131,18 @@ static double knot_step(const curve *c, size_t i) {
 }
 
 /* Knots around the span that begins at knot `span`, as distances from its beginning:
- * knots[degree - 1] is 0, knots[degree] the end of the span. A period goes round: it has as many
- * steps as points. */
+ * knots[degree - 1] is 0, knots[degree] the end of the span. A period has as many distances as
+ * points, and begins again after the last one. */
 static void knots_around(const curve *c, size_t span, double *knots) {
-  size_t zero = c->degree - 1, turn = c->is_periodic ? c->count : SIZE_MAX;
+  size_t zero = c->degree - 1, period = c->is_periodic ? c->count : SIZE_MAX;
   size_t after = span, before = span;
   knots[zero] = 0;
   for (size_t i = zero; i < zero + c->degree; i++) {
     knots[i + 1] = knots[i] + knot_step(c, after);
-    after = after + 1 == turn ? 0 : after + 1;
+    after = after + 1 == period ? 0 : after + 1;
   }
   for (size_t i = zero; i > 0; i--) {
-    before = before == 0 ? turn - 1 : before - 1;
+    before = before == 0 ? period - 1 : before - 1;
     knots[i - 1] = knots[i] - knot_step(c, before);
   }
 }
@@ -163,7 +171,7 @@ static cs_hpoint blossom(const cs_hpoint *points, const double *knots, size_t de
   return work[degree];
 }
 
-/* points[0..degree] act on the span; a contour begins before the first piece. */
+/* points[0..degree] are those of the span; a contour begins before the first piece. */
 static celspan_status add_span(celspan_context *context, cs_outline *outline, const curve *c,
                                size_t span, bool is_first) {
   cs_hpoint points[CS_BEZIER_DEGREE + 1], bezier[CS_BEZIER_DEGREE + 1];
@@ -179,7 +187,7 @@ static celspan_status add_span(celspan_context *context, cs_outline *outline, co
   return cs_outline_piece(context, outline, (int)c->degree, bezier + 1);
 }
 
-/* A period ends where it began; only rounding says otherwise. */
+/* A period ends where it began, except for rounding. */
 static void snap_seam(cs_outline *outline) {
   size_t first = outline->contours[outline->contour_count - 1];
   outline->points[outline->point_count - 1] = outline->points[outline->starts[first]];

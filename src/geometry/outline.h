@@ -1,5 +1,12 @@
 /* Outlines: closed contours of rational Bezier pieces, the one form of every primitive.
  *
+ *            p1 o - - - o p2             piece 0: cubic, points p0 p1 p2 p3
+ *              .         .               piece 1: a line,   points p3 p4
+ *          p0 *           * p3           piece 2: a line,   points p4 p5, where p5 equals p0
+ *              \         /
+ *               \       /               *  a joint: stored once, shared by two pieces
+ *                * p4                    o  a control point
+ *
  * Invariants: points are homogeneous (w*x, w*y, w) with w > 0; piece i has degrees[i] + 1 points
  * from starts[i] on; consecutive pieces of a contour share their joint (the last point of one is
  * the first of the next: starts[i + 1] == starts[i] + degrees[i] inside a contour), and the last
@@ -24,7 +31,7 @@ typedef struct cs_outline {
   size_t contour_count, contour_capacity;
 } cs_outline;
 
-/* An empty outline; finish frees what it holds. */
+/* An empty outline; finish frees its arrays. */
 void cs_outline_init(cs_outline *outline);
 void cs_outline_finish(cs_outline *outline, cs_memory *memory);
 
@@ -40,7 +47,7 @@ CELSPAN_CHECKED celspan_status cs_outline_piece(celspan_context *context, cs_out
                                                 int degree, const cs_hpoint *points);
 CELSPAN_CHECKED celspan_status cs_outline_close(celspan_context *context, cs_outline *outline);
 
-/* The whole outlines of the primitives. Arguments have been checked at the door. */
+/* The whole outlines of the primitives. Arguments have been checked (scene/check.h). */
 CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline,
                                                double x, double y, double width, double height,
                                                double radius);

@@ -1,5 +1,14 @@
 /* SVG path data. Source: Scalable Vector Graphics 2, chapter 9 (grammar in 9.3.9, arcs in appendix
- * B.2). Offsets in messages count bytes from 1. */
+ * B.2). Offsets in messages count bytes from 1.
+ *
+ *       corner                         An elliptical arc becomes conics of at most a quarter turn.
+ *     o---------* begin + step         The middle point of a conic lies where the tangents at its
+ *     |      .'                        ends meet; in homogeneous form it is the point at the middle
+ *     |    .'                          angle with the weight cos(step / 2), so that
+ *     |   /                                point = weight * centre + axes * (cos, sin)
+ *     |  |
+ *     *  begin      + centre
+ */
 #include <math.h>
 #include <string.h>
 
@@ -51,7 +60,7 @@ static void skip_separator(reader *r) {
   }
 }
 
-/* value (0, or at least 1) * 10^exponent; exact but for one rounding while the power is exact (up
+/* value (0, or at least 1) * 10^exponent, with a single rounding as long as the power is exact (up
  * to 10^22). */
 static double scale_by_ten(double value, int64_t exponent) {
   static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
@@ -66,12 +75,12 @@ static double scale_by_ten(double value, int64_t exponent) {
   return exponent < 0 ? value / powers[-exponent] : value * powers[exponent];
 }
 
-/* Digits so far: nineteen of them fit the mantissa, more only move the point. */
+/* The digits so far: the first nineteen fit the mantissa, the others only shift the point. */
 typedef struct decimal {
   uint64_t mantissa;
   int64_t exponent;
   int digits;
-  bool is_given; /* any digit was seen, zeros too */
+  bool is_given; /* there was a digit, even if 0 */
 } decimal;
 
 static void read_digits(reader *r, decimal *number, bool is_fraction) {
@@ -87,7 +96,7 @@ static void read_digits(reader *r, decimal *number, bool is_fraction) {
   }
 }
 
-/* "e-3" and the like; an e without digits behind it is left alone. */
+/* An exponent such as "e-3"; an e without digits after it is not consumed. */
 static void read_exponent(reader *r, decimal *number) {
   const char *p = r->data + r->at;
   if (*p != 'e' && *p != 'E')
@@ -147,7 +156,7 @@ static celspan_status begin_drawing(reader *r) {
   return cs_outline_move(r->context, r->outline, plain(r->start));
 }
 
-/* points: `degree` after the pen, which ends on the last. */
+/* points: the `degree` points after the pen, the last of which becomes the pen. */
 static celspan_status draw(reader *r, int degree, const celspan_point *points) {
   cs_hpoint piece[3];
   for (int i = 0; i < degree; i++)
@@ -159,21 +168,22 @@ static celspan_status draw(reader *r, int degree, const celspan_point *points) {
   return CELSPAN_OK;
 }
 
-/* The last control point seen through the pen, when the last command was one of `family`. */
+/* The last control point mirrored at the pen, when the last command was one of `family`. */
 static celspan_point reflected(const reader *r, const char *family) {
   if (!strchr(family, r->last))
     return r->pen;
   return (celspan_point){2 * r->pen.x - r->control.x, 2 * r->pen.y - r->control.y};
 }
 
-/* An arc of an ellipse: where the unit circle goes, and which part of it. */
+/* An arc of an ellipse: the image of a part of the unit circle. */
 typedef struct ellipse_arc {
-  celspan_point centre, axis_x, axis_y; /* axes: what the unit vectors become */
+  celspan_point centre, axis_x, axis_y; /* axes: the images of the unit vectors */
   double begin, sweep;                  /* radians */
 } ellipse_arc;
 
-/* In the space where the ellipse is the unit circle and the chord's middle the origin, the chord
- * runs from u to -u; the centre lies beside it. False: the arc is a line. */
+/* In the space where the ellipse is the unit circle and the middle of the chord is the origin, the
+ * chord goes from u to -u, and the centre c lies on the line through the origin at a right angle to
+ * it, `beside` chord lengths away. Returns false when the arc is a line. */
 static bool find_arc(celspan_point from, celspan_point to, const double *a, ellipse_arc *out) {
   double sine, cosine, radius_x = fabs(a[0]), radius_y = fabs(a[1]);
   cs_elementary_sincos((a[2] - 360 * floor(a[2] / 360)) * (PI / 180), &sine, &cosine);
@@ -204,7 +214,7 @@ static bool find_arc(celspan_point from, celspan_point to, const double *a, elli
   return true;
 }
 
-/* weight times the centre plus the unit vector at an angle: homogeneous, weight in w. */
+/* weight * centre + the unit vector at an angle, in homogeneous form: the weight is w. */
 static cs_hpoint on_arc(const ellipse_arc *arc, double angle, double weight) {
   double sine, cosine;
   cs_elementary_sincos(angle, &sine, &cosine);
@@ -264,7 +274,7 @@ static celspan_status read_arguments(reader *r, char command, double *arguments)
   return CELSPAN_OK;
 }
 
-/* Adds the pen to relative coordinates, then pairs them; the last pair is where the pen will be. */
+/* Adds the pen to relative coordinates and pairs them; the last pair will be the pen. */
 static int pair_up(const reader *r, char command, bool is_relative, const double *arguments,
                    celspan_point *points) {
   celspan_point base = is_relative ? r->pen : (celspan_point){0, 0};
@@ -309,7 +319,7 @@ static celspan_status execute(reader *r, char command, const double *arguments,
 }
 
 /* One set of arguments of a command. */
-static celspan_status read_step(reader *r, char command, bool is_relative) {
+static celspan_status read_set(reader *r, char command, bool is_relative) {
   double arguments[ARGUMENTS];
   celspan_point points[3];
   size_t begin = r->at;
@@ -324,8 +334,8 @@ static celspan_status read_step(reader *r, char command, bool is_relative) {
   return CELSPAN_OK;
 }
 
-/* Whether another set of arguments follows; the separator before it is then skipped. A comma with
- * nothing behind it counts, so that reading on finds the mistake. */
+/* Whether another set of arguments follows; the separator before it is then skipped. A comma at the
+ * end counts as well, so that reading on reports the mistake. */
 static bool is_repeated(reader *r) {
   skip_space(r);
   size_t before = r->at;
@@ -344,11 +354,11 @@ static celspan_status read_command(reader *r) {
     return expected(r, r->at, "M, which every path begins with,");
   r->at++;
   skip_space(r);
-  CS_TRY(read_step(r, command, is_relative));
+  CS_TRY(read_set(r, command, is_relative));
   if (command == 'M')
     command = 'L';
   while (command != 'Z' && is_repeated(r))
-    CS_TRY(read_step(r, command, is_relative));
+    CS_TRY(read_set(r, command, is_relative));
   skip_space(r);
   return CELSPAN_OK;
 }

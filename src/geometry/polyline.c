@@ -1,12 +1,13 @@
-#include "geometry/polyline.h"
+#include "geometry/polyline_vertex.h"
+#include "geometry/polyline_wide.h"
 
 #include <math.h>
 #include <string.h>
 
-/* One chord must be this much better than the tolerance: its vertices are the ends, which cannot be
- * displaced to keep the area. */
+/* A single chord must be nearer than the tolerance, because its vertices are the ends of the piece,
+ * which cannot be displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
-/* 4 times how far an arc may be from its chord in a row: pixels. */
+/* 4 times the distance that an arc may have from its chord within a row: pixels. */
 #define ARC_CURVE 0.02
 /* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
 #define HALVES_LEAST 6
@@ -14,7 +15,7 @@
 #define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
 #define CHORD_LIMIT 1e9
 #define LEAP_MOST 8 /* groups */
-/* What the second derivative may reach between samples of it. */
+/* How much larger the second derivative may be between two samples of it. */
 #define SAMPLING_MARGIN 1.25
 
 /* ---------------------------------------------------------------- evaluation */
@@ -53,7 +54,7 @@ static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double
 }
 
 /* 4 coefficients of x and 4 of y of a piece in powers. */
-static inline void take_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
+static inline void load_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                double c[8]) {
   const cs_hpoint *p = set->points + piece->point;
   const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
@@ -69,7 +70,7 @@ static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece 
   double c[8];
   if (!piece->is_power)
     return at_rational(set->points + piece->point, piece->degree, t);
-  take_powers(set, piece, c);
+  load_powers(set, piece, c);
   return cs_polyline_power(c, t);
 }
 
@@ -77,7 +78,7 @@ static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
                           uint32_t first, uint32_t stride, cs_polyline_vertices *out) {
   const cs_boundary_piece strided = cs_polyline_strided(piece, stride);
   cs_polyline_seat seats[CS_POLYLINE_ROOM];
-  double t[CS_POLYLINE_ROOM + 2] = {0}; /* the ends have no neighbour, nor a use for one */
+  double t[CS_POLYLINE_ROOM + 2] = {0}; /* the ends have no neighbour and do not need one */
   for (int k = 0; k <= piece->group; k++) {
     double vertex = (double)first + (double)stride * k;
     cs_polyline_point p = at(set, piece, vertex * piece->step);
@@ -110,7 +111,7 @@ static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
                           uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
   if (piece->degree > 1 && piece->is_power) {
     double c[8];
-    take_powers(set, piece, c);
+    load_powers(set, piece, c);
     CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
   } else if (piece->degree > 1) {
     find_vertices(set, piece, first, stride, v);
@@ -131,11 +132,11 @@ static cs_polyline_arc fit_arc(const cs_polyline_vertices *v, int first, int end
   return (cs_polyline_arc){x, y, height, width / height, curve};
 }
 
-/* Whether a row's chord is near the arc, of which the row sees no more. */
+/* Whether the arc is near its chord within every row: rows treat it as one. */
 static bool is_straight(const cs_polyline_arc *a) {
   double top = a->mean - a->curve * a->height, foot = a->mean + a->curve * a->height;
   double gentlest = top < 0 ? -foot : foot, other = top < 0 ? -top : top;
-  gentlest = other < gentlest ? other : gentlest; /* less than 0 where x turns back */
+  gentlest = other < gentlest ? other : gentlest; /* less than 0 where x has an extremum inside */
   return fabs(a->curve) <= ARC_CURVE * (gentlest > 1 ? gentlest : 1);
 }
 
@@ -170,9 +171,10 @@ static void end_group(const cs_polyline_vertices *v, int count, uint32_t first, 
   out->groups = groups;
 }
 
-/* One arc for all groups of the leap that holds a group, if there are so many and it is near. */
-static bool take_leap(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
-                      cs_boundary_group *out) {
+/* One arc for the whole leap that a group is in, if the leap is complete and the arc near enough.
+ */
+static bool try_leap(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
+                     cs_boundary_group *out) {
   cs_polyline_vertices v;
   uint32_t leap = piece->leap, base = group - group % leap;
   if (leap == 1 || (base + leap) * piece->group > piece->chords)
@@ -189,7 +191,7 @@ void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piec
   cs_polyline_vertices v;
   int half = piece->half, count = piece->group;
   out->count = 0;
-  if (leaps && take_leap(set, piece, group, out))
+  if (leaps && try_leap(set, piece, group, out))
     return;
   make_vertices(set, piece, group * piece->group, 1, &v);
   if (!add_arc(&v, 0, count, out)) {
@@ -266,8 +268,9 @@ static celspan_status store_points(celspan_context *context, cs_boundary_set *se
   return CELSPAN_OK;
 }
 
-/* An arc's error grows as the cube of its length, a chord's as the square: the more chords a piece
- * has, the more of them an arc is good for, as the third root. 110: measured. */
+/* The error of an arc grows with the cube of its length, that of a chord with the square. So an arc
+ * can replace more chords the more chords the piece has, in proportion to the third root. The
+ * factor 110 was measured. */
 static uint8_t choose_leap(uint32_t chords) {
   uint32_t leap = 1;
   while (leap < LEAP_MOST && 110 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)

@@ -25,7 +25,7 @@ celspan_status cs_row_grow(celspan_context *context, cs_row *row) {
                         sizeof *row->spans);
 }
 
-/* A span that varies, to be filled in; NULL without memory. */
+/* Appends a span that is not a single, to be filled in; NULL when there is no memory. */
 static inline celspan_span *append_varied(celspan_context *context, cs_row *row, int32_t x0,
                                           int32_t x1, celspan_span_kind kind) {
   if (row->count == row->capacity && cs_row_grow(context, row) != CELSPAN_OK)
@@ -50,7 +50,7 @@ celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0
   return CELSPAN_OK;
 }
 
-/* An array of one of two kinds in new room of the row's own arena. */
+/* An array of items of a size, in new room of the row's arena. */
 static celspan_status append_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                                    size_t size, void **room, celspan_span **out) {
   *room = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * size);
@@ -112,16 +112,16 @@ static inline cs_v4 colour_at(const celspan_span *span, int32_t x) {
   return colour;
 }
 
-/* How many of `count` values of a line from its beginning on lie on the same side of 1 as the first
- * does: rounding keeps their order, so the end is found by halving. */
+/* How many of the first of `count` values of a line lie on the same side of 1 as the first one.
+ * Rounding keeps their order, so the last of them is found by halving. */
 static int32_t count_alike(float first, float slope, int32_t count) {
-  bool held = first > 1;
-  int32_t alike = 0, beyond = count; /* `alike` is alike, `beyond` is not */
-  if ((first + slope * (float)(count - 1) > 1) == held)
+  bool is_above = first > 1;
+  int32_t alike = 0, beyond = count; /* value number `alike` is, value number `beyond` is not */
+  if ((first + slope * (float)(count - 1) > 1) == is_above)
     return count;
   while (beyond - alike > 1) {
     int32_t middle = alike + (beyond - alike) / 2;
-    if ((first + slope * (float)middle > 1) == held)
+    if ((first + slope * (float)middle > 1) == is_above)
       alike = middle;
     else
       beyond = middle;
@@ -129,13 +129,13 @@ static int32_t count_alike(float first, float slope, int32_t count) {
   return beyond;
 }
 
-/* A ramp whose alpha is held to 1: it bends at the column where its alpha passes 1. */
-static celspan_status expose_ramp(celspan_context *context, cs_row *out, int32_t x0, int32_t x1,
-                                  cs_v4 colour, cs_v4 slope) {
-  bool held = colour[3] > 1;
+/* A gradient whose alpha is limited to 1: two gradients that meet where the alpha passes 1. */
+static celspan_status expose_gradient(celspan_context *context, cs_row *out, int32_t x0, int32_t x1,
+                                      cs_v4 colour, cs_v4 slope) {
+  bool is_above = colour[3] > 1;
   int32_t bend = x0 + count_alike(colour[3], slope[3], x1 - x0);
   cs_v4 rest = colour + slope * (float)(bend - x0), rest_slope = slope;
-  if (held) {
+  if (is_above) {
     colour[3] = 1;
     slope[3] = 0;
   } else {
@@ -146,7 +146,7 @@ static celspan_status expose_ramp(celspan_context *context, cs_row *out, int32_t
   return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
 }
 
-/* The sum of the spans under [x0, x1), one a row, none of which ends inside. */
+/* The sum of one span of each row, all of which cover [x0, x1). */
 static celspan_status expose_array(celspan_context *context, cs_row *out,
                                    const celspan_span *const *spans, const float *weights,
                                    size_t count, int32_t x0, int32_t x1) {
@@ -173,7 +173,7 @@ static celspan_status expose_interval(celspan_context *context, cs_row *out,
     if (spans[i]->kind == CELSPAN_SPAN_GRADIENT)
       slope += weights[i] * cs_v4_load(spans[i]->slope);
   }
-  return expose_ramp(context, out, x0, x1, first, slope);
+  return expose_gradient(context, out, x0, x1, first, slope);
 }
 
 celspan_status cs_row_expose(celspan_context *context, cs_row *out, const cs_row *rows,

@@ -1,7 +1,16 @@
 /* A row of spans under construction.
  *
+ *   column   0       3           7               12
+ *            |single | gradient  | array         |
+ *   colour   |  c    | c + k * s | a0 a1 a2 a3 a4|       k: columns from the span's origin
+ *
+ *   single    one colour
+ *   gradient  a colour at `origin` and a slope: cutting a span does not change its origin, so the
+ *             colours of what is left keep their bits
+ *   array     a colour for every column, as four floats or, in a row that takes them, as codes
+ *
  * Invariant: spans are sorted, disjoint and not empty; two neighbouring singles never have the same
- * colour; array colours live in the row's arena and stay where they are until the next clear.
+ * colour; array colours lie in the row's arena and are not moved until the next clear.
  */
 #ifndef CS_SPAN_ROW_H
 #define CS_SPAN_ROW_H
@@ -9,7 +18,7 @@
 #include "base/arena.h"
 #include "base/vector.h"
 
-/* How many spans are not singles. */
+/* How many spans of a row are not singles. */
 typedef struct cs_varied {
   size_t gradients, arrays;
 } cs_varied;
@@ -39,13 +48,13 @@ void cs_row_init(cs_row *row);
 void cs_row_finish(cs_row *row, cs_memory *memory);
 void cs_row_clear(cs_row *row);
 
-/* Appends [x0, x1), x0 at or right of the last span's end; an empty interval is nothing. */
+/* Appends [x0, x1), x0 at or right of the end of the last span; nothing if that is empty. */
 CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0,
                                                int32_t x1, cs_v4 colour, cs_v4 slope);
-/* *colours: new room for x1 - x0 colours, to be filled by the caller. */
+/* *colours: room for x1 - x0 colours, to be filled by the caller. */
 CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, float **colours);
-/* The same of codes, 4 bytes a pixel, in a row that takes them. */
+/* The same with codes, 4 bytes a pixel, in a row that takes codes. */
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
@@ -83,11 +92,11 @@ static inline celspan_status cs_row_single(celspan_context *context, cs_row *row
   return CELSPAN_OK;
 }
 
-/* Cuts a row to the columns [x0, x1) and moves it left by x0. Gradients keep their line. */
+/* Cuts a row to the columns [x0, x1) and moves it left by x0. The colours do not change. */
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
 
-/* out = sum of weights[i] * rows[i], alpha held to 1: the exposures of one frame. All rows cover
- * the same columns without gap. */
+/* out = sum of weights[i] * rows[i], alpha at most 1: the exposures of one frame. All rows cover
+ * the same columns without gaps. */
 CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *out,
                                              const cs_row *rows, const float *weights,
                                              size_t count);

@@ -1,15 +1,16 @@
-/* A row queue: copies of finished rows, one after the other, for later use.
+/* A row queue: copies of finished rows, one after the other, to be read later.
  *
- * INVARIANT: row i of a queue is the i-th that was added since it was cleared; its spans and the
- * arrays they point to stay valid until the next clear, which leaves the memory reserved for the
- * rows that follow.
+ *   spans   [ row 0 | row 1        | row 2   |            ends[i]: where row i ends
+ *
+ * Invariant: row i of a queue is the i-th that was added since it was cleared. Its spans and the
+ * arrays they point to are valid until the next clear, which keeps the memory for the next rows.
  */
 #ifndef CS_SPAN_ROW_QUEUE_H
 #define CS_SPAN_ROW_QUEUE_H
 
 #include "span/row.h"
 
-/* Up to the end of a row: how many spans there are, and how many of the row's are not singles. */
+/* The end of a row in the spans, and how many spans of the row are not singles. */
 typedef struct cs_row_queue_end {
   size_t spans;
   cs_varied varied;

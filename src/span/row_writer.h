@@ -1,8 +1,12 @@
-/* A pen writes the end of a row, from left to right: what cs_row_single and cs_row_gradient append,
- * with the row's end kept at hand between calls.
+/* A row writer appends to a row, from left to right, what cs_row_single and cs_row_gradient append.
+ * It keeps the end of the row in registers between calls.
+ *
+ *   row   | span | span | . . .        next: where the next span goes
+ *                       ^
+ *                       from: its first column
  *
  * Invariant: between cs_row_writer_take and cs_row_writer_put nothing else appends to the row, and
- * the row has room for all that is written.
+ * the row has room for all spans that are written.
  */
 #ifndef CS_SPAN_ROW_WRITER_H
 #define CS_SPAN_ROW_WRITER_H
@@ -12,14 +16,14 @@
 typedef struct cs_row_writer {
   cs_row *row;
   celspan_span *next;
-  cs_v4 colour; /* of the last span, where it is a single; else no colour at all */
-  int32_t from; /* where it ends */
+  cs_v4 colour; /* of the last span, if that is a single; else no colour */
+  int32_t from; /* the column where it ends */
 } cs_row_writer;
 
-/* Equal to no colour, not even to itself as a number; compared as bits, no colour has these. */
+/* A NaN: equal to no colour as numbers; no colour has these bits either. */
 static inline cs_v4 cs_row_writer_no_colour(void) { return cs_v4_all(__builtin_nanf("0x1")); }
 
-/* A pen at the end of a row, which is at column `from`. */
+/* A writer at the end of a row, which is at column `from`. */
 static inline cs_row_writer cs_row_writer_take(cs_row *row, int32_t from) {
   cs_row_writer writer = {row, row->spans + row->count, cs_row_writer_no_colour(), from};
   if (row->count > 0 && writer.next[-1].kind == CELSPAN_SPAN_SINGLE)
@@ -39,7 +43,7 @@ static inline void cs_row_writer_span(celspan_span *span, int32_t from, int32_t 
   cs_v4_store(span->colour, colour);
 }
 
-/* One colour up to column `to`; nothing where the pen is there already. */
+/* One colour up to column `to`; nothing if the writer is there already. */
 static inline void cs_row_writer_to(cs_row_writer *writer, int32_t to, cs_v4 colour) {
   if (to <= writer->from)
     return;
@@ -52,7 +56,7 @@ static inline void cs_row_writer_to(cs_row_writer *writer, int32_t to, cs_v4 col
   writer->from = to;
 }
 
-/* A ramp of at least two columns up to `to`. */
+/* A gradient of at least two columns up to `to`. */
 static inline void cs_row_writer_ramp(cs_row_writer *writer, int32_t to, cs_v4 colour,
                                       cs_v4 slope) {
   celspan_span *span = writer->next++;

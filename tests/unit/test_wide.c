@@ -1,7 +1,7 @@
 /* The sweep's vector code gives the same bits under every set of instructions.
  */
 #include "area/edges.h"
-#include "geometry/polyline.h"
+#include "geometry/polyline_wide.h"
 #include "row/centre.h"
 #include "sweep/advance.h"
 #include "tests/support/check.h"
