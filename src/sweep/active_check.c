@@ -10,7 +10,8 @@ static const cs_boundary_walk *walk_of(const cs_active *active, size_t i) {
 }
 
 static double slope_of(const cs_active *active, size_t i) {
-  return active->slope[i] + 2 * active->curve[i] * (active->y - active->y0[i]);
+  return active->segments.slope[i] +
+         2 * active->segments.curve[i] * (active->y - active->segments.y0[i]);
 }
 
 /* Whether boundary i + 1 may follow boundary i: by x, then by slope, then by chain. */
