@@ -6,11 +6,10 @@
 #ifndef CS_FILM_DUPLICATES_H
 #define CS_FILM_DUPLICATES_H
 
-#include "base/hash.h"
+#include "base/hash_table.h"
 #include "output/file_copy.h"
 
 typedef struct cs_duplicate {
-  cs_hash scene;
   int64_t number;     /* of the frame */
   bool is_made;       /* the fields below are set */
   cs_file_stamp file; /* where frames are files */
@@ -20,8 +19,7 @@ typedef struct cs_duplicate {
 typedef struct cs_duplicates {
   cs_duplicate *known; /* in the order in which they were added */
   size_t count, capacity;
-  size_t *slots;     /* a hash table of indices into known, plus 1; 0: free */
-  size_t slot_count; /* 0 or 2^n, at least twice the count */
+  cs_hash_table indices; /* from scenes to indices into known */
 } cs_duplicates;
 
 /* Finds the frame of a scene, or adds frame `number` as its first; *is_new says which. *index: of

@@ -9,27 +9,22 @@
 
 #include <pthread.h>
 
-#include "base/context.h"
-#include "base/hash.h"
+#include "base/hash_table.h"
 #include "cli/tiles/pyramid.h"
 
 typedef struct cs_tile_known {
-  cs_hash hash; /* 0 0: a free slot */
-  cs_pyramid_tile tile;
+  pthread_mutex_t mutex;
+  cs_pyramid_tile *tiles;
+  size_t count, capacity;
+  cs_hash_table indices; /* from hashes to indices into tiles */
 } cs_tile_known;
 
-typedef struct cs_tile_known_table {
-  pthread_mutex_t mutex;
-  cs_tile_known *slots; /* 2^n of them, at most half of them used */
-  size_t count, capacity;
-} cs_tile_known_table;
-
-void cs_tile_known_init(cs_tile_known_table *table);
-void cs_tile_known_finish(cs_tile_known_table *table, celspan_context *context);
+void cs_tile_known_init(cs_tile_known *known);
+void cs_tile_known_finish(cs_tile_known *known, celspan_context *context);
 /* Copies the tile with this hash to *out, if there is one. */
-bool cs_tile_known_find(cs_tile_known_table *table, cs_hash hash, cs_tile_known *out);
-/* Adds a tile, in the place of one with the same hash. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_tile_known_add(cs_tile_known_table *table,
-                                                 celspan_context *context, cs_tile_known tile);
+bool cs_tile_known_find(cs_tile_known *known, cs_hash hash, cs_pyramid_tile *out);
+/* Adds a tile, which replaces one with the same hash. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_tile_known_add(cs_tile_known *known, celspan_context *context,
+                                                 cs_hash hash, cs_pyramid_tile tile);
 
 #endif

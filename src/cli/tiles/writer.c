@@ -46,9 +46,9 @@ static bool link_file(const char *from, char *to) {
   return is_linked;
 }
 
-static bool link_to(const cs_pyramid *pyramid, const cs_tile_known *known, char *path) {
+static bool link_to(const cs_pyramid *pyramid, cs_pyramid_tile tile, char *path) {
   char from[PATH_SIZE];
-  return cs_pyramid_path(pyramid, known->tile, false, from, sizeof from) &&
+  return cs_pyramid_path(pyramid, tile, false, from, sizeof from) &&
          (strcmp(from, path) == 0 || link_file(from, path));
 }
 
@@ -160,11 +160,10 @@ static celspan_status refuse_path(cs_tile_writer *writer) {
 }
 
 static celspan_status put_alias(cs_tile_writer *writer, const cs_pyramid_box *box,
-                                const cs_tile_known *known) {
+                                cs_pyramid_tile tile) {
   char path[PATH_SIZE];
   const cs_pyramid *pyramid = writer->output->pyramid;
-  if (!cs_pyramid_path(pyramid, known->tile, true, path, sizeof path) ||
-      link_to(pyramid, known, path))
+  if (!cs_pyramid_path(pyramid, tile, true, path, sizeof path) || link_to(pyramid, tile, path))
     return CELSPAN_OK;
   return write_tile(writer, box, path);
 }
@@ -176,22 +175,21 @@ celspan_status cs_tile_writer_put(cs_tile_writer *writer, int32_t level, int32_t
   cs_pyramid_box box = cs_pyramid_pixels(output->pyramid, level, &tiles);
   char path[PATH_SIZE];
   tile_content content;
-  cs_tile_known known;
+  cs_pyramid_tile tile = {level, column, row}, known;
   CS_TRY(read_content(writer, &box, &content));
   if (content.is_empty) {
     output->skipped++;
     return CELSPAN_OK;
   }
-  cs_tile_known made = {content.hash, {level, column, row}};
-  if (!cs_pyramid_path(output->pyramid, made.tile, false, path, sizeof path))
+  if (!cs_pyramid_path(output->pyramid, tile, false, path, sizeof path))
     return refuse_path(writer);
   if (cs_tile_known_find(&output->known, content.hash, &known) &&
-      link_to(output->pyramid, &known, path)) {
+      link_to(output->pyramid, known, path)) {
     output->linked++;
   } else {
     CS_TRY(write_tile(writer, &box, path));
-    CS_TRY(cs_tile_known_add(&output->known, &writer->context, made));
+    CS_TRY(cs_tile_known_add(&output->known, &writer->context, content.hash, tile));
     output->written++;
   }
-  return put_alias(writer, &box, &made);
+  return put_alias(writer, &box, tile);
 }

@@ -19,7 +19,7 @@ typedef struct cs_tile_output {
   celspan_file_desc file; /* of every tile; its coding is resolved */
   bool skips_empty;
   unsigned char empty[16]; /* the coded pixel of an empty tile */
-  cs_tile_known_table known;
+  cs_tile_known known;
   atomic_uint_fast64_t written, linked, skipped; /* tiles */
 } cs_tile_output;
 
