@@ -1,8 +1,8 @@
 /* A sink that cuts the rows of one level into tiles.
  *
- * Rows are kept as spans until a row of tiles is whole, so that memory follows the spans of that
- * many rows; a row that its colours describe in less room is kept as those. A finished row of tiles
- * is written by several threads side by side.
+ * Rows are kept as spans until a row of tiles is complete, so that memory is proportional to the
+ * spans of that many rows. A row whose pixels need less memory than its spans is kept as pixels. A
+ * complete row of tiles is written by several threads at once.
  */
 #ifndef CS_CLI_TILES_ROWS_H
 #define CS_CLI_TILES_ROWS_H
@@ -19,7 +19,7 @@ typedef struct cs_tile_rows {
   cs_tile_output *output;
   int32_t level;
   cs_pyramid_box tiles;  /* to be made */
-  cs_pyramid_box pixels; /* of those tiles: what is rendered */
+  cs_pyramid_box pixels; /* of those tiles; these are rendered */
   int32_t next;          /* row of tiles */
   int workers;
   /* After each finished row of tiles. */
