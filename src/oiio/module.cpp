@@ -1,3 +1,4 @@
+/* The table of functions that the core finds in this module, and the settings of the library. */
 #include <mutex>
 
 #include "oiio/shared.h"
@@ -8,7 +9,8 @@ void prepare_library() {
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
     OIIO::attribute("plugin_searchpath", "");
-    /* Sizes are held to celspan's own limits; the library's would refuse what is read in strips. */
+    /* celspan has limits of its own; the library's would refuse pictures that are read in strips.
+     */
     OIIO::attribute("limits:imagesize_MB", 0);
     OIIO::attribute("limits:channels", CS_PICTURE_CHANNELS);
   });

@@ -1,9 +1,17 @@
-/* Reading: header to facts, rectangles to RGBA floats.
+/* Reading: from a file to the facts of its header, and to RGBA floats of a rectangle.
  *
- *   file --Source--> ImageInput --rows or tiles--> channels chosen, window laid, turned upright
+ *   file --Source--> ImageInput --rows or tiles--> batch --> channels, window, orientation --> RGBA
  *
- * One file, because a header's facts and the reading of rectangles share what they know of channels,
- * windows and turns.
+ *   +-----------------------+ display window, of stored_width x stored_height pixels; a rectangle
+ *   |  (data_x, data_y)     | is asked for in it, after it was turned upright
+ *   |     +----------------------+
+ *   |     | data window: the     |  may lie over the edges of the display window; outside it
+ *   |     | pixels in the file   |  pixels are clear
+ *   +-----|                      |
+ *         +----------------------+
+ *
+ * One file, because the header's facts and the reading of rectangles share channels, windows and
+ * orientation.
  */
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -22,9 +30,9 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/* Bytes of decoded pixels held at a time. */
+/* Bytes of decoded pixels in memory at a time. */
 static const size_t BATCH = size_t(4) << 20;
-/* Pixels of a picture whose reader keeps it whole in memory. */
+/* Pixels at most of a picture whose reader keeps it whole in memory. */
 static const uint64_t WHOLE = uint64_t(1) << 28;
 
 struct cs_picture_reader {
@@ -34,8 +42,8 @@ struct cs_picture_reader {
   Sniffed kind;
   ImageSpec spec;
   int subimage = 0;
-  int channel[4];                  /* of the file, for red, green, blue, alpha; alpha -1: none */
-  int first, last;                 /* the span of channels that is read */
+  int channel[4];                  /* in the file, of red, green, blue, alpha; alpha -1: none */
+  int first, last;                 /* the range of channels that is read */
   int orientation;                 /* TIFF's: 1 upright .. 8 */
   int data_x, data_y;              /* the data window, from the display window's corner */
   int stored_width, stored_height; /* the display window as stored, before turning */
@@ -58,7 +66,7 @@ void check_size(uint64_t width, uint64_t height, bool is_whole) {
                                      "most 268435456 pixels are");
 }
 
-/* Readers of some formats have races in what they share, so one is opened at a time. */
+/* Readers of some formats have races in their shared state, so one is opened at a time. */
 std::mutex &opening() {
   static std::mutex lock;
   return lock;
@@ -78,7 +86,7 @@ void open_input(cs_picture_reader &reader) {
     fail_input("cannot be read as " + reader.kind.format, OIIO::geterror());
   ImageSpec wish;
   wish.attribute("oiio:UnassociatedAlpha", 1);
-  /* The JPEG reader says it takes a source like any other, and refuses it when it comes. */
+  /* The JPEG reader claims to support a source of ours, and then refuses it. */
   if (reader.input->supports("ioproxy") && reader.kind.format != "jpeg") {
     void *proxy = reader.source.get();
     wish.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
@@ -91,7 +99,7 @@ void open_input(cs_picture_reader &reader) {
   reader.spec = reader.input->spec(reader.subimage);
 }
 
-/* JPEG's library pads a cut file with grey and calls it a success. */
+/* JPEG's library fills the missing part of a truncated file with grey and reports success. */
 void check_jpeg_end(Source &source) {
   std::vector<unsigned char> tail(std::min<size_t>(source.size(), 1 << 16));
   tail.resize(source.pread(tail.data(), tail.size(), int64_t(source.size() - tail.size())));
@@ -101,7 +109,8 @@ void check_jpeg_end(Source &source) {
   throw Failure(CELSPAN_INPUT, "is truncated: the end of the picture is missing");
 }
 
-/* Film readers take what is missing for black. The header says how long the file is. */
+/* The readers of film formats return black for missing pixels. The header has the size of the file.
+ */
 void check_film_end(Source &source, const std::string &format) {
   unsigned char head[24] = {0};
   source.pread(head, sizeof head, 0);
@@ -122,7 +131,7 @@ int find_channel(const ImageSpec &spec, const std::string &prefix, const char *n
   return -1;
 }
 
-/* prefix: "" or "layer."; false when the picture has no such channels. */
+/* prefix: "" or "layer."; false when the picture has no channels of such names. */
 bool choose_channels(cs_picture_reader &reader, const std::string &prefix) {
   const ImageSpec &spec = reader.spec;
   static const char *const names[4] = {"R", "G", "B", "A"};
@@ -184,8 +193,7 @@ void choose_part(cs_picture_reader &reader, const cs_picture_request &request) {
   choose_channels(reader, "");
 }
 
-/* The display window: what the header calls it; of a PSD layer that of the whole picture. The data
- * window lies in it, over its edges or outside. */
+/* The display window is that of the header, or for a layer of a PSD that of the whole picture. */
 void choose_window(cs_picture_reader &reader) {
   const ImageSpec &spec = reader.spec;
   const std::string &format = reader.kind.format;
@@ -214,8 +222,8 @@ void choose_window(cs_picture_reader &reader) {
 
 bool is_transposed(const cs_picture_reader &reader) { return reader.orientation >= 5; }
 
-/* Film scans name their transfer in the header; what they leave open is taken for film when it has
- * ten bits. */
+/* Film scans name their transfer in the header. Where they do not, ten bits are assumed to be film.
+ */
 const char *film_colour(const ImageSpec &spec) {
   std::string transfer = spec.get_string_attribute("dpx:Transfer").c_str();
   if (transfer == "Linear")
@@ -235,8 +243,8 @@ const char *default_colour(const cs_picture_reader &reader) {
   return reader.spec.format.is_floating_point() ? "linear" : "srgb";
 }
 
-/* Formats that hold straight alpha are asked for it as it is; these readers multiply all the same,
- * or hold multiplied values. */
+/* All readers are asked for straight alpha. These still multiply by alpha, or their files have
+ * multiplied values. */
 bool is_multiplied(const cs_picture_reader &reader) {
   if (reader.channel[3] < 0 || reader.spec.get_int_attribute("oiio:UnassociatedAlpha") == 1)
     return false;
@@ -292,7 +300,7 @@ void choose_space(cs_picture_reader &reader, const char *space) {
                                             "\" is not a space of the OpenColorIO configuration");
 }
 
-/* Rows y0..y1 of the data window, columns x0..x1, the chosen channels, into `out`. */
+/* Rows [y0, y1) and columns [x0, x1) of the data window, the chosen channels, into `out`. */
 void read_rows(cs_picture_reader &reader, int x0, int x1, int y0, int y1, float *out) {
   const ImageSpec &spec = reader.spec;
   size_t channels = size_t(reader.last - reader.first);
@@ -316,7 +324,7 @@ void read_rows(cs_picture_reader &reader, int x0, int x1, int y0, int y1, float 
     fail_input("is corrupt or truncated", reader.input->geterror());
 }
 
-/* Widened to whole tiles, which is all the library reads. */
+/* Extends a range to whole tiles, because the library reads nothing else. */
 void align(int size, int tile, int *low, int *high) {
   *low = *low / tile * tile;
   *high = int(std::min<int64_t>(size, (int64_t(*high) + tile - 1) / tile * tile));
@@ -327,7 +335,7 @@ struct Target {
   int64_t at, step_x, step_y; /* pixels: of stored pixel (0, 0), and to its neighbours */
 };
 
-/* Where the stored pixel (sx, sy) stands in the rectangle asked for, by the orientation. */
+/* Where the stored pixel (sx, sy) goes in the rectangle asked for, by the orientation. */
 Target make_target(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
                    float *rgba) {
   int64_t right = reader.stored_width - 1, bottom = reader.stored_height - 1;
@@ -400,7 +408,7 @@ void scatter(const cs_picture_reader &reader, const Part &part, const Part &read
   }
 }
 
-/* To linear light through OpenColorIO, on straight colour, and multiplied by alpha again. */
+/* To linear light by OpenColorIO, which needs straight colour; then premultiplied. */
 void apply_space(const cs_picture_reader &reader, float *rgba, int32_t width, int32_t height) {
   bool is_coded = is_multiplied(reader);
   for (int64_t i = 0; i < int64_t(width) * height; i++)

@@ -1,6 +1,8 @@
-/* What the module's files share: sentences for failures, the fence around the library, formats.
+/* Shared by the module's files: sentences for failures, and the fence around the library.
  *
- * Invariant: every entry of the table runs inside fence(), so nothing is ever thrown past the face.
+ *   core --table--> fence( work: our code and the library ) --status and sentence--> core
+ *
+ * INVARIANT: every function of the table runs inside fence(), so no exception leaves the module.
  */
 #ifndef CS_OIIO_SHARED_H
 #define CS_OIIO_SHARED_H
@@ -20,8 +22,8 @@ struct Failure : std::exception {
   const char *what() const noexcept override { return text.c_str(); }
 };
 
-/* Runs `work`; what it throws becomes a status and a sentence. other: the status of what the
- * library throws by itself. */
+/* Runs `work`; an exception becomes a status and a sentence. other: the status for exceptions of
+ * the library. */
 template <typename Work>
 celspan_status fence(cs_picture_failure *failure, celspan_status other, const std::string &name,
                      Work work) noexcept {
@@ -53,7 +55,7 @@ celspan_status fence(cs_picture_failure *failure, celspan_status other, const st
 /* The library's settings, made once: no threads of its own, no plug-ins from outside. */
 void prepare_library();
 
-/* The first line of a message of the library's, without trailing blanks. */
+/* The first line of one of the library's messages, without trailing blanks and full stop. */
 std::string first_line(const std::string &message);
 
 celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,

@@ -59,16 +59,17 @@ const Magic magics[] = {
     {"pnm", "PF", 2, 0, true, true},
 };
 
-/* What people hand over by mistake, or what has a reader that is not to be trusted. */
+/* Files that are given by mistake, or whose readers cannot be trusted. */
 const struct {
   const char *bytes;
   size_t length;
   const char *name;
 } refused[] = {
-    {"FOR4", 4, "an IFF picture"}, {"SIMPLE", 6, "a FITS picture"}, {"DDS ", 4, "a DDS picture"},
-    {"\0\0\1\0", 4, "an icon"},    {"%PDF", 4, "a PDF document"},   {"<svg", 4, "an SVG drawing"},
-    {"<?xml", 5, "an XML text"},   {"PK\3\4", 4, "a zip archive"},  {"#!", 2, "a script"},
-    {"\x1c\0\xc5", 3, "a span file"},
+    {"FOR4", 4, "an IFF picture"}, {"SIMPLE", 6, "a FITS picture"},
+    {"DDS ", 4, "a DDS picture"},  {"\0\0\1\0", 4, "an icon"},
+    {"%PDF", 4, "a PDF document"}, {"<svg", 4, "an SVG drawing"},
+    {"<?xml", 5, "an XML text"},   {"PK\3\4", 4, "a zip archive"},
+    {"#!", 2, "a script"},         {"\x1c\0\xc5", 3, "a span file"},
 };
 
 /* Targa has no magic number: the header must make sense field by field (formats, TGA 2.0). */

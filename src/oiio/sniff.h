@@ -1,7 +1,8 @@
-/* What a file is by its first bytes, and how large, before any library sees it.
+/* The format of a file by its first bytes, before any library sees it.
  *
- * Only the formats named here are read. Those whose readers allocate the whole picture when they
- * are opened have their size read here, so that a lying header is refused first.
+ * INVARIANT: only formats named in sniff.cpp are read. Where the reader of a format allocates the
+ * whole picture when it is opened, the size is found here, so that a header with an absurd size is
+ * refused first.
  */
 #ifndef CS_OIIO_SNIFF_H
 #define CS_OIIO_SNIFF_H
@@ -11,13 +12,13 @@
 #include "oiio/source.h"
 
 struct Sniffed {
-  std::string format;     /* the library's name for it */
+  std::string format;     /* by the library's name */
   bool is_sequential;     /* rows can only be decoded from the top */
   bool is_whole;          /* the reader holds the whole picture in memory */
   uint64_t width, height; /* 0 0: ask the reader */
 };
 
-/* Throws Failure, naming what the file is instead, for all others. */
+/* Throws Failure for other files; it names those that are known. */
 Sniffed sniff(Source &source);
 
 #endif

@@ -9,12 +9,12 @@
 
 #include "oiio/shared.h"
 
-/* Reads at or past the end that a sane reader may make in one piece of work. */
+/* Reads past the end that a correct reader may need in one task. */
 static const int MISSES = 1000;
 static const size_t AHEAD = 1 << 15;
 
 Source::Source(const char *path) : IOProxy(path, Read), path_(path) {
-  /* NONBLOCK: opening a pipe that nobody writes must not wait. */
+  /* NONBLOCK: opening a pipe that nobody writes to must not wait. */
   descriptor_ = ::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0)
     throw Failure(CELSPAN_INPUT, std::string("cannot be opened: ") + strerror(errno));

@@ -1,6 +1,9 @@
-/* The bytes of an input file, opened once: what the library reads through it is the file that was
- * checked. A reader that runs in circles at the end of the file is stopped by an exception: some
- * readers never look whether a read succeeded. */
+/* The bytes of an input file.
+ *
+ * INVARIANT: the file is opened once, so the library reads the same file that was checked. A reader
+ * that goes on reading past the end is stopped by an exception after MISSES reads: some readers
+ * never check whether a read succeeded.
+ */
 #ifndef CS_OIIO_SOURCE_H
 #define CS_OIIO_SOURCE_H
 
@@ -21,7 +24,7 @@ public:
   size_t pread(void *bytes, size_t size, int64_t offset) override;
   size_t size() const override { return size_t(status_.st_size); }
 
-  /* To be called before each piece of work: a fresh allowance of reads past the end. */
+  /* To be called before each task: it may again read past the end a few times. */
   void forgive() { misses_ = 0; }
   const struct stat &status() const { return status_; }
   /* Whether the path still leads to the same unchanged file. */
@@ -32,7 +35,8 @@ private:
   size_t read_file(void *bytes, size_t size, int64_t offset);
 
   std::string path_;
-  std::vector<char> ahead_; /* bytes of the file from ahead_at_ on: some readers ask for few */
+  std::vector<char> ahead_; /* bytes of the file from ahead_at_ on, because some readers ask for a
+                               few at a time */
   int64_t ahead_at_ = 0;
   int descriptor_ = -1;
   int misses_ = 0;

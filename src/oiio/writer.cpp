@@ -1,7 +1,9 @@
-/* Writing: rows already coded, to any format whose writer can be given a file of ours.
+/* Writing: coded rows to any format whose writer accepts a file of ours.
  *
- * The library hears of a full disk and goes on, in several formats; the target below remembers the
- * first failure for good, and close_writer reports it whatever the library says.
+ *   rows --> ImageOutput --bytes, in any order--> Target --put--> the core's file
+ *
+ * INVARIANT: the first failure of `put` is reported, by close_writer at the latest. In several
+ * formats the library ignores it (a full disk) and reports success; so Target remembers it.
  */
 #include <OpenImageIO/filesystem.h>
 
@@ -97,7 +99,7 @@ const char *space_of(celspan_transfer transfer) {
   }
 }
 
-/* What a film header calls it. */
+/* The name of a transfer in the header of a film scan. */
 const char *film_transfer(celspan_transfer transfer) {
   switch (transfer) {
   case CELSPAN_TRANSFER_LINEAR:
@@ -114,7 +116,7 @@ const char *film_transfer(celspan_transfer transfer) {
 void describe_rate(ImageSpec &spec, double rate) {
   if (!(rate > 0 && rate < 1e5))
     return;
-  /* 23.976 and its kin are n * 1000 / 1001. */
+  /* 23.976, 29.97 and 59.94 are n * 1000 / 1001. */
   double whole = double(int64_t(rate + 0.5)), drop = double(int64_t(rate * 1.001 + 0.5));
   int fraction[2] = {int(rate * 1000 + 0.5), 1000};
   if (rate == whole) {
@@ -135,10 +137,10 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("ImageDescription", output.title);
   describe_rate(spec, output.frames_second);
   spec.attribute("celspan:frame", int(output.frame));
-  /* In a TIFF it would make a second directory, and the library read back what it wrote. */
+  /* In a TIFF it would make a second directory, for which the library reads back the file. */
   if (format != "tiff")
     spec.attribute("oiio:ColorSpace", space_of(output.transfer));
-  /* A date of the library's own would make equal frames differ. */
+  /* The library would write the present time, and equal frames would differ. */
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (output.bits)
     spec.attribute("oiio:BitsPerSample", output.bits);

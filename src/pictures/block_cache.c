@@ -4,7 +4,7 @@
 
 #define LEAST_PAIRS 16
 #define ROWS_AHEAD 4
-#define SHARE 8 /* of the memory for pictures, what one thread may pin */
+#define SHARE 8 /* a cache may pin one part in SHARE of the memory for pictures */
 
 const float cs_block_cache_none[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
 
@@ -12,19 +12,19 @@ cs_block_cache_source cs_block_cache_source_of(const cs_picture *picture) {
   return (cs_block_cache_source){picture, (uint32_t)cs_picture_hash(picture).a};
 }
 
-void cs_block_cache_init(cs_block_cache *texels, celspan_context *context) {
-  texels->context = context;
-  texels->status = CELSPAN_OK;
-  texels->fetches = 0;
-  texels->pairs = LEAST_PAIRS;
-  texels->curve = NULL;
+void cs_block_cache_init(cs_block_cache *cache, celspan_context *context) {
+  cache->context = context;
+  cache->status = CELSPAN_OK;
+  cache->fetches = 0;
+  cache->pairs = LEAST_PAIRS;
+  cache->curve = NULL;
   size_t share = context->root->picture_bytes / SHARE / (2 * CS_PICTURE_BLOCK_BYTES);
-  while (texels->pairs < CS_BLOCK_CACHE_SLOTS / 2 && 2 * texels->pairs <= share)
-    texels->pairs *= 2;
+  while (cache->pairs < CS_BLOCK_CACHE_SLOTS / 2 && 2 * cache->pairs <= share)
+    cache->pairs *= 2;
   for (int i = 0; i < CS_BLOCK_CACHE_SLOTS; i++)
-    texels->slots[i].texels = NULL;
+    cache->slots[i].texels = NULL;
   for (int i = 0; i < CS_BLOCK_CACHE_OPACITIES; i++)
-    texels->opacities[i].sampler = NULL;
+    cache->opacities[i].sampler = NULL;
 }
 
 static void empty(cs_block_cache_slot *slot) {
@@ -33,24 +33,25 @@ static void empty(cs_block_cache_slot *slot) {
   slot->texels = NULL;
 }
 
-/* Its first rows, which are read next; those below are fetched while they are. */
+/* The first rows of a block, which are read next. The processor itself notices the pattern and
+ * fetches the rows below. */
 static void prefetch_codes(const unsigned char *codes) {
   for (size_t at = 0; at < ROWS_AHEAD * 4 * CS_PICTURE_CODES_ROW; at += 64)
     __builtin_prefetch(codes + at);
 }
 
-void cs_block_cache_fetch(cs_block_cache *texels, const cs_block_cache_source *source,
+void cs_block_cache_fetch(cs_block_cache *cache, const cs_block_cache_source *source,
                           cs_block_cache_slot *pair, int level, int32_t column, int32_t row) {
   cs_block_cache_slot *slot = pair;
-  texels->fetches++;
+  cache->fetches++;
   empty(pair + 1);
   pair[1] = pair[0];
   slot->texels = NULL;
   slot->codes = NULL;
-  if (texels->status == CELSPAN_OK)
-    texels->status =
-        cs_load_block(texels->context, source->picture, level, column, row, &slot->block);
-  if (texels->status != CELSPAN_OK)
+  if (cache->status == CELSPAN_OK)
+    cache->status =
+        cs_load_block(cache->context, source->picture, level, column, row, &slot->block);
+  if (cache->status != CELSPAN_OK)
     return;
   const cs_picture_block *block = slot->block;
   *slot = (cs_block_cache_slot){.picture = source->picture,
@@ -61,12 +62,12 @@ void cs_block_cache_fetch(cs_block_cache *texels, const cs_block_cache_source *s
                                 .texels = block->texels,
                                 .codes = block->is_coded ? block->codes[0] : NULL,
                                 .block = slot->block};
-  texels->curve = block->entry->curve;
+  cache->curve = block->entry->curve;
   if (block->is_coded)
     prefetch_codes(slot->codes);
 }
 
-void cs_block_cache_finish(cs_block_cache *texels) {
+void cs_block_cache_finish(cs_block_cache *cache) {
   for (int i = 0; i < CS_BLOCK_CACHE_SLOTS; i++)
-    empty(&texels->slots[i]);
+    empty(&cache->slots[i]);
 }

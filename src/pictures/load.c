@@ -29,11 +29,11 @@ static int32_t blocks_of(int32_t texels) {
 }
 
 static int32_t columns_of(const cs_picture_entry *entry, int level) {
-  return blocks_of(cs_levels_size(entry->header.info.width, level));
+  return blocks_of(cs_mip_levels_size(entry->header.info.width, level));
 }
 
 static int32_t rows_of(const cs_picture_entry *entry, int level) {
-  return blocks_of(cs_levels_size(entry->header.info.height, level));
+  return blocks_of(cs_mip_levels_size(entry->header.info.height, level));
 }
 
 static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
@@ -90,7 +90,7 @@ static size_t row_bytes(const file_pass *pass) {
 
 /* A waiting row of a level: one texel more than half of the level below. */
 static size_t waiting_bytes(const file_pass *pass, int level) {
-  return ((size_t)cs_levels_size(pass->x1 - pass->x0, level) + 1) * 4 * sizeof(float);
+  return ((size_t)cs_mip_levels_size(pass->x1 - pass->x0, level) + 1) * 4 * sizeof(float);
 }
 
 static bool make_buffers(file_pass *pass) {
@@ -140,19 +140,20 @@ static void fill_blocks(const file_pass *pass, int32_t y, int32_t count, const f
 /* A row of a level, complete: into the blocks, or on to the next level. */
 static void take_row(file_pass *pass, int level, int32_t y, const float *texels) {
   const celspan_picture_info *info = &pass->entry->header.info;
-  int32_t count = cs_levels_size(pass->x1 - pass->x0, level);
+  int32_t count = cs_mip_levels_size(pass->x1 - pass->x0, level);
   if (level == pass->level) {
     fill_blocks(pass, y, count, texels);
     return;
   }
-  bool is_upper = y % 2 == 0, is_last = y + 1 == cs_levels_size(info->height, level);
+  bool is_upper = y % 2 == 0, is_last = y + 1 == cs_mip_levels_size(info->height, level);
   float *waiting = pass->waiting[level];
   if (is_upper)
     memcpy(waiting, texels, (size_t)count * 4 * sizeof(float));
   if (is_upper && !is_last)
     return;
-  cs_levels_mean(info->width, info->height, level, pass->x0 >> level, y & ~1, count, waiting,
-                 is_upper ? NULL : texels, waiting);
+  const cs_mip_level from = {info->width, info->height, level};
+  const cs_mip_rows rows = {pass->x0 >> level, y & ~1, count, waiting, is_upper ? NULL : texels};
+  cs_mip_levels_mean(&from, &rows, waiting);
   take_row(pass, level + 1, y / 2, waiting);
 }
 
@@ -165,7 +166,7 @@ static celspan_status read_rows(file_pass *pass) {
                                                              width, rows, pass->batch, &failure);
     if (status != CELSPAN_OK)
       return cs_fail(pass->context, status, "%s", failure.text);
-    cs_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
+    cs_mip_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
     for (int32_t i = 0; i < rows; i++)
       take_row(pass, 0, y + i, pass->batch + (size_t)i * (size_t)width * 4);
   }
@@ -199,8 +200,8 @@ static bool is_decoded(const cs_picture_block *block) {
 /* A block whose texels are complete. */
 static void describe(cs_picture_block *block) {
   const celspan_picture_info *info = &block->entry->header.info;
-  int32_t width = cs_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
-  int32_t height = cs_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
+  int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
+  int32_t height = cs_mip_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
   int bits = 3;
   for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && bits != 0; y++)
     bits &= common_bits(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
@@ -281,15 +282,16 @@ static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
   const celspan_picture_info *info = &block->entry->header.info;
   int level = from->level;
   int32_t x = from->column * CS_PICTURE_BLOCK, y = from->row * CS_PICTURE_BLOCK;
-  int32_t count = least(cs_levels_size(info->width, level) - x, CS_PICTURE_BLOCK);
-  int32_t rows = least(cs_levels_size(info->height, level) - y, CS_PICTURE_BLOCK);
+  int32_t count = least(cs_mip_levels_size(info->width, level) - x, CS_PICTURE_BLOCK);
+  int32_t rows = least(cs_mip_levels_size(info->height, level) - y, CS_PICTURE_BLOCK);
   const int32_t half = CS_PICTURE_BLOCK / 2;
   int32_t to_x = from->column % 2 * half, to_y = from->row % 2 * half;
   for (int32_t i = 0; i < rows; i += 2) {
     const float *upper = from->texels + 4 * (size_t)(i * CS_PICTURE_BLOCK);
-    cs_levels_mean(info->width, info->height, level, x, y + i, count, upper,
-                   i + 1 < rows ? upper + 4 * CS_PICTURE_BLOCK : NULL,
-                   block->texels + 4 * (size_t)((to_y + i / 2) * CS_PICTURE_BLOCK + to_x));
+    const float *lower = i + 1 < rows ? upper + 4 * CS_PICTURE_BLOCK : NULL;
+    const cs_mip_rows pair = {x, y + i, count, upper, lower};
+    float *out = block->texels + 4 * (size_t)((to_y + i / 2) * CS_PICTURE_BLOCK + to_x);
+    cs_mip_levels_mean(&(cs_mip_level){info->width, info->height, level}, &pair, out);
   }
 }
 

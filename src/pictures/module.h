@@ -1,10 +1,12 @@
-/* The face of the picture module: a table of C functions, which src/oiio (C++ over OpenImageIO)
- * implements.
+/* The interface of the picture module (src/oiio, C++ over OpenImageIO): a table of C functions.
  *
- * The module knows files; the core knows light. Readers hand over pixels as they are coded in the
- * file, turned upright and laid into the display window; decoding and premultiplying are the
- * core's. Writers take rows already coded. Nothing is thrown across this face, no memory changes
- * hands, and every failure comes with a sentence.
+ *   file --module: read--> coded pixels, upright, in the display window --core: decode--> light
+ *   file <--module: write-- coded rows <--core: code-- spans
+ *
+ * The module knows files; the core knows light: decoding and premultiplying happen in the core.
+ *
+ * INVARIANT: no exception crosses the interface, no memory changes its owner, and every failure
+ * comes with a sentence.
  */
 #ifndef CS_PICTURES_MODULE_H
 #define CS_PICTURES_MODULE_H
@@ -41,10 +43,10 @@ typedef struct cs_picture_header {
   cs_picture_alpha alpha;
   int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
   bool is_linear;     /* `space` was given: pixels come in linear light, premultiplied */
-  bool is_turned;     /* the orientation tag moves rows: cheapest read whole */
+  bool is_turned;     /* the orientation tag moves rows: it is cheapest to read all at once */
   bool is_whole;      /* the reader decodes everything at once and keeps it */
-  bool is_sequential; /* reading a row means decoding those above it */
-  int64_t file_size;  /* what tells a changed file */
+  bool is_sequential; /* to read a row, all rows above it have to be decoded */
+  int64_t file_size;  /* these three change when the file does */
   int64_t file_time;  /* nanoseconds */
   uint64_t file_number;
 } cs_picture_header;
@@ -52,9 +54,9 @@ typedef struct cs_picture_header {
 typedef struct cs_picture_reader cs_picture_reader;
 typedef struct cs_picture_writer cs_picture_writer;
 
-/* What a file is to be. Rows are interleaved channels of `depth` in the machine's byte order. */
+/* A file to be written. Rows are interleaved channels of `depth` in the machine's byte order. */
 typedef struct cs_picture_output {
-  /* Takes the file's bytes, in any order; false: stop, the file has failed. */
+  /* Receives the bytes of the file, in any order; false: stop, writing has failed. */
   bool (*put)(void *user, uint64_t offset, const void *bytes, size_t size);
   void *user;
   const char *name;   /* for messages and for the format's own header */
@@ -62,7 +64,7 @@ typedef struct cs_picture_output {
   int32_t width, height;
   int channels;        /* 1 grey, 3, 4 with alpha */
   celspan_depth depth; /* never DEFAULT */
-  int bits;            /* kept of each value: 10 in a depth of 16 for film; 0: all */
+  int bits;            /* of each value that are used: 10 in a depth of 16 for film; 0: all */
   bool is_straight;
   celspan_transfer transfer; /* for the header */
   const char *title;         /* NULL: none */

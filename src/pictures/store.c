@@ -155,7 +155,7 @@ static cs_picture_entry *find_entry(const cs_picture_store *store, cs_hash hash)
 }
 
 static size_t blocks_across(int32_t size, int level) {
-  return ((size_t)cs_levels_size(size, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
+  return ((size_t)cs_mip_levels_size(size, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
 }
 
 /* Rows of a frame run along a row of blocks, so with less than that each would read the file anew;
@@ -164,7 +164,7 @@ static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
   size_t least = blocks_across(info->width, 0) * sizeof(cs_picture_block) * 5 / 4;
   entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / sizeof(cs_picture_block);
-  entry->level_count = cs_levels_count(info->width, info->height);
+  entry->level_count = cs_mip_levels_count(info->width, info->height);
   while (entry->base < entry->level_count - 1 &&
          blocks_across(info->width, entry->base) * blocks_across(info->height, entry->base) >
              entry->share)
@@ -186,7 +186,7 @@ static const float *find_table(cs_picture_store *store, celspan_transfer transfe
 static bool set_decoder(cs_picture_store *store, cs_picture_entry *entry) {
   const cs_picture_header *header = &entry->header;
   const char *name = entry->picture->colour ? entry->picture->colour : header->info.colour;
-  cs_levels_decoder *decoder = &entry->decoder;
+  cs_mip_levels_decoder *decoder = &entry->decoder;
   decoder->transfer = CELSPAN_TRANSFER_LINEAR;
   decoder->alpha = header->alpha;
   decoder->is_linear = header->is_linear;

@@ -15,7 +15,7 @@
 
 #include "base/cache.h"
 #include "colour/srgb8.h"
-#include "pictures/levels.h"
+#include "pictures/mip_levels.h"
 #include "pictures/picture.h"
 
 /* Texels of a block's side. */
@@ -60,7 +60,7 @@ struct cs_picture_entry {
   cs_hash hash;
   cs_picture *picture; /* kept */
   cs_picture_header header;
-  cs_levels_decoder decoder;
+  cs_mip_levels_decoder decoder;
   const cs_srgb8_curve *curve; /* the store's: the light of all codes */
   int level_count;
   /* The first level of which all blocks fit `share`. Levels below it are read from the file in

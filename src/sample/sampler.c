@@ -116,7 +116,7 @@ static int32_t opacity_columns(const cs_sampler *s) {
 void cs_sampler_prepare(cs_sampler *s) {
   s->source = cs_block_cache_source_of(s->picture);
   s->reads_codes = cs_sampler_decodes(s->isa);
-  s->level_count = cs_levels_count(s->width, s->height);
+  s->level_count = cs_mip_levels_count(s->width, s->height);
   memcpy(s->m, s->inverse.m, sizeof s->m);
   if (!(s->m[6] == 0 && s->m[7] == 0 && s->m[8] > 0)) {
     s->placement = CS_SAMPLER_PERSPECTIVE;

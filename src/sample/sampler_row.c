@@ -19,7 +19,7 @@ typedef struct neighbours {
 } neighbours;
 
 static neighbours next_neighbours(const cs_sampler *s, const line *under, int32_t done) {
-  int32_t width = cs_levels_size(s->width, s->level), at = under->first + done;
+  int32_t width = cs_mip_levels_size(s->width, s->level), at = under->first + done;
   int32_t x = cs_sampler_wrap(at, width, s->wrap), count = under->count - done;
   int32_t in_block = CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK;
   count = count < in_block ? count : in_block;
@@ -30,7 +30,7 @@ static neighbours next_neighbours(const cs_sampler *s, const line *under, int32_
 }
 
 static int32_t wrap_row(const cs_sampler *s, int32_t y) {
-  return cs_sampler_wrap(y, cs_levels_size(s->height, s->level), s->wrap);
+  return cs_sampler_wrap(y, cs_mip_levels_size(s->height, s->level), s->wrap);
 }
 
 /* Row y of texels, in the picture or beyond its edges. */

@@ -15,7 +15,7 @@
 
 #include "base/number.h"
 #include "base/vector.h"
-#include "pictures/levels.h"
+#include "pictures/mip_levels.h"
 #include "sample/sampler.h"
 
 /* Of a texel: closer is the same place. Matrices carry rounding, pictures have 2^20 pixels. */
@@ -69,8 +69,8 @@ static inline const float *cs_sampling_texel(const cs_sampling *run, int level, 
                                              int32_t y) {
   const cs_sampler *s = run->sampler;
   return cs_block_cache_at(run->blocks, &s->source, level,
-                           cs_sampler_wrap(x, cs_levels_size(s->width, level), s->wrap),
-                           cs_sampler_wrap(y, cs_levels_size(s->height, level), s->wrap));
+                           cs_sampler_wrap(x, cs_mip_levels_size(s->width, level), s->wrap),
+                           cs_sampler_wrap(y, cs_mip_levels_size(s->height, level), s->wrap));
 }
 
 /* Where a row stays a row: the centre of a column, and the height. */

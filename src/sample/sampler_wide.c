@@ -103,8 +103,8 @@ void CS_WIDE(cs_sampler_find_quads)(const cs_sampler *sampler, int level, int32_
                                     const double *restrict u, const double *restrict v,
                                     cs_sampler_quads *restrict quads) {
   double scale = 1.0 / (double)((int64_t)1 << level);
-  int32_t right = cs_levels_size(sampler->width, level) - 1;
-  int32_t bottom = cs_levels_size(sampler->height, level) - 1;
+  int32_t right = cs_mip_levels_size(sampler->width, level) - 1;
+  int32_t bottom = cs_mip_levels_size(sampler->height, level) - 1;
   const int32_t last = CS_PICTURE_BLOCK - 1;
   for (int32_t i = 0; i < count; i++) {
     double a = u[i] * scale - 0.5, b = v[i] * scale - 0.5;
