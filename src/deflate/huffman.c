@@ -84,13 +84,13 @@ static int huffman_depths(const leaves *sorted, uint8_t *depths) {
   return deepest;
 }
 
-typedef struct level {
+typedef struct package_level {
   int count;
   uint64_t weight[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
   bool is_leaf[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
-} level;
+} package_level;
 
-static void merge_level(level *next, const level *before, const leaves *sorted) {
+static void merge_level(package_level *next, const package_level *before, const leaves *sorted) {
   int packages = before->count / 2, package = 0, leaf = 0;
   next->count = sorted->count + packages;
   for (int i = 0; i < next->count; i++) {
@@ -104,7 +104,7 @@ static void merge_level(level *next, const level *before, const leaves *sorted) 
 }
 
 static void package_merge(const leaves *sorted, int limit, uint8_t *lengths) {
-  level levels[CS_DEFLATE_HUFFMAN_LIMIT + 1];
+  package_level levels[CS_DEFLATE_HUFFMAN_LIMIT + 1];
   levels[0].count = 0;
   for (int i = 1; i <= limit; i++)
     merge_level(&levels[i], &levels[i - 1], sorted);

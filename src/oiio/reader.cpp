@@ -178,7 +178,7 @@ bool choose_subimage(cs_picture_reader &reader, const std::string &layer) {
   return false;
 }
 
-void choose_part(cs_picture_reader &reader, const cs_picture_request &request) {
+void choose_layer(cs_picture_reader &reader, const cs_picture_request &request) {
   if (request.layer) {
     if (choose_subimage(reader, request.layer)) {
       if (!reader.input->seek_subimage(reader.subimage, 0))
@@ -357,12 +357,12 @@ Target make_target(const cs_picture_reader &reader, int32_t x, int32_t y, int32_
 }
 
 /* The rectangle of stored pixels, inside the data window, that fills the one asked for. */
-struct Part {
+struct Rectangle {
   int x0, x1, y0, y1; /* of the data window */
 };
 
-Part make_part(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
-               int32_t height) {
+Rectangle make_rectangle(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t width,
+                         int32_t height) {
   int64_t w = reader.stored_width, h = reader.stored_height;
   int64_t x0 = x, x1 = int64_t(x) + width, y0 = y, y1 = int64_t(y) + height;
   if (is_transposed(reader)) {
@@ -386,19 +386,19 @@ Part make_part(const cs_picture_reader &reader, int32_t x, int32_t y, int32_t wi
           clamp(y0 - reader.data_y, spec.height), clamp(y1 - reader.data_y, spec.height)};
 }
 
-void scatter(const cs_picture_reader &reader, const Part &part, const Part &read,
+void scatter(const cs_picture_reader &reader, const Rectangle &wanted, const Rectangle &read,
              const Target &target) {
   size_t channels = size_t(reader.last - reader.first);
   int alpha = reader.channel[3] - reader.first;
   int red = reader.channel[0] - reader.first, green = reader.channel[1] - reader.first,
       blue = reader.channel[2] - reader.first;
-  for (int y = std::max(part.y0, read.y0); y < std::min(part.y1, read.y1); y++) {
+  for (int y = std::max(wanted.y0, read.y0); y < std::min(wanted.y1, read.y1); y++) {
     const float *from =
         reader.batch.data() +
-        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(part.x0 - read.x0)) * channels;
-    int64_t at =
-        target.at + (part.x0 + reader.data_x) * target.step_x + (y + reader.data_y) * target.step_y;
-    for (int x = part.x0; x < part.x1; x++, from += channels, at += target.step_x) {
+        (size_t(y - read.y0) * size_t(read.x1 - read.x0) + size_t(wanted.x0 - read.x0)) * channels;
+    int64_t at = target.at + (wanted.x0 + reader.data_x) * target.step_x +
+                 (y + reader.data_y) * target.step_y;
+    for (int x = wanted.x0; x < wanted.x1; x++, from += channels, at += target.step_x) {
       float *to = target.rgba + 4 * at;
       to[0] = from[red];
       to[1] = from[green];
@@ -428,12 +428,12 @@ void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t wid
     throw Failure(CELSPAN_INPUT, "changed while it was in use");
   reader.source->forgive();
   memset(rgba, 0, size_t(width) * size_t(height) * 4 * sizeof(float));
-  Part part = make_part(reader, x, y, width, height);
-  if (part.x0 >= part.x1 || part.y0 >= part.y1)
+  Rectangle wanted = make_rectangle(reader, x, y, width, height);
+  if (wanted.x0 >= wanted.x1 || wanted.y0 >= wanted.y1)
     return;
   Target target = make_target(reader, x, y, width, rgba);
   const ImageSpec &spec = reader.spec;
-  Part read = part;
+  Rectangle read = wanted;
   int step_multiple = 1;
   if (spec.tile_width > 0) {
     align(spec.width, spec.tile_width, &read.x0, &read.x1);
@@ -454,7 +454,7 @@ void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t wid
     reader.batch.resize(row_values * size_t(read.y1 - read.y0));
     read_rows(reader, read.x0, read.x1, read.y0, read.y1, reader.batch.data());
     reader.next_row = read.y1;
-    scatter(reader, part, read, target);
+    scatter(reader, wanted, read, target);
   }
   if (reader.processor)
     apply_space(reader, rgba, width, height);
@@ -473,7 +473,7 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
     check_film_end(*reader->source, reader->kind.format);
   reader->subimage = request.layer ? 0 : request.subimage;
   open_input(*reader);
-  choose_part(*reader, request);
+  choose_layer(*reader, request);
   choose_window(*reader);
   const ImageSpec &spec = reader->spec;
   check_size(uint64_t(spec.width), uint64_t(spec.height), reader->kind.is_whole);

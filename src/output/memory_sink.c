@@ -79,7 +79,7 @@ static void close_worker(void *user, celspan_context *context, void *worker) {
   cs_mem_free(context->memory, worker, ((const memory_sink *)user)->row_size);
 }
 
-bool cs_memory_shares(const celspan_sink *sink, cs_shares *out) {
+bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out) {
   if (sink->row != put_row)
     return false;
   *out = (cs_shares){.user = sink->user,

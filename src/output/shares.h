@@ -36,11 +36,9 @@ typedef struct cs_shares {
   celspan_status (*join)(void *user, celspan_context *context, void *share, int32_t index);
 } cs_shares;
 
-/* Whether the sink, which has begun, receives rows in shares. A sink without `row` always does. */
-bool cs_shares_of_sink(const celspan_sink *sink, cs_shares *out);
-
-/* The same question of one kind of sink each: false when the sink is of another kind. */
-bool cs_memory_shares(const celspan_sink *sink, cs_shares *out);
-bool cs_png_shares(const celspan_sink *sink, cs_shares *out);
+/* How one kind of sink each fills its shares; false: the sink, which has begun, is of another kind.
+ * output/sink_shares.h asks them all. */
+bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 
 #endif

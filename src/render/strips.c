@@ -1,7 +1,7 @@
 #include "render/strips.h"
 
 #include "base/pipeline.h"
-#include "output/shares.h"
+#include "output/sink_shares.h"
 #include "span/row_queue.h"
 
 /* Strips that may be made ahead of delivery, for each worker. */
@@ -286,7 +286,7 @@ static int32_t choose_rows(const strips *s, const celspan_frame_desc *desc) {
 static celspan_status render_together(celspan_context *context, const cs_frame *frame,
                                       delivery *d) {
   strips s = {.context = context, .frame = frame, .delivery = d};
-  s.has_shares = cs_shares_of_sink(d->sink, &s.shares);
+  s.has_shares = cs_sink_shares(d->sink, &s.shares);
   s.strip_height = choose_rows(&s, d->desc);
   s.total = (int32_t)(((int64_t)frame->crop_height + s.strip_height - 1) / s.strip_height);
   s.worker_count = frame->workers < s.total ? frame->workers : (int)s.total;

@@ -115,7 +115,7 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
-bool cs_png_shares(const celspan_sink *sink, cs_shares *out) {
+bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out) {
   if (sink->row != put_row)
     return false;
   *out = cs_png_strips_shares(((const png_sink *)sink->user)->strips);
