@@ -27,10 +27,10 @@ extern "C" {
 typedef enum spanfile_status {
   SPANFILE_OK = 0,
   SPANFILE_NO_MEMORY,
-  SPANFILE_BAD_ARGUMENT, /* a call that makes no sense: the caller's mistake */
-  SPANFILE_BAD_FILE,     /* cut, altered, or not a span file */
-  SPANFILE_READ_FAILED,  /* the read function said so */
-  SPANFILE_WRITE_FAILED  /* the write function said so */
+  SPANFILE_BAD_ARGUMENT, /* the caller's mistake */
+  SPANFILE_BAD_FILE,     /* truncated, altered, or not a span file */
+  SPANFILE_READ_FAILED,  /* the read function returned false */
+  SPANFILE_WRITE_FAILED  /* the write function returned false */
 } spanfile_status;
 
 /* Pixels are red, green, blue, alpha. */
@@ -44,7 +44,7 @@ size_t spanfile_pixel_size(spanfile_format format);
 
 typedef enum spanfile_kind {
   SPANFILE_RAW = 0,     /* as many pixels in `values` as it is long */
-  SPANFILE_RUN = 1,     /* one pixel all along */
+  SPANFILE_RUN = 1,     /* one pixel, repeated */
   SPANFILE_GRADIENT = 2 /* the first and the last pixel in `values`; 2 to 32768 long */
 } spanfile_kind;
 
@@ -84,10 +84,10 @@ spanfile_status spanfile_writer_create(const spanfile_writer_desc *desc, spanfil
 /* NULL is ignored. */
 void spanfile_writer_destroy(spanfile_writer *writer);
 
-/* The next pixels of the row in hand: `count` times one pixel (its bytes, the first lowest), or an
+/* The next pixels of the current row: `count` times one pixel (its bytes, the first lowest), or an
  * array of pixels as bytes. Runs and gradients are found in arrays, short runs are kept as pixels:
- * what is read back is the same pixels, not the same calls. Errors stick: all that follows fails
- * alike. BAD_ARGUMENT: more pixels than the row has. */
+ * the pixels that are read back are the same, the spans need not be. Errors stick: all later
+ * calls fail with the same status. BAD_ARGUMENT: more pixels than the row has. */
 spanfile_status spanfile_writer_run(spanfile_writer *writer, uint32_t count, uint64_t pixel);
 spanfile_status spanfile_writer_pixels(spanfile_writer *writer, const void *pixels, uint32_t count);
 /* Many runs in one call, which is faster; equal neighbours are one run. */
@@ -97,7 +97,7 @@ typedef struct spanfile_run {
 } spanfile_run;
 spanfile_status spanfile_writer_runs(spanfile_writer *writer, const spanfile_run *runs,
                                      size_t run_count);
-/* Ends the row. BAD_ARGUMENT: pixels are missing, or there are rows enough. */
+/* Ends the row. BAD_ARGUMENT: pixels are missing, or all rows have been written. */
 spanfile_status spanfile_writer_row(spanfile_writer *writer);
 /* After the last row: index and trailer, and all bytes to the write function. */
 spanfile_status spanfile_writer_finish(spanfile_writer *writer);
@@ -108,7 +108,7 @@ typedef struct spanfile_reader spanfile_reader;
 
 /* Where and why a file is refused. */
 typedef struct spanfile_fault {
-  uint64_t offset;  /* the byte of the file it was found at */
+  uint64_t offset;  /* of the byte of the file where it was found */
   char reason[120]; /* "row 7: the checksum is wrong" */
 } spanfile_fault;
 
@@ -128,7 +128,7 @@ typedef struct spanfile_info {
 
 /* The bytes from the start that spanfile_is needs. */
 enum { SPANFILE_MAGIC_BYTES = 26 };
-/* Whether a file that begins so is meant to be a span file. */
+/* Whether a file that begins with these bytes claims to be a span file. */
 bool spanfile_is(const void *bytes, size_t size);
 
 /* Reads header and trailer. source: borrowed, its functions used until the end. out: new. fault:

@@ -1,9 +1,12 @@
-/* CRC-32C: by the processor's instruction where it has one, else by tables of what each nibble of a
- * word leaves in the register (the sum is linear, so they may be taken one by one).
+/* By the processor's instruction where it has one; else by tables. The sum is linear: that of a
+ * word is the exclusive or of the sums of its eight nibbles, each in its place.
+ *
+ *   word       | 7 | 6 | 5 | 4 | 3 | 2 | 1 | 0 |      nibbles, 4 bits each
+ *   sum        = sums_of[7][nibble 7] ^ ... ^ sums_of[0][nibble 0]
  */
-#include "layout.h"
+#include "crc32c.h"
 
-static const uint32_t left_by[8][16] = {
+static const uint32_t sums_of[8][16] = {
     {0x00000000, 0xdd45aab8, 0xbf672381, 0x62228939, 0x7b2231f3, 0xa6679b4b, 0xc4451272, 0x1900b8ca,
      0xf64463e6, 0x2b01c95e, 0x49234067, 0x9466eadf, 0x8d665215, 0x5023f8ad, 0x32017194,
      0xef44db2c},
@@ -33,14 +36,14 @@ static const uint32_t left_by[8][16] = {
 static uint32_t after_word(uint32_t word) {
   uint32_t sum = 0;
   for (int nibble = 0; nibble < 8; nibble++)
-    sum ^= left_by[nibble][word >> 4 * nibble & 15];
+    sum ^= sums_of[nibble][word >> 4 * nibble & 15];
   return sum;
 }
 
-/* A byte enters where the last of a word would. */
+/* A single byte is treated as the last byte of a word. */
 static uint32_t after_byte(uint32_t sum, unsigned char byte) {
   uint32_t low = (sum ^ byte) & 0xff;
-  return sum >> 8 ^ left_by[6][low & 15] ^ left_by[7][low >> 4];
+  return sum >> 8 ^ sums_of[6][low & 15] ^ sums_of[7][low >> 4];
 }
 
 static uint32_t sum_by_tables(uint32_t sum, const unsigned char *bytes, size_t size) {

@@ -1,10 +1,14 @@
+/* A walk over the spans of the row (`now`) and of the row above (`model`), side by side. Each step
+ * appends to `out` a span that agrees with the model, if the pixels allow it. Where they do not,
+ * the row goes on with its own spans up to a run that both have.
+ */
 #include "fit.h"
 
 #include "pack.h"
 
 enum {
-  SHORT = 32, /* pixels of a run or gradient that are rather taken as raw than begin a row anew */
-  SIGHT = 8   /* spans looked ahead for a run that the row above has too */
+  SHORT = 32, /* pixels at most of a run or gradient that is turned into raw pixels */
+  SIGHT = 8   /* spans of both rows that are searched for a common run */
 };
 
 typedef struct fitting {
@@ -12,10 +16,10 @@ typedef struct fitting {
   spanfile_format format;
   size_t pixel_size;
   sf_row *out;
-  const unsigned char *values;            /* of what follows in the row */
-  const spanfile_span *now, *end;         /* of the row, what is still to be kept */
-  const spanfile_span *model, *model_end; /* of the row above, what is still to be matched */
-  uint32_t model_start;                   /* column */
+  const unsigned char *values;            /* of the spans from `now` on */
+  const spanfile_span *now, *end;         /* of the row: not yet in `out` */
+  const spanfile_span *model, *model_end; /* of the row above: not yet matched */
+  uint32_t model_start;                   /* the column where `model` begins */
   bool is_changed, has_memory;
 } fitting;
 
@@ -40,7 +44,7 @@ static bool is_after_raw(const fitting *f) {
 
 static uint32_t length_left(const fitting *f) { return f->now->end - sf_row_end(f->out); }
 
-/* The rest of the span, up to its end, as it is. */
+/* Appends the rest of the span as it is. */
 static void keep(fitting *f) {
   const spanfile_span *span = f->now;
   uint32_t length = length_left(f);
@@ -53,7 +57,7 @@ static void keep(fitting *f) {
   f->now++;
 }
 
-/* The first `count` pixels that are left of a run, or all of a gradient, as raw pixels. */
+/* Appends the next `count` pixels of a run, or all of a gradient, as raw pixels. */
 static void keep_raw(fitting *f, uint32_t count) {
   unsigned char pixels[SHORT * 8];
   spanfile_span span = {count, f->now->kind, f->now->pixel};
@@ -69,9 +73,10 @@ static void pass_model(fitting *f, ptrdiff_t count) {
   f->model_start = f->model[-1].end;
 }
 
-/* ---------------------------------------------------------------- what can be done */
+/* ---------------------------------------------------------------- steps */
 
-/* The row above has raw pixels within this run: an edge between equals, just now not to be seen. */
+/* Whether the row above has raw pixels between two runs of this colour: the edge of something that
+ * this row does not cross. */
 static bool is_split_above(const fitting *f) {
   const spanfile_span *now = f->now, *model = f->model;
   if (now->kind != SPANFILE_RUN || f->model_end - model < 3 || model[1].kind != SPANFILE_RAW ||
@@ -80,7 +85,7 @@ static bool is_split_above(const fitting *f) {
   return f->end - now < 3 || now[1].kind != SPANFILE_RAW || !is_alike(now, &now[2]);
 }
 
-/* Cuts the run where the row above has it cut, or as near as it can be. */
+/* Cuts the run where the row above is cut, or as near to it as possible. */
 static void split(fitting *f) {
   uint32_t left = length_left(f), length = f->model->end - f->model_start;
   length = length < left - 2 ? length : left - 2;
@@ -89,7 +94,8 @@ static void split(fitting *f) {
   pass_model(f, 2);
 }
 
-/* Other spans: kept as they are, up to a run that the row above has too, or all. */
+/* The spans differ: they are kept as they are, up to the nearest run that the row above has too, or
+ * to the end of the row. */
 static void resume(fitting *f) {
   f->is_changed = true;
   for (ptrdiff_t sum = 1; sum <= SIGHT; sum++)
@@ -108,8 +114,8 @@ static void resume(fitting *f) {
     keep(f);
 }
 
-/* Spans from here on that the row above has too: the first with what was kept before, the rest at
- * once. */
+/* Appends this span and those after it that the row above has too. The first may join with the span
+ * before it; the others are copied at once. */
 static void keep_alike(fitting *f) {
   keep(f);
   pass_model(f, 1);
@@ -133,7 +139,7 @@ static void keep_alike(fitting *f) {
   f->values += size;
 }
 
-static void take_span(fitting *f) {
+static void fit_span(fitting *f) {
   const spanfile_span *now = f->now, *model = f->model < f->model_end ? f->model : NULL;
   if (model && is_alike(now, model) && is_split_above(f)) {
     split(f);
@@ -152,9 +158,9 @@ static void take_span(fitting *f) {
   }
 }
 
-/* ---------------------------------------------------------------- */
+/* ---------------------------------------------------------------- a whole row */
 
-/* About the bytes of its packets. */
+/* The bytes of its packets, about. */
 static size_t cost(const fitting *f, const sf_row *row) {
   return row->count * (3 + f->pixel_size) + row->values.size;
 }
@@ -173,7 +179,7 @@ sf_fitted sf_fit(const sf_memory *memory, spanfile_format format, const sf_row *
                .has_memory = true};
   sf_row_clear(out);
   while (f.now < f.end && f.has_memory)
-    take_span(&f);
+    fit_span(&f);
   if (!f.has_memory)
     return SF_FIT_NO_MEMORY;
   if (!f.is_changed && f.model == f.model_end)

@@ -1,7 +1,14 @@
-/* The bytes of a span file: sizes, letters and numbers. docs/spanfile.md is the specification; this
- * is its only other home.
+/* The bytes of a span file: sizes, letters and numbers, as docs/spanfile.md specifies them.
  *
- * Invariant: all numbers are little endian, whatever the machine.
+ *   file       header (46) | records of rows and of the index ... | trailer (40) | footer (26)
+ *   a record   kind (1) | size of the payload (varint, 1..9) | payload | checksum (4)
+ *
+ *   payload of 'P'   packets:  kind (1) | count - 1 (2) | pixels:  raw: count, run: 1, gradient: 2
+ *   payload of 'M'   two bits for each span but the last | varints | pixels of raw, gradient spans
+ *   payload of 'S'   nothing
+ *   payload of 'I'   level (4) | entries:  row (4) | offset (8)
+ *
+ * INVARIANT: all numbers are little endian, whatever the machine.
  */
 #ifndef SF_LAYOUT_H
 #define SF_LAYOUT_H
@@ -22,15 +29,15 @@ enum {
   SF_NODE_ENTRIES = 512,
   SF_ENTRY_BYTES = 12,
   SF_LEVELS = 4,       /* 512^4 is more than there can be rows */
-  SF_LENGTH_BYTES = 9, /* of a varint that stands for a size */
+  SF_LENGTH_BYTES = 9, /* of a varint that is a size, at most */
   SF_CHECK_BYTES = 4,
-  SF_KEY_ROWS = 256, /* at most from key row to key row */
-  SF_KEY_BYTES = 64 * 1024
+  SF_KEY_ROWS = 256,       /* from key row to key row, at most */
+  SF_KEY_BYTES = 64 * 1024 /* after so many bytes, the next row is a key row */
 };
 
-/* How a record begins. */
+/* The kind of a record, its first byte. */
 enum { SF_PACKETS = 'P', SF_MOVED = 'M', SF_SAME = 'S', SF_INDEX = 'I' };
-/* Stands for the row in the checksum of an index record. */
+/* In the checksum of an index record, in place of the number of a row. */
 #define SF_INDEX_ROW UINT32_MAX
 
 static const unsigned char sf_magic[8] = {'c', 'e', 'l', 's', 'p', 'a', 'n', 1};
@@ -38,7 +45,7 @@ static const unsigned char sf_end_magic[8] = {'s', 'p', 'a', 'n', 's', 'e', 'n',
 /* No extension area and no developer directory: their offsets have 32 bits. */
 static const unsigned char sf_footer[SF_FOOTER_BYTES] = "\0\0\0\0\0\0\0\0TRUEVISION-XFILE.";
 
-/* As little endian, and back. */
+/* To little endian, and back. */
 static inline uint32_t sf_little_32(uint32_t number) {
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
   return number >> 24 | (number >> 8 & 0xff00) | (number << 8 & 0xff0000) | number << 24;
@@ -72,8 +79,8 @@ static inline uint64_t sf_load_pixel(const unsigned char *at, size_t pixel_size)
   return pixel_size == 8 ? sf_load_64(at) : sf_load_32(at);
 }
 
-/* Seven bits a byte, the lowest first, the top bit set in all but the last. Returns the bytes
- * written: at most 5 for 32 bits, 10 for 64. */
+/* A varint: seven bits a byte, the lowest first, the top bit set in all but the last byte. Returns
+ * the count of bytes: at most 5 for 32 bits, 10 for 64. */
 static inline size_t sf_store_varint(unsigned char *at, uint64_t number) {
   size_t size = 0;
   for (; number >= 0x80; number >>= 7)
@@ -98,20 +105,6 @@ static inline uint64_t sf_zigzag(int64_t number) {
 }
 static inline int64_t sf_unzigzag(uint64_t code) {
   return code & 1 ? -(int64_t)(code >> 1) - 1 : (int64_t)(code >> 1);
-}
-
-/* Whether both ends of a gradient are numbers: between others there is nothing. */
-bool sf_gradient_is_finite(spanfile_format format, const unsigned char *ends);
-
-/* CRC-32C (Castagnoli), continued from `sum`; 0 to begin. */
-uint32_t sf_crc32c(uint32_t sum, const void *bytes, size_t size);
-/* The same on any machine; what the tests hold the other against. */
-uint32_t sf_crc32c_by_tables(uint32_t sum, const void *bytes, size_t size);
-/* Of a record: the row's number, then its bytes. */
-static inline uint32_t sf_record_sum(uint32_t row, const void *bytes, size_t size) {
-  unsigned char number[4];
-  sf_store_32(number, row);
-  return sf_crc32c(sf_crc32c(0, number, sizeof number), bytes, size);
 }
 
 #endif

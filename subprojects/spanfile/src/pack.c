@@ -1,6 +1,8 @@
 #include "pack.h"
 
-/* Fewer pixels are not worth a gradient packet and the beginning of another. */
+#include "pixels.h"
+
+/* Fewer pixels are not worth the packet of a gradient and the head of the next one. */
 enum { GRADIENT_LEAST = 12 };
 
 bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const void *pixels,
@@ -11,7 +13,7 @@ bool sf_pack_raw(const sf_memory *memory, sf_row *row, size_t pixel_size, const 
 
 /* ---------------------------------------------------------------- runs */
 
-/* Room for the rest of the runs, whatever becomes of them. */
+/* Room for all runs, whether they become runs or raw pixels. */
 static bool make_room(const sf_memory *memory, sf_row *row, size_t pixel_size, size_t run_count) {
   while (row->capacity - row->count < run_count)
     if (!sf_row_grow(memory, row))
@@ -19,9 +21,9 @@ static bool make_room(const sf_memory *memory, sf_row *row, size_t pixel_size, s
   return sf_bytes_room(memory, &row->values, run_count * SF_RUN_LEAST * pixel_size);
 }
 
-/* Of an antialiased picture most runs are short, and which are cannot be foreseen: nothing is
- * called and little is decided for a run, and as many pixels are stored as a short one can have.
- * pixel_size: known to the compiler. */
+/* In an antialiased picture most runs are short, and a processor cannot predict which. So there are
+ * no calls and few branches for a run, and always as many pixels are stored as a short run can
+ * have. pixel_size: a constant for the compiler. */
 static inline void pack_runs(sf_row *row, size_t pixel_size, const spanfile_run *run,
                              const spanfile_run *end) {
   const uint64_t whole = pixel_size == 4 ? UINT32_MAX : UINT64_MAX;
@@ -68,7 +70,7 @@ static uint32_t run_length(const unsigned char *pixels, uint32_t count, size_t p
   return length;
 }
 
-/* How many of the first pixels go on with the run that the row ends in. */
+/* How many of the first pixels continue the run at the end of the row. */
 static uint32_t continued_length(const sf_row *row, const unsigned char *pixels, uint32_t count,
                                  size_t pixel_size) {
   const spanfile_span *last = row->count > 0 ? &row->spans[row->count - 1] : NULL;
@@ -79,18 +81,18 @@ static uint32_t continued_length(const sf_row *row, const unsigned char *pixels,
 
 /* ---------------------------------------------------------------- gradients */
 
-/* Whether the gradient from the first to the last pixel passes through all between. */
+/* Whether the gradient from the first to the last pixel gives exactly those between. */
 static bool is_gradient(spanfile_format format, const unsigned char *pixels, uint32_t count) {
   enum { BATCH = 32 };
   size_t size = spanfile_pixel_size(format);
   unsigned char ends[16], line[BATCH * 8];
   memcpy(ends, pixels, size);
   memcpy(ends + size, pixels + (count - 1) * size, size);
-  if (!sf_gradient_is_finite(format, ends))
+  if (!sf_pixels_are_finite(format, ends))
     return false;
   for (uint32_t i = 1; i < count; i += BATCH) {
     uint32_t batch = count - i < BATCH ? count - i : BATCH;
-    /* Most that fail do so at once. */
+    /* Most attempts fail at their first pixel. */
     spanfile_gradient_pixels(format, ends, count, i, 1, line);
     if (memcmp(line, pixels + i * size, size) != 0)
       return false;
@@ -101,8 +103,8 @@ static bool is_gradient(spanfile_format format, const unsigned char *pixels, uin
   return true;
 }
 
-/* The length of a gradient at the start of the pixels, or 0: doubled while it holds, then tried
- * halfway to the first length that did not. */
+/* The length of a gradient at the start of the pixels, or 0: the length is doubled as long as there
+ * is a gradient, then the end is found by halving. */
 static uint32_t gradient_length(spanfile_format format, const unsigned char *pixels,
                                 uint32_t count) {
   uint32_t most = count < SF_PACKET_MOST ? count : SF_PACKET_MOST, good = 0;
@@ -129,13 +131,13 @@ static bool add_gradient(const sf_memory *memory, sf_row *row, size_t pixel_size
          sf_row_add(memory, row, count, SPANFILE_GRADIENT, 0);
 }
 
-/* ---------------------------------------------------------------- */
+/* ---------------------------------------------------------------- pixels */
 
 bool sf_pack_pixels(const sf_memory *memory, sf_row *row, spanfile_format format,
                     const void *pixels, uint32_t count) {
   size_t size = spanfile_pixel_size(format);
   const unsigned char *at = pixels;
-  uint32_t raw = 0; /* pixels seen that are nothing better */
+  uint32_t raw = 0; /* pixels before i that are neither run nor gradient */
   uint32_t continued = continued_length(row, at, count, size);
   if (continued > 0)
     row->spans[row->count - 1].end += continued;

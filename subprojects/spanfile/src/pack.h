@@ -1,10 +1,13 @@
-/* Pixels to spans: runs, gradients that decode to these very pixels, and the rest raw. */
+/* Pixels to spans: runs, gradients, and the rest raw.
+ *
+ * INVARIANT: a gradient is used only where it decodes to exactly the given pixels.
+ */
 #ifndef SF_PACK_H
 #define SF_PACK_H
 
 #include "store.h"
 
-/* Shorter runs are kept as pixels: a packet of their own and another begun after it cost more. */
+/* A shorter run becomes raw pixels: its packet and the head of the next one would cost more. */
 enum { SF_RUN_LEAST = 3 };
 
 /* These append to the row; false: no memory. */

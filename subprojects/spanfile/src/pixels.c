@@ -1,4 +1,6 @@
 /* Spans to pixels. */
+#include "pixels.h"
+
 #include "layout.h"
 
 size_t spanfile_pixel_size(spanfile_format format) { return format == SPANFILE_HALF ? 8 : 4; }
@@ -19,18 +21,18 @@ static uint64_t double_to_bits(double number) {
 
 static double from_half(uint16_t half) {
   uint64_t sign = (uint64_t)(half & 0x8000) << 48, size = half & 0x7fff;
-  if (size < 0x0400) /* steps of 2^-24 */
+  if (size < 0x0400) /* a multiple of 2^-24 */
     return bits_to_double(sign | double_to_bits((double)size * 0x1p-24));
   return bits_to_double(sign | ((size << 42) + ((uint64_t)(1023 - 15) << 52)));
 }
 
-/* To nearest, ties to even; |number| is at most 65504. */
+/* Rounded to nearest, ties to even. number: -65504..65504. */
 static uint16_t to_half(double number) {
   uint64_t bits = double_to_bits(number), size = bits & ~((uint64_t)1 << 63);
   uint16_t sign = (uint16_t)(bits >> 48 & 0x8000);
-  if (size < (uint64_t)(1023 - 14) << 52) { /* 2^28 leaves steps of 2^-24 */
-    double step = bits_to_double(size) + 0x1p28;
-    return (uint16_t)(sign | (double_to_bits(step) - double_to_bits(0x1p28)));
+  if (size < (uint64_t)(1023 - 14) << 52) { /* a double above 2^28 is a multiple of 2^-24 */
+    double above = bits_to_double(size) + 0x1p28;
+    return (uint16_t)(sign | (double_to_bits(above) - double_to_bits(0x1p28)));
   }
   uint64_t even = size >> 42 & 1;
   uint64_t rounded = (size + (((uint64_t)1 << 41) - 1) + even) >> 42;
@@ -39,7 +41,7 @@ static uint16_t to_half(double number) {
 
 /* ---------------------------------------------------------------- gradients */
 
-bool sf_gradient_is_finite(spanfile_format format, const unsigned char *ends) {
+bool sf_pixels_are_finite(spanfile_format format, const unsigned char *ends) {
   for (int i = 1; i < 16 && format == SPANFILE_HALF; i += 2)
     if ((ends[i] & 0x7c) == 0x7c)
       return false;
@@ -82,7 +84,8 @@ void spanfile_gradient_pixels(spanfile_format format, const void *ends, uint32_t
 static void fill(unsigned char *out, size_t pixel_size, uint64_t pixel, size_t count) {
   sf_store_pixel(out, pixel_size, pixel);
   size_t size = count * pixel_size, done = pixel_size;
-  while (done < size) { /* doubling, in blocks that stay in the nearest cache */
+  while (done <
+         size) { /* what is filled is copied again, in blocks that stay in the nearest cache */
     size_t block = done < 4096 ? done : 4096;
     block = block < size - done ? block : size - done;
     memcpy(out + done, out, block);

@@ -1,19 +1,22 @@
-/* Records to rows. The row in hand is changed by the record that follows it; any other row begins
- * at a key row that the index names.
+/* Records to rows.
  *
- * Nothing in the file is believed: every number is held against what it may be before it is used,
- * and nothing is allocated that the file does not have the bytes for. A checksum covers each record
- * and the row it stands for, so that one in a wrong place is refused too.
+ *   row y + 1   current row + the next record --> current row
+ *   any row     root --> node --> ... --> key row --record by record--> row
+ *
+ * INVARIANT: nothing in the file is believed. Every number is checked before it is used, and
+ * nothing is allocated for which the file does not have the bytes.
  */
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "crc32c.h"
+#include "pixels.h"
 #include "store.h"
 
 enum { WINDOW_BYTES = 64 * 1024 };
 
-/* A part of the file in memory. */
+/* Bytes of the file that are in memory. */
 typedef struct file_window {
   sf_bytes bytes;
   uint64_t offset;
@@ -29,10 +32,10 @@ struct spanfile_reader {
   uint32_t levels;
   file_window window;
   bool has_row;
-  uint32_t y; /* of the row in hand */
+  uint32_t y; /* of the current row */
   sf_row row;
-  bool has_gradients; /* the row */
-  int64_t *moves;     /* of its ends, from the row above */
+  bool has_gradients; /* in the current row */
+  int64_t *moves;     /* of its ends, from the row above it */
   size_t move_capacity;
   uint64_t next; /* offset of the record after it */
   spanfile_counts counts;
@@ -73,9 +76,9 @@ static spanfile_status fail_memory(const spanfile_reader *reader, uint64_t offse
 
 /* ---------------------------------------------------------------- bytes */
 
-/* Bytes [offset, offset + size) of what comes before the trailer, which has so many. */
-static spanfile_status see(spanfile_reader *reader, uint64_t offset, size_t size,
-                           const unsigned char **out) {
+/* Bytes [offset, offset + size) of the file, which must lie before the trailer. */
+static spanfile_status view(spanfile_reader *reader, uint64_t offset, size_t size,
+                            const unsigned char **out) {
   file_window *window = &reader->window;
   if (offset < window->offset || offset - window->offset > window->bytes.size ||
       window->bytes.size - (offset - window->offset) < size) {
@@ -93,7 +96,7 @@ static spanfile_status see(spanfile_reader *reader, uint64_t offset, size_t size
   return SPANFILE_OK;
 }
 
-/* What a complaint is about. */
+/* The subject of a message. */
 typedef struct subject_text {
   char text[24];
 } subject_text;
@@ -104,14 +107,14 @@ static subject_text subject(uint32_t row) {
   return out;
 }
 
-/* The record at an offset before the trailer, its checksum right for `row` (index records have
- * their own). Valid until the next. */
-static spanfile_status see_record(spanfile_reader *reader, uint64_t offset, uint32_t row,
-                                  file_record *out) {
+/* The record at an offset before the trailer. Its checksum is right for `row`, or for the index if
+ * it is a record of that. Valid until the next call. */
+static spanfile_status view_record(spanfile_reader *reader, uint64_t offset, uint32_t row,
+                                   file_record *out) {
   const unsigned char *bytes;
   uint64_t left = reader->end - offset, length;
   size_t head = left < 1 + SF_LENGTH_BYTES ? (size_t)left : 1 + SF_LENGTH_BYTES;
-  TRY(see(reader, offset, head, &bytes));
+  TRY(view(reader, offset, head, &bytes));
   size_t length_size = head > 1 ? sf_load_varint(bytes + 1, head - 1, &length) : 0;
   if (length_size == 0)
     return REFUSE(reader, offset, "%s: its record has no proper length", subject(row).text);
@@ -119,9 +122,9 @@ static spanfile_status see_record(spanfile_reader *reader, uint64_t offset, uint
   if (rest < SF_CHECK_BYTES || length > rest - SF_CHECK_BYTES || length > SIZE_MAX / 4)
     return REFUSE(reader, offset, "%s: its record runs past the end", subject(row).text);
   size_t size = 1 + length_size + (size_t)length;
-  TRY(see(reader, offset, size + SF_CHECK_BYTES, &bytes));
+  TRY(view(reader, offset, size + SF_CHECK_BYTES, &bytes));
   uint32_t of = bytes[0] == SF_INDEX ? SF_INDEX_ROW : row;
-  if (sf_load_32(bytes + size) != sf_record_sum(of, bytes, size))
+  if (sf_load_32(bytes + size) != sf_crc32c_record(of, bytes, size))
     return REFUSE(reader, offset, "%s: the checksum is wrong", subject(row).text);
   *out = (file_record){.kind = bytes[0],
                        .offset = offset,
@@ -137,7 +140,7 @@ static uint32_t values_of(uint32_t kind, uint32_t length) {
   return kind == SPANFILE_RAW ? length : kind == SPANFILE_GRADIENT ? 2 : 0;
 }
 
-/* *at: moves past the packet. */
+/* *at: advances beyond the packet. */
 static spanfile_status read_packet(spanfile_reader *reader, const file_record *record, size_t *at) {
   const unsigned char *packet = record->payload + *at;
   size_t left = record->size - *at;
@@ -163,7 +166,7 @@ static spanfile_status read_packet(spanfile_reader *reader, const file_record *r
   return SPANFILE_OK;
 }
 
-/* Of the row as it stands now: lengths, and numbers between which there is something. */
+/* Gradients of the current row must have a proper length and finite ends. */
 static spanfile_status check_gradients(spanfile_reader *reader, const file_record *record) {
   const sf_row *row = &reader->row;
   if (!reader->has_gradients)
@@ -175,19 +178,19 @@ static spanfile_status check_gradients(spanfile_reader *reader, const file_recor
     if (kind == SPANFILE_GRADIENT && (length < 2 || length > SF_PACKET_MOST))
       return REFUSE(reader, record->offset, "row %" PRIu32 ": a gradient of %" PRIu32 " pixels",
                     reader->y, length);
-    if (kind == SPANFILE_GRADIENT && !sf_gradient_is_finite(reader->info.format, values))
+    if (kind == SPANFILE_GRADIENT && !sf_pixels_are_finite(reader->info.format, values))
       return REFUSE(reader, record->offset, "row %" PRIu32 ": a gradient to infinity", reader->y);
     values += values_of(kind, length) * reader->pixel_size;
   }
   return SPANFILE_OK;
 }
 
-static spanfile_status stand_still(spanfile_reader *reader) {
+static spanfile_status clear_moves(spanfile_reader *reader) {
   size_t count = reader->row.count;
   if (count > reader->move_capacity) {
-    sf_give(&reader->memory, reader->moves, reader->move_capacity * sizeof *reader->moves);
+    sf_release(&reader->memory, reader->moves, reader->move_capacity * sizeof *reader->moves);
     reader->move_capacity = 0;
-    reader->moves = sf_take(&reader->memory, reader->row.capacity * sizeof *reader->moves);
+    reader->moves = sf_allocate(&reader->memory, reader->row.capacity * sizeof *reader->moves);
     if (!reader->moves)
       return fail_memory(reader, reader->next);
     reader->move_capacity = reader->row.capacity;
@@ -204,12 +207,13 @@ static spanfile_status read_packets(spanfile_reader *reader, const file_record *
   if (sf_row_end(&reader->row) != reader->info.width)
     return REFUSE(reader, record->offset, "row %" PRIu32 ": pixels are missing", reader->y);
   TRY(check_gradients(reader, record));
-  return stand_still(reader);
+  return clear_moves(reader);
 }
 
 /* ---------------------------------------------------------------- a row as moves */
 
-/* The ends but the last, each moved. *at: moves past what was read; *pixels: those in values. */
+/* Moves all ends but the last. *at: the bytes that were read. *pixels: adds those that the values
+ * of the row must have. */
 static spanfile_status read_moves(spanfile_reader *reader, const file_record *record, size_t *at,
                                   uint64_t *pixels) {
   size_t count = reader->row.count - 1, more = (count + 3) / 4;
@@ -260,12 +264,13 @@ static spanfile_status read_moved(spanfile_reader *reader, const file_record *re
 static spanfile_status read_same(spanfile_reader *reader, const file_record *record) {
   if (record->size > 0)
     return REFUSE(reader, record->offset, "row %" PRIu32 ": bytes too many", reader->y);
-  return stand_still(reader);
+  return clear_moves(reader);
 }
 
 /* ---------------------------------------------------------------- rows */
 
-/* A record that stands for reader->y; unless it has packets, the row above is in hand. */
+/* Makes row reader->y of its record. Unless that has packets, the current row must be the one
+ * above. */
 static spanfile_status read_row(spanfile_reader *reader, const file_record *record, bool is_first) {
   reader->next = record->next;
   switch (is_first && record->kind != SF_PACKETS ? 0 : record->kind) {
@@ -285,21 +290,23 @@ static spanfile_status read_row(spanfile_reader *reader, const file_record *reco
 }
 
 /* The first record from `offset` on that is not of the index. */
-static spanfile_status see_row(spanfile_reader *reader, uint64_t offset, file_record *out) {
+static spanfile_status view_row(spanfile_reader *reader, uint64_t offset, file_record *out) {
   do {
     if (offset == reader->end)
       return REFUSE(reader, offset, "row %" PRIu32 ": is missing", reader->y);
-    TRY(see_record(reader, offset, reader->y, out));
+    TRY(view_record(reader, offset, reader->y, out));
     offset = out->next;
   } while (out->kind == SF_INDEX);
   return SPANFILE_OK;
 }
 
-static spanfile_status enter(spanfile_reader *reader, uint32_t y, uint64_t offset, bool is_first) {
+/* Makes row y the current one, from the first record of a row at `offset` or after. */
+static spanfile_status advance_to(spanfile_reader *reader, uint32_t y, uint64_t offset,
+                                  bool is_first) {
   file_record record = {0};
   reader->y = y;
   reader->has_row = false;
-  TRY(see_row(reader, offset, &record));
+  TRY(view_row(reader, offset, &record));
   TRY(read_row(reader, &record, is_first));
   reader->has_row = true;
   return SPANFILE_OK;
@@ -307,9 +314,9 @@ static spanfile_status enter(spanfile_reader *reader, uint32_t y, uint64_t offse
 
 /* ---------------------------------------------------------------- the index */
 
-static spanfile_status see_node(spanfile_reader *reader, uint64_t offset, uint32_t level,
-                                file_record *out) {
-  TRY(see_record(reader, offset, SF_INDEX_ROW, out));
+static spanfile_status view_node(spanfile_reader *reader, uint64_t offset, uint32_t level,
+                                 file_record *out) {
+  TRY(view_record(reader, offset, SF_INDEX_ROW, out));
   size_t entries = out->size >= 4 ? out->size - 4 : 0;
   bool is_node = out->kind == SF_INDEX && entries > 0 && entries % SF_ENTRY_BYTES == 0 &&
                  entries <= SF_NODE_ENTRIES * (size_t)SF_ENTRY_BYTES &&
@@ -317,7 +324,7 @@ static spanfile_status see_node(spanfile_reader *reader, uint64_t offset, uint32
   return is_node ? SPANFILE_OK : REFUSE(reader, offset, "a node of the index is wrong");
 }
 
-/* The last entry that does not begin below row y. */
+/* The last entry whose row is y or above it. */
 static const unsigned char *find_entry(const file_record *node, uint32_t y) {
   const unsigned char *entries = node->payload + 4;
   size_t low = 0, high = (node->size - 4) / SF_ENTRY_BYTES;
@@ -337,7 +344,7 @@ static spanfile_status find_key(spanfile_reader *reader, uint32_t y, uint32_t *k
   *offset = reader->root;
   for (uint32_t level = reader->levels; level-- > 0;) {
     file_record node = {0};
-    TRY(see_node(reader, *offset, level, &node));
+    TRY(view_node(reader, *offset, level, &node));
     const unsigned char *entry = find_entry(&node, y);
     *key = sf_load_32(entry);
     *offset = sf_load_64(entry + 4);
@@ -358,10 +365,10 @@ static spanfile_status go_to(spanfile_reader *reader, uint32_t y) {
     if (y > 0)
       TRY(find_key(reader, y, &key, &offset));
     if (!reader->has_row || reader->y > y || reader->y < key)
-      TRY(enter(reader, key, offset, true));
+      TRY(advance_to(reader, key, offset, true));
   }
   while (reader->y < y)
-    TRY(enter(reader, reader->y + 1, reader->next, false));
+    TRY(advance_to(reader, reader->y + 1, reader->next, false));
   return SPANFILE_OK;
 }
 
@@ -376,12 +383,12 @@ spanfile_status spanfile_reader_row(spanfile_reader *reader, uint32_t y, spanfil
   return SPANFILE_OK;
 }
 
-/* What follows the last row is the rest of the index, to the root. */
+/* After the last row there are only records of the index, and the last one is the root. */
 static spanfile_status check_end(spanfile_reader *reader) {
   uint64_t offset = reader->next, last = 0;
   while (offset < reader->end) {
     file_record record = {0};
-    TRY(see_record(reader, offset, SF_INDEX_ROW, &record));
+    TRY(view_record(reader, offset, SF_INDEX_ROW, &record));
     if (record.kind != SF_INDEX)
       return REFUSE(reader, offset, "more rows than the picture has");
     last = offset;
@@ -467,7 +474,7 @@ static spanfile_status read_trailer(spanfile_reader *reader, uint64_t size) {
 spanfile_status spanfile_reader_create(const spanfile_source *source, spanfile_reader **out,
                                        spanfile_fault *fault) {
   sf_memory memory = sf_memory_of(source->resize, source->resize_user);
-  spanfile_reader *reader = sf_take(&memory, sizeof *reader);
+  spanfile_reader *reader = sf_allocate(&memory, sizeof *reader);
   if (!reader)
     return fail(fault, SPANFILE_NO_MEMORY, 0, "no memory");
   *reader = (spanfile_reader){
@@ -487,9 +494,9 @@ void spanfile_reader_destroy(spanfile_reader *reader) {
     return;
   sf_memory memory = reader->memory;
   sf_row_free(&memory, &reader->row);
-  sf_give(&memory, reader->moves, reader->move_capacity * sizeof *reader->moves);
+  sf_release(&memory, reader->moves, reader->move_capacity * sizeof *reader->moves);
   sf_bytes_free(&memory, &reader->window.bytes);
-  sf_give(&memory, reader, sizeof *reader);
+  sf_release(&memory, reader, sizeof *reader);
 }
 
 spanfile_info spanfile_reader_info(const spanfile_reader *reader) { return reader->info; }

@@ -15,11 +15,11 @@ sf_memory sf_memory_of(spanfile_resize resize, void *user) {
   return (sf_memory){resize ? resize : resize_by_library, user};
 }
 
-void *sf_take(const sf_memory *memory, size_t size) {
+void *sf_allocate(const sf_memory *memory, size_t size) {
   return memory->resize(memory->user, NULL, 0, size);
 }
 
-void sf_give(const sf_memory *memory, void *block, size_t size) {
+void sf_release(const sf_memory *memory, void *block, size_t size) {
   if (block)
     (void)memory->resize(memory->user, block, size, 0);
 }
@@ -48,7 +48,7 @@ bool sf_bytes_grow(const sf_memory *memory, sf_bytes *bytes, size_t more) {
 }
 
 void sf_bytes_free(const sf_memory *memory, sf_bytes *bytes) {
-  sf_give(memory, bytes->at, bytes->capacity);
+  sf_release(memory, bytes->at, bytes->capacity);
   *bytes = (sf_bytes){0};
 }
 
@@ -65,7 +65,7 @@ void sf_row_clear(sf_row *row) {
 }
 
 void sf_row_free(const sf_memory *memory, sf_row *row) {
-  sf_give(memory, row->spans, row->capacity * sizeof *row->spans);
+  sf_release(memory, row->spans, row->capacity * sizeof *row->spans);
   sf_bytes_free(memory, &row->values);
   *row = (sf_row){0};
 }

@@ -1,6 +1,9 @@
-/* Growing memory, and a row that is being put together.
+/* Growing memory, and a row while it is put together.
  *
- * Invariant of a row: `spans` and `values` are as spanfile_row says, up to the last end.
+ *   spans     | end 5, run p | end 9, raw | end 40, gradient | ...
+ *   values    |  4 raw pixels |  2 pixels  | ...             of raw and gradient spans alone
+ *
+ * INVARIANT: `spans` and `values` are as spanfile_row describes, up to the end of the last span.
  */
 #ifndef SF_STORE_H
 #define SF_STORE_H
@@ -14,8 +17,8 @@ typedef struct sf_memory {
 
 /* resize: NULL for the C library's. */
 sf_memory sf_memory_of(spanfile_resize resize, void *user);
-void *sf_take(const sf_memory *memory, size_t size);
-void sf_give(const sf_memory *memory, void *block, size_t size);
+void *sf_allocate(const sf_memory *memory, size_t size);
+void sf_release(const sf_memory *memory, void *block, size_t size);
 
 typedef struct sf_bytes {
   unsigned char *at;
@@ -36,7 +39,7 @@ static inline bool sf_bytes_add(const sf_memory *memory, sf_bytes *bytes, const 
   bytes->size += size;
   return true;
 }
-/* Where they begin; not NULL, so that nothing can be added to it when there are none. */
+/* Their start; never NULL, so that 0 may be added to it when there are none. */
 static inline const unsigned char *sf_bytes_start(const sf_bytes *bytes) {
   return bytes->at ? bytes->at : (const unsigned char *)"";
 }
@@ -52,8 +55,8 @@ static inline uint32_t sf_row_end(const sf_row *row) {
   return row->count ? row->spans[row->count - 1].end : 0;
 }
 bool sf_row_grow(const sf_memory *memory, sf_row *row);
-/* Appends pixels that are a run, or that have (raw) or will have (gradient) their values in
- * `values`; joins what must not be neighbours. */
+/* Appends a span; one that continues the last span is joined with it. The values of raw and
+ * gradient spans are appended to `values` by the caller. */
 static inline bool sf_row_add(const sf_memory *memory, sf_row *row, uint32_t count, uint32_t kind,
                               uint64_t pixel) {
   uint32_t end = sf_row_end(row) + count;

@@ -1,11 +1,22 @@
 /* Rows to records:
  *
- *   run, pixels --> the row in hand --row--> compared with the row above --> record --> buffer
+ *   runs, pixels --pack--> row --fit to the row above--> record 'P', 'M' or 'S' --> buffer -->
+ * write
+ *                           |
+ *                       key rows --> node of level 0 --full--> node of level 1 --full--> ...
+ *                                    512 entries               an entry for each node below
  *
- * A row that may be read first (a key row) and one that is made of other spans than the row above
- * is written whole; else only how far each end moved more than it did from the row before. Key rows
- * are noted in nodes of an index, which go into the file as they fill: nothing grows with height.
+ * A row that can be read first (a key row), and one that has other spans than the row above, is
+ * written whole, as 'P'. For others the end of each span is stored as a difference of its move: how
+ * far the end lies from that in the row above, less the same of the row before.
+ *
+ *   row 7   |------20       moves      differences
+ *   row 8   |-------22         2
+ *   row 9   |---------24       2       0: an edge that goes straight on costs two bits a row
+ *
+ * INVARIANT: memory does not grow with the height. A node of the index is written when it is full.
  */
+#include "crc32c.h"
 #include "fit.h"
 #include "pack.h"
 #include "store.h"
@@ -13,7 +24,8 @@
 enum {
   BUFFER_BYTES = 256 * 1024,
   HEAD_BYTES = 1 + SF_LENGTH_BYTES,
-  MOVE_CODES = 0xd2 /* of one less, none, one more, any other: two bits each, the first lowest */
+  /* The codes for differences of -1, 0, 1 and others: two bits each, the first lowest. */
+  MOVE_CODES = 0xd2
 };
 
 typedef struct index_node {
@@ -29,15 +41,15 @@ struct spanfile_writer {
   spanfile_format format;
   size_t pixel_size;
   spanfile_status status;
-  uint64_t y;        /* rows that are complete; more than height: finished */
-  sf_row row, above; /* in hand, and the last complete one */
+  uint64_t y;        /* complete rows; more than height: finished */
+  sf_row row, above; /* the current row, and the last complete one */
   sf_row fitted;
-  int64_t *moves; /* of the ends of `above`, from the row above it */
+  int64_t *moves; /* of the ends in `above`, from the row above that */
   size_t move_capacity;
-  sf_bytes record; /* HEAD_BYTES, payload */
+  sf_bytes record; /* room for the head, HEAD_BYTES, then the payload */
   uint32_t key_row;
   uint64_t key_offset;
-  uint64_t flushed; /* bytes handed to `write` */
+  uint64_t flushed; /* bytes that were passed to `write` */
   size_t buffered;
   index_node nodes[SF_LEVELS];
   unsigned char buffer[BUFFER_BYTES];
@@ -55,7 +67,7 @@ static uint64_t position(const spanfile_writer *writer) {
   return writer->flushed + writer->buffered;
 }
 
-static bool hand_over(spanfile_writer *writer, const void *bytes, size_t size) {
+static bool write_out(spanfile_writer *writer, const void *bytes, size_t size) {
   if (size > 0 && !writer->write(writer->user, bytes, size)) {
     fail(writer, SPANFILE_WRITE_FAILED);
     return false;
@@ -67,14 +79,14 @@ static bool hand_over(spanfile_writer *writer, const void *bytes, size_t size) {
 static bool flush(spanfile_writer *writer) {
   size_t size = writer->buffered;
   writer->buffered = 0;
-  return hand_over(writer, writer->buffer, size);
+  return write_out(writer, writer->buffer, size);
 }
 
 static bool put(spanfile_writer *writer, const void *bytes, size_t size) {
   if (size > BUFFER_BYTES - writer->buffered && !flush(writer))
     return false;
   if (size > BUFFER_BYTES)
-    return hand_over(writer, bytes, size);
+    return write_out(writer, bytes, size);
   memcpy(writer->buffer + writer->buffered, bytes, size);
   writer->buffered += size;
   return true;
@@ -93,7 +105,8 @@ static bool begin_record(spanfile_writer *writer, size_t payload) {
   return true;
 }
 
-/* Puts kind and length before the payload, the sum after it, and all into the file. */
+/* Completes the record with kind and length before the payload and the checksum after it, and puts
+ * it into the file. */
 static bool put_record(spanfile_writer *writer, unsigned char kind, uint32_t row) {
   unsigned char head[1 + 10], *start;
   size_t payload = writer->record.size - HEAD_BYTES;
@@ -102,7 +115,7 @@ static bool put_record(spanfile_writer *writer, unsigned char kind, uint32_t row
   start = writer->record.at + HEAD_BYTES - head_size;
   memcpy(start, head, head_size);
   size_t size = head_size + payload;
-  sf_store_32(start + size, sf_record_sum(row, start, size));
+  sf_store_32(start + size, sf_crc32c_record(row, start, size));
   return put(writer, start, size + SF_CHECK_BYTES);
 }
 
@@ -127,7 +140,7 @@ static void add_entry(index_node *node, uint32_t row, uint64_t offset) {
   sf_store_64(entry + 4, offset);
 }
 
-/* Writes a node and enters it in the one above, which has room. */
+/* Writes a full node and adds an entry for it to the node one level higher, which has room. */
 static bool pass_on(spanfile_writer *writer, int level) {
   uint64_t offset;
   index_node *node = &writer->nodes[level];
@@ -158,7 +171,7 @@ static bool note_key(spanfile_writer *writer) {
   return true;
 }
 
-/* All that is left, from below; the highest node is the root. */
+/* Writes the nodes that are not full, the lowest first; the last one is the root. */
 static bool finish_index(spanfile_writer *writer, uint64_t *root, int *levels) {
   int top = SF_LEVELS - 1;
   while (top > 0 && writer->nodes[top].count == 0)
@@ -182,7 +195,7 @@ static void add_head(sf_bytes *record, uint32_t kind, uint32_t count) {
 
 static size_t add_span(spanfile_writer *writer, const spanfile_span *span, uint32_t length,
                        const unsigned char *values) {
-  size_t taken = 0;
+  size_t used = 0;
   for (uint32_t done = 0; done < length; done += SF_PACKET_MOST) {
     uint32_t count = length - done < SF_PACKET_MOST ? length - done : SF_PACKET_MOST;
     uint32_t pixels = span->kind == SPANFILE_RAW ? count : span->kind == SPANFILE_RUN ? 1 : 2;
@@ -192,12 +205,12 @@ static size_t add_span(spanfile_writer *writer, const spanfile_span *span, uint3
     if (span->kind == SPANFILE_RUN) {
       sf_store_pixel(record->at + record->size, writer->pixel_size, span->pixel);
     } else {
-      memcpy(record->at + record->size, values + taken, size);
-      taken += size;
+      memcpy(record->at + record->size, values + used, size);
+      used += size;
     }
     record->size += size;
   }
-  return taken;
+  return used;
 }
 
 static bool put_packets(spanfile_writer *writer) {
@@ -222,8 +235,8 @@ static bool has_same_values(const sf_row *row, const sf_row *above) {
          (row->values.size == 0 || memcmp(row->values.at, above->values.at, row->values.size) == 0);
 }
 
-/* How far each end but the last moved, in two bits, or after them where two are too few. Returns
- * whether any moved at all. */
+/* Puts the codes of all ends but the last, and the differences that have no code after them.
+ * Returns whether any end moved. */
 static bool add_moves(spanfile_writer *writer) {
   size_t count = writer->row.count - 1;
   const spanfile_span *now = writer->row.spans, *before = writer->above.spans;
@@ -232,8 +245,8 @@ static bool add_moves(spanfile_writer *writer) {
   unsigned byte = 0;
   for (size_t i = 0; i < count; i++) {
     int64_t move = (int64_t)now[i].end - (int64_t)before[i].end, rest = move - writer->moves[i];
-    uint64_t step = (uint64_t)(rest + 1);
-    unsigned code = MOVE_CODES >> 2 * (step < 3 ? step : 3) & 3;
+    uint64_t index = (uint64_t)(rest + 1);
+    unsigned code = MOVE_CODES >> 2 * (index < 3 ? index : 3) & 3;
     writer->moves[i] = move;
     moved |= (uint64_t)move;
     if (code == 3)
@@ -271,12 +284,12 @@ static bool is_key_due(const spanfile_writer *writer) {
          position(writer) - writer->key_offset >= SF_KEY_BYTES;
 }
 
-static bool stand_still(spanfile_writer *writer) {
+static bool clear_moves(spanfile_writer *writer) {
   size_t count = writer->row.count;
   if (count > writer->move_capacity) {
-    sf_give(&writer->memory, writer->moves, writer->move_capacity * sizeof *writer->moves);
+    sf_release(&writer->memory, writer->moves, writer->move_capacity * sizeof *writer->moves);
     writer->move_capacity = 0;
-    writer->moves = sf_take(&writer->memory, 2 * count * sizeof *writer->moves);
+    writer->moves = sf_allocate(&writer->memory, 2 * count * sizeof *writer->moves);
     if (!writer->moves) {
       fail(writer, SPANFILE_NO_MEMORY);
       return false;
@@ -304,11 +317,11 @@ static bool fit_above(spanfile_writer *writer) {
 }
 
 static bool put_row(spanfile_writer *writer) {
-  if (is_key_due(writer)) /* the row as it is: what was fitted to rows long gone is forgotten */
-    return note_key(writer) && put_packets(writer) && stand_still(writer);
+  if (is_key_due(writer)) /* the row itself, which has not been fitted to rows above */
+    return note_key(writer) && put_packets(writer) && clear_moves(writer);
   if (fit_above(writer))
     return put_moves(writer);
-  return writer->status == SPANFILE_OK && put_packets(writer) && stand_still(writer);
+  return writer->status == SPANFILE_OK && put_packets(writer) && clear_moves(writer);
 }
 
 static bool has_room(const spanfile_writer *writer, uint64_t count) {
@@ -395,7 +408,7 @@ spanfile_status spanfile_writer_create(const spanfile_writer_desc *desc, spanfil
   if (desc->width == 0 || desc->height == 0 || !has_format || !desc->write)
     return SPANFILE_BAD_ARGUMENT;
   sf_memory memory = sf_memory_of(desc->resize, desc->resize_user);
-  spanfile_writer *writer = sf_take(&memory, sizeof *writer);
+  spanfile_writer *writer = sf_allocate(&memory, sizeof *writer);
   if (!writer)
     return SPANFILE_NO_MEMORY;
   memset(writer, 0, offsetof(spanfile_writer, nodes));
@@ -433,7 +446,7 @@ void spanfile_writer_destroy(spanfile_writer *writer) {
   sf_row_free(&memory, &writer->row);
   sf_row_free(&memory, &writer->above);
   sf_row_free(&memory, &writer->fitted);
-  sf_give(&memory, writer->moves, writer->move_capacity * sizeof *writer->moves);
+  sf_release(&memory, writer->moves, writer->move_capacity * sizeof *writer->moves);
   sf_bytes_free(&memory, &writer->record);
-  sf_give(&memory, writer, sizeof *writer);
+  sf_release(&memory, writer, sizeof *writer);
 }

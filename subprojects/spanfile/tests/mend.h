@@ -3,7 +3,7 @@
 #ifndef SPANFILE_TESTS_MEND_H
 #define SPANFILE_TESTS_MEND_H
 
-#include "../src/layout.h"
+#include "../src/crc32c.h"
 #include "support.h"
 
 /* Header and trailer, and the records as far as they can be told apart. */
@@ -20,7 +20,7 @@ static inline void mend_sums(memory_file *file, uint32_t height) {
     size_t size = head + (size_t)length;
     bool is_index = file->bytes[at] == SF_INDEX;
     sf_store_32(file->bytes + at + size,
-                sf_record_sum(is_index ? SF_INDEX_ROW : y, file->bytes + at, size));
+                sf_crc32c_record(is_index ? SF_INDEX_ROW : y, file->bytes + at, size));
     y += !is_index;
     at += size + 4;
   }

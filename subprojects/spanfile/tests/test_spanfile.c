@@ -1,5 +1,5 @@
-/* What goes in comes out; what is cut, altered or lies is refused; what memory is needed. One list of
- * cases, long because every way of lying is one. */
+/* What goes in comes out; what is cut, altered or lies is refused; what memory is needed. One list
+ * of cases, long because every way of lying is one. */
 #include "support.h"
 
 #include "mend.h"
