@@ -1,15 +1,15 @@
 /* Huffman's construction over leaves in order of weight; where that makes codes too long,
- * package-merge (Larmore and Hirschberg 1990). Package-merge goes level by level: the items of a
- * level, cheapest first, are the leaves and the packages, which are neighbouring pairs of items of
- * the level before. For n leaves, the cheapest 2n - 2 items of the last level are chosen, and with
- * a package the two items in it; a leaf's length is how often it was chosen. For weights 1, 1, 2,
- * 4, 8 and a limit of 3 (Huffman's construction would need 4):
+ * package-merge (Larmore and Hirschberg 1990). Package-merge makes as many lists as the
+ * limit: the items of a list, cheapest first, are the leaves and the packages, which are
+ * neighbouring pairs of items of the list before. For n leaves, the cheapest 2n - 2 items of the
+ * last list are chosen, and with a package the two items in it; a leaf's length is how often it was
+ * chosen. For weights 1, 1, 2, 4, 8 and a limit of 3 (Huffman's construction would need 4):
  *
- *   level 1   A1  B1  C2  D4  E8                                    chosen: A B C D
+ *   list 1    A1  B1  C2  D4  E8                                    chosen: A B C D
  *               \_/     \_/                                         (in 2 packages)
- *   level 2   A1  B1  C2  AB2  D4  CD6  E8                          chosen: A B C D
+ *   list 2    A1  B1  C2  AB2  D4  CD6  E8                          chosen: A B C D
  *               \_/     \__/     \_/                                (in 3 packages)
- *   level 3   A1  B1  C2  AB2  D4  CAB4  E8  DCD10                  chosen: A B C D E
+ *   list 3    A1  B1  C2  AB2  D4  CAB4  E8  DCD10                  chosen: A B C D E
  *
  * So A, B, C and D have codes of 3 bits and E one of 1 bit.
  */
@@ -76,21 +76,21 @@ static int huffman_depths(const leaves *sorted, uint8_t *depths) {
   }
   depth[2 * count - 2] = 0;
   for (int i = 2 * count - 3; i >= 0; i--) {
-    int level = depth[parent[i]] + 1;
-    depth[i] = (uint8_t)(level < 255 ? level : 255);
-    deepest = level > deepest ? level : deepest;
+    int below = depth[parent[i]] + 1;
+    depth[i] = (uint8_t)(below < 255 ? below : 255);
+    deepest = below > deepest ? below : deepest;
   }
   memcpy(depths, depth, (size_t)count);
   return deepest;
 }
 
-typedef struct package_level {
+typedef struct package_list {
   int count;
   uint64_t weight[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
   bool is_leaf[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
-} package_level;
+} package_list;
 
-static void merge_level(package_level *next, const package_level *before, const leaves *sorted) {
+static void merge_list(package_list *next, const package_list *before, const leaves *sorted) {
   int packages = before->count / 2, package = 0, leaf = 0;
   next->count = sorted->count + packages;
   for (int i = 0; i < next->count; i++) {
@@ -104,15 +104,15 @@ static void merge_level(package_level *next, const package_level *before, const 
 }
 
 static void package_merge(const leaves *sorted, int limit, uint8_t *lengths) {
-  package_level levels[CS_DEFLATE_HUFFMAN_LIMIT + 1];
-  levels[0].count = 0;
+  package_list lists[CS_DEFLATE_HUFFMAN_LIMIT + 1];
+  lists[0].count = 0;
   for (int i = 1; i <= limit; i++)
-    merge_level(&levels[i], &levels[i - 1], sorted);
+    merge_list(&lists[i], &lists[i - 1], sorted);
   int chosen = 2 * sorted->count - 2;
   for (int i = limit; i > 0; i--) {
     int leaf = 0;
     for (int item = 0; item < chosen; item++)
-      if (levels[i].is_leaf[item])
+      if (lists[i].is_leaf[item])
         lengths[sorted->symbol[leaf++]]++;
     chosen = 2 * (chosen - leaf);
   }

@@ -63,11 +63,9 @@ static inline celspan_status picture_open(celspan_context *context, const char *
 static inline celspan_status picture_texel(celspan_context *context, const cs_picture *picture,
                                            int level, int x, int y, float rgba[4]) {
   cs_picture_block *block;
-  CS_TRY(cs_load_block(context, picture, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK,
-                            &block));
-  memcpy(rgba,
-         block->texels +
-             4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK),
+  CS_TRY(
+      cs_load_block(context, picture, level, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK, &block));
+  memcpy(rgba, block->texels + 4 * (y % CS_PICTURE_BLOCK * CS_PICTURE_BLOCK + x % CS_PICTURE_BLOCK),
          4 * sizeof(float));
   cs_store_release(block);
   return CELSPAN_OK;

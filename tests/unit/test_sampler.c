@@ -576,8 +576,7 @@ static void test_coded(void) {
     for (int y = 0; y < CS_PICTURE_BLOCK; y++)
       for (int x = 0; x < width; x++) {
         float light[4], wanted[4];
-        cs_srgb8_colour(&curve, block->codes[0] + 4 * (y * CS_PICTURE_CODES_ROW + x),
-                        light);
+        cs_srgb8_colour(&curve, block->codes[0] + 4 * (y * CS_PICTURE_CODES_ROW + x), light);
         CHECK(picture_texel(context, coded_picture, 0, column * CS_PICTURE_BLOCK + x,
                             CS_PICTURE_BLOCK + y, wanted) == CELSPAN_OK);
         wrong += memcmp(light, wanted, sizeof light) != 0;
