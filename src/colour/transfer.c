@@ -115,8 +115,9 @@ uint8_t cs_transfer_srgb8(float linear) {
 /* ---------------------------------------------------------------- names */
 
 static const char *const names[] = {
-    [CELSPAN_TRANSFER_DEFAULT] = "default", [CELSPAN_TRANSFER_LINEAR] = "linear",
-    [CELSPAN_TRANSFER_SRGB] = "srgb",       [CELSPAN_TRANSFER_REC709] = "rec709",
+    [CELSPAN_TRANSFER_LINEAR] = "linear",
+    [CELSPAN_TRANSFER_SRGB] = "srgb",
+    [CELSPAN_TRANSFER_REC709] = "rec709",
     [CELSPAN_TRANSFER_CINEON] = "cineon",
 };
 
@@ -128,5 +129,3 @@ bool cs_transfer_parse(const char *name, celspan_transfer *out) {
     }
   return false;
 }
-
-const char *cs_transfer_name(celspan_transfer transfer) { return names[transfer]; }

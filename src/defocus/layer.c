@@ -98,7 +98,7 @@ static bool stack_is_grey(const cs_stack *stack) {
 }
 
 static bool object_varies(const celspan_object *object) {
-  const cs_primitive_data *data = object->body;
+  const cs_primitive_data *data = object->data;
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
     return data->texture->kind != CS_TEXTURE_FLAT;
   for (size_t i = 0; i < data->operand_count; i++)

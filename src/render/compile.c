@@ -93,13 +93,13 @@ static bool meets_rows(const compiler *c, const celspan_box *box, const celspan_
          (around.bottom >= c->first_height && around.top <= c->end_height);
 }
 
-static celspan_status compile_outline(compiler *c, const cs_primitive_data *body, double fade,
+static celspan_status compile_outline(compiler *c, const cs_primitive_data *data, double fade,
                                       const celspan_matrix *matrix) {
   uint32_t index;
   celspan_matrix inverse;
-  CS_TRY(append_layer(c, fade, body->rule, &index));
+  CS_TRY(append_layer(c, fade, data->rule, &index));
   cs_layer *layer = &c->plan->stack.layers[index];
-  const celspan_texture *texture = body->texture;
+  const celspan_texture *texture = data->texture;
   if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &inverse)) {
     fill_flat(layer, CS_PAINT_CLEAR, 1); /* nowhere */
     return CELSPAN_OK;
@@ -109,17 +109,17 @@ static celspan_status compile_outline(compiler *c, const cs_primitive_data *body
   else if (texture->kind == CS_TEXTURE_FLAT)
     fill_flat(layer, texture->flat, (float)fade);
   else if (texture->kind == CS_TEXTURE_PICTURE)
-    CS_TRY(fill_picture(c, layer, texture, &body->bounds, &inverse));
+    CS_TRY(fill_picture(c, layer, texture, &data->bounds, &inverse));
   else
     CS_TRY(fill_shaded(c, layer, texture, &inverse));
   celspan_matrix facing = cs_matrix_facing(matrix);
-  if (!meets_rows(c, &body->bounds, &facing))
+  if (!meets_rows(c, &data->bounds, &facing))
     return CELSPAN_OK;
-  return cs_boundary_add(c->context, &c->plan->boundaries, &body->outline, matrix, &c->frame,
+  return cs_boundary_add(c->context, &c->plan->boundaries, &data->outline, matrix, &c->frame,
                          index);
 }
 
-static celspan_status compile_scanline(compiler *c, const cs_primitive_data *body, double fade,
+static celspan_status compile_scanline(compiler *c, const cs_primitive_data *data, double fade,
                                        const celspan_matrix *matrix) {
   cs_stack *stack = &c->plan->stack;
   const double *m = matrix->m;
@@ -136,7 +136,7 @@ static celspan_status compile_scanline(compiler *c, const cs_primitive_data *bod
     return CELSPAN_OK;
   CS_TRY(APPEND(c, procedures, procedure_count, procedure_capacity));
   stack->procedures[stack->procedure_count] =
-      (cs_procedure){&body->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+      (cs_procedure){&data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
   stack->layers[index].kind = CS_LAYER_SCANLINE;
   stack->layers[index].detail = (uint32_t)stack->procedure_count++;
   return CELSPAN_OK;
@@ -154,43 +154,43 @@ static celspan_status append_step(compiler *c, cs_step step) {
   return CELSPAN_OK;
 }
 
-static bool operands_are_layers(const cs_primitive_data *body) {
-  for (size_t i = 0; i < body->operand_count; i++)
-    if (body->operands[i]->body->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+static bool operands_are_layers(const cs_primitive_data *data) {
+  for (size_t i = 0; i < data->operand_count; i++)
+    if (data->operands[i]->data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       return false;
   return true;
 }
 
 /* An operator: its operands' leaves, and the step that decides over them. */
-static celspan_status compile_operator(compiler *c, const cs_primitive_data *body,
+static celspan_status compile_operator(compiler *c, const cs_primitive_data *data,
                                        const celspan_matrix *matrix) {
   uint32_t first = (uint32_t)c->plan->stack.layer_count;
-  bool records = c->records, over_layers = operands_are_layers(body);
-  for (size_t i = 0; i < body->operand_count; i++) {
+  bool records = c->records, over_layers = operands_are_layers(data);
+  for (size_t i = 0; i < data->operand_count; i++) {
     uint32_t layer = (uint32_t)c->plan->stack.layer_count;
     c->records = records && !over_layers;
-    CS_TRY(compile_object(c, body->operands[i], matrix));
-    if (c->records && body->operands[i]->body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    CS_TRY(compile_object(c, data->operands[i], matrix));
+    if (c->records && data->operands[i]->data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
       CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
   }
   c->records = records;
   if (!records)
     return CELSPAN_OK;
   return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
-                                  .op = body->op,
+                                  .op = data->op,
                                   .first = first,
                                   .end = (uint32_t)c->plan->stack.layer_count,
-                                  .operands = (uint32_t)body->operand_count});
+                                  .operands = (uint32_t)data->operand_count});
 }
 
 /* Unions of unions need no decision: what is present is painted. */
-static bool is_plain_union(const cs_primitive_data *body) {
-  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+static bool is_plain_union(const cs_primitive_data *data) {
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
-  if (body->op != CELSPAN_UNION)
+  if (data->op != CELSPAN_UNION)
     return false;
-  for (size_t i = 0; i < body->operand_count; i++)
-    if (!is_plain_union(body->operands[i]->body))
+  for (size_t i = 0; i < data->operand_count; i++)
+    if (!is_plain_union(data->operands[i]->data))
       return false;
   return true;
 }
@@ -209,14 +209,14 @@ static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
 }
 
 /* A boolean that no other holds: the root of a tree, unless it decides nothing. */
-static celspan_status compile_root(compiler *c, const cs_primitive_data *body,
+static celspan_status compile_root(compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
   cs_stack *stack = &c->plan->stack;
-  if (c->records || is_plain_union(body))
-    return compile_operator(c, body, matrix);
+  if (c->records || is_plain_union(data))
+    return compile_operator(c, data, matrix);
   cs_tree tree = {.first = (uint32_t)stack->layer_count, .step = (uint32_t)stack->step_count};
   c->records = true;
-  CS_TRY(compile_operator(c, body, matrix));
+  CS_TRY(compile_operator(c, data, matrix));
   c->records = false;
   tree.end = (uint32_t)stack->layer_count;
   tree.step_count = (uint32_t)stack->step_count - tree.step;
@@ -253,15 +253,15 @@ static void end_group(compiler *c, outside outer) {
 
 static celspan_status compile_object(compiler *c, const celspan_object *object,
                                      const celspan_matrix *parent) {
-  const cs_primitive_data *body = object->body;
+  const cs_primitive_data *data = object->data;
   celspan_matrix matrix = celspan_matrix_then(object->matrix, *parent);
-  if (body->kind == CS_PRIMITIVE_DATA_OUTLINE)
-    return compile_outline(c, body, object->fade, &matrix);
-  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
-    return compile_scanline(c, body, object->fade, &matrix);
+  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    return compile_outline(c, data, object->fade, &matrix);
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    return compile_scanline(c, data, object->fade, &matrix);
   outside outer;
   CS_TRY(begin_group(c, object->fade, &outer));
-  CS_TRY(compile_root(c, body, &matrix));
+  CS_TRY(compile_root(c, data, &matrix));
   end_group(c, outer);
   return CELSPAN_OK;
 }

@@ -58,7 +58,7 @@ static celspan_status check_exposures(celspan_context *context, const celspan_fr
 
 /* ---------------------------------------------------------------- the frame */
 
-static void take_crop(cs_frame *frame, const celspan_frame_desc *desc) {
+static void set_crop(cs_frame *frame, const celspan_frame_desc *desc) {
   bool is_whole = desc->crop_width == 0 && desc->crop_height == 0;
   frame->width = desc->width;
   frame->height = desc->height;
@@ -153,7 +153,7 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
   CS_TRY(check_crop(context, desc));
   CS_TRY(check_exposures(context, desc));
   cs_frame frame = {0};
-  take_crop(&frame, desc);
+  set_crop(&frame, desc);
   celspan_status status = fill_frame(context, desc, &frame);
   if (status == CELSPAN_OK)
     *out = frame;
@@ -168,71 +168,4 @@ void cs_frame_free(cs_frame *frame, cs_memory *memory) {
   cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);
   cs_mem_free(memory, frame->weights, frame->capacity * sizeof *frame->weights);
   *frame = (cs_frame){0};
-}
-
-/* ---------------------------------------------------------------- lanes */
-
-celspan_status cs_row_worker_init(cs_row_worker *row_worker, celspan_context *context,
-                                  const cs_frame *frame) {
-  *row_worker = (cs_row_worker){.frame = frame};
-  cs_context_branch(&row_worker->context, context);
-  cs_row_init(&row_worker->sum);
-  row_worker->makers = cs_mem_array(context->memory, frame->count, sizeof *row_worker->makers);
-  row_worker->rows = cs_mem_array(context->memory, frame->count, sizeof *row_worker->rows);
-  if (frame->count > 0 && (!row_worker->makers || !row_worker->rows))
-    return cs_fail_memory(&row_worker->context);
-  for (size_t i = 0; i < frame->count; i++) {
-    cs_row_init(&row_worker->rows[i]);
-    row_worker->rows[i].takes_codes =
-        frame->takes_codes && frame->count == 1 && frame->weights[0] == 1;
-    CS_TRY(cs_row_maker_init(&row_worker->makers[i], &row_worker->context, &frame->plans[i]));
-  }
-  return CELSPAN_OK;
-}
-
-void cs_row_worker_finish(cs_row_worker *row_worker) {
-  if (!row_worker->frame)
-    return;
-  cs_memory *memory = row_worker->context.memory;
-  for (size_t i = 0; i < row_worker->frame->count; i++) {
-    if (row_worker->makers)
-      cs_row_maker_finish(&row_worker->makers[i]);
-    if (row_worker->rows)
-      cs_row_finish(&row_worker->rows[i], memory);
-  }
-  cs_row_finish(&row_worker->sum, memory);
-  cs_mem_free(memory, row_worker->makers, row_worker->frame->count * sizeof *row_worker->makers);
-  cs_mem_free(memory, row_worker->rows, row_worker->frame->count * sizeof *row_worker->rows);
-  *row_worker = (cs_row_worker){0};
-}
-
-static celspan_status expose(cs_row_worker *row_worker, cs_row **out) {
-  const cs_frame *frame = row_worker->frame;
-  *out = &row_worker->sum;
-  cs_row_clear(&row_worker->sum);
-  if (frame->count == 0)
-    return cs_row_single(&row_worker->context, &row_worker->sum, 0, frame->width, cs_v4_all(0));
-  return cs_row_expose(&row_worker->context, &row_worker->sum, row_worker->rows, frame->weights,
-                       frame->count);
-}
-
-celspan_status cs_row_worker_row(cs_row_worker *row_worker, int32_t y, const cs_row **out) {
-  const cs_frame *frame = row_worker->frame;
-  for (size_t i = 0; i < frame->count; i++)
-    CS_TRY(cs_row_make(&row_worker->makers[i], frame->crop_y + y, &row_worker->rows[i]));
-  cs_row *row = row_worker->rows;
-  if (frame->count != 1 || frame->weights[0] != 1)
-    CS_TRY(expose(row_worker, &row));
-  if (frame->crop_width != frame->width)
-    cs_row_crop(row, frame->crop_x, frame->crop_x + frame->crop_width);
-  *out = row;
-  return CELSPAN_OK;
-}
-
-uint64_t cs_row_worker_evaluations(const cs_row_worker *row_worker) {
-  uint64_t evaluations = 0;
-  for (size_t i = 0; row_worker->makers && i < row_worker->frame->count; i++)
-    evaluations +=
-        row_worker->makers[i].composer.evaluations + row_worker->makers[i].painter.evaluations;
-  return evaluations;
 }

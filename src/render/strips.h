@@ -11,7 +11,7 @@
 #ifndef CS_RENDER_STRIPS_H
 #define CS_RENDER_STRIPS_H
 
-#include "render/frame.h"
+#include "render/row_worker.h"
 
 /* Feeds all rows of the frame to sink->row. desc: for its progress function.
  * Errors: those of rows and of the sink; CANCELLED. */

@@ -1,4 +1,4 @@
-/* Boolean objects: a body of operands. Their meaning at a point stands in inside.h. */
+/* Boolean objects: a data of operands. Their meaning at a point stands in inside.h. */
 #include "scene/check.h"
 #include "scene/primitive_data.h"
 
@@ -11,29 +11,29 @@ static const char *const nouns[] = {
 };
 
 /* Depth and number of primitives, each within its limit. */
-static celspan_status measure(celspan_context *context, cs_primitive_data *body, const char *noun) {
-  for (size_t i = 0; i < body->operand_count; i++) {
-    const cs_primitive_data *operand = body->operands[i]->body;
-    body->depth = operand->depth > body->depth ? operand->depth : body->depth;
-    body->primitive_count += operand->primitive_count;
-    body->has_procedure |= operand->has_procedure;
-    if (body->primitive_count > CS_SCENE_PRIMITIVES)
+static celspan_status measure(celspan_context *context, cs_primitive_data *data, const char *noun) {
+  for (size_t i = 0; i < data->operand_count; i++) {
+    const cs_primitive_data *operand = data->operands[i]->data;
+    data->depth = operand->depth > data->depth ? operand->depth : data->depth;
+    data->primitive_count += operand->primitive_count;
+    data->has_procedure |= operand->has_procedure;
+    if (data->primitive_count > CS_SCENE_PRIMITIVES)
       return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
                      CS_SCENE_PRIMITIVES);
   }
-  body->depth++;
-  if (body->depth > CS_SCENE_DEPTH)
+  data->depth++;
+  if (data->depth > CS_SCENE_DEPTH)
     return cs_fail(context, CELSPAN_LIMIT, "%s: nested %d levels deep; the limit is %d", noun,
-                   body->depth, CS_SCENE_DEPTH);
+                   data->depth, CS_SCENE_DEPTH);
   return CELSPAN_OK;
 }
 
-static celspan_status fill(celspan_context *context, cs_primitive_data *body, const char *noun,
+static celspan_status fill(celspan_context *context, cs_primitive_data *data, const char *noun,
                            celspan_object *const *operands, size_t count) {
-  CS_TRY(cs_primitive_data_list_copy(context, noun, "operands", operands, count, &body->operands));
-  body->operand_count = count;
-  body->is_empty = count == 0;
-  return measure(context, body, noun);
+  CS_TRY(cs_primitive_data_list_copy(context, noun, "operands", operands, count, &data->operands));
+  data->operand_count = count;
+  data->is_empty = count == 0;
+  return measure(context, data, noun);
 }
 
 celspan_status celspan_object_create_boolean(celspan_context *context, celspan_operator op,
@@ -44,9 +44,9 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
   if (op == CELSPAN_CLIP && operand_count != 2)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "clip: %zu operands were given; it takes two",
                    operand_count);
-  cs_primitive_data *body;
-  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &body));
-  body->op = op;
-  return cs_primitive_data_wrap(context, body, fill(context, body, noun, operands, operand_count),
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
+  data->op = op;
+  return cs_primitive_data_wrap(context, data, fill(context, data, noun, operands, operand_count),
                                 out);
 }

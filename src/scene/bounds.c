@@ -44,29 +44,29 @@ static bool list_common(celspan_object *const *objects, size_t count, const cels
   return count > 0;
 }
 
-static bool body_bounds(const cs_primitive_data *body, const celspan_matrix *matrix,
+static bool data_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
                         celspan_box *out) {
-  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    return cs_outline_bounds(&body->outline, matrix, out);
-  switch (body->op) {
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return cs_outline_bounds(&data->outline, matrix, out);
+  switch (data->op) {
   case CELSPAN_UNION:
   case CELSPAN_XOR:
-    return cs_primitive_data_list_bounds(body->operands, body->operand_count, matrix, out);
+    return cs_primitive_data_list_bounds(data->operands, data->operand_count, matrix, out);
   case CELSPAN_INTERSECTION:
   case CELSPAN_CLIP:
-    return list_common(body->operands, body->operand_count, matrix, out);
+    return list_common(data->operands, data->operand_count, matrix, out);
   case CELSPAN_DIFFERENCE:
     break;
   }
-  return object_bounds(body->operands[0], matrix, out);
+  return object_bounds(data->operands[0], matrix, out);
 }
 
 static bool object_bounds(const celspan_object *object, const celspan_matrix *parent,
                           celspan_box *out) {
   celspan_matrix whole = celspan_matrix_then(object->matrix, *parent), inverse;
-  if (object->body->is_empty || !celspan_matrix_inverse(whole, &inverse))
+  if (object->data->is_empty || !celspan_matrix_inverse(whole, &inverse))
     return false;
-  return body_bounds(object->body, &whole, out);
+  return data_bounds(object->data, &whole, out);
 }
 
 bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {

@@ -85,7 +85,7 @@ celspan_status celspan_cel_transform(celspan_context *context, celspan_cel *cel,
   celspan_cel fields = *cel;
   CS_TRY(cs_check_transform(context, &cel->matrix, matrix, &fields.matrix));
   for (size_t i = 0; i < cel->object_count; i++)
-    CS_TRY(cs_primitive_data_check_placement(context, cel->objects[i]->body, &fields.matrix));
+    CS_TRY(cs_primitive_data_check_placement(context, cel->objects[i]->data, &fields.matrix));
   return create(context, &fields, cel->objects, cel->object_count, out);
 }
 

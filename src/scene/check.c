@@ -58,33 +58,34 @@ celspan_status cs_check_share(celspan_context *context, const char *noun, const 
   return cs_check_range(context, noun, field, value, 0, 1);
 }
 
-celspan_status cs_check_item(celspan_context *context, const char *noun, const char *field,
-                             size_t index, const char *part, double value, double low,
+celspan_status cs_check_item(celspan_context *context, cs_check_field at, double value, double low,
                              double high) {
   if (value >= low && value <= high)
     return CELSPAN_OK;
   char name[NAME_SIZE];
-  const char *dot = *field && *part ? "." : "";
-  if (index > 0)
-    snprintf(name, sizeof name, "%s[%zu]%s%s", field, index, dot, part);
+  const char *dot = *at.field && *at.part ? "." : "";
+  if (at.index > 0)
+    snprintf(name, sizeof name, "%s[%zu]%s%s", at.field, at.index, dot, at.part);
   else
-    snprintf(name, sizeof name, "%s%s%s", field, dot, part);
-  return cs_check_range(context, noun, name, value, low, high);
+    snprintf(name, sizeof name, "%s%s%s", at.field, dot, at.part);
+  return cs_check_range(context, at.noun, name, value, low, high);
 }
 
 celspan_status cs_check_point(celspan_context *context, const char *noun, const char *field,
                               size_t index, celspan_point point) {
-  CS_TRY(
-      cs_check_item(context, noun, field, index, "x", point.x, -CS_NUMBER_LIMIT, CS_NUMBER_LIMIT));
-  return cs_check_item(context, noun, field, index, "y", point.y, -CS_NUMBER_LIMIT,
-                       CS_NUMBER_LIMIT);
+  CS_TRY(cs_check_item(context, (cs_check_field){noun, field, index, "x"}, point.x,
+                       -CS_NUMBER_LIMIT, CS_NUMBER_LIMIT));
+  return cs_check_item(context, (cs_check_field){noun, field, index, "y"}, point.y,
+                       -CS_NUMBER_LIMIT, CS_NUMBER_LIMIT);
 }
 
 celspan_status cs_check_box(celspan_context *context, const char *noun, const char *field,
                             const celspan_box *box) {
   CS_TRY(cs_check_point(context, noun, field, 0, (celspan_point){box->x, box->y}));
-  CS_TRY(cs_check_item(context, noun, field, 0, "width", box->width, 0, CS_NUMBER_LIMIT));
-  return cs_check_item(context, noun, field, 0, "height", box->height, 0, CS_NUMBER_LIMIT);
+  CS_TRY(cs_check_item(context, (cs_check_field){noun, field, 0, "width"}, box->width, 0,
+                       CS_NUMBER_LIMIT));
+  return cs_check_item(context, (cs_check_field){noun, field, 0, "height"}, box->height, 0,
+                       CS_NUMBER_LIMIT);
 }
 
 celspan_status cs_check_paint(celspan_context *context, const char *noun, const char *field,
@@ -92,11 +93,13 @@ celspan_status cs_check_paint(celspan_context *context, const char *noun, const 
   static const char *const pigments[] = {"pigment[1]", "pigment[2]", "pigment[3]"};
   static const char *const mediums[] = {"medium[1]", "medium[2]", "medium[3]"};
   for (int c = 0; c < 3; c++) {
-    CS_TRY(
-        cs_check_item(context, noun, field, index, pigments[c], (double)paint->pigment[c], 0, 1));
-    CS_TRY(cs_check_item(context, noun, field, index, mediums[c], (double)paint->medium[c], 0, 1));
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, field, index, pigments[c]},
+                         (double)paint->pigment[c], 0, 1));
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, field, index, mediums[c]},
+                         (double)paint->medium[c], 0, 1));
   }
-  return cs_check_item(context, noun, field, index, "beta", (double)paint->beta, 0, 1);
+  return cs_check_item(context, (cs_check_field){noun, field, index, "beta"}, (double)paint->beta,
+                       0, 1);
 }
 
 celspan_status cs_check_light(celspan_context *context, const char *noun, const char *field,
@@ -104,15 +107,16 @@ celspan_status cs_check_light(celspan_context *context, const char *noun, const 
   const float values[] = {light->r, light->g, light->b};
   static const char *const parts[] = {"r", "g", "b"};
   for (int c = 0; c < 3; c++)
-    CS_TRY(cs_check_item(context, noun, field, 0, parts[c], (double)values[c], 0, CS_NUMBER_LIMIT));
-  return cs_check_item(context, noun, field, 0, "a", (double)light->a, 0, 1);
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, field, 0, parts[c]}, (double)values[c], 0,
+                         CS_NUMBER_LIMIT));
+  return cs_check_item(context, (cs_check_field){noun, field, 0, "a"}, (double)light->a, 0, 1);
 }
 
 static celspan_status check_matrix(celspan_context *context, const char *noun,
                                    const celspan_matrix *matrix) {
   for (size_t i = 0; i < 9; i++)
-    CS_TRY(cs_check_item(context, noun, "matrix", i + 1, "", matrix->m[i], -CS_NUMBER_LIMIT,
-                         CS_NUMBER_LIMIT));
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, "matrix", i + 1, ""}, matrix->m[i],
+                         -CS_NUMBER_LIMIT, CS_NUMBER_LIMIT));
   return CELSPAN_OK;
 }
 

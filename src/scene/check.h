@@ -1,5 +1,5 @@
-/* The door of the scene: what enters a value is checked here, once, and refused in a sentence that
- * names the noun, the field, what was given and what is allowed.
+/* Checks of arguments: whatever enters a value of the scene is checked here, once. What is wrong is
+ * refused in a sentence that names the noun, the field, what was given and what is allowed.
  *
  *   circle: radius is -3; it must be 0 or more
  *   polygon: points[4].x is not a number
@@ -11,7 +11,7 @@
 
 #include "base/context.h"
 
-/* A number for a message: short, and with a point whatever the host's locale. */
+/* A number for a message: short, and with a decimal point in every locale. */
 typedef struct cs_check_text {
   char text[32];
 } cs_check_text;
@@ -33,10 +33,15 @@ CELSPAN_CHECKED celspan_status cs_check_positive(celspan_context *context, const
 /* 0 <= value <= 1 */
 CELSPAN_CHECKED celspan_status cs_check_share(celspan_context *context, const char *noun,
                                               const char *field, double value);
-/* As cs_check_range for `part` ("" for none) of an item of a list. index: from 1, or 0 for a field
- * that is no list. */
-CELSPAN_CHECKED celspan_status cs_check_item(celspan_context *context, const char *noun,
-                                             const char *field, size_t index, const char *part,
+/* A part ("" for none) of an item of a list. index: from 1, or 0 for a field that is not a list. */
+typedef struct cs_check_field {
+  const char *noun, *field;
+  size_t index;
+  const char *part;
+} cs_check_field;
+
+/* As cs_check_range. */
+CELSPAN_CHECKED celspan_status cs_check_item(celspan_context *context, cs_check_field at,
                                              double value, double low, double high);
 /* Both coordinates are numbers. index as above. */
 CELSPAN_CHECKED celspan_status cs_check_point(celspan_context *context, const char *noun,
@@ -44,14 +49,14 @@ CELSPAN_CHECKED celspan_status cs_check_point(celspan_context *context, const ch
 /* The corner is a number, the sides are sizes. */
 CELSPAN_CHECKED celspan_status cs_check_box(celspan_context *context, const char *noun,
                                             const char *field, const celspan_box *box);
-/* All seven values in 0..1. field "": the values stand by their own names; index as above. */
+/* All seven values in 0..1. field "": the values are called by their own names; index as above. */
 CELSPAN_CHECKED celspan_status cs_check_paint(celspan_context *context, const char *noun,
                                               const char *field, size_t index,
                                               const celspan_paint *paint);
 /* r, g, b are sizes; a is in 0..1. */
 CELSPAN_CHECKED celspan_status cs_check_light(celspan_context *context, const char *noun,
                                               const char *field, const celspan_light *light);
-/* `matrix` after the one that is `there`: *whole is both. */
+/* *whole: `there`, then `matrix`. */
 CELSPAN_CHECKED celspan_status cs_check_transform(celspan_context *context,
                                                   const celspan_matrix *there,
                                                   const celspan_matrix *matrix,

@@ -79,22 +79,22 @@ bool cs_inside_arrive(const celspan_matrix *matrix, celspan_point point, celspan
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static bool inside_object(const celspan_object *object, const celspan_matrix *parent,
                           celspan_point point) {
-  const cs_primitive_data *body = object->body;
+  const cs_primitive_data *data = object->data;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   celspan_point own;
-  if (body->is_empty)
+  if (data->is_empty)
     return false;
-  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_inside_arrive(&whole, point, &own) &&
-           cs_inside_outline(&body->outline, body->rule, own);
+           cs_inside_outline(&data->outline, data->rule, own);
   size_t present = 0;
   bool first = false;
-  for (size_t i = 0; i < body->operand_count; i++) {
-    bool is_present = inside_object(body->operands[i], &whole, point);
+  for (size_t i = 0; i < data->operand_count; i++) {
+    bool is_present = inside_object(data->operands[i], &whole, point);
     present += is_present;
     first = first || (i == 0 && is_present);
   }
-  return cs_inside_holds(body->op, present, body->operand_count, first);
+  return cs_inside_holds(data->op, present, data->operand_count, first);
 }
 
 bool celspan_object_contains(const celspan_object *object, celspan_point point) {

@@ -160,13 +160,13 @@ static cs_oracle_paint shade_span(const cs_scanline_span *span, const cs_paint *
   return cs_oracle_mix(&p, &q, along - before);
 }
 
-static celspan_status shade_procedure(celspan_context *context, const cs_primitive_data *body,
+static celspan_status shade_procedure(celspan_context *context, const cs_primitive_data *data,
                                       celspan_point at, bool *is_there, cs_oracle_paint *out) {
-  const celspan_box *bounds = &body->scanline.bounds;
+  const celspan_box *bounds = &data->scanline.bounds;
   celspan_scanline_row row = {bounds->x, bounds->x + bounds->width, 1};
   celspan_scanline_output output;
   cs_scanline_init(&output);
-  celspan_status status = cs_scanline_collect(context, &body->scanline, at.y, &row, &output);
+  celspan_status status = cs_scanline_collect(context, &data->scanline, at.y, &row, &output);
   *is_there = false;
   for (size_t i = 0; status == CELSPAN_OK && i < output.span_count; i++) {
     const cs_scanline_span *span = &output.spans[i];
@@ -179,12 +179,12 @@ static celspan_status shade_procedure(celspan_context *context, const cs_primiti
   return status;
 }
 
-celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *body,
+celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *data,
                                    celspan_point point, bool *is_there, cs_oracle_paint *out) {
   *is_there = true;
-  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
-    return shade_procedure(context, body, point, is_there, out);
-  const celspan_texture *texture = body->texture;
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    return shade_procedure(context, data, point, is_there, out);
+  const celspan_texture *texture = data->texture;
   switch (texture->kind) {
   case CS_TEXTURE_FLAT:
     *out = widen(&texture->flat);
@@ -201,5 +201,5 @@ celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_
   case CS_TEXTURE_PICTURE:
     break;
   }
-  return shade_picture(context, texture, &body->bounds, point, out);
+  return shade_picture(context, texture, &data->bounds, point, out);
 }

@@ -21,7 +21,7 @@ bool cs_oracle_hides(const cs_oracle_paint *shade);
  * full resolution; procedures are asked for their row, and *is_there tells whether a span of it
  * covers the point (true for all else). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
-                                                   const cs_primitive_data *body,
+                                                   const cs_primitive_data *data,
                                                    celspan_point point, bool *is_there,
                                                    cs_oracle_paint *out);
 

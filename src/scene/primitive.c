@@ -1,16 +1,16 @@
-/* Primitives: their doors, and the outline, bounds and texture that make their bodies. */
+/* Primitives: their doors, and the outline, bounds and texture that make their data. */
 #include "scene/check.h"
 #include "scene/primitive_data.h"
 
-/* Bounds of the outline, and the object around the body. `status`: that of making the outline. */
-static celspan_status complete(celspan_context *context, cs_primitive_data *body,
+/* Bounds of the outline, and the object around the data. `status`: that of making the outline. */
+static celspan_status complete(celspan_context *context, cs_primitive_data *data,
                                celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
-  if (status == CELSPAN_OK && !cs_outline_bounds(&body->outline, &identity, &body->bounds))
-    body->bounds = (celspan_box){0, 0, 0, 0};
-  body->is_empty = !(body->bounds.width > 0 && body->bounds.height > 0);
-  body->primitive_count = 1;
-  return cs_primitive_data_wrap(context, body, status, out);
+  if (status == CELSPAN_OK && !cs_outline_bounds(&data->outline, &identity, &data->bounds))
+    data->bounds = (celspan_box){0, 0, 0, 0};
+  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
+  data->primitive_count = 1;
+  return cs_primitive_data_wrap(context, data, status, out);
 }
 
 static celspan_status begin(celspan_context *context, const char *noun, celspan_rule rule,
@@ -29,10 +29,10 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
   CS_TRY(cs_check_size(context, "rect", "w", desc->width));
   CS_TRY(cs_check_size(context, "rect", "h", desc->height));
   CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
-  cs_primitive_data *body;
-  CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &body));
-  return complete(context, body,
-                  cs_outline_rect(context, &body->outline, desc->x, desc->y, desc->width,
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
+  return complete(context, data,
+                  cs_outline_rect(context, &data->outline, desc->x, desc->y, desc->width,
                                   desc->height, desc->radius),
                   out);
 }
@@ -49,10 +49,10 @@ static celspan_status check_points(celspan_context *context, const char *noun,
 static celspan_status create_polygon(celspan_context *context, const char *noun,
                                      const celspan_polygon_desc *desc, celspan_object **out) {
   CS_TRY(check_points(context, noun, desc->points, desc->point_count));
-  cs_primitive_data *body;
-  CS_TRY(begin(context, noun, desc->rule, desc->texture, &body));
-  return complete(context, body,
-                  cs_outline_polygon(context, &body->outline, desc->points, desc->point_count),
+  cs_primitive_data *data;
+  CS_TRY(begin(context, noun, desc->rule, desc->texture, &data));
+  return complete(context, data,
+                  cs_outline_polygon(context, &data->outline, desc->points, desc->point_count),
                   out);
 }
 
@@ -78,11 +78,11 @@ celspan_status celspan_object_create_ellipse(celspan_context *context,
   CS_TRY(cs_check_point(context, "ellipse", "centre", 0, desc->centre));
   CS_TRY(cs_check_size(context, "ellipse", "radii[1]", desc->radius_x));
   CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
-  cs_primitive_data *body;
-  CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &body));
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &data));
   return complete(
-      context, body,
-      cs_outline_ellipse(context, &body->outline, desc->centre, desc->radius_x, desc->radius_y),
+      context, data,
+      cs_outline_ellipse(context, &data->outline, desc->centre, desc->radius_x, desc->radius_y),
       out);
 }
 
@@ -92,18 +92,18 @@ celspan_status celspan_object_create_nurbs(celspan_context *context, const celsp
   CS_TRY(check_points(context, "nurbs", desc->points, desc->point_count));
   CS_TRY(cs_check_choice(context, "nurbs", "closed", (unsigned)desc->closure,
                          CELSPAN_NURBS_CLAMPED + 1));
-  cs_primitive_data *body;
-  CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &body));
-  return complete(context, body, cs_outline_nurbs(context, &body->outline, desc), out);
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &data));
+  return complete(context, data, cs_outline_nurbs(context, &data->outline, desc), out);
 }
 
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
                                           celspan_object **out) {
   CS_TRY(cs_check_given(context, "path", "the description", desc));
   CS_TRY(cs_check_given(context, "path", "d", desc->data));
-  cs_primitive_data *body;
-  CS_TRY(begin(context, "path", desc->rule, desc->texture, &body));
-  return complete(context, body, cs_outline_path(context, &body->outline, desc->data), out);
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
+  return complete(context, data, cs_outline_path(context, &data->outline, desc->data), out);
 }
 
 celspan_status celspan_object_create_scanline(celspan_context *context,
@@ -113,16 +113,16 @@ celspan_status celspan_object_create_scanline(celspan_context *context,
   CS_TRY(cs_check_box(context, "scanline", "bounds", &desc->bounds));
   if (!desc->spans)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "scanline: spans is missing");
-  cs_primitive_data *body;
-  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &body));
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &data));
   const celspan_box *box = &desc->bounds;
   celspan_object *object;
   CS_TRY(
-      complete(context, body,
-               cs_outline_rect(context, &body->outline, box->x, box->y, box->width, box->height, 0),
+      complete(context, data,
+               cs_outline_rect(context, &data->outline, box->x, box->y, box->width, box->height, 0),
                &object));
   /* Only now: until the object stands, `user` is the caller's to release. */
-  body->scanline = *desc;
+  data->scanline = *desc;
   *out = object;
   return CELSPAN_OK;
 }

@@ -5,39 +5,39 @@
 #include "scene/texture.h"
 #include "scene/value.h"
 
-/* ---------------------------------------------------------------- bodies */
+/* ---------------------------------------------------------------- data */
 
 celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_data_kind kind,
                                         celspan_texture *texture, cs_primitive_data **out) {
   celspan_texture *kept = NULL;
   if (kind == CS_PRIMITIVE_DATA_OUTLINE)
     CS_TRY(cs_texture_or_black(context, texture, &kept));
-  cs_primitive_data *body = cs_mem_array(context->memory, 1, sizeof *body);
-  if (!body) {
+  cs_primitive_data *data = cs_mem_array(context->memory, 1, sizeof *data);
+  if (!data) {
     celspan_texture_unref(kept);
     return cs_fail_memory(context);
   }
-  atomic_init(&body->references, 1);
-  body->memory = cs_memory_ref(context->memory);
-  body->kind = kind;
-  body->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
-  body->texture = kept;
-  cs_outline_init(&body->outline);
-  *out = body;
+  atomic_init(&data->references, 1);
+  data->memory = cs_memory_ref(context->memory);
+  data->kind = kind;
+  data->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
+  data->texture = kept;
+  cs_outline_init(&data->outline);
+  *out = data;
   return CELSPAN_OK;
 }
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-void cs_primitive_data_unref(cs_primitive_data *body) {
-  if (!body || !cs_value_drop(&body->references))
+void cs_primitive_data_unref(cs_primitive_data *data) {
+  if (!data || !cs_value_drop(&data->references))
     return;
-  cs_memory *memory = body->memory;
-  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE && body->scanline.release)
-    body->scanline.release(body->scanline.user);
-  cs_outline_finish(&body->outline, memory);
-  celspan_texture_unref(body->texture);
-  cs_primitive_data_list_free(memory, body->operands, body->operand_count);
-  cs_mem_free(memory, body, sizeof *body);
+  cs_memory *memory = data->memory;
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE && data->scanline.release)
+    data->scanline.release(data->scanline.user);
+  cs_outline_finish(&data->outline, memory);
+  celspan_texture_unref(data->texture);
+  cs_primitive_data_list_free(memory, data->operands, data->operand_count);
+  cs_mem_free(memory, data, sizeof *data);
   cs_memory_unref(memory);
 }
 
@@ -58,30 +58,30 @@ static void hash_outline(cs_hash *hash, const cs_outline *outline) {
 
 /* A procedure cannot be looked into, so it equals itself alone. Its address may be used again once
  * it is gone; the count of allocations never comes back. */
-static void hash_procedure(cs_hash *hash, const cs_primitive_data *body) {
-  cs_hash_word(hash, (uint64_t)(uintptr_t)body);
-  cs_hash_word(hash, atomic_load_explicit(&body->memory->allocations, memory_order_relaxed));
+static void hash_procedure(cs_hash *hash, const cs_primitive_data *data) {
+  cs_hash_word(hash, (uint64_t)(uintptr_t)data);
+  cs_hash_word(hash, atomic_load_explicit(&data->memory->allocations, memory_order_relaxed));
 }
 
-static cs_hash hash_body(const cs_primitive_data *body) {
+static cs_hash hash_data(const cs_primitive_data *data) {
   cs_hash hash = cs_hash_begin(CS_VALUE_BODY);
-  cs_hash_word(&hash, body->kind);
-  hash_outline(&hash, &body->outline);
-  cs_hash_word(&hash, body->rule);
-  if (body->texture)
-    cs_hash_hash(&hash, body->texture->hash);
-  if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
-    hash_procedure(&hash, body);
-  cs_hash_word(&hash, body->op);
-  cs_hash_word(&hash, body->operand_count);
-  for (size_t i = 0; i < body->operand_count; i++)
-    cs_hash_hash(&hash, body->operands[i]->hash);
+  cs_hash_word(&hash, data->kind);
+  hash_outline(&hash, &data->outline);
+  cs_hash_word(&hash, data->rule);
+  if (data->texture)
+    cs_hash_hash(&hash, data->texture->hash);
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    hash_procedure(&hash, data);
+  cs_hash_word(&hash, data->op);
+  cs_hash_word(&hash, data->operand_count);
+  for (size_t i = 0; i < data->operand_count; i++)
+    cs_hash_hash(&hash, data->operands[i]->hash);
   return cs_hash_end(hash);
 }
 
 /* ---------------------------------------------------------------- objects */
 
-static celspan_status create_object(celspan_context *context, cs_primitive_data *body,
+static celspan_status create_object(celspan_context *context, cs_primitive_data *data,
                                     const celspan_matrix *matrix, double fade,
                                     celspan_object **out) {
   celspan_object *object = cs_mem_array(context->memory, 1, sizeof *object);
@@ -89,12 +89,12 @@ static celspan_status create_object(celspan_context *context, cs_primitive_data 
     return cs_fail_memory(context);
   atomic_init(&object->references, 1);
   object->memory = cs_memory_ref(context->memory);
-  cs_value_keep(&body->references);
-  object->body = body;
+  cs_value_keep(&data->references);
+  object->data = data;
   object->matrix = *matrix;
   object->fade = fade;
   cs_hash hash = cs_hash_begin(CS_VALUE_OBJECT);
-  cs_hash_hash(&hash, body->hash);
+  cs_hash_hash(&hash, data->hash);
   cs_value_hash_matrix(&hash, matrix);
   cs_hash_number(&hash, fade);
   object->hash = cs_hash_end(hash);
@@ -102,21 +102,21 @@ static celspan_status create_object(celspan_context *context, cs_primitive_data 
   return CELSPAN_OK;
 }
 
-celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *body,
+celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *data,
                                       celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   if (status == CELSPAN_OK) {
-    body->hash = hash_body(body);
-    status = create_object(context, body, &identity, 1, out);
+    data->hash = hash_data(data);
+    status = create_object(context, data, &identity, 1, out);
   }
-  cs_primitive_data_unref(body);
+  cs_primitive_data_unref(data);
   return status;
 }
 
 celspan_status cs_primitive_data_check_placement(celspan_context *context,
-                                                 const cs_primitive_data *body,
+                                                 const cs_primitive_data *data,
                                                  const celspan_matrix *matrix) {
-  if (!body->has_procedure || cs_matrix_is_upright(matrix))
+  if (!data->has_procedure || cs_matrix_is_upright(matrix))
     return CELSPAN_OK;
   return cs_fail(
       context, CELSPAN_BAD_ARGUMENT,
@@ -129,15 +129,15 @@ celspan_status celspan_object_transform(celspan_context *context, celspan_object
   CS_TRY(cs_check_given(context, "transform", "the object", object));
   celspan_matrix whole;
   CS_TRY(cs_check_transform(context, &object->matrix, matrix, &whole));
-  CS_TRY(cs_primitive_data_check_placement(context, object->body, &whole));
-  return create_object(context, object->body, &whole, object->fade, out);
+  CS_TRY(cs_primitive_data_check_placement(context, object->data, &whole));
+  return create_object(context, object->data, &whole, object->fade, out);
 }
 
 celspan_status celspan_object_fade(celspan_context *context, celspan_object *object, double k,
                                    celspan_object **out) {
   CS_TRY(cs_check_given(context, "fade", "the object", object));
   CS_TRY(cs_check_share(context, "fade", "k", k));
-  return create_object(context, object->body, &object->matrix, object->fade * k, out);
+  return create_object(context, object->data, &object->matrix, object->fade * k, out);
 }
 
 celspan_object *celspan_object_ref(celspan_object *object) {
@@ -149,7 +149,7 @@ void celspan_object_unref(celspan_object *object) {
   if (!object || !cs_value_drop(&object->references))
     return;
   cs_memory *memory = object->memory;
-  cs_primitive_data_unref(object->body);
+  cs_primitive_data_unref(object->data);
   cs_mem_free(memory, object, sizeof *object);
   cs_memory_unref(memory);
 }

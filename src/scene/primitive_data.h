@@ -1,7 +1,7 @@
 /* Bodies and the objects made of them.
  *
- * A body is what an object is before its transform and fade; transformed and faded copies share it.
- * Invariant: a scan-line body has an outline too, the rectangle of its bounds, so that geometry
+ * A data is what an object is before its transform and fade; transformed and faded copies share it.
+ * Invariant: a scan-line data has an outline too, the rectangle of its bounds, so that geometry
  * needs no case for it.
  */
 #ifndef CS_SCENE_PRIMITIVE_DATA_H
@@ -9,24 +9,24 @@
 
 #include "scene/scene.h"
 
-/* A new body of nothing yet, to be filled by its maker. texture: kept; NULL is opaque black.
+/* A new data of nothing yet, to be filled by its maker. texture: kept; NULL is opaque black.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context,
                                                         cs_primitive_data_kind kind,
                                                         celspan_texture *texture,
                                                         cs_primitive_data **out);
-void cs_primitive_data_unref(cs_primitive_data *body);
+void cs_primitive_data_unref(cs_primitive_data *data);
 
-/* Hashes a body that is filled, wraps it into a new object, and gives the caller's reference to it;
- * on failure, `status` that of filling it included, the body is let go. Errors: `status`,
+/* Hashes a data that is filled, wraps it into a new object, and gives the caller's reference to it;
+ * on failure, `status` that of filling it included, the data is let go. Errors: `status`,
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_wrap(celspan_context *context,
-                                                      cs_primitive_data *body,
+                                                      cs_primitive_data *data,
                                                       celspan_status status, celspan_object **out);
 
 /* BAD_ARGUMENT when a procedure takes part and its rows would not run along the frame's. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_check_placement(celspan_context *context,
-                                                                 const cs_primitive_data *body,
+                                                                 const cs_primitive_data *data,
                                                                  const celspan_matrix *matrix);
 
 /* Copies a list, keeping every object; *out is NULL when count is 0. noun and field are for the

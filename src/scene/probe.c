@@ -25,35 +25,35 @@ static celspan_status paint(const probe_call *probe, const celspan_object *objec
                             const celspan_matrix *parent, cs_oracle_paint *out);
 
 /* A procedure is present where its spans are: the shade is its by-product. */
-static celspan_status primitive_present(const probe_call *probe, const cs_primitive_data *body,
+static celspan_status primitive_present(const probe_call *probe, const cs_primitive_data *data,
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
   cs_oracle_paint unused;
   *out = cs_inside_arrive(matrix, probe->point, &own) &&
-         cs_inside_outline(&body->outline, body->rule, own);
-  return *out && body->kind == CS_PRIMITIVE_DATA_SCANLINE
-             ? cs_oracle_primitive(probe->context, body, own, out, &unused)
+         cs_inside_outline(&data->outline, data->rule, own);
+  return *out && data->kind == CS_PRIMITIVE_DATA_SCANLINE
+             ? cs_oracle_primitive(probe->context, data, own, out, &unused)
              : CELSPAN_OK;
 }
 
 static celspan_status present(const probe_call *probe, const celspan_object *object,
                               const celspan_matrix *parent, bool *out) {
-  const cs_primitive_data *body = object->body;
+  const cs_primitive_data *data = object->data;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   *out = false;
-  if (body->is_empty)
+  if (data->is_empty)
     return CELSPAN_OK;
-  if (body->kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    return primitive_present(probe, body, &whole, out);
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return primitive_present(probe, data, &whole, out);
   size_t count = 0;
   bool first = false;
-  for (size_t i = 0; i < body->operand_count; i++) {
+  for (size_t i = 0; i < data->operand_count; i++) {
     bool is_present;
-    CS_TRY(present(probe, body->operands[i], &whole, &is_present));
+    CS_TRY(present(probe, data->operands[i], &whole, &is_present));
     count += is_present;
     first = first || (i == 0 && is_present);
   }
-  *out = cs_inside_holds(body->op, count, body->operand_count, first);
+  *out = cs_inside_holds(data->op, count, data->operand_count, first);
   return CELSPAN_OK;
 }
 
@@ -76,18 +76,18 @@ static celspan_status paint_list(const probe_call *probe, celspan_object *const 
 /* The paint of an object that is present at the point. */
 static celspan_status paint(const probe_call *probe, const celspan_object *object,
                             const celspan_matrix *parent, cs_oracle_paint *out) {
-  const cs_primitive_data *body = object->body;
+  const cs_primitive_data *data = object->data;
   const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
   celspan_point own;
   bool is_there;
   *out = cs_oracle_clear;
-  if (body->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
+  if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
     size_t shown = 0;
-    while (shown < body->operand_count && cs_inside_shows(body->op, shown))
+    while (shown < data->operand_count && cs_inside_shows(data->op, shown))
       shown++;
-    CS_TRY(paint_list(probe, body->operands, shown, &whole, out));
+    CS_TRY(paint_list(probe, data->operands, shown, &whole, out));
   } else if (cs_inside_arrive(&whole, probe->point, &own)) {
-    CS_TRY(cs_oracle_primitive(probe->context, body, own, &is_there, out));
+    CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, out));
   }
   *out = cs_oracle_mix(&cs_oracle_clear, out, object->fade);
   return CELSPAN_OK;
@@ -180,8 +180,8 @@ static celspan_status check(celspan_context *context, const celspan_exposure *ex
   if (exposure_count > 0)
     CS_TRY(cs_check_given(context, "probe", "exposures", exposures));
   for (size_t i = 0; i < exposure_count; i++) {
-    CS_TRY(cs_check_item(context, "probe", "exposures", i + 1, "weight", exposures[i].weight, 0,
-                         CS_NUMBER_LIMIT));
+    CS_TRY(cs_check_item(context, (cs_check_field){"probe", "exposures", i + 1, "weight"},
+                         exposures[i].weight, 0, CS_NUMBER_LIMIT));
     if (!exposures[i].rostrum)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "probe: exposures[%zu].rostrum is missing",
                      i + 1);

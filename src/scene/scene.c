@@ -12,10 +12,10 @@ typedef celspan_status (*visitor)(celspan_context *context, void *user,
 static celspan_status visit(celspan_context *context, celspan_object *const *objects, size_t count,
                             visitor call, void *user) {
   for (size_t i = 0; i < count; i++) {
-    const cs_primitive_data *body = objects[i]->body;
-    CS_TRY(body->kind == CS_PRIMITIVE_DATA_BOOLEAN
-               ? visit(context, body->operands, body->operand_count, call, user)
-               : call(context, user, body));
+    const cs_primitive_data *data = objects[i]->data;
+    CS_TRY(data->kind == CS_PRIMITIVE_DATA_BOOLEAN
+               ? visit(context, data->operands, data->operand_count, call, user)
+               : call(context, user, data));
   }
   return CELSPAN_OK;
 }
@@ -64,7 +64,7 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
 
 static bool has_procedure(const celspan_cel *cel) {
   for (size_t i = 0; i < cel->object_count; i++)
-    if (cel->objects[i]->body->has_procedure)
+    if (cel->objects[i]->data->has_procedure)
       return true;
   return false;
 }

@@ -11,46 +11,12 @@
 #ifndef CS_SCENE_SCENE_H
 #define CS_SCENE_SCENE_H
 
-#include "base/hash.h"
-#include "colour/paint.h"
 #include "geometry/outline.h"
-#include "pictures/picture.h"
 #include "scene/antialias.h"
+#include "scene/texture.h"
 
 #define CS_SCENE_DEPTH 128
 #define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
-
-typedef enum cs_texture_kind {
-  CS_TEXTURE_FLAT,
-  CS_TEXTURE_TRIANGLE,
-  CS_TEXTURE_LINEAR,
-  CS_TEXTURE_RADIAL,
-  CS_TEXTURE_PICTURE
-} cs_texture_kind;
-
-typedef struct cs_stop {
-  double at;
-  cs_paint paint;
-} cs_stop;
-
-struct celspan_texture {
-  atomic_size_t references;
-  cs_memory *memory;
-  cs_hash hash;
-  cs_texture_kind kind;
-  cs_paint flat;           /* FLAT */
-  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
-  double radius;           /* RADIAL */
-  cs_paint corners[3];     /* TRIANGLE */
-  cs_stop *stops;          /* LINEAR, RADIAL */
-  size_t stop_count;
-  cs_picture *picture; /* PICTURE */
-  celspan_sampling sampling;
-  celspan_picture_use use;
-  celspan_wrap wrap;
-  bool has_box;
-  celspan_box box; /* where has_box; else the primitive's tight bounds */
-};
 
 typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_OUTLINE,
@@ -82,7 +48,7 @@ struct celspan_object {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
-  cs_primitive_data *body;
+  cs_primitive_data *data;
   celspan_matrix matrix; /* own units to the parent's */
   double fade;           /* 0..1 */
 };

@@ -125,7 +125,7 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
                    noun);
   for (size_t i = 0; i < count; i++) {
-    CS_TRY(cs_check_item(context, noun, "stops", i + 1, "at", stops[i].at, 0, 1));
+    CS_TRY(cs_check_item(context, (cs_check_field){noun, "stops", i + 1, "at"}, stops[i].at, 0, 1));
     if (i > 0 && stops[i].at < stops[i - 1].at)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "%s: stops[%zu].at is %s, less than %s of the stop before; stops must ascend",

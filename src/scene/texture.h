@@ -1,10 +1,47 @@
-/* Textures inside the scene. Invariants beyond scene.h, so that no reader checks again: a triangle
- * has an area, a linear gradient a length, a radial one a radius, a picture's box (if any) a size,
- * and stops count two or more; what would break them was made FLAT at the door. */
+/* Textures: the colours of a primitive. Immutable once made, counted atomically.
+ *
+ * Invariants, so that no reader checks again: a triangle has an area, a linear gradient a length, a
+ * radial one a radius, a picture's box (if any) a size, and there are two stops or more. A texture
+ * that would break them is made FLAT at its construction.
+ */
 #ifndef CS_SCENE_TEXTURE_H
 #define CS_SCENE_TEXTURE_H
 
-#include "scene/scene.h"
+#include "base/hash.h"
+#include "colour/paint.h"
+#include "pictures/picture.h"
+
+typedef enum cs_texture_kind {
+  CS_TEXTURE_FLAT,
+  CS_TEXTURE_TRIANGLE,
+  CS_TEXTURE_LINEAR,
+  CS_TEXTURE_RADIAL,
+  CS_TEXTURE_PICTURE
+} cs_texture_kind;
+
+typedef struct cs_stop {
+  double at;
+  cs_paint paint;
+} cs_stop;
+
+struct celspan_texture {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_texture_kind kind;
+  cs_paint flat;           /* FLAT */
+  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
+  double radius;           /* RADIAL */
+  cs_paint corners[3];     /* TRIANGLE */
+  cs_stop *stops;          /* LINEAR, RADIAL */
+  size_t stop_count;
+  cs_picture *picture; /* PICTURE */
+  celspan_sampling sampling;
+  celspan_picture_use use;
+  celspan_wrap wrap;
+  bool has_box;
+  celspan_box box; /* where has_box; else the primitive's tight bounds */
+};
 
 /* `texture` kept, or new opaque black when it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "defocus/bands.h"
-#include "render/frame.h"
+#include "render/row_worker.h"
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/elementary.h"
-#include "render/frame.h"
+#include "render/row_worker.h"
 #include "span/row.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"

@@ -3,7 +3,7 @@
  */
 #include <math.h>
 
-#include "render/frame.h"
+#include "render/row_worker.h"
 #include "tests/support/scene.h"
 
 #define PI 3.14159265358979

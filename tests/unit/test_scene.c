@@ -317,7 +317,7 @@ static void test_image_without_reading(studio *s) {
   celspan_object *image = NULL;
   studio_check(s, celspan_object_create_image(s->context, &desc, &image));
   check_bounds(image, 1, 2, 30, 40);
-  CHECK(image->body->texture->wrap == CELSPAN_WRAP_CLAMP); /* its rectangle says where it ends */
+  CHECK(image->data->texture->wrap == CELSPAN_WRAP_CLAMP); /* its rectangle says where it ends */
   celspan_object_unref(image);
   image = NULL;
   desc.width = 0;
@@ -338,7 +338,7 @@ static void check_image(studio *s, celspan_image_desc desc, celspan_box frame, c
   if (!image)
     return;
   check_bounds(image, frame.x, frame.y, frame.width, frame.height);
-  const celspan_box *own = &image->body->texture->box;
+  const celspan_box *own = &image->data->texture->box;
   CHECK_NEAR(own->x, box.x, TINY);
   CHECK_NEAR(own->y, box.y, TINY);
   CHECK_NEAR(own->width, box.width, TINY);
@@ -516,7 +516,7 @@ static void test_values_outlive_their_context(void) {
   celspan_context_destroy(s.context);
   studio_finish(&s);
   CHECK(watch.blocks > 0);
-  CHECK(rostrum->cels[0]->objects[0]->body->operand_count == 2);
+  CHECK(rostrum->cels[0]->objects[0]->data->operand_count == 2);
   celspan_rostrum_unref(rostrum);
   CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
 }

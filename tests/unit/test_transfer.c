@@ -86,7 +86,7 @@ static void check_names(void) {
   for (int i = 0; i < 4; i++) {
     celspan_transfer transfer = CELSPAN_TRANSFER_DEFAULT;
     CHECK(cs_transfer_parse(names[i], &transfer));
-    CHECK_TEXT(cs_transfer_name(transfer), names[i]);
+    CHECK((int)transfer == (int)CELSPAN_TRANSFER_LINEAR + (int)i);
   }
   celspan_transfer untouched = CELSPAN_TRANSFER_REC709;
   CHECK(!cs_transfer_parse("default", &untouched) && !cs_transfer_parse("sRGB", &untouched));

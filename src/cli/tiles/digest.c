@@ -25,13 +25,13 @@ static void add_file_state(cs_hash *hash, const char *path) {
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static void add_objects(scene_facts *facts, celspan_object *const *objects, size_t count) {
   for (size_t i = 0; i < count; i++) {
-    const cs_primitive_data *body = objects[i]->body;
-    if (body->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      add_objects(facts, body->operands, body->operand_count);
-    else if (body->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    const cs_primitive_data *data = objects[i]->data;
+    if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      add_objects(facts, data->operands, data->operand_count);
+    else if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
       facts->has_procedure = true;
-    else if (body->texture->kind == CS_TEXTURE_PICTURE)
-      add_file_state(&facts->pictures, body->texture->picture->file);
+    else if (data->texture->kind == CS_TEXTURE_PICTURE)
+      add_file_state(&facts->pictures, data->texture->picture->file);
   }
 }
 
