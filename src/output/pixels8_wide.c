@@ -22,6 +22,7 @@
 #include "output/pixels8.h"
 
 #include "colour/srgb8_lanes.h"
+#include "colour/srgb8_planes.h"
 #include "output/fill.h"
 
 #ifdef __SSE2__

@@ -2,6 +2,7 @@
  * of a row of pixels may reach beyond them, never beyond the batch.
  */
 #include "colour/srgb8_lanes.h"
+#include "colour/srgb8_planes.h"
 #include "paint/over_row.h"
 
 #define PIXELS (CS_WIDE_LANES / 4)

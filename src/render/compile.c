@@ -12,12 +12,12 @@ typedef struct compiler {
   cs_plan *plan;
   int workers; /* threads at most */
   cs_boundary_frame frame;
-  double first_height, end_height; /* of the rows that will be asked for, margin included */
+  double first_height, end_height; /* of the rows that will be asked for, with their margin */
   size_t cel;                      /* from 1: for messages */
   cs_v4 front;
   uint32_t group; /* the faded group being filled */
-  bool records;   /* inside a boolean tree: steps are noted */
-  bool fades_out; /* inside something faded to nothing: there, but clear */
+  bool records;   /* inside a boolean tree: steps are recorded */
+  bool fades_out; /* inside something faded to nothing: present, but clear */
 } compiler;
 
 #define APPEND(compiler, array, count, capacity)                                                   \
@@ -25,7 +25,7 @@ typedef struct compiler {
                  &(compiler)->plan->stack.capacity, (compiler)->plan->stack.count + 1,             \
                  sizeof *(compiler)->plan->stack.array)
 
-/* ---------------------------------------------------------------- leaves */
+/* ---------------------------------------------------------------- layers */
 
 static cs_v4 lit(cs_v4 front, const float s[3]) { return front * (cs_v4){s[0], s[1], s[2], 0}; }
 
@@ -51,8 +51,8 @@ static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_te
   return CELSPAN_OK;
 }
 
-/* A picture in its primitive's own rectangle is held at its edges: the boundary, not the picture,
- * says where it ends. */
+/* A picture in its primitive's own rectangle is clamped at its edges, because the boundary and not
+ * the picture decides where it ends. */
 static celspan_status fill_picture(compiler *c, cs_layer *layer, const celspan_texture *texture,
                                    const celspan_box *bounds, const celspan_matrix *inverse) {
   cs_stack *stack = &c->plan->stack;
@@ -101,7 +101,7 @@ static celspan_status compile_outline(compiler *c, const cs_primitive_data *data
   cs_layer *layer = &c->plan->stack.layers[index];
   const celspan_texture *texture = data->texture;
   if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &inverse)) {
-    fill_flat(layer, CS_PAINT_CLEAR, 1); /* nowhere */
+    fill_flat(layer, CS_PAINT_CLEAR, 1); /* it has no area */
     return CELSPAN_OK;
   }
   if (layer->fade == 0)
@@ -161,7 +161,7 @@ static bool operands_are_layers(const cs_primitive_data *data) {
   return true;
 }
 
-/* An operator: its operands' leaves, and the step that decides over them. */
+/* An operator: the layers of its operands, and the step that combines them. */
 static celspan_status compile_operator(compiler *c, const cs_primitive_data *data,
                                        const celspan_matrix *matrix) {
   uint32_t first = (uint32_t)c->plan->stack.layer_count;
@@ -183,7 +183,7 @@ static celspan_status compile_operator(compiler *c, const cs_primitive_data *dat
                                   .operands = (uint32_t)data->operand_count});
 }
 
-/* Unions of unions need no decision: what is present is painted. */
+/* Unions of unions need no steps: whatever is present is painted. */
 static bool is_plain_union(const cs_primitive_data *data) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
@@ -195,7 +195,7 @@ static bool is_plain_union(const cs_primitive_data *data) {
   return true;
 }
 
-/* The most results the tree's steps hold at a time. */
+/* The most results that a tree's steps keep at a time. */
 static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
   size_t depth = 0, most = 0;
   for (uint32_t i = 0; i < tree->step_count; i++) {
@@ -208,7 +208,7 @@ static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
   return most;
 }
 
-/* A boolean that no other holds: the root of a tree, unless it decides nothing. */
+/* A boolean that is no operand: the root of a tree, unless it needs no steps. */
 static celspan_status compile_root(compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
   cs_stack *stack = &c->plan->stack;
@@ -227,7 +227,7 @@ static celspan_status compile_root(compiler *c, const cs_primitive_data *data,
   return CELSPAN_OK;
 }
 
-/* Where the compiler stood before a group. */
+/* The state of the compiler outside of a group. */
 typedef struct outside {
   uint32_t group;
   bool fades_out;
@@ -270,7 +270,7 @@ static celspan_status compile_object(compiler *c, const celspan_object *object,
 
 static cs_v4 light_colour(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
-/* A back light shines behind every leaf from `below` on. Kept rear first while compiling. */
+/* A back light that shines on every layer from `below` on. Rear first while compiling. */
 static celspan_status append_light(compiler *c, celspan_light light, uint32_t below) {
   cs_stack *stack = &c->plan->stack;
   if (light.r == 0 && light.g == 0 && light.b == 0 && light.a == 0)
@@ -340,7 +340,7 @@ static celspan_status compile_cel(compiler *c, const celspan_rostrum *rostrum, s
   return CELSPAN_OK;
 }
 
-/* The composer meets lights from the camera backwards. */
+/* The composer needs lights from the camera backwards. */
 static void reverse_lights(cs_stack *stack) {
   for (size_t i = 0, j = stack->light_count; i + 1 < j; i++) {
     cs_back_light light = stack->lights[i];
@@ -351,8 +351,9 @@ static void reverse_lights(cs_stack *stack) {
 
 /* ---------------------------------------------------------------- the cull */
 
-/* What a leaf lets through at most. One in a boolean tree may be present and yet not painted, one
- * in a faded group is weaker than its paint: they are taken to let everything through. */
+/* The most that a layer lets through; 1 for a layer in a faded group, which is weaker than its
+ * paint.
+ */
 static double layer_through(const cs_layer *layer) {
   if (layer->group != CS_STACK_NONE)
     return 1;
@@ -371,7 +372,7 @@ static celspan_status cull(compiler *c) {
     return cs_fail_memory(c->context);
   for (size_t i = 0; i < stack->layer_count; i++)
     layers[i] = (cs_cull_layer){layer_through(&stack->layers[i]), stack->rules[i].winding_mask};
-  for (size_t t = 0; t < stack->tree_count; t++)
+  for (size_t t = 0; t < stack->tree_count; t++) /* present does not mean painted in a tree */
     for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
       layers[i].through = 1;
   const cs_cull_desc desc = {.set = &c->plan->boundaries,

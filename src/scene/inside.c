@@ -3,11 +3,11 @@
 #include "geometry/matrix.h"
 
 #define MAX_DEGREE 15
-/* Halvings of a piece after which its chord decides: further ones no longer change a double. */
+/* Halvings of a piece after which its chord decides: more would not change a double. */
 #define MAX_HALVINGS 56
 
-/* A control point seen from the point that is asked about, times its weight w > 0: u < 0 is left
- * of it, v < 0 above. */
+/* A control point relative to the point in question, times its weight w > 0: u < 0 is left of the
+ * point, v < 0 above it. */
 typedef struct offset {
   double u, v;
 } offset;
@@ -32,8 +32,8 @@ static void halve(const offset *whole, int degree, offset *low, offset *high) {
   }
 }
 
-/* The signed crossings of a Bezier piece with the ray to the left. The curve lies in the hull of
- * its control points, which settles all but the pieces around the point itself. */
+/* The signed crossings of a Bezier piece with the ray to the left. The curve lies in the convex
+ * hull of its control points; only a piece whose hull contains the point must be halved. */
 static int crossings(const offset *points, int degree, int halvings) {
   int left = 0, above = 0;
   for (int i = 0; i <= degree; i++) {
@@ -65,7 +65,7 @@ bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_poi
   return rule == CELSPAN_RULE_EVENODD ? winding % 2 != 0 : winding != 0;
 }
 
-bool cs_inside_arrive(const celspan_matrix *matrix, celspan_point point, celspan_point *out) {
+bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, celspan_point *out) {
   celspan_matrix inverse;
   if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &inverse))
     return false;
@@ -76,7 +76,7 @@ bool cs_inside_arrive(const celspan_matrix *matrix, celspan_point point, celspan
   return true;
 }
 
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+/* The recursion ends because nesting is at most CS_SCENE_DEPTH. */
 static bool inside_object(const celspan_object *object, const celspan_matrix *parent,
                           celspan_point point) {
   const cs_primitive_data *data = object->data;
@@ -85,7 +85,7 @@ static bool inside_object(const celspan_object *object, const celspan_matrix *pa
   if (data->is_empty)
     return false;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    return cs_inside_arrive(&whole, point, &own) &&
+    return cs_inside_own_point(&whole, point, &own) &&
            cs_inside_outline(&data->outline, data->rule, own);
   size_t present = 0;
   bool first = false;

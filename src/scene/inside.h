@@ -1,7 +1,15 @@
-/* Inside or outside: shapes at a point, by winding numbers. Shares no code with the sweep.
+/* Whether a shape covers a point, by winding numbers. Shares no code with the sweep.
  *
- * A point is taken down to a primitive through the inverse of the matrix of all levels together,
- * and is not there when it arrives from behind the horizon.
+ *             .---->----.             The winding at a point is the sum of the signed crossings of
+ *            /           \            the contour with the ray from the point to the left: +1 where
+ *   <-------|------x      |           the contour goes down, -1 where it goes up. Here it is -1:
+ *           ^             v           inside by the nonzero rule, and by the even-odd rule.
+ *            \           /
+ *             '----<----'             Half open: a piece counts from its top, included, to its
+ * foot, excluded.
+ *
+ * A point is taken to a primitive's own units by the inverse of the matrix of all levels together.
+ * A point behind the horizon is in no shape.
  */
 #ifndef CS_SCENE_INSIDE_H
 #define CS_SCENE_INSIDE_H
@@ -9,14 +17,16 @@
 #include "geometry/outline.h"
 #include "scene/scene.h"
 
-/* The point below a matrix; false when that is singular, or the point behind the horizon. */
-bool cs_inside_arrive(const celspan_matrix *matrix, celspan_point point, celspan_point *out);
+/* The point that a matrix maps to `point`; false when the matrix is singular or the point is behind
+ * the horizon. */
+bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, celspan_point *out);
 
 /* Whether a point is inside an outline. Half-open, as pixels are: left and top edges are in, right
  * and bottom ones are out. */
 bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_point point);
 
-/* Whether a boolean is there, of whose operands `present` are. first: whether the first one is. */
+/* Whether a boolean is present, `present` of whose operands are. first: whether the first operand
+ * is. */
 static inline bool cs_inside_holds(celspan_operator op, size_t present, size_t operand_count,
                                    bool first) {
   switch (op) {
@@ -34,7 +44,7 @@ static inline bool cs_inside_holds(celspan_operator op, size_t present, size_t o
   return first && present == 2;
 }
 
-/* Whether a boolean shows the paint of its operand of this index, where that is there. */
+/* Whether a boolean is painted with its operand of this index, where that operand is present. */
 static inline bool cs_inside_shows(celspan_operator op, size_t index) {
   return index == 0 || (op != CELSPAN_DIFFERENCE && op != CELSPAN_CLIP);
 }

@@ -1,4 +1,6 @@
-/* Textures at a point, in doubles: the oracle's own, sharing nothing with the composer. */
+/* Textures at a point, in doubles: a second implementation that the tests compare with the first.
+ * It shares no code with the composer.
+ */
 #ifndef CS_SCENE_ORACLE_H
 #define CS_SCENE_ORACLE_H
 
@@ -14,12 +16,12 @@ extern const cs_oracle_paint cs_oracle_clear;
 cs_oracle_paint cs_oracle_over(const cs_oracle_paint *front, const cs_oracle_paint *back);
 /* (1 - u) p + u q */
 cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q, double u);
-/* No light from behind comes through: what is there need not be looked at. */
+/* Whether no light from behind comes through, so that nothing behind it is visible. */
 bool cs_oracle_hides(const cs_oracle_paint *shade);
 
 /* The paint of a primitive at a point of its own units that is inside it. Pictures are bilinear at
- * full resolution; procedures are asked for their row, and *is_there tells whether a span of it
- * covers the point (true for all else). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
+ * full resolution; procedures are asked for their row, and *is_there is whether a span of it
+ * covers the point (true for all others). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
                                                    celspan_point point, bool *is_there,

@@ -29,7 +29,7 @@ static celspan_status primitive_present(const probe_call *probe, const cs_primit
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
   cs_oracle_paint unused;
-  *out = cs_inside_arrive(matrix, probe->point, &own) &&
+  *out = cs_inside_own_point(matrix, probe->point, &own) &&
          cs_inside_outline(&data->outline, data->rule, own);
   return *out && data->kind == CS_PRIMITIVE_DATA_SCANLINE
              ? cs_oracle_primitive(probe->context, data, own, out, &unused)
@@ -86,7 +86,7 @@ static celspan_status paint(const probe_call *probe, const celspan_object *objec
     while (shown < data->operand_count && cs_inside_shows(data->op, shown))
       shown++;
     CS_TRY(paint_list(probe, data->operands, shown, &whole, out));
-  } else if (cs_inside_arrive(&whole, probe->point, &own)) {
+  } else if (cs_inside_own_point(&whole, probe->point, &own)) {
     CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, out));
   }
   *out = cs_oracle_mix(&cs_oracle_clear, out, object->fade);
@@ -172,7 +172,7 @@ static celspan_status add_exposure(const probe_call *probe, const celspan_exposu
   return status;
 }
 
-/* ---------------------------------------------------------------- the door */
+/* ---------------------------------------------------------------- checking */
 
 static celspan_status check(celspan_context *context, const celspan_exposure *exposures,
                             size_t exposure_count, double film_width, double film_height,

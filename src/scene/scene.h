@@ -4,9 +4,9 @@
  *   rostrum -> cels -> objects (boolean trees) -> primitives -> texture
  *
  * Only scene/ writes these; the compiler of frames (render/compile.c) and the oracle
- * (scene/probe.c) read them. Invariant: every number passed the door (finite, in range), every
+ * (scene/probe.c) read them. Invariant: every number was checked (finite, in range), every
  * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object holds at most
- * CS_SCENE_PRIMITIVES primitives, shared operands counted as often as they are reached.
+ * CS_SCENE_PRIMITIVES primitives, a shared operand counted each time it occurs.
  */
 #ifndef CS_SCENE_SCENE_H
 #define CS_SCENE_SCENE_H
@@ -24,7 +24,7 @@ typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_BOOLEAN
 } cs_primitive_data_kind;
 
-/* What an object is before its transform and fade: shared by all its transformed copies. */
+/* The data of an object without its transform and fade: shared by all its transformed copies. */
 typedef struct cs_primitive_data {
   atomic_size_t references;
   cs_memory *memory;
@@ -40,7 +40,7 @@ typedef struct cs_primitive_data {
   celspan_object **operands;
   size_t operand_count;
   int depth;              /* levels of booleans below and with this one; 0 for primitives */
-  size_t primitive_count; /* below and with this one, each as often as it is reached */
+  size_t primitive_count; /* below and with this one, each time it occurs */
   bool has_procedure;     /* below or with this one */
 } cs_primitive_data;
 
@@ -97,16 +97,16 @@ celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *
                              double film_width, double film_height);
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
                                double film_height);
-/* The front light of a cel: its own, the rostrum's, or white; brightness included. */
+/* The front light of a cel, brightness included: its own, the rostrum's, or white. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
-/* What exposures show, whatever the view; two that hash alike show the same as long as neither
- * holds a procedure and their pictures' files do not change. */
+/* The content of exposures, whatever the view. Two with the same hash show the same, provided that
+ * neither contains a procedure and that the files of their pictures do not change. */
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
-/* Whether a scan-line procedure takes part. */
+/* Whether any exposure contains a scan-line procedure. */
 bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
 /* The sizes and times of change of the pictures' files as they are now. */
 cs_hash cs_scene_hash_files(const celspan_exposure *exposures, size_t count);
-/* A back light times the rostrum's brightness; its matte as it is. */
+/* A back light times the rostrum's brightness; the matte does not change. */
 celspan_light cs_scene_back(const celspan_rostrum *rostrum, celspan_light back);
 
 #endif

@@ -44,7 +44,7 @@ typedef struct culler {
   int32_t *last_rows; /* by chain: of tiles; less than the first row where the chain is outside the
                          frame */
   column_range *columns;  /* indexed as cull->kept */
-  uint32_t *layer_starts; /* leaf_count + 1, into by_leaf */
+  uint32_t *layer_starts; /* layer_count + 1, into by_layer */
   uint32_t *by_layer;     /* chains of each layer */
   uint64_t *live;         /* one a row of tiles */
   double *through;        /* one a tile */
