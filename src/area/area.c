@@ -275,7 +275,7 @@ static celspan_status walk_heights(row_walk *w, double y0, double y1) {
                                 .y0 = y0,
                                 .y1 = y1};
   area->commit.first = NULL;
-  CS_TRY(cs_active_reach(context, area->parts.active, y1));
+  CS_TRY(cs_active_advance(context, area->parts.active, y1));
   if (!w->is_slab && cs_procedures_meet(area->parts.procedures, (int32_t)y0))
     CS_TRY(find_procedures(area, &w->intervals));
   CS_TRY(cs_edges_measure(context, &area->edges, area->parts.active, area->parts.width));

@@ -1,10 +1,11 @@
 /* Antialias "none", along a row:
  *
- *      x       1.7       3.2          5.5
- *      cells    |    1    |     2      |   3
- *      columns | 0 | 1 | 2 | 3 | 4 | 5 | 6 |
- *      centres   .   .   .   .   .   .   .
- *      shown     0   0   1   2   2   3   3     ends: 2, 3, 5, 7
+ *   x                      1.7         3.2                5.5
+ *   cells          0        |     1     |        2         |     3
+ *   columns    |       |       |       |       |       |       |       |
+ *   centres        .       .       .       .       .       .       .
+ *   shown          0       0       1       2       2       3       3
+ *   ends                      2       3               5               7
  *
  * A boundary at x belongs to the cell on its right, so the first column of that cell is
  * ceil(x - 1/2), and abutting shapes tile without gap or overlap.

@@ -1,3 +1,11 @@
+/* Placing the visible cells of a row of pixel centres, many boundaries at once.
+ *
+ *   x            1.7  2.1  3.2  5.5       of all boundaries, in batches
+ *   is_visible    1    0    1    1
+ *   column        2    2    3    5        ceil(x - 1/2), clamped to the row
+ *   ends          2         3    5        those of visible boundaries, moved together
+ *   spans       [0,2)     [2,3) [3,5)     from one end to the next
+ */
 #include "row/centre.h"
 
 #include <stddef.h>
@@ -8,27 +16,27 @@
 
 enum { BATCH = CS_ADVANCE_BATCH };
 
-/* The fields that begin a span. */
-typedef struct place {
+/* The fields that a span begins with. */
+typedef struct span_head {
   int32_t x0, x1, kind, origin;
-} place;
+} span_head;
 
-_Static_assert(offsetof(celspan_span, x1) == offsetof(place, x1) &&
-                   offsetof(celspan_span, kind) == offsetof(place, kind) &&
-                   offsetof(celspan_span, origin) == offsetof(place, origin) &&
+_Static_assert(offsetof(celspan_span, x1) == offsetof(span_head, x1) &&
+                   offsetof(celspan_span, kind) == offsetof(span_head, kind) &&
+                   offsetof(celspan_span, origin) == offsetof(span_head, origin) &&
                    CELSPAN_SPAN_SINGLE == 0,
-               "places are written as a whole");
+               "heads are written as a whole");
 
-static inline void put_place(celspan_span *span, int32_t from, int32_t to) {
-  memcpy(span, &(place){from, to, CELSPAN_SPAN_SINGLE, from}, sizeof(place));
+static inline void put_head(celspan_span *span, int32_t from, int32_t to) {
+  memcpy(span, &(span_head){from, to, CELSPAN_SPAN_SINGLE, from}, sizeof(span_head));
 }
 
-/* How far a row has been written. */
-typedef struct progress {
-  size_t found; /* ends */
-  int32_t last; /* of them */
-  bool has_empty;
-} progress;
+/* The ends found so far. */
+typedef struct found_ends {
+  size_t count;
+  int32_t last;
+  bool has_empty; /* two of them are the same column */
+} found_ends;
 
 #ifdef __AVX512F__
 
@@ -45,19 +53,19 @@ static inline __m512i find_columns(const double *x, int32_t width) {
 }
 
 /* Spans from[k]..to[k]. */
-static inline void put_places(celspan_span *spans, __m512i from, __m512i to) {
+static inline void put_heads(celspan_span *spans, __m512i from, __m512i to) {
   const __m512i four = _mm512_set1_epi32(4);
   __m512i order = _mm512_setr_epi32(0, 16, 0, 0, 1, 17, 0, 1, 2, 18, 0, 2, 3, 19, 0, 3);
   for (int k = 0; k < BATCH; k += 4, order = _mm512_add_epi32(order, four)) {
-    __m512i places = _mm512_maskz_permutex2var_epi32(0xbbbb, from, order, to);
-    _mm_storeu_si128((__m128i *)(void *)&spans[k], _mm512_castsi512_si128(places));
-    _mm_storeu_si128((__m128i *)(void *)&spans[k + 1], _mm512_extracti32x4_epi32(places, 1));
-    _mm_storeu_si128((__m128i *)(void *)&spans[k + 2], _mm512_extracti32x4_epi32(places, 2));
-    _mm_storeu_si128((__m128i *)(void *)&spans[k + 3], _mm512_extracti32x4_epi32(places, 3));
+    __m512i heads = _mm512_maskz_permutex2var_epi32(0xbbbb, from, order, to);
+    _mm_storeu_si128((__m128i *)(void *)&spans[k], _mm512_castsi512_si128(heads));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 1], _mm512_extracti32x4_epi32(heads, 1));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 2], _mm512_extracti32x4_epi32(heads, 2));
+    _mm_storeu_si128((__m128i *)(void *)&spans[k + 3], _mm512_extracti32x4_epi32(heads, 3));
   }
 }
 
-static inline void place_batch(progress *p, const double *x, const bool *is_visible, size_t count,
+static inline void place_batch(found_ends *p, const double *x, const bool *is_visible, size_t count,
                                int32_t width, celspan_span *spans, int32_t *ends) {
   __m128i flags = _mm_loadu_si128((const __m128i *)(const void *)is_visible);
   unsigned visible = _mm_test_epi8_mask(flags, flags);
@@ -66,11 +74,11 @@ static inline void place_batch(progress *p, const double *x, const bool *is_visi
   __m512i to = _mm512_maskz_compress_epi32((__mmask16)visible, find_columns(x, width));
   __m512i from = _mm512_alignr_epi32(to, _mm512_set1_epi32(p->last), 15);
   p->has_empty |= (_mm512_cmple_epi32_mask(to, from) & ((1u << found) - 1)) != 0;
-  _mm512_storeu_si512(ends + p->found, to);
-  put_places(spans + p->found, from, to);
+  _mm512_storeu_si512(ends + p->count, to);
+  put_heads(spans + p->count, from, to);
   __m512i all = _mm512_permutexvar_epi32(_mm512_set1_epi32((int)found - 1), to);
   p->last = found > 0 ? _mm_cvtsi128_si32(_mm512_castsi512_si128(all)) : p->last;
-  p->found += found;
+  p->count += found;
 }
 
 #else
@@ -85,17 +93,17 @@ static inline void find_columns(const double *x, int32_t width, int32_t columns[
   }
 }
 
-static inline void place_batch(progress *p, const double *x, const bool *is_visible, size_t count,
+static inline void place_batch(found_ends *p, const double *x, const bool *is_visible, size_t count,
                                int32_t width, celspan_span *spans, int32_t *ends) {
   int32_t columns[BATCH];
-  size_t first = p->found;
+  size_t first = p->count;
   find_columns(x, width, columns);
   for (size_t k = 0; k < BATCH && k < count; k++) { /* all are written, and some written over */
-    ends[p->found] = columns[k];
-    p->found += is_visible[k];
+    ends[p->count] = columns[k];
+    p->count += is_visible[k];
   }
-  for (size_t k = first; k < p->found; k++) {
-    put_place(&spans[k], p->last, ends[k]);
+  for (size_t k = first; k < p->count; k++) {
+    put_head(&spans[k], p->last, ends[k]);
     p->has_empty |= ends[k] <= p->last;
     p->last = ends[k];
   }
@@ -105,10 +113,10 @@ static inline void place_batch(progress *p, const double *x, const bool *is_visi
 
 size_t CS_WIDE(cs_centre_place)(const double *x, const bool *is_visible, size_t count,
                                 int32_t width, celspan_span *spans, int32_t *ends) {
-  progress p = {0, 0, false};
+  found_ends p = {0, 0, false};
   for (size_t i = 0; i < count; i += BATCH)
     place_batch(&p, x + i, is_visible + i, count - i, width, spans, ends);
-  ends[p.found] = width;
-  put_place(&spans[p.found], p.last, width);
-  return p.has_empty || p.last >= width ? 0 : p.found + 1;
+  ends[p.count] = width;
+  put_head(&spans[p.count], p.last, width);
+  return p.has_empty || p.last >= width ? 0 : p.count + 1;
 }

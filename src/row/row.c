@@ -36,8 +36,8 @@ static celspan_status retain(void *maker, int32_t y, cs_retained_row *retained) 
 celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
                                  const cs_plan *plan) {
   *maker = (cs_row_maker){.context = context, .plan = plan, .row = CS_ROW_NONE};
-  cs_active_init(&maker->active, &plan->boundaries, &plan->cull);
-  maker->active.notes_bends = plan->antialias != CELSPAN_ANTIALIAS_NONE;
+  bool notes_bends = plan->antialias != CELSPAN_ANTIALIAS_NONE; /* pixel centres ignore them */
+  cs_active_init(&maker->active, &plan->boundaries, &plan->cull, notes_bends);
   cs_cells_init(&maker->cells);
   cs_arena_init(&maker->arena);
   cs_procedures_init(&maker->procedures, &maker->composer, &maker->arena, plan->width,
@@ -77,14 +77,15 @@ static double row_height(const cs_row_maker *maker, int32_t y) {
   return maker->plan->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
 }
 
-/* Moves the boundaries down to a height. What was looked ahead to is settled first. */
+/* Moves the boundaries down to a height. Where a row has advanced them to its foot already, that is
+ * settled first. */
 static celspan_status advance(cs_row_maker *maker, double height, cs_change *change) {
   cs_active *active = &maker->active;
   cs_change settled = cs_change_none, moved = cs_change_none;
   if (active->y_next > active->y)
     CS_TRY(cs_active_settle(maker->context, active, &settled));
   if (active->y < height) {
-    CS_TRY(cs_active_reach(maker->context, active, height));
+    CS_TRY(cs_active_advance(maker->context, active, height));
     CS_TRY(cs_active_settle(maker->context, active, &moved));
   }
   *change = cs_change_join(settled, moved);

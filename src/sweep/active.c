@@ -35,8 +35,9 @@ static size_t block_size(const cs_active *active, size_t capacity) {
 #undef ITEM_SIZE
 }
 
-void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull) {
-  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best(), .notes_bends = true};
+void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull,
+                    bool notes_bends) {
+  *active = (cs_active){.set = set, .cull = cull, .isa = cs_isa_best(), .notes_bends = notes_bends};
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
@@ -314,7 +315,7 @@ static size_t count_falls(const cs_active *active, size_t i) {
   return (i > 0 && !(x[i - 1] < x[i])) + (i + 1 < active->count && !(x[i] < x[i + 1]));
 }
 
-celspan_status cs_active_reach(celspan_context *context, cs_active *active, double y) {
+celspan_status cs_active_advance(celspan_context *context, cs_active *active, double y) {
   active->y_next = y;
   active->bend_count = active->vertex_count = 0;
   cs_advanced found = CS_WIDE_CHOOSE(active->isa, cs_advance_to)(&active->segments, active->count,

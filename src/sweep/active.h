@@ -68,15 +68,17 @@ typedef struct cs_active {
   cs_active_store store;
 } cs_active;
 
-void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull);
+/* notes_bends: see there. */
+void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull,
+                    bool notes_bends);
 void cs_active_finish(cs_active *active, cs_memory *memory);
 /* Begins at height y, whatever the height was before. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_active *active,
                                                double y);
 /* Advances to height y, at or below the current one: fills x_next, bends and vertices. The order
  * remains the one at the current height. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_active_reach(celspan_context *context, cs_active *active,
-                                               double y);
+CELSPAN_CHECKED celspan_status cs_active_advance(celspan_context *context, cs_active *active,
+                                                 double y);
 /* Moves boundary places[k] to index low + k, with its x at both heights. To be called between
  * advancing and settling. places: low..low + count - 1 in some order. room: for count numbers. */
 void cs_active_permute(cs_active *active, size_t low, size_t count, const uint32_t *places,

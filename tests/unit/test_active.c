@@ -59,11 +59,11 @@ static bool is_ordered(const cs_active *active) {
 static void check_walk(const cs_boundary_set *set, const cs_cull *cull, double step) {
   cs_active walked, fresh;
   cs_change change;
-  cs_active_init(&walked, set, cull);
-  cs_active_init(&fresh, set, cull);
+  cs_active_init(&walked, set, cull, true);
+  cs_active_init(&fresh, set, cull, true);
   CHECK(cs_active_start(context, &walked, 0) == CELSPAN_OK);
   for (double y = step; y < HEIGHT; y += step) {
-    CHECK(cs_active_reach(context, &walked, y) == CELSPAN_OK);
+    CHECK(cs_active_advance(context, &walked, y) == CELSPAN_OK);
     CHECK(cs_active_settle(context, &walked, &change) == CELSPAN_OK);
     CHECK(cs_active_start(context, &fresh, y) == CELSPAN_OK);
     CHECK(same_order(&walked, &fresh));
@@ -101,8 +101,8 @@ static void check_cull(const cs_boundary_set *set, const cs_cull *cull,
   static const cs_cull nothing;
   cs_active all, culled;
   test_random random = {7};
-  cs_active_init(&all, set, &nothing);
-  cs_active_init(&culled, set, cull);
+  cs_active_init(&all, set, &nothing, true);
+  cs_active_init(&culled, set, cull, true);
   for (int trial = 0; trial < 200; trial++) {
     double y = random_between(&random, 0, HEIGHT);
     CHECK(cs_active_start(context, &all, y) == CELSPAN_OK);
