@@ -1,17 +1,17 @@
 /* Antialias "area": the exact mean over each pixel, by local events, in one walk along the row.
  *
- *      y      A        B   C            D            active boundaries at the top of the row
- *      +------\--------+---/------------\--------    (from left to right: A, B, C, D)
- *      | cell  \  cell | \/    cell    | \ cell
- *      |  0     \  1   | /\     3      |  \  4
- *      +---------\-----/---+-----------+---\-----
- *      y+1        A   C   B                 D        and at its foot
+ *              A               B   C          D         active boundaries at the top of the row,
+ *      y    +--\----+-------+--\---/+-------+-|-----+   from left to right
+ *           |   \   |       |   \ / |       | |     |
+ *           |    \  |       |    x  |       | |     |   x: an intersection
+ *           |     \ |       |   / \ |       | |     |
+ *      y+1  +------\+-------+--/---\+-------+-|-----+
+ *                  A           C   B          D         and at its foot
  *
- *              |--|   |---|             |--|
- *            window   window           window        pixels that edges cross: summed by area
- *                     interval                       B and C cross: replayed by a local sweep,
- * which x  intersection             composes the one cell below the crossing
- *      ---------|  |--|   |-------------|  |-----    whole cells: spans as they are
+ *            window            window         window    pixels that edges cross: summed by area
+ *                     span            span              the others: cells as they are
+ *                             interval                  replayed by a local sweep; it composes
+ *                                                       the one cell below x
  *
  *   alone     a visible boundary to which nothing happens in the row gives its edge segments: one,
  *             or one for each straight piece

@@ -3,14 +3,16 @@
  * other one, and for a few that share pixels with each other and with nothing else. Nearly all
  * edges of nearly all rows are such.
  *
- *       first           end              first, end: the columns that it crosses
- *         |              |
- *     +---+---+---+---+--+---+
- *     | L |  /|###|###|##| R |           L, R: the cells on its sides
- *     +---+-/-+---+---+--+---+
- *       L  one second .. two  R          what is right of it in a pixel: one in the first column,
- *              \_______/                 two in the last, second and `fall` a column more between
- *                 ramp                   pixel = L + share * (R - L)
+ *              first           end           first, end: the columns that the edge crosses
+ *              |               |
+ *      +---+---+---+---+---+---+---+---+
+ *      | L | L |  .|-##|###|###| R | R |     L, R: the cells on its sides
+ *      +---+---+---+---+---+---+---+---+
+ *               one sec  +fall two           the share of a pixel right of the edge: one in the
+ *                   \_______/                first column, two in the last, between them second,
+ *                     ramp                   and `fall` more from column to column
+ *
+ *      pixel = L + share * (R - L)
  *
  * Invariant: what is drawn is what a window would sum, and the bits are the same whichever
  * instructions draw it.
@@ -69,12 +71,20 @@ typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 /* From a cs_v4. A macro, because a function that returns it would need the calling rules of AVX. */
 #define CS_SUM4(v) __builtin_convertvector(v, cs_sum4)
 
-/* Adds a straight piece, from xa to xb over a share of the row's height, to sums by column:
- * change[k] is what column `from` + k has more than the column before. The piece crosses the
- * columns [first, end); step: of colour, from its left to its right. Which columns a piece crosses
- * cannot be foreseen, so the only branch here is whether they are more than two. */
-static inline void cs_direct_add(cs_sum4 *change, int32_t from, double xa, double xb, double height,
-                                 int32_t first, int32_t end, const cs_sum4 *step) {
+/* A straight piece of an edge, and the columns [first, end) that it crosses. */
+typedef struct cs_direct_piece {
+  double xa, xb; /* at its top and at its foot */
+  double height; /* share of the row's height */
+  int32_t first, end;
+} cs_direct_piece;
+
+/* Adds a straight piece to sums by column: change[k] is what column `from` + k has more than the
+ * column before. step: of colour, from its left to its right. Which columns a piece crosses cannot
+ * be foreseen, so the only branch here is whether they are more than two. */
+static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece piece,
+                                 const cs_sum4 *step) {
+  const int32_t first = piece.first, end = piece.end;
+  const double xa = piece.xa, xb = piece.xb, height = piece.height;
   const double thin = 0x1p-100; /* least width: that of an upright piece would divide by 0 */
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;

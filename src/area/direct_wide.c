@@ -1,18 +1,18 @@
 /* Drawing direct edges along the row.
  *
- *      from     first    end       first_next
- *        |        |       |           |
- *        +--------+---+---+-----------+---
- *        |  base  |one|two|  base of the next boundary ...
- *        +--------+---+---+-----------+---
- *         1 span   1   1               a plain edge: three spans, or two where it crosses one
- * column
+ *       from     first   end         first_next
+ *       |        |       |           |
+ *       +--------+---+---+-----------+---
+ *       |  base  |one|two|  base of the next boundary
+ *       +--------+---+---+-----------+---
+ *         span   span span               a plain edge: three spans, or two over one column
  *
- *      |##|/##|###|   two edges share a pixel: their colour steps are summed column by column
- *      |#/|###|\##|   (draw_group), which is exact whatever the order
+ *       |##|/##|###|
+ *       |#/|###|\##|                     edges that share a pixel: their colour steps are summed
+ *          |___|                         column by column (draw_group)
  *
- * Plain edges come first because nearly all are: what is written does not depend on a branch that
- * could not be foreseen.
+ * Plain edges come first because nearly all are plain: what is written for them does not depend on
+ * a branch that could not be foreseen.
  */
 #include "area/direct.h"
 
@@ -130,8 +130,10 @@ static inline void draw_short(cs_row_writer *writer, const cs_edges *edges, size
 static void add_piece(cs_sum4 *change, int32_t from, celspan_point above, celspan_point below,
                       double height, int32_t width, const cs_sum4 *step) {
   double low = cs_number_least(above.x, below.x), high = cs_number_most(above.x, below.x);
-  cs_direct_add(change, from, above.x, below.x, height, cs_edges_floor(low, width),
-                cs_edges_ceil(high, width), step);
+  cs_direct_add(change, from,
+                (cs_direct_piece){above.x, below.x, height, cs_edges_floor(low, width),
+                                  cs_edges_ceil(high, width)},
+                step);
 }
 
 static void add_pieces(cs_sum4 *change, int32_t from, const cs_direct_edges *s, size_t i,

@@ -1,16 +1,16 @@
 /* The edges of a row: where every active boundary lies in it, and the area right of it in the
  * pixels that it crosses, for all boundaries at once and several at a time.
  *
- *           low                     high
- *            |                       |
- *      +-----+-----+-----------+-----+-----+
- *      |     \_    |###########|###########|     area: the part of its first column that lies
- *      |       \__ |###########|###########|           right of it (###)
- *      |          \+__#########|###########|     rest: the same of its last column
- *      |           |  \___#####|###########|     fall: from its second column on, each column has
- *      |           |      \____|###########|           so much more than the one before it
- *      +-----------+-----------+\__########+
- *      first       second       last       end
+ *           low                  high
+ *            |                    |
+ *      +-----.-+-------+-------+-----
+ *      |     `.|#######|#######|##         ###: right of the edge
+ *      |       |`-.####|#######|##         area: its share of the first column
+ *      |       |   `-.#|#######|##         rest: its share of the last column
+ *      |       |      `|-.#####|##         fall: what each column between has more than the one
+ *      |       |       |  `-.##|##               before it
+ *      +-------+-------+-----`-+----
+ *      first   second          last
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
  * 2^-28 (see window.h) of a whole row's height. They are given where the boundary crosses at most
@@ -31,7 +31,7 @@ typedef struct cs_edges {
   float *one, *two;     /* area and rest again, as colours are weighted by them */
   float *second, *fall; /* over more than two columns: the area in its second, and what each column
                            after that has more; fall is 0 where areas are not given */
-  int32_t *first, *end; /* the columns it crosses; empty when it stands on a pixel's edge */
+  int32_t *first, *end; /* the columns it crosses; empty when it lies on a pixel's edge */
   bool *is_bent;        /* it has vertices in the row */
   void *block;          /* that holds the arrays */
   size_t capacity;      /* of each of them */

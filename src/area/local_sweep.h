@@ -6,7 +6,7 @@
  *        slab     \ /       |
  *                  x        |            intersection: a and b change places, and the one cell
  *                 / \       |            between them is composed
- *     y   -------b---a-----(e)-----d--   c ends and d begins: the next slab begins here
+ *     y   -------b---a------c------d--   c ends and d begins: the next slab begins here
  *        slab    |    \           /
  *     y1  -------b-----a---------d----
  *

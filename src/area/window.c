@@ -386,7 +386,8 @@ static void note_segment(cs_window *window, cs_window_segment *f) {
     window->varies = true;
   } else if (f->end - window->from <= CS_WINDOW_NARROW) {
     cs_sum4 step = CS_SUM4(f->right->colour) - CS_SUM4(f->left->colour);
-    cs_direct_add(window->change, window->from, f->xa, f->xb, f->height, f->first, f->end, &step);
+    cs_direct_add(window->change, window->from,
+                  (cs_direct_piece){f->xa, f->xb, f->height, f->first, f->end}, &step);
   }
 }
 

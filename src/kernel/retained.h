@@ -52,7 +52,7 @@ typedef struct cs_retained_row {
 } cs_retained_row;
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory);
-/* Begins a row anew; base: what is left of everything. Its room is kept. */
+/* Begins a row; base: what is left of everything. Its room is kept. */
 void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base);
 /* Adds an edge segment between two cells. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *retained,

@@ -1,11 +1,11 @@
 /* An edge under an even shape: at each height the kernel is one interval in which it is constant.
  *
- *        ___---|---___
- *      /       |      \          edge, cut into parts by height
- *     |  slice |       |
- *     |========*=======|         the kernel's slice at the middle of a part, cut by it: the share
- * of \       |      /          the slice on its right is what the pixel gets of the part's weight
- *        ---___|___---
+ *         ___---|---___
+ *       /       |      \        the edge is cut into parts by height
+ *      |        |       |
+ *      |========*=======|       the kernel's slice at the middle of a part: the pixel gets as much
+ *       \       |      /        of the part's weight as its share of the slice on the right
+ *         ---___|___---
  *
  * A long slice over an upright part is a ramp along the columns: one change of slope where it
  * begins, and one where it ends.

@@ -1,13 +1,16 @@
 /* An edge under a separable kernel.
  *
- *          /  ya        It is taken in parts so short that each may be upright in its middle and
- * count /  } part     with the share of the kernel at its heights. What a part adds at each column
- *        /   } part     is a row of the kernel's table of shares, which depends on where in a pixel
- *       /  yb           the part is.
+ *            /  ya
+ *           /  } part       an edge is taken in parts so short that each may be upright in its
+ *          /   } part       middle and count with the share of the kernel at its heights
+ *         /  yb
  *
- *      column    p-2   p-1    p    p+1   p+2      parts within a stretch of about a column are
- * summed share      0    .1    .5    .9     1       as numbers first, so the edge's colour step is
- * added once a column.
+ *      column   p-2   p-1    p    p+1   p+2
+ *      share     0    .1    .5    .9     1      a row of the kernel's table: what a part adds to
+ *                                               the columns around it
+ *
+ * Parts within a stretch of about a column are summed as numbers first, so that the colour step of
+ * the edge is added once a column.
  */
 #include "kernel/scatter.h"
 

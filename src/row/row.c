@@ -1,29 +1,30 @@
 /* How a row is made.
  *
- * Two shapes, a disc and a bar that crosses it, on row y of the frame:
+ * Two shapes, a disc and a bar that leans on it:
  *
- *                    . - .
- *      y      ------/-----\-----------/----/------    sweep/    the boundaries that the height
- *                  a       b         c    d                     crosses, in order: a b c d
- *      cells    0  |   1   |    2    | 3  |   4       compose/  what is visible between them: the
- *                  |       |         |    |                     set of shapes present in each, and
- *                  clear  disc  clear  bar  clear               its colour, or a program for it
+ *                .-------.
+ *               /         \       /   /      sweep/    the boundaries that the height of the row
+ *      row y   a-----------b-----c---d                 crosses, in order: a b c d
+ *             |             |   /   /        compose/  the cells between them. In each a set of
+ *             |    disc     |  /bar/                   shapes is present, which gives a colour
+ *             |             | /   /                    or a program for it: clear, disc, clear,
+ *      later  a-------------c-b--d                     bar, clear
  *
- * Further down the bar is over the disc: the order is a c b d, and only the cell between c and b is
- * composed anew; the others keep theirs. From cells to spans there are three ways:
+ * On the later row the order is a c b d, and only the cell between c and b, where both shapes are,
+ * is composed; the others keep what they had. From cells to spans there are three ways:
  *
- *      centre   |  .  |  .  |  .  |     row/     a pixel shows the cell that its centre is in
- *      area     |  /##|#####|##\  |     area/    a pixel is the exact mean of the cells in it, the
- *                                                crossings between heights y and y + 1 included
- *      kernel   | _/##|#####|##\_ |     kernel/  a pixel is the mean of the rows around it, weighed
- *                                                by a kernel; they are kept as edges, not pixels
+ *      centre   |  .  |  .  |  .  |    row/     a pixel shows the cell that its centre is in
+ *      area     |   /#|#####|#\   |    area/    a pixel is the exact mean of the cells in it, with
+ *                                               the crossings between heights y and y + 1
+ *      kernel   | _/##|#####|##\_ |    kernel/  a pixel is the mean of the rows around it, weighted
+ *                                               by a kernel; rows are kept as edges, not as pixels
  */
 #include "row/row.h"
 
 #include "base/self_check.h"
 
-/* When a row is this far below the last one, it is cheaper to find its boundaries afresh than to
- * follow them down. */
+/* When a row is this far below the last one, it costs less to find its boundaries from nothing than
+ * to follow them down. */
 #define FAR_ROWS 16
 
 /* ---------------------------------------------------------------- life */
