@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "colour/srgb8.h"
 #include "paint/gradient_table.h"
+#include "paint/over_bare.h"
 #include "paint/over_row.h"
 #include "paint/shade.h"
 
@@ -80,13 +81,13 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
   if (layer->kind == CS_LAYER_FLAT) {
-    cs_over_row_flat(over, layer);
+    cs_over_row_add_layer(over, layer);
     return CELSPAN_OK;
   }
   if (layer->kind == CS_LAYER_PICTURE) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
-    cs_over_row_picture(over, layer, stack->images[layer->detail].texture->use,
-                        (const float(*)[4])room->rgba);
+    cs_over_row_add_samples(over, layer, stack->images[layer->detail].texture->use,
+                            (const float(*)[4])room->rgba);
     return CELSPAN_OK;
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
@@ -95,7 +96,7 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
     sample_shade(&stack->shades[layer->detail], batch, room);
   else
     sample_procedure(&procedure_spans[item.procedure_span], batch, room);
-  cs_over_row_paints(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
+  cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
   return CELSPAN_OK;
 }
 
@@ -109,7 +110,7 @@ static celspan_status fold_items(cs_painter *painter, const cs_program *program,
     return CELSPAN_NO_MEMORY;
   CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, batch->count, &over));
   for (uint32_t i = 0; i < program->length; i++) {
-    CS_TRY(cs_over_row_reach(context, scratch, &over, program->items[i].layer));
+    CS_TRY(cs_over_row_move(&over, program->items[i].layer));
     CS_TRY(add_item(painter, &over, program->procedure_spans, program->items[i], batch, room));
   }
   cs_over_row_end(&over, rgba);
@@ -139,10 +140,10 @@ static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
 
 /* Pictures alone: of each only the pixels are sampled that shine through those before it. */
 static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
-                                const cs_batch *batch, cs_over_row_layers *out) {
-  cs_over_row_part *shown = &out->part;
+                                const cs_batch *batch, cs_over_bare *out) {
+  cs_over_bare_range *shown = &out->shown;
   uint32_t i = 0;
-  *shown = (cs_over_row_part){0, batch->count};
+  *shown = (cs_over_bare_range){0, batch->count};
   out->count = batch->count;
   while (shown->first < shown->end) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
@@ -152,7 +153,7 @@ static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
     if (i + 1 == program->length)
       break;
     *shown =
-        cs_over_row_bare(painter->isa, i == 0, (const float(*)[4])out->rgba, *shown, out->folded);
+        cs_over_bare_add(painter->isa, i == 0, (const float(*)[4])out->rgba, *shown, out->folded);
     i++;
   }
   out->is_first = i == 0;
@@ -174,19 +175,19 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
   cs_arena_reset(&painter->scratch);
   if (!is_all_bare(painter, program))
     return fold_items(painter, program, batch, rgba);
-  cs_over_row_layers layers;
-  CS_TRY(fold_bare(painter, program, batch, &layers));
-  cs_over_row_bare_end(painter->isa, painter->stack, &layers, rgba);
+  cs_over_bare over;
+  CS_TRY(fold_bare(painter, program, batch, &over));
+  cs_over_bare_end(painter->isa, painter->stack, &over, rgba);
   return CELSPAN_OK;
 }
 
 celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
                                       const cs_batch *batch, unsigned char *codes) {
   if (is_all_bare(painter, program)) {
-    cs_over_row_layers layers;
+    cs_over_bare over;
     painter->evaluations += (uint64_t)batch->count;
-    CS_TRY(fold_bare(painter, program, batch, &layers));
-    cs_over_row_bare_codes(painter->isa, painter->stack, &layers, codes);
+    CS_TRY(fold_bare(painter, program, batch, &over));
+    cs_over_bare_codes(painter->isa, painter->stack, &over, codes);
     return CELSPAN_OK;
   }
   float rgba[CS_OVER_ROW_BATCH][4];

@@ -49,8 +49,8 @@ static celspan_status try_paints(drawing *w, trials *room) {
   cs_over_row over;
   CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, TRIALS, &over));
   for (uint32_t i = 0; i < w->program->length; i++)
-    CS_TRY(cs_over_row_layer(context, scratch, &over, w->program->items[i].layer,
-                             (const float(*)[4])room->s, (const float(*)[4])room->t));
+    CS_TRY(cs_over_row_layer(&over, w->program->items[i].layer, (const float(*)[4])room->s,
+                             (const float(*)[4])room->t));
   cs_over_row_end(&over, room->rgba);
   return CELSPAN_OK;
 }

@@ -53,7 +53,7 @@ cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y)
 
 /* ---------------------------------------------------------------- which programs */
 
-/* How many gradients with stops vary in a program; 0 where anything else does. *first: the leaf of
+/* How many gradients with stops vary in a program; 0 where anything else does. *first: the layer of
  * the first. */
 static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
   size_t count = 0;
@@ -86,7 +86,7 @@ static void put_paint(samples *out, size_t i, const cs_paint *paint) {
   cs_v4_store(out->t[i], (cs_v4){paint->t[0], paint->t[1], paint->t[2], 0});
 }
 
-/* What a program shows at every stop, and where the leaf that varies is clear. */
+/* What a program shows at every stop, and where the layer that varies is clear. */
 static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *program,
                                  const celspan_texture *texture, samples *room) {
   const cs_stack *stack = tables->stack;
@@ -99,8 +99,8 @@ static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *p
   CS_TRY(cs_over_row_begin(tables->context, scratch, stack, tables->isa,
                            (int32_t)texture->stop_count + 1, &over));
   for (uint32_t i = 0; i < program->length; i++)
-    CS_TRY(cs_over_row_layer(tables->context, scratch, &over, program->items[i].layer,
-                             (const float(*)[4])room->s, (const float(*)[4])room->t));
+    CS_TRY(cs_over_row_layer(&over, program->items[i].layer, (const float(*)[4])room->s,
+                             (const float(*)[4])room->t));
   cs_over_row_end(&over, room->rgba);
   return CELSPAN_OK;
 }
@@ -201,9 +201,9 @@ static celspan_status make_several(cs_gradient_tables *tables, const cs_program 
   CS_TRY(cs_over_row_begin(tables->context, tables->scratch, stack, tables->isa, 1, &over));
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    CS_TRY(cs_over_row_reach(tables->context, tables->scratch, &over, program->items[i].layer));
+    CS_TRY(cs_over_row_move(&over, program->items[i].layer));
     if (layer->kind == CS_LAYER_FLAT)
-      cs_over_row_flat(&over, layer);
+      cs_over_row_add_layer(&over, layer);
     else
       CS_TRY(add_layer(tables, layer, &over, &layers[out->layer_count++]));
   }
@@ -238,7 +238,7 @@ static size_t count_parts(const cs_stack *stack, const cs_program *program) {
   return count;
 }
 
-/* first: the leaf of the first of `count` gradients. */
+/* first: the layer of the first of `count` gradients. */
 static celspan_status make(cs_gradient_tables *tables, const cs_program *program, uint32_t first,
                            size_t count, cs_set_hash name, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;

@@ -1,12 +1,19 @@
-/* Programs in which nothing but linear and radial gradients varies, folded as far as can be once.
+/* Programs in which nothing but linear and radial gradients varies, folded beforehand as far as
+ * possible.
  *
- * Of one gradient: all that is done to its paint - light, fades, what lies before and behind it -
- * is affine, so what the program shows is a mix of what it shows at two stops. A pixel costs a look
- * along the stops and a mix. Of several, in no faded group: what lies between them is folded, and a
- * pixel is folded from the rear through one layer a gradient.
+ *     stops         at 0         at 0.4          at 1          along the gradient
+ *                    |             |              |
+ *     parts    0     |      1      |      2       |     3      and one more: behind the horizon
+ *           constant |  a line from colour to     | constant
+ *                    |  colour    |               |
  *
- * Invariant: a pixel's colour depends on the program and the place alone. One store a composer; its
- * tables hold for as long as the stack does.
+ * Of one gradient: everything that is done to its paint (light, fades, the layers in front and
+ * behind) is affine, so what the program shows is a mix of what it shows at two stops. A pixel
+ * costs a search among the stops and a mix. Of several, in no faded group: the flat layers between
+ * them are folded, and a pixel is folded from the rear through one layer a gradient.
+ *
+ * Invariant: a pixel's colour depends on the program and the place alone. One store a painter; its
+ * tables are right as long as the stack lives.
  */
 #ifndef CS_PAINT_GRADIENT_TABLE_H
 #define CS_PAINT_GRADIENT_TABLE_H
@@ -18,11 +25,11 @@
 #include "compose/stack.h"
 #include "paint/shade.h"
 
-/* From one stop to the next. */
+/* Part of a gradient from one stop to the next. */
 typedef struct cs_gradient_table_part {
   cs_v4 colour, step; /* premultiplied RGBA: at its beginning, and to its end */
-  double at, scale;   /* its beginning, and 1 / its length; before the first stop and after the
-                         last 0, as is the step */
+  double at, scale;   /* its beginning, and 1 / its length; scale and step are 0 before the
+                         first stop and after the last */
 } cs_gradient_table_part;
 
 /* The paint of one of several gradients, lit and faded, from one stop to the next. */
@@ -32,19 +39,19 @@ typedef struct cs_gradient_table_tint {
 } cs_gradient_table_tint;
 
 typedef struct cs_gradient_table_layer {
-  cs_v4 e, t; /* light and transmission of what lies before it, up to the layer before */
+  cs_v4 e, t; /* light and transmission of what is in front of it, up to the gradient before */
   const cs_shade *shade;
   const cs_gradient_table_tint *tints; /* as parts */
 } cs_gradient_table_layer;
 
 typedef struct cs_gradient_table {
-  cs_v4 e, t;                            /* of several: what lies behind them all */
-  const cs_shade *shade;                 /* of the only or the first */
-  const cs_gradient_table_part *parts;   /* of one: one before each stop, one after the last, one
-                                     behind the   horizon */
+  cs_v4 e, t;            /* of several: what is behind them all */
+  const cs_shade *shade; /* of the only or the first */
+  const cs_gradient_table_part
+      *parts; /* of one: before each stop, after the last, and behind the horizon */
   const cs_gradient_table_layer *layers; /* of several, front to back */
   size_t layer_count;                    /* 0: of one */
-  cs_set_hash name;                      /* of the program's leaves */
+  cs_set_hash name;                      /* of the program's layers */
   float keep;                            /* what the mattes of back lights leave of transparency */
 } cs_gradient_table;
 
@@ -64,7 +71,7 @@ CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_gradient_tables *tables
                                                       const cs_program *program,
                                                       const cs_gradient_table **out);
 
-/* Which part holds what lies at `at` along the stops. */
+/* The part that a place along the stops belongs to. */
 static inline size_t cs_gradient_table_part_at(const cs_shade *shade, double at) {
   const celspan_texture *texture = shade->texture;
   size_t part = 0;
@@ -75,7 +82,7 @@ static inline size_t cs_gradient_table_part_at(const cs_shade *shade, double at)
   return part;
 }
 
-/* How far on in a part, held to its ends; something where its step is 0. */
+/* How far along a part a place is, 0 to 1; any value where the step of the part is 0. */
 static inline float cs_gradient_table_share(double begin, double scale, double at) {
   return (float)cs_number_most(cs_number_least((at - begin) * scale, 1), 0);
 }

@@ -1,8 +1,9 @@
-/* The same arithmetic as the composer's fold of one cell, a register at a time. The last register
- * of a row of pixels may reach beyond them, never beyond the batch.
+/* The arithmetic of over.h, a register at a time. The last register of a row of pixels may go
+ * beyond them, never beyond the batch.
  */
 #include "colour/srgb8_lanes.h"
 #include "colour/srgb8_planes.h"
+#include "paint/over_bare.h"
 #include "paint/over_row.h"
 
 #define PIXELS (CS_WIDE_LANES / 4)
@@ -87,8 +88,10 @@ void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_level *level, int32_t count,
     put(to_rgba(cs_wide_load(level->e[i]), cs_wide_load(level->t[i]), keep), i, count, rgba);
 }
 
-/* Multiplying by white and by a fade of 1 changes nothing, and the transmissions of a pixel are
- * equal: what is left of clear, add_picture, add_light and to_rgba. */
+/* ---- pictures as they are (over_bare.h)
+ *
+ * Multiplying by white and by a fade of 1 changes nothing, and the transmissions of a pixel are
+ * equal: so much remains of clear, add_picture, add_light and to_rgba. */
 
 static const float unseen[4] = {0, 0, 0, 1};
 
@@ -105,11 +108,11 @@ static inline cs_wide_int shines_through(cs_wide folded) {
   return (folded != 0) & transmission;
 }
 
-cs_over_row_part CS_WIDE(cs_over_row_fold_bare)(bool is_first, const float (*rgba)[4],
-                                                cs_over_row_part part, float (*folded)[4]) {
+cs_over_bare_range CS_WIDE(cs_over_bare_fold)(bool is_first, const float (*rgba)[4],
+                                              cs_over_bare_range range, float (*folded)[4]) {
   const cs_wide nothing = four(unseen);
-  cs_over_row_part shines = {part.end, part.first};
-  for (int32_t i = part.first; i < part.end; i += PIXELS) {
+  cs_over_bare_range shines = {range.end, range.first};
+  for (int32_t i = range.first; i < range.end; i += PIXELS) {
     cs_wide v = fold(is_first ? nothing : cs_wide_load(folded[i]), cs_wide_load(rgba[i]));
     cs_wide_store(folded[i], v);
     if (!cs_wide_any(shines_through(v)))
@@ -117,14 +120,14 @@ cs_over_row_part CS_WIDE(cs_over_row_fold_bare)(bool is_first, const float (*rgb
     shines.first = i < shines.first ? i : shines.first;
     shines.end = i + PIXELS;
   }
-  shines.end = shines.end < part.end ? shines.end : part.end;
+  shines.end = shines.end < range.end ? shines.end : range.end;
   shines.first = shines.first < shines.end ? shines.first : shines.end;
   return shines;
 }
 
-void CS_WIDE(cs_over_row_end_bare)(const cs_back_light *behind, bool is_first,
-                                   const float (*rgba)[4], int32_t count, const float (*folded)[4],
-                                   float (*out)[4]) {
+void CS_WIDE(cs_over_bare_mix_rgba)(const cs_back_light *behind, bool is_first,
+                                    const float (*rgba)[4], int32_t count, const float (*folded)[4],
+                                    float (*out)[4]) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
   const cs_wide nothing = four(unseen), light = four((const float *)&behind->light);
   const float keep = behind->keep;
@@ -154,9 +157,9 @@ static inline void store_pixels(cs_wide_int pixels, int32_t count, unsigned char
   _mm512_mask_storeu_epi32(out, those, _mm512_permutexvar_epi32(order, (__m512i)pixels));
 }
 
-void CS_WIDE(cs_over_row_code_bare)(const cs_back_light *behind, bool is_first,
-                                    const float (*rgba)[4], int32_t count, const float (*folded)[4],
-                                    unsigned char *out) {
+void CS_WIDE(cs_over_bare_mix_codes)(const cs_back_light *behind, bool is_first,
+                                     const float (*rgba)[4], int32_t count,
+                                     const float (*folded)[4], unsigned char *out) {
   for (int32_t i = 0; i < count; i += 16) {
     cs_srgb8_planes seen = load_planes(rgba + i), made = {{{0}, {0}, {0}, cs_wide_all(1)}};
     if (!is_first)
@@ -171,11 +174,11 @@ void CS_WIDE(cs_over_row_code_bare)(const cs_back_light *behind, bool is_first,
 
 #else
 
-void CS_WIDE(cs_over_row_code_bare)(const cs_back_light *behind, bool is_first,
-                                    const float (*rgba)[4], int32_t count, const float (*folded)[4],
-                                    unsigned char *out) {
+void CS_WIDE(cs_over_bare_mix_codes)(const cs_back_light *behind, bool is_first,
+                                     const float (*rgba)[4], int32_t count,
+                                     const float (*folded)[4], unsigned char *out) {
   float made[CS_OVER_ROW_BATCH][4];
-  CS_WIDE(cs_over_row_end_bare)(behind, is_first, rgba, count, folded, made);
+  CS_WIDE(cs_over_bare_mix_rgba)(behind, is_first, rgba, count, folded, made);
   CS_WIDE(cs_srgb8_code)(made[0], (size_t)count, out);
 }
 

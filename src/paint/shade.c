@@ -14,7 +14,8 @@ static double corner_value(const cs_paint *paint, int channel) {
   return channel < 3 ? paint->s[channel] : channel < 6 ? paint->t[channel - 3] : paint->beta;
 }
 
-/* The plane through the corners' values. The door makes flat what has no area or no length. */
+/* The plane through the corners' values. Triangles without an area and gradients
+ * without a length were made flat when the scene was checked. */
 static void prepare_triangle(cs_shade *shade) {
   const celspan_texture *texture = shade->texture;
   const celspan_point *p = texture->points;
@@ -61,8 +62,8 @@ static cs_shade_lanes stop_paint(const celspan_texture *texture, double at) {
   return (cs_shade_lanes){p.s + u * (q.s - p.s), p.t + u * (q.t - p.t)};
 }
 
-/* The plane over frame pixels of what is a u + b v + c w in own units. */
-static void take_plane(cs_shade *shade, int index, double a, double b, double c) {
+/* The plane over frame pixels of the function a u + b v + c w in own units. */
+static void set_plane(cs_shade *shade, int index, double a, double b, double c) {
   const double *m = shade->inverse.m;
   double scale = shade->is_affine ? 1 / m[8] : 1;
   for (int k = 0; k < 3; k++)
@@ -73,14 +74,14 @@ static void take_plane(cs_shade *shade, int index, double a, double b, double c)
 static void prepare_linear(cs_shade *shade) {
   const celspan_point *from = &shade->texture->points[0], *to = &shade->texture->points[1];
   double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
-  take_plane(shade, 0, dx / length, dy / length, -(from->x * dx + from->y * dy) / length);
+  set_plane(shade, 0, dx / length, dy / length, -(from->x * dx + from->y * dy) / length);
 }
 
 static void prepare_radial(cs_shade *shade) {
   const celspan_point *centre = &shade->texture->points[0];
   double share = 1 / shade->texture->radius;
-  take_plane(shade, 0, share, 0, -centre->x * share);
-  take_plane(shade, 1, 0, share, -centre->y * share);
+  set_plane(shade, 0, share, 0, -centre->x * share);
+  set_plane(shade, 1, 0, share, -centre->y * share);
 }
 
 void cs_shade_prepare(cs_shade *shade) {

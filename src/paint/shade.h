@@ -1,7 +1,16 @@
 /* Textures given by a formula: the three-paint triangle, linear and radial gradients.
  *
- * Invariant: between the columns that cs_shade_breaks names, the paint is a smooth function of x on
- * a row, so the composer may cut it into straight pieces by looking at a few points.
+ *     TRIANGLE: a plane through the       LINEAR: one plane, 0 at      RADIAL: two planes, the legs
+ *     values at the corners, a channel    one end and 1 at the other   of the distance from the
+ *     each                                                             centre
+ *          . * c2                            0 |       | 1                    . - ~ - .
+ *       . '  /                                 |  --> /|                    '     |     '
+ *     * c0  /                                  | /   / |                   |   o--+      |
+ *       ` . *  c1                              |/   /  |                    '  centre   '
+ *                                              at = a x + b y + c             ` - . - `
+ *
+ * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
+ * row, so it may be cut into lines by comparing a few points.
  */
 #ifndef CS_PAINT_SHADE_H
 #define CS_PAINT_SHADE_H
@@ -28,7 +37,7 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   return w > 0 ? at / w : NAN;
 }
 
-/* A paint as it is folded: lane 3 is of no account. */
+/* A paint as it is folded; lane 3 counts for nothing. */
 typedef struct cs_shade_lanes {
   cs_v4 s, t;
 } cs_shade_lanes;

@@ -37,7 +37,7 @@ static bool is_within(const cs_sampler *s, const area *a) {
   return a->u0 >= 0 && a->v0 >= 0 && a->u1 < s->width && a->v1 < s->height;
 }
 
-/* The block along an axis that holds a coordinate, held to the picture. */
+/* The block along an axis that holds a coordinate, clamped to the picture. */
 static int32_t block_at(const cs_sampler *s, double u, int32_t size) {
   return (int32_t)cs_number_clamp(u, 0, size - 1) / CS_PICTURE_BLOCK >> s->level;
 }

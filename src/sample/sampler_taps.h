@@ -61,7 +61,7 @@ CS_WIDE_DECLARE(void, cs_sampler_mark_seen,
 CS_WIDE_DECLARE(void, cs_sampler_plan_taps,
                 (const cs_sampler *sampler, int32_t count, const cs_sampler_centres *centres,
                  int32_t *plans));
-/* The centres of pixels `from` on moved by a tap: where it is, held to what fits unless the picture
+/* The centres of pixels `from` on moved by a tap: its place, clamped to what fits unless the picture
  * repeats. */
 CS_WIDE_DECLARE(void, cs_sampler_move,
                 (const cs_sampler *sampler, cs_sampler_tap tap, int32_t from, int32_t count,

@@ -77,26 +77,24 @@ static cs_program make_program(cs_item *items, unsigned varying) {
 /* The fold of paints, column by column. */
 static void fold(cs_painter *painter, const cs_program *program, double y, float (*out)[4]) {
   static float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
-  cs_over_row blend;
+  cs_over_row over;
   cs_arena *arena = &painter->scratch;
   cs_arena_reset(arena);
-  CHECK(cs_over_row_begin(painter->context, arena, &stack, CS_ISA_ANY, WIDTH, &blend) ==
-        CELSPAN_OK);
+  CHECK(cs_over_row_begin(painter->context, arena, &stack, CS_ISA_ANY, WIDTH, &over) == CELSPAN_OK);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &layers[program->items[i].layer];
-    CHECK(cs_over_row_reach(painter->context, arena, &blend, program->items[i].layer) ==
-          CELSPAN_OK);
+    CHECK(cs_over_row_move(&over, program->items[i].layer) == CELSPAN_OK);
     for (int32_t x = 0; x < WIDTH && layer->kind == CS_LAYER_SHADED; x++) {
       cs_shade_lanes paint = cs_shade_paint(&shades[layer->detail], x + 0.5, y);
       cs_v4_store(s[x], paint.s);
       cs_v4_store(t[x], paint.t);
     }
     if (layer->kind == CS_LAYER_SHADED)
-      cs_over_row_paints(&blend, layer, (const float(*)[4])s, (const float(*)[4])t);
+      cs_over_row_add_paint(&over, layer, (const float(*)[4])s, (const float(*)[4])t);
     else
-      cs_over_row_flat(&blend, layer);
+      cs_over_row_add_layer(&over, layer);
   }
-  cs_over_row_end(&blend, out);
+  cs_over_row_end(&over, out);
 }
 
 static bool is_near(cs_v4 a, const float *b, float tolerance) {

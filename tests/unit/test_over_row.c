@@ -1,6 +1,6 @@
 /* paint/over_row.c: every set of instructions gives the same fold, and every pixel is independent.
  */
-#include "paint/over_row.h"
+#include "paint/over_bare.h"
 
 #include "colour/srgb8.h"
 #include "tests/support/check.h"
@@ -42,22 +42,22 @@ static void fill(void) {
 /* Leaves 5 .. 0 from the front, in all the ways of painting, groups and lights between them. */
 static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t from, int32_t count,
                  float (*out)[4]) {
-  cs_over_row blend;
+  cs_over_row over;
   cs_arena_reset(arena);
-  CHECK(cs_over_row_begin(context, arena, &stack, isa, count, &blend) == CELSPAN_OK);
+  CHECK(cs_over_row_begin(context, arena, &stack, isa, count, &over) == CELSPAN_OK);
   for (uint32_t layer = 6; layer-- > 0;) {
-    CHECK(cs_over_row_reach(context, arena, &blend, layer) == CELSPAN_OK);
+    CHECK(cs_over_row_move(&over, layer) == CELSPAN_OK);
     if (layer % 3 == 0)
-      cs_over_row_flat(&blend, &all_layers[layer]);
+      cs_over_row_add_layer(&over, &all_layers[layer]);
     else if (layer % 3 == 1)
-      cs_over_row_paints(&blend, &all_layers[layer], (const float(*)[4])s + from,
-                         (const float(*)[4])t + from);
+      cs_over_row_add_paint(&over, &all_layers[layer], (const float(*)[4])s + from,
+                            (const float(*)[4])t + from);
     else
-      cs_over_row_picture(&blend, &all_layers[layer],
-                          layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
-                          (const float(*)[4])rgba + from);
+      cs_over_row_add_samples(&over, &all_layers[layer],
+                              layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
+                              (const float(*)[4])rgba + from);
   }
-  cs_over_row_end(&blend, out);
+  cs_over_row_end(&over, out);
 }
 
 /* The fold of one pixel by the book, in doubles; groups are folded by recursion. */
@@ -84,28 +84,28 @@ static double by_hand_alpha(int i) {
 /* Pictures alone: what the general fold makes of them. */
 static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack *bare, cs_isa isa,
                        int32_t count) {
-  static cs_over_row_layers layers;
+  static cs_over_bare layers;
   static float wanted[CS_OVER_ROW_BATCH][4], made[CS_OVER_ROW_BATCH][4];
   static unsigned char codes[4 * CS_OVER_ROW_BATCH + 4];
-  cs_over_row blend;
+  cs_over_row over;
   cs_arena_reset(arena);
-  CHECK(cs_over_row_begin(context, arena, bare, CS_ISA_ANY, count, &blend) == CELSPAN_OK);
-  layers.part = (cs_over_row_part){0, count};
+  CHECK(cs_over_row_begin(context, arena, bare, CS_ISA_ANY, count, &over) == CELSPAN_OK);
+  layers.shown = (cs_over_bare_range){0, count};
   layers.count = count;
   const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
   for (uint32_t i = 0; i < 2; i++) {
-    CHECK(cs_over_row_reach(context, arena, &blend, 5 - i) == CELSPAN_OK);
-    cs_over_row_picture(&blend, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]);
-    for (int32_t k = layers.part.first; k < layers.part.end; k++)
+    CHECK(cs_over_row_move(&over, 5 - i) == CELSPAN_OK);
+    cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]);
+    for (int32_t k = layers.shown.first; k < layers.shown.end; k++)
       memcpy(layers.rgba[k], samples[i][k], sizeof *layers.rgba);
     if (i == 0)
-      layers.part =
-          cs_over_row_bare(isa, true, (const float(*)[4])layers.rgba, layers.part, layers.folded);
+      layers.shown =
+          cs_over_bare_add(isa, true, (const float(*)[4])layers.rgba, layers.shown, layers.folded);
   }
-  cs_over_row_end(&blend, wanted);
+  cs_over_row_end(&over, wanted);
   codes[4 * count] = 77;
-  cs_over_row_bare_codes(isa, bare, &layers, codes);
-  cs_over_row_bare_end(isa, bare, &layers, made);
+  cs_over_bare_codes(isa, bare, &layers, codes);
+  cs_over_bare_end(isa, bare, &layers, made);
   CHECK(memcmp(made, wanted, (size_t)count * sizeof *made) == 0);
   for (int32_t k = 0; k < count; k++) {
     uint32_t pixel = cs_srgb8_pixel(wanted[k]);
@@ -133,9 +133,9 @@ static void test_bare(celspan_context *context, cs_arena *arena) {
       for (int32_t count = 1; count <= CS_OVER_ROW_BATCH; count += 51) {
         check_bare(context, arena, &unlit, isa, count);
         check_bare(context, arena, &lit, isa, count);
-        cs_over_row_part all = {0, count};
+        cs_over_bare_range all = {0, count};
         float folded[CS_OVER_ROW_BATCH][4];
-        cs_over_row_part left = cs_over_row_bare(isa, true, (const float(*)[4])rgba, all, folded);
+        cs_over_bare_range left = cs_over_bare_add(isa, true, (const float(*)[4])rgba, all, folded);
         CHECK(opaque < count ? left.first <= opaque && left.first > opaque - 4 && left.end == count
                              : left.first >= left.end);
       }

@@ -1,0 +1,52 @@
+/* The fold of over_row.h for pictures alone that are shown as they are: none faded, lit white, in
+ * no group and in front of the one back light that there may be. The same bits, sooner.
+ *
+ *     pixels         0 ......................... count - 1
+ *     first          [opaque opaque][ mixed  ][opaque ...]
+ *     something shines through       <------->              the next picture is only sampled here
+ *
+ * A folded pixel is light gathered and, in lane 3, what still shines through: of a picture that is
+ * the same for all channels.
+ */
+#ifndef CS_PAINT_OVER_BARE_H
+#define CS_PAINT_OVER_BARE_H
+
+#include "base/wide.h"
+#include "paint/over_row.h"
+
+typedef struct cs_over_bare_range {
+  int32_t first, end; /* pixels of the batch */
+} cs_over_bare_range;
+
+/* Pictures as they were folded, but the last: its samples of the pixels that it shows in. */
+typedef struct cs_over_bare {
+  float rgba[CS_OVER_ROW_BATCH][4], folded[CS_OVER_ROW_BATCH][4];
+  cs_over_bare_range shown;
+  int32_t count; /* pixels */
+  bool is_first; /* the last is the only one */
+} cs_over_bare;
+
+/* Folds a picture's samples of some pixels behind what was folded; is_first: nothing was. Returns
+ * the pixels that something shines through, and some between and beside them: multiples of what a
+ * register holds, except at the end of the batch. All arrays are whole batches. */
+cs_over_bare_range cs_over_bare_add(cs_isa isa, bool is_first, const float (*rgba)[4],
+                                    cs_over_bare_range range, float (*folded)[4]);
+/* All of them and the light behind, which may be none: premultiplied RGBA, or codes. */
+void cs_over_bare_end(cs_isa isa, const cs_stack *stack, cs_over_bare *over, float (*rgba)[4]);
+void cs_over_bare_codes(cs_isa isa, const cs_stack *stack, cs_over_bare *over,
+                        unsigned char *codes);
+
+/* ---- over_row_wide.c */
+
+CS_WIDE_DECLARE(cs_over_bare_range, cs_over_bare_fold,
+                (bool is_first, const float (*rgba)[4], cs_over_bare_range range,
+                 float (*folded)[4]));
+CS_WIDE_DECLARE(void, cs_over_bare_mix_rgba,
+                (const cs_back_light *behind, bool is_first, const float (*rgba)[4], int32_t count,
+                 const float (*folded)[4], float (*out)[4]));
+/* The same, coded. */
+CS_WIDE_DECLARE(void, cs_over_bare_mix_codes,
+                (const cs_back_light *behind, bool is_first, const float (*rgba)[4], int32_t count,
+                 const float (*folded)[4], unsigned char *out));
+
+#endif
