@@ -97,9 +97,8 @@ void cs_cells_forget(cs_cells *cells);
 /* The same after a failure: nothing is present at the place of the walk. */
 void cs_cells_restart(cs_cells *cells, cs_composer *composer);
 
-/* Self-check: whether the composer's windings and the set of every cell are those of a walk from the
- * left end of the row. */
-bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer,
-                       const cs_active *active);
+/* Self-check: whether the composer's windings and the set of every cell are those of a walk from
+ * the left end of the row. */
+bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer, const cs_active *active);
 
 #endif

@@ -49,8 +49,8 @@ CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_cont
                                                const cs_composer *composer);
 void cs_painter_finish(cs_painter *painter);
 
-/* What the composer of the same worker asks. It may do so before the painter is initialized only
- * if nothing is composed before. */
+/* The question that the composer of the same worker asks the painter. It is handed over before the
+ * painter is initialized, and asked when the first cell is composed. */
 cs_image_opacity cs_painter_opacity(cs_painter *painter);
 
 /* The view of an image layer, its header read on first use. Errors: INPUT, LIMIT, NO_MEMORY. */

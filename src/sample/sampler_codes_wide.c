@@ -18,7 +18,7 @@ static inline double begin(double u, float *share) {
 }
 
 /* The same clamped to the picture. */
-static inline int32_t hold(double u, int32_t last, float *share) {
+static inline int32_t begin_inside(double u, int32_t last, float *share) {
   double whole = begin(u, share);
   bool is_inside = (whole >= 0) & (whole < last);
   *share = is_inside ? *share : 0.0f;
@@ -33,7 +33,8 @@ void CS_WIDE(cs_sampler_clamp_quads)(const cs_sampler *sampler, int32_t count,
   int32_t last_x = sampler->width - 1, last_y = sampler->height - 1;
   int32_t left = last_x, top = last_y, right = 0, bottom = 0;
   for (int32_t i = 0; i < count; i++) {
-    int32_t x = hold(u[i], last_x, &clamped->across[i]), y = hold(v[i], last_y, &clamped->down[i]);
+    int32_t x = begin_inside(u[i], last_x, &clamped->across[i]),
+            y = begin_inside(v[i], last_y, &clamped->down[i]);
     clamped->x[i] = x;
     clamped->y[i] = y;
     left = x < left ? x : left;
@@ -175,7 +176,7 @@ BYTES static inline __m512 alphas(__m512i pixels) {
 }
 
 /* Dword k of each 128 bits of v[j] becomes dword j there of of[k]. */
-BYTES static inline codes turn(__m512i v0, __m512i v1, __m512i v2, __m512i v3) {
+BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i v3) {
   __m512i low = _mm512_unpacklo_epi32(v0, v1), next_low = _mm512_unpacklo_epi32(v2, v3);
   __m512i high = _mm512_unpackhi_epi32(v0, v1), next_high = _mm512_unpackhi_epi32(v2, v3);
   return (codes){{_mm512_unpacklo_epi64(low, next_low), _mm512_unpackhi_epi64(low, next_low),
@@ -184,8 +185,8 @@ BYTES static inline codes turn(__m512i v0, __m512i v1, __m512i v2, __m512i v3) {
 
 /* Sixteen pixels by channel to pixel by pixel; lane 4 l + j is pixel 4 j + l. */
 BYTES static inline void store_pixels(const fours *channels, float (*rgba)[4]) {
-  codes pixels = turn((__m512i)channels->of[0], (__m512i)channels->of[1], (__m512i)channels->of[2],
-                      (__m512i)channels->of[3]);
+  codes pixels = transpose((__m512i)channels->of[0], (__m512i)channels->of[1],
+                           (__m512i)channels->of[2], (__m512i)channels->of[3]);
   for (int j = 0; j < 4; j++)
     _mm512_storeu_si512(rgba[4 * j], pixels.of[j]);
 }
@@ -297,9 +298,9 @@ BYTES void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_s
   for (int32_t i = 0; i < whole; i += TEXELS) {
     for (int k = 0; k < TEXELS; k += NEAR)
       __builtin_prefetch(above[i + k] + ahead);
-    codes quads =
-        turn(load_quads(above + i, below + i), load_quads(above + i + 4, below + i + 4),
-             load_quads(above + i + 8, below + i + 8), load_quads(above + i + 12, below + i + 12));
+    codes quads = transpose(
+        load_quads(above + i, below + i), load_quads(above + i + 4, below + i + 4),
+        load_quads(above + i + 8, below + i + 8), load_quads(above + i + 12, below + i + 12));
     __m512 across = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->across + i));
     __m512 down = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->down + i));
     if (tiles->are_opaque)
