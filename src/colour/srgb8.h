@@ -46,7 +46,7 @@ static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned c
 typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
 cs_srgb8 cs_srgb8_choose(cs_isa isa);
 
-/* ---- srgb8_wide.c */
+/* ---- srgb8_lanes_wide.c */
 
 CS_WIDE_DECLARE(void, cs_srgb8_code, (const float *rgba, size_t count, unsigned char *out));
 

@@ -1,5 +1,5 @@
 /* Boundaries: an outline cut into y-monotone chains in the pixels of a frame, and the polyline that
- * the sweep walks down each of them, made group by group as it is needed (polyline.h).
+ * the sweep walks down each of them, made group by group as it is needed (boundary_walk.h).
  *
  *   outline --matrix, horizon--> pieces --y extrema--> monotone pieces --frame--> chains
  *
@@ -92,28 +92,5 @@ typedef struct cs_boundary_group {
   uint32_t count;                      /* of segments; an arc is one */
   uint32_t first, groups;              /* of the piece: one, or those of a leap */
 } cs_boundary_group;
-
-/* A walk down one chain: its current segment is from (x0, y0) to (x1, y1). */
-typedef struct cs_boundary_walk {
-  double x0, y0, x1, y1;
-  double slope, curve; /* as in cs_boundary_group */
-  uint32_t chain;
-  uint32_t piece;   /* index into pieces */
-  uint32_t group;   /* of that piece: the first that `made` holds */
-  uint32_t segment; /* of that group */
-  cs_boundary_group made;
-} cs_boundary_walk;
-
-/* Begins at the first segment whose y1 is below y (greater); y must be above the chain's y1. */
-void cs_boundary_start(const cs_boundary_set *set, uint32_t chain, double y,
-                       cs_boundary_walk *walk);
-/* Advances to the next segment; at the end of the chain returns false and changes nothing. */
-bool cs_boundary_next(const cs_boundary_set *set, cs_boundary_walk *walk);
-
-/* x at a height on the walk's segment. */
-static inline double cs_boundary_x(const cs_boundary_walk *walk, double y) {
-  double down = y - walk->y0;
-  return walk->x0 + down * (walk->slope + down * walk->curve);
-}
 
 #endif

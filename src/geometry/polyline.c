@@ -1,3 +1,5 @@
+#include "geometry/polyline.h"
+
 #include "geometry/polyline_vertex.h"
 #include "geometry/polyline_wide.h"
 

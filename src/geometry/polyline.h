@@ -20,11 +20,6 @@
 #include "geometry/bezier.h"
 #include "geometry/boundary.h"
 
-/* No vertex is displaced outwards by more sags than this; the sag of a chord is C'' h^2 / 8. Moving
- * a vertex along the curve to a whole height adds to that: by at most about a quarter of a step,
- * and half a pixel in y. The shares of a vertex are then at most 0.29 h^2. */
-#define CS_POLYLINE_LIFT 2.4
-
 /* Chooses the chords of a piece whose ends and limits in x are set, and stores the points that its
  * vertices are made from. curve: in the direction of the piece, with weights that are > 0 and
  * within a factor of about 2. Errors: NO_MEMORY, LIMIT. */

@@ -16,7 +16,12 @@
 #define CS_GEOMETRY_POLYLINE_VERTEX_H
 
 #include "base/number.h"
-#include "geometry/polyline.h"
+#include "geometry/boundary.h"
+
+/* No vertex is displaced outwards by more sags than this; the sag of a chord is C'' h^2 / 8. Moving
+ * a vertex along the curve to a whole height adds to that: by at most about a quarter of a step,
+ * and half a pixel in y. The shares of a vertex are then at most 0.29 h^2. */
+#define CS_POLYLINE_LIFT 2.4
 
 /* A point of a curve, with its first and second derivatives by the parameter. */
 typedef struct cs_polyline_point {

@@ -7,7 +7,7 @@
 #define CS_GEOMETRY_POLYLINE_WIDE_H
 
 #include "base/wide.h"
-#include "geometry/polyline.h"
+#include "geometry/boundary.h"
 
 #define CS_POLYLINE_ROOM (CS_BOUNDARY_GROUP + 1)
 

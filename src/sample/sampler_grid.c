@@ -6,6 +6,7 @@
  *     edges                 ^           ^                first columns of another texel (nearest)
  *                     ^           ^                      or of another pair of centres (bilinear)
  */
+#include "sample/sampler.h"
 #include "sample/sampler_texel.h"
 
 /* Pixels: from here on a span a texel costs less than its pixels. */

@@ -9,6 +9,7 @@
  * An answer is the same as long as the same blocks are asked, which is for many rows: it is kept
  * with the heights between which they surely are. So it depends on the columns and the row alone.
  */
+#include "sample/sampler.h"
 #include "sample/sampler_texel.h"
 
 #define MOST_BLOCKS 12 /* asked for as many columns as the sampler asks about at a time */

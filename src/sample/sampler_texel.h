@@ -16,7 +16,8 @@
 #include "base/number.h"
 #include "base/vector.h"
 #include "pictures/mip_levels.h"
-#include "sample/sampler.h"
+#include "sample/placement.h"
+#include "span/run.h"
 
 /* Of a texel: closer is the same place. Matrices carry rounding, pictures have 2^20 pixels. */
 #define CS_SAMPLER_SAME 1e-6

@@ -19,6 +19,7 @@
 #ifndef CS_SWEEP_ACTIVE_H
 #define CS_SWEEP_ACTIVE_H
 
+#include "geometry/boundary_walk.h"
 #include "sweep/advance.h"
 #include "sweep/bend.h"
 #include "sweep/change.h"

@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "base/thread_pool.h"
 #include "geometry/polyline.h"
+#include "geometry/polyline_vertex.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "geometry/bezier.h"
-#include "geometry/boundary.h"
+#include "geometry/boundary_walk.h"
 #include "geometry/matrix.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"

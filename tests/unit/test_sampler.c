@@ -1,6 +1,7 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
  */
 #include "colour/srgb8.h"
+#include "sample/sampler.h"
 #include "sample/sampler_codes.h"
 #include "sample/sampler_level.h"
 #include "sample/sampler_row.h"

@@ -1,0 +1,27 @@
+/* What the loops over pixels of over_row and over_bare share: pixels of four floats, a register of
+ * them at a time. For files that are compiled once for every set of instructions (base/wide.h).
+ */
+#ifndef CS_PAINT_OVER_WIDE_H
+#define CS_PAINT_OVER_WIDE_H
+
+#include <string.h>
+
+#include "base/wide.h"
+
+#define CS_OVER_WIDE_PIXELS (CS_WIDE_LANES / 4) /* in a register */
+
+/* One pixel's four floats, in every pixel of a register. */
+static inline cs_wide cs_over_wide_all(const float v[4]) {
+  const cs_wide wide = CS_WIDE_PIXEL(v[0], v[1], v[2], v[3]);
+  return wide;
+}
+
+/* Stores the pixels of a register from pixel i on, of which `count` are in the row. */
+static inline void cs_over_wide_put(cs_wide colour, int32_t i, int32_t count, float (*rgba)[4]) {
+  if (i + CS_OVER_WIDE_PIXELS <= count)
+    cs_wide_store(rgba[i], colour);
+  else
+    memcpy(rgba[i], &colour, (size_t)(count - i) * sizeof *rgba);
+}
+
+#endif
