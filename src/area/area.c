@@ -47,7 +47,7 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
 typedef struct row_walk {
   cs_area *area;
   const cs_cell *cells; /* as in cs_cells; they do not change until the walk is done */
-  cs_intervals intervals;
+  cs_intervals *intervals; /* between the two heights */
   size_t visible; /* the next visible boundary */
   bool is_slab;   /* of a row whose other heights are walked by themselves */
 } row_walk;
@@ -89,7 +89,7 @@ static celspan_status walk_alone(row_walk *w, size_t end, double next) {
   w->visible = find_visible(area, first, end);
   if (w->is_slab || area->target.retained)
     return add_boundaries(w, boundaries, w->visible - first);
-  const cs_direct_edges edges = {area->parts.active, &area->edges,
+  cs_direct_edges edges = {area->parts.active, &area->edges,
                                  w->cells,           boundaries,
                                  w->visible - first, cs_edges_floor(next, area->parts.width),
                                  area->parts.width};
@@ -121,13 +121,13 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   cs_area *area = w->area;
   cs_local_sweep *sweep = &area->sweep;
   size_t low = interval->low, high = interval->high;
-  CS_TRY(cs_intervals_pick_begins(&w->intervals, interval, &sweep->begins, &sweep->begin_count));
-  sweep->y0 = w->intervals.y0;
-  sweep->y1 = w->intervals.y1;
+  CS_TRY(cs_intervals_pick_begins(w->intervals, interval, &sweep->begins, &sweep->begin_count));
+  sweep->y0 = w->intervals->y0;
+  sweep->y1 = w->intervals->y1;
   CS_TRY(cs_local_sweep_begin(sweep, high - low));
   for (size_t i = low; i < high; i++) {
     cs_member *member = sweep->members[i - low];
-    CS_TRY(cs_intervals_member(&w->intervals, i, member));
+    CS_TRY(cs_intervals_member(w->intervals, i, member));
     member->right = &w->cells[i + 1];
   }
   double least = least_x(sweep->entering, sweep->count, area->parts.width);
@@ -162,8 +162,8 @@ static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
 
 static celspan_status walk_row(row_walk *w) {
   const cs_area *area = w->area;
-  for (size_t k = 0; k < w->intervals.count; k++) {
-    const cs_interval *interval = &w->intervals.intervals[k];
+  for (size_t k = 0; k < w->intervals->count; k++) {
+    const cs_interval *interval = &w->intervals->intervals[k];
     CS_TRY(walk_alone(w, interval->low, interval->extent.low));
     w->visible = find_visible(area, w->visible, interval->high);
     CS_TRY(is_pair(area, interval) ? walk_pair(w, interval) : walk_interval(w, interval));
@@ -268,18 +268,19 @@ static celspan_status walk_heights(row_walk *w, double y0, double y1) {
   cs_area *area = w->area;
   celspan_context *context = area->parts.composer->context;
   cs_cells_list(area->parts.cells);
-  w->intervals = (cs_intervals){.context = context,
-                                .arena = area->parts.arena,
-                                .active = area->parts.active,
-                                .edges = &area->edges,
-                                .y0 = y0,
-                                .y1 = y1};
+  cs_intervals intervals = {.context = context,
+                            .arena = area->parts.arena,
+                            .active = area->parts.active,
+                            .edges = &area->edges,
+                            .y0 = y0,
+                            .y1 = y1};
+  w->intervals = &intervals;
   area->commit.first = NULL;
   CS_TRY(cs_active_advance(context, area->parts.active, y1));
   if (!w->is_slab && cs_procedures_meet(area->parts.procedures, (int32_t)y0))
-    CS_TRY(find_procedures(area, &w->intervals));
+    CS_TRY(find_procedures(area, &intervals));
   CS_TRY(cs_edges_measure(context, &area->edges, area->parts.active, area->parts.width));
-  CS_TRY(cs_intervals_find(&w->intervals));
+  CS_TRY(cs_intervals_find(&intervals));
   return walk_row(w);
 }
 

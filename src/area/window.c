@@ -436,22 +436,21 @@ static celspan_status add_boundary(cs_window *window, const cs_direct_edges *edg
   return CELSPAN_OK;
 }
 
-celspan_status cs_window_edges(cs_window *window, const cs_direct_edges *edges) {
-  cs_direct_edges rest = *edges;
-  for (; rest.count > 0; rest.boundaries++, rest.count--) {
-    size_t i = rest.boundaries[0];
-    if (window->is_open && rest.edges->first[i] >= window->end)
+celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest) {
+  for (; rest->count > 0; rest->boundaries++, rest->count--) {
+    size_t i = rest->boundaries[0];
+    if (window->is_open && rest->edges->first[i] >= window->end)
       CS_TRY(close_window(window));
     if (!window->is_open) {
       CS_TRY(cs_row_reserve(window->composer->context, window->out,
-                            CS_DIRECT_EACH * rest.count + CS_DIRECT_TOGETHER + 1));
-      size_t done = draw_edges(window, &rest);
-      rest.boundaries += done;
-      rest.count -= done;
-      if (rest.count == 0)
+                            CS_DIRECT_EACH * rest->count + CS_DIRECT_TOGETHER + 1));
+      size_t done = draw_edges(window, rest);
+      rest->boundaries += done;
+      rest->count -= done;
+      if (rest->count == 0)
         break;
     }
-    CS_TRY(add_boundary(window, &rest, rest.boundaries[0]));
+    CS_TRY(add_boundary(window, rest, rest->boundaries[0]));
   }
   return CELSPAN_OK;
 }

@@ -73,8 +73,8 @@ CELSPAN_CHECKED celspan_status cs_window_begin_item(cs_window *window, double x)
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, const cs_segment *segment,
                                              const cs_cell *left, const cs_cell *right);
 /* Whole items: boundaries that go through the whole row, straight or bent, and to which nothing
- * else happens. */
-CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, const cs_direct_edges *edges);
+ * else happens. None is left in `rest` when all have been drawn. */
+CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest);
 /* The current item is done; right of it lies `cell`. */
 static inline void cs_window_end_item(cs_window *window, const cs_cell *cell) {
   window->cell = cell;

@@ -1,5 +1,7 @@
 #include "base/cache.h"
 
+#include "base/self_check.h"
+
 #define BUCKETS_LEAST 1024
 
 /* ---------------------------------------------------------------- buckets; the lock is held */
@@ -162,6 +164,7 @@ cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_
   }
   if (is_pinned)
     pin(cache, known);
+  CS_SELF_CHECK(cs_cache_is_sound(cache));
   pthread_mutex_unlock(&cache->lock);
   return known;
 }
@@ -186,6 +189,7 @@ static celspan_status make_entry(cs_cache *cache, celspan_context *context, cs_c
     free_entry(cache, entry);
   }
   shrink_to(cache, cache->budget);
+  CS_SELF_CHECK(cs_cache_is_sound(cache));
   pthread_cond_broadcast(&cache->settled);
   return status;
 }
@@ -224,6 +228,7 @@ size_t cs_cache_raise_budget(cs_cache *cache, size_t least) {
 void cs_cache_trim(cs_cache *cache) {
   pthread_mutex_lock(&cache->lock);
   shrink_to(cache, 0);
+  CS_SELF_CHECK(cs_cache_is_sound(cache));
   pthread_mutex_unlock(&cache->lock);
 }
 
@@ -240,11 +245,13 @@ void cs_cache_init(cs_cache *cache) {
 }
 
 void cs_cache_finish(cs_cache *cache) {
+  CS_SELF_CHECK(cs_cache_is_sound(cache));
   for (size_t i = 0; i < cache->bucket_count; i++)
     for (cs_cache_entry *entry = cache->buckets[i], *next; entry; entry = next) {
       next = entry->next;
       free_entry(cache, entry);
     }
+  CS_SELF_CHECK(cache->counts.bytes == 0);
   cs_mem_free(cache->memory, cache->buckets, cache->bucket_count * sizeof *cache->buckets);
   pthread_cond_destroy(&cache->settled);
   pthread_mutex_destroy(&cache->lock);

@@ -94,4 +94,8 @@ cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_
 /* Frees an entry that was not inserted. */
 void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
 
+/* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no other
+ * thread uses the cache. */
+bool cs_cache_is_sound(const cs_cache *cache);
+
 #endif

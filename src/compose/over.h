@@ -43,6 +43,12 @@ static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair ba
   return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
 }
 
+/* What a paint adds in its layer: its light under the front light of its cel, faded into clear. The
+ * loops of paint/over_row_wide.c do the same for many pixels. */
+static inline cs_over_pair cs_over_lit(cs_v4 front, float fade, cs_v4 s, cs_v4 t) {
+  return (cs_over_pair){front * (fade * s), (1 - fade) + fade * t};
+}
+
 /* Whether nothing shines through. Lane 3 of a transmission is 0 once something has been painted. */
 static inline bool cs_over_is_opaque(cs_v4 t) {
   return !cs_v4_any_above(t, cs_v4_all(CS_PAINT_OPAQUE));

@@ -27,13 +27,12 @@ typedef struct compiler {
 
 /* ---------------------------------------------------------------- layers */
 
-static cs_v4 lit(cs_v4 front, const float s[3]) { return front * (cs_v4){s[0], s[1], s[2], 0}; }
-
 static void fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   cs_paint faded = cs_paint_fade(paint, fade);
   layer->kind = CS_LAYER_FLAT;
-  layer->s = lit(layer->front, faded.s);
-  layer->t = (cs_v4){faded.t[0], faded.t[1], faded.t[2], 0};
+  cs_v4 s = {faded.s[0], faded.s[1], faded.s[2], 0}, t = {faded.t[0], faded.t[1], faded.t[2], 0};
+  layer->s = cs_over_lit(layer->front, 1, s, t).e;
+  layer->t = t;
   layer->is_opaque = cs_paint_is_opaque(&faded);
 }
 

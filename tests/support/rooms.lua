@@ -11,24 +11,9 @@ local measures = require "tests.support.rooms.measures"
 local report = require "tests.support.rooms.report"
 local trees = require "tests.support.rooms.tree"
 
-local MOST_LINES, MOST_PARAMETERS = 40, 8
---- The one recursion: the compiling of a defocused cel compiles the cel alone. A circle of units is
---- allowed when all of it is in one of these lists.
-local ALLOWED_CIRCLES = {
-  { "render/compile", "render/soft_layer", "render/defocus", "render/defocus_layer" },
-}
+local MOST_LINES, MOST_PARAMETERS = 40, 7
 
 -- ---------------------------------------------------------------- checks
-
-local function is_allowed(circle)
-  for _, list in ipairs(ALLOWED_CIRCLES) do
-    local known, all = {}, true
-    for _, unit in ipairs(list) do known[unit] = true end
-    for _, unit in ipairs(circle) do all = all and known[unit] end
-    if all then return true end
-  end
-  return false
-end
 
 local function check_functions(tree, fault)
   local list = measures.functions(tree)
@@ -49,9 +34,7 @@ local function check_circles(tree, fault)
     fault("folders include each other in a circle: %s", table.concat(circle, ", "))
   end
   for _, circle in ipairs(measures.circles(tree, "unit")) do
-    if not is_allowed(circle) then
-      fault("units include each other in a circle: %s", table.concat(circle, ", "))
-    end
+    fault("units include each other in a circle: %s", table.concat(circle, ", "))
   end
   return #tree.files
 end

@@ -85,7 +85,19 @@ function measures.climbs(tree)
   return list, count
 end
 
---- Functions that other files use, and how many are named by their file: cs_FILE_...
+--- Whether a function is named by its file: cs_FILE_..., or cs_ROOM_FILE_... where the file's name
+--- alone would say little. A file that ends in _wide belongs to the one without; a room in the
+--- plural is named in the singular.
+local function is_named_by(fn)
+  local file, room = fn.file.name:gsub("_wide$", ""), fn.file.room:match "[^/]*$"
+  for _, stem in ipairs { file, room .. "_" .. file, room:gsub("s$", "") .. "_" .. file } do
+    stem = "cs_" .. stem
+    if fn.name == stem or fn.name:sub(1, #stem + 1) == stem .. "_" then return true end
+  end
+  return false
+end
+
+--- Functions that other files use, and how many are named by their file.
 function measures.naming(tree)
   local used, count, named = {}, 0, 0
   tree:each_edge(function(_, _, edge)
@@ -93,8 +105,7 @@ function measures.naming(tree)
   end)
   for fn in pairs(used) do
     count = count + 1
-    local stem = "cs_" .. fn.file.name
-    if fn.name == stem or fn.name:sub(1, #stem + 1) == stem .. "_" then named = named + 1 end
+    if is_named_by(fn) then named = named + 1 end
   end
   return count, named
 end
