@@ -4,18 +4,17 @@
 
 #include <math.h>
 
-/* How far a line between vertices may be from the nodes: half of what other lines are allowed. */
+/* How far a line between vertices may be from the nodes: half the tolerance of other lines. */
 #define TOLERANCE (0.25f / 1023)
-#define CONSTANT 3 /* equal nodes in a row that are worth a line of their own */
+#define CONSTANT 3 /* so many equal neighbouring nodes become a line of their own */
 
 /* ---------------------------------------------------------------- polylines */
 
 typedef struct node_row {
   const float (*planes[2])[4]; /* nodes */
   int plane_count;
-  int32_t last; /* node */
-  bool
-      is_split; /* nodes are shown as they are: a line may end in one and the next begin after it */
+  int32_t last;  /* node */
+  bool is_split; /* every node is a pixel: a line may end in one, and the next begin in the next */
 } node_row;
 
 static void free_polyline(cs_defocused_polyline *polyline, cs_memory *memory) {
@@ -49,11 +48,15 @@ static int32_t constant_end(const node_row *row, int32_t i) {
 
 /* The slopes that a line from a node on may have, so that it is near every node after it:
  *
- *                         . '  most
- *         .-'|   . - ' |
- *     o -'   |o        | o    each node narrows the slopes; the line ends at the last node whose
- *       `- . |  - . _  |      own slope is still among them
- *                     ` ` least
+ *     value                   . most
+ *       |               . - '
+ *       |         . - '  |               o  a node, and above and below it
+ *       |    . ' |       o               |  how far a line may pass from it
+ *       |  o     o       |
+ *       |    ` . |                   each node narrows the slopes; the line ends at the
+ *       |         ` - .              last node whose own slope is still among them
+ *       |               ` - . least
+ *       +--+-----+-------+-----> node
  */
 typedef struct swing {
   cs_v4 least[2], most[2];
@@ -95,7 +98,7 @@ static int32_t swing_end(const node_row *row, int32_t from) {
   return row->last;
 }
 
-/* What a line between two nodes adds to the sum of the nodes between them. */
+/* By how much the sum of the nodes between two nodes grows when a line takes their place. */
 static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t to) {
   const float(*nodes)[4] = row->planes[plane];
   cs_v4 sum = cs_v4_all(0), ends = cs_v4_load(nodes[from]) + cs_v4_load(nodes[to]);
@@ -116,7 +119,7 @@ static bool is_fixed(const cs_defocused_polyline *polyline, size_t first, size_t
 static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t first) {
   size_t planes = (size_t)row->plane_count;
   for (size_t p = 0; p < planes; p++) {
-    cs_v4 owed = cs_v4_all(0); /* by the line that ends in the vertex */
+    cs_v4 owed = cs_v4_all(0); /* to be subtracted for the line that ends in the vertex */
     for (size_t k = first; k + 1 < polyline->count; k++) {
       bool moves = !is_fixed(polyline, first, k);
       cs_v4 added = light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);

@@ -66,7 +66,7 @@ struct cs_defocused {
 /* A defocused cel as one worker sees it, along one row. */
 typedef struct cs_defocused_view {
   cs_defocus_band *bands[2]; /* acquired; NULL: none */
-  int32_t numbers[2];        /* theirs */
+  int32_t numbers[2];        /* the numbers of these bands */
   bool is_placed;            /* the vertices are those at height y */
   double y;
   const int32_t *at; /* the vertices of the row: of a band, or its own */

@@ -39,20 +39,20 @@ typedef struct cs_sampler {
   int32_t width, height; /* of the picture */
   celspan_sampling sampling;
   celspan_wrap wrap;
-  cs_isa isa; /* that its samples are made with */
+  cs_isa isa; /* the instructions its samples are made with */
 
   /* filled in by cs_sampler_prepare */
   cs_block_cache_source source;
   cs_sampler_placement placement;
   cs_sampler_kernel
       kernel;  /* PERSPECTIVE: CUBIC and TILTED where the picture is enlarged and shrunk */
-  double m[9]; /* inverse; where it is affine divided by its last */
+  double m[9]; /* the inverse; an affine one is divided by its last element */
   int level_count;
   int level;
   int columns, rows;       /* TILTED: taps across a pixel and down it */
-  int32_t opacity_columns; /* to ask cs_sampler_opacity about at a time; INT32_MAX: do not ask */
-  bool reads_codes;        /* of blocks that are coded: they are decoded in registers */
-  double radius; /* affine: texels of a sample lie at most so far from its centre, picture pixels */
+  int32_t opacity_columns; /* of each call of cs_sampler_opacity; INT32_MAX: not to be called */
+  bool reads_codes;        /* decodes the codes of coded blocks in registers */
+  double radius; /* affine: how far the texels of a sample lie from its centre, picture pixels */
   double wide, high; /* BOX: the sides of the footprint, in picture pixels */
 } cs_sampler;
 

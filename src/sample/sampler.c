@@ -11,8 +11,8 @@
 /* ---------------------------------------------------------------- how samples are made */
 
 typedef struct footprint {
-  double ux, vx; /* what a pixel to the right adds to its place on the picture */
-  double uy, vy; /* what a pixel down adds */
+  double ux, vx; /* how the place on the picture moves with each pixel to the right */
+  double uy, vy; /* and with each pixel down */
 } footprint;
 
 static bool is_copy(const double m[9]) {
@@ -138,12 +138,12 @@ void cs_sampler_prepare(cs_sampler *s) {
 
 static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 
-/* What a row of texels is copied as. */
+/* The form in which a row of texels is copied. */
 typedef enum copied { LIGHT, CODES } copied;
 
 /* `count` texels from (x, y) on, which lie in one block. */
-static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
-                      unsigned char *out) {
+static void copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
+                          unsigned char *out) {
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
       run->blocks, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
@@ -158,7 +158,7 @@ static void copy_part(const cs_sampling *run, int32_t x, int32_t y, int32_t coun
     CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)
   (run->blocks->curve, (const unsigned char *)from, count, (float(*)[4])(void *)out);
   else memcpy(out, from, size);
-  /* The row below follows in the block: fetched now, it is there in time. */
+  /* The row below is fetched into the cache now, so that it is there in time. */
   for (size_t ahead = 0; ahead < size; ahead += 64)
     __builtin_prefetch(from + row + ahead);
 }
@@ -187,7 +187,7 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
     int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
     if (is_inside)
       part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
-    copy_part(run, x, y, part, what, out);
+    copy_in_block(run, x, y, part, what, out);
   }
 }
 

@@ -1,13 +1,15 @@
 /* Quads of texels that are read as codes, and decoded in registers: that is quicker than to fetch
  * four times as much light.
  *
- *     blocks of 64 x 64     +--------+--------+--------+
- *     codes: the tiles      |tile 0  | * *    |        |     quads of a batch of pixels
- *     under a batch         |     * *|* tile 1| tile 2 |
- *                           +---*-*--+--------+--------+
- *                           |* *     |        |        |
- *                           |tile 3  | tile 4 | tile 5 |
- *                           +--------+--------+--------+
+ *     +----------+----------+----------+     tiles: the blocks of 64 x 64 codes in the rectangle
+ *     |::        |          |          |     around a batch of pixels, numbered row by row
+ *     |    ::    |  tile 1  |  tile 2  |
+ *     | tile 0 ::|          |          |     ::  the quad of a pixel; in a row of the frame the
+ *     +----------+-::-------+----------+         pixels lie along a straight line
+ *     |          |     ::   |          |
+ *     |  tile 3  |  tile 4 :|:         |     only the tiles that quads touch are read, here 0, 1,
+ *     |          |          |  :: 5    |     4 and 5
+ *     +----------+----------+----------+
  */
 #ifndef CS_SAMPLE_SAMPLER_CODES_H
 #define CS_SAMPLE_SAMPLER_CODES_H
@@ -25,23 +27,23 @@ static inline bool cs_sampler_decodes(cs_isa isa) {
 
 #define CS_SAMPLER_TILES 16
 
-/* Coded blocks of level 0 that lie under some pixels: so many columns, from a block on. */
+/* The rectangle of blocks of level 0 that lies under some pixels. */
 typedef struct cs_sampler_tiles {
-  int32_t column, row, columns;
-  bool are_opaque;                              /* those that are touched */
+  int32_t column, row, columns;                 /* its first block, and its width in blocks */
+  bool are_opaque;                              /* all that are touched */
   const unsigned char *codes[CS_SAMPLER_TILES]; /* of those that are touched */
 } cs_sampler_tiles;
 
-/* Quads clamped to the picture: beyond an edge their share is 0. */
+/* Quads clamped to the picture; a quad at an edge has the share 0 of the texels beyond it. */
 typedef struct cs_sampler_clamped {
   int32_t x[CS_SAMPLER_BATCH], y[CS_SAMPLER_BATCH];
   float across[CS_SAMPLER_BATCH], down[CS_SAMPLER_BATCH];
   int32_t left, top, right, bottom; /* the least and the greatest x and y */
-  /* Where the codes of its upper and lower pair are: tile << 16 | bytes. */
+  /* Where the codes of the upper and of the lower pair of texels are: tile << 16 | bytes. */
   int32_t above[CS_SAMPLER_BATCH], below[CS_SAMPLER_BATCH];
 } cs_sampler_clamped;
 
-/* False if they are too many. */
+/* Finds the tiles around some quads; false if there are too many. */
 static inline bool cs_sampler_lay_tiles(const cs_sampler *sampler,
                                         const cs_sampler_clamped *clamped,
                                         cs_sampler_tiles *tiles) {
@@ -59,7 +61,7 @@ static inline bool cs_sampler_lay_tiles(const cs_sampler *sampler,
 CS_WIDE_DECLARE(void, cs_sampler_clamp_quads,
                 (const cs_sampler *sampler, int32_t count, const double *u, const double *v,
                  cs_sampler_clamped *clamped));
-/* Fills above and below; returns a bit each of the tiles that are touched. */
+/* Fills above and below. Returns which tiles are touched, a bit for each. */
 CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
                 (const cs_sampler *sampler, const cs_sampler_tiles *tiles, int32_t count,
                  cs_sampler_clamped *clamped));
@@ -67,7 +69,7 @@ CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
 CS_WIDE_DECLARE(uint32_t, cs_sampler_place_quads,
                 (const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                  const cs_sampler_tiles *tiles, cs_sampler_clamped *clamped));
-/* ahead: bytes. */
+/* Mixes quads of codes. ahead: as for cs_sampler_mix_quads, in bytes. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_codes,
                 (const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
                  const cs_sampler_clamped *clamped, int32_t count, ptrdiff_t ahead,

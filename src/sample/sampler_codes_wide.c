@@ -1,8 +1,14 @@
-/* Texels that are coded, decoded on the way: the very floats that cs_srgb8_colour makes of them.
+/* Texels that are stored as codes of 4 bytes and decoded in registers, to the same floats as
+ * cs_srgb8_colour gives.
  *
- * A table of 256 floats fits sixteen registers of 64 bytes, byte by byte, and one instruction looks
- * 64 codes up in 128 bytes of it. So 16 texels are fetched as 64 bytes, not 256, and decoded in
- * fewer instructions than it would take to load them one by one.
+ *     curve: 256 floats by code          registers of 64 bytes
+ *     byte 0 of all floats               [0 .. 63] [64 .. 127] [128 .. 191] [192 .. 255]
+ *     bytes 1, 2, 3                      likewise: 16 registers
+ *
+ *     64 codes --one instruction for 128 entries--> byte 0 of 64 floats; bytes 1, 2, 3 likewise
+ *
+ * So 16 texels are fetched as 64 bytes, not 256, and decoded in fewer instructions than it would
+ * take to load them one by one.
  */
 #include "sample/sampler_codes.h"
 
@@ -10,14 +16,14 @@
 
 /* ---------------------------------------------------------------- places */
 
-/* Where a quad begins along an axis, and the share of its second texels. */
+/* The first texel of a quad along an axis. *share: that of its second texels in the mix. */
 static inline double begin(double u, float *share) {
   double place = u - 0.5, whole = floor(place + SAME), rest = place - whole;
   *share = rest >= SAME ? (float)rest : 0.0f;
   return whole;
 }
 
-/* The same clamped to the picture. */
+/* The same, clamped to the picture; beyond an edge the share is 0. */
 static inline int32_t begin_inside(double u, int32_t last, float *share) {
   double whole = begin(u, share);
   bool is_inside = (whole >= 0) & (whole < last);
@@ -48,10 +54,10 @@ void CS_WIDE(cs_sampler_clamp_quads)(const cs_sampler *sampler, int32_t count,
   clamped->bottom = bottom;
 }
 
-/* Where a texel's code is, which lies in a tile. first: the number of the picture's first block, as
- * tiles are counted. */
-static inline int32_t find(uint32_t x, uint32_t y, int32_t columns, int32_t first,
-                           uint32_t *touched) {
+/* Where the code of a texel is, as tile << 16 | bytes. columns: of tiles. first: the number that
+ * the picture's first block would have as a tile, at most 0. */
+static inline int32_t place_of(uint32_t x, uint32_t y, int32_t columns, int32_t first,
+                               uint32_t *touched) {
   uint32_t column = x / CS_PICTURE_BLOCK, row = y / CS_PICTURE_BLOCK;
   uint32_t tile = row * (uint32_t)columns + column + (uint32_t)first;
   uint32_t in_block = y % CS_PICTURE_BLOCK * CS_PICTURE_CODES_ROW + x % CS_PICTURE_BLOCK;
@@ -66,8 +72,8 @@ uint32_t CS_WIDE(cs_sampler_tile_quads)(const cs_sampler *sampler, const cs_samp
   uint32_t touched = 0;
   for (int32_t i = 0; i < count; i++) {
     int32_t x = clamped->x[i], y = clamped->y[i];
-    clamped->above[i] = find((uint32_t)x, (uint32_t)y, columns, first, &touched);
-    clamped->below[i] = find((uint32_t)x, (uint32_t)(y + (y < last)), columns, first, &touched);
+    clamped->above[i] = place_of((uint32_t)x, (uint32_t)y, columns, first, &touched);
+    clamped->below[i] = place_of((uint32_t)x, (uint32_t)(y + (y < last)), columns, first, &touched);
   }
   return touched;
 }
@@ -83,15 +89,15 @@ uint32_t CS_WIDE(cs_sampler_place_quads)(const cs_sampler *sampler, int32_t x0, 
     double x = (double)(x0 + i) + 0.5;
     uint32_t left = (uint32_t)(int32_t)begin(m0 * x + row_u, &clamped->across[i]);
     uint32_t top = (uint32_t)(int32_t)begin(m3 * x + row_v, &clamped->down[i]);
-    clamped->above[i] = find(left, top, columns, first, &touched);
-    clamped->below[i] = find(left, top + 1, columns, first, &touched);
+    clamped->above[i] = place_of(left, top, columns, first, &touched);
+    clamped->below[i] = place_of(left, top + 1, columns, first, &touched);
   }
   return touched;
 }
 
 /* ---------------------------------------------------------------- codes to light */
 
-/* The codes of two texels. */
+/* The codes of two neighbouring texels. */
 static inline const unsigned char *pair_at(const cs_sampler_tiles *tiles, int32_t place) {
   return tiles->codes[place >> 16] + (place & 0xffff);
 }
@@ -122,22 +128,22 @@ static inline void decode_one_by_one(const cs_srgb8_curve *curve, const unsigned
 #ifdef __AVX512F__
 
 #define BYTES __attribute__((target("avx512vbmi")))
-#define TEXELS 16 /* in 64 bytes of codes */
-#define COLOURS 0x7777
-#define NEAR                                                                                       \
-  2 /* pixels that are fetched ahead together: rows of a turned picture are soon left              \
-     */
+#define TEXELS 16      /* in 64 bytes of codes */
+#define COLOURS 0x7777 /* the lanes of red, green and blue in four pixels */
+/* Pixels a prefetch: a row of the frame soon leaves a row of texels that lies at an angle. */
+#define NEAR 2
 
 typedef struct tables {
-  __m512i quarters[4][4]; /* of the bytes of the floats */
+  __m512i quarters[4][4]; /* [byte of the float][quarter of the codes] */
 } tables;
 
-/* What four texels of sixteen pixels have of a channel, or other fours of sixteens. */
+/* Four registers of sixteen floats: one channel of the four texels of sixteen pixels, or the four
+ * channels of sixteen pixels. */
 typedef struct fours {
   __m512 of[4];
 } fours;
 
-/* The same of codes. */
+/* Four registers of codes, four bytes a texel. */
 typedef struct codes {
   __m512i of[4];
 } codes;
@@ -150,17 +156,21 @@ BYTES static inline tables load_tables(const cs_srgb8_curve *curve) {
   return t;
 }
 
-BYTES static inline __m512i look_up(const __m512i quarters[4], __mmask64 is_high, __m512i code) {
+/* One byte of the floats of 64 codes. is_high: the codes of 128 and more. */
+BYTES static inline __m512i read_table(const __m512i quarters[4], __mmask64 is_high, __m512i code) {
   __m512i low = _mm512_permutex2var_epi8(quarters[0], code, quarters[1]);
   __m512i high = _mm512_permutex2var_epi8(quarters[2], code, quarters[3]);
   return _mm512_mask_blend_epi8(is_high, low, high);
 }
 
-/* Light by code: dword j of 128 bits of of[k] is that of byte 4 k + j there. */
+/* The light of 64 codes: in each 128 bits, dword j of the result's register k belongs to byte
+ * 4 k + j of the codes. */
 BYTES static inline fours decode(const tables *t, __m512i code) {
   __mmask64 is_high = _mm512_movepi8_mask(code);
-  __m512i b0 = look_up(t->quarters[0], is_high, code), b1 = look_up(t->quarters[1], is_high, code);
-  __m512i b2 = look_up(t->quarters[2], is_high, code), b3 = look_up(t->quarters[3], is_high, code);
+  __m512i b0 = read_table(t->quarters[0], is_high, code),
+          b1 = read_table(t->quarters[1], is_high, code);
+  __m512i b2 = read_table(t->quarters[2], is_high, code),
+          b3 = read_table(t->quarters[3], is_high, code);
   __m512i low = _mm512_unpacklo_epi8(b0, b1), low_high = _mm512_unpacklo_epi8(b2, b3);
   __m512i next = _mm512_unpackhi_epi8(b0, b1), next_high = _mm512_unpackhi_epi8(b2, b3);
   return (fours){{(__m512)_mm512_unpacklo_epi16(low, low_high),
@@ -169,13 +179,13 @@ BYTES static inline fours decode(const tables *t, __m512i code) {
                   (__m512)_mm512_unpackhi_epi16(next, next_high)}};
 }
 
-/* The alphas of codes of a pixel each. */
+/* The alphas of sixteen pixels. */
 BYTES static inline __m512 alphas(__m512i pixels) {
   return _mm512_mul_ps(_mm512_cvtepi32_ps(_mm512_srli_epi32(pixels, 24)),
                        _mm512_set1_ps(1.0f / 255));
 }
 
-/* Dword k of each 128 bits of v[j] becomes dword j there of of[k]. */
+/* Transposes dwords within each 128 bits: dword k of v[j] becomes dword j of of[k]. */
 BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i v3) {
   __m512i low = _mm512_unpacklo_epi32(v0, v1), next_low = _mm512_unpacklo_epi32(v2, v3);
   __m512i high = _mm512_unpackhi_epi32(v0, v1), next_high = _mm512_unpackhi_epi32(v2, v3);
@@ -183,7 +193,7 @@ BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i 
                   _mm512_unpacklo_epi64(high, next_high), _mm512_unpackhi_epi64(high, next_high)}};
 }
 
-/* Sixteen pixels by channel to pixel by pixel; lane 4 l + j is pixel 4 j + l. */
+/* Stores sixteen pixels that are given channel by channel; lane 4 l + j is pixel 4 j + l. */
 BYTES static inline void store_pixels(const fours *channels, float (*rgba)[4]) {
   codes pixels = transpose((__m512i)channels->of[0], (__m512i)channels->of[1],
                            (__m512i)channels->of[2], (__m512i)channels->of[3]);
@@ -212,7 +222,7 @@ BYTES void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const u
     return;
   }
   tables t = load_tables(curve);
-  /* The last may be made a second time. */
+  /* The last sixteen end with the last pixel, so some of them may be made twice. */
   for (int32_t done = 0; done < count; done += TEXELS) {
     int32_t at = done + TEXELS <= count ? done : count - TEXELS;
     decode_texels(&t, from + 4 * (size_t)at, rgba + at);
@@ -221,7 +231,7 @@ BYTES void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const u
 
 /* ---- pixels that are mixed */
 
-/* Where the pairs of pixels are. */
+/* The addresses of the upper or of the lower pairs of texels of some pixels. */
 BYTES static inline void find_pairs(const cs_sampler_tiles *tiles, const int32_t *places,
                                     int32_t count, const unsigned char **at) {
   const __m512i bases = _mm512_loadu_si512(tiles->codes);
@@ -247,8 +257,8 @@ BYTES static inline __m512i load_quads(const unsigned char *const *above,
   return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
 
-/* One channel of the quads, so that decode gives it by texel. first: the bytes that are it in two
- * of the registers. */
+/* One channel of sixteen quads, in the order in which decode returns a register for each texel of
+ * the quad. first: which bytes of the registers 0 and 1, or 2 and 3, are that channel. */
 BYTES static inline __m512i channel_of(const codes *quads, __m512i first) {
   __m512i above = _mm512_permutex2var_epi8(quads->of[0], first, quads->of[1]);
   __m512i below = _mm512_permutex2var_epi8(quads->of[2], first, quads->of[3]);
@@ -266,7 +276,8 @@ static inline __m512 mix_texels(const fours *texels, __m512 across, __m512 down)
 
 BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool are_opaque,
                                      __m512 across, __m512 down, float (*rgba)[4]) {
-  /* Byte 4 k + j of 128 bits: dword j of the k-th register, or of the one two before. */
+  /* In each 128 bits, byte 4 k + j is the first byte of dword j of register k; for k = 2 and 3 of
+   * register k - 2, since channel_of applies the same bytes to the registers 2 and 3. */
   const __m512i red = _mm512_add_epi8(
       _mm512_broadcast_i32x4(
           _mm_setr_epi8(0, 4, 8, 12, 64, 68, 72, 76, 0, 4, 8, 12, 64, 68, 72, 76)),

@@ -9,7 +9,7 @@
 #include "sample/sampler.h"
 #include "sample/sampler_texel.h"
 
-/* Pixels: from here on a span a texel costs less than its pixels. */
+/* Pixels a texel: from this width on, a span for each texel costs less than its pixels. */
 #define WIDE_TEXEL 4
 
 bool cs_sampler_is_grid(const cs_sampler *s) {
@@ -18,8 +18,8 @@ bool cs_sampler_is_grid(const cs_sampler *s) {
          fabs(s->m[0]) * WIDE_TEXEL <= 1 + CS_SAMPLER_SAME && fabs(s->m[0]) > 0;
 }
 
-/* The place of a column as a number whose whole part is the texel under its centre, or left of it.
- */
+/* The place of a column, as a number whose whole part names the texel under its centre (nearest) or
+ * the left one of the pair about it (bilinear). */
 static inline double place_of(const cs_sampler *s, int32_t column, double y) {
   double u = cs_sampler_row_u(s, column, y);
   return s->kernel == CS_SAMPLER_NEAREST ? u + CS_SAMPLER_SAME : u - 0.5 + CS_SAMPLER_SAME;
@@ -31,7 +31,7 @@ static size_t walk_texels(const cs_sampler *s, cs_run run, int32_t *columns) {
   const double y = run.y;
   double start = place_of(s, x0, y), across = 1 / s->m[0];
   bool grows = s->m[0] > 0;
-  double edge = floor(start) + grows; /* the next to be passed */
+  double edge = floor(start) + grows; /* the next place at which the texel changes */
   size_t count = 0;
   for (int32_t column = x0;; edge += grows ? 1 : -1) {
     double guess = x0 + (edge - start) * across;
@@ -47,7 +47,7 @@ static size_t walk_texels(const cs_sampler *s, cs_run run, int32_t *columns) {
   }
 }
 
-/* The column at which centres pass `u`, near enough. */
+/* The column whose centre is the first to pass `u`, give or take one. */
 static int32_t column_of(const cs_sampler *s, double u, int32_t x0, int32_t x1, double y) {
   double x = (u - (s->m[1] * y + s->m[2])) / s->m[0] - 0.5;
   return cs_number_ceil(cs_number_clamp(x, x0, x1));
@@ -57,7 +57,7 @@ static bool is_clear(const cs_sampler *s, int32_t column, double y) {
   return cs_sampler_is_outside(cs_sampler_row_u(s, column, y), s->width, s->wrap);
 }
 
-/* The columns of a picture that ends: beyond them the row is of one colour. */
+/* The columns that a picture which does not repeat covers; beyond them the row has one colour. */
 static cs_run find_picture(const cs_sampler *s, cs_run run) {
   const int32_t x0 = run.x0, x1 = run.x1;
   const double y = run.y;
@@ -82,17 +82,17 @@ size_t cs_sampler_texel_edge_limit(const cs_sampler *s, cs_run run) {
 
 size_t cs_sampler_texel_edges(const cs_sampler *s, cs_run run, int32_t *columns) {
   size_t count = 0;
-  cs_run seen = run;
+  cs_run inside = run;
   if (cs_sampler_is_outside(cs_sampler_row_v(s, run.y), s->height, s->wrap))
     return 0;
   if (s->wrap != CELSPAN_WRAP_REPEAT)
-    seen = find_picture(s, run);
-  if (seen.x0 >= seen.x1)
+    inside = find_picture(s, run);
+  if (inside.x0 >= inside.x1)
     return 0;
-  if (seen.x0 > run.x0)
-    columns[count++] = seen.x0;
-  count += walk_texels(s, seen, columns + count);
-  if (seen.x1 < run.x1)
-    columns[count++] = seen.x1;
+  if (inside.x0 > run.x0)
+    columns[count++] = inside.x0;
+  count += walk_texels(s, inside, columns + count);
+  if (inside.x1 < run.x1)
+    columns[count++] = inside.x1;
   return count;
 }

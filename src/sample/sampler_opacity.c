@@ -1,10 +1,12 @@
 /* What the samples of some pixels have in common, from the blocks of texels they may come from.
  *
- *     picture, in blocks of 64 x 64 texels      +------+------+------+
- *                                               |clear |clear |mixed |
- *     the samples of the pixels [x0, x1)        |   ...-------|------|
- *     come from this rectangle, here clear      |  :      :   |      |
- *                                               +--:------:---+------+
+ *     +-------+-------+-------+       a picture, in blocks of 64 x 64 texels
+ *     | clear | clear | mixed |
+ *     |    ...|...    |       |       the samples of the pixels [x0, x1) come from the texels in
+ *     +----:--+--:----+-------+       the dotted rectangle; all the blocks that it touches are
+ *     | clear | clear | opaque|       clear, so the samples are clear too
+ *     |    ...|...    |       |
+ *     +-------+-------+-------+
  *
  * An answer is the same as long as the same blocks are asked, which is for many rows: it is kept
  * with the heights between which they surely are. So it depends on the columns and the row alone.
@@ -12,15 +14,15 @@
 #include "sample/sampler.h"
 #include "sample/sampler_texel.h"
 
-#define MOST_BLOCKS 12 /* asked for as many columns as the sampler asks about at a time */
-#define SURELY 1e-3    /* of a row: what rounding may move an edge of a block */
+#define MOST_BLOCKS 12 /* examined for opacity_columns columns */
+#define SURELY 1e-3    /* rows by which rounding may move the edge of a block */
 
 /* A rectangle of the picture, in its pixels. */
 typedef struct area {
   double u0, v0, u1, v1;
 } area;
 
-/* All that the samples of a run may come from. */
+/* The rectangle that the samples of a run may come from. */
 static area area_of(const cs_sampler *s, cs_run run) {
   const double *m = s->m;
   double y = run.y, left = run.x0 + 0.5, right = run.x1 - 0.5, radius = s->radius;

@@ -1,8 +1,10 @@
 /* Samples that are made one by one: bicubic, and means over boxes where rows become columns.
  *
- *     one axis of a box:          low            high
- *                        |        |====|=========|==      |
- *                      texel     first         ...      weights: how much of each is covered
+ *     one axis of a box         low               high
+ *                                |                 |
+ *                       |-----|--===|=====|=====|===--|-----|      texels; = is covered
+ *     texels                   first               last
+ *     weights                   .6     1     1    .6               how much of each is covered
  */
 #ifndef CS_SAMPLE_SAMPLER_PIXEL_H
 #define CS_SAMPLE_SAMPLER_PIXEL_H

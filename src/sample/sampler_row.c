@@ -25,7 +25,7 @@ static neighbours next_neighbours(const cs_sampler *s, const line *under, int32_
   count = count < in_block ? count : in_block;
   count = count < width - x ? count : width - x;
   if (x != at && s->wrap != CELSPAN_WRAP_REPEAT)
-    count = 1; /* beyond an edge: its texel again */
+    count = 1; /* beyond an edge the texel at the edge is repeated */
   return (neighbours){x, count};
 }
 
@@ -94,7 +94,7 @@ static bool fits_line(line *out, int32_t low, int32_t high, int32_t texels) {
   return true;
 }
 
-/* As many pixels from i on as fit one line, each with `texels` texels from at[] on. */
+/* How many pixels from i on fit into one line, if each needs `texels` texels from at[] on. */
 static int32_t extend_line(const cs_sampling *run, const int32_t *at, int32_t i, int32_t count,
                            int32_t texels, line *out) {
   int32_t low = at[i], high = at[count - 1], end = i + 1;
@@ -151,7 +151,7 @@ static void average_along(const line *under, const cs_sampler_extent *across, fl
   cs_v4_store(rgba, first + sum / total);
 }
 
-/* As many boxes as fit one line. */
+/* How many boxes fit into one line. */
 static int32_t extend_boxes(const cs_sampler_extent *boxes, int32_t count, line *out) {
   int32_t low = boxes[0].first, high = low + boxes[0].count, end = 1;
   for (; end < count; end++) {
@@ -197,7 +197,7 @@ static void resample(const cs_sampling *run, double v, int32_t count, const doub
     resample_boxes(run, v, count, u, rgba);
 }
 
-/* The pixels whose centres lie on the picture follow one another, unless it has no end. */
+/* The pixels whose centres lie on the picture are neighbours, unless it repeats. */
 static void resample_inside(const cs_sampling *run, double v, int32_t count, double *u,
                             float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;

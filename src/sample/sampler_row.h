@@ -46,7 +46,7 @@ CS_WIDE_DECLARE(void, cs_sampler_floor_row, (const double *u, int32_t count, int
 /* The texels left of or at u - 1/2, and the shares of their right neighbours. */
 CS_WIDE_DECLARE(void, cs_sampler_split_row,
                 (const double *u, int32_t count, int32_t *at, float *across));
-/* Between texels[at[i] - first] and the next. */
+/* Mixes texels[at[i] - first] and the next one. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_along,
                 (const float (*texels)[4], int32_t first, const int32_t *at, const float *across,
                  int32_t count, float (*rgba)[4]));

@@ -17,7 +17,7 @@ static void reduce(const cs_sampler *s, int32_t count, double *u, double *v) {
   }
 }
 
-/* A quad that no block holds. */
+/* A quad whose texels are not all in one block. */
 static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads *quads, int32_t i,
                       float rgba[4]) {
   cs_v4 quad[4], column[2];
@@ -28,7 +28,8 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
   cs_v4_store(rgba, column[0] + quads->across[i] * (column[1] - column[0]));
 }
 
-/* Texels from a quad to one that the row after the next mixes. u, v, near: of a centre. */
+/* How many texels lie, in a block, between a quad and the one that the row after the next will mix
+ * at the same column; 0 where that is in another block. u, v, near: of a pixel's centre. */
 static ptrdiff_t texels_ahead(const cs_sampler *s, int level, double u, double v, double near) {
   double rows = ROWS_AHEAD * near / (double)((int64_t)1 << level);
   double across = (s->m[1] - u * s->m[7]) * rows, down = (s->m[4] - v * s->m[7]) * rows;
@@ -37,14 +38,20 @@ static ptrdiff_t texels_ahead(const cs_sampler *s, int level, double u, double v
   return (ptrdiff_t)rint(down) * CS_PICTURE_BLOCK + (ptrdiff_t)rint(across);
 }
 
-/* seen: pixels that are not need not be mixed; NULL: all are. */
+/* Places on the picture that are mixed, one a pixel. */
+typedef struct places {
+  const double *u, *v;
+  const int32_t *visible; /* pixels with 0 here need not be mixed; NULL: all are visible */
+  ptrdiff_t ahead;        /* texels (texels_ahead) */
+} places;
+
 static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_quads *quads,
-                          const int32_t *seen, int32_t count, ptrdiff_t ahead, float (*rgba)[4]) {
+                          const places *at, int32_t count, float (*rgba)[4]) {
   for (int32_t i = 0, end; i < count; i = end) {
     int32_t key = quads->key[i];
     end = i + 1;
     if (key < 0) {
-      if (!seen || seen[i])
+      if (!at->visible || at->visible[i])
         mix_apart(run, level, quads, i, rgba[i]);
       continue;
     }
@@ -53,7 +60,7 @@ static void mix_stretches(const cs_sampling *run, int level, const cs_sampler_qu
     const float *block =
         cs_block_cache_block(run->blocks, &run->sampler->source, level, key & 0x7fff, key >> 15);
     WIDE(run, cs_sampler_mix_quads)
-    (block, quads, i, end - i, 4 * (ptrdiff_t)sizeof(float) * ahead, rgba + i);
+    (block, quads, i, end - i, 4 * (ptrdiff_t)sizeof(float) * at->ahead, rgba + i);
   }
 }
 
@@ -79,23 +86,22 @@ static bool find_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tile
 static bool mix_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tiles *tiles,
                       const cs_sampler_clamped *clamped, int32_t count, ptrdiff_t ahead,
                       float (*rgba)[4]) {
-  /* The second time all are there. */
+  /* The second search fetches nothing, unless the cache cannot keep all these blocks at once. */
   if (!find_tiles(run, touched, tiles) && !find_tiles(run, touched, tiles))
     return false;
   WIDE(run, cs_sampler_mix_codes)(run->blocks->curve, tiles, clamped, count, 4 * ahead, rgba);
   return true;
 }
 
-/* Quads outside the picture are clamped to it. */
-static bool mix_coded(const cs_sampling *run, int32_t count, const double *u, const double *v,
-                      ptrdiff_t ahead, float (*rgba)[4]) {
+/* Mixes codes; quads outside the picture are clamped to it. False if that cannot be done here. */
+static bool mix_coded(const cs_sampling *run, int32_t count, const places *at, float (*rgba)[4]) {
   cs_sampler_clamped clamped;
   cs_sampler_tiles tiles;
-  WIDE(run, cs_sampler_clamp_quads)(run->sampler, count, u, v, &clamped);
+  WIDE(run, cs_sampler_clamp_quads)(run->sampler, count, at->u, at->v, &clamped);
   if (!cs_sampler_lay_tiles(run->sampler, &clamped, &tiles))
     return false;
   uint32_t touched = WIDE(run, cs_sampler_tile_quads)(run->sampler, &tiles, count, &clamped);
-  return mix_tiles(run, touched, &tiles, &clamped, count, ahead, rgba);
+  return mix_tiles(run, touched, &tiles, &clamped, count, at->ahead, rgba);
 }
 
 /* Bounds of the quads of an affine map, of which the first and the last are the outermost; false if
@@ -130,16 +136,16 @@ static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double
   return mix_tiles(run, touched, &tiles, &clamped, count, texels_ahead(s, 0, 0, 0, 1), rgba);
 }
 
-/* Between the texels about places of a level. */
-static void mix_places(const cs_sampling *run, int level, int32_t count, const double *u,
-                       const double *v, const int32_t *seen, ptrdiff_t ahead, float (*rgba)[4]) {
+/* Mixes the four texels of a level about each of some places. */
+static void mix_places(const cs_sampling *run, int level, int32_t count, const places *at,
+                       float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   cs_sampler_quads quads;
   if (s->reads_codes && level == 0 && s->wrap != CELSPAN_WRAP_REPEAT &&
-      mix_coded(run, count, u, v, ahead, rgba))
+      mix_coded(run, count, at, rgba))
     return;
-  WIDE(run, cs_sampler_find_quads)(s, level, count, u, v, &quads);
-  mix_stretches(run, level, &quads, seen, count, ahead, rgba);
+  WIDE(run, cs_sampler_find_quads)(s, level, count, at->u, at->v, &quads);
+  mix_stretches(run, level, &quads, at, count, rgba);
 }
 
 static void tap_linear(const cs_sampling *run, int level, cs_sampler_tap tap, int32_t from,
@@ -149,8 +155,10 @@ static void tap_linear(const cs_sampling *run, int level, cs_sampler_tap tap, in
   WIDE(run, cs_sampler_move)(s, tap, from, count, centres, u, v);
   if (s->wrap == CELSPAN_WRAP_REPEAT)
     reduce(s, count, u, v);
-  mix_places(run, level, count, u, v, centres->all_seen ? NULL : centres->seen + from,
-             texels_ahead(s, level, centres->u[from], centres->v[from], centres->near[from]), rgba);
+  const places at = {
+      u, v, centres->all_visible ? NULL : centres->visible + from,
+      texels_ahead(s, level, centres->u[from], centres->v[from], centres->near[from])};
+  mix_places(run, level, count, &at, rgba);
 }
 
 static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_centres *centres,
@@ -159,7 +167,7 @@ static void tap_nearest(const cs_sampling *run, int32_t count, const cs_sampler_
   for (int32_t i = 0; i < count; i++) {
     double u = cs_sampler_reduce(centres->u[i], s->width, s->wrap) + CS_SAMPLER_SAME;
     double v = cs_sampler_reduce(centres->v[i], s->height, s->wrap) + CS_SAMPLER_SAME;
-    if (centres->all_seen || centres->seen[i])
+    if (centres->all_visible || centres->visible[i])
       memcpy(rgba[i], cs_sampling_texel(run, 0, cs_sampler_floor(u), cs_sampler_floor(v)),
              sizeof *rgba);
   }
@@ -169,17 +177,22 @@ static void tap_cubic(const cs_sampling *run, int32_t from, int32_t count,
                       const cs_sampler_centres *centres, float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   for (int32_t i = from; i < from + count; i++)
-    if (centres->all_seen || centres->seen[i])
+    if (centres->all_visible || centres->visible[i])
       cs_sampler_bicubic(run, cs_sampler_reduce(centres->u[i], s->width, s->wrap),
                          cs_sampler_reduce(centres->v[i], s->height, s->wrap), rgba[i - from]);
 }
 
 /* ---------------------------------------------------------------- means */
 
-static void tap_mean(const cs_sampling *run, int level, int columns, int rows, int32_t from,
-                     int32_t count, const cs_sampler_centres *centres, float (*rgba)[4]) {
+/* How a pixel's mean is made: columns x rows taps on a mip level. */
+typedef struct tap_plan {
+  int level, columns, rows;
+} tap_plan;
+
+static void tap_mean(const cs_sampling *run, tap_plan plan, int32_t from, int32_t count,
+                     const cs_sampler_centres *centres, float (*rgba)[4]) {
   float first[CS_SAMPLER_BATCH][4], next[CS_SAMPLER_BATCH][4];
-  int taps = columns * rows;
+  const int level = plan.level, columns = plan.columns, rows = plan.rows, taps = columns * rows;
   if (taps == 1) {
     tap_linear(run, level, (cs_sampler_tap){0, 0}, from, count, centres, rgba);
     return;
@@ -195,7 +208,7 @@ static void tap_mean(const cs_sampling *run, int level, int columns, int rows, i
   WIDE(run, cs_sampler_end_sum)((const float(*)[4])first, (float)taps, count, rgba);
 }
 
-/* Stretches of pixels whose means are made alike. */
+/* Neighbouring pixels whose means are made in the same way are made together. */
 static void tap_plans(const cs_sampling *run, int32_t count, const cs_sampler_centres *centres,
                       float (*rgba)[4]) {
   int32_t plans[CS_SAMPLER_BATCH];
@@ -206,8 +219,8 @@ static void tap_plans(const cs_sampling *run, int32_t count, const cs_sampler_ce
     if (run->sampler->kernel == CS_SAMPLER_BICUBIC && plans[i] == ENLARGED)
       tap_cubic(run, i, end - i, centres, rgba + i);
     else
-      tap_mean(run, plans[i] >> 16, plans[i] >> 8 & 0xff, plans[i] & 0xff, i, end - i, centres,
-               rgba + i);
+      tap_mean(run, (tap_plan){plans[i] >> 16, plans[i] >> 8 & 0xff, plans[i] & 0xff}, i, end - i,
+               centres, rgba + i);
   }
 }
 
@@ -223,10 +236,10 @@ static void tap_batch(const cs_sampling *run, int32_t count, const cs_sampler_ce
   else if (s->placement == CS_SAMPLER_PERSPECTIVE)
     tap_plans(run, count, centres, rgba);
   else
-    tap_mean(run, s->level, s->columns, s->rows, 0, count, centres, rgba);
+    tap_mean(run, (tap_plan){s->level, s->columns, s->rows}, 0, count, centres, rgba);
 }
 
-/* The usual case, without the detour over centres: one tap a pixel, all of them seen. */
+/* The usual case, one tap a pixel and all pixels visible: centres need not be computed first. */
 static void tap_plainly(const cs_sampling *run, int32_t x0, int32_t count, double y,
                         float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
@@ -234,7 +247,8 @@ static void tap_plainly(const cs_sampling *run, int32_t x0, int32_t count, doubl
   if (tap_inside(run, x0, count, y, rgba))
     return;
   WIDE(run, cs_sampler_place_taps)(s, x0, count, y, u, v);
-  mix_places(run, 0, count, u, v, NULL, texels_ahead(s, 0, 0, 0, 1), rgba);
+  const places at = {u, v, NULL, texels_ahead(s, 0, 0, 0, 1)};
+  mix_places(run, 0, count, &at, rgba);
 }
 
 void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]) {
@@ -254,11 +268,11 @@ void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]
       WIDE(run, cs_sampler_map_perspective)(s->m, x0 + done, batch, y, &centres);
     else
       WIDE(run, cs_sampler_map_affine)(s->m, x0 + done, batch, y, &centres);
-    centres.all_seen = s->placement == CS_SAMPLER_AFFINE && s->wrap != CELSPAN_WRAP_CLEAR;
-    if (!centres.all_seen)
-      WIDE(run, cs_sampler_mark_seen)(s, batch, &centres);
+    centres.all_visible = s->placement == CS_SAMPLER_AFFINE && s->wrap != CELSPAN_WRAP_CLEAR;
+    if (!centres.all_visible)
+      WIDE(run, cs_sampler_mark_visible)(s, batch, &centres);
     tap_batch(run, batch, &centres, rgba + done);
-    if (!centres.all_seen)
-      WIDE(run, cs_sampler_clear_unseen)(centres.seen, batch, rgba + done);
+    if (!centres.all_visible)
+      WIDE(run, cs_sampler_clear_invisible)(centres.visible, batch, rgba + done);
   }
 }

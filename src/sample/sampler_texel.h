@@ -2,8 +2,8 @@
  *
  *     u:   0        1        2        3 ...      texel i covers [i, i + 1), its centre is i + 1/2
  *          |   o    |   o    |   o    |
- *                |---------|
- *                a place between two centres: a texel and the share of its right neighbour
+ *              |--*-----|
+ *              a place between two centres is a texel and the share of its right neighbour, here .3
  *
  * Invariant: all sums over texels are made of differences to one of them, so a constant picture
  * keeps its value to the bit.
@@ -19,7 +19,8 @@
 #include "sample/placement.h"
 #include "span/run.h"
 
-/* Of a texel: closer is the same place. Matrices carry rounding, pictures have 2^20 pixels. */
+/* Places closer than this share of a texel count as one: matrices carry errors of rounding, and
+ * pictures have up to 2^20 pixels on a side. */
 #define CS_SAMPLER_SAME 1e-6
 
 #define CS_SAMPLER_BATCH 256 /* pixels made at a time */
@@ -29,7 +30,7 @@ typedef struct cs_sampling {
   cs_block_cache *blocks;
 } cs_sampling;
 
-/* floor of what fits, without a call. */
+/* floor, for places that fit into the result, without a call. */
 static inline int32_t cs_sampler_floor(double x) {
   int32_t whole = (int32_t)x;
   return whole - (x < whole);

@@ -37,8 +37,8 @@ void CS_WIDE(cs_sampler_map_perspective)(const double m[9], int32_t x0, int32_t 
   }
 }
 
-void CS_WIDE(cs_sampler_mark_seen)(const cs_sampler *sampler, int32_t count,
-                                   cs_sampler_centres *restrict centres) {
+void CS_WIDE(cs_sampler_mark_visible)(const cs_sampler *sampler, int32_t count,
+                                      cs_sampler_centres *restrict centres) {
   double last = 0, right = 0, bottom = 0;
   if (sampler->wrap == CELSPAN_WRAP_CLEAR) {
     last = -SAME;
@@ -50,7 +50,7 @@ void CS_WIDE(cs_sampler_mark_seen)(const cs_sampler *sampler, int32_t count,
   }
   for (int32_t i = 0; i < count; i++) {
     double u = centres->u[i], v = centres->v[i];
-    centres->seen[i] =
+    centres->visible[i] =
         -(int32_t)((u >= last) & (u < right) & (v >= last) & (v < bottom) & (centres->near[i] > 0));
   }
 }
@@ -231,9 +231,9 @@ void CS_WIDE(cs_sampler_mix_along)(const float (*restrict texels)[4], int32_t fi
   }
 }
 
-void CS_WIDE(cs_sampler_clear_unseen)(const int32_t *restrict seen, int32_t count,
-                                      float (*restrict rgba)[4]) {
+void CS_WIDE(cs_sampler_clear_invisible)(const int32_t *restrict visible, int32_t count,
+                                         float (*restrict rgba)[4]) {
   for (int32_t i = 0; i < count; i++)
     for (int c = 0; c < 4; c++)
-      rgba[i][c] = seen[i] ? rgba[i][c] : 0;
+      rgba[i][c] = visible[i] ? rgba[i][c] : 0;
 }
