@@ -1,4 +1,4 @@
-/* Cells and programs: what the composer says about the room between two boundaries.
+/* Cells and programs: what the composer says about the space between two boundaries.
  *
  * A cell has one colour everywhere, or a program: the layers that show in it, front to back, of
  * which at least one varies along a row. What a program looks like is for paint/ to find out.

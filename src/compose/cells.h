@@ -17,8 +17,7 @@
  * visible iff the cells on its two sides differ. Cells belong to places in the order, not to
  * boundaries: where the set of layers at a place is the same as before, its cell is kept; so a swap
  * of two boundaries composes one cell and a row without events none. The walk of the composer
- * stays where it was last asked for, from row to row: events elsewhere change nothing of what is
- * present there.
+ * is not moved between rows: events elsewhere do not change the set of layers at its place.
  */
 #ifndef CS_COMPOSE_CELLS_H
 #define CS_COMPOSE_CELLS_H
@@ -31,7 +30,7 @@ typedef struct cs_deferred_cursor {
   const cs_deferred *first, *next, *end; /* those before next have been crossed */
 } cs_deferred_cursor;
 
-/* Crosses the changes up to and at x. */
+/* Crosses the changes at or left of x. */
 static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *composer,
                                        double x) {
   const cs_deferred *next = cursor->next;
@@ -40,7 +39,7 @@ static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *
   cursor->next = next;
 }
 
-/* The same, or back across those right of x. */
+/* The same; and crosses back those right of x. */
 static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *composer, double x) {
   cs_deferred_forward(cursor, composer, x);
   for (; cursor->next > cursor->first && cursor->next[-1].x > x; cursor->next--)
@@ -65,7 +64,7 @@ typedef struct cs_cells {
   bool is_listed;
   uint32_t *visible; /* where is_listed: the visible ones */
   size_t visible_count;
-  size_t known; /* cells that were made, from the left */
+  size_t known; /* how many cells have been made, from the left */
   /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
    * past the deferred changes before the cursor. */
   size_t place, count;
@@ -88,7 +87,7 @@ void cs_cells_commit(cs_cells *cells, const cs_composer *composer, const cs_acti
 /* Moves the walk to just left of boundary `place`, right of the deferred changes at or left of x:
  * by the shorter way round. */
 void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x);
-/* Moves it to where nothing is present. */
+/* Moves the walk to the left end of the row, where no layer is present. */
 void cs_cells_walk_home(cs_cells *cells, cs_composer *composer);
 /* Lists the visible boundaries. */
 void cs_cells_list(cs_cells *cells);

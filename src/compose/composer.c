@@ -5,7 +5,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-static celspan_status take(cs_composer *composer, void *field, size_t count, size_t size) {
+static celspan_status allocate(cs_composer *composer, void *field, size_t count, size_t size) {
   void *items = cs_mem_array(composer->context->memory, count, size);
   if (!items && count > 0)
     return cs_fail_memory(composer->context);
@@ -17,19 +17,19 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack, cs_image_opacity opacity) {
   *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
   size_t words = cs_stack_words(stack), filled = cs_set_filled_count(words);
-  CS_TRY(take(composer, &composer->set, words, sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->contributing, words, sizeof(uint64_t)));
-  CS_TRY(take(composer, &composer->filled, filled, sizeof(uint8_t)));
-  CS_TRY(take(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
+  CS_TRY(allocate(composer, &composer->set, words, sizeof(uint64_t)));
+  CS_TRY(allocate(composer, &composer->contributing, words, sizeof(uint64_t)));
+  CS_TRY(allocate(composer, &composer->filled, filled, sizeof(uint8_t)));
+  CS_TRY(allocate(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
   for (size_t layer = 0; layer < stack->layer_count; layer++)
     composer->presences[layer].rule = stack->rules[layer];
   if (stack->procedure_count > 0)
-    CS_TRY(take(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
-  CS_TRY(take(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  CS_TRY(take(composer, &composer->table, cs_over_table_suits(stack), sizeof(cs_over_table)));
+    CS_TRY(allocate(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
+  CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
+  CS_TRY(allocate(composer, &composer->table, cs_over_table_suits(stack), sizeof(cs_over_table)));
   if (composer->table)
     CS_TRY(cs_over_table_init(composer->table, context, stack));
-  return take(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
+  return allocate(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
 
 void cs_composer_finish(cs_composer *composer) {
@@ -95,7 +95,7 @@ static bool layer_is_opaque(cs_composer *composer, const cs_layer *layer) {
   const cs_image_opacity *opacity = &composer->opacity;
   if (layer->kind != CS_LAYER_PICTURE)
     return layer->is_opaque;
-  return opacity->is_opaque(opacity->painter, layer->detail) && layer->fade == 1;
+  return opacity->is_opaque(opacity->painter, layer->index) && layer->fade == 1;
 }
 
 /* Adds one layer to a program, and to the fold if it is flat. A layer that varies and is not opaque

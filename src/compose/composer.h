@@ -12,7 +12,7 @@
  *            |
  *       all of it flat? --yes--> one colour (over.h, over_table.h)
  *            | no
- *       what is not hidden, front to back = a program, for paint/ to paint
+ *       the layers that are not hidden, front to back = a program, for paint/ to paint
  *
  * Invariants
  *   - The running set, windings and hash describe the place of the walk; crossing the same boundary
@@ -34,7 +34,7 @@ typedef struct cs_memo {
   bool is_used;
 } cs_memo;
 
-/* The one thing the composer has to ask those who paint: whether the picture of an image layer lets
+/* The one question that the composer asks the painter: whether the picture of an image layer lets
  * nothing through, wherever the layer is present. A picture that cannot be read does not. */
 typedef struct cs_image_opacity {
   bool (*is_opaque)(void *painter, uint32_t image);
@@ -64,7 +64,7 @@ typedef struct cs_composer {
   celspan_status failure; /* sticky: the first failure of the row, recorded in context */
 } cs_composer;
 
-/* Errors: NO_MEMORY; then, too, it wants to be finished. */
+/* Errors: NO_MEMORY; cs_composer_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                                 const cs_stack *stack, cs_image_opacity opacity);
 void cs_composer_finish(cs_composer *composer);
@@ -72,7 +72,7 @@ void cs_composer_finish(cs_composer *composer);
  * cells made before are no longer valid. */
 bool cs_composer_begin_row(cs_composer *composer);
 
-/* Puts the walk back to where nothing is present, from wherever a failure left it. */
+/* Moves the walk back to the left end of the row, wherever a failure has left it. */
 void cs_composer_restart(cs_composer *composer);
 
 /* Crosses a boundary of a layer that runs in `direction` (+1, -1), from left to right. */

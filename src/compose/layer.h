@@ -2,7 +2,7 @@
  *
  * A layer is one primitive in its place: what it paints and how it is lit. Where it is present is
  * for the sweep to say. What a layer of a kind needs besides lies in an array of that kind, and
- * `detail` is its place there.
+ * `index` is its place there.
  *
  * Invariant: nothing here changes while rows are made, so workers share it.
  */
@@ -26,13 +26,13 @@ typedef enum cs_layer_kind {
 } cs_layer_kind;
 
 typedef struct cs_layer {
-  cs_v4 s, t;      /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
-  cs_v4 front;     /* front light of its cel, brightness included; lane 3 is 0 */
-  uint32_t group;  /* innermost faded group, or CS_STACK_NONE */
-  uint32_t detail; /* all but FLAT: index into the array of its kind */
-  float fade;      /* of its paint, where that varies */
-  uint8_t kind;    /* a cs_layer_kind */
-  bool is_opaque;  /* lets nothing through, wherever it is present */
+  cs_v4 s, t;     /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
+  cs_v4 front;    /* front light of its cel, brightness included; lane 3 is 0 */
+  uint32_t group; /* innermost faded group, or CS_STACK_NONE */
+  uint32_t index; /* all but FLAT: index into the array of its kind */
+  float fade;     /* of its paint, where that varies */
+  uint8_t kind;   /* a cs_layer_kind */
+  bool is_opaque; /* lets nothing through, wherever it is present */
 } cs_layer;
 static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
 

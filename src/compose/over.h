@@ -31,7 +31,7 @@
 
 #include "compose/stack.h"
 
-/* Light of some layers by themselves, and what they let through. Lane 3 of e counts for nothing. */
+/* Light of some layers by themselves, and what they let through. Lane 3 of e has no meaning. */
 typedef struct cs_over_pair {
   cs_v4 e, t;
 } cs_over_pair;

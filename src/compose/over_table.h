@@ -15,7 +15,7 @@
  *
  * Invariant: the light of a set depends on the set alone, to the bit. The layers of a word are
  * folded in an order given by their numbers, whatever was known before; the word in which the light
- * ends is folded layer by layer, and what lies behind the end counts for nothing.
+ * ends is folded layer by layer, and the layers behind the end are left out.
  */
 #ifndef CS_COMPOSE_OVER_TABLE_H
 #define CS_COMPOSE_OVER_TABLE_H

@@ -87,8 +87,8 @@ static bool stack_is_grey(const cs_stack *stack) {
   for (size_t i = 0; i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
     const celspan_texture *texture =
-        layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->detail].texture
-        : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->detail].texture
+        layer->kind == CS_LAYER_SHADED    ? stack->shades[layer->index].texture
+        : layer->kind == CS_LAYER_PICTURE ? stack->images[layer->index].texture
                                           : NULL;
     bool is_flat_grey = layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
     if (!(texture ? cs_texture_is_grey(texture) : is_flat_grey))

@@ -25,7 +25,7 @@ static double centre(const cs_batch *batch, int32_t k) {
   return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
 }
 
-/* What layers that vary paint in a batch of pixels. */
+/* The samples and paints of one layer that varies, in a batch of pixels. */
 typedef struct samples {
   float rgba[CS_OVER_ROW_BATCH][4];                       /* pictures */
   float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* all others; s is not lit */
@@ -50,7 +50,7 @@ static void sample_procedure(const cs_procedure_span *span, const cs_batch *batc
 static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
                                      const cs_batch *batch, float (*rgba)[4]) {
   const cs_image_view *view;
-  CS_TRY(cs_painter_image(painter, layer->detail, &view));
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
   if (batch->columns)
     return cs_sampler_at(painter->blocks, &view->sampler, batch->columns, batch->count, batch->y,
                          rgba);
@@ -60,13 +60,13 @@ static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
 
 static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
                                        const cs_batch *batch, samples *out) {
-  const cs_defocused *defocused = painter->stack->defocused[layer->detail];
-  cs_defocused_view *view = &painter->defocused[layer->detail];
+  const cs_defocused *defocused = painter->stack->defocused[layer->index];
+  cs_defocused_view *view = &painter->defocused[layer->index];
   CS_TRY(cs_defocused_move(defocused, painter->context, view, batch->y));
-  size_t piece = 0;
+  size_t line = 0;
   for (int32_t k = 0; k < batch->count; k++) {
     cs_v4 s, t;
-    cs_defocused_paint(defocused, view, centre(batch, k), &piece, &s, &t);
+    cs_defocused_paint(defocused, view, centre(batch, k), &line, &s, &t);
     cs_v4_store(out->s[k], s);
     cs_v4_store(out->t[k], t);
   }
@@ -86,14 +86,14 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   }
   if (layer->kind == CS_LAYER_PICTURE) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
-    cs_over_row_add_samples(over, layer, stack->images[layer->detail].texture->use,
+    cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->use,
                             (const float(*)[4])room->rgba);
     return CELSPAN_OK;
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
     CS_TRY(sample_defocused(painter, layer, batch, room));
   else if (layer->kind == CS_LAYER_SHADED)
-    sample_shade(&stack->shades[layer->detail], batch, room);
+    sample_shade(&stack->shades[layer->index], batch, room);
   else
     sample_procedure(&procedure_spans[item.procedure_span], batch, room);
   cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
@@ -133,12 +133,12 @@ static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < program->length && bare; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     bare = cs_painter_is_bare(painter, program->items[i]) &&
-           stack->images[layer->detail].texture->use == CELSPAN_PICTURE_PAINT;
+           stack->images[layer->index].texture->use == CELSPAN_PICTURE_PAINT;
   }
   return bare;
 }
 
-/* Pictures alone: of each only the pixels are sampled that shine through those before it. */
+/* Programs of pictures alone: each is sampled only where it shines through those in front. */
 static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
                                 const cs_batch *batch, cs_over_bare *out) {
   cs_over_bare_range *shown = &out->shown;

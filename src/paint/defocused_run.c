@@ -33,7 +33,7 @@ bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uin
 
 /* ---------------------------------------------------------------- colours */
 
-/* Paints that the defocused layer is tried with: none, all scattered, clear, and each channel let
+/* Trial paints of the defocused layer: none, all light scattered, clear, and each channel let
  * through by itself. */
 enum { NONE, SCATTERED, CLEAR, RED, GREEN, BLUE, TRIALS };
 
@@ -92,7 +92,7 @@ static bool is_constant(const drawing *w, size_t k) {
   return memcmp(values, values + planes, planes * sizeof *values) == 0;
 }
 
-/* The colour of a constant line: where it is clear, exactly that without the layer. */
+/* The colour of a constant line; where the layer is clear, to the bit the colour without it. */
 static cs_v4 constant_colour(const drawing *w, size_t k) {
   cs_v4 s = cs_defocused_value(w->defocused, w->view, k, 0);
   bool is_clear = cs_v4_same(s, cs_v4_all(0));
@@ -112,9 +112,9 @@ static int32_t column_after(const drawing *w, size_t k, int32_t x1) {
   return k + 1 >= w->view->count || column > x1 ? x1 : column;
 }
 
-/* Whether column x is left to the next line: it is the last of this one, and that of the vertex at
- * which the next begins. */
-static bool is_handed_on(const drawing *w, size_t k, int32_t x) {
+/* Whether column x, the last one of this line, belongs to the next line: it is the column of the
+ * vertex at which that begins. */
+static bool belongs_to_next(const drawing *w, size_t k, int32_t x) {
   const int32_t *at = w->view->at;
   return w->defocused->pitch_x == 1 && at[k + 1] == at[k] + 1 && k + 2 < w->view->count &&
          !is_constant(w, k + 1) && cs_defocused_at(w->defocused, x + 0.5) > at[k];
@@ -127,7 +127,7 @@ static celspan_status put_lines(drawing *w, cs_run run, cs_row *row) {
   cs_v4 left = vertex_colour(w, k);
   for (int32_t x = run.x0, to; x < run.x1; x = to, k++) {
     cs_v4 right = vertex_colour(w, k + 1);
-    to = is_handed_on(w, k, x) ? x : column_after(w, k + 1, run.x1);
+    to = belongs_to_next(w, k, x) ? x : column_after(w, k + 1, run.x1);
     if (to > x && is_constant(w, k)) {
       CS_TRY(cs_row_single(context, row, x, to, constant_colour(w, k)));
     } else if (to > x) {
@@ -144,11 +144,11 @@ static celspan_status put_lines(drawing *w, cs_run run, cs_row *row) {
 
 celspan_status cs_defocused_run(cs_painter *painter, const cs_program *program, uint32_t item,
                                 cs_run run, cs_row *row) {
-  uint32_t detail = painter->stack->layers[program->items[item].layer].detail;
+  uint32_t index = painter->stack->layers[program->items[item].layer].index;
   drawing w = {.painter = painter, .program = program};
-  w.defocused = painter->stack->defocused[detail];
-  w.view = &painter->defocused[detail];
-  CS_TRY(cs_defocused_move(w.defocused, painter->context, &painter->defocused[detail], run.y));
+  w.defocused = painter->stack->defocused[index];
+  w.view = &painter->defocused[index];
+  CS_TRY(cs_defocused_move(w.defocused, painter->context, &painter->defocused[index], run.y));
   CS_TRY(find_light(&w));
   return put_lines(&w, run, row);
 }

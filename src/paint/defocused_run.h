@@ -1,11 +1,13 @@
 /* Runs of one defocused layer among flat ones, which is the usual defocused cel: its row is a
- * polyline already (sample/defocused.h), so every line becomes a span without going through the
+ * polyline already (sample/defocused.h), so every line becomes a span without evaluating the
  * program column by column.
  *
- *     vertices      v---------v    .    .    v-------v
- *     node             .    .   `-.  .  . -'    .
- *     spans         |  single |  gradient  ^ gradient|    colours of the vertices, through the flat
- *                                                         layers before and behind
+ *     value        v-----------v
+ *       |        . :           :` .
+ *       |      v'  :           :    ` . v ...     v: vertices of the row's polyline; their colours
+ *       |      :   :           :        :         are seen through the flat layers before and
+ *       +------+---+-----------+--------+---> x   behind, and each line between two of them
+ *     spans    | 1 |     2     |    3   |         becomes a span: 1 and 3 gradients, 2 a single
  */
 #ifndef CS_PAINT_DEFOCUSED_RUN_H
 #define CS_PAINT_DEFOCUSED_RUN_H

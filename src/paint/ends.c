@@ -30,13 +30,13 @@ static size_t break_limit(const finder *f, cs_item item) {
   const cs_layer *layer = &stack->layers[item.layer];
   switch ((cs_layer_kind)layer->kind) {
   case CS_LAYER_SHADED:
-    return cs_shade_break_limit(&stack->shades[layer->detail]);
+    return cs_shade_break_limit(&stack->shades[layer->index]);
   case CS_LAYER_SCANLINE:
     return f->program->procedure_spans[item.procedure_span].paint_count;
   case CS_LAYER_DEFOCUSED:
-    return cs_defocused_break_limit(stack->defocused[layer->detail]);
+    return cs_defocused_break_limit(stack->defocused[layer->index]);
   case CS_LAYER_PICTURE:
-    return cs_sampler_texel_edge_limit(&f->painter->images[layer->detail].sampler, f->run);
+    return cs_sampler_texel_edge_limit(&f->painter->images[layer->index].sampler, f->run);
   case CS_LAYER_FLAT:
     break;
   }
@@ -49,12 +49,12 @@ static celspan_status find_breaks(const finder *f, cs_item item, double *out, si
   const cs_layer *layer = &stack->layers[item.layer];
   *count = 0;
   if (layer->kind == CS_LAYER_SHADED) {
-    *count = cs_shade_breaks(&stack->shades[layer->detail], f->run, out);
+    *count = cs_shade_breaks(&stack->shades[layer->index], f->run, out);
   } else if (layer->kind == CS_LAYER_SCANLINE) {
     *count = procedure_breaks(&f->program->procedure_spans[item.procedure_span], f->run, out);
   } else if (layer->kind == CS_LAYER_DEFOCUSED) {
-    const cs_defocused *defocused = stack->defocused[layer->detail];
-    cs_defocused_view *view = &f->painter->defocused[layer->detail];
+    const cs_defocused *defocused = stack->defocused[layer->index];
+    cs_defocused_view *view = &f->painter->defocused[layer->index];
     CS_TRY(cs_defocused_move(defocused, f->painter->context, view, f->run.y));
     *count = cs_defocused_breaks(defocused, view, f->run, out);
   }
@@ -104,7 +104,7 @@ static celspan_status add_item(const finder *f, cs_item item, cs_ends *list) {
     return CELSPAN_OK;
   if (layer->kind != CS_LAYER_PICTURE)
     return add_formula(f, item, list);
-  merge(list, cs_sampler_texel_edges(&f->painter->images[layer->detail].sampler, f->run,
+  merge(list, cs_sampler_texel_edges(&f->painter->images[layer->index].sampler, f->run,
                                      list->columns + list->count));
   return CELSPAN_OK;
 }

@@ -1,10 +1,12 @@
-/* Where the pieces of a run end: at the columns in which a formula of its program bends, or a texel
- * begins.
+/* Where a run is cut into lines: at the columns in which a formula of its program bends, or a texel
+ * begins. Both ends of the run are among them.
  *
+ *     columns                x0                          x1
+ *                            |                           |
  *     layer with stops       |      '        '           |
- *     texels                 |  '       '       '       '|       each layer's columns ascend,
- *                            v                           v
- *     ends                   x0 '   '   '    '  '       'x1      and are merged, each once
+ *     texels of a picture    |  '        '       '       |       the columns of each layer ascend,
+ *                            |                           |       and are merged:
+ *     ends                   '  '   '    '   '   '       '
  */
 #ifndef CS_PAINT_ENDS_H
 #define CS_PAINT_ENDS_H
@@ -20,8 +22,8 @@ typedef struct cs_ends {
   size_t count;
 } cs_ends;
 
-/* The ends of all pieces of a run, both of its own among them. The pictures of the program are
- * grids (cs_sampler_is_grid). Errors: NO_MEMORY, and those of making defocused cels. */
+/* The columns at which a run is cut, ascending, its own two ends among them. The pictures of the
+ * program are grids (cs_sampler_is_grid). Errors: NO_MEMORY, and those of making defocused cels. */
 CELSPAN_CHECKED celspan_status cs_ends_find(cs_painter *painter, const cs_program *program,
                                             cs_run run, cs_row *row, cs_ends *out);
 

@@ -4,18 +4,16 @@
 
 #include <math.h>
 
-/* A gradient along a row. `at` of its points is where they lie along the stops. */
+/* A gradient along a row. `at` of a point is its place along the stops. */
 typedef struct arc {
   cs_curve curve;
   cs_painter *painter;
   const cs_gradient_table *table;
-  double u, v;       /* the shade's planes in x = 0 */
+  double u, v;       /* the values of the shade's planes at x = 0 */
   double bend;       /* RADIAL: second derivative of the distance r along the row, times r cubed */
-  int32_t from, end; /* what is left of the run */
-  /* the part of the table between the two cuts at hand, and the greatest change there of a channel
-   * from here to there along the stops */
-  const cs_gradient_table_part *part;
-  double steepness;
+  int32_t from, end; /* the columns of the run that are not yet written */
+  const cs_gradient_table_section *section; /* between the current two cuts */
+  double steepness; /* there: the greatest change of a channel from 0 to 1 along the gradient */
 } arc;
 
 static const celspan_texture *texture_of(const arc *a) { return a->table->shade->texture; }
@@ -30,24 +28,26 @@ static double at_column(const arc *a, int32_t column) {
   return sqrt(u * u + v * v);
 }
 
-/* Of the current part, even where rounding puts the column beyond its end. */
-static cs_line_point take_point(arc *a, int32_t column) {
+/* The colour of a column, by the current section even where rounding puts the column beyond its
+ * end. */
+static cs_line_point curve_point(arc *a, int32_t column) {
   double at = at_column(a, column);
   a->painter->evaluations++;
-  return (cs_line_point){column, at, cs_gradient_table_mix(a->part, at)};
+  return (cs_line_point){column, at, cs_gradient_table_mix(a->section, at)};
 }
 
-/* ---------------------------------------------------------------- pieces */
+/* ---------------------------------------------------------------- between two cuts */
 
-static double steepness_of(const cs_gradient_table_part *part) {
+static double steepness_of(const cs_gradient_table_section *section) {
   double most = 0;
   for (int c = 0; c < 4; c++)
-    most = cs_number_most(fabs((double)part->step[c]), most);
-  return most * part->scale;
+    most = cs_number_most(fabs((double)section->step[c]), most);
+  return most * section->scale;
 }
 
-/* In a piece the second derivative is greatest at the end nearer the centre: mostly that decides,
- * else the quarters are compared, without their colours. */
+/* The second derivative of the distance is greatest at the end that is nearer the centre. Mostly it
+ * is small enough there to decide; otherwise the distances at the quarters are compared with the
+ * line, and no colours are needed. */
 static celspan_status test(cs_curve *curve, const cs_line_point *first, const cs_line_point *last,
                            bool *is_straight) {
   const arc *a = (const arc *)curve;
@@ -57,7 +57,8 @@ static celspan_status test(cs_curve *curve, const cs_line_point *first, const cs
   *is_straight = true;
   if (columns < 2 || columns * columns * a->bend * a->steepness <= 8 * limit * near * near * near)
     return CELSPAN_OK;
-  static const int quarters[] = {2, 1, 3}; /* the middle first: there it is mostly farthest */
+  /* The middle comes first, because the curve is mostly farthest from the line there. */
+  static const int quarters[] = {2, 1, 3};
   for (int k = 0; k < 3 && *is_straight; k++) {
     int32_t column = cs_line_quarter(cs_line_run(first, last), quarters[k]);
     double u = (column - first->column) / columns;
@@ -69,12 +70,12 @@ static celspan_status test(cs_curve *curve, const cs_line_point *first, const cs
 
 static celspan_status split(cs_curve *curve, int32_t column, cs_line_point points[2]) {
   arc *a = (arc *)curve;
-  points[0] = take_point(a, column);
-  points[1] = take_point(a, column + 1);
+  points[0] = curve_point(a, column);
+  points[1] = curve_point(a, column + 1);
   return CELSPAN_OK;
 }
 
-/* All up to a place x in which the gradient bends. */
+/* Writes the columns up to x, the next place at which the gradient bends. */
 static celspan_status put_until(arc *a, double x) {
   int32_t from = a->from, end = cs_number_first_centre(x);
   end = end < a->end ? end : a->end;
@@ -82,9 +83,9 @@ static celspan_status put_until(arc *a, double x) {
     return CELSPAN_OK;
   a->from = end;
   double at = at_column(a, from + (end - from) / 2);
-  a->part = &a->table->parts[cs_gradient_table_part_at(a->table->shade, at)];
-  a->steepness = steepness_of(a->part);
-  cs_line_point first = take_point(a, from), last = take_point(a, end - 1);
+  a->section = &a->table->sections[cs_gradient_table_section_at(a->table->shade, at)];
+  a->steepness = steepness_of(a->section);
+  cs_line_point first = curve_point(a, from), last = curve_point(a, end - 1);
   return cs_line_fit(&a->curve, &first, &last);
 }
 
@@ -101,7 +102,7 @@ static celspan_status run_linear(arc *a) {
   return put_until(a, a->end);
 }
 
-/* Half of what a circle around the centre covers of the row; negative where that is nothing. */
+/* Half the length of the row inside a circle around the centre; negative if they do not meet. */
 static double half_chord(const arc *a, double at, double speed) {
   double square = at * at - a->bend / speed;
   return square > 0 ? sqrt(square / speed) : -1;

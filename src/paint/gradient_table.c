@@ -2,17 +2,17 @@
 
 #include "paint/over_row.h"
 
-#define SLOTS 256       /* tables remembered; a power of two */
-#define PART_LIMIT 4096 /* of all of them together */
+#define SLOTS 256          /* tables remembered; a power of two */
+#define SECTION_LIMIT 4096 /* sections and tints of all tables together */
 
 struct cs_gradient_tables {
   celspan_context *context;
   const cs_stack *stack;
   cs_isa isa;
   cs_arena *scratch;              /* borrowed */
-  cs_gradient_table slots[SLOTS]; /* without a shade: empty */
-  cs_arena parts;
-  size_t part_count;
+  cs_gradient_table slots[SLOTS]; /* a slot without a shade is empty */
+  cs_arena sections;
+  size_t section_count;
 };
 
 celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stack *stack,
@@ -24,7 +24,7 @@ celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stac
   tables->stack = stack;
   tables->isa = isa;
   tables->scratch = scratch;
-  cs_arena_init(&tables->parts);
+  cs_arena_init(&tables->sections);
   *out = tables;
   return CELSPAN_OK;
 }
@@ -32,7 +32,7 @@ celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stac
 void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {
   if (!tables)
     return;
-  cs_arena_finish(&tables->parts, memory);
+  cs_arena_finish(&tables->sections, memory);
   cs_mem_free(memory, tables, sizeof *tables);
 }
 
@@ -41,7 +41,8 @@ cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y)
   for (size_t i = table->layer_count; i-- > 0;) {
     const cs_gradient_table_layer *layer = &table->layers[i];
     double at = cs_shade_at(layer->shade, x, y);
-    const cs_gradient_table_tint *tint = &layer->tints[cs_gradient_table_part_at(layer->shade, at)];
+    const cs_gradient_table_tint *tint =
+        &layer->tints[cs_gradient_table_section_at(layer->shade, at)];
     float share = cs_gradient_table_share(tint->at, tint->scale, at);
     cs_v4 through = tint->t + tint->step_t * share;
     e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
@@ -53,8 +54,8 @@ cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y)
 
 /* ---------------------------------------------------------------- which programs */
 
-/* How many gradients with stops vary in a program; 0 where anything else does. *first: the layer of
- * the first. */
+/* How many gradients with stops a program has; 0 where it has other layers that vary, or too many
+ * stops. *first: the layer of the first gradient. */
 static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
   size_t count = 0;
   bool has_group = false;
@@ -64,7 +65,7 @@ static size_t count_varying(const cs_stack *stack, const cs_program *program, ui
     if (layer->kind == CS_LAYER_FLAT)
       continue;
     const celspan_texture *texture =
-        layer->kind == CS_LAYER_SHADED ? stack->shades[layer->detail].texture : NULL;
+        layer->kind == CS_LAYER_SHADED ? stack->shades[layer->index].texture : NULL;
     if (!texture || texture->kind == CS_TEXTURE_TRIANGLE ||
         texture->stop_count >= CS_OVER_ROW_BATCH)
       return 0;
@@ -76,7 +77,7 @@ static size_t count_varying(const cs_stack *stack, const cs_program *program, ui
 
 /* ---------------------------------------------------------------- one gradient */
 
-/* Paints of the stops, and clear. */
+/* A paint for each stop and a clear one, and the colours that a program shows with them. */
 typedef struct samples {
   float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4], rgba[CS_OVER_ROW_BATCH][4];
 } samples;
@@ -86,7 +87,7 @@ static void put_paint(samples *out, size_t i, const cs_paint *paint) {
   cs_v4_store(out->t[i], (cs_v4){paint->t[0], paint->t[1], paint->t[2], 0});
 }
 
-/* What a program shows at every stop, and where the layer that varies is clear. */
+/* The colours that a program shows at every stop, and where its gradient is clear. */
 static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *program,
                                  const celspan_texture *texture, samples *room) {
   const cs_stack *stack = tables->stack;
@@ -105,41 +106,41 @@ static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *p
   return CELSPAN_OK;
 }
 
-/* 1 / the length from a stop to the next, 0 where they lie together. */
+/* 1 / the length from a stop to the next; 0 where both are at the same place. */
 static double scale_from(const cs_stop *stop) {
   double length = stop[1].at - stop[0].at;
   return length > 0 ? 1 / length : 0;
 }
 
-static void fill_parts(const celspan_texture *texture, const samples *folded,
-                       cs_gradient_table_part *parts) {
+static void fill_sections(const celspan_texture *texture, const samples *folded,
+                          cs_gradient_table_section *sections) {
   size_t count = texture->stop_count;
   const cs_stop *stops = texture->stops;
-  parts[0] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[0])};
+  sections[0] = (cs_gradient_table_section){.colour = cs_v4_load(folded->rgba[0])};
   for (size_t i = 1; i < count; i++) {
     cs_v4 from = cs_v4_load(folded->rgba[i - 1]), to = cs_v4_load(folded->rgba[i]);
-    parts[i] =
-        (cs_gradient_table_part){from, to - from, stops[i - 1].at, scale_from(&stops[i - 1])};
+    sections[i] =
+        (cs_gradient_table_section){from, to - from, stops[i - 1].at, scale_from(&stops[i - 1])};
   }
-  parts[count] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[count - 1])};
-  parts[count + 1] = (cs_gradient_table_part){.colour = cs_v4_load(folded->rgba[count])};
+  sections[count] = (cs_gradient_table_section){.colour = cs_v4_load(folded->rgba[count - 1])};
+  sections[count + 1] = (cs_gradient_table_section){.colour = cs_v4_load(folded->rgba[count])};
 }
 
-/* Room for parts or tints, all of one program. */
-static void *take(cs_gradient_tables *tables, size_t count, size_t size) {
-  return cs_arena_take(tables->context, &tables->parts, count * size);
+/* Memory for sections, tints or layers of one program. */
+static void *allocate(cs_gradient_tables *tables, size_t count, size_t size) {
+  return cs_arena_take(tables->context, &tables->sections, count * size);
 }
 
 static celspan_status make_one(cs_gradient_tables *tables, const cs_program *program,
                                cs_gradient_table *out) {
   const celspan_texture *texture = out->shade->texture;
   samples *room = cs_arena_take(tables->context, tables->scratch, sizeof *room);
-  cs_gradient_table_part *parts = take(tables, texture->stop_count + 2, sizeof *parts);
-  if (!room || !parts)
+  cs_gradient_table_section *sections = allocate(tables, texture->stop_count + 2, sizeof *sections);
+  if (!room || !sections)
     return CELSPAN_NO_MEMORY;
   CS_TRY(fold_stops(tables, program, texture, room));
-  fill_parts(texture, room, parts);
-  out->parts = parts;
+  fill_sections(texture, room, sections);
+  out->sections = sections;
   return CELSPAN_OK;
 }
 
@@ -169,20 +170,21 @@ static void fill_tints(const cs_layer *layer, const celspan_texture *texture,
   tints[count + 1] = tint_of(layer, &clear);
 }
 
-/* Takes what has been folded out of the over, which goes on as if nothing were before it. */
+/* Returns the light and transmission that have been folded so far, and begins a new fold behind
+ * them: over keeps its group and lights. */
 static celspan_status cut_over(cs_gradient_tables *tables, cs_over_row *over, cs_v4 *e, cs_v4 *t) {
   cs_over_row next;
-  *e = cs_v4_load(over->level->e[0]);
-  *t = cs_v4_load(over->level->t[0]);
+  *e = cs_v4_load(over->state->e[0]);
+  *t = cs_v4_load(over->state->t[0]);
   CS_TRY(cs_over_row_begin(tables->context, tables->scratch, tables->stack, tables->isa, 1, &next));
-  over->level = next.level;
+  over->state = next.state;
   return CELSPAN_OK;
 }
 
 static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *layer,
                                 cs_over_row *over, cs_gradient_table_layer *out) {
-  const cs_shade *shade = &tables->stack->shades[layer->detail];
-  cs_gradient_table_tint *tints = take(tables, shade->texture->stop_count + 2, sizeof *tints);
+  const cs_shade *shade = &tables->stack->shades[layer->index];
+  cs_gradient_table_tint *tints = allocate(tables, shade->texture->stop_count + 2, sizeof *tints);
   if (!tints)
     return CELSPAN_NO_MEMORY;
   fill_tints(layer, shade->texture, tints);
@@ -194,7 +196,7 @@ static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *laye
 static celspan_status make_several(cs_gradient_tables *tables, const cs_program *program,
                                    size_t layer_count, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;
-  cs_gradient_table_layer *layers = take(tables, layer_count, sizeof *layers);
+  cs_gradient_table_layer *layers = allocate(tables, layer_count, sizeof *layers);
   cs_over_row over;
   if (!layers)
     return CELSPAN_NO_MEMORY;
@@ -212,38 +214,38 @@ static celspan_status make_several(cs_gradient_tables *tables, const cs_program 
   cs_over_row_end(&over, rest);
   out->keep = over.keep;
   out->e = cs_v4_load(rest[0]);
-  out->t = cs_v4_load(over.level->t[0]);
+  out->t = cs_v4_load(over.state->t[0]);
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- either */
+/* ---------------------------------------------------------------- making a table */
 
-/* Forgets all tables when they have grown many. */
+/* Counts `count` more sections and tints. Forgets all tables if they become too many. */
 static void make_way(cs_gradient_tables *tables, size_t count) {
-  tables->part_count += count;
-  if (tables->part_count <= PART_LIMIT)
+  tables->section_count += count;
+  if (tables->section_count <= SECTION_LIMIT)
     return;
   memset(tables->slots, 0, sizeof tables->slots);
-  cs_arena_reset(&tables->parts);
-  tables->part_count = count;
+  cs_arena_reset(&tables->sections);
+  tables->section_count = count;
 }
 
-static size_t count_parts(const cs_stack *stack, const cs_program *program) {
+static size_t count_sections(const cs_stack *stack, const cs_program *program) {
   size_t count = 0;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_SHADED)
-      count += stack->shades[layer->detail].texture->stop_count + 3;
+      count += stack->shades[layer->index].texture->stop_count + 3;
   }
   return count;
 }
 
-/* first: the layer of the first of `count` gradients. */
+/* Makes the table of a program with `count` gradients, the first of which is layer `first`. */
 static celspan_status make(cs_gradient_tables *tables, const cs_program *program, uint32_t first,
                            size_t count, cs_set_hash name, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;
-  cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].detail], .name = name};
-  make_way(tables, count_parts(stack, program));
+  cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].index], .name = name};
+  make_way(tables, count_sections(stack, program));
   cs_arena_reset(tables->scratch);
   CS_TRY(count == 1 ? make_one(tables, program, &made)
                     : make_several(tables, program, count, &made));

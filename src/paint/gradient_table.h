@@ -3,7 +3,7 @@
  *
  *     stops         at 0         at 0.4          at 1          along the gradient
  *                    |             |              |
- *     parts    0     |      1      |      2       |     3      and one more: behind the horizon
+ *     sections 0     |      1      |      2       |     3      and one more: behind the horizon
  *           constant |  a line from colour to     | constant
  *                    |  colour    |               |
  *
@@ -25,12 +25,12 @@
 #include "compose/stack.h"
 #include "paint/shade.h"
 
-/* Part of a gradient from one stop to the next. */
-typedef struct cs_gradient_table_part {
-  cs_v4 colour, step; /* premultiplied RGBA: at its beginning, and to its end */
+/* The section of a gradient from one stop to the next. */
+typedef struct cs_gradient_table_section {
+  cs_v4 colour, step; /* premultiplied RGBA: at its beginning, and from there to its end */
   double at, scale;   /* its beginning, and 1 / its length; scale and step are 0 before the
                          first stop and after the last */
-} cs_gradient_table_part;
+} cs_gradient_table_section;
 
 /* The paint of one of several gradients, lit and faded, from one stop to the next. */
 typedef struct cs_gradient_table_tint {
@@ -39,16 +39,16 @@ typedef struct cs_gradient_table_tint {
 } cs_gradient_table_tint;
 
 typedef struct cs_gradient_table_layer {
-  cs_v4 e, t; /* light and transmission of what is in front of it, up to the gradient before */
+  cs_v4 e, t; /* light and transmission of the flat layers between it and the gradient in front */
   const cs_shade *shade;
-  const cs_gradient_table_tint *tints; /* as parts */
+  const cs_gradient_table_tint *tints; /* one for each section */
 } cs_gradient_table_layer;
 
 typedef struct cs_gradient_table {
-  cs_v4 e, t;            /* of several: what is behind them all */
-  const cs_shade *shade; /* of the only or the first */
-  const cs_gradient_table_part
-      *parts; /* of one: before each stop, after the last, and behind the horizon */
+  cs_v4 e, t;            /* of several: the layers behind them all */
+  const cs_shade *shade; /* of the only gradient or the first one */
+  const cs_gradient_table_section
+      *sections; /* of one: before each stop, after the last, and behind the horizon */
   const cs_gradient_table_layer *layers; /* of several, front to back */
   size_t layer_count;                    /* 0: of one */
   cs_set_hash name;                      /* of the program's layers */
@@ -57,7 +57,7 @@ typedef struct cs_gradient_table {
 
 typedef struct cs_gradient_tables cs_gradient_tables;
 
-/* scratch: borrowed; what it holds is given up whenever a table is made. Errors: NO_MEMORY. */
+/* scratch: borrowed; it is reset whenever a table is made. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_gradient_tables_create(celspan_context *context,
                                                          const cs_stack *stack, cs_isa isa,
                                                          cs_arena *scratch,
@@ -71,24 +71,24 @@ CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_gradient_tables *tables
                                                       const cs_program *program,
                                                       const cs_gradient_table **out);
 
-/* The part that a place along the stops belongs to. */
-static inline size_t cs_gradient_table_part_at(const cs_shade *shade, double at) {
+/* The section that a place along the stops belongs to. */
+static inline size_t cs_gradient_table_section_at(const cs_shade *shade, double at) {
   const celspan_texture *texture = shade->texture;
-  size_t part = 0;
+  size_t section = 0;
   if (at != at)
     return texture->stop_count + 1;
-  while (part < texture->stop_count && texture->stops[part].at <= at)
-    part++;
-  return part;
+  while (section < texture->stop_count && texture->stops[section].at <= at)
+    section++;
+  return section;
 }
 
-/* How far along a part a place is, 0 to 1; any value where the step of the part is 0. */
+/* How far along a section a place is, 0 to 1; any value where the step of the section is 0. */
 static inline float cs_gradient_table_share(double begin, double scale, double at) {
   return (float)cs_number_most(cs_number_least((at - begin) * scale, 1), 0);
 }
 
-static inline cs_v4 cs_gradient_table_mix(const cs_gradient_table_part *part, double at) {
-  return part->colour + part->step * cs_gradient_table_share(part->at, part->scale, at);
+static inline cs_v4 cs_gradient_table_mix(const cs_gradient_table_section *section, double at) {
+  return section->colour + section->step * cs_gradient_table_share(section->at, section->scale, at);
 }
 
 /* The colour at a point of the frame, of several gradients. */
@@ -99,7 +99,8 @@ static inline cs_v4 cs_gradient_table_colour(const cs_gradient_table *table, dou
   if (table->layer_count > 0)
     return cs_gradient_table_fold(table, x, y);
   double at = cs_shade_at(table->shade, x, y);
-  return cs_gradient_table_mix(&table->parts[cs_gradient_table_part_at(table->shade, at)], at);
+  return cs_gradient_table_mix(&table->sections[cs_gradient_table_section_at(table->shade, at)],
+                               at);
 }
 
 #endif

@@ -1,17 +1,18 @@
-/* Curves of colour along a row as linear spans: a piece of a curve becomes one line if it is
- * straight enough, else it is halved.
+/* Curves of colour along a row as linear spans: a curve becomes one line if it is straight
+ * enough, else it is halved.
  *
  *     colour
- *       |              . o ' *   last
- *       |        . o - '     :
- *       |    . o - '         :      o  the curve, compared with the line
- *       |  .-'               :         at the three quarters of the way
- *       | *  first           :
- *       +-+--+-----+-----+---+----> column
- *         x0      / \      x1 - 1
- *                where it is halved: two neighbouring columns, so the halves do not overlap
+ *       |                        *  last
+ *       |                 o. - '
+ *       |           o. - '             *  ends of the line
+ *       |     o. - '                   o  the curve, compared with the line at 1/4, 1/2 and 3/4 of
+ *       | *  first                        the way
+ *       +-+---+-----+-----+------+----> column
+ *         x0       / \        x1 - 1
+ *                  a curve that is halved ends in one column and goes on in the next, so its halves
+ *                  do not overlap
  *
- * A piece of two columns is always straight, so the depth of halving is at most log2 of the width.
+ * A curve of two columns is always straight, so the depth of halving is at most log2 of the width.
  */
 #ifndef CS_PAINT_LINE_H
 #define CS_PAINT_LINE_H
@@ -19,7 +20,7 @@
 #include "span/row.h"
 #include "span/run.h"
 
-/* A line is accepted when it is this near the curve at its quarters: half of what is promised. */
+/* How far a line may be from the curve at its quarters: half the error that spans may have. */
 #define CS_LINE_TOLERANCE (0.5f / 1023)
 
 /* A point of a curve: at the middle of a column. */
@@ -40,15 +41,15 @@ struct cs_curve {
   celspan_status (*split)(cs_curve *curve, int32_t column, cs_line_point points[2]);
 };
 
-/* Appends the piece between two points, their columns included. Errors: those of the curve, and
+/* Appends the curve between two points, their columns included. Errors: those of the curve, and
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_line_fit(cs_curve *curve, const cs_line_point *first,
                                            const cs_line_point *last);
-/* The same of a piece that is known not to be straight. */
+/* The same of a curve that is known not to be straight. */
 CELSPAN_CHECKED celspan_status cs_line_halve(cs_curve *curve, const cs_line_point *first,
                                              const cs_line_point *last);
 
-/* The last column of a run that is `quarter` quarters on. */
+/* The column at `quarter` quarters of the way from the first column of a run to its last. */
 static inline int32_t cs_line_quarter(cs_run run, int quarter) {
   return run.x0 + (int32_t)((int64_t)(run.x1 - 1 - run.x0) * quarter / 4);
 }

@@ -6,20 +6,20 @@
 #include "paint/line.h"
 #include "paint/over_row.h"
 
-/* A curve, and what its colours are made of. */
+/* A curve of colour along a run of a program. */
 typedef struct colour_curve {
   cs_curve curve;
   cs_painter *painter;
   const cs_program *program;
   const cs_gradient_table *table; /* of the program, or NULL */
   double y;
-  cs_line_point known; /* of the table: at the middle of the piece that was tested last */
+  cs_line_point known; /* of the table: at the middle of the line that was tested last */
 } colour_curve;
 
 /* ---------------------------------------------------------------- curves of any program
  *
- * Many colours cost little more than one, since a batch is folded layer by layer: so the columns of
- * many pieces are gathered before any colour is asked for. */
+ * Many colours cost little more than one, since a batch is folded layer by layer. So the columns of
+ * many lines are gathered before their colours are computed. */
 
 static celspan_status find_colours(const colour_curve *c, const int32_t *columns, int32_t count,
                                    float (*rgba)[4]) {
@@ -59,51 +59,51 @@ static celspan_status split_program(cs_curve *curve, int32_t column, cs_line_poi
   return CELSPAN_OK;
 }
 
-/* How many columns of a piece are asked for first. */
-typedef enum piece_shape {
-  STEPPED = 1,  /* one colour: any */
-  STRAIGHT = 2, /* a line: its ends */
+/* How many colours of the curve between two cuts are computed first. */
+typedef enum line_shape {
+  STEPPED = 1,  /* one colour, at any column */
+  STRAIGHT = 2, /* a line, by its ends */
   CURVED = 5    /* its ends and the quarters; more if they are not on a line */
-} piece_shape;
+} line_shape;
 
 static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   if (layer->kind == CS_LAYER_FLAT)
     return 0;
-  const cs_image_layer *image = &painter->stack->images[layer->detail];
+  const cs_image_layer *image = &painter->stack->images[layer->index];
   if (layer->kind != CS_LAYER_PICTURE || image->texture->use == CELSPAN_PICTURE_GEL)
     return 2;
-  return painter->images[layer->detail].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
+  return painter->images[layer->index].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
 }
 
-/* One layer that varies as a line makes lines, since all that is done to it is linear; the product
- * of two does not. */
-static piece_shape shape_of(const cs_painter *painter, const cs_program *program) {
+/* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
+ * linearly; the product of two such layers gives a curve. */
+static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
   int bends = 0;
   for (uint32_t i = 0; i < program->length; i++)
     bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
 }
 
-static void pick_columns(piece_shape shape, cs_run piece, int32_t *columns) {
+static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
   if (shape == STEPPED)
-    columns[0] = piece.x0 + (piece.x1 - piece.x0) / 2;
+    columns[0] = run.x0 + (run.x1 - run.x0) / 2;
   for (int k = 0; k < (int)shape && shape != STEPPED; k++)
-    columns[k] = cs_line_quarter(piece, shape == STRAIGHT ? 4 * k : k);
+    columns[k] = cs_line_quarter(run, shape == STRAIGHT ? 4 * k : k);
 }
 
-static celspan_status put_piece(colour_curve *c, piece_shape shape, cs_run piece,
-                                const float (*rgba)[4]) {
-  cs_line_point first = {piece.x0, 0, cs_v4_load(rgba[0])};
-  cs_line_point last = {piece.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
+static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
+                               const float (*rgba)[4]) {
+  cs_line_point first = {run.x0, 0, cs_v4_load(rgba[0])};
+  cs_line_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
   if (shape == STEPPED)
-    return cs_row_single(c->curve.context, c->curve.row, piece.x0, piece.x1, first.colour);
+    return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
   if (shape == CURVED && !is_straight(&first, &last, rgba + 1))
     return cs_line_halve(&c->curve, &first, &last);
   return cs_line_put(&c->curve, &first, &last);
 }
 
-static celspan_status put_pieces(colour_curve *c, const cs_ends *ends) {
-  piece_shape shape = shape_of(c->painter, c->program);
+static celspan_status put_lines(colour_curve *c, const cs_ends *ends) {
+  line_shape shape = shape_of(c->painter, c->program);
   int32_t columns[CS_OVER_ROW_BATCH];
   float rgba[CS_OVER_ROW_BATCH][4];
   const size_t each = (size_t)shape, most = CS_OVER_ROW_BATCH / each;
@@ -111,22 +111,22 @@ static celspan_status put_pieces(colour_curve *c, const cs_ends *ends) {
   c->curve.split = split_program;
   for (size_t i = 0; i + 1 < ends->count; i += most) {
     const int32_t *end = ends->columns + i;
-    size_t pieces = ends->count - 1 - i < most ? ends->count - 1 - i : most;
-    for (size_t k = 0; k < pieces; k++)
+    size_t lines = ends->count - 1 - i < most ? ends->count - 1 - i : most;
+    for (size_t k = 0; k < lines; k++)
       pick_columns(shape, (cs_run){end[k], end[k + 1], c->y}, columns + k * each);
-    CS_TRY(find_colours(c, columns, (int32_t)(pieces * each), rgba));
-    for (size_t k = 0; k < pieces; k++)
-      CS_TRY(put_piece(c, shape, (cs_run){end[k], end[k + 1], c->y},
-                       (const float(*)[4])rgba + k * each));
+    CS_TRY(find_colours(c, columns, (int32_t)(lines * each), rgba));
+    for (size_t k = 0; k < lines; k++)
+      CS_TRY(put_line(c, shape, (cs_run){end[k], end[k + 1], c->y},
+                      (const float(*)[4])rgba + k * each));
   }
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- curves of a gradient table
  *
- * Here every colour is looked up by itself, and costs the same whenever it is asked for: so it is
- * asked for only when nothing before has decided, and the one in the middle is kept: it is beside
- * the place where the piece is halved. */
+ * Here every colour is computed by itself and costs the same at any time. So it is computed only if
+ * those before it have not decided. The one in the middle is kept, because a curve that is halved
+ * needs it again. */
 
 static cs_line_point table_point(colour_curve *c, int32_t column) {
   c->painter->evaluations++;
@@ -158,7 +158,7 @@ static celspan_status split_table(cs_curve *curve, int32_t column, cs_line_point
   return CELSPAN_OK;
 }
 
-static celspan_status put_table_pieces(colour_curve *c, const cs_ends *ends) {
+static celspan_status put_table_lines(colour_curve *c, const cs_ends *ends) {
   c->curve.test = test_table;
   c->curve.split = split_table;
   for (size_t i = 0; i + 1 < ends->count; i++) {
@@ -182,5 +182,5 @@ celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_r
   if (cs_gradient_run_fits(c.table))
     return cs_gradient_run(painter, c.table, run, row);
   CS_TRY(cs_ends_find(painter, program, run, row, &ends));
-  return c.table ? put_table_pieces(&c, &ends) : put_pieces(&c, &ends);
+  return c.table ? put_table_lines(&c, &ends) : put_lines(&c, &ends);
 }

@@ -1,13 +1,14 @@
-/* Programs that vary as formulas, cut into linear pieces: gradients, procedures, defocused cels,
+/* Programs that vary as formulas, cut into lines: gradients, procedures, defocused cels,
  * and pictures enlarged so far that a texel is some pixels wide.
  *
  *     colour
- *       |        ___                       a run is cut where a formula bends or a texel begins
- *       |       /   `-._                   (ends.h); each piece becomes one span if it is straight
- *       |   ___/        `-._               enough, else it is halved (line.h)
- *       |  |   :   :    :   |
- *       +--+---+---+----+---+---> column
- *          x0              x1
+ *       |             ___________
+ *       |           /:           :`-._          a run is cut where a formula bends or a texel
+ *       |         /  :           :    `-._      begins (ends.h); between two cuts it becomes one
+ *       |  _____/    :           :        |     span if it is straight enough, else it is halved
+ *       |  |    :    :           :        |     (line.h)
+ *       +--+----+----+-----------+--------+---> column
+ *          x0  cut  cut         cut       x1
  */
 #ifndef CS_PAINT_LINES_H
 #define CS_PAINT_LINES_H

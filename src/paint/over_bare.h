@@ -18,12 +18,13 @@ typedef struct cs_over_bare_range {
   int32_t first, end; /* pixels of the batch */
 } cs_over_bare_range;
 
-/* Pictures as they were folded, but the last: its samples of the pixels that it shows in. */
+/* Pictures folded so far, except the last one: that is kept as samples, of the pixels in which it
+ * can be seen. */
 typedef struct cs_over_bare {
   float rgba[CS_OVER_ROW_BATCH][4], folded[CS_OVER_ROW_BATCH][4];
   cs_over_bare_range shown;
   int32_t count; /* pixels */
-  bool is_first; /* the last is the only one */
+  bool is_first; /* the last picture is the only one */
 } cs_over_bare;
 
 /* Folds a picture's samples of some pixels behind what was folded; is_first: nothing was. Returns
@@ -31,7 +32,7 @@ typedef struct cs_over_bare {
  * register holds, except at the end of the batch. All arrays are whole batches. */
 cs_over_bare_range cs_over_bare_add(cs_isa isa, bool is_first, const float (*rgba)[4],
                                     cs_over_bare_range range, float (*folded)[4]);
-/* All of them and the light behind, which may be none: premultiplied RGBA, or codes. */
+/* Folds the last picture and the back light, if any: to premultiplied RGBA, or to codes. */
 void cs_over_bare_end(cs_isa isa, const cs_stack *stack, cs_over_bare *over, float (*rgba)[4]);
 void cs_over_bare_codes(cs_isa isa, const cs_stack *stack, cs_over_bare *over,
                         unsigned char *codes);

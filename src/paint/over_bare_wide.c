@@ -6,7 +6,7 @@
 /* Multiplying by white and by a fade of 1 changes nothing, and the transmissions of a pixel are
  * equal: so much remains of clear, add_picture, add_light and to_rgba. */
 
-static const float unseen[4] = {0, 0, 0, 1};
+static const float uncovered[4] = {0, 0, 0, 1};
 
 /* A picture behind what was folded. */
 static inline cs_wide fold(cs_wide before, cs_wide v) {
@@ -23,7 +23,7 @@ static inline cs_wide_int shines_through(cs_wide folded) {
 
 cs_over_bare_range CS_WIDE(cs_over_bare_fold)(bool is_first, const float (*rgba)[4],
                                               cs_over_bare_range range, float (*folded)[4]) {
-  const cs_wide nothing = cs_over_wide_all(unseen);
+  const cs_wide nothing = cs_over_wide_all(uncovered);
   cs_over_bare_range shines = {range.end, range.first};
   for (int32_t i = range.first; i < range.end; i += CS_OVER_WIDE_PIXELS) {
     cs_wide v = fold(is_first ? nothing : cs_wide_load(folded[i]), cs_wide_load(rgba[i]));
@@ -42,7 +42,7 @@ void CS_WIDE(cs_over_bare_mix_rgba)(const cs_back_light *behind, bool is_first,
                                     const float (*rgba)[4], int32_t count, const float (*folded)[4],
                                     float (*out)[4]) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
-  const cs_wide nothing = cs_over_wide_all(unseen),
+  const cs_wide nothing = cs_over_wide_all(uncovered),
                 light = cs_over_wide_all((const float *)&behind->light);
   const float keep = behind->keep;
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
@@ -76,12 +76,13 @@ void CS_WIDE(cs_over_bare_mix_codes)(const cs_back_light *behind, bool is_first,
                                      const float (*rgba)[4], int32_t count,
                                      const float (*folded)[4], unsigned char *out) {
   for (int32_t i = 0; i < count; i += 16) {
-    cs_srgb8_planes seen = load_planes(rgba + i), made = {{{0}, {0}, {0}, cs_wide_all(1)}};
+    cs_srgb8_planes picture = load_planes(rgba + i), made = {{{0}, {0}, {0}, cs_wide_all(1)}};
     if (!is_first)
       made = load_planes(folded + i);
-    cs_wide through = made.channels[3], left = through * (1 - cs_wide_unit(seen.channels[3]));
+    cs_wide through = made.channels[3], left = through * (1 - cs_wide_unit(picture.channels[3]));
     for (int c = 0; c < 3; c++)
-      made.channels[c] = (made.channels[c] + through * seen.channels[c]) + left * behind->light[c];
+      made.channels[c] =
+          (made.channels[c] + through * picture.channels[c]) + left * behind->light[c];
     made.channels[3] = 1 - behind->keep * left;
     store_pixels(cs_srgb8_code_planes(&made), count - i, out + 4 * (size_t)i);
   }

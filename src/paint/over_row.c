@@ -2,12 +2,12 @@
 
 #define WIDE(over, name) CS_WIDE_CHOOSE((over)->isa, name)
 
-static celspan_status open_level(cs_over_row *over) {
-  cs_over_row_level *level = cs_arena_take(over->context, over->arena, sizeof *level);
-  if (!level)
+static celspan_status open_state(cs_over_row *over) {
+  cs_over_row_state *state = cs_arena_take(over->context, over->arena, sizeof *state);
+  if (!state)
     return CELSPAN_NO_MEMORY;
-  WIDE(over, cs_over_row_clear)(level, over->count);
-  over->level = level;
+  WIDE(over, cs_over_row_clear)(state, over->count);
+  over->state = state;
   return CELSPAN_OK;
 }
 
@@ -22,29 +22,29 @@ celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, cons
   out->group = CS_STACK_NONE;
   out->light = 0;
   out->keep = 1;
-  return open_level(out);
+  return open_state(out);
 }
 
 static void leave_group(cs_over_row *over) {
   const cs_group *group = &over->stack->groups[over->group];
-  cs_over_row_level *inner = over->level;
-  over->level = over->outer[--over->depth];
-  WIDE(over, cs_over_row_add_group)(over->level, over->count, group->fade, inner);
+  cs_over_row_state *inner = over->state;
+  over->state = over->outer[--over->depth];
+  WIDE(over, cs_over_row_add_group)(over->state, over->count, group->fade, inner);
   over->group = group->parent;
 }
 
 static celspan_status enter_group(cs_over_row *over, uint32_t group) {
   const cs_group *inner = &over->stack->groups[group];
-  if (inner->parent != over->group) /* at most CS_SCENE_DEPTH + 1 levels */
+  if (inner->parent != over->group) /* at most CS_SCENE_DEPTH + 1 states */
     CS_TRY(enter_group(over, inner->parent));
-  over->outer[over->depth++] = over->level;
+  over->outer[over->depth++] = over->state;
   over->group = group;
-  return open_level(over);
+  return open_state(over);
 }
 
 static void meet_light(cs_over_row *over) {
   const cs_back_light *light = &over->stack->lights[over->light++];
-  WIDE(over, cs_over_row_add_light)(over->level, over->count, (const float *)&light->light);
+  WIDE(over, cs_over_row_add_light)(over->state, over->count, (const float *)&light->light);
   over->keep *= light->keep;
 }
 
@@ -61,20 +61,20 @@ celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
 
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
   WIDE(over, cs_over_row_add_flat)
-  (over->level, over->count, (const float *)&layer->s, (const float *)&layer->t);
+  (over->state, over->count, (const float *)&layer->s, (const float *)&layer->t);
 }
 
 void cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer, celspan_picture_use use,
                              const float (*rgba)[4]) {
   WIDE(over, cs_over_row_add_picture)
-  (over->level, over->count, (const float *)&layer->front, layer->fade, use == CELSPAN_PICTURE_GEL,
+  (over->state, over->count, (const float *)&layer->front, layer->fade, use == CELSPAN_PICTURE_GEL,
    rgba);
 }
 
 void cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, const float (*s)[4],
                            const float (*t)[4]) {
   WIDE(over, cs_over_row_add_paints)
-  (over->level, over->count, (const float *)&layer->front, layer->fade, s, t);
+  (over->state, over->count, (const float *)&layer->front, layer->fade, s, t);
 }
 
 celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer, const float (*s)[4],
@@ -93,5 +93,5 @@ void cs_over_row_end(cs_over_row *over, float (*rgba)[4]) {
     leave_group(over);
   while (over->light < over->stack->light_count)
     meet_light(over);
-  WIDE(over, cs_over_row_to_rgba)(over->level, over->count, over->keep, rgba);
+  WIDE(over, cs_over_row_to_rgba)(over->state, over->count, over->keep, rgba);
 }

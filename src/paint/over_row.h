@@ -2,10 +2,10 @@
  * shines through, pixel by pixel, from the camera backwards.
  *
  *     pixels          0    1    2    3   ...  count - 1
- *     level  e     [ rgb. rgb. rgb. rgb. .............. ]   one level in each faded group that has
+ *     state  e     [ rgb. rgb. rgb. rgb. .............. ]   a state for each faded group that has
  *            t     [ rgb. rgb. rgb. rgb. .............. ]   been entered and not yet left
  *
- *   begin; then for every item from the front: move to its layer, add its paints; end
+ *   begin; then for every item from the front: move to its layer, add its paints; then end
  *
  * Invariant: a pixel's colour is the same whatever pixels are beside it, and whichever instructions
  * made it.
@@ -19,21 +19,21 @@
 
 #define CS_OVER_ROW_BATCH 256 /* pixels, a multiple of those in a register */
 
-/* Four floats a pixel; lane 3 counts for nothing. */
-typedef struct cs_over_row_level {
+/* Four floats a pixel; lane 3 has no meaning. */
+typedef struct cs_over_row_state {
   float e[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* light gathered, and transmission */
-} cs_over_row_level;
+} cs_over_row_state;
 
 typedef struct cs_over_row {
   celspan_context *context;
-  cs_arena *arena; /* of the levels; borrowed */
+  cs_arena *arena; /* of the states; borrowed */
   const cs_stack *stack;
   cs_isa isa;
   int32_t count; /* pixels */
-  cs_over_row_level *level;
-  cs_over_row_level *outer[CS_SCENE_DEPTH + 2]; /* put aside, of the faded groups around */
+  cs_over_row_state *state;
+  cs_over_row_state *outer[CS_SCENE_DEPTH + 2]; /* those of the faded groups around it, put aside */
   uint32_t depth;
-  uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
+  uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
   float keep;     /* what the mattes of back lights leave of transparency */
 } cs_over_row;
@@ -58,24 +58,24 @@ CELSPAN_CHECKED celspan_status cs_over_row_layer(cs_over_row *over, uint32_t lay
 /* Premultiplied RGBA of the pixels. */
 void cs_over_row_end(cs_over_row *over, float (*rgba)[4]);
 
-/* ---- over_row_wide.c: loops over the pixels of a level */
+/* ---- over_row_wide.c: loops over the pixels of a state */
 
-CS_WIDE_DECLARE(void, cs_over_row_clear, (cs_over_row_level * level, int32_t count));
+CS_WIDE_DECLARE(void, cs_over_row_clear, (cs_over_row_state * state, int32_t count));
 CS_WIDE_DECLARE(void, cs_over_row_add_flat,
-                (cs_over_row_level * level, int32_t count, const float s[4], const float t[4]));
+                (cs_over_row_state * state, int32_t count, const float s[4], const float t[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_picture,
-                (cs_over_row_level * level, int32_t count, const float front[4], float fade,
+                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
                  bool is_gel, const float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_paints,
-                (cs_over_row_level * level, int32_t count, const float front[4], float fade,
+                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
                  const float (*s)[4], const float (*t)[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_light,
-                (cs_over_row_level * level, int32_t count, const float light[4]));
-/* A faded group into what is around it. */
+                (cs_over_row_state * state, int32_t count, const float light[4]));
+/* Adds a faded group that has been left to the state around it. */
 CS_WIDE_DECLARE(void, cs_over_row_add_group,
-                (cs_over_row_level * outer, int32_t count, float fade,
-                 const cs_over_row_level *inner));
+                (cs_over_row_state * outer, int32_t count, float fade,
+                 const cs_over_row_state *inner));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
-                (const cs_over_row_level *level, int32_t count, float keep, float (*rgba)[4]));
+                (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
 
 #endif

@@ -4,27 +4,27 @@
 #include "paint/over_row.h"
 #include "paint/over_wide.h"
 
-static inline void add(cs_over_row_level *level, int32_t i, cs_wide s, cs_wide t) {
-  cs_wide through = cs_wide_load(level->t[i]);
-  cs_wide_store(level->e[i], cs_wide_load(level->e[i]) + through * s);
-  cs_wide_store(level->t[i], through * t);
+static inline void add(cs_over_row_state *state, int32_t i, cs_wide s, cs_wide t) {
+  cs_wide through = cs_wide_load(state->t[i]);
+  cs_wide_store(state->e[i], cs_wide_load(state->e[i]) + through * s);
+  cs_wide_store(state->t[i], through * t);
 }
 
-void CS_WIDE(cs_over_row_clear)(cs_over_row_level *level, int32_t count) {
+void CS_WIDE(cs_over_row_clear)(cs_over_row_state *state, int32_t count) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
-    cs_wide_store(level->e[i], cs_wide_all(0));
-    cs_wide_store(level->t[i], cs_wide_all(1));
+    cs_wide_store(state->e[i], cs_wide_all(0));
+    cs_wide_store(state->t[i], cs_wide_all(1));
   }
 }
 
-void CS_WIDE(cs_over_row_add_flat)(cs_over_row_level *level, int32_t count, const float s[4],
+void CS_WIDE(cs_over_row_add_flat)(cs_over_row_state *state, int32_t count, const float s[4],
                                    const float t[4]) {
   cs_wide wide_s = cs_over_wide_all(s), wide_t = cs_over_wide_all(t);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
-    add(level, i, wide_s, wide_t);
+    add(state, i, wide_s, wide_t);
 }
 
-void CS_WIDE(cs_over_row_add_picture)(cs_over_row_level *level, int32_t count, const float front[4],
+void CS_WIDE(cs_over_row_add_picture)(cs_over_row_state *state, int32_t count, const float front[4],
                                       float fade, bool is_gel, const float (*rgba)[4]) {
   const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
   cs_wide light = cs_over_wide_all(front);
@@ -33,27 +33,27 @@ void CS_WIDE(cs_over_row_add_picture)(cs_over_row_level *level, int32_t count, c
     cs_wide clear = 1 - cs_wide_unit(CS_WIDE_SPREAD(v, 3));
     cs_wide colour = (cs_wide)((cs_wide_int)v & colours);
     if (is_gel)
-      add(level, i, cs_wide_all(0), (1 - fade) + fade * cs_wide_unit(clear + colour));
+      add(state, i, cs_wide_all(0), (1 - fade) + fade * cs_wide_unit(clear + colour));
     else
-      add(level, i, light * (fade * colour), (1 - fade) + fade * clear);
+      add(state, i, light * (fade * colour), (1 - fade) + fade * clear);
   }
 }
 
-void CS_WIDE(cs_over_row_add_paints)(cs_over_row_level *level, int32_t count, const float front[4],
+void CS_WIDE(cs_over_row_add_paints)(cs_over_row_state *state, int32_t count, const float front[4],
                                      float fade, const float (*s)[4], const float (*t)[4]) {
   cs_wide light = cs_over_wide_all(front);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
-    add(level, i, light * (fade * cs_wide_load(s[i])), (1 - fade) + fade * cs_wide_load(t[i]));
+    add(state, i, light * (fade * cs_wide_load(s[i])), (1 - fade) + fade * cs_wide_load(t[i]));
 }
 
-void CS_WIDE(cs_over_row_add_light)(cs_over_row_level *level, int32_t count, const float light[4]) {
+void CS_WIDE(cs_over_row_add_light)(cs_over_row_state *state, int32_t count, const float light[4]) {
   cs_wide wide = cs_over_wide_all(light);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
-    cs_wide_store(level->e[i], cs_wide_load(level->e[i]) + cs_wide_load(level->t[i]) * wide);
+    cs_wide_store(state->e[i], cs_wide_load(state->e[i]) + cs_wide_load(state->t[i]) * wide);
 }
 
-void CS_WIDE(cs_over_row_add_group)(cs_over_row_level *outer, int32_t count, float fade,
-                                    const cs_over_row_level *inner) {
+void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
+                                    const cs_over_row_state *inner) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     add(outer, i, fade * cs_wide_load(inner->e[i]), (1 - fade) + fade * cs_wide_load(inner->t[i]));
 }
@@ -66,9 +66,9 @@ static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
   return cs_wide_choose(colours, e, 1 - keep * mean);
 }
 
-void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_level *level, int32_t count, float keep,
+void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_state *state, int32_t count, float keep,
                                   float (*rgba)[4]) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
-    cs_over_wide_put(to_rgba(cs_wide_load(level->e[i]), cs_wide_load(level->t[i]), keep), i, count,
+    cs_over_wide_put(to_rgba(cs_wide_load(state->e[i]), cs_wide_load(state->t[i]), keep), i, count,
                      rgba);
 }

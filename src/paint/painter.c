@@ -4,7 +4,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-static celspan_status take(cs_painter *painter, void *field, size_t count, size_t size) {
+static celspan_status allocate(cs_painter *painter, void *field, size_t count, size_t size) {
   void *items = cs_mem_array(painter->context->memory, count, size);
   if (!items && count > 0)
     return cs_fail_memory(painter->context);
@@ -18,11 +18,11 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
   *painter =
       (cs_painter){.context = context, .composer = composer, .stack = stack, .isa = cs_isa_best()};
   cs_arena_init(&painter->scratch);
-  CS_TRY(take(painter, &painter->images, stack->image_count, sizeof(cs_image_view)));
-  CS_TRY(take(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
+  CS_TRY(allocate(painter, &painter->images, stack->image_count, sizeof(cs_image_view)));
+  CS_TRY(allocate(painter, &painter->blocks, stack->image_count > 0, sizeof(cs_block_cache)));
   if (painter->blocks)
     cs_block_cache_init(painter->blocks, context);
-  CS_TRY(take(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
+  CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
   if (stack->shade_count == 0)
     return CELSPAN_OK;
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,

@@ -32,15 +32,15 @@ typedef struct cs_image_view {
 
 typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
-  const cs_composer *composer; /* whose cells it paints */
+  const cs_composer *composer; /* borrowed: its cells are painted */
   const cs_stack *stack;
-  cs_isa isa; /* that many pixels are made with */
+  cs_isa isa; /* the instructions that loops over pixels are made with */
   cs_image_view *images;
   cs_block_cache *blocks; /* of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
   cs_arena scratch;                     /* of one run */
-  uint64_t evaluations;                 /* pixels whose colour was asked for */
+  uint64_t evaluations;                 /* pixels whose colour has been computed */
 } cs_painter;
 
 /* composer: initialized, borrowed; the painter stays where it is until it is finished.

@@ -15,19 +15,19 @@ static celspan_status needs_array(cs_painter *painter, const cs_program *program
     const cs_image_view *view;
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
-    CS_TRY(cs_painter_image(painter, layer->detail, &view));
+    CS_TRY(cs_painter_image(painter, layer->index, &view));
     *out = !cs_sampler_is_grid(&view->sampler);
   }
   return CELSPAN_OK;
 }
 
-/* Whether all that shows is one opaque picture, texel by pixel. */
+/* Whether the program is one opaque picture whose texels are the pixels. */
 static bool is_copy(const cs_painter *painter, const cs_program *shown, bool ends_opaque) {
   if (!ends_opaque || shown->length != 1)
     return false;
   const cs_layer *layer = &painter->stack->layers[shown->items[0].layer];
   return cs_painter_is_bare(painter, shown->items[0]) &&
-         painter->images[layer->detail].sampler.placement == CS_SAMPLER_COPY;
+         painter->images[layer->index].sampler.placement == CS_SAMPLER_COPY;
 }
 
 static celspan_status run_copy(cs_painter *painter, const cs_program *shown, cs_run run,
@@ -35,7 +35,7 @@ static celspan_status run_copy(cs_painter *painter, const cs_program *shown, cs_
   const cs_layer *layer = &painter->stack->layers[shown->items[0].layer];
   unsigned char *codes;
   CS_TRY(cs_row_codes(painter->context, row, run.x0, run.x1, &codes));
-  return cs_sampler_codes(painter->blocks, &painter->images[layer->detail].sampler, run, codes);
+  return cs_sampler_codes(painter->blocks, &painter->images[layer->index].sampler, run, codes);
 }
 
 /* Pixels coded while they are in the cache. */
@@ -58,7 +58,7 @@ static celspan_status run_array(cs_painter *painter, const cs_program *shown, cs
   return cs_painter_program_colours(painter, shown, run, (float(*)[4])colours);
 }
 
-/* A program of what shows, and nothing else. ends_opaque: nothing shines through it. */
+/* A program of the visible items alone. ends_opaque: nothing shines through it. */
 static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bool ends_opaque,
                                 cs_run run, cs_row *row) {
   bool is_array;
@@ -80,12 +80,12 @@ static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bo
  * the first that is opaque. */
 typedef struct segment {
   uint32_t end;      /* of the items */
-  uint64_t left_out; /* a bit each, of the first 64 */
+  uint64_t left_out; /* which of the first 64 items are left out, one bit each */
   bool ends_opaque;
   bool is_sure; /* every item was clear or opaque all over: any part of the columns is the same */
 } segment;
 
-#define STRIDES 8 /* asked about at once, in the hope of one answer */
+#define STRIDES 8 /* examined together first, since often one answer holds for all */
 
 /* What samples of an item have in common that lets it, or all behind it, be left out. */
 static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run run,
@@ -95,19 +95,19 @@ static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run r
   *out = CS_PICTURE_MIXED;
   if (layer->kind != CS_LAYER_PICTURE || layer->fade != 1 || layer->group != CS_STACK_NONE)
     return CELSPAN_OK;
-  CS_TRY(cs_painter_image(painter, layer->detail, &view));
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
   if (view->is_opaque) {
     *out = CS_PICTURE_OPAQUE;
     return CELSPAN_OK;
   }
   CS_TRY(cs_sampler_opacity(painter->blocks, &view->sampler, run, out));
   if (*out == CS_PICTURE_OPAQUE &&
-      painter->stack->images[layer->detail].texture->use == CELSPAN_PICTURE_GEL)
+      painter->stack->images[layer->index].texture->use == CELSPAN_PICTURE_GEL)
     *out = CS_PICTURE_MIXED;
   return CELSPAN_OK;
 }
 
-/* What shows over the columns of a run. */
+/* Finds which items of a program are visible over the columns of a run. */
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, cs_run run,
                                  segment *out) {
   *out = (segment){.end = program->length, .is_sure = true};
@@ -174,9 +174,9 @@ static bool has_picture(const cs_stack *stack, const cs_program *program) {
   return false;
 }
 
-/* How many columns are asked about at a time: as the picture wants that wants fewest. They are
- * counted from the left edge of the frame, since what is known of them must not depend on where a
- * run begins. */
+/* How many columns are examined at a time: the least number that any picture of the program asks
+ * for (opacity_columns). They are counted from the left edge of the frame, since their opacity must
+ * not depend on where a run begins. */
 static celspan_status find_stride(cs_painter *painter, const cs_program *program, int32_t *out) {
   *out = INT32_MAX;
   for (uint32_t i = 0; i < program->length; i++) {
@@ -184,7 +184,7 @@ static celspan_status find_stride(cs_painter *painter, const cs_program *program
     const cs_image_view *view;
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
-    CS_TRY(cs_painter_image(painter, layer->detail, &view));
+    CS_TRY(cs_painter_image(painter, layer->index, &view));
     if (!view->is_opaque && view->sampler.opacity_columns < *out)
       *out = view->sampler.opacity_columns;
   }

@@ -3,11 +3,12 @@
  *     TRIANGLE: a plane through the       LINEAR: one plane, 0 at      RADIAL: two planes, the legs
  *     values at the corners, a channel    one end and 1 at the other   of the distance from the
  *     each                                                             centre
- *          . * c2                            0 |       | 1                    . - ~ - .
- *       . '  /                                 |  --> /|                    '     |     '
- *     * c0  /                                  | /   / |                   |   o--+      |
- *       ` . *  c1                              |/   /  |                    '  centre   '
- *                                              at = a x + b y + c             ` - . - `
+ *          . * c2                          \       \                         . - ~ - .
+ *       . '  /                             0 \ ----> \ 1                   '       * '
+ *     * c0  /                                 \       \                   |      / |  |
+ *       ` . *  c1                              \       \                  |    o---+  |
+ *                                          at = a x + b y + c              ' centre  '
+ *                                                                            ` - . - `
  *
  * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
  * row, so it may be cut into lines by comparing a few points.
@@ -37,7 +38,7 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   return w > 0 ? at / w : NAN;
 }
 
-/* A paint as it is folded; lane 3 counts for nothing. */
+/* A paint in the form in which it is folded; lane 3 has no meaning. */
 typedef struct cs_shade_lanes {
   cs_v4 s, t;
 } cs_shade_lanes;

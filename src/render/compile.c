@@ -44,7 +44,7 @@ static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_te
   *shade = (cs_shade){.texture = texture, .inverse = *inverse};
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
-  layer->detail = (uint32_t)stack->shade_count++;
+  layer->index = (uint32_t)stack->shade_count++;
   layer->is_opaque =
       layer->fade == 1 && cs_matrix_is_affine(inverse) && cs_texture_is_opaque(texture);
   return CELSPAN_OK;
@@ -65,7 +65,7 @@ static celspan_status fill_picture(compiler *c, cs_layer *layer, const celspan_t
   stack->images[stack->image_count] =
       (cs_image_layer){texture, *inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
   layer->kind = CS_LAYER_PICTURE;
-  layer->detail = (uint32_t)stack->image_count++;
+  layer->index = (uint32_t)stack->image_count++;
   return CELSPAN_OK;
 }
 
@@ -137,7 +137,7 @@ static celspan_status compile_scanline(compiler *c, const cs_primitive_data *dat
   stack->procedures[stack->procedure_count] =
       (cs_procedure){&data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
   stack->layers[index].kind = CS_LAYER_SCANLINE;
-  stack->layers[index].detail = (uint32_t)stack->procedure_count++;
+  stack->layers[index].index = (uint32_t)stack->procedure_count++;
   return CELSPAN_OK;
 }
 
@@ -287,7 +287,7 @@ static celspan_status append_defocused(compiler *c, const cs_defocus_cel *place,
   uint32_t index;
   CS_TRY(append_layer(c, opacity, CELSPAN_RULE_NONZERO, &index));
   stack->layers[index].kind = CS_LAYER_DEFOCUSED;
-  stack->layers[index].detail = detail;
+  stack->layers[index].index = detail;
   return cs_boundary_add(c->context, &c->plan->boundaries, box, &identity, &c->frame, index);
 }
 

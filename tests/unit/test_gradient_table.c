@@ -53,7 +53,7 @@ static void make_layers(bool is_grouped, double perspective) {
   for (uint32_t i = 0; i < LEAVES; i++) {
     layers[i] = (cs_layer){.fade = random_unit(&numbers),
                            .group = is_grouped && i > 0 && i < 4 ? 0 : CS_STACK_NONE,
-                           .detail = i,
+                           .index = i,
                            .front = {random_unit(&numbers), 1, random_unit(&numbers), 0},
                            .s = {0.1f, 0.2f, random_unit(&numbers), 0},
                            .t = {0.5f, random_unit(&numbers), 0.7f, 0}};
@@ -85,7 +85,7 @@ static void fold(cs_painter *painter, const cs_program *program, double y, float
     const cs_layer *layer = &layers[program->items[i].layer];
     CHECK(cs_over_row_move(&over, program->items[i].layer) == CELSPAN_OK);
     for (int32_t x = 0; x < WIDTH && layer->kind == CS_LAYER_SHADED; x++) {
-      cs_shade_lanes paint = cs_shade_paint(&shades[layer->detail], x + 0.5, y);
+      cs_shade_lanes paint = cs_shade_paint(&shades[layer->index], x + 0.5, y);
       cs_v4_store(s[x], paint.s);
       cs_v4_store(t[x], paint.t);
     }
