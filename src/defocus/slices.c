@@ -18,7 +18,7 @@ static celspan_status add_slice(celspan_context *context, cs_defocus_slices *sli
   double top = cs_number_clamp(row - centre_y, -kernel->radius_y, kernel->radius_y);
   double foot = cs_number_clamp(row + 1 - centre_y, -kernel->radius_y, kernel->radius_y);
   double weight = cs_kernel_above(kernel, foot) - cs_kernel_above(kernel, top);
-  if (!(weight > 0) || !cs_kernel_slice(kernel, 0.5 * (top + foot), &from, &to) ||
+  if (!(weight > 0) || !cs_kernel_chord(kernel, 0.5 * (top + foot), &from, &to) ||
       to - from < SHORT)
     return CELSPAN_OK;
   CS_TRY(cs_mem_reserve(context, (void **)&slices->slices, &slices->capacity, slices->count + 1,

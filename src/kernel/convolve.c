@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-/* Columns in which an edge is summed at a time: few more than the kernel has. */
+/* Columns of the sums of one stretch of an edge: those of the kernel, twice, with some room. */
 static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
 
 celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
@@ -42,7 +42,7 @@ celspan_status cs_convolve_init(cs_convolve *convolve, celspan_context *context,
 
 void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
   if (!convolve->kernel)
-    return; /* it was never begun */
+    return; /* cs_convolve_init has not been called */
   size_t columns = (size_t)convolve->width;
   cs_mem_free(memory, convolve->changes, columns * sizeof *convolve->changes);
   cs_mem_free(memory, convolve->slopes, columns * sizeof *convolve->slopes);
@@ -62,7 +62,8 @@ void cs_convolve_finish(cs_convolve *convolve, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- summing */
 
-/* Sub-rows beyond the kernel have no range, like those with layers that vary. */
+/* Signed kernels: every sub-row under the kernel begins with the colour of the base. Sub-rows
+ * outside the kernel are marked as varying, so that their colours do not count. */
 static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *context,
                                      const cs_retained_row *const *retained_rows, size_t rows,
                                      int32_t y) {
@@ -90,15 +91,15 @@ typedef struct summing {
   double y;                /* centre */
   size_t rows;             /* under the kernel */
   int32_t at;              /* the current column */
-  double sum[4];           /* there: the flat colours, weighted */
-  double slope[4];         /* its change from column to column after it */
-  cs_v4 here;              /* what is added at that column only */
-  size_t varying;          /* terms whose weight is not nothing */
+  double sum[4];           /* there: the weighted sum of the flat colours */
+  double slope[4];         /* by how much the sum grows from each column to the next */
+  cs_v4 here;              /* added at the current column only */
+  size_t varying;          /* terms whose weight is more than NOTHING */
   cs_convolve_range range; /* of the colours under the kernel, except near edges */
 } summing;
 
-/* Sums of floats times weights that sum to 1: rounding beyond the 40th bit is dropped, so that what
- * began as one colour ends as that colour. */
+/* Rounds a sum of colours times weights, where the weights sum to 1. What lies beyond the 40th bit
+ * is an error of rounding; without it, the mean of one colour is that colour to the bit. */
 static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
 
 /* Finds the range of the colours at the heights of a row. */
@@ -126,7 +127,8 @@ static void apply_passed(cs_convolve *convolve, const cs_convolve_passed *passed
   }
 }
 
-/* Applies the passed events at column p. Those of a row are neighbours in the list. */
+/* Applies the passed events at column p. In the list, those of one retained row are neighbours, so
+ * the range of a row is found once. */
 static void apply_passed_events(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
   for (uint32_t at = convolve->passed_at[p]; at != 0;) {
@@ -201,7 +203,7 @@ static celspan_status add_term(summing *s, const cs_convolve_term *term, int32_t
 
 #define MIXED 64 /* columns mixed at a time */
 
-/* Up to MIXED columns in which layers that vary have some weight. */
+/* Writes up to MIXED columns in which layers that vary have some weight. */
 static celspan_status mix_some(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
                                float *out) {
   cs_convolve *convolve = s->convolve;
@@ -231,7 +233,8 @@ static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range 
   return CELSPAN_OK;
 }
 
-/* The program that alone is visible; NULL where there is more than one, or flat colours. */
+/* The program that fills the kernel by itself; NULL where another program or a flat colour is
+ * visible under it too. */
 static const cs_program *lone_program(const summing *s) {
   if (s->varying != 1)
     return NULL;
@@ -244,7 +247,7 @@ static const cs_program *lone_program(const summing *s) {
   return NULL;
 }
 
-/* Writes the columns [x0, x1); after x0 nothing changes except by its slope. */
+/* Writes the columns [x0, x1). Only the first is touched, so the sum then follows its slope. */
 static celspan_status write(summing *s, int32_t x0, int32_t x1) {
   const cs_convolve *convolve = s->convolve;
   cs_convolve_range range = s->range;

@@ -1,12 +1,17 @@
-/* What the two halves of a filtered row share: scatter.c fills it from the retained edges under the
- * kernel, convolve.c sums it along the row.
+/* The data of a filtered row that its two halves share: scatter.c fills it from the retained edges
+ * under the kernel, convolve.c sums it along the row. One edge, which divides the kernels of the
+ * columns 2, 3 and 4:
  *
  *     column        0   1   2   3   4   5   6   7
- *     touched       x       x   x   x       x          something changes here
- *     changes       .       d   d   d       .          added to the running sum, from here on
+ *     touched       x       x   x   x   x              something changes here; always in column 0
  *     values                v   v   v                  added at this column only
- *     shifts                        s                  weights of programs change, from here on
- *     passed                            p              the kernel has passed an edge (signed ones)
+ *     changes                           d              added to the running sum, from here on
+ *     shifts                s   s   s   s              weights of programs change, from here on
+ *     passed                            p              signed kernels: the kernel has passed the
+ *                                                      edge
+ *
+ * Under an even shape an upright edge may be a ramp instead: one change of the sum and of its slope
+ * at each end (slopes).
  *
  * Invariant: lists by column are only valid for columns that are touched; each begins with 0, which
  * is the empty list, and is linked by index + 1.
@@ -23,7 +28,7 @@
 
 #define CS_CONVOLVE_SUB_ROWS 16
 
-/* A program among those under the kernel, and its share of it. */
+/* A program that is visible under the kernel, and the share of the kernel that it fills. */
 typedef struct cs_convolve_term {
   const cs_program *program;
   double weight; /* at the column that is made */
@@ -44,10 +49,11 @@ typedef struct cs_convolve_passed {
   int varies;               /* +1: a layer that varies begins, -1: one ends */
 } cs_convolve_passed;
 
-/* What is visible at one height, left of the kernel. */
+/* The colour that is visible at one height, left of the kernel. */
 typedef struct cs_convolve_sub_row {
   cs_v4d colour;
-  int varies; /* not 0: layers that vary, or beyond the kernel; it has no range */
+  int varies; /* not 0: a layer that varies is visible, or the height lies
+                 outside the kernel; then it has no range */
 } cs_convolve_sub_row;
 
 /* Colours, channel by channel. */
@@ -60,9 +66,9 @@ typedef struct cs_convolve {
   int32_t width;
   double (*changes)[4];            /* by column: of the sum of flat colours */
   double (*slopes)[4];             /* even shapes: of the change from column to column */
-  cs_v4 *values;                   /* by column: what is added there alone */
+  cs_v4 *values;                   /* by column: added at that column only */
   float *sums;                     /* separable kernels: scratch */
-  uint64_t *touched;               /* columns at which something changes, one bit each */
+  uint64_t *touched;               /* one bit for each column: something changes there */
   uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
   cs_convolve_range *near;         /* signed kernels: of the colours near a column */
   cs_convolve_term *terms;

@@ -206,7 +206,7 @@ static celspan_status fill_separable(celspan_context *context, const cs_blur *bl
   return status;
 }
 
-static bool slice_parallelogram(const cs_kernel *kernel, double d, double *from, double *to) {
+static bool chord_of_parallelogram(const cs_kernel *kernel, double d, double *from, double *to) {
   const double(*e)[2] = kernel->edges;
   double low = -1, high = 1, steep = e[1][1];
   if (e[0][1] != 0) { /* d = s e0.y + t e1.y, |t| <= 1 */
@@ -223,9 +223,9 @@ static bool slice_parallelogram(const cs_kernel *kernel, double d, double *from,
   return true;
 }
 
-bool cs_kernel_slice(const cs_kernel *kernel, double d, double *from, double *to) {
+bool cs_kernel_chord(const cs_kernel *kernel, double d, double *from, double *to) {
   if (kernel->shape == CS_KERNEL_PARALLELOGRAM)
-    return slice_parallelogram(kernel, d, from, to);
+    return chord_of_parallelogram(kernel, d, from, to);
   double v = d / kernel->radius_y, rest = 1 - v * v;
   if (!(rest > 0))
     return false;
@@ -238,7 +238,7 @@ static void fill_even(const cs_blur *blur, cs_kernel *kernel) {
   const double(*e)[2] = blur->edges;
   bool is_box = blur->kind == CELSPAN_DEFOCUS_BOX;
   kernel->shape = is_box ? CS_KERNEL_PARALLELOGRAM : CS_KERNEL_ELLIPSE;
-  kernel->rows = 8; /* its slices weigh what they should; only their width is that of a middle */
+  kernel->rows = 8; /* segments weigh exactly; only the chord is that of their middle height */
   kernel->radius_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : blur->radius_x;
   kernel->radius_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : blur->radius_y;
   kernel->per_radius_y = 1 / kernel->radius_y;
@@ -250,7 +250,7 @@ static void fill_even(const cs_blur *blur, cs_kernel *kernel) {
   double lengths[SAMPLES];
   for (int i = 0; i < SAMPLES; i++) {
     double from = 0, to = 0;
-    cs_kernel_slice(kernel, middle(i) * kernel->radius_y, &from, &to);
+    cs_kernel_chord(kernel, middle(i) * kernel->radius_y, &from, &to);
     lengths[i] = to - from;
   }
   integrate(lengths, kernel->above);

@@ -1,12 +1,12 @@
 /* A filter kernel as rows use it: its antiderivatives, tabulated, or an even shape.
  *
  *       share of the kernel                    an edge at x cuts the kernel of a pixel: what lies
- *       1 |         _____                      right of the edge is weighted by the share right of
- *         |       /                            it, read from the table
- *      .5 |      /
- *         |     /                                 |<- radius ->|
- *       0 |____/______ x                        (      *  |      )   kernel of the pixel at *
- *         -1    0     1   times the radius                edge
+ *       1 |            ____                    right of the edge is weighted by the share right of
+ *         |          /                         it, read from the table
+ *      .5 |       /
+ *         |    /                                         |<-radius->|
+ *       0 |__/_____________ x                  (          *    |     )   kernel of the pixel at *
+ *           -1    0    1   times the radius                   edge
  *
  * In units of its radius, u in -1..1, a separable kernel is a step function over equal parts. Its
  * integral is then piecewise linear, so a filtered edge has neither gap nor overlap: the weights
@@ -39,7 +39,7 @@ typedef struct cs_kernel {
   cs_kernel_shape shape;
   double radius_x, radius_y; /* pixels: how far it reaches */
   double per_radius_y;       /* 1 / radius_y */
-  int rows;                  /* parts that a slanted edge is cut into, a row */
+  int rows;                  /* segments that a slanted edge is cut into, for each row */
   bool is_signed;            /* negative somewhere */
   double sharpness;          /* SEPARABLE: how finely a slanted edge is cut; 1 for the sharpest */
   double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
@@ -62,7 +62,7 @@ CELSPAN_CHECKED celspan_status cs_kernel_create_defocus(celspan_context *context
                                                         const cs_blur *blur, cs_kernel **out);
 void cs_kernel_free(cs_kernel *kernel, cs_memory *memory);
 /* An even shape at height d from its centre: from *from to *to; false beyond it. */
-bool cs_kernel_slice(const cs_kernel *kernel, double d, double *from, double *to);
+bool cs_kernel_chord(const cs_kernel *kernel, double d, double *from, double *to);
 /* Rows and columns that a kernel may extend beyond its pixel. */
 int32_t cs_kernel_extent(const cs_kernel *kernel);
 

@@ -1,14 +1,14 @@
 /* Retained edges of a row: its visible edges, kept after the row is left, for filters that extend
  * from row to row.
  *
- *     base |  side  \  side    |  side      base: what is left of everything, the same on every row
+ *     base |  side  \  side    |  side      base: the cell left of all edges, the same on every row
  *          |         \         |
  *          |          \        |           an edge is straight and lies between two sides: flat
  *          e0          e1      e2          colours, or programs copied out of the composer
  *
  * At any height of the row the edges that cross it lead from side to side, from the base to the
- * rightmost. So what is visible at a point is the base and the sum of the colour steps of the edges
- * left of it, in whatever order they are added.
+ * rightmost. So the colour at a point is that of the base plus the colour steps of all edges left
+ * of it, in whatever order they are added.
  *
  * Invariant: a retained row is a function of the plan and its row's number.
  */
@@ -52,7 +52,7 @@ typedef struct cs_retained_row {
 } cs_retained_row;
 
 void cs_retained_finish(cs_retained_row *retained, cs_memory *memory);
-/* Begins a row; base: what is left of everything. Its room is kept. */
+/* Begins a row; base: the cell left of all edges. Its room is kept. */
 void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base);
 /* Adds an edge segment between two cells. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *retained,

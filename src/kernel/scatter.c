@@ -67,7 +67,7 @@ static bool are_same(const cs_painter *painter, const cs_program *a, const cs_pr
     return false;
   for (uint32_t i = 0; a->procedure_spans != b->procedure_spans && i < a->length; i++)
     if (painter->stack->layers[a->items[i].layer].kind == CS_LAYER_SCANLINE)
-      return false; /* procedure spans are numbered row by row */
+      return false; /* the numbers of procedure spans differ from row to row */
   return true;
 }
 

@@ -2,15 +2,15 @@
  * first half of a filtered row; convolve.c is the second.
  *
  *      kernel of the pixel at column p       a retained edge, cut to the heights of the kernel and
- *          _____                             into parts so short that each may be upright
+ *          _____                             into segments so short that each may be upright
  *         /     \
- *      --|---p---|--------/------            columns whose kernel is left of the part: nothing
+ *      --|---p---|--------/------            columns whose kernel is left of it: nothing
  *         \_____/        /                   columns whose kernel it divides: a share of the step
  *                       /                    columns whose kernel is right of it: the whole step,
  *                                            which is a change at the first of them, and for signed
  *                                            kernels a passed event
  *
- *   scatter.c            what is under a row: retained rows, edges, programs
+ *   scatter.c            finds the retained rows, edges and programs under a kernel
  *   scatter_separable.c  an edge under a separable kernel
  *   scatter_even.c       an edge under an even shape
  */

@@ -1,13 +1,14 @@
-/* An edge under an even shape: at each height the kernel is one interval in which it is constant.
+/* An edge under an even shape: at each height the kernel is one interval, its chord, in which it is
+ * constant.
  *
- *         ___---|---___
- *       /       |      \        the edge is cut into parts by height
- *      |        |       |
- *      |========*=======|       the kernel's slice at the middle of a part: the pixel gets as much
- *       \       |      /        of the part's weight as its share of the slice on the right
- *         ---___|___---
+ *         ___--/---___
+ *       /     /        \        the edge is cut into segments by height
+ *      |     /          |
+ *      |====*===========|       the kernel's chord at the middle height of a segment: the share of
+ *       \   |          /        the chord right of the segment is the share of the segment's weight
+ *         --|______---          that the pixel gets
  *
- * A long slice over an upright part is a ramp along the columns: one change of slope where it
+ * A long chord over an upright segment is a ramp along the columns: one change of slope where it
  * begins, and one where it ends.
  */
 #include "kernel/scatter.h"
@@ -16,17 +17,17 @@
 
 #include <math.h>
 
-#define NARROW 1e-4  /* of the interval: parts that cross less count as upright */
-#define NOTHING 1e-9 /* slices that are shorter have as good as no weight */
-#define RAMP 8       /* columns; longer slices are ramps to parts that cross little of them */
+#define NARROW 1e-4  /* of a chord: segments that cross less count as upright */
+#define NOTHING 1e-9 /* shorter chords have no weight worth adding */
+#define RAMP 8       /* columns; under longer chords, segments that cross little are ramps */
 
-/* A part of an edge, and the share of the kernel at its heights. */
-typedef struct part {
+/* A segment of an edge, and the share of the kernel at its heights. */
+typedef struct segment {
   double low, high; /* x */
-  double from, to;  /* the kernel at its heights, about the centre of a pixel */
+  double from, to;  /* the kernel's chord at its middle height, relative to the kernel's centre */
   double weight;
   int32_t first, end; /* columns whose kernel it divides; from `end` on the kernel has passed it */
-} part;
+} segment;
 
 static celspan_status change(cs_scatter *g, const cs_retained_edge *edge, int32_t p,
                              double weight) {
@@ -36,9 +37,10 @@ static celspan_status change(cs_scatter *g, const cs_retained_edge *edge, int32_
 
 static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
 
-/* The share of the kernel's slice about c that lies right of the part. scale: 1 / its length, and
- * 1 / what the part crosses unless it is upright. */
-static double share_right(const part *t, double c, bool is_upright, double scale) {
+/* The share of the chord of a kernel with centre c that lies right of a segment, as a mean over the
+ * segment's heights. scale: 1 / the chord's length, divided by the width of the segment unless that
+ * is upright. */
+static double share_right(const segment *t, double c, bool is_upright, double scale) {
   if (is_upright)
     return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) * scale, 0, 1);
   return (half_square(c + t->to - t->low) - half_square(c + t->from - t->low) -
@@ -46,7 +48,8 @@ static double share_right(const part *t, double c, bool is_upright, double scale
          scale;
 }
 
-static celspan_status spread(cs_scatter *g, const cs_retained_edge *edge, const part *t) {
+/* Adds a segment to each column whose kernel it divides, and as a whole to the columns after. */
+static celspan_status spread(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
   cs_convolve *convolve = g->convolve;
   double before = 0, length = t->to - t->from, across = t->high - t->low;
   bool is_upright = across < NARROW * length, is_flat = cs_scatter_is_flat(edge);
@@ -75,8 +78,8 @@ static void tilt(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double 
     sum[c] += slope * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
 }
 
-/* An upright edge under an even slice is a ramp: one change where it begins, one where it ends. */
-static celspan_status spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const part *t) {
+/* An upright segment under a chord is a ramp: one change where it begins, one where it ends. */
+static celspan_status spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
   cs_convolve *convolve = g->convolve;
   double x = 0.5 * (t->low + t->high), slope = 1 / (t->to - t->from);
   int32_t first = cs_number_first_centre(x - t->to), end = cs_number_first_centre(x - t->from);
@@ -96,7 +99,7 @@ static celspan_status spread_ramp(cs_scatter *g, const cs_retained_edge *edge, c
   return change(g, edge, end, t->weight * (1 - (now + (end - first) * slope)));
 }
 
-static celspan_status add_part(cs_scatter *g, const cs_retained_edge *edge, part *t) {
+static celspan_status add_segment(cs_scatter *g, const cs_retained_edge *edge, segment *t) {
   if (t->weight == 0)
     return CELSPAN_OK;
   t->first = cs_number_first_centre(t->low - t->to);
@@ -106,26 +109,24 @@ static celspan_status add_part(cs_scatter *g, const cs_retained_edge *edge, part
   return is_ramp ? spread_ramp(g, edge, t) : spread(g, edge, t);
 }
 
-/* In how many parts the kernel is even enough over the heights of an edge: an upright box always
- * is.
- */
-static int count_parts(const cs_kernel *kernel, const cs_retained_edge *edge) {
+/* Into how many segments an edge is cut so that the kernel has nearly one chord over the heights of
+ * each; an upright box has the same chord at all heights. */
+static int count_segments(const cs_kernel *kernel, const cs_retained_edge *edge) {
   double height = edge->yb - edge->ya, across = fabs(edge->xb - edge->xa);
   bool is_upright = kernel->shape == CS_KERNEL_PARALLELOGRAM && kernel->edges[0][1] == 0 &&
                     kernel->edges[1][0] == 0;
-  double parts = is_upright ? 1 : ceil(height * kernel->rows / kernel->radius_y);
+  double count = is_upright ? 1 : ceil(height * kernel->rows / kernel->radius_y);
   if (2 * kernel->radius_x > RAMP)
-    parts = fmax(parts, ceil(across * RAMP / (2 * kernel->radius_x)));
-  return parts > 1 ? (int)parts : 1;
+    count = fmax(count, ceil(across * RAMP / (2 * kernel->radius_x)));
+  return count > 1 ? (int)count : 1;
 }
 
-/* Adds an edge to kernels that lie `dx`, `dy` from the pixels' centres and have `share` of the
- * whole.
- */
+/* Adds an edge, cut to the heights of the kernel, to kernels whose centres are moved by dx, dy from
+ * the pixels' centres. share: of these kernels in the whole one. */
 static celspan_status add_cut(cs_scatter *g, const cs_retained_edge *edge, double dx, double dy,
                               double share) {
   const cs_kernel *kernel = g->convolve->kernel;
-  int count = count_parts(kernel, edge);
+  int count = count_segments(kernel, edge);
   double xa = edge->xa, ya = edge->ya, centre = g->centre + dy;
   double above = cs_kernel_above(kernel, ya - centre);
   for (int k = 1; k <= count; k++) {
@@ -133,12 +134,12 @@ static celspan_status add_cut(cs_scatter *g, const cs_retained_edge *edge, doubl
     double xb = k == count ? edge->xb : edge->xa + u * (edge->xb - edge->xa);
     double yb = k == count ? edge->yb : edge->ya + u * (edge->yb - edge->ya);
     double below = cs_kernel_above(kernel, yb - centre);
-    part t = {.low = (xa < xb ? xa : xb) - dx,
-              .high = (xa < xb ? xb : xa) - dx,
-              .weight = share * (below - above)};
-    if (cs_kernel_slice(kernel, 0.5 * (ya + yb) - centre, &t.from, &t.to) &&
+    segment t = {.low = (xa < xb ? xa : xb) - dx,
+                 .high = (xa < xb ? xb : xa) - dx,
+                 .weight = share * (below - above)};
+    if (cs_kernel_chord(kernel, 0.5 * (ya + yb) - centre, &t.from, &t.to) &&
         t.to - t.from > NOTHING)
-      CS_TRY(add_part(g, edge, &t));
+      CS_TRY(add_segment(g, edge, &t));
     xa = xb;
     ya = yb;
     above = below;

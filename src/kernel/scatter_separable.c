@@ -1,16 +1,16 @@
 /* An edge under a separable kernel.
  *
  *            /  ya
- *           /  } part       an edge is taken in parts so short that each may be upright in its
- *          /   } part       middle and count with the share of the kernel at its heights
+ *           /  } segment    an edge is cut into segments so short that each may count as upright at
+ *          /   } segment    its middle x, with the share of the kernel at its heights as its weight
  *         /  yb
  *
  *      column   p-2   p-1    p    p+1   p+2
- *      share     0    .1    .5    .9     1      a row of the kernel's table: what a part adds to
- *                                               the columns around it
+ *      share     0    .1    .5    .9     1      a row of the kernel's table: which shares of its
+ *                                               weight a segment adds to the columns around it
  *
- * Parts within a stretch of about a column are summed as numbers first, so that the colour step of
- * the edge is added once a column.
+ * The shares of all segments within a stretch of about a column are summed first, so that the
+ * colour step of the edge is added once a column.
  */
 #include "kernel/scatter.h"
 
@@ -18,25 +18,27 @@
 
 #include <math.h>
 
-#define STRETCH 1.0 /* columns that parts summed together may lie apart */
-#define WIDEST 0.25 /* columns that a part may cross */
+#define STRETCH 1.0 /* columns that segments summed together may cross */
+#define WIDEST 0.25 /* columns that one segment may cross */
 
-/* Parts of an edge: their error is the product of what they cross along both axes. */
-static int count_parts(const cs_kernel *kernel, double height, double across) {
+/* Into how many segments an edge is cut: the error of a segment grows as the product of its height
+ * and its width. */
+static int count_segments(const cs_kernel *kernel, double height, double across) {
   double wanted = kernel->rows * kernel->sharpness * sqrt(height * across);
   double least = across * kernel->sharpness / WIDEST;
   return (int)ceil(fmax(wanted, fmax(least, 1)));
 }
 
-/* Parts summed together: they divide the kernel of the columns [first, end); beyond, their weight
- * counts as a whole. */
+/* Segments that are summed together. They divide the kernels of the columns [first, end); in the
+ * columns after, their weight counts as a whole. */
 typedef struct stretch {
   int32_t first, end;
   double weight;
 } stretch;
 
-static void add_part(const cs_kernel *kernel, const stretch *s, double x, float weight,
-                     float *sums) {
+/* Adds the shares of a segment at x to the sums of a stretch, a number for each column. */
+static void add_segment(const cs_kernel *kernel, const stretch *s, double x, float weight,
+                        float *sums) {
   double column = floor(x - 0.5), phase = (x - 0.5 - column) * kernel->phases;
   int32_t row = (int32_t)phase, stride = kernel->stride;
   float t = (float)(phase - row);
@@ -85,7 +87,7 @@ static cs_convolve_range range_of(const cs_retained_edge *edge) {
   return range;
 }
 
-/* Adds a stretch to its columns. */
+/* Adds the colour step of a stretch to its columns, by the sums of its segments. */
 static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, const stretch *s,
                                   const float *sums) {
   cs_convolve *convolve = g->convolve;
@@ -115,9 +117,9 @@ static celspan_status put_stretch(cs_scatter *g, const cs_retained_edge *edge, c
   return cs_scatter_shift(g, edge, rest, s->weight - before);
 }
 
-/* Adds a stretch of an edge, the cut, whose parts are summed together. */
+/* Adds the stretch `cut` of an edge, in `count` segments that are summed together. */
 static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
-                                  const cs_retained_edge *cut, int parts) {
+                                  const cs_retained_edge *cut, int count) {
   const cs_kernel *kernel = g->convolve->kernel;
   float *sums = g->convolve->sums;
   double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
@@ -127,12 +129,12 @@ static celspan_status add_stretch(cs_scatter *g, const cs_retained_edge *edge,
   if (s.first >= g->convolve->width)
     return CELSPAN_OK;
   memset(sums, 0, (size_t)(s.end - s.first + kernel->stride) * sizeof *sums);
-  double across = (cut->xb - cut->xa) / parts, down = (cut->yb - cut->ya) / parts;
-  for (int k = 1; k <= parts; k++) {
-    double foot = k == parts ? cut->yb : cut->ya + k * down;
+  double across = (cut->xb - cut->xa) / count, down = (cut->yb - cut->ya) / count;
+  for (int k = 1; k <= count; k++) {
+    double foot = k == count ? cut->yb : cut->ya + k * down;
     double below = cs_kernel_above(kernel, foot - g->centre);
     if (s.end > 0)
-      add_part(kernel, &s, cut->xa + (k - 0.5) * across, (float)(below - above), sums);
+      add_segment(kernel, &s, cut->xa + (k - 0.5) * across, (float)(below - above), sums);
     above = below;
   }
   s.weight = above - begin;
@@ -149,14 +151,14 @@ celspan_status cs_scatter_separable(cs_scatter *g, const cs_retained_edge *edge)
     return CELSPAN_OK;
   double height = within.yb - within.ya, across = within.xb - within.xa;
   int stretches = (int)ceil(fmax(fabs(across) / STRETCH, 1));
-  int parts = count_parts(kernel, height, fabs(across));
-  parts = (parts + stretches - 1) / stretches;
+  int segments = count_segments(kernel, height, fabs(across));
+  segments = (segments + stretches - 1) / stretches;
   cut = within;
   for (int k = 1; k <= stretches; k++) {
     double u = (double)k / stretches;
     cut.xb = k == stretches ? within.xb : within.xa + u * across;
     cut.yb = k == stretches ? within.yb : within.ya + u * height;
-    CS_TRY(add_stretch(g, edge, &cut, parts));
+    CS_TRY(add_stretch(g, edge, &cut, segments));
     cut.xa = cut.xb;
     cut.ya = cut.yb;
   }
