@@ -29,11 +29,11 @@
 
 #include <math.h>
 
-void cs_area_init(cs_area *area, const cs_row_parts *parts) {
-  *area = (cs_area){.parts = *parts};
-  cs_window_init(&area->target.window, parts->painter, parts->arena, parts->width);
-  cs_local_sweep_init(&area->sweep, parts->composer, parts->arena, &area->target);
-  area->commit = (cs_commit){parts->active, parts->cells, parts->composer, parts->arena, NULL};
+void cs_area_init(cs_area *area, const cs_row_tools *tools) {
+  *area = (cs_area){.tools = *tools};
+  cs_window_init(&area->target.window, tools->painter, tools->arena, tools->width);
+  cs_local_sweep_init(&area->sweep, tools->composer, tools->arena, &area->target);
+  area->commit = (cs_commit){tools->active, tools->cells, tools->composer, tools->arena, NULL};
 }
 
 void cs_area_finish(cs_area *area, cs_memory *memory) {
@@ -46,18 +46,18 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
 /* The walk along a row, or along a slab of it, from left to right. */
 typedef struct row_walk {
   cs_area *area;
-  const cs_cell *cells; /* as in cs_cells; they do not change until the walk is done */
+  const cs_cell *cells;    /* as in cs_cells; they do not change until the walk is done */
   cs_intervals *intervals; /* between the two heights */
-  size_t visible; /* the next visible boundary */
-  bool is_slab;   /* of a row whose other heights are walked by themselves */
+  size_t visible;          /* the next visible boundary */
+  bool is_slab;            /* of a row whose other heights are walked by themselves */
 } row_walk;
 
 /* ---------------------------------------------------------------- alone */
 
 /* The first visible boundary from v on that is not left of boundary `end`. */
 static size_t find_visible(const cs_area *area, size_t v, size_t end) {
-  const cs_cells *cells = area->parts.cells;
-  if (end == area->parts.active->count)
+  const cs_cells *cells = area->tools.cells;
+  if (end == area->tools.active->count)
     return cells->visible_count;
   while (v < cells->visible_count && cells->visible[v] < end)
     v++;
@@ -70,9 +70,9 @@ static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, si
   for (size_t k = 0; k < count; k++) {
     size_t i = boundaries[k];
     const cs_cell *left = &w->cells[i];
-    const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->parts.active, i) : NULL;
+    const cs_bend *bend = area->edges.is_bent[i] ? cs_active_bend(area->tools.active, i) : NULL;
     cs_window_end_item(&area->target.window, left + 1);
-    for (cs_pieces p = cs_pieces_of(area->parts.active, i, bend); cs_pieces_next(&p);) {
+    for (cs_pieces p = cs_pieces_of(area->tools.active, i, bend); cs_pieces_next(&p);) {
       const cs_segment segment = {p.above.x, p.above.y, p.below.x, p.below.y};
       CS_TRY(cs_target_add(&area->target, &segment, left, left + 1));
     }
@@ -85,14 +85,14 @@ static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, si
 static celspan_status walk_alone(row_walk *w, size_t end, double next) {
   cs_area *area = w->area;
   size_t first = w->visible;
-  const uint32_t *boundaries = area->parts.cells->visible + first;
+  const uint32_t *boundaries = area->tools.cells->visible + first;
   w->visible = find_visible(area, first, end);
   if (w->is_slab || area->target.retained)
     return add_boundaries(w, boundaries, w->visible - first);
-  cs_direct_edges edges = {area->parts.active, &area->edges,
-                                 w->cells,           boundaries,
-                                 w->visible - first, cs_edges_floor(next, area->parts.width),
-                                 area->parts.width};
+  cs_direct_edges edges = {area->tools.active, &area->edges,
+                           w->cells,           boundaries,
+                           w->visible - first, cs_edges_floor(next, area->tools.width),
+                           area->tools.width};
   return cs_window_edges(&area->target.window, &edges);
 }
 
@@ -109,9 +109,9 @@ static double least_x(const cs_member *members, size_t count, double least) {
 /* Brings the composer to the left of an interval, and the target to its least x. */
 static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low, double least) {
   cs_local_sweep *sweep = &area->sweep;
-  cs_cells_walk_to(area->parts.cells, area->parts.composer, low, least);
+  cs_cells_walk_to(area->tools.cells, area->tools.composer, low, least);
   sweep->left = left;
-  sweep->deferred = area->parts.cells->deferred;
+  sweep->deferred = area->tools.cells->deferred;
   sweep->deferred.first = sweep->deferred.next;
   return cs_target_begin_item(&area->target, least);
 }
@@ -130,7 +130,7 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
     CS_TRY(cs_intervals_member(w->intervals, i, member));
     member->right = &w->cells[i + 1];
   }
-  double least = least_x(sweep->entering, sweep->count, area->parts.width);
+  double least = least_x(sweep->entering, sweep->count, area->tools.width);
   least = least_x(sweep->begins, sweep->begin_count, least);
   CS_TRY(begin_item(area, &w->cells[low], low, least));
   CS_TRY(cs_local_sweep_replay(sweep));
@@ -142,7 +142,7 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
 /* Whether an interval is two straight boundaries that cross: the bends of both, if any, keep to
  * their chords. */
 static bool is_pair(const cs_area *area, const cs_interval *interval) {
-  const cs_active *active = area->parts.active;
+  const cs_active *active = area->tools.active;
   size_t i = interval->low;
   return interval->high - i == 2 && interval->events.low > interval->events.high &&
          !area->edges.is_bent[i] && !area->edges.is_bent[i + 1] &&
@@ -154,7 +154,7 @@ static celspan_status walk_pair(row_walk *w, const cs_interval *interval) {
   size_t low = interval->low;
   const cs_cell *between;
   CS_TRY(begin_item(area, &w->cells[low], low, interval->extent.low));
-  CS_TRY(cs_local_sweep_pair(&area->sweep, area->parts.active, low, &between));
+  CS_TRY(cs_local_sweep_pair(&area->sweep, area->tools.active, low, &between));
   CS_TRY(cs_commit_pair(&area->commit, low, between));
   cs_window_end_item(&area->target.window, &w->cells[interval->high]);
   return CELSPAN_OK;
@@ -168,7 +168,7 @@ static celspan_status walk_row(row_walk *w) {
     w->visible = find_visible(area, w->visible, interval->high);
     CS_TRY(is_pair(area, interval) ? walk_pair(w, interval) : walk_interval(w, interval));
   }
-  return walk_alone(w, area->parts.active->count, area->parts.width);
+  return walk_alone(w, area->tools.active->count, area->tools.width);
 }
 
 /* ---------------------------------------------------------------- procedures */
@@ -210,14 +210,14 @@ static celspan_status append_edges(cs_intervals *b, const cs_procedure_edges *ed
   return CELSPAN_OK;
 }
 
-/* Asks every procedure for its spans on all heights of the row. */
+/* Calls every procedure at all heights of the row and adds its edges. */
 static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
-  b->procedures = (cs_extent){area->parts.width, 0};
+  b->procedures = (cs_extent){area->tools.width, 0};
   for (int j = 0; j < CS_PROCEDURES_ROWS; j++) {
     cs_procedure_edges edges = {0};
     double top = b->y0 + (double)j / CS_PROCEDURES_ROWS;
     double foot = b->y0 + (j + 1.0) / CS_PROCEDURES_ROWS;
-    CS_TRY(cs_procedures_collect(area->parts.procedures, 0.5 * (top + foot), &edges));
+    CS_TRY(cs_procedures_collect(area->tools.procedures, 0.5 * (top + foot), &edges));
     CS_TRY(append_edges(b, &edges, top, foot));
   }
   return CELSPAN_OK;
@@ -225,16 +225,16 @@ static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
 
 /* ---------------------------------------------------------------- rows and slabs */
 
-#define ROW_EVENTS 2048 /* what may begin and end in a row that is not cut */
-#define SLAB_EVENTS 128 /* and in a slab of one that is */
+#define ROW_EVENTS 2048 /* begins and ends in a row that is not cut into slabs, at most */
+#define SLAB_EVENTS 128 /* and in a slab, about */
 #define SLABS_MOST 256
 
 /* Slabs of a row: a power of two, so that their heights are exact. */
 static int count_slabs(const cs_area *area, int32_t y) {
-  const cs_active *active = area->parts.active;
+  const cs_active *active = area->tools.active;
   size_t events = cs_intervals_count_begins(active, y + 1.0);
   int slabs = 1;
-  if (events + active->count <= ROW_EVENTS || cs_procedures_meet(area->parts.procedures, y))
+  if (events + active->count <= ROW_EVENTS || cs_procedures_meet(area->tools.procedures, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;
@@ -245,41 +245,41 @@ static int count_slabs(const cs_area *area, int32_t y) {
 
 /* Copies the cells to room that lasts as long as the row: segments point to them. */
 static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
-  size_t size = area->parts.cells->known * sizeof **out;
-  cs_cell *kept = cs_arena_take(area->parts.composer->context, area->parts.arena, size);
+  size_t size = area->tools.cells->known * sizeof **out;
+  cs_cell *kept = cs_arena_take(area->tools.composer->context, area->tools.arena, size);
   if (!kept)
     return CELSPAN_NO_MEMORY;
-  *out = memcpy(kept, area->parts.cells->cells, size);
+  *out = memcpy(kept, area->tools.cells->cells, size);
   return CELSPAN_OK;
 }
 
-/* Moves the boundaries down to the slab that begins where the last one ended. */
+/* Moves the boundaries down to the next slab, which begins where the last one has ended. */
 static celspan_status next_slab(cs_area *area) {
   cs_change change;
-  cs_composer *composer = area->parts.composer;
-  CS_TRY(cs_active_settle(composer->context, area->parts.active, &change));
+  cs_composer *composer = area->tools.composer;
+  CS_TRY(cs_active_settle(composer->context, area->tools.active, &change));
   if (!cs_change_is_none(change))
-    CS_TRY(cs_cells_update(area->parts.cells, composer, area->parts.active, change));
+    CS_TRY(cs_cells_update(area->tools.cells, composer, area->tools.active, change));
   return composer->failure;
 }
 
 /* Walks the row between two heights; the boundaries are at the upper. */
 static celspan_status walk_heights(row_walk *w, double y0, double y1) {
   cs_area *area = w->area;
-  celspan_context *context = area->parts.composer->context;
-  cs_cells_list(area->parts.cells);
+  celspan_context *context = area->tools.composer->context;
+  cs_cells_list(area->tools.cells);
   cs_intervals intervals = {.context = context,
-                            .arena = area->parts.arena,
-                            .active = area->parts.active,
+                            .arena = area->tools.arena,
+                            .active = area->tools.active,
                             .edges = &area->edges,
                             .y0 = y0,
                             .y1 = y1};
   w->intervals = &intervals;
   area->commit.first = NULL;
-  CS_TRY(cs_active_advance(context, area->parts.active, y1));
-  if (!w->is_slab && cs_procedures_meet(area->parts.procedures, (int32_t)y0))
+  CS_TRY(cs_active_advance(context, area->tools.active, y1));
+  if (!w->is_slab && cs_procedures_meet(area->tools.procedures, (int32_t)y0))
     CS_TRY(find_procedures(area, &intervals));
-  CS_TRY(cs_edges_measure(context, &area->edges, area->parts.active, area->parts.width));
+  CS_TRY(cs_edges_measure(context, &area->edges, area->tools.active, area->tools.width));
   CS_TRY(cs_intervals_find(&intervals));
   return walk_row(w);
 }
@@ -303,7 +303,7 @@ static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *ou
 }
 
 celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out) {
-  row_walk w = {.area = area, .cells = area->parts.cells->cells};
+  row_walk w = {.area = area, .cells = area->tools.cells->cells};
   int slabs = count_slabs(area, y);
   area->target.retained = NULL;
   if (slabs > 1)
@@ -315,10 +315,10 @@ celspan_status cs_area_row(cs_area *area, int32_t y, cs_row *out) {
 }
 
 celspan_status cs_area_retain(cs_area *area, int32_t y, cs_retained_row *retained) {
-  row_walk w = {.area = area, .cells = area->parts.cells->cells};
+  row_walk w = {.area = area, .cells = area->tools.cells->cells};
   area->target.retained = retained;
   cs_retained_begin(retained, y, w.cells[0].colour);
   CS_TRY(walk_heights(&w, y, y + 1.0));
-  CS_TRY(cs_retained_seal(retained, area->parts.composer));
+  CS_TRY(cs_retained_seal(retained, area->tools.composer));
   return cs_commit_apply(&area->commit);
 }

@@ -12,17 +12,17 @@
 #include "area/commit.h"
 #include "area/edges.h"
 #include "area/local_sweep.h"
-#include "area/row_parts.h"
+#include "area/row_tools.h"
 
 typedef struct cs_area {
-  cs_row_parts parts; /* borrowed */
+  cs_row_tools tools; /* borrowed */
   cs_edges edges;     /* of the row being made */
-  cs_target target;   /* that gets its segments */
+  cs_target target;   /* receives the segments of the row */
   cs_local_sweep sweep;
-  cs_commit commit; /* what the row leaves for the next one */
+  cs_commit commit; /* the order and cells that the row leaves for the next one */
 } cs_area;
 
-void cs_area_init(cs_area *area, const cs_row_parts *parts);
+void cs_area_init(cs_area *area, const cs_row_tools *tools);
 void cs_area_finish(cs_area *area, cs_memory *memory);
 /* Row y. The boundaries and cells are at its top; they have reached its foot when it returns, and
  * are in the order that they have there as far as that is known. out: is empty, gets [0, width).

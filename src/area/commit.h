@@ -7,8 +7,8 @@
  *                               each at the foot
  *
  * Invariant: after cs_commit_apply the committed places are as the sweep would have ordered them at
- * the foot, and their cells look as they would have been composed there. Groups in which something
- * begins or ends are not committed: they have other places afterwards.
+ * the foot, and their cells have the colours that would be composed there. Groups in which
+ * something begins or ends are not committed: they have other places afterwards.
  */
 #ifndef CS_AREA_COMMIT_H
 #define CS_AREA_COMMIT_H

@@ -8,9 +8,9 @@
  *      +---+---+---+---+---+---+---+---+
  *      | L | L |  .|-##|###|###| R | R |     L, R: the cells on its sides
  *      +---+---+---+---+---+---+---+---+
- *               one sec  +fall two           the share of a pixel right of the edge: one in the
- *                   \_______/                first column, two in the last, between them second,
- *                     ramp                   and `fall` more from column to column
+ *                one  sec +fall two          the share of a pixel right of the edge: one in the
+ *                   \_______/                first column, two in the last; between them it is
+ *                     ramp                   `second`, and `fall` more from column to column
  *
  *      pixel = L + share * (R - L)
  *
@@ -35,7 +35,7 @@ typedef struct cs_direct_edges {
   const cs_cell *cells;       /* as in cs_cells */
   const uint32_t *boundaries; /* `count` of them, to be drawn from left to right */
   size_t count;
-  int32_t next; /* nothing that comes after them lies left of this column */
+  int32_t next; /* whatever is drawn after them lies at or right of this column */
   int32_t width;
 } cs_direct_edges;
 
@@ -78,9 +78,9 @@ typedef struct cs_direct_piece {
   int32_t first, end;
 } cs_direct_piece;
 
-/* Adds a straight piece to sums by column: change[k] is what column `from` + k has more than the
- * column before. step: of colour, from its left to its right. Which columns a piece crosses cannot
- * be foreseen, so the only branch here is whether they are more than two. */
+/* Adds a straight piece to sums by column: change[k] is by how much column `from` + k exceeds the
+ * column before. step: of colour, from its left to its right. Which columns a piece crosses can
+ * hardly be foreseen, so the only branch here is whether they are more than two. */
 static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece piece,
                                  const cs_sum4 *step) {
   const int32_t first = piece.first, end = piece.end;
@@ -89,7 +89,7 @@ static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece 
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   double by_twice = 0.5 / cs_number_most(high - low, thin), before = 0;
   change += first - from;
-  if (end - first <= 2 && low >= first && high <= end) { /* as nearly all */
+  if (end - first <= 2 && low >= first && high <= end) { /* nearly all pieces */
     double split = first + 1, until = cs_number_least(high, split) - low;
     double beyond = cs_number_most(high - split, 0), short_of = cs_number_most(split - high, 0);
     double area = cs_edges_round(height * (until * until * by_twice + short_of));

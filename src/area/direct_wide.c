@@ -7,9 +7,10 @@
  *       +--------+---+---+-----------+---
  *         span   span span               a plain edge: three spans, or two over one column
  *
- *       |##|/##|###|
- *       |#/|###|\##|                     edges that share a pixel: their colour steps are summed
- *          |___|                         column by column (draw_group)
+ *       +--------+--------+--------+
+ *       |    /###|########|##\     |     edges that share a pixel: their colour steps are summed
+ *       |  /#####|#\  /###|####\   |     column by column (draw_group)
+ *       +--------+--------+--------+
  *
  * Plain edges come first because nearly all are plain: what is written for them does not depend on
  * a branch that could not be foreseen.
@@ -241,7 +242,8 @@ static inline size_t draw_next(cs_row_writer *writer, const cs_direct_edges *s,
 }
 
 size_t CS_WIDE(cs_direct_draw)(const cs_direct_edges *direct, cs_row_writer *out) {
-  const cs_direct_edges s = *direct; /* copies: nothing that is written changes them */
+  /* A copy, which can stay in registers since no store changes it. */
+  const cs_direct_edges s = *direct;
   const cs_edges edges = *direct->edges;
   cs_row_writer writer = *out;
   size_t done = 0, drawn = 1;

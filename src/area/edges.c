@@ -7,13 +7,13 @@
 /* Bytes of one boundary over all arrays. */
 #define ITEM_SIZE (4 * sizeof(double) + 4 * sizeof(float) + 2 * sizeof(int32_t) + sizeof(bool))
 
-/* Bytes of `capacity` boundaries, and of what aligning them may take: none where there are none. */
-static size_t block_size(size_t capacity) {
+/* Bytes of the arrays of `capacity` boundaries and of the gap before them, which aligns them. */
+static size_t storage_size(size_t capacity) {
   return capacity > 0 ? capacity * ITEM_SIZE + CS_WIDE_LINE : 0;
 }
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory) {
-  cs_mem_free(memory, edges->block, block_size(edges->capacity));
+  cs_mem_free(memory, edges->storage, storage_size(edges->capacity));
   *edges = (cs_edges){0};
 }
 
@@ -23,18 +23,18 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
   if (count <= edges->capacity)
     return CELSPAN_OK;
   size_t wanted = 2 * count;
-  void *block = cs_mem_array(context->memory, 1, block_size(wanted));
-  if (!block)
+  void *storage = cs_mem_array(context->memory, 1, storage_size(wanted));
+  if (!storage)
     return cs_fail_memory(context);
-  double *doubles = cs_wide_align(block);
-  cs_mem_free(context->memory, edges->block, block_size(edges->capacity));
+  double *doubles = cs_wide_align(storage);
+  cs_mem_free(context->memory, edges->storage, storage_size(edges->capacity));
   *edges = (cs_edges){.isa = cs_isa_best(),
                       .low = doubles,
                       .high = doubles + wanted,
                       .area = doubles + 2 * wanted,
                       .rest = doubles + 3 * wanted,
                       .one = (float *)(doubles + 4 * wanted),
-                      .block = block,
+                      .storage = storage,
                       .capacity = wanted};
   edges->two = edges->one + wanted;
   edges->second = edges->two + wanted;
@@ -47,7 +47,8 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 
 /* ---------------------------------------------------------------- bent */
 
-/* Adds what is right of a piece in the column that ends at `split`, and in the one after it. */
+/* Adds the areas right of a straight piece: in the column that ends at `split` to *area, and in the
+ * column after it to *rest. */
 static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
                       double height, double split) {
   double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;

@@ -1,16 +1,16 @@
 /* The edges of a row: where every active boundary lies in it, and the area right of it in the
  * pixels that it crosses, for all boundaries at once and several at a time.
  *
- *           low                  high
- *            |                    |
+ *           low            high
+ *            |               |
  *      +-----.-+-------+-------+-----
  *      |     `.|#######|#######|##         ###: right of the edge
- *      |       |`-.####|#######|##         area: its share of the first column
- *      |       |   `-.#|#######|##         rest: its share of the last column
- *      |       |      `|-.#####|##         fall: what each column between has more than the one
- *      |       |       |  `-.##|##               before it
+ *      |       |`-.####|#######|##         area: the share of the first column
+ *      |       |   `-.#|#######|##         rest: the share of the last column
+ *      |       |      `|-.#####|##         fall: by how much the share grows from each column
+ *      |       |       |  `-.##|##               between them to the next
  *      +-------+-------+-----`-+----
- *      first   second          last
+ *      first   second  last
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
  * 2^-28 (see window.h) of a whole row's height. They are given where the boundary crosses at most
@@ -25,15 +25,15 @@
 #include "sweep/active.h"
 
 typedef struct cs_edges {
-  cs_isa isa;           /* what straight boundaries are measured with */
+  cs_isa isa;           /* the instructions that straight boundaries are measured with */
   double *low, *high;   /* least and greatest x in the row */
-  double *area, *rest;  /* right of it in its first column and in its last; 1: all of it */
+  double *area, *rest;  /* shares of its first and of its last column that lie right of it */
   float *one, *two;     /* area and rest again, as colours are weighted by them */
-  float *second, *fall; /* over more than two columns: the area in its second, and what each column
-                           after that has more; fall is 0 where areas are not given */
+  float *second, *fall; /* over more than two columns: the area in its second, and by how much it
+                           grows from each column to the next; 0 where areas are not given */
   int32_t *first, *end; /* the columns it crosses; empty when it lies on a pixel's edge */
   bool *is_bent;        /* it has vertices in the row */
-  void *block;          /* that holds the arrays */
+  void *storage;        /* one allocation, of all the arrays above */
   size_t capacity;      /* of each of them */
 } cs_edges;
 

@@ -2,13 +2,13 @@
 
 #include <math.h>
 
-#define BLOCK 16 /* places of which the least share is kept */
+#define BATCH 16 /* places that have a common least share */
 
 /* Bytes of one edge over all arrays. */
 #define ITEM_SIZE (sizeof(cs_active_edge) + 4 * sizeof(double) + 3 * sizeof(uint32_t))
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory) {
-  cs_mem_free(memory, intersections->block, intersections->edge_capacity * ITEM_SIZE);
+  cs_mem_free(memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
   cs_mem_free(memory, intersections->intersections,
               intersections->capacity * sizeof *intersections->intersections);
   *intersections = (cs_intersections){0};
@@ -19,12 +19,12 @@ celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan
                                         size_t edges) {
   if (edges <= intersections->edge_capacity)
     return CELSPAN_OK;
-  size_t wanted = (2 * edges + BLOCK - 1) / BLOCK * BLOCK;
-  void *block = cs_mem_array(context->memory, wanted, ITEM_SIZE);
-  if (!block)
+  size_t wanted = (2 * edges + BATCH - 1) / BATCH * BATCH;
+  void *storage = cs_mem_array(context->memory, wanted, ITEM_SIZE);
+  if (!storage)
     return cs_fail_memory(context);
-  cs_mem_free(context->memory, intersections->block, intersections->edge_capacity * ITEM_SIZE);
-  intersections->block = intersections->edges = block;
+  cs_mem_free(context->memory, intersections->storage, intersections->edge_capacity * ITEM_SIZE);
+  intersections->storage = intersections->edges = storage;
   intersections->top = (double *)(intersections->edges + wanted);
   intersections->foot = intersections->top + wanted;
   intersections->shares = intersections->foot + wanted;
@@ -46,22 +46,22 @@ static inline double find_share(const cs_intersections *m, size_t place) {
   return foot > 0 ? share : INFINITY;
 }
 
-static inline size_t block_count(size_t count) { return (count + BLOCK - 1) / BLOCK; }
+static inline size_t batch_count(size_t count) { return (count + BATCH - 1) / BATCH; }
 
-static void find_block_least(cs_intersections *m, size_t block) {
-  const double *shares = m->shares + block * BLOCK;
-  double least[4]; /* four chains, not one long one */
+static void find_batch_least(cs_intersections *m, size_t batch) {
+  const double *shares = m->shares + batch * BATCH;
+  double least[4]; /* four chains of comparisons that do not wait for each other */
   for (size_t i = 0; i < 4; i++)
     least[i] = shares[i];
-  for (size_t i = 4; i < BLOCK; i++)
+  for (size_t i = 4; i < BATCH; i++)
     least[i % 4] = shares[i] < least[i % 4] ? shares[i] : least[i % 4];
   double even = least[0] < least[2] ? least[0] : least[2];
   double odd = least[1] < least[3] ? least[1] : least[3];
-  m->least[block] = even < odd ? even : odd;
+  m->least[batch] = even < odd ? even : odd;
 }
 
-/* Whether there are so many places that the least share of every block is kept. */
-static inline bool has_blocks(size_t count) { return count > BLOCK; }
+/* Whether there are so many places that the least share of every batch is kept. */
+static inline bool has_batches(size_t count) { return count > BATCH; }
 
 /* Finds all shares. Returns whether any two cross. */
 static bool find_shares(cs_intersections *m, size_t count) {
@@ -70,12 +70,12 @@ static bool find_shares(cs_intersections *m, size_t count) {
     m->shares[place] = find_share(m, place);
     crossings += m->foot[place] > m->foot[place + 1];
   }
-  if (crossings == 0 || !has_blocks(count))
+  if (crossings == 0 || !has_batches(count))
     return crossings > 0;
-  for (size_t place = count - 1; place < block_count(count) * BLOCK; place++)
+  for (size_t place = count - 1; place < batch_count(count) * BATCH; place++)
     m->shares[place] = INFINITY;
-  for (size_t block = 0; block < block_count(count); block++)
-    find_block_least(m, block);
+  for (size_t batch = 0; batch < batch_count(count); batch++)
+    find_batch_least(m, batch);
   return true;
 }
 
@@ -92,11 +92,11 @@ static inline size_t find_least(const double *shares, size_t count) {
 
 /* The place of the next intersection; false: there is none left. */
 static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
-  if (!has_blocks(count)) {
+  if (!has_batches(count)) {
     *place = find_least(m->shares, count - 1);
   } else {
-    size_t block = find_least(m->least, block_count(count));
-    *place = block * BLOCK + find_least(m->shares + block * BLOCK, BLOCK);
+    size_t batch = find_least(m->least, batch_count(count));
+    *place = batch * BATCH + find_least(m->shares + batch * BATCH, BATCH);
   }
   return m->shares[*place] < INFINITY;
 }
@@ -151,18 +151,18 @@ static celspan_status find_in_step(cs_intersections *m, celspan_context *context
     size_t first = place > 0 ? place - 1 : 0, last = place + 2 < count ? place + 1 : place;
     for (size_t i = first; i <= last; i++)
       m->shares[i] = find_share(m, i);
-    if (has_blocks(count))
-      find_block_least(m, first / BLOCK);
-    if (last / BLOCK != first / BLOCK)
-      find_block_least(m, last / BLOCK);
+    if (has_batches(count))
+      find_batch_least(m, first / BATCH);
+    if (last / BATCH != first / BATCH)
+      find_batch_least(m, last / BATCH);
   }
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- steps */
 
-/* x of an edge at a height of its segment: that of its end, or in between. Which of them can hardly
- * be foreseen, so the division is always made. */
+/* x of an edge at a height of its segment. At the segment's foot it is exactly that of the end;
+ * whether it is the foot can hardly be foreseen, so the division is always made. */
 static inline double edge_x(const cs_active_edge *edge, double y) {
   const celspan_point *a = &edge->points[edge->at - 1], *b = &edge->points[edge->at];
   double x = a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));

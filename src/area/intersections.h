@@ -24,11 +24,11 @@
 
 #define CS_INTERSECTIONS_NONE UINT32_MAX
 
-/* An edge on its way down its polyline. */
+/* How far an edge has been followed down its polyline. */
 typedef struct cs_active_edge {
   const celspan_point *points; /* ascending in y */
   uint32_t at;                 /* the segment it is on ends at points[at] */
-  uint32_t last_at;            /* the same where it last changed places */
+  uint32_t last_at;            /* the same at the point where it last changed places */
   double last_x, last_y;       /* and that point */
 } cs_active_edge;
 
@@ -38,7 +38,7 @@ typedef struct cs_intersection {
   uint32_t left_at, right_at; /* on which segment */
   uint32_t left, right;       /* edges: left goes from the place to the one right of it */
   uint32_t next;              /* the next intersection at the same place, or NONE */
-  const void *cell;           /* for the caller: the cell between them from then on */
+  const void *cell; /* for the caller: the cell between the two edges below the intersection */
 } cs_intersection;
 
 typedef struct cs_intersections {
@@ -47,16 +47,16 @@ typedef struct cs_intersections {
   uint32_t *order;    /* which edge is there */
   double *top, *foot; /* its x at both ends of the step; in the end, at the lower height */
   double *shares; /* of the step, at which it crosses its right neighbour; INFINITY: it does not */
-  double *least;  /* of every 16 shares, where there are more */
+  double *least;  /* of each batch of 16 shares, where there is more than one */
   uint32_t *first, *last;         /* intersections of the place and the one right of it, or NONE */
   cs_intersection *intersections; /* from the highest to the lowest */
   size_t count, capacity;
-  void *block; /* that holds the arrays above, except the intersections */
+  void *storage; /* one allocation, of all the arrays above except the intersections */
   size_t edge_capacity;
 } cs_intersections;
 
 void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory);
-/* Makes room for so many edges. Errors: NO_MEMORY. */
+/* Makes room for `edges` edges. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_reserve(cs_intersections *intersections,
                                                         celspan_context *context, size_t edges);
 /* Finds the intersections of the first `count` edges between two heights; all extend to the lower.

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-static void *take(const cs_intervals *b, size_t count, size_t size) {
+static void *allocate(const cs_intervals *b, size_t count, size_t size) {
   return cs_arena_take(b->context, b->arena, count * size);
 }
 
@@ -29,7 +29,7 @@ celspan_status cs_intervals_member(const cs_intervals *b, size_t i, cs_member *m
   const cs_active *active = b->active;
   const cs_bend *bend = cs_active_bend(active, i);
   uint32_t inner = bend ? bend->vertex_count : 0;
-  celspan_point *points = take(b, inner + 2, sizeof *points), *last = points;
+  celspan_point *points = allocate(b, inner + 2, sizeof *points), *last = points;
   if (!points)
     return CELSPAN_NO_MEMORY;
   *last++ = (celspan_point){active->x[i], b->y0};
@@ -45,7 +45,7 @@ celspan_status cs_intervals_member(const cs_intervals *b, size_t i, cs_member *m
 
 /* ---------------------------------------------------------------- extents */
 
-/* Of boundary i inside the row. */
+/* The extent of boundary i inside the row. */
 static inline cs_extent boundary_extent(const cs_intervals *b, size_t i) {
   const cs_edges *edges = b->edges;
   return (cs_extent){edges->low[i], edges->high[i]};
@@ -54,7 +54,7 @@ static inline cs_extent boundary_extent(const cs_intervals *b, size_t i) {
 static celspan_status add_interval(cs_intervals *b, cs_interval interval) {
   if (b->count == b->capacity) {
     size_t wanted = b->capacity ? 2 * b->capacity : 64;
-    cs_interval *grown = take(b, wanted, sizeof *grown);
+    cs_interval *grown = allocate(b, wanted, sizeof *grown);
     if (!grown)
       return CELSPAN_NO_MEMORY;
     if (b->count > 0)
@@ -182,7 +182,7 @@ static celspan_status add_groups(cs_intervals *b) {
   const cs_active *active = b->active;
   const double *foot = active->x_next;
   size_t count = 0, bend = 0;
-  inversion_group *groups = take(b, active->count, sizeof *groups);
+  inversion_group *groups = allocate(b, active->count, sizeof *groups);
   if (!groups)
     return CELSPAN_NO_MEMORY;
   for (size_t i = 1; i < active->count; i++)
@@ -350,7 +350,7 @@ static celspan_status chain_points(cs_intervals *b, uint32_t chain, const celspa
   cs_boundary_start(set, chain, top, &walk);
   for (cs_boundary_walk ahead = walk; ahead.y1 < b->y1 && cs_boundary_next(set, &ahead);)
     room++;
-  celspan_point *p = take(b, room, sizeof *p), *last = p;
+  celspan_point *p = allocate(b, room, sizeof *p), *last = p;
   if (!p)
     return CELSPAN_NO_MEMORY;
   *points = p;
@@ -380,8 +380,8 @@ static celspan_status find_begins(cs_intervals *b) {
   const cs_active *active = b->active;
   b->chain_count = cs_intervals_count_begins(active, b->y1);
   b->begin_count = b->chain_count + b->procedure_edge_count;
-  b->begins = take(b, b->begin_count, sizeof *b->begins);
-  b->begin_intervals = take(b, b->begin_count, sizeof *b->begin_intervals);
+  b->begins = allocate(b, b->begin_count, sizeof *b->begins);
+  b->begin_intervals = allocate(b, b->begin_count, sizeof *b->begin_intervals);
   if (!b->begins || !b->begin_intervals)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->chain_count; k++) {
@@ -410,7 +410,7 @@ static cs_extent member_extent(const cs_member *member) {
 
 static celspan_status find_events(cs_intervals *b) {
   const cs_active *active = b->active;
-  b->events = take(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
+  b->events = allocate(b, 2 * b->chain_count + active->bend_count, sizeof *b->events);
   if (!b->events)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->chain_count; k++) {
@@ -452,7 +452,7 @@ static int compare_begin_order(const void *p, const void *q) {
 
 /* Lists the begins from left to right, in which order the walk along the row asks for them. */
 static celspan_status order_begins(cs_intervals *b) {
-  b->begin_order = take(b, b->begin_count, sizeof *b->begin_order);
+  b->begin_order = allocate(b, b->begin_count, sizeof *b->begin_order);
   if (!b->begin_order)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++)
@@ -495,7 +495,7 @@ celspan_status cs_intervals_pick_begins(cs_intervals *b, const cs_interval *inte
   *begins = NULL;
   if (*count == 0)
     return CELSPAN_OK;
-  *begins = take(b, *count, sizeof **begins);
+  *begins = allocate(b, *count, sizeof **begins);
   if (!*begins)
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < *count; k++)

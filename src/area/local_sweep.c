@@ -47,7 +47,7 @@ typedef struct position {
   uint32_t at; /* a segment that y is on ends at points[at] */
 } position;
 
-/* Draws a boundary from there down to (x, y), between two cells. */
+/* Draws a boundary from a position down to (x, y), between two cells. */
 static celspan_status draw_to(cs_local_sweep *sweep, const position *from, double x, double y,
                               const cs_cell *left, const cs_cell *right) {
   const celspan_point *points = from->member->points;
@@ -64,7 +64,7 @@ static celspan_status draw_to(cs_local_sweep *sweep, const position *from, doubl
   return cs_target_add(sweep->target, &last, left, right);
 }
 
-/* Draws member j since its last event, between the cells on its sides. */
+/* Draws member j from its last event down to (x, y), between the cells on its sides. */
 static celspan_status flush(cs_local_sweep *sweep, size_t j, double x, double y) {
   cs_member *member = sweep->members[j];
   const position from = {member, member->x, member->y, member->at};
@@ -100,7 +100,8 @@ static void cross_to(cs_local_sweep *sweep, size_t place) {
     cross(composer, sweep->members[sweep->crossed - 1], -1);
 }
 
-/* The cell at the composer's place; `known` where it is the same. */
+/* The cell at the composer's place. known: NULL, or a cell that is returned if it has the same set
+ * of layers. */
 static const cs_cell *find_cell(cs_local_sweep *sweep, const cs_cell *known) {
   if (known && cs_set_hash_same(known->hash, sweep->composer->hash))
     return known;
@@ -126,7 +127,7 @@ static celspan_status refresh(cs_local_sweep *sweep, size_t first, size_t last) 
 
 /* ---------------------------------------------------------------- slabs */
 
-/* The height of the next begin or end. */
+/* The height at which the next member begins or ends. */
 static double next_height(const cs_local_sweep *sweep) {
   double next = sweep->begin_count > 0 ? sweep->begins[0].points[0].y : sweep->y1;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -149,7 +150,7 @@ static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
   if (!first)
     return CELSPAN_OK;
   const cs_intersection *leaves =
-      first->left == j ? first : NULL; /* member j leaves: not yet crossed */
+      first->left == j ? first : NULL; /* member j leaves its place: it is not crossed before */
   cross_to(sweep, leaves ? j : j + 1);
   for (cs_intersection *intersection = first; intersection;
        intersection = intersection_at(sweep, intersection->next)) {
@@ -180,7 +181,7 @@ static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell 
   const cs_intersection *after = intersection_at(sweep, intersections->first[j]);
   position s = {members[j], members[j]->x, members[j]->y, members[j]->at};
   while (before || after) {
-    bool is_after = !before || (after && after < before); /* as they happened */
+    bool is_after = !before || (after && after < before); /* the earlier in the list is higher */
     const cs_intersection *intersection = is_after ? after : before;
     double y = intersection->y, left_x = intersection->left_x, right_x = intersection->right_x;
     CS_TRY(draw_to(sweep, &s, is_after ? left_x : right_x, y, left, right));
@@ -229,10 +230,10 @@ static celspan_status draw_intersections(cs_local_sweep *sweep) {
   return CELSPAN_OK;
 }
 
-/* The same for a slab with one intersection, as most are. */
+/* The same for a slab with a single intersection, which is the usual case. */
 static celspan_status draw_intersection(cs_local_sweep *sweep,
                                         const cs_intersection *intersection) {
-  size_t j = intersection->left; /* no member has changed its place before */
+  size_t j = intersection->left; /* edge j is still in place j: nothing has been swapped */
   cs_member *a = sweep->members[j], *b = sweep->members[j + 1];
   const cs_cell *right = b->right;
   CS_TRY(flush(sweep, j, intersection->left_x, intersection->y));
@@ -317,7 +318,7 @@ static void begin_members(cs_local_sweep *sweep, double y) {
   }
 }
 
-/* Notes members that meet in a point and part in another order. */
+/* Notes the members that meet in one point and leave it in another order. */
 static void note_disorder(const cs_local_sweep *sweep, double y, cs_extent *changed) {
   const cs_member *last = NULL;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -366,8 +367,9 @@ static celspan_status refresh_inside(cs_local_sweep *sweep, const cs_extent *cha
   return first < end ? refresh(sweep, first, end - 1) : CELSPAN_OK;
 }
 
-/* The events at height y, at the foot of a slab. What is present changes between the least and the
- * greatest x of them only: outside windings balance, so the cells there are kept. */
+/* Applies the events at height y, the foot of a slab. The sets of layers change only between the
+ * least and the greatest x of these events: outside, what begins and ends balances, so the cells
+ * there are kept. */
 static celspan_status change_members(cs_local_sweep *sweep, double y) {
   cs_extent changed = cs_extent_nowhere();
   CS_TRY(end_members(sweep, y, &changed));
@@ -410,7 +412,8 @@ static celspan_status draw(cs_local_sweep *sweep, celspan_point above, celspan_p
   return cs_target_add(sweep->target, &segment, left, right);
 }
 
-/* The cell that boundary i + 1 opens when it is crossed first, at x. */
+/* The cell between two boundaries that have changed places: right of the second one, at x, and left
+ * of the first. */
 static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, double x,
                                    const cs_cell **out) {
   cs_composer *composer = sweep->composer;

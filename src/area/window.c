@@ -86,7 +86,7 @@ static int32_t next_change(const cs_window *window, int32_t p) {
   return next;
 }
 
-/* Adds a segment to the sums by column: change[k] is what column p0 + k has more than the one
+/* Adds a segment to the sums by column: change[k] is by how much column p0 + k exceeds the one
  * before.
  */
 static void add_changes(const cs_window_segment *f, int32_t p0, int32_t p1, cs_sum4 *change) {
@@ -153,7 +153,7 @@ typedef struct weighted_cell {
 
 typedef struct cell_edge {
   const cs_window_segment *segment;
-  uint32_t left, right; /* into cells */
+  uint32_t left, right; /* indices into cells */
 } cell_edge;
 
 typedef struct mixture {
@@ -165,7 +165,7 @@ typedef struct mixture {
   size_t begun, ended; /* edges [ended, begun) may cross the tile */
 } mixture;
 
-/* The index of a cell, or of one that looks the same. */
+/* The index of a cell, or of another cell with the same colours. */
 static uint32_t find_cell(mixture *m, const cs_cell *cell) {
   for (size_t i = 0; i < m->cell_count; i++)
     if (m->cells[i].cell == cell || cs_composer_same(m->window->composer, m->cells[i].cell, cell))
@@ -244,7 +244,8 @@ static inline double weight_in(const weighted_cell *cell, int32_t k) {
   return cell->weights ? cell->weights[k] : cell->carry;
 }
 
-/* Adds a cell where it has area; only there its colours are asked for. sum: 4 floats a pixel. */
+/* Adds a cell to the pixels in which it has area; only there its colours are computed. sum: four
+ * floats a pixel. */
 static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int32_t p0, int32_t p1,
                                float *sum) {
   float rgba[TILE][4];
@@ -377,7 +378,7 @@ celspan_status cs_window_begin_item(cs_window *window, double x) {
 /* Extends the window to a new segment's columns and, where its cells are flat and the columns few,
  * adds it to their sums. */
 static void note_segment(cs_window *window, cs_window_segment *f) {
-  if (f->first < window->from) { /* by rounding: it begins where what is written ends */
+  if (f->first < window->from) { /* by rounding: the window begins where the written columns end */
     f->first = window->from;
     f->end = f->end > f->first ? f->end : f->first;
   }

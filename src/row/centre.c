@@ -18,8 +18,8 @@
 
 #include <math.h>
 
-void cs_centre_init(cs_centre *centre, const cs_row_parts *parts) {
-  *centre = (cs_centre){.parts = *parts};
+void cs_centre_init(cs_centre *centre, const cs_row_tools *tools) {
+  *centre = (cs_centre){.tools = *tools};
 }
 
 /* ---------------------------------------------------------------- cells that vary, or are empty */
@@ -42,11 +42,11 @@ static size_t draw_flats(const cs_cells *cells, const int32_t *ends, cs_row_writ
 }
 
 static celspan_status draw_row(cs_centre *centre, int32_t y, const int32_t *ends, cs_row *out) {
-  const cs_cells *cells = centre->parts.cells;
+  const cs_cells *cells = centre->tools.cells;
   const size_t count = cells->visible_count + 1;
   int32_t from = 0;
   for (size_t v = 0; v < count; v++) {
-    CS_TRY(cs_row_reserve(centre->parts.composer->context, out, count - v));
+    CS_TRY(cs_row_reserve(centre->tools.composer->context, out, count - v));
     cs_row_writer writer = cs_row_writer_take(out, from);
     v = draw_flats(cells, ends, &writer, v);
     cs_row_writer_put(&writer);
@@ -54,7 +54,7 @@ static celspan_status draw_row(cs_centre *centre, int32_t y, const int32_t *ends
     if (v == count)
       break;
     int32_t to = ends[v] > from ? ends[v] : from;
-    CS_TRY(cs_painter_run(centre->parts.painter, visible_cell(cells, v),
+    CS_TRY(cs_painter_run(centre->tools.painter, visible_cell(cells, v),
                           (cs_run){from, to, y + 0.5}, out));
     from = to;
   }
@@ -75,7 +75,7 @@ static size_t count_visible(const bool *is_visible, size_t count) {
 static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_span *spans) {
   celspan_span *span = spans + count_visible(cells->is_visible, low);
   uint32_t varied = cells->cells[high].length;
-  for (size_t i = low; i < high; i++) { /* cells that look the same write the same */
+  for (size_t i = low; i < high; i++) { /* cells with the same colours write the same bytes */
     cs_v4_store(span->colour, cells->cells[i].colour);
     varied |= cells->cells[i].length;
     span += cells->is_visible[i];
@@ -88,11 +88,11 @@ static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_
  * neither is visible. Returns false otherwise; the row must be drawn then. Fills ends in any
  * case. */
 static bool draw_all(const cs_centre *centre, cs_row *out, int32_t *ends) {
-  const cs_cells *cells = centre->parts.cells;
-  const cs_active *active = centre->parts.active;
+  const cs_cells *cells = centre->tools.cells;
+  const cs_active *active = centre->tools.active;
   size_t low = 0, high = active->count;
   size_t count = CS_WIDE_CHOOSE(active->isa, cs_centre_place)(
-      active->x, cells->is_visible, active->count, centre->parts.width, out->spans, ends);
+      active->x, cells->is_visible, active->count, centre->tools.width, out->spans, ends);
   bool is_ours = out->made_by.maker == centre && out->count == count;
   if (is_ours && out->made_by.changes == centre->changes)
     return true;
@@ -153,7 +153,8 @@ typedef struct filled {
   int32_t from, to;
 } filled;
 
-/* The walk's cell fills the columns up to `to`: with the ones before, where it looks the same. */
+/* The walk's cell fills the columns up to `to`; it joins the columns before if they have the same
+ * colours. */
 static celspan_status fill_to(merged_walk *w, filled *f, int32_t to, double y, cs_row *out) {
   cs_cell cell;
   cs_composer_cell(w->composer, &cell);
@@ -168,45 +169,45 @@ static celspan_status fill_to(merged_walk *w, filled *f, int32_t to, double y, c
 }
 
 static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
-  merged_walk w = {.composer = centre->parts.composer,
-                   .painter = centre->parts.painter,
-                   .active = centre->parts.active};
+  merged_walk w = {.composer = centre->tools.composer,
+                   .painter = centre->tools.painter,
+                   .active = centre->tools.active};
   filled f = {.cell.colour = cs_v4_all(0)};
-  double x = 0; /* where the cell at hand begins */
-  CS_TRY(cs_procedures_collect(centre->parts.procedures, y + 0.5, &w.edges));
+  double x = 0; /* where the current cell begins */
+  CS_TRY(cs_procedures_collect(centre->tools.procedures, y + 0.5, &w.edges));
   cs_procedures_sort(&w.edges);
-  cs_cells_walk_home(centre->parts.cells, centre->parts.composer);
-  w.deferred.next = cs_active_deferred(centre->parts.active, &w.deferred.end);
+  cs_cells_walk_home(centre->tools.cells, centre->tools.composer);
+  w.deferred.next = cs_active_deferred(centre->tools.active, &w.deferred.end);
   for (;;) {
-    int32_t to = cs_number_first_centre(next_x(&w, centre->parts.width));
-    to = is_done(&w) || to > centre->parts.width ? centre->parts.width : to;
+    int32_t to = cs_number_first_centre(next_x(&w, centre->tools.width));
+    to = is_done(&w) || to > centre->tools.width ? centre->tools.width : to;
     cs_deferred_forward(&w.deferred, w.composer, x);
     if (to > f.to)
       CS_TRY(fill_to(&w, &f, to, y + 0.5, out));
     if (is_done(&w))
       break;
-    x = next_x(&w, centre->parts.width);
+    x = next_x(&w, centre->tools.width);
     cross_next(&w);
   }
   cs_deferred_forward(&w.deferred, w.composer, INFINITY);
-  return cs_painter_run(w.painter, &f.cell, (cs_run){f.from, centre->parts.width, y + 0.5}, out);
+  return cs_painter_run(w.painter, &f.cell, (cs_run){f.from, centre->tools.width, y + 0.5}, out);
 }
 
 /* ---------------------------------------------------------------- rows */
 
 celspan_status cs_centre_row(cs_centre *centre, int32_t y, cs_row *out) {
-  size_t most = centre->parts.active->count + 1 + CS_ADVANCE_BATCH;
-  if (cs_procedures_meet(centre->parts.procedures, y)) {
+  size_t most = centre->tools.active->count + 1 + CS_ADVANCE_BATCH;
+  if (cs_procedures_meet(centre->tools.procedures, y)) {
     cs_row_clear(out);
     return draw_merged(centre, y, out);
   }
   int32_t *ends =
-      cs_arena_take(centre->parts.composer->context, centre->parts.arena, most * sizeof *ends);
+      cs_arena_take(centre->tools.composer->context, centre->tools.arena, most * sizeof *ends);
   if (!ends)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(cs_row_room(centre->parts.composer->context, out, most));
+  CS_TRY(cs_row_room(centre->tools.composer->context, out, most));
   if (draw_all(centre, out, ends))
     return CELSPAN_OK;
-  cs_cells_list(centre->parts.cells);
+  cs_cells_list(centre->tools.cells);
   return draw_row(centre, y, ends, out);
 }

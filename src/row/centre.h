@@ -8,16 +8,16 @@
 #ifndef CS_ROW_CENTRE_H
 #define CS_ROW_CENTRE_H
 
-#include "area/row_parts.h"
+#include "area/row_tools.h"
 #include "span/row.h"
 
 typedef struct cs_centre {
-  cs_row_parts parts;    /* borrowed */
-  uint64_t changes;      /* how often the cells have changed */
+  cs_row_tools tools;    /* borrowed */
+  uint64_t changes;      /* how often the cells have changed so far */
   cs_change last_change; /* where they did so last */
 } cs_centre;
 
-void cs_centre_init(cs_centre *centre, const cs_row_parts *parts);
+void cs_centre_init(cs_centre *centre, const cs_row_tools *tools);
 /* The cells are about to change: to be noted before each row that is made. */
 static inline void cs_centre_note_change(cs_centre *centre, cs_change change) {
   centre->changes++;

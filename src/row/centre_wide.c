@@ -35,7 +35,7 @@ static inline void put_head(celspan_span *span, int32_t from, int32_t to) {
 typedef struct found_ends {
   size_t count;
   int32_t last;
-  bool has_empty; /* two of them are the same column */
+  bool has_empty; /* two ends are the same column: a cell has no column */
 } found_ends;
 
 #ifdef __AVX512F__

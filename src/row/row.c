@@ -46,10 +46,10 @@ celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
   CS_TRY(cs_composer_init(&maker->composer, context, &plan->stack,
                           cs_painter_opacity(&maker->painter)));
   CS_TRY(cs_painter_init(&maker->painter, context, &maker->composer));
-  cs_row_parts parts = {&maker->composer,   &maker->painter, &maker->active, &maker->cells,
+  cs_row_tools tools = {&maker->composer,   &maker->painter, &maker->active, &maker->cells,
                         &maker->procedures, &maker->arena,   plan->width};
-  cs_centre_init(&maker->centre, &parts);
-  cs_area_init(&maker->area, &parts);
+  cs_centre_init(&maker->centre, &tools);
+  cs_area_init(&maker->area, &tools);
   return plan->kernel ? cs_filter_init(&maker->filter, plan->kernel, &maker->painter, plan->width,
                                        retain, maker)
                       : CELSPAN_OK;

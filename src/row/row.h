@@ -15,7 +15,7 @@
 
 #define CS_ROW_NONE INT32_MIN
 
-/* Its parts borrow from each other, so it does not move. */
+/* Its members point to each other, so it must not be moved. */
 typedef struct cs_row_maker {
   celspan_context *context; /* borrowed: the worker's branch */
   const cs_plan *plan;      /* borrowed */
@@ -25,7 +25,7 @@ typedef struct cs_row_maker {
   cs_painter painter; /* of the cells */
   cs_procedures procedures;
   cs_arena arena; /* of the current row */
-  int32_t row;    /* the boundaries are at its height; NONE: nowhere */
+  int32_t row;    /* the row at whose height the boundaries are; NONE: at none yet */
   /* the three filters */
   cs_centre centre;
   cs_area area;

@@ -1,13 +1,13 @@
-/* The parts of a row maker that its filters borrow: area/ for exact means, row/centre.h for pixel
+/* The tools of a row maker that its filters borrow: area/ for exact means, row/centre.h for pixel
  * centres. All of them outlive the filter, and none of them moves. */
-#ifndef CS_AREA_ROW_PARTS_H
-#define CS_AREA_ROW_PARTS_H
+#ifndef CS_AREA_ROW_TOOLS_H
+#define CS_AREA_ROW_TOOLS_H
 
 #include "compose/cells.h"
 #include "compose/procedures.h"
 #include "paint/painter.h"
 
-typedef struct cs_row_parts {
+typedef struct cs_row_tools {
   cs_composer *composer;
   cs_painter *painter; /* of the composer's cells */
   cs_active *active;   /* boundaries at the row's height, in order */
@@ -15,6 +15,6 @@ typedef struct cs_row_parts {
   cs_procedures *procedures;
   cs_arena *arena; /* of the current row */
   int32_t width;   /* of the row, pixels */
-} cs_row_parts;
+} cs_row_tools;
 
 #endif
