@@ -7,8 +7,8 @@
  *   in order                                                   in order
  *
  * A frame that shows the same as an earlier frame of the run is copied from it. Frames that contain
- * scan-line procedures are never copied: a procedure can be compared with nothing, and it has to be
- * called by the calling thread before that builds the next frame.
+ * scan-line procedures are never copied: a procedure can be compared with nothing, and the calling
+ * thread has to call it before it builds the next frame.
  *
  * INVARIANT: frames are reported in their order, and what is reported of them does not depend on
  * the number of workers.

@@ -2,9 +2,9 @@
  *
  *   cache lines   |        |        |        |        |
  *   run              xxxxxxxxxxxxxxxxxxxxxxxxx
- *   blocks           [first ]                             at the run's start
- *                          [      ][       ]              on cache lines
- *                                    [ last ]             at the run's end
+ *   blocks           [ first ]                            at the run's start
+ *                          [       ][       ]             on cache lines
+ *                                      [ last  ]          at the run's end
  *
  * Blocks overlap at both ends, which is harmless because every block has the same bytes. A block
  * inside lies on a cache line, which halves its cost, provided that this is a whole number of

@@ -5,7 +5,7 @@
  *   row            | 5  5  5 | 7  7  7  7  7  7 |
  *   Up   x - b     | 0  0  0 | 2  2  2|-2 -2 -2 |       a difference for each column
  *   Sub  x - a       5| 0  0 | 2| 0  0  0  0  0 |       only the first pixel of a run is not 0
- *   Paeth            0| 0  0 | 2| 0  0| 0  0  0 |       likewise of each piece
+ *   Paeth            0| 0  0 | 2| 0  0|-2| 0  0 |       likewise where either row changes
  *
  * INVARIANT: the cost of a row follows its runs and not its width. The filter chosen depends only
  * on the rows since the last restart.

@@ -171,7 +171,7 @@ static celspan_status start_pipeline(cs_png_strips *strips, celspan_context *con
 }
 
 /* Hands the strip that is full to the workers and makes room for another. */
-static celspan_status hand_over(cs_png_strips *strips, celspan_context *context) {
+static celspan_status pass_on(cs_png_strips *strips, celspan_context *context) {
   cs_pipeline_add(strips->pipeline, context, CS_PIPELINE_ANYWHERE, CELSPAN_OK);
   return cs_pipeline_deliver(strips->pipeline, context, (size_t)strips->ring_size - 1);
 }
@@ -196,7 +196,7 @@ static celspan_status put_row_shared(cs_png_strips *strips, celspan_context *con
   if (row_of_strip(strips) == 0)
     CS_TRY(begin_keeping(strips, context, s));
   CS_TRY(cs_row_queue_add(context, &s->rows, spans, span_count));
-  return ends_strip(strips) ? hand_over(strips, context) : CELSPAN_OK;
+  return ends_strip(strips) ? pass_on(strips, context) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- all strips */
