@@ -1,15 +1,15 @@
-/* Runs of one pixel, filled in blocks of 64 bytes: for kernels (base/wide.h).
+/* Runs of one pixel, filled in chunks of 64 bytes: for kernels (base/wide.h).
  *
  *   cache lines   |        |        |        |        |
  *   run              xxxxxxxxxxxxxxxxxxxxxxxxx
- *   blocks           [ first ]                            at the run's start
+ *   chunks           [ first ]                            at the run's start
  *                          [       ][       ]             on cache lines
  *                                      [ last  ]          at the run's end
  *
- * Blocks overlap at both ends, which is harmless because every block has the same bytes. A block
+ * Chunks overlap at both ends, which is harmless because every chunk has the same bytes. A chunk
  * inside lies on a cache line, which halves its cost, provided that this is a whole number of
  * pixels away from the row's start. In general it begins at an address that is `phase` modulo a
- * block, where phase is the row's address modulo the size of a pixel; so it begins with a whole
+ * chunk, where phase is the row's address modulo the size of a pixel; so it begins with a whole
  * pixel.
  */
 #ifndef CS_OUTPUT_FILL_H
@@ -18,34 +18,34 @@
 #include "base/wide.h"
 #include <stddef.h>
 
-enum { CS_FILL_BLOCK = 64 };
+enum { CS_FILL_CHUNK = 64 };
 
 /* pattern: the pixel, repeated to fill a register. */
 static inline void cs_fill_store(unsigned char *out, cs_wide_int pattern) {
-  for (size_t at = 0; at < CS_FILL_BLOCK; at += sizeof pattern)
+  for (size_t at = 0; at < CS_FILL_CHUNK; at += sizeof pattern)
     memcpy(out + at, &pattern, sizeof pattern);
 }
 
-/* Fills a run without its first block; up to a block beyond its end may be written. */
+/* Fills a run without its first chunk; up to a chunk beyond its end may be written. */
 static inline void cs_fill_lines(unsigned char *out, const unsigned char *end, cs_wide_int pattern,
                                  uintptr_t phase) {
-  out += CS_FILL_BLOCK - ((uintptr_t)out - phase) % CS_FILL_BLOCK;
-  for (; out < end; out += CS_FILL_BLOCK)
+  out += CS_FILL_CHUNK - ((uintptr_t)out - phase) % CS_FILL_CHUNK;
+  for (; out < end; out += CS_FILL_CHUNK)
     cs_fill_store(out, pattern);
 }
 
 /* Fills a run and writes nothing beyond it. */
 static inline void cs_fill_exactly(unsigned char *out, unsigned char *end, cs_wide_int pattern,
                                    uintptr_t phase) {
-  unsigned char block[CS_FILL_BLOCK];
-  if (end - out < CS_FILL_BLOCK) {
-    cs_fill_store(block, pattern);
-    memcpy(out, block, (size_t)(end - out));
+  unsigned char chunk[CS_FILL_CHUNK];
+  if (end - out < CS_FILL_CHUNK) {
+    cs_fill_store(chunk, pattern);
+    memcpy(out, chunk, (size_t)(end - out));
     return;
   }
   cs_fill_store(out, pattern);
-  cs_fill_lines(out, end - CS_FILL_BLOCK, pattern, phase);
-  cs_fill_store(end - CS_FILL_BLOCK, pattern);
+  cs_fill_lines(out, end - CS_FILL_CHUNK, pattern, phase);
+  cs_fill_store(end - CS_FILL_CHUNK, pattern);
 }
 
 /* ---- fill_wide.c */

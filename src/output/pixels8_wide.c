@@ -1,6 +1,6 @@
 /* A frame may have 10^9 pixels in rows of this coding, most of them in long runs, while most runs
  * have one pixel. Neither should wait for the other, so a portion of spans at a time goes through
- * three passes (a block is 64 bytes, 16 pixels; lines are blocks on cache lines):
+ * three passes (a chunk is 64 bytes, 16 pixels; lines are chunks on cache lines):
  *
  *   spans      |a|b|         c                       |d| e  |
  *   lines                |cccccccc|cccccccc|cccccccc|
@@ -12,8 +12,8 @@
  *   row        |a|b|ccccccccccccccccccccccccccccccccc|d|eeee
  *
  *   1. the colours of all spans are coded, several at once;
- *   2. each line that begins inside a run longer than a block is filled with that run's pixel;
- *   3. from left to right, each span writes a head, the first block from its start.
+ *   2. each line that begins inside a run longer than a chunk is filled with that run's pixel;
+ *   3. from left to right, each span writes a head, the first chunk from its start.
  *
  * Where a line or a head covers more than its span, the pixels belong to spans further right, whose
  * heads come later. Only at the end of the row must nothing be written beyond. So there is no
@@ -32,7 +32,7 @@
 enum {
   PORTION = 64, /* spans: as many as a word has bits */
   LINES = 1024, /* in a portion at most; a wider portion is filled run by run */
-  LINE_PIXELS = CS_FILL_BLOCK / 4
+  LINE_PIXELS = CS_FILL_CHUNK / 4
 };
 
 /* A row being written. */
@@ -118,7 +118,7 @@ static inline size_t lines_before(int32_t x, int32_t first) {
  * are bytes here, so a fill marks 64 of them.) */
 static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
                               unsigned char *owners) {
-  for (size_t line = 0; line < LINES; line += CS_FILL_BLOCK)
+  for (size_t line = 0; line < LINES; line += CS_FILL_CHUNK)
     cs_fill_store(owners + line, all_of(0));
   for (; longs != 0; longs &= longs - 1) {
     uint32_t k = (uint32_t)__builtin_ctzll(longs);
@@ -126,7 +126,7 @@ static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t
     size_t line = lines_before(spans[k].x0, first), end = lines_before(spans[k].x1, first);
     do {
       cs_fill_store(owners + line, mark);
-      line += CS_FILL_BLOCK;
+      line += CS_FILL_CHUNK;
     } while (line < end);
   }
 }
@@ -143,12 +143,12 @@ static inline void fill_runs(const target *row, const celspan_span *spans, uint6
 
 static inline void fill_lines(const target *row, const celspan_span *spans, size_t count,
                               const uint32_t *codes) {
-  unsigned char owners[LINES + 2 * CS_FILL_BLOCK];
+  unsigned char owners[LINES + 2 * CS_FILL_CHUNK];
   uint64_t longs = find_long(spans, count);
   if (longs == 0)
     return;
-  uintptr_t offset = ((uintptr_t)row->pixels - row->phase) % CS_FILL_BLOCK;
-  int32_t first = offset > 0 ? (int32_t)(CS_FILL_BLOCK - offset) / 4 : 0;
+  uintptr_t offset = ((uintptr_t)row->pixels - row->phase) % CS_FILL_CHUNK;
+  int32_t first = offset > 0 ? (int32_t)(CS_FILL_CHUNK - offset) / 4 : 0;
   first += LINE_PIXELS * (int32_t)lines_before(spans[__builtin_ctzll(longs)].x0, first);
   size_t lines = lines_before(spans[63 - __builtin_clzll(longs)].x1, first);
   if (lines > LINES) {
@@ -158,10 +158,10 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
   mark_lines(spans, longs, first, owners);
   unsigned char *out = row->pixels + 4 * (size_t)first;
   size_t line = 0;
-  for (; line + 4 <= lines; line += 4, out += 4 * CS_FILL_BLOCK)
+  for (; line + 4 <= lines; line += 4, out += 4 * CS_FILL_CHUNK)
     for (size_t k = 0; k < 4; k++)
-      cs_fill_store(out + k * CS_FILL_BLOCK, all_of(codes[owners[line + k]]));
-  for (; line < lines; line++, out += CS_FILL_BLOCK)
+      cs_fill_store(out + k * CS_FILL_CHUNK, all_of(codes[owners[line + k]]));
+  for (; line < lines; line++, out += CS_FILL_CHUNK)
     cs_fill_store(out, all_of(codes[owners[line]]));
 }
 
@@ -268,7 +268,7 @@ void CS_WIDE(cs_pixels8_row)(const celspan_span *spans, size_t count, unsigned c
     portion = count < PORTION ? count : PORTION;
     code_colours(spans, portion, codes);
     size_t inner = portion;
-    while (inner > 0 && 4 * (size_t)spans[inner - 1].x1 + CS_FILL_BLOCK > row.size)
+    while (inner > 0 && 4 * (size_t)spans[inner - 1].x1 + CS_FILL_CHUNK > row.size)
       inner--;
     fill_lines(&row, spans, inner, codes);
     put_heads(&row, spans, inner, codes);

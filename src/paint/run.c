@@ -74,20 +74,21 @@ static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bo
                           : run_array(painter, shown, run, row);
 }
 
-/* ---------------------------------------------------------------- segments of one answer */
+/* ---------------------------------------------------------------- columns with one opacity */
 
-/* What shows over some columns: the items of a program without those that are clear there, up to
- * the first that is opaque. */
-typedef struct segment {
+/* A stretch of columns over which the same items of a program are visible: those that are not clear
+ * there, up to the first that is opaque. */
+typedef struct stretch {
   uint32_t end;      /* of the items */
   uint64_t left_out; /* which of the first 64 items are left out, one bit each */
   bool ends_opaque;
-  bool is_sure; /* every item was clear or opaque all over: any part of the columns is the same */
-} segment;
+  bool is_sure; /* every item is clear or opaque in all columns, so it is in any of them */
+} stretch;
 
 #define STRIDES 8 /* examined together first, since often one answer holds for all */
 
-/* What samples of an item have in common that lets it, or all behind it, be left out. */
+/* Whether the samples of an item are all clear, so that it can be left out, or all opaque, so that
+ * everything behind it can. */
 static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run run,
                                    cs_picture_opacity *out) {
   const cs_layer *layer = &painter->stack->layers[index];
@@ -109,8 +110,8 @@ static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run r
 
 /* Finds which items of a program are visible over the columns of a run. */
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, cs_run run,
-                                 segment *out) {
-  *out = (segment){.end = program->length, .is_sure = true};
+                                 stretch *out) {
+  *out = (stretch){.end = program->length, .is_sure = true};
   for (uint32_t i = 0; i < program->length && i < 64; i++) {
     cs_picture_opacity opacity;
     CS_TRY(find_opacity(painter, program->items[i].layer, run, &opacity));
@@ -127,11 +128,11 @@ static celspan_status find_shown(cs_painter *painter, const cs_program *program,
   return CELSPAN_OK;
 }
 
-/* What shows from run.x0 on, and up to where that is known. Strides are counted from the left edge
- * of the frame. Many are asked about at once if the run covers them; mostly they have one answer.
- */
-static celspan_status next_segment(cs_painter *painter, const cs_program *program, int32_t stride,
-                                   cs_run run, segment *out, int64_t *end) {
+/* The stretch that begins at run.x0, and *end, up to which it is known. Strides are counted from
+ * the left edge of the frame. Many are examined at once if the run covers them: mostly the answer
+ * is the same for all. */
+static celspan_status next_stretch(cs_painter *painter, const cs_program *program, int32_t stride,
+                                   cs_run run, stretch *out, int64_t *end) {
   int32_t x = run.x0, left = x / stride * stride;
   int64_t many = (int64_t)STRIDES * stride;
   if (x % many == 0 && x + many <= run.x1) {
@@ -144,25 +145,25 @@ static celspan_status next_segment(cs_painter *painter, const cs_program *progra
   return find_shown(painter, program, cs_run_between(run, left, left + stride), out);
 }
 
-static bool is_same_segment(const segment *a, const segment *b) {
+static bool is_same_stretch(const stretch *a, const stretch *b) {
   return a->end == b->end && a->left_out == b->left_out && a->ends_opaque == b->ends_opaque;
 }
 
-static celspan_status run_segment(cs_painter *painter, const cs_program *program,
-                                  const segment *part, cs_run run, cs_row *row) {
-  cs_program shown = {program->items, program->procedure_spans, part->end};
+static celspan_status run_stretch(cs_painter *painter, const cs_program *program,
+                                  const stretch *visible, cs_run run, cs_row *row) {
+  cs_program shown = {program->items, program->procedure_spans, visible->end};
   if (run.x1 <= run.x0)
     return CELSPAN_OK;
-  if (part->left_out) {
-    cs_item *items = cs_arena_take(painter->context, &row->colours, part->end * sizeof *items);
+  if (visible->left_out) {
+    cs_item *items = cs_arena_take(painter->context, &row->colours, visible->end * sizeof *items);
     if (!items)
       return CELSPAN_NO_MEMORY;
     shown = (cs_program){items, program->procedure_spans, 0};
-    for (uint32_t i = 0; i < part->end; i++)
-      if (i >= 64 || !(part->left_out >> i & 1))
+    for (uint32_t i = 0; i < visible->end; i++)
+      if (i >= 64 || !(visible->left_out >> i & 1))
         items[shown.length++] = program->items[i];
   }
-  return run_shown(painter, &shown, part->ends_opaque, run, row);
+  return run_shown(painter, &shown, visible->ends_opaque, run, row);
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -191,30 +192,30 @@ static celspan_status find_stride(cs_painter *painter, const cs_program *program
   return CELSPAN_OK;
 }
 
-static celspan_status run_segments(cs_painter *painter, const cs_program *program, cs_run run,
-                                   cs_row *row) {
-  segment current, next;
+static celspan_status run_stretches(cs_painter *painter, const cs_program *program, cs_run run,
+                                    cs_row *row) {
+  stretch current, next;
   int32_t begun = run.x0, stride;
   int64_t end;
   CS_TRY(find_stride(painter, program, &stride));
-  CS_TRY(next_segment(painter, program, stride, run, &current, &end));
+  CS_TRY(next_stretch(painter, program, stride, run, &current, &end));
   while (end < run.x1) {
     int32_t x = (int32_t)end;
-    CS_TRY(next_segment(painter, program, stride, cs_run_between(run, x, run.x1), &next, &end));
-    if (is_same_segment(&current, &next))
+    CS_TRY(next_stretch(painter, program, stride, cs_run_between(run, x, run.x1), &next, &end));
+    if (is_same_stretch(&current, &next))
       continue;
-    CS_TRY(run_segment(painter, program, &current, cs_run_between(run, begun, x), row));
+    CS_TRY(run_stretch(painter, program, &current, cs_run_between(run, begun, x), row));
     begun = x;
     current = next;
   }
-  return run_segment(painter, program, &current, cs_run_between(run, begun, run.x1), row);
+  return run_stretch(painter, program, &current, cs_run_between(run, begun, run.x1), row);
 }
 
 celspan_status cs_painter_run_program(cs_painter *painter, const cs_program *program, cs_run run,
                                       cs_row *row) {
   if (run.x1 <= run.x0)
     return CELSPAN_OK;
-  return has_picture(painter->stack, program) ? run_segments(painter, program, run, row)
+  return has_picture(painter->stack, program) ? run_stretches(painter, program, run, row)
                                               : run_shown(painter, program, false, run, row);
 }
 

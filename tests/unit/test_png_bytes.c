@@ -12,7 +12,7 @@
 enum { SIZE_MOST = CS_PNG_COST_MOST, BEFORE = 8 };
 
 typedef struct rows {
-  unsigned char row[BEFORE + SIZE_MOST + CS_PNG_BLOCK], above[BEFORE + SIZE_MOST + CS_PNG_BLOCK];
+  unsigned char row[BEFORE + SIZE_MOST + CS_PNG_BATCH], above[BEFORE + SIZE_MOST + CS_PNG_BATCH];
 } rows;
 
 /* Noise, runs, or rows that are nearly alike; zeros around them. */
@@ -51,7 +51,7 @@ static unsigned char expected_byte(cs_png_filter kind, const unsigned char *row,
 
 static void check_rows(cs_isa isa, const rows *r, size_t pixel_size, size_t size) {
   const unsigned char *row = r->row + BEFORE, *above = r->above + BEFORE;
-  unsigned char found[SIZE_MOST + CS_PNG_BLOCK];
+  unsigned char found[SIZE_MOST + CS_PNG_BATCH];
   uint64_t costs[CS_PNG_FILTERS] = {0}, expected[CS_PNG_FILTERS] = {0};
   bool is_same = true;
   for (cs_png_filter kind = CS_PNG_NONE; kind < CS_PNG_FILTERS; kind++) {

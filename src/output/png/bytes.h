@@ -4,9 +4,9 @@
  *   row above      c  b          Sub x - a     Average x - floor((a + b) / 2)
  *   row            a  x          Up  x - b     Paeth   x - the one nearest to a + b - c
  *
- *   in memory   | zeros: a pixel | bytes of the row | zeros: CS_PNG_BLOCK |
+ *   in memory   | zeros: a pixel | bytes of the row | zeros: CS_PNG_BATCH |
  *
- * INVARIANT: a kernel gives the same bytes for every set of instructions. Less than CS_PNG_BLOCK
+ * INVARIANT: a kernel gives the same bytes for every set of instructions. Less than CS_PNG_BATCH
  * bytes beyond the end of the output may be overwritten.
  */
 #ifndef CS_OUTPUT_PNG_BYTES_H
@@ -18,8 +18,8 @@
 #include "base/wide.h"
 
 enum {
-  CS_PNG_BLOCK = 64,
-  CS_PNG_COST_MOST = 56 * CS_PNG_BLOCK /* bytes of a call for costs: its sums have 16 bits */
+  CS_PNG_BATCH = 64,                   /* bytes; a multiple of every register */
+  CS_PNG_COST_MOST = 56 * CS_PNG_BATCH /* bytes of a call for costs: its sums have 16 bits */
 };
 
 /* By their numbers in the file. */

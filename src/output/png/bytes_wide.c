@@ -1,13 +1,13 @@
 #include "output/png/bytes.h"
 
-enum { BLOCK = 4 * CS_WIDE_LANES };
-typedef uint8_t bytes __attribute__((vector_size(BLOCK)));
-typedef uint16_t words __attribute__((vector_size(BLOCK)));
+enum { REGISTER = 4 * CS_WIDE_LANES };
+typedef uint8_t bytes __attribute__((vector_size(REGISTER)));
+typedef uint16_t words __attribute__((vector_size(REGISTER)));
 
-static inline bytes load_block(const unsigned char *at) {
-  bytes block;
-  memcpy(&block, at, sizeof block);
-  return block;
+static inline bytes load_bytes(const unsigned char *at) {
+  bytes loaded;
+  memcpy(&loaded, at, sizeof loaded);
+  return loaded;
 }
 
 static inline bytes choose(bytes condition, bytes yes, bytes no) {
@@ -34,7 +34,7 @@ static inline bytes average(bytes a, bytes b) { return (a & b) + ((a ^ b) >> 1);
 
 static inline bytes difference(cs_png_filter kind, const unsigned char *row,
                                const unsigned char *above, size_t pixel_size) {
-  bytes x = load_block(row), a = load_block(row - pixel_size), b = load_block(above);
+  bytes x = load_bytes(row), a = load_bytes(row - pixel_size), b = load_bytes(above);
   switch (kind) {
   case CS_PNG_SUB:
     return x - a;
@@ -43,7 +43,7 @@ static inline bytes difference(cs_png_filter kind, const unsigned char *row,
   case CS_PNG_AVERAGE:
     return x - average(a, b);
   case CS_PNG_PAETH:
-    return x - paeth(a, b, load_block(above - pixel_size));
+    return x - paeth(a, b, load_bytes(above - pixel_size));
   default:
     return x;
   }
@@ -53,9 +53,9 @@ static inline bytes difference(cs_png_filter kind, const unsigned char *row,
 static inline void filter_as(cs_png_filter kind, const unsigned char *row,
                              const unsigned char *above, size_t pixel_size, size_t size,
                              unsigned char *out) {
-  for (size_t i = 0; i < size; i += BLOCK) {
-    bytes block = difference(kind, row + i, above + i, pixel_size);
-    memcpy(out + i, &block, sizeof block);
+  for (size_t i = 0; i < size; i += REGISTER) {
+    bytes loaded = difference(kind, row + i, above + i, pixel_size);
+    memcpy(out + i, &loaded, sizeof loaded);
   }
 }
 
@@ -94,13 +94,12 @@ typedef struct cost_sums {
   words none, sub, up, average, paeth;
 } cost_sums;
 
-/* size: of whole blocks. left, corner: row and above, a pixel earlier. */
-static inline void add_blocks(cost_sums *sums, const unsigned char *row, const unsigned char *left,
-                              const unsigned char *above, const unsigned char *corner,
-                              size_t size) {
-  for (size_t i = 0; i < size; i += BLOCK) {
-    bytes x = load_block(row + i), a = load_block(left + i);
-    bytes b = load_block(above + i), c = load_block(corner + i);
+/* size: a multiple of REGISTER. left, corner: row and above, a pixel earlier. */
+static inline void add_costs(cost_sums *sums, const unsigned char *row, const unsigned char *left,
+                             const unsigned char *above, const unsigned char *corner, size_t size) {
+  for (size_t i = 0; i < size; i += REGISTER) {
+    bytes x = load_bytes(row + i), a = load_bytes(left + i);
+    bytes b = load_bytes(above + i), c = load_bytes(corner + i);
     sums->none += cost_of(x);
     sums->sub += cost_of(x - a);
     sums->up += cost_of(x - b);
@@ -111,7 +110,7 @@ static inline void add_blocks(cost_sums *sums, const unsigned char *row, const u
 
 static inline uint64_t sum_of(words sums) {
   uint64_t sum = 0;
-  for (int i = 0; i < BLOCK / 2; i++)
+  for (int i = 0; i < REGISTER / 2; i++)
     sum += sums[i];
   return sum;
 }
@@ -120,15 +119,15 @@ void CS_WIDE(cs_png_bytes_add_costs)(const unsigned char *row, const unsigned ch
                                      size_t pixel_size, size_t size,
                                      uint64_t costs[CS_PNG_FILTERS]) {
   cost_sums sums = {0};
-  size_t rest = size % CS_PNG_BLOCK, whole = size - rest;
-  add_blocks(&sums, row, row - pixel_size, above, above - pixel_size, whole);
-  if (rest > 0) { /* padded with zeros, so that the sums do not depend on the size of a block */
-    unsigned char ends[4][CS_PNG_BLOCK] = {0};
+  size_t rest = size % CS_PNG_BATCH, whole = size - rest;
+  add_costs(&sums, row, row - pixel_size, above, above - pixel_size, whole);
+  if (rest > 0) { /* padded with zeros, so that the sums do not depend on REGISTER */
+    unsigned char ends[4][CS_PNG_BATCH] = {0};
     memcpy(ends[0], row + whole, rest);
     memcpy(ends[1], row + whole - pixel_size, rest);
     memcpy(ends[2], above + whole, rest);
     memcpy(ends[3], above + whole - pixel_size, rest);
-    add_blocks(&sums, ends[0], ends[1], ends[2], ends[3], CS_PNG_BLOCK);
+    add_costs(&sums, ends[0], ends[1], ends[2], ends[3], CS_PNG_BATCH);
   }
   costs[CS_PNG_NONE] += sum_of(sums.none);
   costs[CS_PNG_SUB] += sum_of(sums.sub);

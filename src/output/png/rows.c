@@ -22,7 +22,7 @@ void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, 
 void cs_png_rows_restart(cs_png_rows *rows) { cs_png_filter_runs_restart(&rows->filter); }
 
 static size_t bytes_allocated(const cs_png_rows *rows) {
-  return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BLOCK;
+  return rows->pixel_size + rows->coded_size * (size_t)rows->width + CS_PNG_BATCH;
 }
 
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context) {
@@ -132,7 +132,7 @@ static void pack_bytes(cs_png_rows *rows, unsigned char *bytes) {
     pack_samples(rows, bytes, 6);
   else if (rows->pixel_size == 8)
     pack_samples(rows, bytes, 8);
-  memset(bytes + (size_t)rows->width * rows->pixel_size, 0, CS_PNG_BLOCK);
+  memset(bytes + (size_t)rows->width * rows->pixel_size, 0, CS_PNG_BATCH);
 }
 
 static celspan_status spans_to_bytes(cs_png_rows *rows, celspan_context *context,
