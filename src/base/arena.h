@@ -1,7 +1,8 @@
-/* A stack of memory for one row's work: blocks that never move and are all given back at once.
+/* A stack of memory for the work on one row: pieces of memory that never move and are all given
+ * back at once.
  *
- * Invariant: after a reset everything handed out before is invalid, and what was reserved stays, so
- * that a row allocates from the heap only when it needs more than every row before it.
+ * Invariant: a reset invalidates all memory that was taken before, but does not free it, so that a
+ * row allocates from the heap only when it needs more than every row before it.
  */
 #ifndef CS_BASE_ARENA_H
 #define CS_BASE_ARENA_H
@@ -18,7 +19,7 @@ typedef struct cs_arena {
 void cs_arena_init(cs_arena *arena);
 void cs_arena_finish(cs_arena *arena, cs_memory *memory);
 void cs_arena_reset(cs_arena *arena);
-/* size bytes, aligned to 16; NULL, recorded in the context, without memory. */
+/* size bytes, aligned to 16. NULL when there is no memory; the context then has the error. */
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size);
 
 #endif

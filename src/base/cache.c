@@ -4,7 +4,7 @@
 
 #define BUCKETS_LEAST 1024
 
-/* ---------------------------------------------------------------- buckets; the lock is held */
+/* ---------------------------------------------------------------- buckets (under the lock) */
 
 static cs_cache_entry **bucket_of(const cs_cache *cache, cs_cache_key key) {
   uint64_t mixed = key.a * 0x9e3779b97f4a7c15u;
@@ -39,7 +39,7 @@ static void bucket_remove(cs_cache *cache, const cs_cache_entry *entry) {
   cache->entry_count--;
 }
 
-/* False where there are none at all. */
+/* False when there are no buckets at all, for want of memory. */
 static bool grow_buckets(cs_cache *cache) {
   if (cache->entry_count < cache->bucket_count)
     return true;
@@ -60,8 +60,7 @@ static bool grow_buckets(cs_cache *cache) {
   return true;
 }
 
-/* ---------------------------------------------------------------- the idle list; the lock is held
- */
+/* ---------------------------------------------------------------- idle list (under the lock) */
 
 static void idle_remove(cs_cache *cache, cs_cache_entry *entry) {
   *(entry->older ? &entry->older->newer : &cache->oldest) = entry->newer;
@@ -129,7 +128,7 @@ void cs_cache_unpin(cs_cache *cache, cs_cache_entry *entry) {
 
 /* ---------------------------------------------------------------- making */
 
-/* The lock is held. NULL: there is no memory. */
+/* Called with the lock held. NULL: there is no memory. */
 static cs_cache_entry *create_entry(cs_cache *cache, cs_cache_key key, size_t bytes) {
   shrink_to(cache, cache->budget > bytes ? cache->budget - bytes : 0);
   cs_cache_entry *entry =
@@ -175,7 +174,8 @@ void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry) {
   pthread_mutex_unlock(&cache->lock);
 }
 
-/* Fills an entry that is in its bucket with one pin. The lock is held, and let go meanwhile. */
+/* Fills an entry that is in its bucket with one pin. Called with the lock held, which is released
+ * while the entry is being made. */
 static celspan_status make_entry(cs_cache *cache, celspan_context *context, cs_cache_entry *entry,
                                  cs_cache_make make, void *user) {
   pthread_mutex_unlock(&cache->lock);

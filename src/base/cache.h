@@ -28,28 +28,28 @@ typedef struct cs_cache_key {
   uint64_t a, b, c;
 } cs_cache_key;
 
-/* The first member of what a user keeps. */
+/* The first member of the structure that a user keeps in the cache. */
 typedef struct cs_cache_entry cs_cache_entry;
 struct cs_cache_entry {
   cs_cache_key key;
-  size_t bytes; /* that it counts for */
+  size_t bytes; /* that the entry counts for in the budget */
   uint32_t pins;
   bool is_made;
   cs_cache_entry *next;          /* in its bucket */
   cs_cache_entry *older, *newer; /* while it has no pins */
 };
 
-typedef struct cs_cache_counts { /* since the cache was made; now */
-  uint64_t made, found;
-  size_t bytes;
+typedef struct cs_cache_counts {
+  uint64_t made, found; /* entries, since the cache was made */
+  size_t bytes;         /* of all entries now */
 } cs_cache_counts;
 
 typedef struct cs_cache {
   cs_memory *memory;
-  size_t entry_size; /* of what a user keeps, cs_cache_entry included */
-  /* Frees what an entry owns, which may be made in part or not at all; NULL: it owns nothing. */
+  size_t entry_size; /* of the user's structure, cs_cache_entry included */
+  /* Frees what an entry owns; its making may have failed half-way. NULL: entries own nothing. */
   void (*clear)(cs_cache_entry *entry, cs_memory *memory);
-  bool shrinks_on_unpin; /* goes back to its budget when a pin goes, not only before an entry */
+  bool shrinks_on_unpin; /* goes back to its budget also when a pin is removed */
   size_t budget;
   pthread_mutex_t lock;
   pthread_cond_t settled; /* an entry was made, or could not be */
@@ -59,7 +59,7 @@ typedef struct cs_cache {
   cs_cache_counts counts;
 } cs_cache;
 
-/* The first four fields and the budget are set, the rest is zero. */
+/* The caller has set the first four fields and the budget; the rest is zero. */
 void cs_cache_init(cs_cache *cache);
 /* No entry is pinned any more. */
 void cs_cache_finish(cs_cache *cache);
@@ -68,28 +68,30 @@ void cs_cache_finish(cs_cache *cache);
 
 /* The budget from now on is at least `least`; returns it. */
 size_t cs_cache_raise_budget(cs_cache *cache, size_t least);
-/* Drops all that is not pinned. */
+/* Drops all entries that are not pinned. */
 void cs_cache_trim(cs_cache *cache);
 cs_cache_counts cs_cache_count(cs_cache *cache);
 
-/* The entry with a pin more; waits while another thread makes it. NULL: it is not there. */
+/* Pins the entry of a key and returns it; waits while another thread makes it. NULL: the cache has
+ * no entry of this key. */
 cs_cache_entry *cs_cache_pin(cs_cache *cache, cs_cache_key key);
 void cs_cache_unpin(cs_cache *cache, cs_cache_entry *entry);
 
 /* Fills a zeroed entry and sets its bytes. */
 typedef celspan_status (*cs_cache_make)(void *user, celspan_context *context,
                                         cs_cache_entry *entry);
-/* The entry with a pin more, made where it is not there. Errors: NO_MEMORY and those of make. */
+/* The same, but makes an entry that the cache does not have. Errors: NO_MEMORY, those of make. */
 CELSPAN_CHECKED celspan_status cs_cache_acquire(cs_cache *cache, celspan_context *context,
                                                 cs_cache_key key, cs_cache_make make, void *user,
                                                 cs_cache_entry **out);
 
-/* A new entry, zeroed but for its key, counted with `bytes`, not in the cache.
+/* A new entry, zeroed except for its key. It is not in the cache yet, but counted with `bytes`.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cache_create(cs_cache *cache, celspan_context *context,
                                                cs_cache_key key, size_t bytes,
                                                cs_cache_entry **out);
-/* Puts it into the cache, with a pin or none; one that is there already is returned instead. */
+/* Puts an entry into the cache, with one pin or none. If the cache already has an entry of this key
+ * the new one is freed and the other returned. */
 cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_pinned);
 /* Frees an entry that was not inserted. */
 void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);

@@ -5,13 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void *default_resize(void *user, void *block, size_t old_size, size_t new_size) {
+static void *default_resize(void *user, void *storage, size_t old_size, size_t new_size) {
   (void)user, (void)old_size;
   if (new_size == 0) {
-    free(block);
+    free(storage);
     return NULL;
   }
-  return realloc(block, new_size);
+  return realloc(storage, new_size);
 }
 
 /* ---------------------------------------------------------------- memory */
@@ -49,19 +49,19 @@ static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
   }
 }
 
-void *cs_mem_resize(cs_memory *memory, void *block, size_t old_size, size_t new_size) {
-  void *resized = memory->resize(memory->user, block, old_size, new_size);
+void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size) {
+  void *resized = memory->resize(memory->user, storage, old_size, new_size);
   if (!resized && new_size > 0)
     return NULL;
   if (new_size > 0)
     atomic_fetch_add_explicit(&memory->allocations, 1, memory_order_relaxed);
-  count_bytes(memory, block ? old_size : 0, new_size);
+  count_bytes(memory, storage ? old_size : 0, new_size);
   return resized;
 }
 
-void cs_mem_free(cs_memory *memory, void *block, size_t size) {
-  if (block)
-    cs_mem_resize(memory, block, size, 0);
+void cs_mem_free(cs_memory *memory, void *storage, size_t size) {
+  if (storage)
+    cs_mem_resize(memory, storage, size, 0);
 }
 
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size) {
@@ -199,7 +199,8 @@ cs_service *cs_context_find_service(const celspan_context *context, const cs_ser
   return find_service(atomic_load_explicit(&context->root->services, memory_order_acquire), kind);
 }
 
-/* Another thread may be first to make the service; then its own is used. */
+/* Another thread may make the same service meanwhile and be first to add it; then that one is used
+ * and this one destroyed. */
 celspan_status cs_context_service(celspan_context *context, const cs_service_kind *kind,
                                   cs_service **out) {
   celspan_context *root = context->root;

@@ -1,8 +1,9 @@
 /* Memory, errors and the context that carries both.
  *
- * Every allocation goes through cs_mem_resize, which is told old and new sizes, so bytes held are
- * known at any moment. A context belongs to one thread; workers get a branch of it: their own error
- * text over the same memory. All failures pass through cs_fail, a natural breakpoint.
+ * Every allocation goes through cs_mem_resize. Its callers give the old size and the new one, so
+ * the number of allocated bytes is known at any moment. A context belongs to one thread; workers
+ * get a branch of it, which has an error text of its own and shares the memory. All failures pass
+ * through cs_fail, which makes it a natural breakpoint.
  */
 #ifndef CS_BASE_CONTEXT_H
 #define CS_BASE_CONTEXT_H
@@ -22,13 +23,14 @@ typedef struct cs_memory {
   atomic_uint_fast64_t allocations;
 } cs_memory;
 
-/* What a higher folder keeps for a context, such as decoded pictures: the first member of it. A
- * context has at most one service of a kind, made on first use and destroyed with the context. */
+/* A service is something that a higher folder keeps for a context, such as decoded pictures;
+ * cs_service is the first member of its structure. A context has at most one service of a kind,
+ * which is made on first use and destroyed with the context. */
 typedef struct cs_service cs_service;
 typedef struct cs_service_kind {
   celspan_status (*create)(celspan_context *context, cs_service **out);
   void (*destroy)(cs_service *service);
-  void (*trim)(cs_service *service); /* drops what is not in use; any thread */
+  void (*trim)(cs_service *service); /* frees memory that is not in use; any thread */
 } cs_service_kind;
 
 struct cs_service {
@@ -36,7 +38,7 @@ struct cs_service {
   cs_service *next;
 };
 
-enum { CS_ERROR_SIZE = 1024 }; /* bytes of a failure's sentence */
+enum { CS_ERROR_SIZE = 1024 }; /* bytes of the sentence that describes a failure */
 
 struct celspan_context {
   cs_memory *memory;
@@ -51,14 +53,13 @@ void cs_memory_unref(cs_memory *memory);
 
 /* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not
  * record an error: callers that report use cs_fail_memory. */
-void *cs_mem_resize(cs_memory *memory, void *block, size_t old_size, size_t new_size);
-void cs_mem_free(cs_memory *memory, void *block, size_t size);
-/* count items of item_size bytes, zeroed; NULL on overflow or without memory. count 0 gives
- * NULL. */
+void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size);
+void cs_mem_free(cs_memory *memory, void *storage, size_t size);
+/* count items of item_size bytes, zeroed. NULL on overflow, without memory, and for count 0. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
 
-/* Grows *items (of *capacity items) so that it holds at least `needed`, doubling; the contents are
- * kept. Status NO_MEMORY, recorded; *items is then unchanged. */
+/* Doubles *items, an array of *capacity items, until it has room for `needed` of them; its contents
+ * are kept. Errors: NO_MEMORY; *items is then unchanged. */
 CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
                                            size_t needed, size_t item_size);
 static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *context, void **items,
@@ -68,21 +69,21 @@ static inline CELSPAN_CHECKED celspan_status cs_mem_reserve(celspan_context *con
                              : cs_mem_grow(context, items, capacity, needed, item_size);
 }
 
-/* Records "format" and returns status. */
+/* Records the sentence that format describes, and returns status. */
 celspan_status cs_fail(celspan_context *context, celspan_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 celspan_status cs_fail_memory(celspan_context *context);
 
-/* A context for a worker thread, on the caller's memory: same cs_memory, own error text. Not
- * counted; must not outlive the context it is branched from. */
+/* Makes *branch a context for a worker thread: it shares the memory of `from` and has an error text
+ * of its own. It is not counted and must not outlive `from`. */
 void cs_context_branch(celspan_context *branch, celspan_context *from);
 
 /* The service of that kind, made where there is none yet. Any thread. Errors: those of create. */
 CELSPAN_CHECKED celspan_status cs_context_service(celspan_context *context,
                                                   const cs_service_kind *kind, cs_service **out);
-/* NULL: there is none yet. Any thread. */
+/* The same, but NULL where there is none yet. Any thread. */
 cs_service *cs_context_find_service(const celspan_context *context, const cs_service_kind *kind);
-/* Drops what is kept for later frames and what no frame uses now. Any thread. */
+/* Frees everything that is only kept for later frames. Any thread. */
 void cs_context_trim(celspan_context *context);
 
 #define CS_TRY(call)                                                                               \

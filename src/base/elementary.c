@@ -119,7 +119,7 @@ double cs_elementary_tan(double radians) {
 #define HALF_PI_HIGH 0x1.921fb54442d18p+0
 #define HALF_PI_LOW 0x1.1a62633145c07p-54
 
-/* atan(k/8), as the double nearest and what it lacks. */
+/* atan(k/8): the nearest double, and the rest that it lacks. */
 static const pair atan_of_eighths[9] = {{0, 0},
                                         {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
                                         {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},

@@ -12,7 +12,7 @@
 
 #define PATH_SIZE 4096
 
-/* Where a module may lie, seen from the folder of the object that holds this function: an
+/* Where a module may lie, relative to the folder of the object that contains this function: an
  * installed library or program, a Lua module in the build tree, a test program. */
 static const char *const folders[] = {
     "oiio",
@@ -27,7 +27,7 @@ static const char *const folders[] = {
     ".",
 };
 
-/* The folder of the running object, without the final slash; false when it cannot be told. */
+/* The folder of the running object, without the final slash; false when it is not known. */
 static bool own_folder(char path[PATH_SIZE]) {
   Dl_info info;
   static const char mark = 0;

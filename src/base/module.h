@@ -1,8 +1,9 @@
-/* A shared object loaded on first use: what it offers is one table of functions.
+/* A shared object loaded on first use. It offers one table of functions.
  *
- * It is looked for where the environment says, then beside the object that holds this code (so that
- * a build tree and a moved installation work), then where it was to be installed. Once loaded it
- * stays in the process: libraries under it keep threads and statics that do not survive unloading.
+ * It is searched for where the environment says, then beside the object that contains this code (so
+ * that a build tree and a moved installation work), then where it was to be installed. Once loaded
+ * it stays in the process: libraries under it keep threads and statics that do not survive
+ * unloading.
  */
 #ifndef CS_BASE_MODULE_H
 #define CS_BASE_MODULE_H

@@ -1,4 +1,4 @@
-/* Numbers at the door and on the way to integers.
+/* Numbers: checked where they come in from outside, and converted to integers.
  *
  * Invariant: a number that passed cs_number_is_sane is finite and |x| <= 1e12; a double becomes an
  * integer only through the saturating helpers here (NaN becomes 0).
@@ -34,8 +34,8 @@ static inline double cs_number_clamp(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
 }
 
-/* The lesser and the greater of two numbers without a branch, for where none can be foreseen; b
- * where one is not a number. */
+/* The lesser and the greater of two numbers without a branch, for places where no branch can be
+ * predicted; b where one of them is NaN. */
 static inline double cs_number_least(double a, double b) {
 #ifdef __SSE2__
   return _mm_cvtsd_f64(_mm_min_sd(_mm_set1_pd(a), _mm_set1_pd(b)));

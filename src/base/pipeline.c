@@ -49,7 +49,7 @@ bool cs_pipeline_has_room(const cs_pipeline *p) {
 
 static slot *slot_of(const cs_pipeline *p, size_t item) { return &p->slots[item % p->desc.slots]; }
 
-/* ---------------------------------------------------------------- making; the lock is held */
+/* ---------------------------------------------------------------- making (under the lock) */
 
 /* The next item that any worker may make: false where there is none. */
 static bool claim(cs_pipeline *p, size_t *item) {
@@ -73,7 +73,7 @@ static void set_done(cs_pipeline *p, const celspan_context *context, size_t item
     cs_pipeline_end_at(p, item + 1);
 }
 
-/* Lets go of the lock meanwhile. */
+/* Releases the lock while the item is being made. */
 static void make(cs_pipeline *p, celspan_context *context, int worker, size_t item) {
   pthread_mutex_unlock(&p->lock);
   celspan_status status = p->desc.make(p->desc.user, context, worker, item);
@@ -116,7 +116,7 @@ void cs_pipeline_add(cs_pipeline *p, celspan_context *context, cs_pipeline_step 
 
 static bool is_ready(const cs_pipeline *p) {
   const slot *first = slot_of(p, p->delivered);
-  return p->delivered < p->added && (first->is_done || first->step == CS_PIPELINE_IN_TURN);
+  return p->delivered < p->added && (first->is_done || first->step == CS_PIPELINE_IN_ORDER);
 }
 
 bool cs_pipeline_is_ready(cs_pipeline *p) {

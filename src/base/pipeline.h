@@ -37,7 +37,7 @@ typedef struct cs_pipeline cs_pipeline;
 typedef enum cs_pipeline_step {
   CS_PIPELINE_ANYWHERE = 0, /* any worker */
   CS_PIPELINE_HERE,         /* the owner, at once */
-  CS_PIPELINE_IN_TURN,      /* the owner, when all items before it have been delivered */
+  CS_PIPELINE_IN_ORDER,     /* the owner, when all items before it have been delivered */
   CS_PIPELINE_NOTHING       /* nobody: it is complete as it is */
 } cs_pipeline_step;
 
@@ -52,20 +52,20 @@ typedef struct cs_pipeline_desc {
   /* worker: 0 for the owner, up to `threads` for the others, each with a context of its own. The
    * sentence of a failure is expected in the context. */
   celspan_status (*make)(void *user, celspan_context *context, int worker, size_t item);
-  /* status: of the item, with its sentence in the context, which is the owner's. What is returned
-   * goes to whoever called cs_pipeline_deliver; unless it is OK the item counts as not delivered.
-   */
+  /* status: of the item; its sentence is in the context, which is the owner's. Whoever called
+   * cs_pipeline_deliver gets the status that is returned; unless that is OK the item counts as not
+   * delivered. */
   celspan_status (*deliver)(void *user, celspan_context *context, size_t item,
                             celspan_status status);
-  /* Called when the owner has waited for a tenth of a second; what it returns ends the waiting
-   * unless it is OK. NULL: the owner waits for as long as it takes. */
+  /* Called whenever the owner has waited for a tenth of a second. A status other than OK ends the
+   * waiting. NULL: the owner waits for as long as it takes. */
   celspan_status (*idle)(void *user, celspan_context *context);
 } cs_pipeline_desc;
 
 /* Starts the threads. desc: copied. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_pipeline_create(celspan_context *context,
                                                   const cs_pipeline_desc *desc, cs_pipeline **out);
-/* Nothing is wanted any more; returns when all threads have ended. NULL is ignored. */
+/* Cancels all items that are left, and returns when all threads have ended. NULL is ignored. */
 void cs_pipeline_destroy(cs_pipeline *pipeline);
 
 /* The functions below are the owner's, with the owner's context. */

@@ -1,18 +1,18 @@
 /* Self-checks: what headers promise in prose, checked while the program runs.
  *
- * They are built in with the meson option `checks`, which the builds that tests use have. The build
- * that is installed and measured has not: there a claim is not even evaluated, and the functions
- * that answer claims, in files named *_check.c, are not compiled.
+ * The meson option `checks` builds them in; builds that are tested have it. A build that is
+ * installed or measured does not: there a claim is not even evaluated, and the functions that
+ * decide claims, in files named *_check.c, are not compiled.
  *
- * A claim that does not hold is a fault of the core, never of data that came from outside: it ends
- * the process at once, as `assert` does, so that a debugger or a sanitizer shows who broke it.
+ * A claim that is false is a fault of the core, never of data that came from outside: it ends the
+ * process at once, as `assert` does, so that a debugger or a sanitizer shows who broke it.
  */
 #ifndef CS_BASE_SELF_CHECK_H
 #define CS_BASE_SELF_CHECK_H
 
 #ifdef CELSPAN_CHECKS
 
-/* Prints the claim and where it stands, and ends the process. */
+/* Prints the claim and its place in the source, and ends the process. */
 _Noreturn void cs_self_check_failed(const char *claim, const char *file, int line);
 
 #define CS_SELF_CHECK(claim) ((claim) ? (void)0 : cs_self_check_failed(#claim, __FILE__, __LINE__))

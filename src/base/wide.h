@@ -52,8 +52,7 @@ static inline void *cs_wide_align(void *block) {
   return (char *)block + (-(uintptr_t)block & (CS_WIDE_LINE - 1));
 }
 
-/* As many lanes as the make's registers have. Whole pixels: lane 4 k + c is channel c of pixel k.
- */
+/* As many lanes as the registers of the make have. Lane 4 k + c is channel c of pixel k. */
 #ifdef __AVX512F__
 #define CS_WIDE_LANES 16
 #define CS_WIDE_SPREAD(v, c)                                                                       \
@@ -103,7 +102,7 @@ static inline cs_wide cs_wide_choose(cs_wide_int mask, cs_wide one, cs_wide othe
   return (cs_wide)(((cs_wide_int)one & mask) | ((cs_wide_int)other & ~mask));
 }
 
-/* Held to 0..1; what is not a number stays. */
+/* Clamped to 0..1; NaN stays NaN. */
 static inline cs_wide cs_wide_unit(cs_wide v) {
 #ifdef __AVX512F__
   return (cs_wide)_mm512_min_ps(_mm512_set1_ps(1), _mm512_max_ps(_mm512_setzero_ps(), (__m512)v));

@@ -51,7 +51,7 @@ static cs_pipeline_step choose_step(const job *j, const frame_task *task) {
     return CS_PIPELINE_NOTHING;
   if (!task->frame.is_named || j->shoot->put)
     return CS_PIPELINE_HERE;
-  return task->is_known && !task->is_first ? CS_PIPELINE_IN_TURN : CS_PIPELINE_ANYWHERE;
+  return task->is_known && !task->is_first ? CS_PIPELINE_IN_ORDER : CS_PIPELINE_ANYWHERE;
 }
 
 static celspan_status build(void *user, size_t index, void *carried, cs_pipeline_step *step) {

@@ -75,7 +75,7 @@ static celspan_status finish(void *user, void *carried, celspan_status status) {
   int index = s->finished + s->failed;
   s->faults += !is_calling_thread(s) || f->index != index;
   s->faults += status == CELSPAN_OK && f->made != (s->steps[index] != CS_PIPELINE_NOTHING);
-  s->faults += s->steps[index] == CS_PIPELINE_IN_TURN && f->made && f->before != s->finished;
+  s->faults += s->steps[index] == CS_PIPELINE_IN_ORDER && f->made && f->before != s->finished;
   if (status != CELSPAN_OK) {
     s->failed++;
     return s->fails_to_finish == NOWHERE ? status : CELSPAN_OK;

@@ -76,7 +76,7 @@ static celspan_status make(void *user, celspan_context *context, int worker, siz
   w->faults += (worker == 0) != is_owner(w) || (worker == 0) != (context == w->context);
   w->faults += worker > w->threads || context->root != w->context;
   w->faults += w->steps[item] != CS_PIPELINE_ANYWHERE && worker != 0;
-  w->faults += w->steps[item] == CS_PIPELINE_IN_TURN && w->delivered != (int)item;
+  w->faults += w->steps[item] == CS_PIPELINE_IN_ORDER && w->delivered != (int)item;
   w->made[item]++;
   w->made_by[item] = worker;
   if ((int)item == w->rests_in)
