@@ -84,13 +84,12 @@ void cs_bezier_copy(const cs_bezier *piece, cs_bezier *copy) {
          offsetof(cs_bezier, points) + ((size_t)piece->degree + 1) * sizeof(cs_hpoint));
 }
 
-void cs_bezier_take(cs_bezier *rest, double *from, double t, cs_bezier *part) {
-  cs_bezier_split(rest, (t - *from) / (1 - *from), part, rest);
+void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *front) {
+  cs_bezier_split(rest, (t - *from) / (1 - *from), front, rest);
   *from = t;
 }
 
-/* ---------------------------------------------------------------- roots of Bernstein polynomials
- */
+/* ---------------------------------------------------------------- Bernstein polynomials' roots */
 
 typedef struct root_list {
   int count, limit;
@@ -339,7 +338,7 @@ celspan_status cs_bezier_clip(const cs_bezier *piece, double least, cs_bezier_vi
   cs_bezier rest, part;
   cs_bezier_copy(piece, &rest);
   for (int i = 0; i < count; i++) {
-    cs_bezier_take(&rest, &from, roots[i], &part);
+    cs_bezier_cut_front(&rest, &from, roots[i], &part);
     if (is_front(&part, least))
       CS_TRY(visit_front(&part, least, visit, user, 0));
   }

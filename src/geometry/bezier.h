@@ -1,11 +1,11 @@
 /* Single rational Bezier pieces: splitting, roots, extrema, the horizon.
  *
- *          o-----m-----o               split at t: every side of the control polygon is divided at
- *         /     / \     \              t, then the sides of the new one, until one point is left;
- *        /     l---j-----h             it is the joint j of both halves
- *       m     / \       / \
- *      /                    \          halves: * m l j   and   j h m *
- *     *                      *
+ *          o-------m-------o           split at t: every side of the control polygon is divided at
+ *         /     .     .     \          t, then the sides of the new polygon, until one point is
+ *        /   l-----j-----h   \         left; that is the joint j of both halves
+ *       m .                 . m
+ *      /                       \       halves: * m l j   and   j h m *
+ *     *                         *
  *
  * Invariants: points are homogeneous. Everything is a pure function of the control points in their
  * given order; cs_bezier_canonise gives a piece and its reversed copy the same order. Where all
@@ -48,9 +48,9 @@ double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis);
 
 /* low and high share the joint bitwise; either may be the piece itself. */
 void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high);
-/* Moves the beginning of *rest to part, up to parameter t of the whole piece. *from: the parameter
- * at which *rest begins; becomes t. For a list of ascending roots. */
-void cs_bezier_take(cs_bezier *rest, double *from, double t, cs_bezier *part);
+/* Cuts *rest at parameter t of the whole piece: its beginning becomes *front, and *rest the rest.
+ * *from: the parameter at which *rest begins; becomes t. For a list of ascending roots. */
+void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *front);
 
 /* Parameters inside (0, 1) where a form changes its sign, ascending; their number. */
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form, double roots[CS_BEZIER_ROOTS]);

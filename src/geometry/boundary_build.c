@@ -1,18 +1,18 @@
 /* cs_boundary_add: contours to chains.
  *
- *   horizon: what is behind it     y extrema: from each one     sides of the frame: what is beyond
- *   is cut off                     to the next a part           them becomes a vertical line
+ *   horizon: a curve is cut       y extrema: a curve is cut      sides of the frame: beyond them
+ *   off behind it                 into monotone stretches        vertical lines replace a curve
  *
- *        .---.                         *--.                       left |    .
- *      /       \                      /    \                           |  .
- *   --o---------o--- horizon         /      *  extremum                |.   the curve leaves here
- *     :         :                   |       :                         .|
- *      (cut off)                    part    part                    .  |   the part goes on
- *                                                                      |   along the side
+ *        .---.                             .*.  extremum                  left
+ *      .'     '.                         .'   '.                             |   .
+ *   --o---------o--- horizon            /       \                            | .
+ *     :         :                     one       another                      |'  the curve leaves
+ *     (cut off)                       stretch   stretch                    . |   along the side
+ *                                                                         .  |
  *
  * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
- * the same bits, and makes parts from top to bottom. The parts of a piece are then put into the
- * order of the contour, and consecutive parts of one direction joined to chains.
+ * the same bits, and makes stretches from top to bottom. The stretches of a piece are then put into
+ * the order of the contour, and consecutive stretches of one direction are joined to chains.
  */
 #include <math.h>
 
@@ -22,67 +22,67 @@
 #include "geometry/matrix.h"
 #include "geometry/polyline.h"
 
-#define WEIGHT_RATIO 2 /* the most within a piece that is fitted as a whole */
+#define WEIGHT_RATIO 2 /* of the weights in a piece that is fitted as a whole, at most */
 #define WEIGHT_DEPTH 40
-#define LEAST_OUTSIDE                                                                              \
-  1024 /* pixels that a piece may extend beyond top or bottom before it is cut there */
+/* Pixels that a piece may always extend beyond top or bottom without being cut there. */
+#define LEAST_OUTSIDE 1024
 
-typedef struct part {
+typedef struct stretch {
   cs_boundary_piece piece;
   int32_t direction; /* along the contour: +1 down, -1 up */
-} part;
+} stretch;
 
 typedef struct builder {
   celspan_context *context;
   cs_boundary_set *set;
   const cs_boundary_frame *frame;
   uint32_t layer;
-  part *parts; /* of the current contour */
-  size_t part_count, part_capacity;
-  cs_bezier *fronts; /* the parts of the current piece in front of the horizon */
+  stretch *stretches; /* of the current contour */
+  size_t stretch_count, stretch_capacity;
+  cs_bezier *fronts; /* the current piece, cut to what is in front of the horizon */
   size_t front_count, front_capacity;
   bool has_pen;
   cs_hpoint first, pen; /* the beginning of the contour, and its current point */
 } builder;
 
-/* ---------------------------------------------------------------- parts */
+/* ---------------------------------------------------------------- stretches */
 
-/* curve: NULL for a straight part. Horizontal parts vanish. */
-static celspan_status add_part(builder *b, const cs_bezier *curve, celspan_point from,
-                               celspan_point to) {
+/* curve: NULL for a straight stretch. Horizontal stretches vanish. */
+static celspan_status add_stretch(builder *b, const cs_bezier *curve, celspan_point from,
+                                  celspan_point to) {
   if (!(from.y < to.y))
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(b->context, (void **)&b->parts, &b->part_capacity, b->part_count + 1,
-                        sizeof *b->parts));
-  part *added = &b->parts[b->part_count];
-  *added = (part){.piece = {.x0 = from.x,
-                            .y0 = from.y,
-                            .x1 = to.x,
-                            .y1 = to.y,
-                            .left = b->frame->left,
-                            .right = b->frame->right,
-                            .chords = 1,
-                            .group = 1,
-                            .half = 1,
-                            .leap = 1,
-                            .degree = 1}};
+  CS_TRY(cs_mem_reserve(b->context, (void **)&b->stretches, &b->stretch_capacity,
+                        b->stretch_count + 1, sizeof *b->stretches));
+  stretch *added = &b->stretches[b->stretch_count];
+  *added = (stretch){.piece = {.x0 = from.x,
+                               .y0 = from.y,
+                               .x1 = to.x,
+                               .y1 = to.y,
+                               .left = b->frame->left,
+                               .right = b->frame->right,
+                               .chords = 1,
+                               .group = 1,
+                               .half = 1,
+                               .leap = 1,
+                               .degree = 1}};
   if (curve)
     CS_TRY(cs_polyline_fit(b->context, b->set, curve, &added->piece));
-  b->part_count++;
+  b->stretch_count++;
   return CELSPAN_OK;
 }
 
 static celspan_status add_vertical(builder *b, double x, double y0, double y1) {
-  return add_part(b, NULL, (celspan_point){x, y0}, (celspan_point){x, y1});
+  return add_stretch(b, NULL, (celspan_point){x, y0}, (celspan_point){x, y1});
 }
 
-static void reverse_parts(builder *b, size_t begin, bool turns_direction) {
-  for (size_t i = begin; turns_direction && i < b->part_count; i++)
-    b->parts[i].direction = -b->parts[i].direction;
-  for (size_t i = begin, j = b->part_count; i + 1 < j; i++) {
-    part swapped = b->parts[i];
-    b->parts[i] = b->parts[--j];
-    b->parts[j] = swapped;
+static void reverse_stretches(builder *b, size_t begin, bool turns_direction) {
+  for (size_t i = begin; turns_direction && i < b->stretch_count; i++)
+    b->stretches[i].direction = -b->stretches[i].direction;
+  for (size_t i = begin, j = b->stretch_count; i + 1 < j; i++) {
+    stretch swapped = b->stretches[i];
+    b->stretches[i] = b->stretches[--j];
+    b->stretches[j] = swapped;
   }
 }
 
@@ -103,7 +103,7 @@ static celspan_status add_line(builder *b, celspan_point top, celspan_point bott
   celspan_point at = {cs_number_clamp(top.x, left, right), top.y};
   celspan_point end = {cs_number_clamp(bottom.x, left, right), bottom.y};
   if (at.x == top.x && end.x == bottom.x)
-    return add_part(b, NULL, at, end);
+    return add_stretch(b, NULL, at, end);
   if (at.x == end.x)
     return add_vertical(b, at.x, at.y, end.y);
   if (at.x != top.x) {
@@ -112,9 +112,9 @@ static celspan_status add_line(builder *b, celspan_point top, celspan_point bott
     at.y = y;
   }
   if (end.x == bottom.x)
-    return add_part(b, NULL, at, end);
+    return add_stretch(b, NULL, at, end);
   celspan_point out = {second, fmax(at.y, edge_height(top, bottom, second))};
-  CS_TRY(add_part(b, NULL, at, out));
+  CS_TRY(add_stretch(b, NULL, at, out));
   return add_vertical(b, second, out.y, end.y);
 }
 
@@ -131,7 +131,7 @@ static celspan_point project(cs_hpoint point) {
   return (celspan_point){point.x / point.w, point.y / point.w};
 }
 
-/* The end of a part, clamped to the frame and to below the part before it. */
+/* The end of a stretch, clamped to the frame and to below the stretch before it. */
 static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_point from,
                            celspan_point to) {
   celspan_point end = project(curve->points[curve->degree]);
@@ -139,12 +139,11 @@ static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_poi
                          cs_number_clamp(end.y, from.y, to.y)};
 }
 
-/* A curve inside the frame, halved until its weights are similar. Recursion ends at WEIGHT_DEPTH.
- */
+/* A curve inside the frame, halved until its weights are similar, WEIGHT_DEPTH times at most. */
 static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_point from,
                                 celspan_point to, int depth) {
   if (depth == WEIGHT_DEPTH || weight_ratio(curve) <= WEIGHT_RATIO)
-    return add_part(b, curve, from, to);
+    return add_stretch(b, curve, from, to);
   cs_bezier upper, lower;
   cs_bezier_split(curve, 0.5, &upper, &lower);
   celspan_point middle = joint(b, &upper, from, to);
@@ -192,7 +191,7 @@ static celspan_status add_cut_curve(builder *b, const cs_bezier *curve, celspan_
   cs_bezier_copy(curve, &rest);
   double position = 0;
   for (int i = 0; i < cuts.count; i++) {
-    cs_bezier_take(&rest, &position, cuts.at[i], &upper);
+    cs_bezier_cut_front(&rest, &position, cuts.at[i], &upper);
     celspan_point cut = joint(b, &upper, from, to);
     cut.x = cuts.x[i];
     CS_TRY(add_one_side(b, &upper, from, cut));
@@ -229,16 +228,16 @@ static celspan_status add_falling(builder *b, cs_bezier *curve) {
     return CELSPAN_OK;
   if (curve->degree == 1)
     return add_line(b, from, to);
-  double roots[CS_BEZIER_ROOTS], reach = fmax(LEAST_OUTSIDE, frame->bottom - frame->top);
-  cs_bezier outside;
-  if (from.y < frame->top - reach &&
+  double roots[CS_BEZIER_ROOTS], outside = fmax(LEAST_OUTSIDE, frame->bottom - frame->top);
+  cs_bezier cut_off;
+  if (from.y < frame->top - outside &&
       cs_bezier_crossings(curve, (cs_bezier_form){.y = 1, .w = -frame->top}, roots) > 0) {
-    cs_bezier_split(curve, roots[0], &outside, curve);
+    cs_bezier_split(curve, roots[0], &cut_off, curve);
     from.y = frame->top;
   }
-  if (to.y > frame->bottom + reach &&
+  if (to.y > frame->bottom + outside &&
       cs_bezier_crossings(curve, (cs_bezier_form){.y = 1, .w = -frame->bottom}, roots) > 0) {
-    cs_bezier_split(curve, roots[0], curve, &outside);
+    cs_bezier_split(curve, roots[0], curve, &cut_off);
     to.y = frame->bottom;
   }
   return add_across(b, curve, from.y, to.y);
@@ -249,21 +248,20 @@ static celspan_status add_falling(builder *b, cs_bezier *curve) {
 static celspan_status add_monotone(builder *b, cs_bezier *curve) {
   double y0 = cs_bezier_coordinate(curve->points[0], CS_BEZIER_Y);
   double y1 = cs_bezier_coordinate(curve->points[curve->degree], CS_BEZIER_Y);
-  size_t begin = b->part_count;
+  size_t begin = b->stretch_count;
   if (y0 == y1)
     return CELSPAN_OK;
   if (y0 > y1)
     cs_bezier_reverse(curve);
   CS_TRY(add_falling(b, curve));
-  for (size_t i = begin; i < b->part_count; i++)
-    b->parts[i].direction = y0 > y1 ? -1 : 1;
+  for (size_t i = begin; i < b->stretch_count; i++)
+    b->stretches[i].direction = y0 > y1 ? -1 : 1;
   if (y0 > y1)
-    reverse_parts(b, begin, false);
+    reverse_stretches(b, begin, false);
   return CELSPAN_OK;
 }
 
-/* With positive weights a line crosses a curve no more often than it crosses its control polygon.
- */
+/* With positive weights a line crosses a curve at most as often as the curve's control polygon. */
 static bool has_monotone_polygon(const cs_bezier *curve) {
   bool rises = false, falls = false;
   double last = cs_bezier_coordinate(curve->points[0], CS_BEZIER_Y);
@@ -280,16 +278,16 @@ static bool has_monotone_polygon(const cs_bezier *curve) {
 static celspan_status add_canonical(builder *b, const cs_bezier *curve, bool is_turned) {
   double roots[CS_BEZIER_ROOTS], position = 0;
   int count = has_monotone_polygon(curve) ? 0 : cs_bezier_extrema(curve, CS_BEZIER_Y, roots);
-  size_t begin = b->part_count;
+  size_t begin = b->stretch_count;
   cs_bezier rest, monotone;
   cs_bezier_copy(curve, &rest);
   for (int i = 0; i < count; i++) {
-    cs_bezier_take(&rest, &position, roots[i], &monotone);
+    cs_bezier_cut_front(&rest, &position, roots[i], &monotone);
     CS_TRY(add_monotone(b, &monotone));
   }
   CS_TRY(add_monotone(b, &rest));
   if (is_turned)
-    reverse_parts(b, begin, true);
+    reverse_stretches(b, begin, true);
   return CELSPAN_OK;
 }
 
@@ -297,7 +295,7 @@ static celspan_status add_canonical(builder *b, const cs_bezier *curve, bool is_
 
 static bool are_same(cs_hpoint a, cs_hpoint b) { return a.x == b.x && a.y == b.y && a.w == b.w; }
 
-/* Closes the gap between two parts that the horizon has cut apart. */
+/* Closes the gap that the horizon has cut into the contour. */
 static celspan_status add_gap(builder *b, cs_hpoint to) {
   if (!b->has_pen || are_same(b->pen, to))
     return CELSPAN_OK;
@@ -339,7 +337,7 @@ static celspan_status add_piece(builder *b, const cs_outline *outline, size_t pi
 /* ---------------------------------------------------------------- chains */
 
 /* Whether b continues a, along the contour. */
-static bool joins(const part *a, const part *b) {
+static bool joins(const stretch *a, const stretch *b) {
   if (a->direction != b->direction)
     return false;
   const cs_boundary_piece *upper = a->direction > 0 ? &a->piece : &b->piece;
@@ -364,15 +362,15 @@ static void append_piece(cs_boundary_set *set, cs_boundary_chain *chain,
   chain->piece_count++;
 }
 
-/* The chain of `count` parts from `begin` on, counted around the contour. */
+/* The chain of `count` stretches from `begin` on, counted around the contour. */
 static void add_chain(builder *b, size_t begin, size_t count) {
   cs_boundary_set *set = b->set;
-  int32_t direction = b->parts[begin % b->part_count].direction;
+  int32_t direction = b->stretches[begin % b->stretch_count].direction;
   cs_boundary_chain chain = {
       .piece = (uint32_t)set->piece_count, .layer = b->layer, .direction = direction};
   for (size_t i = 0; i < count; i++) {
     size_t place = begin + (direction > 0 ? i : count - 1 - i);
-    append_piece(set, &chain, &b->parts[place % b->part_count].piece);
+    append_piece(set, &chain, &b->stretches[place % b->stretch_count].piece);
   }
   chain.x0 = set->pieces[chain.piece].x0;
   chain.y0 = set->pieces[chain.piece].y0;
@@ -380,27 +378,27 @@ static void add_chain(builder *b, size_t begin, size_t count) {
 }
 
 static bool continues(const builder *b, size_t place) {
-  size_t count = b->part_count;
-  return joins(&b->parts[(place + count - 1) % count], &b->parts[place % count]);
+  size_t count = b->stretch_count;
+  return joins(&b->stretches[(place + count - 1) % count], &b->stretches[place % count]);
 }
 
 static celspan_status reserve_chains(builder *b) {
   cs_boundary_set *set = b->set;
-  if (b->part_count > UINT32_MAX - set->piece_count)
+  if (b->stretch_count > UINT32_MAX - set->piece_count)
     return cs_fail(b->context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve pieces");
   CS_TRY(cs_mem_reserve(b->context, (void **)&set->pieces, &set->piece_capacity,
-                        set->piece_count + b->part_count, sizeof *set->pieces));
+                        set->piece_count + b->stretch_count, sizeof *set->pieces));
   return cs_mem_reserve(b->context, (void **)&set->chains, &set->chain_capacity,
-                        set->chain_count + b->part_count, sizeof *set->chains);
+                        set->chain_count + b->stretch_count, sizeof *set->chains);
 }
 
 static celspan_status add_chains(builder *b) {
   CS_TRY(reserve_chains(b));
   size_t origin = 0;
-  while (origin < b->part_count && continues(b, origin))
+  while (origin < b->stretch_count && continues(b, origin))
     origin++;
-  for (size_t i = 0, next; i < b->part_count; i = next) {
-    for (next = i + 1; next < b->part_count && continues(b, origin + next); next++) {
+  for (size_t i = 0, next; i < b->stretch_count; i = next) {
+    for (next = i + 1; next < b->stretch_count && continues(b, origin + next); next++) {
     }
     add_chain(b, origin + i, next - i);
   }
@@ -411,7 +409,7 @@ static celspan_status add_contour(builder *b, const cs_outline *outline, size_t 
                                   const celspan_matrix *matrix, double least) {
   size_t end =
       contour + 1 < outline->contour_count ? outline->contours[contour + 1] : outline->piece_count;
-  b->part_count = 0;
+  b->stretch_count = 0;
   b->has_pen = false;
   for (size_t piece = outline->contours[contour]; piece < end; piece++)
     CS_TRY(add_piece(b, outline, piece, matrix, least));
@@ -430,7 +428,7 @@ celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < outline->contour_count && status == CELSPAN_OK; i++)
     status = add_contour(&b, outline, i, &facing, least);
-  cs_mem_free(context->memory, b.parts, b.part_capacity * sizeof *b.parts);
+  cs_mem_free(context->memory, b.stretches, b.stretch_capacity * sizeof *b.stretches);
   cs_mem_free(context->memory, b.fronts, b.front_capacity * sizeof *b.fronts);
   return status;
 }

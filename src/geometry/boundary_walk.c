@@ -4,7 +4,7 @@
 
 #include "geometry/polyline.h"
 
-/* Makes the segment that the walk names the current one; its group has been made. */
+/* Copies the fields of segment walk->segment of the group that has been made. */
 static inline void copy_segment(cs_boundary_walk *walk) {
   const cs_boundary_group *made = &walk->made;
   uint32_t at = walk->segment;
@@ -16,8 +16,7 @@ static inline void copy_segment(cs_boundary_walk *walk) {
   walk->curve = made->curve[at];
 }
 
-/* leaps: false where the group is not the first one of its leap, whose arc has then been rejected.
- */
+/* leaps: false for a group in the middle of a leap, because the arc of that leap was rejected. */
 static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk, uint32_t group,
                         bool leaps) {
   cs_polyline_group(set, &set->pieces[walk->piece], group, leaps, &walk->made);

@@ -6,11 +6,10 @@
  *                \           with curve 0 a chord, else an arc
  *       y --------+-- x
  *                  \
- *          (x1, y1) *        cs_boundary_next: the segment below, of this group, of the next group
- *                  /         of the piece, or of the next piece of the chain
+ *          (x1, y1) *        cs_boundary_next goes to the segment below: of the same group, else of
+ *                  /         the next group of the piece, else of the next piece of the chain
  *
- * Invariant: the segment that holds a height, and so x there, does not depend on where the walk
- * began.
+ * Invariant: the segment at a height, and so x there, does not depend on where the walk began.
  */
 #ifndef CS_GEOMETRY_BOUNDARY_WALK_H
 #define CS_GEOMETRY_BOUNDARY_WALK_H
@@ -22,7 +21,7 @@ typedef struct cs_boundary_walk {
   double slope, curve; /* as in cs_boundary_group */
   uint32_t chain;
   uint32_t piece;   /* index into pieces */
-  uint32_t group;   /* of that piece: the first that `made` holds */
+  uint32_t group;   /* of that piece: the first one in `made` */
   uint32_t segment; /* of that group */
   cs_boundary_group made;
 } cs_boundary_walk;

@@ -36,7 +36,7 @@ void cs_outline_init(cs_outline *outline);
 void cs_outline_finish(cs_outline *outline, cs_memory *memory);
 
 /* Building: move begins a contour, the others append a piece from the current point, close ends the
- * contour with a line when it is open. A contour of no piece vanishes.
+ * contour with a line when it is open. A contour without pieces vanishes.
  * Errors: NO_MEMORY; LIMIT past 2^31 points. */
 CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outline *outline,
                                                cs_hpoint to);

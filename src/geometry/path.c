@@ -7,7 +7,7 @@
  *     |    .'                          angle with the weight cos(step / 2), so that
  *     |   /                                point = weight * centre + axes * (cos, sin)
  *     |  |
- *     *  begin      + centre
+ *     *  begin  + centre
  */
 #include <math.h>
 #include <string.h>

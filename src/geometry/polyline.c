@@ -173,8 +173,7 @@ static void end_group(const cs_polyline_vertices *v, int count, uint32_t first, 
   out->groups = groups;
 }
 
-/* One arc for the whole leap that a group is in, if the leap is complete and the arc near enough.
- */
+/* One arc for the whole leap of a group, if the leap is complete and the arc near enough. */
 static bool try_leap(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
                      cs_boundary_group *out) {
   cs_polyline_vertices v;

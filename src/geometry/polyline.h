@@ -1,14 +1,22 @@
 /* The polyline of a monotone piece: what the sweep walks instead of the curve.
  *
- *      o                 group 0: chords from vertex to vertex. The vertices are displaced
- * outwards, \  .             so that the chords keep the area left of the curve (.) o  . \ . o
- * group 1: one arc, x of the second degree in y, where an arc through the )           group's ends
- * with the area of its chords is near enough to the curve
- *           )
- *          o            groups 2 and 3: a leap, one arc for several groups
- *         )
- *        )
- *       o               group ends (o at the borders) lie on the curve
+ *      *                *  the border of two groups: it lies on the curve (.)
+ *       \.              o  a vertex inside a group: it is displaced outwards from the curve
+ *        \.
+ *         .o            group 0: chords from vertex to vertex. Because the vertices are displaced,
+ *         .|            the area left of the chords is the area left of the curve.
+ *         .o
+ *        /.
+ *       /.
+ *      *
+ *       )               group 1: one arc, x as a polynomial of the second degree in y. It has the
+ *       )               area of the chords and replaces them where it is near enough to the curve.
+ *      *                A half of a group may be an arc too, while the other half is chords.
+ *     (
+ *    (                  groups 2 and 3: a leap, one arc for several groups
+ *    (
+ *     (
+ *      *
  *
  * Every group is a pure function of the piece and the group's number, so a walk can begin anywhere.
  * Vertex k of a piece, 0..chords, is where step k of the curve's parameter ends. Vertices near a

@@ -4,13 +4,14 @@
  *              o k-1         For a chord of length h the area between chord and curve is
  *             / .            |C' x C''| h^3 / 12. Each end of the chord is displaced along -C'' so
  *            /   .           far that it makes up for half of the area: its share.
- *       k   o     * on the curve
- *            \   .           An end of a half (the border of a group) is not displaced at all: its
- *             \ .            neighbour inside the half has both shares.
+ *       k   o     .  curve
+ *            \   .           The two ends of a half of a group are not displaced at all; there the
+ *             \ .            neighbour inside the half is displaced by both shares.
  *              o k+1
  *
- * The seat of a vertex is the parameter that it is made at: the even one, or that of the nearest
- * whole height, when the curve comes to one within a quarter of a step.
+ * The seat of a vertex is the parameter of the curve at which it is made. Vertices have even steps
+ * of the parameter between them, but a vertex within a quarter of a step from a whole height gets
+ * the parameter of that height.
  */
 #ifndef CS_GEOMETRY_POLYLINE_VERTEX_H
 #define CS_GEOMETRY_POLYLINE_VERTEX_H
@@ -53,17 +54,17 @@ static inline cs_boundary_piece cs_polyline_strided(const cs_boundary_piece *pie
 }
 
 /* The displacement of vertex k of a group in units of C'' h^2 / 12, if all steps have length h: 1,
- * and half as much more for every neighbour that is not displaced. */
-static inline double cs_polyline_part(const cs_boundary_piece *piece, double k) {
+ * and 1/2 more for every neighbour that is not displaced. */
+static inline double cs_polyline_even_share(const cs_boundary_piece *piece, double k) {
   const double half = piece->half, group = piece->group;
-  double part = 1 +
-                (k == 1          ? 0.5
-                 : k == half + 1 ? 0.5
-                                 : 0.0) +
-                (k + 1 == half    ? 0.5
-                 : k + 1 == group ? 0.5
-                                  : 0.0);
-  return k > 0 ? (k < group ? (k == half ? 0.0 : part) : 0.0) : 0.0;
+  double share = 1 +
+                 (k == 1          ? 0.5
+                  : k == half + 1 ? 0.5
+                                  : 0.0) +
+                 (k + 1 == half    ? 0.5
+                  : k + 1 == group ? 0.5
+                                   : 0.0);
+  return k > 0 ? (k < group ? (k == half ? 0.0 : share) : 0.0) : 0.0;
 }
 
 /* p: the curve at the vertex's even parameter. The seat is chosen so that the vertex lies near the
@@ -72,7 +73,8 @@ static inline cs_polyline_seat cs_polyline_seat_of(const cs_boundary_piece *piec
                                                    double k, const cs_polyline_point *p) {
   const double bias = 0x1.8p52; /* a sum with this is a whole number */
   double t = vertex * piece->step, y = (p->y + bias) - bias;
-  double lift = cs_polyline_part(piece, k) * (1.0 / 12) * (piece->step * piece->step) * p->bend_y;
+  double lift =
+      cs_polyline_even_share(piece, k) * (1.0 / 12) * (piece->step * piece->step) * p->bend_y;
   double rise = p->slope_y > 0 ? p->slope_y : 1, moved = t + ((y - p->y) + lift) / rise;
   double inner = vertex > 0 ? (vertex < piece->chords ? 1.0 : 0.0) : 0.0;
   double inside = y > piece->y0 ? (y < piece->y1 ? inner : 0.0) : 0.0;
@@ -93,8 +95,9 @@ static inline double cs_polyline_share(const cs_boundary_piece *piece, double k,
   return k > 0 ? (k < group ? (k == half ? 0.0 : share) : 0.0) : 0.0;
 }
 
-/* A vertex displaced by its share. p: the curve at the seat's parameter, which is the height's but
- * for the error of one step of Newton's method; the vertex moves that rest along the tangent. */
+/* A vertex displaced by its share. p: the curve at the parameter of the seat. A seat at a whole
+ * height was found by one step of Newton's method, so the curve is not quite at the height there;
+ * the vertex is moved along the tangent by the rest. */
 static inline celspan_point cs_polyline_place(const cs_boundary_piece *piece, double share,
                                               const cs_polyline_seat *seat,
                                               const cs_polyline_point *p) {

@@ -6,7 +6,7 @@
 
 static const double numbers[CS_POLYLINE_ROOM] = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/* Functions of their own, because structures in the body of a simd loop would keep the compiler
+/* The next two are functions because structures in the body of a simd loop would keep the compiler
  * from vectorising it. */
 static inline void find_seat(const double c[8], const cs_boundary_piece *piece, double vertex,
                              double k, double *t, double *y, double *whole) {
@@ -57,8 +57,7 @@ bool CS_WIDE(cs_polyline_strays)(const cs_polyline_arc *arc, const cs_polyline_v
     double down = on_y[k] - a.y;
     double away = (on_x[k] - a.x) - down * (a.mean + a.curve * (down - a.height));
     double slope = a.mean + a.curve * (2 * down - a.height), steep = slope < 0 ? -slope : slope;
-    double across =
-        steep > 1 ? steep : 1; /* the distance across a flat arc is less than the one in x */
+    double across = steep > 1 ? steep : 1; /* a flat arc is nearer than its distance along x */
     double near = (away < 0 ? -away : away) <= ARC_TOLERANCE * across ? 0.0 : 1.0;
     strays += numbers[k] >= low ? (numbers[k] <= high ? near : 0.0) : 0.0;
   }

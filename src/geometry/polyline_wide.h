@@ -29,8 +29,7 @@ typedef struct cs_polyline_arc {
   double x, y, height, mean, curve;
 } cs_polyline_arc;
 
-/* Whether an arc for the vertices first..end is too far from one of them, as they are on the curve.
- */
+/* Whether an arc for the vertices first..end is too far from one of their places on the curve. */
 CS_WIDE_DECLARE(bool, cs_polyline_strays,
                 (const cs_polyline_arc *arc, const cs_polyline_vertices *vertices, int first,
                  int end));

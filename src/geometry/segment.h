@@ -1,4 +1,9 @@
-/* A straight piece of an edge on its way down. */
+/* A straight piece of an edge between two heights.
+ *
+ *     (xa, ya) *
+ *               \
+ *                * (xb, yb)
+ */
 #ifndef CS_GEOMETRY_SEGMENT_H
 #define CS_GEOMETRY_SEGMENT_H
 
