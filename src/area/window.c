@@ -68,9 +68,9 @@ static celspan_status close_lone(cs_window *window) {
   cs_direct_shares shares = {(float)cover(f, f->first), (float)cover(f, f->first + 1),
                              (float)cover(f, last), (float)(f->height / across)};
   CS_TRY(cs_row_reserve(window->composer->context, window->out, CS_DIRECT_EACH));
-  cs_row_writer p = cs_row_writer_take(window->out, window->from);
+  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
   cs_direct_ramp(&p, f->first, last, base, step, shares);
-  cs_row_writer_put(&p);
+  cs_row_writer_end(&p);
   return CELSPAN_OK;
 }
 
@@ -118,10 +118,10 @@ static celspan_status close_wide(cs_window *window) {
     for (size_t i = 0; i < window->segment_count; i++)
       add_changes(&window->segments[i], next, stop, change);
     CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(stop - next) + 1));
-    cs_row_writer p = cs_row_writer_take(window->out, window->from);
+    cs_row_writer p = cs_row_writer_begin(window->out, window->from);
     cs_row_writer_to(&p, next, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
     draw_sums(&p, stop, change, &sum);
-    cs_row_writer_put(&p);
+    cs_row_writer_end(&p);
     window->from = p0 = stop;
   }
   return CELSPAN_OK;
@@ -132,9 +132,9 @@ static celspan_status close_narrow(cs_window *window) {
   cs_sum4 sum = CS_SUM4(window->base->colour);
   CS_TRY(
       cs_row_reserve(window->composer->context, window->out, (size_t)(window->end - window->from)));
-  cs_row_writer p = cs_row_writer_take(window->out, window->from);
+  cs_row_writer p = cs_row_writer_begin(window->out, window->from);
   draw_sums(&p, window->end, window->change, &sum);
-  cs_row_writer_put(&p);
+  cs_row_writer_end(&p);
   return CELSPAN_OK;
 }
 
@@ -415,9 +415,9 @@ celspan_status cs_window_add(cs_window *window, const cs_segment *segment, const
 
 /* Draws the edges from the first on, up to one that cannot be drawn directly. Returns how many. */
 static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
-  cs_row_writer writer = cs_row_writer_take(window->out, window->from);
+  cs_row_writer writer = cs_row_writer_begin(window->out, window->from);
   size_t done = CS_WIDE_CHOOSE(window->painter->isa, cs_direct_draw)(direct, &writer);
-  cs_row_writer_put(&writer);
+  cs_row_writer_end(&writer);
   window->from = window->end = writer.from;
   if (done > 0)
     window->cell = &direct->cells[direct->boundaries[done - 1] + 1];

@@ -47,9 +47,9 @@ static celspan_status draw_row(cs_centre *centre, int32_t y, const int32_t *ends
   int32_t from = 0;
   for (size_t v = 0; v < count; v++) {
     CS_TRY(cs_row_reserve(centre->tools.composer->context, out, count - v));
-    cs_row_writer writer = cs_row_writer_take(out, from);
+    cs_row_writer writer = cs_row_writer_begin(out, from);
     v = draw_flats(cells, ends, &writer, v);
-    cs_row_writer_put(&writer);
+    cs_row_writer_end(&writer);
     from = writer.from;
     if (v == count)
       break;

@@ -50,7 +50,7 @@ celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0
   return CELSPAN_OK;
 }
 
-/* An array of items of a size, in new room of the row's arena. */
+/* Appends an array of items of a size; its memory comes from the row's arena. */
 static celspan_status append_array(celspan_context *context, cs_row *row, int32_t x0, int32_t x1,
                                    size_t size, void **room, celspan_span **out) {
   *room = cs_arena_take(context, &row->colours, (size_t)(x1 - x0) * size);
@@ -112,11 +112,11 @@ static inline cs_v4 colour_at(const celspan_span *span, int32_t x) {
   return colour;
 }
 
-/* How many of the first of `count` values of a line lie on the same side of 1 as the first one.
- * Rounding keeps their order, so the last of them is found by halving. */
+/* How many of the `count` values first + k * slope, from k = 0 on, lie on the same side of 1 as the
+ * first. Rounding does not change their order, so halving finds the last of them. */
 static int32_t count_alike(float first, float slope, int32_t count) {
   bool is_above = first > 1;
-  int32_t alike = 0, beyond = count; /* value number `alike` is, value number `beyond` is not */
+  int32_t alike = 0, beyond = count; /* the first one known to be on the other side, or count */
   if ((first + slope * (float)(count - 1) > 1) == is_above)
     return count;
   while (beyond - alike > 1) {

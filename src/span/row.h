@@ -6,8 +6,8 @@
  *
  *   single    one colour
  *   gradient  a colour at `origin` and a slope: cutting a span does not change its origin, so the
- *             colours of what is left keep their bits
- *   array     a colour for every column, as four floats or, in a row that takes them, as codes
+ *             colours that remain keep their bits
+ *   array     a colour for every column: four floats, or an 8-bit code in a row that allows codes
  *
  * Invariant: spans are sorted, disjoint and not empty; two neighbouring singles never have the same
  * colour; array colours lie in the row's arena and are not moved until the next clear.
@@ -28,10 +28,11 @@ static inline void cs_varied_count(cs_varied *varied, celspan_span_kind kind) {
   varied->arrays += kind == CELSPAN_SPAN_ARRAY;
 }
 
-/* Who filled a row, and in which state of his: he need not fill it again, or only in part, when it
- * comes back to him. Nothing else reads it; clearing or appending removes it. See row/centre.h. */
+/* The maker that filled a row, and the number of changes that the maker had counted by then. A
+ * maker that gets its own row back fills only the spans that have changed since. Clearing a row or
+ * appending to it removes the mark, and only makers read it (row/centre.h). */
 typedef struct cs_row_mark {
-  const void *maker; /* NULL: nobody is known */
+  const void *maker; /* NULL: unknown */
   uint64_t changes;
 } cs_row_mark;
 
@@ -48,7 +49,7 @@ void cs_row_init(cs_row *row);
 void cs_row_finish(cs_row *row, cs_memory *memory);
 void cs_row_clear(cs_row *row);
 
-/* Appends [x0, x1), x0 at or right of the end of the last span; nothing if that is empty. */
+/* Appends [x0, x1), or nothing if that is empty. x0 is at or right of the end of the last span. */
 CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row *row, int32_t x0,
                                                int32_t x1, cs_v4 colour, cs_v4 slope);
 /* *colours: room for x1 - x0 colours, to be filled by the caller. */
@@ -58,12 +59,12 @@ CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *ro
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
-/* Room for `count` spans in all. */
+/* Makes room for `count` spans in all. */
 static inline CELSPAN_CHECKED celspan_status cs_row_room(celspan_context *context, cs_row *row,
                                                          size_t count) {
   return cs_mem_reserve(context, (void **)&row->spans, &row->capacity, count, sizeof *row->spans);
 }
-/* Room for `more` spans after those that are there. */
+/* Makes room for `more` spans after those that the row has. */
 static inline CELSPAN_CHECKED celspan_status cs_row_reserve(celspan_context *context, cs_row *row,
                                                             size_t more) {
   return cs_row_room(context, row, row->count + more);
@@ -102,7 +103,7 @@ CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *o
                                              size_t count);
 
 /* Self-check: whether the spans cover the columns [0, width) without gap or overlap, none empty, no
- * two neighbouring singles alike, and those that are not singles are counted right. */
+ * two neighbouring singles have the same colour, and `varied` counts the other spans. */
 bool cs_row_is_whole(const cs_row *row, int32_t width);
 
 #endif

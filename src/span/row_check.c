@@ -1,7 +1,8 @@
 /* The self-check of a row: see the invariant in span/row.h. */
 #include "span/row.h"
 
-/* Whether a span may follow another: it begins where that ends, and both are not one single. */
+/* Whether a span may follow another: it begins where the other ends, and they could not be one
+ * single. */
 static bool follows(const celspan_span *span, const celspan_span *before) {
   if (span->x0 != before->x1)
     return false;

@@ -75,7 +75,7 @@ static celspan_status add_colours(celspan_context *context, cs_row_queue *queue,
   return CELSPAN_OK;
 }
 
-/* Spans of two or three pixels take more room than their pixels. */
+/* A span of two or three pixels is larger than the colours of its pixels. */
 celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *queue,
                                       const celspan_span *spans, size_t count) {
   bool is_dense = count > 0 && count * sizeof *spans > colours_size(spans, count);

@@ -10,7 +10,7 @@
 
 #include "span/row.h"
 
-/* The end of a row in the spans, and how many spans of the row are not singles. */
+/* Where a row ends: the number of spans up to there; and how many of its spans are not singles. */
 typedef struct cs_row_queue_end {
   size_t spans;
   cs_varied varied;
@@ -36,8 +36,8 @@ void cs_row_queue_clear(cs_row_queue *queue);
 /* spans: copied, with their arrays. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,
                                                 const celspan_span *spans, size_t count);
-/* The same for a row that covers its columns from 0 on; where its colours take less room than its
- * spans it is kept as one array of those. */
+/* The same for a row without gaps from column 0 on. It is stored as one array of colours where that
+ * is smaller than its spans. */
 CELSPAN_CHECKED celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *queue,
                                                       const celspan_span *spans, size_t count);
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row);

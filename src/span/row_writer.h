@@ -1,11 +1,11 @@
 /* A row writer appends to a row, from left to right, what cs_row_single and cs_row_gradient append.
  * It keeps the end of the row in registers between calls.
  *
- *   row   | span | span | . . .        next: where the next span goes
+ *   row   | span | span | . . .
  *                       ^
- *                       from: its first column
+ *                       next: the span that is written next; from: its first column
  *
- * Invariant: between cs_row_writer_take and cs_row_writer_put nothing else appends to the row, and
+ * Invariant: between cs_row_writer_begin and cs_row_writer_end nothing else appends to the row, and
  * the row has room for all spans that are written.
  */
 #ifndef CS_SPAN_ROW_WRITER_H
@@ -24,14 +24,14 @@ typedef struct cs_row_writer {
 static inline cs_v4 cs_row_writer_no_colour(void) { return cs_v4_all(__builtin_nanf("0x1")); }
 
 /* A writer at the end of a row, which is at column `from`. */
-static inline cs_row_writer cs_row_writer_take(cs_row *row, int32_t from) {
+static inline cs_row_writer cs_row_writer_begin(cs_row *row, int32_t from) {
   cs_row_writer writer = {row, row->spans + row->count, cs_row_writer_no_colour(), from};
   if (row->count > 0 && writer.next[-1].kind == CELSPAN_SPAN_SINGLE)
     writer.colour = cs_v4_load(writer.next[-1].colour);
   return writer;
 }
 
-static inline void cs_row_writer_put(const cs_row_writer *writer) {
+static inline void cs_row_writer_end(const cs_row_writer *writer) {
   writer->row->count = (size_t)(writer->next - writer->row->spans);
 }
 
@@ -57,8 +57,8 @@ static inline void cs_row_writer_to(cs_row_writer *writer, int32_t to, cs_v4 col
 }
 
 /* A gradient of at least two columns up to `to`. */
-static inline void cs_row_writer_ramp(cs_row_writer *writer, int32_t to, cs_v4 colour,
-                                      cs_v4 slope) {
+static inline void cs_row_writer_gradient(cs_row_writer *writer, int32_t to, cs_v4 colour,
+                                          cs_v4 slope) {
   celspan_span *span = writer->next++;
   span->x0 = span->origin = writer->from;
   span->x1 = to;

@@ -15,7 +15,7 @@
 
 #include <stdint.h>
 
-/* Of a size to travel in two registers: hand it over by value. */
+/* It fits two registers, so it is passed by value. */
 typedef struct cs_run {
   int32_t x0, x1; /* columns */
   double y;       /* height in the frame, pixels */

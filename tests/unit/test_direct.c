@@ -89,9 +89,9 @@ static size_t draw(celspan_context *context, const stage *s, cs_isa isa, cs_row 
   cs_row_clear(row);
   CHECK(cs_row_reserve(context, row, SPANS) == CELSPAN_OK);
   memset(row->spans, 0, SPANS * sizeof *row->spans);
-  cs_row_writer writer = cs_row_writer_take(row, 0);
+  cs_row_writer writer = cs_row_writer_begin(row, 0);
   size_t done = CS_WIDE_CHOOSE(isa, cs_direct_draw)(&s->direct, &writer);
-  cs_row_writer_put(&writer);
+  cs_row_writer_end(&writer);
   return done;
 }
 
