@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* The arrays that are kept in order, one item a boundary. Whoever adds such an array to cs_active
- * adds it here; x_next is not listed because it is made anew in every row. */
+ * adds it here. x_next is not listed, because every row computes it again. */
 #define EACH_ORDERED(DO)                                                                           \
   DO(active->x)                                                                                    \
   DO(active->segments.x0)                                                                          \
@@ -18,7 +18,7 @@
   DO(active->crossing)                                                                             \
   DO(active->slot)
 
-/* All arrays of the block, wider items first, so that each is aligned. */
+/* All arrays in the storage, wider items first, so that each is aligned. */
 #define EACH_ARRAY(DO)                                                                             \
   DO(active->walks)                                                                                \
   DO(active->x_next)                                                                               \
@@ -27,8 +27,8 @@
   DO(active->bend_of)                                                                              \
   DO(active->ended)
 
-/* The bytes of a block for `capacity` boundaries, with what aligning it may cost. */
-static size_t block_size(const cs_active *active, size_t capacity) {
+/* The bytes of the storage for `capacity` boundaries, including those that aligning it may cost. */
+static size_t storage_size(const cs_active *active, size_t capacity) {
 #define ITEM_SIZE(array) +sizeof *(array)
   (void)active;
   return capacity > 0 ? capacity * (EACH_ARRAY(ITEM_SIZE)) + CS_WIDE_LINE : 0;
@@ -41,7 +41,7 @@ void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull
 }
 
 void cs_active_finish(cs_active *active, cs_memory *memory) {
-  cs_mem_free(memory, active->store.block, block_size(active, active->store.capacity));
+  cs_mem_free(memory, active->store.storage, storage_size(active, active->store.capacity));
   cs_mem_free(memory, active->bends, active->bend_capacity * sizeof *active->bends);
   cs_mem_free(memory, active->vertices, active->vertex_capacity * sizeof *active->vertices);
   *active = (cs_active){0};
@@ -58,20 +58,20 @@ static void *carve(unsigned char **at, const void *old, size_t old_count, size_t
   return array;
 }
 
-/* The block is zeroed, because vector code goes beyond the count: zeros are quick there, whereas
- * whatever lies in fresh memory may be denormal numbers, which are slow. */
+/* The storage is zeroed, because vector code goes beyond the count. Zeros are quick there, whereas
+ * fresh memory may contain denormal numbers, which are slow. */
 static celspan_status grow(celspan_context *context, cs_active *active) {
   cs_active_store *store = &active->store;
   size_t old = store->capacity, wanted = old ? 2 * old : 64;
-  void *block = cs_mem_array(context->memory, 1, block_size(active, wanted));
-  if (!block)
+  void *storage = cs_mem_array(context->memory, 1, storage_size(active, wanted));
+  if (!storage)
     return cs_fail_memory(context);
-  unsigned char *at = cs_wide_align(block);
+  unsigned char *at = cs_wide_align(storage);
 #define CARVE(array) array = carve(&at, array, old, wanted, sizeof *(array));
   EACH_ARRAY(CARVE)
 #undef CARVE
-  cs_mem_free(context->memory, store->block, block_size(active, old));
-  store->block = block;
+  cs_mem_free(context->memory, store->storage, storage_size(active, old));
+  store->storage = storage;
   store->capacity = wanted;
   for (size_t slot = wanted; slot-- > old;)
     store->free_slots[store->free_count++] = (uint32_t)slot;
@@ -238,7 +238,7 @@ static celspan_status begin_chains(celspan_context *context, cs_active *active, 
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
-  cs_change change = cs_change_none; /* of no interest to the caller */
+  cs_change change = cs_change_none; /* the caller does not need it */
   for (size_t i = 0; i < active->count; i++)
     free_slot(active, i);
   active->count = 0;

@@ -3,18 +3,18 @@
  *      |      \      |     \
  *   ---*-------*-----*------*------- y       current height: the order is known
  *      |        \    |     /
- *   ---*---------*---o----*--------- y_next  height advanced to (bend.h)
+ *   ---*---------*---o----*--------- y_next  height advanced to; o: a chain ends here (bend.h)
  *
  * Advancing leaves the order as it is at y, so that a row can be made from both ends of every
  * boundary. Settling then moves to y_next: it removes the chains that ended, sorts those that
- * crossed each other, and inserts the chains that begin. What every row reads lies in arrays of
- * like fields; the walk of a boundary down its chain is found by the boundary's slot.
+ * crossed each other, and inserts the chains that begin. Every field that each row reads is an
+ * array over the boundaries; the walk of a boundary down its chain is found by the boundary's slot.
  *
  * Invariants, at height y
  *   - exactly those chains with y0 <= y < y1 are listed that the cull keeps in y's row of tiles;
  *   - they are ordered by x at y, then by slope, then by chain: an order that depends on y and the
  *     set alone, not on the rows swept before (so strips agree to the bit);
- *   - x[i] is cs_boundary_x at y on the segment that holds y.
+ *   - x[i] is cs_boundary_x at y on the segment that y crosses.
  */
 #ifndef CS_SWEEP_ACTIVE_H
 #define CS_SWEEP_ACTIVE_H
@@ -35,7 +35,7 @@ typedef struct cs_crossing {
 typedef struct cs_active_store {
   uint32_t *free_slots;
   size_t free_count;
-  void *block;     /* one block holds all arrays of cs_active except bends and vertices */
+  void *storage;   /* one allocation for all arrays of cs_active except bends and vertices */
   size_t capacity; /* of each of them */
 } cs_active_store;
 
@@ -43,7 +43,7 @@ typedef struct cs_active {
   const cs_boundary_set *set;
   const cs_cull *cull;
   cs_isa isa;
-  bool notes_bends; /* false: only x counts, and bends are noted for chains that end alone */
+  bool notes_bends; /* false: only x is needed; then bends are noted only for chains that end */
   /* The order: `count` of each, with room for CS_ADVANCE_BATCH more. */
   double *x;      /* at the current height */
   double *x_next; /* at the height advanced to; where the chain ends, if it ends before */
@@ -57,7 +57,7 @@ typedef struct cs_active {
   double y_next;     /* the height advanced to */
   double calm_until; /* above this height no chain begins and no other row of tiles does */
   size_t next;       /* the first chain of the set that has not begun */
-  int32_t tile_row;  /* that holds the current height */
+  int32_t tile_row;  /* in which the current height lies */
   /* What happens between the heights. */
   bool rises;        /* x_next is in order, no two alike */
   cs_bend *bends;    /* in the order of their boundaries */
@@ -69,7 +69,7 @@ typedef struct cs_active {
   cs_active_store store;
 } cs_active;
 
-/* notes_bends: see there. */
+/* notes_bends: see the field. */
 void cs_active_init(cs_active *active, const cs_boundary_set *set, const cs_cull *cull,
                     bool notes_bends);
 void cs_active_finish(cs_active *active, cs_memory *memory);

@@ -24,7 +24,7 @@ static bool is_followed(const cs_active *active, size_t i) {
   return walk_of(active, i)->chain < walk_of(active, i + 1)->chain;
 }
 
-/* Whether the current height crosses a chain that the cull keeps there. */
+/* Whether the current height crosses a chain, and the cull keeps the chain there. */
 static bool belongs(const cs_active *active, uint32_t chain) {
   const cs_boundary_chain *c = &active->set->chains[chain];
   return c->y0 <= active->y && active->y < c->y1 &&

@@ -17,7 +17,7 @@
 #include <stddef.h>
 
 /* The most boundaries that one instruction handles. The last batch may go beyond the count, so all
- * arrays have room for CS_ADVANCE_BATCH more; what those elements hold does not matter. */
+ * arrays have room for CS_ADVANCE_BATCH more; the values of those elements do not matter. */
 #define CS_ADVANCE_BATCH 16
 
 /* n rounded up to whole batches. */

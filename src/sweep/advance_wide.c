@@ -1,12 +1,12 @@
 /* Sixty-four boundaries at a time, LANES of them in one instruction:
  *
- *      boundary   0 1 2 3 | 4 5 6 7 | ...            (four lanes)
- *      ends       0 0 1 0   0 0 0 0                  a bit for each segment with y1 <= y
- *      rises      1 1 1 1   0 1 1 1                  a bit for each x_next right of the one before
- * it: |                        vector 4..7 is compared with 3..6, which boundary 4 crossed 3
- * shift() makes of the last vector and this one
+ *      boundary   0 1 2 3 | 4 5 6 7 | ...     (four lanes)
+ *      ends       0 0 1 0   0 0 0 0           a bit for each segment with y1 <= y
+ *      rises      1 1 1 1   0 1 1 1           a bit for each x_next right of the one before it
+ *                           ^                 clear: boundary 4 has crossed boundary 3
  *
- * The set bits of `ends` become a list; of `rises` only the number of clear bits matters.
+ * For `rises`, shift() makes the vector 3..6 from the vectors 0..3 and 4..7, and 4..7 is compared
+ * with it. The set bits of `ends` become a list; of `rises` only the number of clear bits matters.
  */
 #include "sweep/advance.h"
 

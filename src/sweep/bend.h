@@ -1,4 +1,4 @@
-/* Bends: the ways of boundaries that are more than one segment between two heights.
+/* Bends: what happens to the boundaries that are not a single segment between two heights.
  *
  * From one row to the next every boundary advances from the current height y to the height y_next.
  * A boundary is a polyline of segments; where a segment ends between the two heights the boundary
@@ -21,7 +21,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The way of one boundary between the heights, when it is not a single segment. */
+/* One boundary between the heights, when it is not a single segment there. */
 typedef struct cs_bend {
   uint32_t boundary;     /* its index in the order at the current height */
   uint32_t vertex;       /* the first of its vertices strictly between the heights, downwards */

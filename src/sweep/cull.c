@@ -1,3 +1,23 @@
+/* One row of tiles while one layer is culled and then fills it. Layers come from the camera
+ * backwards; every row of tiles is treated by itself.
+ *
+ *     tile     0   1   2   3   4   5   6   7
+ *            +---+---+---+---+---+---+---+---+  top of the row
+ *            | \ |   |   |   |   |   | / |   |  \ /: chords of chains, which meet at o
+ *            |  o|   |   |   |   |   |o  |   |  chain A: +1, touches tiles 0 and 1
+ *            |   |\  |   |   |   |  /|   |   |  chain B: -1, touches tiles 5 and 6
+ *            +---+---+---+---+---+---+---+---+  foot of the row
+ *   touched    1   1   0   0   0   1   1   0    by some chord, widened by its slack
+ *   winding    1   1   1   1   1   0   0   0    changed in the first tile that a chain touches
+ *   inside     0   0   1   1   1   0   0   0    the winding is that of the layer's presence, and no
+ *                                               chain touches the tile
+ *   live       1   1   1   0   0   1   1   1    inside tiles whose layers now let almost nothing
+ *                                               through are dead for the layers behind
+ *
+ * Where all tiles that a chain touches are dead already, it is not kept in this row of tiles, and a
+ * deferred winding change takes its place. A chain that begins or ends inside the row is kept, and
+ * no tile between such chains counts as inside, because the winding is not the same at all heights.
+ */
 #include "sweep/cull.h"
 
 #include "base/number.h"
@@ -20,12 +40,12 @@
 #define JOB_CHAINS 256
 #define JOBS_A_WORKER 4
 
-/* The columns that a chain touches in one row of tiles: low..high. */
+/* The columns (tiles of a row) that a chain touches in one row of tiles: low..high. */
 typedef struct column_range {
   uint8_t low, high;
 } column_range;
 
-/* The work of one thread: the rows of tiles first..end - 1. */
+/* One thread culls the rows of tiles first..end - 1. */
 typedef struct job {
   celspan_context context; /* a branch */
   celspan_status status;
@@ -42,8 +62,8 @@ typedef struct culler {
   double slack;                 /* of chords, pixels */
   double columns_a_pixel;
   cs_cull *cull;
-  int32_t *last_rows; /* by chain: of tiles; less than the first row where the chain is outside the
-                         frame */
+  /* By chain: its last row of tiles; less than its first one where it is outside the frame. */
+  int32_t *last_rows;
   column_range *columns;  /* indexed as cull->kept */
   uint32_t *layer_starts; /* layer_count + 1, into by_layer */
   uint32_t *by_layer;     /* chains of each layer */
@@ -83,11 +103,11 @@ static void find_rows(culler *c) {
   }
 }
 
-/* x includes a slack that is larger than any rounding error. */
+/* The column at x. Callers have added a slack to x that is larger than any rounding error. */
 static inline uint8_t column(const culler *c, double x) {
   const double most = CS_CULL_COLUMNS - 1;
-  double at = x * c->columns_a_pixel, held = at > 0 ? at : 0; /* NaN counts as 0 */
-  return (uint8_t)(held < most ? held : most);
+  double at = x * c->columns_a_pixel, least = at > 0 ? at : 0; /* NaN counts as 0 */
+  return (uint8_t)(least < most ? least : most);
 }
 
 static double column_edge(const culler *c, uint8_t index) {
@@ -115,8 +135,8 @@ typedef struct chord {
 /* x of the chord at a height; beyond its ends, x of the end. */
 static inline double chord_x(const chord *line, double slope, double y) {
   double above = y < line->foot.y ? y : line->foot.y;
-  double held = above > line->top.y ? above : line->top.y;
-  return line->top.x + (held - line->top.y) * slope;
+  double inside = above > line->top.y ? above : line->top.y;
+  return line->top.x + (inside - line->top.y) * slope;
 }
 
 /* Notes the columns that a chord touches in the rows first..last. */
@@ -200,8 +220,8 @@ static celspan_status defer_chain(job *s, int32_t row, double x, const cs_bounda
   return CELSPAN_OK;
 }
 
-/* What the chains of one layer do in one row of tiles. A chain is partial where it begins or ends
- * inside the row. */
+/* The chains of one layer in one row of tiles. A chain is partial where it begins or ends inside
+ * the row. */
 typedef struct footprint {
   uint64_t touched;
   column_range partial; /* from the first to the last column of partial chains */
@@ -239,7 +259,7 @@ static celspan_status place_chain(const culler *c, job *s, uint32_t chain, int32
   return defer_chain(s, row, column_edge(c, r.low), ch);
 }
 
-/* The columns that lie wholly inside the layer through the row of tiles. */
+/* The columns that lie inside the layer over the whole height of the row of tiles. */
 static uint64_t inside_mask(const footprint *f, int32_t winding_mask) {
   uint64_t inside = 0;
   int32_t winding = 0;
@@ -254,7 +274,7 @@ static uint64_t inside_mask(const footprint *f, int32_t winding_mask) {
   return f->is_partial ? inside & ~column_mask(f->partial) : inside;
 }
 
-/* Darkens the tiles that the layer covers. */
+/* Lets the layer reduce what the tiles inside it let through; tiles below `opaque` become dead. */
 static void cover(const culler *c, int32_t row, uint64_t inside, double through) {
   for (uint64_t left = inside & c->live[row]; left; left &= left - 1) {
     int index = __builtin_ctzll(left);
@@ -270,7 +290,7 @@ static celspan_status cull_layer_row(const culler *c, job *s, uint32_t layer, in
   f.touched = f.crossed = 0;
   f.partial = (column_range){0, 0};
   f.is_partial = f.keeps_any = false;
-  size_t deferred_list = s->deferred_count;
+  size_t deferred_before = s->deferred_count;
   for (uint32_t k = c->layer_starts[layer]; k < c->layer_starts[layer + 1]; k++) {
     uint32_t chain = c->by_layer[k];
     if (row >= c->cull->first_rows[chain] && row <= c->last_rows[chain])
@@ -278,7 +298,7 @@ static celspan_status cull_layer_row(const culler *c, job *s, uint32_t layer, in
   }
   uint64_t inside = f.touched ? inside_mask(&f, c->desc->layers[layer].winding_mask) : 0;
   if (!f.keeps_any && !(inside & c->live[row]))
-    s->deferred_count = deferred_list; /* nothing of the layer can be seen in this row */
+    s->deferred_count = deferred_before; /* nothing of the layer can be seen in this row */
   if (c->desc->layers[layer].through < 1)
     cover(c, row, inside, c->desc->layers[layer].through);
   return CELSPAN_OK;
@@ -306,7 +326,7 @@ static void run_cull_job(void *user, int worker, int32_t number) {
     s->status = cull_layer(c, s, (uint32_t)layer);
 }
 
-/* From the camera backwards. Rows of tiles are independent of each other. */
+/* Culls all layers. The rows of tiles are divided into jobs, because they are independent. */
 static celspan_status cull_layers(culler *c) {
   int32_t rows = c->cull->tile_rows,
           wanted = c->desc->workers > 1 ? JOBS_A_WORKER * c->desc->workers : 1;

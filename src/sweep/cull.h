@@ -4,23 +4,23 @@
  * word. The tiles are filled layer by layer from the camera backwards. Where the layers that cover
  * a whole tile let (almost) nothing through, the tile is dead for every layer behind them.
  *
- *            tile 0   1   2   3   4   5   6   7       d: dead for the layer that is being culled
- *               +---+---+---+---+---+---+---+---+
- *               |   |   |   | d | d | d | d | d |     chain A meets a live tile: kept
- *     tile row  | A |   |   | d |B\ | d | d | d |     chain B meets dead tiles alone: culled; its
- *               |/  |   |   | d | d\| d | d | d |     winding change is deferred to the left edge
- * of
- *               +---+---+---+---+---+---+---+---+     its first tile, 4, where it cannot be seen
- *                               ^
- *                               deferred winding change of B
+ *     tile     0   1   2   3   4   5   6   7
+ *            +---+---+---+---+---+---+---+---+     d: dead for the layer that is being culled
+ *            |  /|   |   | d | d\| d | d | d |
+ *            | A |   |   | d | d |B d| d | d |     chain A touches a live tile: it is kept
+ *            |/  |   |   | d | d | \ | d | d |     chain B touches dead tiles alone: it is culled
+ *            +---+---+---+---+---+---+---+---+
+ *                            ^
+ *                            the deferred winding change of B: at the left edge of its first tile,
+ *                            where it cannot be seen
  *
  * In a row of tiles a chain is kept if it touches a tile that is live for its layer, or if it
  * begins or ends in the row; otherwise a deferred winding change takes its place.
  *
  * Invariants
  *   - no composed colour changes: in a dead tile composing stops before it comes to the layer, so
- * it does not matter where in the tile the layer's presence changes; and a cell that begins in a
- *     dead tile is opaque as far as it goes;
+ *     it does not matter where in the tile the layer's presence changes; and a cell that begins in
+ *     a dead tile is opaque over its whole width;
  *   - what is kept depends on the frame and on the row of tiles alone.
  */
 #ifndef CS_SWEEP_CULL_H
@@ -72,7 +72,7 @@ CELSPAN_CHECKED celspan_status cs_cull_create(celspan_context *context, const cs
                                               cs_cull *out);
 void cs_cull_free(cs_cull *cull, cs_memory *memory);
 
-/* The row of tiles that holds a height; the first or last for heights beyond the frame. */
+/* The row of tiles in which a height lies; the first or last for heights beyond the frame. */
 static inline int32_t cs_cull_row(const cs_cull *cull, double y) {
   double row = y / cull->tile_height;
   return row <= 0 ? 0 : row >= cull->tile_rows ? cull->tile_rows - 1 : (int32_t)row;

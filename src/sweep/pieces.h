@@ -1,4 +1,4 @@
-/* The straight pieces of an active boundary between the current height and the height reached.
+/* The straight pieces of an active boundary between the current height and the height advanced to.
  *
  *        x[i]      y          current height
  *          \
@@ -7,7 +7,7 @@
  *           /  piece
  *          v                  vertices of its bend
  *           \  piece
- *         x_next[i] y_next    height reached
+ *         x_next[i] y_next    height advanced to
  *
  *   for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);)
  *     ... p.above, p.below ...
