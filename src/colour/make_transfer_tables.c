@@ -1,5 +1,5 @@
-/* Writes transfer_tables.h at build time: see transfer.c for what the tables mean. Native, and as
- * deterministic as base/elementary.c.
+/* Writes transfer_tables.h at build time; transfer.c says what the tables mean. It runs on the
+ * machine that builds, and its bits are those of base/elementary.c, the same on every machine.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static void print_numbers(const char *name, const double *numbers, int count) {
 }
 
 /* x^exponent = octave[e] * point[i] * (1 + r)^exponent where x = 2^e c (1 + r), c the middle of the
- * i-th of 64 slices of 1..2. */
+ * i-th of 64 equal intervals of 1..2. */
 static void print_power(const char *name, double exponent) {
   double point[POINTS], series[SERIES], octave[2 * OCTAVES + 1];
   for (int i = 0; i < POINTS; i++)
@@ -37,7 +37,7 @@ static double srgb_to_linear(double coded) {
   return coded <= 0.04045 ? coded / 12.92 : cs_elementary_pow((coded + 0.055) / 1.055, 2.4);
 }
 
-/* srgb8_step[k]: the least float whose code is k or more; [256] is never reached. */
+/* srgb8_step[k]: the least float whose code is k or more; [256] is beyond every float in 0..1. */
 static void print_steps(void) {
   printf("static const float srgb8_step[257] = {0,");
   for (int code = 1; code <= 255; code++) {
@@ -50,15 +50,16 @@ static void print_steps(void) {
   printf(" 2};\n");
 }
 
-/* srgb8_first[i]: the code at the low end of the i-th of 128 slices of an octave, from 2^-13. */
+/* srgb8_first[i]: the code at the low end of the i-th interval, where every octave from 2^-13 on
+ * has 128 intervals. */
 static void print_first_codes(void) {
   printf("static const unsigned char srgb8_first[13 * 128] = {");
-  for (int slice = 0; slice < 13 * 128; slice++) {
-    double low = ldexp(1 + slice % 128 / 128.0, slice / 128 - 13);
+  for (int i = 0; i < 13 * 128; i++) {
+    double low = ldexp(1 + i % 128 / 128.0, i / 128 - 13);
     int code = 0;
     while (code < 255 && srgb_to_linear((code + 0.5) / 255) <= low)
       code++;
-    printf("%d,%s", code, slice % 16 == 15 ? "\n  " : " ");
+    printf("%d,%s", code, i % 16 == 15 ? "\n  " : " ");
   }
   printf("};\n");
 }

@@ -17,8 +17,8 @@ celspan_paint celspan_paint_gel(float r, float g, float b) {
 
 celspan_paint celspan_paint_clear(void) { return celspan_paint_gel(1, 1, 1); }
 
-/* The mean of a and b with weights p and q; where neither weighs anything the value is free and
- * the plain mix keeps it between the two. */
+/* The mean of a and b with weights p and q. If both weights are 0 the value has no effect, and the
+ * plain mix keeps it between a and b. */
 static float weighted_mean(float a, float p, float b, float q, float u) {
   return p + q > 0 ? (p * a + q * b) / (p + q) : (1 - u) * a + u * b;
 }
@@ -90,7 +90,7 @@ cs_paint cs_paint_from_picture(const float rgba[4], celspan_picture_use use) {
 }
 
 cs_paint cs_paint_fade(cs_paint paint, float weight) {
-  if (weight == 1) /* 1 - (1 - t) would lose bits of a small t */
+  if (weight == 1) /* because 1 - (1 - t) would lose bits of a small t */
     return paint;
   for (int c = 0; c < 3; c++) {
     paint.s[c] *= weight;

@@ -1,8 +1,14 @@
 /* Paints as affine maps on light, the Beta colour model premultiplied.
  *
- * Light F from the front and I from behind leave a paint as S*F + T*I with S = beta * pigment and
- * T = (1 - beta) * medium. Invariant: 0 <= S <= beta, 0 <= T <= 1 - beta (pictures may exceed in
- * S). Opaque means T = 0, never beta = 1.
+ *      rear                 front
+ *               +-------+
+ *     I  ------>|   T --+---->   S F + T I      S = beta * pigment
+ *               |   S --+---->                  T = (1 - beta) * medium
+ *               +-------+<----  F
+ *
+ * F is the light that falls on the front, I the light from behind; both leave towards the front.
+ * Invariant: 0 <= S <= beta and 0 <= T <= 1 - beta; only pictures may have a greater S. A paint is
+ * opaque if T = 0, whatever beta is.
  */
 #ifndef CS_COLOUR_PAINT_H
 #define CS_COLOUR_PAINT_H
@@ -20,7 +26,7 @@ typedef struct cs_paint {
 #define CS_PAINT_OPAQUE 0x1p-16f
 
 cs_paint cs_paint_from_straight(const celspan_paint *paint);
-/* The paint of one picture sample, premultiplied linear RGBA. */
+/* The paint of one sample of a picture. rgba: premultiplied, linear. */
 cs_paint cs_paint_from_picture(const float rgba[4], celspan_picture_use use);
 /* weight * paint + (1 - weight) * clear. */
 cs_paint cs_paint_fade(cs_paint paint, float weight);

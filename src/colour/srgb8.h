@@ -1,4 +1,4 @@
-/* Arrays of colours to 8-bit pixels in sRGB, straight: the coding of nearly every frame.
+/* Arrays of colours to 8-bit pixels in sRGB with straight alpha: nearly every frame is coded so.
  *
  * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
  */
@@ -29,12 +29,12 @@ static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
 /* The light of every code. */
 typedef struct cs_srgb8_curve {
   float light[256];
-  unsigned char bytes[4][256]; /* of those floats, the lowest first */
+  unsigned char bytes[4][256]; /* the four bytes of those floats, the lowest first */
 } cs_srgb8_curve;
 
 void cs_srgb8_make_curve(cs_srgb8_curve *out);
 
-/* The premultiplied linear colour that a pixel stands for. */
+/* The premultiplied linear colour of a pixel. */
 static inline void cs_srgb8_colour(const cs_srgb8_curve *curve, const unsigned char pixel[4],
                                    float rgba[4]) {
   float alpha = (float)pixel[3] * (1.0f / 255);

@@ -4,9 +4,11 @@
  *
  *   colour --divided by alpha, clamped to 0..1--> x --curve--> y = 255 f(x) + 1/2 --> floor(y)
  *
- *   code n           n+1          n+2
- *     |--------------|-|----------|------- y
- *                  unsure: y within UNSURE of a whole number, one pixel in six hundred
+ *                 code n                 code n + 1
+ *       |------------------------|------------------------|---> y
+ *       n                      n + 1                    n + 2
+ *     #####                    #####                    #####
+ *       unsure: y within UNSURE of a whole number, one pixel in six hundred
  *
  * x^(1/2.4) is the power of its octave, from a table that fits a register or two, times a
  * polynomial over the octave. y is then exact within UNSURE, so its floor is right unless y lies

@@ -1,6 +1,11 @@
-/* The powers of the curves are taken from tables made at build time (make_transfer_tables.c): 64
- * points of an octave, a binomial series of eight terms about the nearest, and the powers of two.
- * Right to 4e-16; several times faster than cs_elementary_pow.
+/* The curves need powers with a fixed exponent. A power x^exponent is the product of three factors:
+ *
+ *   x = 2^e * c * (1 + r)            c: the middle of the i-th of 64 equal intervals of 1..2
+ *   x^exponent = octave[e] * point[i] * (1 + r)^exponent
+ *
+ * The first two come from tables that are made at build time (make_transfer_tables.c), the third is
+ * a binomial series of eight terms. The relative error is at most 4e-16, and this is several times
+ * faster than cs_elementary_pow.
  */
 #include "colour/transfer.h"
 
@@ -99,8 +104,8 @@ float cs_transfer_encode(celspan_transfer transfer, float linear) {
   }
 }
 
-/* A slice of 1/128 octave meets at most one step of the curve, so its first code and one
- * comparison decide. */
+/* In 1/128 of an octave the code changes at most once, so the first code there and one comparison
+ * give the code. */
 uint8_t cs_transfer_srgb8(float linear) {
   if (!(linear >= 0x1p-13f))
     return 0;

@@ -1,5 +1,6 @@
-/* A worker's blocks of pictures: pinned in the store as long as they are likely to be needed again,
- * from run to run and from row to row, so that most texels are found without a lock.
+/* The blocks of pictures that a worker is using. They are pinned in the store as long as they are
+ * likely to be needed again, for the next run or the next row, so that most texels are found
+ * without a lock.
  *
  *   (picture, level, column, row) --place--> pair of slots  | latest block | the one before |
  *                                                               pinned           pinned
@@ -21,7 +22,7 @@ typedef struct cs_block_cache_slot {
   int32_t column, row;
   cs_picture_opacity opacity;
   const float *texels;        /* NULL: the slot is empty */
-  const unsigned char *codes; /* of the texels; NULL where codes would lose something */
+  const unsigned char *codes; /* of the texels; NULL where codes would not be exact */
   cs_picture_block *block;
 } cs_block_cache_slot;
 
@@ -45,7 +46,7 @@ typedef struct cs_block_cache {
   cs_block_cache_opacity opacities[CS_BLOCK_CACHE_OPACITIES]; /* by place in the row */
 } cs_block_cache;
 
-/* A picture whose texels are wanted. */
+/* A picture as the cache needs to know it. */
 typedef struct cs_block_cache_source {
   const cs_picture *picture;
   uint32_t salt; /* spreads the blocks of pictures over the slots */

@@ -1,9 +1,20 @@
-/* How a block is made.
+/* How a block is made. base: the first level of which all blocks fit into memory together.
  *
- *   level <= base   in a pass over the rows of the file that a row of blocks needs, from top to
- *                   bottom; means are taken on the way, with one row waiting for each level, and
- *                   the blocks of every column in a window are filled together
- *   level > base    from the four blocks below, all of which fit in memory together
+ *   level <= base: in a pass over the rows of the file, from top to bottom
+ *
+ *      file --batches of rows--> row of level 0 --\
+ *                    an even row waits, then ------+--mean--> row of level 1 --> ... --> level
+ *                    the row below it ------------/                            blocks | | | | |
+ *
+ *   The pass fills all blocks of a window of columns together.
+ *
+ *   level > base: from the four blocks of the level below
+ *
+ *      +---+---+
+ *      |   |   |          +---+
+ *      +---+---+ --mean-> |   |
+ *      |   |   |          +---+
+ *      +---+---+
  */
 #include "pictures/load.h"
 
@@ -15,13 +26,13 @@
 typedef struct file_pass {
   celspan_context *context;
   cs_picture_entry *entry;
-  int level;                          /* that is filled */
+  int level;                          /* of the blocks that are filled */
   int32_t column, row, columns, rows; /* the rectangle of its blocks */
-  cs_picture_block **blocks;          /* row-major; those handed over are NULL */
+  cs_picture_block **blocks;          /* row-major; NULL once the block is in the store */
   int32_t x0, x1, y0, y1;             /* pixels */
   float *batch;                       /* decoded rows of the file */
   int32_t batch_rows;
-  float *waiting[LEVELS]; /* of each level below: a row whose lower half is to come */
+  float *waiting[LEVELS]; /* by level below: an even row that waits for the row below it */
 } file_pass;
 
 static int32_t blocks_of(int32_t texels) {
@@ -40,9 +51,9 @@ static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 
 /* ---------------------------------------------------------------- what a pass covers */
 
-/* The picture fits: whole rows of blocks. What lies between the last row read and this one has to
- * be decoded anyway in a sequential format; a turned picture is read at once, and so is one that
- * its reader decodes at once. */
+/* The picture fits into memory: whole rows of blocks. In a sequential format everything between the
+ * last row read and this one has to be decoded anyway, so it is kept. A picture is read as a whole
+ * if its rows must be rearranged, or if its reader decodes it as a whole. */
 static void cover_fitting(file_pass *pass, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   pass->columns = columns_of(entry, 0);
@@ -57,7 +68,7 @@ static void cover_fitting(file_pass *pass, int32_t row) {
   }
 }
 
-/* The picture does not fit: a window of columns, as many as may be made at a time. */
+/* The picture does not fit: a window of as many columns of blocks as one pass may make. */
 static void cover_window(file_pass *pass, int32_t column, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   int32_t columns = columns_of(entry, pass->level);
@@ -137,8 +148,8 @@ static void fill_blocks(const file_pass *pass, int32_t y, int32_t count, const f
            (size_t)least(count - done, CS_PICTURE_BLOCK) * 4 * sizeof(float));
 }
 
-/* A row of a level, complete: into the blocks, or on to the next level. */
-static void take_row(file_pass *pass, int level, int32_t y, const float *texels) {
+/* Puts a complete row of a level into the blocks, or into the rows of the next level. */
+static void put_row(file_pass *pass, int level, int32_t y, const float *texels) {
   const celspan_picture_info *info = &pass->entry->header.info;
   int32_t count = cs_mip_levels_size(pass->x1 - pass->x0, level);
   if (level == pass->level) {
@@ -154,7 +165,7 @@ static void take_row(file_pass *pass, int level, int32_t y, const float *texels)
   const cs_mip_level from = {info->width, info->height, level};
   const cs_mip_rows rows = {pass->x0 >> level, y & ~1, count, waiting, is_upper ? NULL : texels};
   cs_mip_levels_mean(&from, &rows, waiting);
-  take_row(pass, level + 1, y / 2, waiting);
+  put_row(pass, level + 1, y / 2, waiting);
 }
 
 static celspan_status read_rows(file_pass *pass) {
@@ -168,14 +179,14 @@ static celspan_status read_rows(file_pass *pass) {
       return cs_fail(pass->context, status, "%s", failure.text);
     cs_mip_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
     for (int32_t i = 0; i < rows; i++)
-      take_row(pass, 0, y + i, pass->batch + (size_t)i * (size_t)width * 4);
+      put_row(pass, 0, y + i, pass->batch + (size_t)i * (size_t)width * 4);
   }
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- what is known of a block */
+/* ---------------------------------------------------------------- properties of a block */
 
-/* One row of texels: bit 0 while all are opaque, bit 1 while all are clear. */
+/* Properties of a row of texels. Bit 0: all are opaque. Bit 1: all are clear. */
 static int common_bits(const float *texels, int32_t count) {
   static const float clear[4];
   int bits = 3;
@@ -197,7 +208,7 @@ static bool is_decoded(const cs_picture_block *block) {
   return is_same;
 }
 
-/* A block whose texels are complete. */
+/* Sets the opacity and the codes of a block whose texels are complete. */
 static void describe(cs_picture_block *block) {
   const celspan_picture_info *info = &block->entry->header.info;
   int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
@@ -217,7 +228,7 @@ static void describe(cs_picture_block *block) {
 
 /* ---------------------------------------------------------------- a pass from start to end */
 
-/* Beside each row of codes the next of the block on the right. */
+/* Appends to each row of codes the first code of the block on the right. */
 static void join(const file_pass *pass, cs_picture_block *block, const cs_picture_block *right) {
   if (pass->level != 0 || block->column + 1 == columns_of(pass->entry, 0))
     return;
@@ -226,8 +237,8 @@ static void join(const file_pass *pass, cs_picture_block *block, const cs_pictur
     memcpy(block->codes[y] + 4 * CS_PICTURE_BLOCK, right->codes[y], 4);
 }
 
-/* Hands the blocks to the store; the one that was asked for comes back with a pin. */
-static cs_picture_block *hand_over(file_pass *pass, int32_t column, int32_t row) {
+/* Puts the blocks into the store. Returns the one at (column, row), pinned. */
+static cs_picture_block *insert_blocks(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
   for (size_t i = 0; i < block_count(pass); i++)
     describe(pass->blocks[i]);
@@ -262,9 +273,9 @@ static celspan_status run_pass(celspan_context *context, cs_picture_entry *entry
   if (status == CELSPAN_OK)
     status = read_rows(&pass);
   if (status == CELSPAN_OK) {
-    *out = hand_over(&pass, column, row);
+    *out = insert_blocks(&pass, column, row);
     entry->next_strip = pass.row + pass.rows;
-    /* All blocks are in the store: neither the file nor what its reader keeps is needed. */
+    /* All blocks are in the store: neither the file nor the memory of its reader is needed. */
     if (entry->base == 0 && entry->next_strip == rows_of(entry, 0))
       cs_store_close_reader(entry);
   }
@@ -277,7 +288,7 @@ static celspan_status run_pass(celspan_context *context, cs_picture_entry *entry
 static celspan_status load(celspan_context *context, cs_picture_entry *entry, int level,
                            int32_t column, int32_t row, cs_picture_block **out);
 
-/* A quarter of `block` from `from`, one of the four blocks below it. */
+/* Fills a quarter of `block` with means of `from`, one of its four blocks of the level below. */
 static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
   const celspan_picture_info *info = &block->entry->header.info;
   int level = from->level;

@@ -1,4 +1,4 @@
-/* Blocks that are not in the store: read from the file, or made from the level below.
+/* Makes the blocks that are not in the store: from the file, or from the level below.
  *
  * INVARIANT: a block is read by one thread at a time, under its entry's `reading`; others that want
  * a block of the same picture wait for it.

@@ -13,7 +13,7 @@ int cs_mip_levels_count(int32_t width, int32_t height) {
   return count;
 }
 
-/* The weight of the second of two neighbours in their mean, by the pixels that each covers. */
+/* The weight of the second of two neighbours in their mean: each counts by its number of pixels. */
 static float second_share(int32_t size, int level, int32_t first) {
   int64_t side = (int64_t)1 << level;
   int64_t left = (int64_t)size - (int64_t)(first + 1) * side;
@@ -52,8 +52,8 @@ static float to_light(const cs_mip_levels_decoder *decoder, float coded) {
   return decoder->table[code < 0 ? 0 : code > decoder->codes ? decoder->codes : code];
 }
 
-/* Colour that was coded and then multiplied by alpha has to be divided before it is decoded. Where
- * alpha is 0 the colour is lost. */
+/* A colour that was coded and then multiplied by alpha has to be divided by alpha before it is
+ * decoded. Where alpha is 0 the colour is lost. */
 static float to_light_divided(const cs_mip_levels_decoder *decoder, float coded, float alpha) {
   if (alpha >= 1)
     return to_light(decoder, coded);
@@ -66,7 +66,7 @@ static float to_light_divided(const cs_mip_levels_decoder *decoder, float coded,
 
 static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
   float alpha = cs_number_clampf(clean(rgba[3]), 0, 1);
-  /* In linear light, a colour where alpha is 0 is a glow and is kept. */
+  /* In linear light a colour with alpha 0 is a glow, and is kept. */
   bool is_light = decoder->is_linear || (decoder->alpha == CS_PICTURE_ALPHA_CODED &&
                                          decoder->transfer == CELSPAN_TRANSFER_LINEAR);
   for (int c = 0; c < 3; c++) {

@@ -43,7 +43,7 @@ typedef struct cs_picture_header {
   cs_picture_alpha alpha;
   int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
   bool is_linear;     /* `space` was given: pixels come in linear light, premultiplied */
-  bool is_turned;     /* the orientation tag moves rows: it is cheapest to read all at once */
+  bool is_turned;     /* the orientation tag rearranges rows: reading all at once is cheapest */
   bool is_whole;      /* the reader decodes everything at once and keeps it */
   bool is_sequential; /* to read a row, all rows above it have to be decoded */
   int64_t file_size;  /* these three change when the file does */

@@ -158,8 +158,9 @@ static size_t blocks_across(int32_t size, int level) {
   return ((size_t)cs_mip_levels_size(size, level) + CS_PICTURE_BLOCK - 1) / CS_PICTURE_BLOCK;
 }
 
-/* Rows of a frame run along a row of blocks, so with less than that each would read the file anew;
- * the quarter more is for the row of blocks that comes next. The caller holds the lock. */
+/* A row of a frame reads along a row of blocks. If the budget were less than that, every row of the
+ * frame would read the file again. A quarter more leaves room for the next row of blocks. The
+ * caller has locked `lock`. */
 static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
   size_t least = blocks_across(info->width, 0) * sizeof(cs_picture_block) * 5 / 4;
@@ -171,7 +172,8 @@ static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
     entry->base++;
 }
 
-/* Light by code, once for all pictures of a kind. The caller holds the lock. */
+/* The table of light by code for a transfer and a number of bits, made on first use. The caller has
+ * locked `lock`. */
 static const float *find_table(cs_picture_store *store, celspan_transfer transfer, int bits) {
   float **table = &store->tables[transfer][bits];
   if (*table)
@@ -231,7 +233,7 @@ static void close_unused(cs_picture_store *store, cs_picture_entry *entry) {
   pthread_mutex_unlock(&entry->reading);
 }
 
-/* Closes readers that nobody uses until one more may be opened. The caller holds the lock. */
+/* Closes readers that nobody uses until one more may be opened. The caller has locked `lock`. */
 static void close_readers(cs_picture_store *store) {
   for (size_t i = 0; i < sizeof store->entries / sizeof *store->entries; i++)
     for (cs_picture_entry *entry = store->entries[i]; entry; entry = entry->next)
@@ -239,7 +241,7 @@ static void close_readers(cs_picture_store *store) {
         close_unused(store, entry);
 }
 
-/* The caller holds the lock. */
+/* The caller has locked `lock`. */
 static bool keep_entry(cs_picture_store *store, cs_picture_entry *entry) {
   if (!set_decoder(store, entry))
     return false;
@@ -259,14 +261,14 @@ static celspan_status add_entry(celspan_context *context, cs_picture_store *stor
   CS_TRY(cs_store_module(context, CELSPAN_INPUT, &module));
   CS_TRY(open_entry(context, store, picture, &entry));
   pthread_mutex_lock(&store->lock);
-  cs_picture_entry *held = find_entry(store, picture->hash);
-  bool is_kept = !held && keep_entry(store, entry);
+  cs_picture_entry *known = find_entry(store, picture->hash);
+  bool is_kept = !known && keep_entry(store, entry);
   pthread_mutex_unlock(&store->lock);
   if (!is_kept)
     destroy_entry(store, entry);
-  if (!is_kept && !held)
+  if (!is_kept && !known)
     return cs_fail_memory(context);
-  *out = held ? held : entry;
+  *out = known ? known : entry;
   return CELSPAN_OK;
 }
 

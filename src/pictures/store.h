@@ -4,11 +4,11 @@
  *   block   64 x 64 texels of one level of an entry, in the store's cache (base/cache.h)
  *
  * Reading goes through the picture module (pictures/module.h), a shared object that is loaded on
- * first use: nothing of it is touched by a film without pictures.
+ * first use: a film without pictures never loads it.
  *
  * Locks: `lock` guards entries and tables, and is never held while a file is read; an entry's
- * `reading` guards its reader and is locked before `lock`. What a block contains is a function of
- * the file alone, so neither budget nor threads show in the pictures.
+ * `reading` guards its reader and is locked before `lock`. The contents of a block are a function
+ * of the file alone, so frames depend neither on the budget nor on the number of threads.
  */
 #ifndef CS_PICTURES_STORE_H
 #define CS_PICTURES_STORE_H
@@ -20,17 +20,17 @@
 
 /* Texels of a block's side. */
 #define CS_PICTURE_BLOCK 64
-/* Codes of a row of a block: its own, and that of the texel right of it. */
+/* Codes in a row of a block: those of its texels, and that of the texel right of the block. */
 #define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
 /* The size of a block's texels and their codes. */
 #define CS_PICTURE_BLOCK_BYTES                                                                     \
   ((size_t)CS_PICTURE_BLOCK * (16 * CS_PICTURE_BLOCK + 4 * CS_PICTURE_CODES_ROW))
 
-/* What texels of a block have in common, those beyond the picture left out. */
+/* What all texels of a block that lie in the picture have in common. */
 typedef enum cs_picture_opacity {
   CS_PICTURE_MIXED,
   CS_PICTURE_OPAQUE, /* alpha is 1 */
-  CS_PICTURE_CLEAR   /* all is 0 */
+  CS_PICTURE_CLEAR   /* colour and alpha are 0 */
 } cs_picture_opacity;
 
 typedef struct cs_picture_entry cs_picture_entry;
@@ -44,8 +44,8 @@ typedef struct cs_picture_block {
   int level;
   int32_t column, row;
   cs_picture_opacity opacity;
-  /* Whether the codes determine all: cs_srgb8_colour makes the very texels of them, and those right
-   * of the block unless the picture ends there. */
+  /* Whether the codes are exact: cs_srgb8_colour makes the texels from them to the bit, including
+   * the column right of the block unless the picture ends there. */
   bool is_coded;
   /* Premultiplied linear RGBA, row-major; clear beyond the picture. */
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
@@ -56,15 +56,15 @@ typedef struct cs_picture_block {
 struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
-  uint32_t number; /* in order of making */
+  uint32_t number; /* in the order in which entries were made */
   cs_hash hash;
-  cs_picture *picture; /* kept */
+  cs_picture *picture; /* a reference */
   cs_picture_header header;
   cs_mip_levels_decoder decoder;
   const cs_srgb8_curve *curve; /* the store's: the light of all codes */
   int level_count;
-  /* The first level of which all blocks fit `share`. Levels below it are read from the file in
-   * rows, those above are made from it. */
+  /* The first level of which all blocks fit into `share`. The levels up to it are made from the
+   * rows of the file, those above from the level below. */
   int base;
   size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
@@ -81,14 +81,14 @@ struct cs_picture_store {
   cs_picture_entry *entries[256]; /* by hash */
   uint32_t entry_count;
   size_t reader_count;  /* readers open now */
-  float *tables[8][17]; /* light by code: of a transfer, for codes of so many bits */
+  float *tables[8][17]; /* light by code, for each transfer and number of bits */
   cs_srgb8_curve curve;
 };
 
-/* The header, read once a context. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* The facts of the header, which is read once in a context. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
                                              celspan_picture_info *out);
-/* The picture module. failure: INPUT or OUTPUT, when there is none. */
+/* The picture module. failure: the status when there is none, INPUT or OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);
 /* Removes a pin. */
@@ -99,7 +99,7 @@ void cs_store_release(cs_picture_block *block);
 /* The entry of a picture, its header read. Errors: INPUT, LIMIT, NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_store_entry(celspan_context *context, const cs_picture *picture,
                                               cs_picture_entry **out);
-/* The block with a pin more, or NULL when it is not in the store. */
+/* Pins a block and returns it; NULL when it is not in the store. */
 cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
                                int32_t row);
 /* A new block, zeroed, not yet in the store, but counted. Errors: NO_MEMORY. */
