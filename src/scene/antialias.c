@@ -10,7 +10,8 @@
 #define ROWS_LIMIT 256
 #define ROWS 16
 #define PI 3.14159265358979323846
-/* A kernel whose sum is a smaller share of what it adds up sums to nothing. */
+/* A kernel counts as having no sum if the sum of its values is less than this share of the sum of
+ * their magnitudes: dividing by such a sum would enlarge rounding errors. */
 #define NOTHING 1e-6
 
 static double sinc(double x) {
@@ -21,7 +22,7 @@ static double sinc(double x) {
   return sine / (PI * x);
 }
 
-/* Mitchell and Netravali's piecewise cubic with B = C = 1/3 (1988), reaching 2. */
+/* Mitchell and Netravali's piecewise cubic with B = C = 1/3 (1988), for |x| <= 2. */
 static double mitchell(double x) {
   double a = fabs(x);
   return a < 1 ? ((7 * a - 12) * a * a + 16.0 / 3) / 6

@@ -1,8 +1,8 @@
-/* How the pixels of a rostrum are made of what lies under them: the exact mean, the centre, or a
- * filter kernel.
+/* How the pixels of a rostrum are made: the colour of a pixel is the exact mean over its area, the
+ * colour at its centre, or a mean weighted by a filter kernel.
  *
- * Invariants: a kernel's values are sampled when this is made, never later, so rows need no
- * function of the caller's; they sum to more than nothing. A filter of radius 0 is the mode NONE.
+ * Invariants: the values of a kernel are sampled at construction, so that making rows never calls a
+ * function of the caller; their sum is not 0. A filter of radius 0 is the mode NONE.
  */
 #ifndef CS_SCENE_ANTIALIAS_H
 #define CS_SCENE_ANTIALIAS_H
@@ -15,11 +15,11 @@
 typedef struct cs_antialias {
   celspan_antialias_mode mode;
   double radius;   /* FILTER: pixels, above 0 */
-  int rows;        /* FILTER: pieces that a slanted boundary is cut into, a pixel */
-  double *samples; /* FILTER: CS_ANTIALIAS_SAMPLES, in the middles of equal parts of the diameter */
+  int rows;        /* FILTER: into how many pieces a slanted boundary is cut in each pixel */
+  double *samples; /* FILTER: the kernel in the middles of CS_ANTIALIAS_SAMPLES equal intervals */
 } cs_antialias;
 
-/* noun: for messages. Errors: NO_MEMORY, BAD_ARGUMENT; what the kernel's function returns. */
+/* noun: for messages. Errors: NO_MEMORY, BAD_ARGUMENT, those of the kernel's function. */
 CELSPAN_CHECKED celspan_status cs_antialias_make(celspan_context *context, const char *noun,
                                                  celspan_antialias_mode mode,
                                                  const celspan_filter_desc *desc,

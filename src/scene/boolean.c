@@ -1,4 +1,4 @@
-/* Boolean objects: a data of operands. Their meaning at a point stands in inside.h. */
+/* Boolean objects: primitive data with operands. inside.h defines where they are present. */
 #include "scene/check.h"
 #include "scene/primitive_data.h"
 
@@ -10,7 +10,7 @@ static const char *const nouns[] = {
     [CELSPAN_CLIP] = "clip",
 };
 
-/* Depth and number of primitives, each within its limit. */
+/* Finds the depth and the number of primitives, and checks them against their limits. */
 static celspan_status measure(celspan_context *context, cs_primitive_data *data, const char *noun) {
   for (size_t i = 0; i < data->operand_count; i++) {
     const cs_primitive_data *operand = data->operands[i]->data;

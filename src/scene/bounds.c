@@ -1,4 +1,4 @@
-/* Boxes: what an object or a cel can paint at most. */
+/* Bounding boxes of objects and cels: nothing is painted outside them. */
 #include <math.h>
 
 #include "scene/primitive_data.h"

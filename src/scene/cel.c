@@ -37,7 +37,7 @@ static cs_hash hash_cel(const celspan_cel *cel) {
   return cs_hash_end(hash);
 }
 
-/* The fields of `fields`, and objects of its own. */
+/* A new cel with the fields of `fields` and with copies of the objects. */
 static celspan_status create(celspan_context *context, const celspan_cel *fields,
                              celspan_object *const *objects, size_t object_count,
                              celspan_cel **out) {
@@ -71,7 +71,7 @@ celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_de
       .defocus_kernel = desc->defocus_radius > 0 ? desc->defocus_kernel : CELSPAN_DEFOCUS_GAUSSIAN,
       .opacity = desc->opacity,
   };
-  /* What has no effect is left at zero, so that equal cels hash alike. */
+  /* Fields without effect stay zero, so that cels that look the same have the same hash. */
   if (desc->has_front)
     fields.front = (celspan_light){desc->front.r, desc->front.g, desc->front.b, 1};
   if (desc->has_viewport)

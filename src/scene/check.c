@@ -7,7 +7,8 @@
 
 #define NAME_SIZE 96
 
-/* Paints and lights are floats, which seven digits name as they were given; geometry takes more. */
+/* Seven digits show paints and lights, which are floats, as they were given; coordinates need
+ * more. */
 cs_check_text cs_check_number_text(double value) {
   cs_check_text number;
   snprintf(number.text, sizeof number.text, value == (float)value ? "%.7g" : "%.9g", value);
@@ -63,11 +64,11 @@ celspan_status cs_check_item(celspan_context *context, cs_check_field at, double
   if (value >= low && value <= high)
     return CELSPAN_OK;
   char name[NAME_SIZE];
-  const char *dot = *at.field && *at.part ? "." : "";
+  const char *dot = *at.field && *at.member ? "." : "";
   if (at.index > 0)
-    snprintf(name, sizeof name, "%s[%zu]%s%s", at.field, at.index, dot, at.part);
+    snprintf(name, sizeof name, "%s[%zu]%s%s", at.field, at.index, dot, at.member);
   else
-    snprintf(name, sizeof name, "%s%s%s", at.field, dot, at.part);
+    snprintf(name, sizeof name, "%s%s%s", at.field, dot, at.member);
   return cs_check_range(context, at.noun, name, value, low, high);
 }
 

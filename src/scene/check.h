@@ -1,5 +1,5 @@
-/* Checks of arguments: whatever enters a value of the scene is checked here, once. What is wrong is
- * refused in a sentence that names the noun, the field, what was given and what is allowed.
+/* Checks of arguments: every argument of a scene value is checked here, once. A wrong argument is
+ * refused with a sentence that names the noun, the field, the value given and the values allowed.
  *
  *   circle: radius is -3; it must be 0 or more
  *   polygon: points[4].x is not a number
@@ -33,11 +33,12 @@ CELSPAN_CHECKED celspan_status cs_check_positive(celspan_context *context, const
 /* 0 <= value <= 1 */
 CELSPAN_CHECKED celspan_status cs_check_share(celspan_context *context, const char *noun,
                                               const char *field, double value);
-/* A part ("" for none) of an item of a list. index: from 1, or 0 for a field that is not a list. */
+/* A field such as stops[2].at: its member ("": none) of its item `index`, counted from 1 (0: the
+ * field is not a list). */
 typedef struct cs_check_field {
   const char *noun, *field;
   size_t index;
-  const char *part;
+  const char *member;
 } cs_check_field;
 
 /* As cs_check_range. */
@@ -56,7 +57,7 @@ CELSPAN_CHECKED celspan_status cs_check_paint(celspan_context *context, const ch
 /* r, g, b are sizes; a is in 0..1. */
 CELSPAN_CHECKED celspan_status cs_check_light(celspan_context *context, const char *noun,
                                               const char *field, const celspan_light *light);
-/* *whole: `there`, then `matrix`. */
+/* *whole: the map that applies `there` and then `matrix`. */
 CELSPAN_CHECKED celspan_status cs_check_transform(celspan_context *context,
                                                   const celspan_matrix *there,
                                                   const celspan_matrix *matrix,
@@ -67,7 +68,7 @@ CELSPAN_CHECKED celspan_status cs_check_choice(celspan_context *context, const c
 /* A pointer that may not be NULL; a list of count 0 may be. */
 CELSPAN_CHECKED celspan_status cs_check_given(celspan_context *context, const char *noun,
                                               const char *field, const void *pointer);
-/* The struct_size of a description. */
+/* given: the struct_size of a description. */
 CELSPAN_CHECKED celspan_status cs_check_version(celspan_context *context, const char *noun,
                                                 size_t given, size_t expected);
 

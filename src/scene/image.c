@@ -1,4 +1,13 @@
-/* Images: a rectangle, and a picture fitted to it. */
+/* Images: a rectangle, and a picture fitted to it.
+ *
+ *     fill              contain            cover
+ *   +--------+        +--------+         .........
+ *   |########|        |        |         +--------+
+ *   |########|        |########|         |########|    +--+  the rectangle
+ *   |########|        |########|         |########|    ####  the picture where it is drawn
+ *   |########|        |        |         +--------+    ....  the picture beyond the rectangle
+ *   +--------+        +--------+         .........
+ */
 #include <math.h>
 
 #include "pictures/picture.h"
@@ -22,7 +31,8 @@ static celspan_status read_size(celspan_context *context, const celspan_image_de
   return CELSPAN_OK;
 }
 
-/* The picture's own shape, as large as fits into the box or as small as covers it, centred. */
+/* A box of the picture's proportions in the middle of another box: the largest that fits into it,
+ * or the smallest that covers it. */
 static celspan_box fitted(celspan_box box, double width, double height, celspan_fit fit) {
   double scale_x = box.width / width, scale_y = box.height / height;
   double scale = fit == CELSPAN_FIT_CONTAIN ? fmin(scale_x, scale_y) : fmax(scale_x, scale_y);
@@ -32,7 +42,7 @@ static celspan_box fitted(celspan_box box, double width, double height, celspan_
                        box.y + (box.height - fitted_height) / 2, fitted_width, fitted_height};
 }
 
-/* frame: the rectangle that is drawn. picture: where the picture lies. */
+/* *frame: the rectangle that is drawn. *picture: where the whole picture lies. */
 static celspan_status place(celspan_context *context, const celspan_image_desc *desc,
                             celspan_box *frame, celspan_box *picture) {
   bool has_width = desc->width > 0, has_height = desc->height > 0;
@@ -44,7 +54,7 @@ static celspan_status place(celspan_context *context, const celspan_image_desc *
   CS_TRY(read_size(context, desc, &width, &height));
   if (has_width && has_height) {
     *picture = fitted(*frame, width, height, desc->fit);
-    /* Its edge is then an outline, and antialiased. */
+    /* The edge of the picture becomes the outline of the rectangle, so that it is antialiased. */
     if (desc->fit == CELSPAN_FIT_CONTAIN && desc->picture.wrap == CELSPAN_WRAP_CLEAR)
       *frame = *picture;
     return CELSPAN_OK;
@@ -62,8 +72,9 @@ celspan_status celspan_object_create_image(celspan_context *context, const celsp
   celspan_picture_desc picture = desc->picture;
   picture.has_box = true;
   CS_TRY(place(context, desc, &frame, &picture.box));
-  /* The picture then fills the rectangle, whose edge says where it ends: held there, so that a
-   * pixel that the edge crosses has its colour wherever its centre lies. */
+  /* The picture now fills the rectangle, and the rectangle's outline decides where it ends.
+   * Clamped, the picture has a colour also at the centre of a pixel of which the outline covers a
+   * part. */
   if (picture.wrap == CELSPAN_WRAP_CLEAR)
     picture.wrap = CELSPAN_WRAP_CLAMP;
   celspan_texture *texture;

@@ -3,11 +3,11 @@
 #include "geometry/matrix.h"
 
 #define MAX_DEGREE 15
-/* Halvings of a piece after which its chord decides: more would not change a double. */
+/* How often a piece is halved before its chord decides: more would not change a double. */
 #define MAX_HALVINGS 56
 
-/* A control point relative to the point in question, times its weight w > 0: u < 0 is left of the
- * point, v < 0 above it. */
+/* A control point relative to the point that is tested, times its weight w > 0: u < 0 is left of
+ * the point, v < 0 above it. */
 typedef struct offset {
   double u, v;
 } offset;
@@ -94,7 +94,7 @@ static bool inside_object(const celspan_object *object, const celspan_matrix *pa
     present += is_present;
     first = first || (i == 0 && is_present);
   }
-  return cs_inside_holds(data->op, present, data->operand_count, first);
+  return cs_inside_is_present(data->op, present, data->operand_count, first);
 }
 
 bool celspan_object_contains(const celspan_object *object, celspan_point point) {

@@ -5,8 +5,8 @@
  *   <-------|------x      |           the contour goes down, -1 where it goes up. Here it is -1:
  *           ^             v           inside by the nonzero rule, and by the even-odd rule.
  *            \           /
- *             '----<----'             Half open: a piece counts from its top, included, to its
- * foot, excluded.
+ *             '----<----'             Half open: a piece counts from its top, which is included,
+ *                                     to its foot, which is not.
  *
  * A point is taken to a primitive's own units by the inverse of the matrix of all levels together.
  * A point behind the horizon is in no shape.
@@ -25,10 +25,10 @@ bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, cels
  * and bottom ones are out. */
 bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_point point);
 
-/* Whether a boolean is present, `present` of whose operands are. first: whether the first operand
- * is. */
-static inline bool cs_inside_holds(celspan_operator op, size_t present, size_t operand_count,
-                                   bool first) {
+/* Whether a boolean object is present at a point where `present` of its operands are present.
+ * first: whether the first operand is one of them. */
+static inline bool cs_inside_is_present(celspan_operator op, size_t present, size_t operand_count,
+                                        bool first) {
   switch (op) {
   case CELSPAN_UNION:
     return present > 0;
@@ -44,7 +44,8 @@ static inline bool cs_inside_holds(celspan_operator op, size_t present, size_t o
   return first && present == 2;
 }
 
-/* Whether a boolean is painted with its operand of this index, where that operand is present. */
+/* Whether a boolean object is painted with its operand of this index where that operand is
+ * present. */
 static inline bool cs_inside_shows(celspan_operator op, size_t index) {
   return index == 0 || (op != CELSPAN_DIFFERENCE && op != CELSPAN_CLIP);
 }

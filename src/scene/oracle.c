@@ -110,8 +110,8 @@ static celspan_status add_texel(celspan_context *context, const cs_picture *pict
   return CELSPAN_OK;
 }
 
-/* u, v: picture pixels. Beyond the outermost centres the outermost texels count, unless it
- * repeats: an edge of a picture is not blurred. */
+/* u, v: picture pixels. Beyond the centres of the outermost texels their colours continue, unless
+ * the picture repeats: the edge of a picture is not blurred. */
 static celspan_status read_bilinear(celspan_context *context, const celspan_texture *texture,
                                     const celspan_picture_info *info, double u, double v,
                                     double rgba[4]) {
@@ -128,7 +128,7 @@ static celspan_status read_bilinear(celspan_context *context, const celspan_text
   return CELSPAN_OK;
 }
 
-/* A primitive never reaches beyond its own box, so only a box that was given ends a picture. */
+/* A primitive lies in its own box, so a picture ends inside it only where a box was given. */
 static celspan_status shade_picture(celspan_context *context, const celspan_texture *texture,
                                     const celspan_box *bounds, celspan_point at,
                                     cs_oracle_paint *out) {

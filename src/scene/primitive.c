@@ -1,8 +1,9 @@
-/* Primitives: their doors, and the outline, bounds and texture that make their data. */
+/* The public constructors of primitives: they check the description and make the primitive data,
+ * that is outline, bounds and texture. */
 #include "scene/check.h"
 #include "scene/primitive_data.h"
 
-/* Bounds of the outline, and the object around the data. `status`: that of making the outline. */
+/* Sets the bounds, and wraps the data into an object. status: that of making the outline. */
 static celspan_status complete(celspan_context *context, cs_primitive_data *data,
                                celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
@@ -121,7 +122,7 @@ celspan_status celspan_object_create_scanline(celspan_context *context,
       complete(context, data,
                cs_outline_rect(context, &data->outline, box->x, box->y, box->width, box->height, 0),
                &object));
-  /* Only now: until the object stands, `user` is the caller's to release. */
+  /* Not earlier: if no object is made, releasing `user` is left to the caller. */
   data->scanline = *desc;
   *out = object;
   return CELSPAN_OK;

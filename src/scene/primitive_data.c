@@ -56,15 +56,15 @@ static void hash_outline(cs_hash *hash, const cs_outline *outline) {
   }
 }
 
-/* A procedure cannot be looked into, so it equals itself alone. Its address may be used again once
- * it is gone; the count of allocations never comes back. */
+/* Nothing is known about the spans of a procedure, so it equals only itself. Its address can be
+ * used again after it was freed, but the count of allocations only grows. */
 static void hash_procedure(cs_hash *hash, const cs_primitive_data *data) {
   cs_hash_word(hash, (uint64_t)(uintptr_t)data);
   cs_hash_word(hash, atomic_load_explicit(&data->memory->allocations, memory_order_relaxed));
 }
 
 static cs_hash hash_data(const cs_primitive_data *data) {
-  cs_hash hash = cs_hash_begin(CS_VALUE_BODY);
+  cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
   cs_hash_word(&hash, data->kind);
   hash_outline(&hash, &data->outline);
   cs_hash_word(&hash, data->rule);

@@ -1,15 +1,19 @@
-/* Bodies and the objects made of them.
+/* Primitive data, and the objects made of them.
  *
- * A data is what an object is before its transform and fade; transformed and faded copies share it.
- * Invariant: a scan-line data has an outline too, the rectangle of its bounds, so that geometry
- * needs no case for it.
+ *   object: matrix, fade --\
+ *   object: matrix, fade ---+--> primitive data: outline + texture, or operands of a boolean
+ *   object: matrix, fade --/
+ *
+ * Primitive data are an object without its transform and fade. Transformed and faded copies of an
+ * object share them. Invariant: the data of a scan-line procedure have an outline too, the
+ * rectangle of its bounds, so that geometry needs no special case.
  */
 #ifndef CS_SCENE_PRIMITIVE_DATA_H
 #define CS_SCENE_PRIMITIVE_DATA_H
 
 #include "scene/scene.h"
 
-/* A new data of nothing yet, to be filled by its maker. texture: kept; NULL is opaque black.
+/* New, empty data, which the caller fills. texture: gets a reference more; NULL is opaque black.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context,
                                                         cs_primitive_data_kind kind,
@@ -17,14 +21,15 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context
                                                         cs_primitive_data **out);
 void cs_primitive_data_unref(cs_primitive_data *data);
 
-/* Hashes a data that is filled, wraps it into a new object, and gives the caller's reference to it;
- * on failure, `status` that of filling it included, the data is let go. Errors: `status`,
- * NO_MEMORY. */
+/* Hashes data that have been filled and wraps them into a new object, which takes the caller's
+ * reference. status: whether filling them has succeeded; if not, or on failure here, the reference
+ * is dropped. Errors: `status`, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_wrap(celspan_context *context,
                                                       cs_primitive_data *data,
                                                       celspan_status status, celspan_object **out);
 
-/* BAD_ARGUMENT when a procedure takes part and its rows would not run along the frame's. */
+/* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
+ * frame's. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_check_placement(celspan_context *context,
                                                                  const cs_primitive_data *data,
                                                                  const celspan_matrix *matrix);

@@ -1,7 +1,19 @@
-/* The oracle: one point of a frame by direct evaluation of the tree, back to front. No sweep, no
- * spans, no single precision but where the scene stores it.
+/* The oracle: the colour of one point of a frame, by direct evaluation of the scene. There is no
+ * sweep and there are no spans; arithmetic is in doubles except where the scene stores floats.
  *
- *   exposure -> cels, rear to front: L = S F + T (B + L) -> paint of a cel -> objects -> booleans
+ *   rear light                 L = its light
+ *       |    back light B      L = L + B
+ *       v
+ *   [ cel 0 ] <-- front F      L = S F + T L         S, T: the paint of the cel at the point
+ *       |    back light B      L = L + B
+ *       v
+ *   [ cel 1 ] <-- front F      L = S F + T L
+ *       :
+ *       v
+ *     camera                   the sum of L over the exposures, by their weights
+ *
+ * The paint of a cel is that of its objects over each other; a boolean object is present where its
+ * operands say so (inside.h).
  */
 #include <math.h>
 
@@ -10,7 +22,7 @@
 #include "scene/inside.h"
 #include "scene/oracle.h"
 
-/* What is evaluated: a point of the film in a context. */
+/* One call of celspan_probe: the point of the film that is evaluated. */
 typedef struct probe_call {
   celspan_context *context;
   double film_width, film_height;
@@ -24,7 +36,8 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
 static celspan_status paint(const probe_call *probe, const celspan_object *object,
                             const celspan_matrix *parent, cs_oracle_paint *out);
 
-/* A procedure is present where its spans are: the shade is its by-product. */
+/* A procedure is present where it has spans. Finding that out also makes its paint, which is not
+ * used here. */
 static celspan_status primitive_present(const probe_call *probe, const cs_primitive_data *data,
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
@@ -53,11 +66,11 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
     count += is_present;
     first = first || (i == 0 && is_present);
   }
-  *out = cs_inside_holds(data->op, count, data->operand_count, first);
+  *out = cs_inside_is_present(data->op, count, data->operand_count, first);
   return CELSPAN_OK;
 }
 
-/* The objects of a list over each other, the later nearer; what is hidden is not evaluated. */
+/* The objects of a list over each other; later ones are nearer. Hidden ones are not evaluated. */
 static celspan_status paint_list(const probe_call *probe, celspan_object *const *objects,
                                  size_t count, const celspan_matrix *matrix, cs_oracle_paint *out) {
   *out = cs_oracle_clear;
@@ -106,7 +119,7 @@ static celspan_status paint_cel(const probe_call *probe, const celspan_rostrum *
   return CELSPAN_OK;
 }
 
-/* Light on its way to the camera, and the matte of each channel. */
+/* The light that travels to the camera, and the matte of each channel. */
 typedef struct light_ray {
   double light[3], matte[3];
 } light_ray;
@@ -127,7 +140,7 @@ static void pass_cel(light_ray *ray, const cs_oracle_paint *shade, celspan_light
   }
 }
 
-/* The paints of the cels in `shades`, and in *rear the rearmost one that can be seen. */
+/* shades: gets the paints of the cels. *rear: the rearmost cel that is not hidden. */
 static celspan_status paint_cels(const probe_call *probe, const celspan_rostrum *rostrum,
                                  cs_oracle_paint *shades, size_t *rear) {
   cs_oracle_paint all = cs_oracle_clear;

@@ -48,7 +48,7 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   return cs_hash_end(hash);
 }
 
-/* What has no effect is left at zero, so that equal rostrums hash alike. */
+/* Fields without effect stay zero, so that rostrums that look the same have the same hash. */
 static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   rostrum->has_front = desc->has_front;
   if (desc->has_front)
@@ -115,7 +115,7 @@ void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]) {
 
 /* ---------------------------------------------------------------- camera and lights */
 
-/* Viewport box to film. */
+/* Maps the box of a viewport to the film. */
 static celspan_matrix viewport_matrix(const celspan_box *box, double film_width,
                                       double film_height) {
   return celspan_matrix_then(
@@ -123,7 +123,8 @@ static celspan_matrix viewport_matrix(const celspan_box *box, double film_width,
       celspan_matrix_scaling(film_width / box->width, film_height / box->height));
 }
 
-/* The film as the camera sees it: its centre to the film's, enlarged, turned the other way. */
+/* The view of the camera as a map of the film: the camera's centre goes to the centre of the film,
+ * the film is enlarged, and turned against the camera's rotation. */
 static celspan_matrix camera_matrix(const celspan_rostrum *rostrum, double film_width,
                                     double film_height) {
   celspan_point middle = {film_width / 2, film_height / 2};

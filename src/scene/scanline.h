@@ -1,7 +1,15 @@
-/* What a scan-line procedure returns on one row: its spans, checked and cut to its bounds.
+/* The spans that a scan-line procedure gives for one row, checked and cut to its bounds.
  *
- * Invariants: spans ascend, do not overlap and lie in the bounds; each has a paint or more; paints
- * are valid. A cut span keeps its own ends for its paints, so that cutting never moves a colour.
+ *            bounds.x                                  bounds.x + width
+ *               |      x0         x1                        |
+ *               |       +---------+                +--------|........
+ *               |       p    p    p                p        |       p
+ *               |                                  x0      x1      paint_x1
+ *
+ * The paints p of a span lie at equal distances from its first end to its last.
+ *
+ * Invariants: spans ascend, do not overlap and lie in the bounds; each has at least one paint; all
+ * paints are valid. A span that is cut keeps the ends of its paints, so cutting moves no colour.
  */
 #ifndef CS_SCENE_SCANLINE_H
 #define CS_SCENE_SCANLINE_H
@@ -19,9 +27,9 @@ struct celspan_scanline_output {
   celspan_context *context;
   const celspan_scanline_desc *desc;
   double y;
-  celspan_status status; /* of the first span that was refused, whatever the procedure made of it */
+  celspan_status status; /* of the first span that was refused, even if the procedure ignored it */
   size_t emitted;        /* spans given on this row, empty ones and those out of bounds too */
-  double last_x1;        /* the end of the one before */
+  double last_x1;        /* the end of the span before */
   cs_scanline_span *spans;
   cs_paint *paints;
   size_t span_count, span_capacity;
@@ -31,9 +39,9 @@ struct celspan_scanline_output {
 void cs_scanline_init(celspan_scanline_output *output);
 void cs_scanline_finish(celspan_scanline_output *output, cs_memory *memory);
 
-/* The spans of a procedure at height y, replacing what `output` held. y and row: own units. A row
- * outside the bounds has none, and the procedure is not called.
- * Errors: NO_MEMORY; CALLBACK, naming the span and what is wrong with it; the procedure's own. */
+/* Fills `output` with the spans of a procedure at height y. y and row: in the procedure's own
+ * units. At a height outside the bounds there are none, and the procedure is not called. Errors:
+ * NO_MEMORY; CALLBACK, naming the span and the mistake; those of the procedure. */
 CELSPAN_CHECKED celspan_status cs_scanline_collect(celspan_context *context,
                                                    const celspan_scanline_desc *desc, double y,
                                                    const celspan_scanline_row *row,

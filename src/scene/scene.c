@@ -1,10 +1,11 @@
-/* Going through everything a rostrum holds: counting, naming, and looking at its pictures. */
+/* Walks over everything that a rostrum contains: to count it, to hash what it shows, and to find
+ * the files of its pictures. */
 #include <sys/stat.h>
 
 #include "pictures/store.h"
 #include "scene/scene.h"
 
-/* Called for every primitive, as often as it is reached. */
+/* Called for every primitive, as often as it occurs. */
 typedef celspan_status (*visitor)(celspan_context *context, void *user,
                                   const cs_primitive_data *primitive);
 

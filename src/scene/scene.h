@@ -5,8 +5,8 @@
  *
  * Only scene/ writes these; the compiler of frames (render/compile.c) and the oracle
  * (scene/probe.c) read them. Invariant: every number was checked (finite, in range), every
- * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object holds at most
- * CS_SCENE_PRIMITIVES primitives, a shared operand counted each time it occurs.
+ * child pointer is set, nesting is at most CS_SCENE_DEPTH, and an object has at most
+ * CS_SCENE_PRIMITIVES primitives, where a shared operand counts each time it occurs.
  */
 #ifndef CS_SCENE_SCENE_H
 #define CS_SCENE_SCENE_H
@@ -99,8 +99,9 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
                                double film_height);
 /* The front light of a cel, brightness included: its own, the rostrum's, or white. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
-/* The content of exposures, whatever the view. Two with the same hash show the same, provided that
- * neither contains a procedure and that the files of their pictures do not change. */
+/* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
+ * the same, provided that they contain no procedure and the files of their pictures do not
+ * change. */
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
 /* Whether any exposure contains a scan-line procedure. */
 bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);

@@ -136,7 +136,8 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* is_degenerate: no length to spread the stops over. Everything is then past the last. */
+/* is_degenerate: there is no length over which the stops could be spread; then every point lies
+ * past the last stop. */
 static celspan_status create_stops(celspan_context *context, cs_texture_kind kind,
                                    const celspan_stop *stops, size_t count, bool is_degenerate,
                                    celspan_texture **out) {
@@ -233,15 +234,14 @@ static bool is_grey(const cs_paint *paint) {
   return paint->t[0] == paint->t[1] && paint->t[1] == paint->t[2];
 }
 
-/* Whether every paint of a texture that is not a picture is as asked. */
-static bool all_paints(const celspan_texture *texture, bool (*is_so)(const cs_paint *paint)) {
+/* Whether a property is true of every paint of a texture that is not a picture. */
+static bool all_paints(const celspan_texture *texture, bool (*has)(const cs_paint *paint)) {
   if (texture->kind == CS_TEXTURE_FLAT)
-    return is_so(&texture->flat);
+    return has(&texture->flat);
   if (texture->kind == CS_TEXTURE_TRIANGLE)
-    return is_so(&texture->corners[0]) && is_so(&texture->corners[1]) &&
-           is_so(&texture->corners[2]);
+    return has(&texture->corners[0]) && has(&texture->corners[1]) && has(&texture->corners[2]);
   for (size_t i = 0; i < texture->stop_count; i++)
-    if (!is_so(&texture->stops[i].paint))
+    if (!has(&texture->stops[i].paint))
       return false;
   return true;
 }

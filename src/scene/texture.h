@@ -43,7 +43,7 @@ struct celspan_texture {
   celspan_box box; /* where has_box; else the primitive's tight bounds */
 };
 
-/* `texture` kept, or new opaque black when it is NULL. Errors: NO_MEMORY. */
+/* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);
 

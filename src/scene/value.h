@@ -1,7 +1,7 @@
-/* What all scene values share: how they are counted and how their parts are hashed.
+/* Reference counts and hashes of scene values.
  *
- * A value is made with one reference and the last one given back frees it; the count is the only
- * thing in it that ever changes.
+ * A value is made with one reference, and dropping the last reference frees it. Only the count of
+ * references ever changes in a value.
  */
 #ifndef CS_SCENE_VALUE_H
 #define CS_SCENE_VALUE_H
@@ -10,10 +10,11 @@
 #include "base/hash.h"
 #include "colour/paint.h"
 
-/* The first word of every structural hash, so that values of different nouns never meet. */
+/* The first word of every structural hash, so that values of different kinds have different
+ * hashes. */
 typedef enum cs_value_kind {
   CS_VALUE_TEXTURE = 1,
-  CS_VALUE_BODY,
+  CS_VALUE_DATA,
   CS_VALUE_OBJECT,
   CS_VALUE_CEL,
   CS_VALUE_ROSTRUM
@@ -23,7 +24,7 @@ static inline void cs_value_keep(atomic_size_t *references) {
   atomic_fetch_add_explicit(references, 1, memory_order_relaxed);
 }
 
-/* Whether that was the last reference. */
+/* Returns whether this was the last reference. */
 static inline bool cs_value_drop(atomic_size_t *references) {
   return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
 }
