@@ -1,7 +1,12 @@
-/* Bands of defocused layers: kept in one cache of the context, shared by its threads and its
- * frames, so that a defocused cel that did not change from one frame to the next finds its bands
- * made. The invariants are those of base/cache.h; a band is made by one thread while others wait
- * for it.
+/* The cache of bands: node rows of defocused layers, kept from frame to frame.
+ *
+ *   frame 1, worker 1 --acquire (layer, 0)--> made ----\
+ *   frame 1, worker 2 --acquire (layer, 0)--> waits ----+--> one band of the cache
+ *   frame 2, worker 1 --acquire (layer, 0)--> found ---/
+ *
+ * A context has one such cache, which all its threads and frames share. The key of a band contains
+ * a hash of everything that its layer depends on, so a defocused cel that does not change from one
+ * frame to the next is not blurred again. The invariants are those of base/cache.h.
  */
 #ifndef CS_DEFOCUS_BANDS_H
 #define CS_DEFOCUS_BANDS_H
@@ -15,13 +20,13 @@ typedef struct cs_defocus_bands_key {
   int32_t number;
 } cs_defocus_bands_key;
 
-/* Fills an empty band, whole or in part: the cache frees it. */
+/* Fills an empty band. The cache frees the band, even one whose making has failed half-way. */
 typedef celspan_status (*cs_defocus_bands_maker)(const void *layer, celspan_context *context,
                                                  int32_t number, cs_defocus_band *band);
 
 /* Makes the cache where there is none yet. Any thread. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_bands_ready(celspan_context *context);
-/* Errors: NO_MEMORY and those of `make`. */
+/* Finds a band, or makes it by calling make(layer, ...). Errors: NO_MEMORY and those of `make`. */
 CELSPAN_CHECKED celspan_status cs_defocus_bands_acquire(celspan_context *context,
                                                         const cs_defocus_bands_key *key,
                                                         cs_defocus_bands_maker make,

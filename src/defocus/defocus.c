@@ -97,7 +97,8 @@ celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur, 
   return status;
 }
 
-/* The plans' pixels in a node's width, and those beyond the nodes' own on each side. */
+/* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
+ * beyond the nodes on each side. */
 static int32_t find_extent(const cs_defocus *defocus, int32_t *x, int32_t *y) {
   *x = defocus->edges.extent_x + defocus->sums.extent_x + defocus->slices.extent_x;
   *y = defocus->edges.extent_y + defocus->sums.extent_y + defocus->slices.extent_y;
@@ -119,8 +120,8 @@ celspan_matrix cs_defocus_matrix(const cs_defocus *defocus) {
       celspan_matrix_translation(factor + extent_x, factor + extent_y));
 }
 
-/* The kernel through which samples see boundaries: a square as wide as the blur's own square (which
- * pictures do not need) or as one sample. *out: NULL where means over the samples will do. */
+/* The kernel that makes samples from boundaries: a square as wide as the blur's own square (which
+ * pictures do not need) or as one sample. *out: NULL where the mean over each sample is enough. */
 static celspan_status sample_kernel(celspan_context *context, const cs_defocus *defocus,
                                     cs_kernel **out) {
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
@@ -195,8 +196,8 @@ static celspan_status fill_rows(const cs_defocus *defocus, cs_row_maker *maker, 
   return CELSPAN_OK;
 }
 
-/* Node rows filled at a time. Rows of samples take much memory, so only as many are kept as make up
- * for those that are made twice. */
+/* How many node rows are filled together. Rows of samples need much memory, so no more are kept
+ * than are needed to outweigh the rows that are made twice. */
 static int32_t rows_together(const cs_defocus *defocus) {
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
   bool has_samples = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
@@ -218,8 +219,8 @@ static celspan_status fill_plane(const cs_defocus *defocus, celspan_context *con
   return status;
 }
 
-/* Whether bands are kept as knots: rows that are never interpolated between, of art in which runs
- * of nodes are straight. */
+/* Whether only the ends of straight runs of nodes are kept: for art in which such runs are
+ * frequent, and where nothing is interpolated between the rows. */
 static bool is_thin(const cs_defocus *defocus) {
   return defocus->grid.pitch_y == 1 &&
          (defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL);

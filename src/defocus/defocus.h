@@ -28,7 +28,7 @@
 #include "row/row.h"
 
 typedef enum cs_defocus_way {
-  CS_DEFOCUS_KERNEL, /* that of the plans */
+  CS_DEFOCUS_KERNEL, /* the rows of the plans are blurred by their kernel */
   CS_DEFOCUS_EDGES,
   CS_DEFOCUS_SUMS,
   CS_DEFOCUS_SLICES
@@ -46,7 +46,7 @@ typedef struct cs_defocus {
 } cs_defocus;
 
 /* The grid for a blur in pixels over a frame: everything except planes, plans and key. varies: the
- * cel holds layers that vary between their boundaries. Errors: NO_MEMORY. */
+ * cel has layers that vary between their boundaries. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_create(celspan_context *context, const cs_blur *blur,
                                                  bool varies, int32_t width, int32_t height,
                                                  cs_defocus **out);

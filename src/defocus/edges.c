@@ -9,11 +9,11 @@
 #define FINE 4    /* steps of the integral in a phase */
 #define GROUP 8   /* columns in a group: they count as constant together or not at all */
 #define SIGMAS 4  /* where a Gaussian is cut off */
-/* The most columns that an edge crosses which counts as one point, and the width of the parts that
- * a flatter edge is divided into, each of two points. */
+/* An edge that crosses fewer columns than this counts as one point. A flatter edge is divided into
+ * sections of at most SECTION_WIDTH columns, each of which counts as two points. */
 #define UPRIGHT 0.25
-#define PART_WIDTH 1.5
-/* The distance of both points of Gauss's rule from the middle of a part. */
+#define SECTION_WIDTH 1.5
+/* The distance of the two points of Gauss's rule from the middle of a section of length 1. */
 #define GAUSS_OFFSET 0.28867513459481287
 
 /* ---------------------------------------------------------------- tables */
@@ -42,8 +42,9 @@ static double share_left(profile *p, double x) {
   return p->sum / p->whole;
 }
 
-/* shares[phase][k]: of the kernel around column k - extent_x, the share left of an edge that lies
- * phase/PHASES right of the centre of column 0. */
+/* shares[phase][k]: of the kernel around column k - extent_x, the share right of an edge that lies
+ * phase/PHASES right of the centre of column 0. The kernel is even, so this is the share left of
+ * the mirrored edge. */
 static void fill_shares(cs_defocus_edges *edges, profile p) {
   int32_t stride = 2 * edges->extent_x + 2, count = PHASES * stride;
   p.x = -edges->extent_x - 1;
@@ -69,8 +70,8 @@ static profile find_profile(const cs_blur *blur, const cs_defocus_edges *edges) 
   return p;
 }
 
-/* The weight of a line k + 1/2 rows away. The tents have a variance of 1/6, which a Gaussian must
- * no longer add. */
+/* The weight of a line k + 1/2 rows away. The tents already spread edges by a variance of 1/6,
+ * which is subtracted from that of a Gaussian. */
 static double weight_at(const cs_blur *blur, int32_t k) {
   const double(*e)[2] = blur->edges;
   double variance = 0.25 * blur->radius_y * blur->radius_y - 1.0 / 6, away = k + 0.5;
@@ -125,9 +126,9 @@ typedef struct passed {
 } passed;
 
 typedef struct group {
-  bool is_marked;   /* some edge is near in this row */
-  bool was_marked;  /* in the row above it */
-  int32_t constant; /* the number of last lines in which it is one colour, the same in all */
+  bool is_marked;   /* an edge of this row is near */
+  bool was_marked;  /* an edge of the row above it was near */
+  int32_t constant; /* the number of latest lines in all of which it has one same colour */
   cs_v4 colour;     /* where constant > 0 */
   cs_v4 below;      /* where !was_marked: what the row above added to the line below it */
 } group;
@@ -170,46 +171,46 @@ static void add_point(filling *f, double x, halves step) {
 }
 
 /* The same edge, for the columns whose kernel lies wholly right of it. */
-static void pass_point(filling *f, double x, const cs_retained_edge *piece, double upper,
+static void pass_point(filling *f, double x, const cs_retained_edge *edge, double upper,
                        double lower) {
   int32_t p = (int32_t)floor(x - 0.5) + 2;
   if (p >= f->columns)
     return;
   p = p > 0 ? p : 0;
-  cs_v4d step = cs_v4d_step(piece->left.colour, piece->right.colour);
+  cs_v4d step = cs_v4d_step(edge->left.colour, edge->right.colour);
   f->steps[p].upper = cs_v4d_add(f->steps[p].upper, cs_v4d_scale(upper, step));
   f->steps[p].lower = cs_v4d_add(f->steps[p].lower, cs_v4d_scale(lower, step));
   f->groups[p / GROUP].is_marked = true;
 }
 
-static void add_weighed(filling *f, const cs_retained_edge *piece, double x, double height,
+static void add_weighed(filling *f, const cs_retained_edge *edge, double x, double height,
                         double depth) {
   double lower = height * depth, upper = height - lower;
-  cs_v4 step = piece->right.colour - piece->left.colour;
+  cs_v4 step = edge->right.colour - edge->left.colour;
   add_point(f, x, (halves){(float)upper * step, (float)lower * step});
-  pass_point(f, x, piece, upper, lower);
+  pass_point(f, x, edge, upper, lower);
 }
 
-static void add_piece(filling *f, const cs_retained_edge *piece) {
-  double across = piece->xb - piece->xa, height = piece->yb - piece->ya;
-  double x = 0.5 * (piece->xa + piece->xb), depth = 0.5 * (piece->ya + piece->yb) - f->retained.row;
+static void add_edge(filling *f, const cs_retained_edge *edge) {
+  double across = edge->xb - edge->xa, height = edge->yb - edge->ya;
+  double x = 0.5 * (edge->xa + edge->xb), depth = 0.5 * (edge->ya + edge->yb) - f->retained.row;
   double last = f->columns + 2.0 * f->edges->extent_x + 1;
   if (fabs(across) < UPRIGHT) {
     if (x < last)
-      add_weighed(f, piece, x, height, depth);
+      add_weighed(f, edge, x, height, depth);
     return;
   }
-  int parts = (int)ceil(fabs(across) / PART_WIDTH);
-  for (int i = 0; i < 2 * parts; i++) {
-    double u = (i / 2 + 0.5 + (i % 2 ? GAUSS_OFFSET : -GAUSS_OFFSET)) / parts - 0.5;
+  int sections = (int)ceil(fabs(across) / SECTION_WIDTH);
+  for (int i = 0; i < 2 * sections; i++) {
+    double u = (i / 2 + 0.5 + (i % 2 ? GAUSS_OFFSET : -GAUSS_OFFSET)) / sections - 0.5;
     if (x + u * across < last)
-      add_weighed(f, piece, x + u * across, 0.5 * height / parts, depth + u * height);
+      add_weighed(f, edge, x + u * across, 0.5 * height / sections, depth + u * height);
   }
 }
 
 /* ---------------------------------------------------------------- lines */
 
-/* Sums the columns of a group into the line above the row. */
+/* Fills the columns of a group in the line above the row. */
 static void sum_group(filling *f, group *g, int32_t first, int32_t end, passed *sum, cs_v4 *line) {
   cs_v4d upper = sum->upper, lower = sum->lower;
   if (!g->was_marked)
@@ -262,15 +263,15 @@ static void finish_line(filling *f) {
 static celspan_status add_row(filling *f, cs_row_maker *maker, int32_t row) {
   CS_TRY(cs_row_retain(maker, row, &f->retained));
   for (size_t i = 0; i < f->retained.edge_count; i++)
-    add_piece(f, &f->retained.edges[i]);
+    add_edge(f, &f->retained.edges[i]);
   finish_line(f);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- nodes */
 
-/* The end of the groups from i on that are not constant in the last `lines` lines: these are
- * weighed in one go. */
+/* The end of the groups from i on that are not constant in the last `lines` lines. They are weighed
+ * together. */
 static int32_t weighed_end(const filling *f, int32_t i, int32_t lines) {
   while (i < f->group_count && f->groups[i].constant < lines)
     i++;

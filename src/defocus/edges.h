@@ -3,20 +3,20 @@
  *
  *             edge at x
  *      colour a  |  colour b
- *   ------+------|--+--------+-----  line y      (1 - d) of the edge counts for the line above it
- *         |      |  |        |       row y       d, its mean depth, decides
- *   ------+------|--+--------+-----  line y + 1  d of the edge counts for the line below it
+ *   -------------|----------------  line y       gets (1 - d) of the edge
+ *         .      |  .        .      row y        d: the mean depth of the edge in the row, 0..1
+ *   -------------|----------------  line y + 1   gets d of the edge
  *         ^         ^        ^
- *      columns: of each the line gets a + share * (b - a), where share is the integral of the
- * kernel left of the edge, from a table by the edge's place in its column
+ *         columns: the edge changes a line by share * (b - a), where share is the integral of the
+ *         column's kernel right of the edge, from a table by the place of the edge in its column
  *
  *   node = sum over k of weights[k] * (line k above the node's middle + line k below it)
  *
- * A line lies on the border between two rows and sees both of them through a tent, so that neither
+ * A line lies on the border between two rows and weighs both of them by a tent, so that neither
  * axis shows where inside a sample an edge lies. For a box of radius r this rounds its kinks by
  * 1/(12 r). The cost along x follows the number of edges. Along y it follows the number of nodes
- * that are near some edge: columns are kept in groups, and a group that no edge came near for all
- * lines under a node is one colour.
+ * that are near some edge: columns are treated in groups, and where no edge is near a group in any
+ * of the lines under a node, the whole group is one colour.
  */
 #ifndef CS_DEFOCUS_EDGES_H
 #define CS_DEFOCUS_EDGES_H
@@ -26,7 +26,7 @@
 
 typedef struct cs_defocus_edges {
   int32_t extent_x, extent_y; /* of the kernel: samples */
-  float *shares;              /* by phase and column: of the kernel left of an edge */
+  float *shares;              /* by phase and column: of the kernel right of an edge */
   float *weights;             /* extent_y of them: of lines k + 1/2 rows away */
 } cs_defocus_edges;
 

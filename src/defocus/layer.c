@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define LEAST_RADIUS (1.0 / 64) /* pixels; less cannot be seen */
+#define LEAST_RADIUS (1.0 / 64) /* pixels; a smaller blur is not visible */
 /* A layer whose radius is at most SHARP pixels is also averaged over each pixel. One of SMOOTH
  * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
@@ -48,7 +48,7 @@ static double extent(const cs_blur *blur, int axis) {
   return blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? 2 * radius : radius;
 }
 
-/* ---------------------------------------------------------------- where it can be seen */
+/* ---------------------------------------------------------------- where it is visible */
 
 /* The box of the art on the frame, pixels. */
 static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {

@@ -38,14 +38,14 @@ typedef struct cs_defocus_cel {
   bool is_antialiased;
 } cs_defocus_cel;
 
-/* What is wanted of the compiler: one cel alone, without opacity, onto a raster of its own. Lit by
- * white light, from the front alone or (is_through) from behind alone. */
+/* A job for the compiler: one cel alone, without its opacity, onto a raster of its own. It is lit
+ * by white light, from the front only or (is_through) from behind only. */
 typedef struct cs_defocus_job {
   const celspan_cel *cel;
   celspan_matrix matrix; /* the cel's units to the raster's pixels */
   int32_t width, height; /* of the raster, pixels */
   bool is_through;
-  cs_kernel *kernel; /* taken over, even on failure; NULL: the mean over each pixel */
+  cs_kernel *kernel; /* the compiler owns it from now on; NULL: the mean over each pixel */
 } cs_defocus_job;
 
 typedef struct cs_defocus_compiler {
@@ -53,7 +53,7 @@ typedef struct cs_defocus_compiler {
   void *user;
 } cs_defocus_compiler;
 
-/* Whether the cel is defocused by enough to be seen. */
+/* Whether the blur of the cel is large enough to be visible. */
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place);
 /* *out: new; NULL when nothing can be seen. box: gets the rectangle, in whole pixels, in which the
  * layer is present. Errors: NO_MEMORY, and those of the compiler. */

@@ -1,12 +1,14 @@
-/* Even kernels (disc, box) over samples, for cels that hold pictures and gradients. These vary
- * between the boundaries, so samples must be summed.
+/* Even kernels (disc, box) over samples, for cels with pictures or gradients. These vary between
+ * the boundaries, so samples must be summed.
  *
- *          from      to
- *           |  +--+  |          Each row of samples under the kernel is one slice of it. A slice is
- *        +--|--|--|--|--+  row  the difference of two prefix sums along the row, those up to `from`
- *        |  :  |  |  :  |       and up to `to`:
- *        +-----+--+-----+
- *           disc                   sums[to] - sums[from]
+ *            .------.
+ *          .'        '.             The part of the kernel (here a disc) that lies over one row of
+ *   ------|------------|------      samples is a slice. The sum of the samples under a slice is the
+ *         |////////////|       row  difference of two prefix sums along the row:
+ *   ------|------------|------
+ *         |'.        .'|                sums[to] - sums[from]
+ *         |  '------'  |
+ *        from          to
  *
  * The samples are finer than the nodes by a whole factor. The position of a slice relative to its
  * node is the same for all nodes, so the slices are found once.
@@ -18,9 +20,9 @@
 
 typedef struct cs_defocus_slice {
   int32_t row;                /* from the first row of samples under a node */
-  int32_t from, to;           /* the samples of both ends, counted from the first under a node, */
-  float from_share, to_share; /* and how far into them */
-  float weight;               /* of each sample between */
+  int32_t from, to;           /* samples in which the ends lie, from the first one under a node */
+  float from_share, to_share; /* how far the ends lie into these samples, 0..1 */
+  float weight;               /* of each sample between the ends */
 } cs_defocus_slice;
 
 typedef struct cs_defocus_slices {

@@ -13,7 +13,7 @@
 /* ---------------------------------------------------------------- weights */
 
 /* The variance of the weights, in samples, for a blur of the given variance. Interpolating linearly
- * between samples spreads by 1/6. Boundaries are seen through tents, which spread them by another
+ * between samples spreads by 1/6. Boundaries are averaged by tents, which spread them by another
  * 1/6; half of that is subtracted too, so that neither pictures nor boundaries are off by more than
  * 1/12. */
 static double left_over(double variance) {
@@ -109,8 +109,8 @@ static void spread_samples(summing *s, int32_t k) {
   }
 }
 
-/* The weighed sum around *value over values that are `stride` apart. It sums differences from the
- * middle one, so that equal values keep their bits. */
+/* The weighted sum of the values around *value, which are `stride` apart. Differences from the
+ * middle value are summed, so that equal values keep their bits. */
 static inline cs_v4 sum_about(const cs_v4 *value, size_t stride, const float *weights,
                               int32_t extent) {
   cs_v4 centre = *value, sum = cs_v4_all(0);

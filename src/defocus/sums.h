@@ -1,4 +1,4 @@
-/* A Gaussian over samples, for cels that hold pictures and gradients. These vary between the
+/* A Gaussian over samples, for cels with pictures or gradients. These vary between the
  * boundaries, so samples must be summed.
  *
  *       . . . . . . . . .     samples: finer than the nodes by an odd factor (here 3), so that a

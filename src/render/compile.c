@@ -50,8 +50,8 @@ static celspan_status fill_shaded(compiler *c, cs_layer *layer, const celspan_te
   return CELSPAN_OK;
 }
 
-/* A picture in its primitive's own rectangle is clamped at its edges, because the boundary and not
- * the picture decides where it ends. */
+/* A picture that fills its primitive's rectangle is clamped at its edges, because the boundary
+ * decides where it ends, not the picture. */
 static celspan_status fill_picture(compiler *c, cs_layer *layer, const celspan_texture *texture,
                                    const celspan_box *bounds, const celspan_matrix *inverse) {
   cs_stack *stack = &c->plan->stack;
@@ -194,7 +194,7 @@ static bool is_plain_union(const cs_primitive_data *data) {
   return true;
 }
 
-/* The most results that a tree's steps keep at a time. */
+/* The greatest number of results that the steps of a tree keep at a time. */
 static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
   size_t depth = 0, most = 0;
   for (uint32_t i = 0; i < tree->step_count; i++) {
@@ -207,7 +207,8 @@ static size_t measure_depth(const cs_stack *stack, const cs_tree *tree) {
   return most;
 }
 
-/* A boolean that is no operand: the root of a tree, unless it needs no steps. */
+/* A boolean object that is not an operand of another: the root of a tree, unless it needs no
+ * steps. */
 static celspan_status compile_root(compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
   cs_stack *stack = &c->plan->stack;
@@ -269,7 +270,8 @@ static celspan_status compile_object(compiler *c, const celspan_object *object,
 
 static cs_v4 light_colour(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
-/* A back light that shines on every layer from `below` on. Rear first while compiling. */
+/* A back light that shines on every layer from `below` on. While compiling, the rear light is
+ * first. */
 static celspan_status append_light(compiler *c, celspan_light light, uint32_t below) {
   cs_stack *stack = &c->plan->stack;
   if (light.r == 0 && light.g == 0 && light.b == 0 && light.a == 0)
@@ -350,9 +352,8 @@ static void reverse_lights(cs_stack *stack) {
 
 /* ---------------------------------------------------------------- the cull */
 
-/* The most that a layer lets through; 1 for a layer in a faded group, which is weaker than its
- * paint.
- */
+/* The most that a layer lets through; 1 for a layer of a faded group, which lets through more than
+ * its paint says. */
 static double layer_through(const cs_layer *layer) {
   if (layer->group != CS_STACK_NONE)
     return 1;
@@ -371,7 +372,7 @@ static celspan_status cull(compiler *c) {
     return cs_fail_memory(c->context);
   for (size_t i = 0; i < stack->layer_count; i++)
     layers[i] = (cs_cull_layer){layer_through(&stack->layers[i]), stack->rules[i].winding_mask};
-  for (size_t t = 0; t < stack->tree_count; t++) /* present does not mean painted in a tree */
+  for (size_t t = 0; t < stack->tree_count; t++) /* where a layer may be present but not painted */
     for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
       layers[i].through = 1;
   const cs_cull_desc desc = {.set = &c->plan->boundaries,

@@ -17,7 +17,7 @@ typedef struct cs_frame {
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
   int strip_height;
-  bool takes_codes; /* rows may hold codes, because their sink takes them */
+  bool takes_codes; /* rows may contain codes, because their sink takes them */
 } cs_frame;
 
 /* Errors: BAD_ARGUMENT naming the field; those of cs_compile. */

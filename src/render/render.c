@@ -6,7 +6,8 @@
 
 /* ---------------------------------------------------------------- into a sink */
 
-/* Peak bytes are measured from the frame's beginning: the context's own peak is put back after. */
+/* Measures the peak of the memory from the beginning of the frame; afterwards the context's own
+ * peak is restored. */
 typedef struct meter {
   size_t bytes, peak;
   uint64_t allocations;
@@ -44,7 +45,7 @@ static celspan_status feed_sink(celspan_context *context, const cs_frame *frame,
   celspan_status last = sink->end(sink->user, context, status);
   if (status == CELSPAN_OK)
     return last;
-  memcpy(context->error, error, sizeof error); /* the first failure is the one to tell */
+  memcpy(context->error, error, sizeof error); /* the first failure is reported */
   return status;
 }
 
@@ -53,7 +54,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
                              bool *ended) {
   celspan_statistics counted = {0};
   meter m = {0};
-  if (statistics) /* else other frames may be made at the same time, and share the peak */
+  if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
     m = meter_begin(context);
   cs_frame frame;
   celspan_status status = cs_frame_create(context, desc, &frame);
@@ -77,7 +78,7 @@ celspan_status celspan_frame_render(celspan_context *context, const celspan_fram
 
 /* ---------------------------------------------------------------- our own sinks */
 
-/* Renders into a sink of output/, and frees it when its end was not reached. */
+/* Renders into a sink of output/, and frees it if its `end` was not called. */
 static celspan_status render_own(celspan_context *context, const celspan_frame_desc *desc,
                                  celspan_sink *sink, celspan_statistics *statistics) {
   bool ended = false;
@@ -111,7 +112,8 @@ static bool is_backed(const celspan_rostrum *rostrum) {
   return false;
 }
 
-/* Alpha adds; shutters of many exposures have weights that sum to 1 but for rounding. */
+/* The alphas of exposures add up. The weights of a shutter of many exposures sum to 1, except for
+ * rounding. */
 bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
   double alpha = 0;
   for (size_t i = 0; i < desc->exposure_count; i++)

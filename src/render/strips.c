@@ -8,7 +8,7 @@
 #define AHEAD 3
 /* Rows of a share at most, where the sink asks for no number. */
 #define SHARE_ROWS 1024
-/* Rows of a share between two questions whether it is still wanted. */
+/* A worker asks after so many rows of a share whether it is still wanted. */
 #define CHECK_ROWS 32
 
 typedef struct strip {
@@ -33,7 +33,7 @@ typedef struct strips {
   bool has_shares;
   cs_shares shares;
   cs_row_worker *row_workers; /* one a worker */
-  void **share_workers;       /* what the sink keeps for a worker, where there are shares */
+  void **share_workers;       /* the sink's own data for each worker, where there are shares */
   strip *ring;                /* strip i lies at i % ring_size */
   int worker_count, ring_size;
   int32_t strip_height;
@@ -42,7 +42,7 @@ typedef struct strips {
 
 /* ---------------------------------------------------------------- delivery */
 
-/* Goes through the spans only where there are arrays. */
+/* Reads the spans only where some are arrays. */
 static inline void count_spans(celspan_statistics *statistics, const celspan_span *spans,
                                size_t count, cs_varied varied) {
   statistics->rows++;
@@ -85,8 +85,8 @@ static int32_t end_row(const strips *s, int32_t index) {
   return end < s->frame->crop_height ? (int32_t)end : s->frame->crop_height;
 }
 
-/* Whether the rest of a share is wanted, which may take long. Only the calling thread may ask the
- * caller; what it is told ends the shares of the others. */
+/* Whether the rest of a share, which may take long, is still wanted. Only the calling thread may
+ * ask the caller; if the caller cancels, the other threads end their shares too. */
 static bool is_wanted(strips *s, int worker, int32_t index) {
   if (worker == 0 && !goes_on(s->delivery))
     cs_pipeline_end_at(s->pipeline, 0);
@@ -271,8 +271,8 @@ static uint64_t sum_evaluations(const cs_row_worker *row_workers, int count) {
   return sum;
 }
 
-/* A worker that goes on to its next strip passes over the rows of the others. Where no rows of a
- * strip are kept it may be high, so that this happens seldom. */
+/* Between two of its strips a worker must advance past the rows of the other workers. Where the
+ * rows of a strip are not stored, strips may be high, so that this happens seldom. */
 static int32_t choose_rows(const strips *s, const celspan_frame_desc *desc) {
   const cs_frame *frame = s->frame;
   int32_t share = frame->crop_height / (frame->workers * 16);

@@ -2,8 +2,8 @@
  *
  *   workers --rows, strip by strip--> strips --in order, by the calling thread--> sink
  *
- * A sink that takes shares (output/shares.h) gets the rows from the workers themselves; only the
- * shares are joined in order. The calling thread works too while it has nothing to deliver.
+ * A sink that takes shares (output/sink_shares.h) gets the rows from the workers directly, and the
+ * shares are then joined in order. The calling thread works too while it has nothing to deliver.
  *
  * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
  * the failure reported is that of the topmost row that failed.
