@@ -8,9 +8,9 @@
  * INVARIANTS
  *   At most one entry of a key is in the cache, and an entry is either pinned or in the idle list.
  *   An entry's contents are a function of its key, and do not change while it is in the cache; so
- *   neither budget nor threads show in what is made from it.
- *   `bytes` is the sum over all entries, those that are not in the cache yet included. It exceeds
- *   the budget only by what is pinned, or was pinned when the last entry was made.
+ *   results depend neither on the budget nor on the number of threads.
+ *   `bytes` is the sum over all entries, including those that are not in the cache yet. It exceeds
+ *   the budget only by entries that are pinned, or were pinned when the last entry was made.
  *   The lock is never held while an entry is being made.
  *
  * An entry is made in one of two ways. cs_cache_acquire lets one thread make it while others that
@@ -96,8 +96,8 @@ cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_
 /* Frees an entry that was not inserted. */
 void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
 
-/* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no other
- * thread uses the cache. */
+/* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no
+ * other thread uses the cache. */
 bool cs_cache_is_sound(const cs_cache *cache);
 
 #endif

@@ -2,8 +2,9 @@
 
 #include <string.h>
 
-/* Two 64-bit lanes with different odd multipliers, crossed at every word; the finaliser is a
- * xorshift-multiply avalanche. Not cryptographic: it names values, it does not guard them. */
+/* Two 64-bit lanes with different odd multipliers, which are mixed with each other at every word;
+ * at the end xorshifts and multiplications spread every bit over all others. The hash is not
+ * cryptographic: it identifies values, and does not protect against forged ones. */
 
 static uint64_t rotate(uint64_t x, int by) { return x << by | x >> (64 - by); }
 

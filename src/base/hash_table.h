@@ -1,4 +1,4 @@
-/* A table from hashes of 128 bits to numbers: what has a hash is the same as what has an equal one.
+/* A table from hashes of 128 bits to numbers. Things with equal hashes count as the same thing.
  *
  * INVARIANT: at most half of the slots are used, so that a search always meets a free one.
  */

@@ -1,5 +1,5 @@
-/* Four floats at once. The compiler's vector types: every lane is plain IEEE arithmetic, so the
- * bits do not depend on the instruction set. */
+/* Vectors of four floats, made with the compiler's vector types. Every lane is plain IEEE
+ * arithmetic, so the bits do not depend on the instruction set. */
 #ifndef CS_BASE_VECTOR_H
 #define CS_BASE_VECTOR_H
 
@@ -32,7 +32,7 @@ static inline cs_v4d cs_v4d_scale(double weight, cs_v4d v) {
   return (cs_v4d){weight * v.low, weight * v.high};
 }
 
-/* From one colour to another, exactly. */
+/* The change from one colour to another, exactly. */
 static inline cs_v4d cs_v4d_step(cs_v4 from, cs_v4 to) {
   cs_v4d a = cs_v4_wide(from), b = cs_v4_wide(to);
   return (cs_v4d){b.low - a.low, b.high - a.high};
@@ -67,8 +67,8 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
 #endif
 }
 
-/* A premultiplied colour within its bounds: light is never negative and alpha at most 1. Sums of
- * weighted colours may miss that by a last bit. */
+/* A premultiplied colour brought into its bounds: light is never negative and alpha at most 1. Sums
+ * of weighted colours may exceed them by the last bit. */
 static inline cs_v4 cs_v4_bounded(cs_v4 colour) {
   const cs_v4 most = {__builtin_inff(), __builtin_inff(), __builtin_inff(), 1};
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);

@@ -1,8 +1,8 @@
-/* As many floats at once as a register holds, and which instructions to do it with.
+/* Vectors of as many floats as a register has, and the choice of instructions.
  *
  * A file of kernels (wide_sources in the folder's meson.build) is compiled once for every set of
  * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is
- * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever runs.
+ * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever function runs.
  */
 #ifndef CS_BASE_WIDE_H
 #define CS_BASE_WIDE_H

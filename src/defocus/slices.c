@@ -6,7 +6,7 @@
 
 #define SAMPLES 16 /* in the lesser radius, where the factor allows it */
 #define FACTOR 9   /* at most; odd, so that a node lies in the middle of a sample */
-#define TILE 32    /* nodes in a tile: what is summed at a time */
+#define TILE 32    /* nodes of a row that are summed together */
 #define SHORT 1e-6 /* slices that are shorter are left out */
 
 /* ---------------------------------------------------------------- slices */

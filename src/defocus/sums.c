@@ -8,7 +8,7 @@
 #define SAMPLES 4 /* in the lesser radius, where the factor allows it */
 #define FACTOR 9  /* at most */
 #define STEPS 64  /* of the integral over one sample */
-#define TILE 128  /* nodes in a tile: what is summed at a time */
+#define TILE 128  /* nodes of a row that are summed together */
 
 /* ---------------------------------------------------------------- weights */
 

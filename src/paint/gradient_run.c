@@ -1,6 +1,6 @@
 #include "paint/gradient_run.h"
 
-#include "paint/line.h"
+#include "paint/halving.h"
 
 #include <math.h>
 
@@ -30,10 +30,10 @@ static double at_column(const arc *a, int32_t column) {
 
 /* The colour of a column, by the current section even where rounding puts the column beyond its
  * end. */
-static cs_line_point curve_point(arc *a, int32_t column) {
+static cs_halving_point curve_point(arc *a, int32_t column) {
   double at = at_column(a, column);
   a->painter->evaluations++;
-  return (cs_line_point){column, at, cs_gradient_table_mix(a->section, at)};
+  return (cs_halving_point){column, at, cs_gradient_table_mix(a->section, at)};
 }
 
 /* ---------------------------------------------------------------- between two cuts */
@@ -48,19 +48,19 @@ static double steepness_of(const cs_gradient_table_section *section) {
 /* The second derivative of the distance is greatest at the end that is nearer the centre. Mostly it
  * is small enough there to decide; otherwise the distances at the quarters are compared with the
  * line, and no colours are needed. */
-static celspan_status test(cs_curve *curve, const cs_line_point *first, const cs_line_point *last,
-                           bool *is_straight) {
+static celspan_status test(cs_curve *curve, const cs_halving_point *first,
+                           const cs_halving_point *last, bool *is_straight) {
   const arc *a = (const arc *)curve;
   double columns = last->column - first->column;
   double near = cs_number_least(first->at, last->at);
-  double limit = CS_LINE_TOLERANCE;
+  double limit = CS_HALVING_TOLERANCE;
   *is_straight = true;
   if (columns < 2 || columns * columns * a->bend * a->steepness <= 8 * limit * near * near * near)
     return CELSPAN_OK;
   /* The middle comes first, because the curve is mostly farthest from the line there. */
   static const int quarters[] = {2, 1, 3};
   for (int k = 0; k < 3 && *is_straight; k++) {
-    int32_t column = cs_line_quarter(cs_line_run(first, last), quarters[k]);
+    int32_t column = cs_halving_quarter(cs_halving_run(first, last), quarters[k]);
     double u = (column - first->column) / columns;
     double off = at_column(a, column) - (first->at + u * (last->at - first->at));
     *is_straight = !(fabs(off) * a->steepness > limit);
@@ -68,7 +68,7 @@ static celspan_status test(cs_curve *curve, const cs_line_point *first, const cs
   return CELSPAN_OK;
 }
 
-static celspan_status split(cs_curve *curve, int32_t column, cs_line_point points[2]) {
+static celspan_status split(cs_curve *curve, int32_t column, cs_halving_point points[2]) {
   arc *a = (arc *)curve;
   points[0] = curve_point(a, column);
   points[1] = curve_point(a, column + 1);
@@ -85,8 +85,8 @@ static celspan_status put_until(arc *a, double x) {
   double at = at_column(a, from + (end - from) / 2);
   a->section = &a->table->sections[cs_gradient_table_section_at(a->table->shade, at)];
   a->steepness = steepness_of(a->section);
-  cs_line_point first = curve_point(a, from), last = curve_point(a, end - 1);
-  return cs_line_fit(&a->curve, &first, &last);
+  cs_halving_point first = curve_point(a, from), last = curve_point(a, end - 1);
+  return cs_halving_fit(&a->curve, &first, &last);
 }
 
 /* ---------------------------------------------------------------- rows */

@@ -3,7 +3,7 @@
 #include "paint/colours.h"
 #include "paint/ends.h"
 #include "paint/gradient_run.h"
-#include "paint/line.h"
+#include "paint/halving.h"
 #include "paint/over_row.h"
 
 /* A curve of colour along a run of a program. */
@@ -13,7 +13,7 @@ typedef struct colour_curve {
   const cs_program *program;
   const cs_gradient_table *table; /* of the program, or NULL */
   double y;
-  cs_line_point known; /* of the table: at the middle of the line that was tested last */
+  cs_halving_point known; /* of the table: at the middle of the line that was tested last */
 } colour_curve;
 
 /* ---------------------------------------------------------------- curves of any program
@@ -28,34 +28,34 @@ static celspan_status find_colours(const colour_curve *c, const int32_t *columns
 }
 
 /* inner: the colours at the quarters. */
-static bool is_straight(const cs_line_point *first, const cs_line_point *last,
+static bool is_straight(const cs_halving_point *first, const cs_halving_point *last,
                         const float (*inner)[4]) {
-  cs_run run = cs_line_run(first, last);
+  cs_run run = cs_halving_run(first, last);
   for (int quarter = 1; quarter <= 3 && run.x1 - run.x0 > 2; quarter++)
-    if (!cs_line_is_near(first, last, cs_line_quarter(run, quarter),
-                         cs_v4_load(inner[quarter - 1])))
+    if (!cs_halving_is_near(first, last, cs_halving_quarter(run, quarter),
+                            cs_v4_load(inner[quarter - 1])))
       return false;
   return true;
 }
 
-static celspan_status test_program(cs_curve *curve, const cs_line_point *first,
-                                   const cs_line_point *last, bool *out) {
+static celspan_status test_program(cs_curve *curve, const cs_halving_point *first,
+                                   const cs_halving_point *last, bool *out) {
   int32_t columns[3];
   float inner[3][4] = {{0}};
   for (int k = 0; k < 3; k++)
-    columns[k] = cs_line_quarter(cs_line_run(first, last), k + 1);
+    columns[k] = cs_halving_quarter(cs_halving_run(first, last), k + 1);
   if (last->column - first->column > 1)
     CS_TRY(find_colours((colour_curve *)curve, columns, 3, inner));
   *out = is_straight(first, last, (const float(*)[4])inner);
   return CELSPAN_OK;
 }
 
-static celspan_status split_program(cs_curve *curve, int32_t column, cs_line_point points[2]) {
+static celspan_status split_program(cs_curve *curve, int32_t column, cs_halving_point points[2]) {
   int32_t columns[2] = {column, column + 1};
   float rgba[2][4];
   CS_TRY(find_colours((colour_curve *)curve, columns, 2, rgba));
   for (int k = 0; k < 2; k++)
-    points[k] = (cs_line_point){columns[k], 0, cs_v4_load(rgba[k])};
+    points[k] = (cs_halving_point){columns[k], 0, cs_v4_load(rgba[k])};
   return CELSPAN_OK;
 }
 
@@ -88,18 +88,18 @@ static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
   if (shape == STEPPED)
     columns[0] = run.x0 + (run.x1 - run.x0) / 2;
   for (int k = 0; k < (int)shape && shape != STEPPED; k++)
-    columns[k] = cs_line_quarter(run, shape == STRAIGHT ? 4 * k : k);
+    columns[k] = cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
 }
 
 static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
                                const float (*rgba)[4]) {
-  cs_line_point first = {run.x0, 0, cs_v4_load(rgba[0])};
-  cs_line_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
+  cs_halving_point first = {run.x0, 0, cs_v4_load(rgba[0])};
+  cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
   if (shape == STEPPED)
     return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
   if (shape == CURVED && !is_straight(&first, &last, rgba + 1))
-    return cs_line_halve(&c->curve, &first, &last);
-  return cs_line_put(&c->curve, &first, &last);
+    return cs_halving_split(&c->curve, &first, &last);
+  return cs_halving_put(&c->curve, &first, &last);
 }
 
 static celspan_status put_lines(colour_curve *c, const cs_ends *ends) {
@@ -128,30 +128,31 @@ static celspan_status put_lines(colour_curve *c, const cs_ends *ends) {
  * those before it have not decided. The one in the middle is kept, because a curve that is halved
  * needs it again. */
 
-static cs_line_point table_point(colour_curve *c, int32_t column) {
+static cs_halving_point table_point(colour_curve *c, int32_t column) {
   c->painter->evaluations++;
-  return (cs_line_point){column, 0, cs_gradient_table_colour(c->table, column + 0.5, c->y)};
+  return (cs_halving_point){column, 0, cs_gradient_table_colour(c->table, column + 0.5, c->y)};
 }
 
-static bool is_near(const cs_line_point *first, const cs_line_point *last, cs_line_point point) {
-  return cs_line_is_near(first, last, point.column, point.colour);
+static bool is_near(const cs_halving_point *first, const cs_halving_point *last,
+                    cs_halving_point point) {
+  return cs_halving_is_near(first, last, point.column, point.colour);
 }
 
-static celspan_status test_table(cs_curve *curve, const cs_line_point *first,
-                                 const cs_line_point *last, bool *is_straight) {
+static celspan_status test_table(cs_curve *curve, const cs_halving_point *first,
+                                 const cs_halving_point *last, bool *is_straight) {
   colour_curve *c = (colour_curve *)curve;
   *is_straight = true;
   if (last->column - first->column < 2)
     return CELSPAN_OK;
-  cs_run run = cs_line_run(first, last);
-  c->known = table_point(c, cs_line_quarter(run, 2));
+  cs_run run = cs_halving_run(first, last);
+  c->known = table_point(c, cs_halving_quarter(run, 2));
   *is_straight = is_near(first, last, c->known) &&
-                 is_near(first, last, table_point(c, cs_line_quarter(run, 1))) &&
-                 is_near(first, last, table_point(c, cs_line_quarter(run, 3)));
+                 is_near(first, last, table_point(c, cs_halving_quarter(run, 1))) &&
+                 is_near(first, last, table_point(c, cs_halving_quarter(run, 3)));
   return CELSPAN_OK;
 }
 
-static celspan_status split_table(cs_curve *curve, int32_t column, cs_line_point points[2]) {
+static celspan_status split_table(cs_curve *curve, int32_t column, cs_halving_point points[2]) {
   colour_curve *c = (colour_curve *)curve;
   for (int k = 0; k < 2; k++)
     points[k] = c->known.column == column + k ? c->known : table_point(c, column + k);
@@ -162,9 +163,9 @@ static celspan_status put_table_lines(colour_curve *c, const cs_ends *ends) {
   c->curve.test = test_table;
   c->curve.split = split_table;
   for (size_t i = 0; i + 1 < ends->count; i++) {
-    cs_line_point first = table_point(c, ends->columns[i]);
-    cs_line_point last = table_point(c, ends->columns[i + 1] - 1);
-    CS_TRY(cs_line_fit(&c->curve, &first, &last));
+    cs_halving_point first = table_point(c, ends->columns[i]);
+    cs_halving_point last = table_point(c, ends->columns[i + 1] - 1);
+    CS_TRY(cs_halving_fit(&c->curve, &first, &last));
   }
   return CELSPAN_OK;
 }

@@ -1,6 +1,6 @@
 /* A picture: a file named by a texture, and how to read it.
  *
- * A cs_picture is an immutable value like the rest of the scene. What is read of it lives in the
+ * A cs_picture is an immutable value like the rest of the scene. The decoded picture is kept in the
  * context's store (pictures/store.h), found by the picture's hash and shared by all workers.
  */
 #ifndef CS_PICTURES_PICTURE_H

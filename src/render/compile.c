@@ -182,7 +182,7 @@ static celspan_status compile_operator(compiler *c, const cs_primitive_data *dat
                                   .operands = (uint32_t)data->operand_count});
 }
 
-/* Unions of unions need no steps: whatever is present is painted. */
+/* Unions of unions need no steps: every layer that is present is painted. */
 static bool is_plain_union(const cs_primitive_data *data) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;

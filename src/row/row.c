@@ -1,23 +1,23 @@
-/* How a row is made.
+/* How a row is made. Two shapes, a disc and a bar beside it, on row y of the frame:
  *
- * Two shapes, a disc and a bar that leans on it:
+ *  pixels   |    0    |    1    |    2    |    3    |    4    |    5    |
+ *  y        +------a--+---------+---------+b--------+---c-----+----d----+  sweep/   boundaries in
+ *           |     /   |         |         | \       |   |     |    |    |           order: a b c d
+ *           |    /    |         |         |  \      |   |     |    |    |
+ *  y + 1    +---/-----+---------+---------+---\-----+---+-----+----+----+
+ *  cells      0  |         1              |  2          |    3     | 4     compose/ the shapes in
+ *            clear        disc              clear           bar     clear           each: a colour
+ *                                                                                   or a program
+ *  centre   |  disc   |  disc   |  disc   |  clear  |   bar   |  clear  |  row/     the cell at the
+ *                                                                                   pixel's centre
+ *  area     | .55 disc|  disc   |  disc   | .15 disc| .70 bar | .40 bar |  area/    the exact mean
+ *                                                                                   over the pixel
+ *  kernel   |         the mean of rows and columns around, weighted     |  kernel/  rows kept as
+ *                                                                                   edges
+ *  spans    |---------|-------------------|---------|---------|---------|  span/    of "area"
  *
- *                .-------.
- *               /         \       /   /      sweep/    the boundaries that the height of the row
- *      row y   a-----------b-----c---d                 crosses, in order: a b c d
- *             |             |   /   /        compose/  the cells between them. In each a set of
- *             |    disc     |  /bar/                   shapes is present, which gives a colour
- *             |             | /   /                    or a program for it: clear, disc, clear,
- *      later  a-------------c-b--d                     bar, clear
- *
- * On the later row the order is a c b d, and only the cell between c and b, where both shapes are,
- * is composed; the others keep what they had. From cells to spans there are three ways:
- *
- *      centre   |  .  |  .  |  .  |    row/     a pixel shows the cell that its centre is in
- *      area     |   /#|#####|#\   |    area/    a pixel is the exact mean of the cells in it, with
- *                                               the crossings between heights y and y + 1
- *      kernel   | _/##|#####|##\_ |    kernel/  a pixel is the mean of the rows around it, weighted
- *                                               by a kernel; rows are kept as edges, not as pixels
+ * Further down the bar passes over the disc: when b and c have crossed, the order is a c b d. Only
+ * the cell between c and b is composed, the others are kept.
  */
 #include "row/row.h"
 

@@ -1,5 +1,5 @@
-/* Textures at a point, in doubles: a second implementation that the tests compare with the first.
- * It shares no code with the composer.
+/* Textures at a point, in doubles: a second implementation, with which the tests compare the
+ * frames. It shares no code with the composer.
  */
 #ifndef CS_SCENE_ORACLE_H
 #define CS_SCENE_ORACLE_H
@@ -16,7 +16,7 @@ extern const cs_oracle_paint cs_oracle_clear;
 cs_oracle_paint cs_oracle_over(const cs_oracle_paint *front, const cs_oracle_paint *back);
 /* (1 - u) p + u q */
 cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q, double u);
-/* Whether no light from behind comes through, so that nothing behind it is visible. */
+/* Whether the paint lets no light through, so that nothing behind it is visible. */
 bool cs_oracle_hides(const cs_oracle_paint *shade);
 
 /* The paint of a primitive at a point of its own units that is inside it. Pictures are bilinear at

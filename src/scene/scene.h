@@ -91,13 +91,13 @@ CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
                                                    const celspan_rostrum *rostrum, size_t cel_index,
                                                    double film_width, double film_height,
                                                    celspan_matrix *out);
-/* Its parts after the cel's own transform: viewport, then camera; and the camera alone, the
- * identity where there is none. Not checked. */
+/* The factors of that matrix that come after the cel's own transform: the view is the viewport and
+ * then the camera; without a camera, that factor is the identity. They are not checked. */
 celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
                              double film_width, double film_height);
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
                                double film_height);
-/* The front light of a cel, brightness included: its own, the rostrum's, or white. */
+/* The front light of a cel, brightness included: the cel's own, else the rostrum's, else white. */
 celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
  * the same, provided that they contain no procedure and the files of their pictures do not

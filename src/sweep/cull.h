@@ -21,7 +21,7 @@
  *   - no composed colour changes: in a dead tile composing stops before it comes to the layer, so
  *     it does not matter where in the tile the layer's presence changes; and a cell that begins in
  *     a dead tile is opaque over its whole width;
- *   - what is kept depends on the frame and on the row of tiles alone.
+ *   - which chains are kept depends on the frame and on the row of tiles alone.
  */
 #ifndef CS_SWEEP_CULL_H
 #define CS_SWEEP_CULL_H
