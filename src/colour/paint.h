@@ -6,7 +6,7 @@
  *               |   S --+---->                  T = (1 - beta) * medium
  *               +-------+<----  F
  *
- * F is the light that falls on the front, I the light from behind; both leave towards the front.
+ * F is the light that falls on the front, I the light from behind; their sum leaves to the front.
  * Invariant: 0 <= S <= beta and 0 <= T <= 1 - beta; only pictures may have a greater S. A paint is
  * opaque if T = 0, whatever beta is.
  */

@@ -9,8 +9,7 @@ void prepare_library() {
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
     OIIO::attribute("plugin_searchpath", "");
-    /* celspan has limits of its own; the library's would refuse pictures that are read in strips.
-     */
+    /* celspan has limits of its own; the library's would refuse large pictures read in strips. */
     OIIO::attribute("limits:imagesize_MB", 0);
     OIIO::attribute("limits:channels", CS_PICTURE_CHANNELS);
   });

@@ -109,8 +109,7 @@ void check_jpeg_end(Source &source) {
   throw Failure(CELSPAN_INPUT, "is truncated: the end of the picture is missing");
 }
 
-/* The readers of film formats return black for missing pixels. The header has the size of the file.
- */
+/* The readers of film formats return black for missing pixels. The header has the file's size. */
 void check_film_end(Source &source, const std::string &format) {
   unsigned char head[24] = {0};
   source.pread(head, sizeof head, 0);
@@ -222,8 +221,8 @@ void choose_window(cs_picture_reader &reader) {
 
 bool is_transposed(const cs_picture_reader &reader) { return reader.orientation >= 5; }
 
-/* Film scans name their transfer in the header. Where they do not, ten bits are assumed to be film.
- */
+/* Film scans name their transfer in the header. Those that do not count as film if they have ten
+ * bits. */
 const char *film_colour(const ImageSpec &spec) {
   std::string transfer = spec.get_string_attribute("dpx:Transfer").c_str();
   if (transfer == "Linear")

@@ -2,11 +2,12 @@
  *
  *   level <= base: in a pass over the rows of the file, from top to bottom
  *
- *      file --batches of rows--> row of level 0 --\
- *                    an even row waits, then ------+--mean--> row of level 1 --> ... --> level
- *                    the row below it ------------/                            blocks | | | | |
+ *      row 2k of level n, which waits --\
+ *                                        +--mean--> row k of level n + 1, and so on up to `level`
+ *      row 2k + 1 of level n -----------/
  *
- *   The pass fills all blocks of a window of columns together.
+ *   Level 0 is read from the file in batches of rows. A pass fills the blocks of a window of
+ *   columns together.
  *
  *   level > base: from the four blocks of the level below
  *
