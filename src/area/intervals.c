@@ -1,3 +1,5 @@
+/* Finding the intervals of a row: inversion groups first, then what begins and ends, then both
+ * merged. The file is long because every row calls it, and its steps are inlined into one. */
 #include "area/intervals.h"
 
 #include "sweep/pieces.h"

@@ -17,6 +17,8 @@
  * Where all tiles that a chain touches are dead already, it is not kept in this row of tiles, and a
  * deferred winding change takes its place. A chain that begins or ends inside the row is kept, and
  * no tile between such chains counts as inside, because the winding is not the same at all heights.
+ *
+ * The whole cull is in one file, because its steps share the grid and the jobs declared here.
  */
 #include "sweep/cull.h"
 
