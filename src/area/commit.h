@@ -1,5 +1,5 @@
 /* Committing the order: boundaries that have been swept locally are in a known order at the foot of
- * the row, between known cells, so neither is looked for again on the next row.
+ * the row, between known cells, so neither has to be found again on the next row.
  *
  *      top   a   b   c          places low, low + 1, low + 2
  *              x              a and b have changed places

@@ -25,7 +25,8 @@
 #include "compose/composer.h"
 #include "span/row_writer.h"
 
-/* Spans that an edge takes at most, and columns that edges which share pixels take together. */
+/* How many spans an edge becomes at most, and how many columns edges that share pixels may cross
+ * together. */
 #define CS_DIRECT_EACH 4
 #define CS_DIRECT_TOGETHER 32
 

@@ -48,7 +48,7 @@ static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v
   if (cs_v4_same(slope, cs_v4_all(0)) || cs_v4_same(one, middle) || cs_v4_same(middle, two))
     return false;
   put_span(span, at + (head){1, columns - 1, is_ramp, 1}, middle);
-  cs_v4_store(span->slope, slope); /* a single has none, and nobody reads it */
+  cs_v4_store(span->slope, slope); /* of a single it is never read */
   return true;
 }
 
@@ -80,8 +80,8 @@ static inline celspan_span *put_plain(celspan_span *span, head start, int32_t fi
   return span + 4;
 }
 
-/* Draws from the first boundary on while all is plain: straight or over one or two columns, pixels
- * of its own, flat cells that show, no two neighbouring spans of one colour. Returns how many; at
+/* Draws the plain boundaries from the first one on: those that are straight or cross one or two
+ * columns, share no pixel, lie between flat cells and give spans of different colours. Returns how many; at
  * least the last boundary is left over. */
 static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
                                 const cs_edges *edges, size_t done) {

@@ -61,7 +61,7 @@ typedef struct cs_intervals {
   size_t procedure_edge_count;
   cs_extent procedures; /* of them */
   /* found */
-  cs_interval *intervals; /* from left to right; while they are looked for, groups come first */
+  cs_interval *intervals; /* from left to right; while they are being found, groups come first */
   size_t count, capacity, group_count;
   cs_member *begins;            /* chains that begin inside the row, then the edges of procedures */
   cs_interval *begin_intervals; /* for each: where its begin is replayed */

@@ -1,7 +1,7 @@
 /* Cells and programs: what the composer says about the space between two boundaries.
  *
  * A cell has one colour everywhere, or a program: the layers that show in it, front to back, of
- * which at least one varies along a row. What a program looks like is for paint/ to find out.
+ * which at least one varies along a row. Its colours are computed by paint/.
  *
  * Invariant: a cell depends on its set of layers alone, and on the procedure spans it lies in.
  */

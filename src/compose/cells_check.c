@@ -47,7 +47,8 @@ static bool cells_agree(const cs_cells *cells, const cs_active *active, replay *
 
 bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer,
                        const cs_active *active) {
-  /* Memory of the C library: what the core holds is counted, and this is none of it. */
+  /* Memory of the C library, because the memory of the core is counted and a check must not change
+   * the count. */
   size_t count = composer->stack->layer_count;
   replay walk = {.composer = composer, .windings = calloc(count + 1, sizeof(int32_t))};
   if (!walk.windings)

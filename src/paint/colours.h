@@ -1,8 +1,8 @@
 /* The colours of pixels, each by itself: the samples of the layers that vary, one over the other.
  *
- * Pixels are made in batches of CS_OVER_ROW_BATCH, layer by layer from the front. Gradients alone
- * are looked up (gradient_table.h); pictures alone, as they are, take a shorter way to the same
- * bits (over_row.h).
+ * Pixels are made in batches of CS_OVER_ROW_BATCH, layer by layer from the front. Programs of
+ * gradients alone are read from a table (gradient_table.h); unchanged pictures alone take a shorter
+ * way to the same bits (over_bare.h).
  */
 #ifndef CS_PAINT_COLOURS_H
 #define CS_PAINT_COLOURS_H

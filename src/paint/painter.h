@@ -8,9 +8,9 @@
  *                            formulas only     --> few linear spans (lines.h)
  *                            one defocused cel --> from node to node (defocused_run.h)
  *
- * The composer says which layers show; the painter knows what each looks like: headers and texels
- * of pictures, grids of defocused cels, folded gradients. It reads the composer's programs and the
- * procedure spans of the row, and changes nothing there.
+ * The composer says which layers are visible; the painter keeps the data that their colours need:
+ * headers and texels of pictures, grids of defocused cels, folded gradients. It reads the
+ * composer's programs and the procedure spans of the row, and changes nothing there.
  *
  * Invariant: a pixel depends on the program and its place alone, not on the run it is painted in.
  * One painter a worker, beside its composer.
@@ -43,14 +43,14 @@ typedef struct cs_painter {
   uint64_t evaluations;                 /* pixels whose colour has been computed */
 } cs_painter;
 
-/* composer: initialized, borrowed; the painter stays where it is until it is finished.
- * Errors: NO_MEMORY; then, too, it wants to be finished. */
+/* composer: initialized, borrowed. The painter must not be moved.
+ * Errors: NO_MEMORY; cs_painter_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_painter_init(cs_painter *painter, celspan_context *context,
                                                const cs_composer *composer);
 void cs_painter_finish(cs_painter *painter);
 
-/* The question that the composer of the same worker asks the painter. It is handed over before the
- * painter is initialized, and asked when the first cell is composed. */
+/* The question that the composer of the same worker asks the painter. The composer
+ * gets it before the painter is initialized, and asks it when the first cell is composed. */
 cs_image_opacity cs_painter_opacity(cs_painter *painter);
 
 /* The view of an image layer, its header read on first use. Errors: INPUT, LIMIT, NO_MEMORY. */

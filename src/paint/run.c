@@ -5,7 +5,7 @@
 #include "paint/lines.h"
 #include "paint/over_row.h"
 
-/* ---------------------------------------------------------------- what shows, as it is */
+/* ---------------------------------------------------------------- programs without hidden items */
 
 /* Whether a picture of the program shows pixel by pixel. */
 static celspan_status needs_array(cs_painter *painter, const cs_program *program, bool *out) {

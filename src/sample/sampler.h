@@ -8,8 +8,8 @@
  * perspective are right too. Nearest is the texel under the centre, bilinear the mix of the four
  * texels about it, at any scale.
  *
- * CLEAR makes pixels whose centre lies outside the picture clear; inside, what a kernel wants
- * beyond the edge is the edge's, so a picture gets no soft border of its own.
+ * CLEAR makes pixels whose centre lies outside the picture clear; inside, texels
+ * that a kernel needs beyond an edge are those of the edge, so a picture gets no blurred border.
  *
  * The samples of a run depend on the pixel and the maps alone, never on where the run begins, nor
  * on the instructions that make them.

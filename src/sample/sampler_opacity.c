@@ -65,8 +65,8 @@ static cs_picture_opacity opacity_of_blocks(cs_block_cache *blocks, const cs_sam
   return opacity;
 }
 
-/* A quick answer, where there is one: that of the block in the middle, which is one of the
- * area's. */
+/* Whether the block in the middle of the area is mixed, or has no texels: a quick answer, since the
+ * area then counts as mixed. */
 static bool is_mixed_inside(cs_block_cache *blocks, const cs_sampler *s, const area *a) {
   double u = 0.5 * (a->u0 + a->u1), v = 0.5 * (a->v0 + a->v1);
   if (!(u >= 0 && v >= 0 && u < s->width && v < s->height))
