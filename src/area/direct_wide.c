@@ -81,8 +81,8 @@ static inline celspan_span *put_plain(celspan_span *span, head start, int32_t fi
 }
 
 /* Draws the plain boundaries from the first one on: those that are straight or cross one or two
- * columns, share no pixel, lie between flat cells and give spans of different colours. Returns how many; at
- * least the last boundary is left over. */
+ * columns, share no pixel, lie between flat cells and give spans of different colours. Returns how
+ * many; the last boundary at least is never among them. */
 static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
                                 const cs_edges *edges, size_t done) {
   const uint32_t *boundaries = s->boundaries + done;
