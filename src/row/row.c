@@ -1,20 +1,18 @@
 /* How a row is made. Two shapes, a disc and a bar beside it, on row y of the frame:
  *
- *  pixels   |    0    |    1    |    2    |    3    |    4    |    5    |
- *  y        +------a--+---------+---------+b--------+---c-----+----d----+  sweep/   boundaries in
- *           |     /   |         |         | \       |   |     |    |    |           order: a b c d
- *           |    /    |         |         |  \      |   |     |    |    |
- *  y + 1    +---/-----+---------+---------+---\-----+---+-----+----+----+
- *  cells      0  |         1              |  2          |    3     | 4     compose/ the shapes in
- *            clear        disc              clear           bar     clear           each: a colour
- *                                                                                   or a program
- *  centre   |  disc   |  disc   |  disc   |  clear  |   bar   |  clear  |  row/     the cell at the
- *                                                                                   pixel's centre
- *  area     | .55 disc|  disc   |  disc   | .15 disc| .70 bar | .40 bar |  area/    the exact mean
- *                                                                                   over the pixel
- *  kernel   |         the mean of rows and columns around, weighted     |  kernel/  rows kept as
- *                                                                                   edges
- *  spans    |---------|-------------------|---------|---------|---------|  span/    of "area"
+ *  pixels  |    0    |    1    |    2    |    3    |    4    |    5    |
+ *  y       +-----a---+---------+---------+b--------+--c------+---d-----+  sweep/   boundaries
+ *          |    /    |         |         | \       |  |      |   |     |           in order:
+ *          |   /     |         |         |  \      |  |      |   |     |           a b c d
+ *  y + 1   +--/------+---------+---------+---\-----+--|------+---|-----+
+ *  cells     0 |             1              |    2    |     3    |   4    compose/ the shapes in
+ *          clear           disc                clear       bar     clear           each: a colour
+ *                                                                                  or a program
+ *  centre  |   disc  |   disc  |   disc  |  clear  |   bar   |  clear  |  row/     the cell at
+ *                                                                                  its centre
+ *  area    | .55 disc|   disc  |   disc  | .25 disc| .70 bar | .40 bar |  area/    the exact mean
+ *  kernel  |       the mean of rows and columns around, weighted       |  kernel/  kept as edges
+ *  spans   |---------|-------------------|---------|---------|---------|  span/    of "area"
  *
  * Further down the bar passes over the disc: when b and c have crossed, the order is a c b d. Only
  * the cell between c and b is composed, the others are kept.
