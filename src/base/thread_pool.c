@@ -5,6 +5,10 @@
 
 #define THREADS_MOST 64
 
+/* Signals that a thread raises itself, by a fault: blocked, they would end the process without the
+ * host's handler, or a sanitizer, having been called. */
+static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
+
 /* ---------------------------------------------------------------- threads */
 
 static void *thread_main(void *argument) {
@@ -20,6 +24,8 @@ int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int
   if (wanted < 1)
     return 0;
   sigfillset(&all);
+  for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
+    sigdelset(&all, faults[i]);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   for (; started < wanted; started++) {
     cs_thread *thread = &threads[started];

@@ -1,7 +1,7 @@
 /* The one place where threads are started, and work on numbered steps that is forked and joined.
  *
  * INVARIANTS
- *   The calling thread works too, as worker 0; it is the only one that signals are delivered to.
+ *   Signals from outside are delivered to the calling thread alone.
  *   Where the system gives fewer threads than are wanted, fewer do the same work.
  */
 #ifndef CS_BASE_THREAD_POOL_H
@@ -25,7 +25,7 @@ int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int
 void cs_threads_join(cs_thread *threads, int count);
 
 /* Calls step(user, worker, i) once for every i in [0, count), in no particular order, from up to
- * `workers` threads, of which the caller's is one; returns when all are done. */
+ * `workers` threads, of which the caller's is worker 0; returns when all are done. */
 void cs_thread_pool_run(int workers, int32_t count, void (*step)(void *user, int worker, int32_t i),
                         void *user);
 

@@ -61,7 +61,11 @@ static celspan_status stop(run *r) {
                  r->desc->count);
 }
 
-static celspan_status tick_or_stop(run *r) { return tick(r) ? CELSPAN_OK : stop(r); }
+/* Nobody is asked again once a frame of the calling thread was told to stop: nothing is wanted then,
+ * whereas after a failure the frames before it still are. */
+static celspan_status tick_or_stop(run *r) {
+  return cs_pipeline_is_wanted(r->pipeline, 0) && tick(r) ? CELSPAN_OK : stop(r);
+}
 
 /* ---------------------------------------------------------------- one frame */
 

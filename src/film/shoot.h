@@ -3,8 +3,8 @@
  *
  *   build --> keep?  -->  make, or copy from an equal frame  -->  finished
  *   \_____________/      \_________________________________/       \______/
- *   calling thread,               any worker                   calling thread,
- *   in order                                                   in order
+ *   calling thread,         any worker; copies, and           calling thread,
+ *   in order                procedures: calling thread        in order
  *
  * A frame that shows the same as an earlier frame of the run is copied from it. Frames that contain
  * scan-line procedures are never copied: a procedure can be compared with nothing, and the calling

@@ -178,9 +178,11 @@ static celspan_status deliver_strip(void *user, celspan_context *context, size_t
   return report_progress(s->delivery);
 }
 
+/* Nobody is asked again once the calling thread was told, amid a share, to stop. */
 static celspan_status report_idle(void *user, celspan_context *context) {
+  const strips *s = user;
   (void)context;
-  return report_progress(((const strips *)user)->delivery);
+  return cs_pipeline_is_wanted(s->pipeline, 0) ? report_progress(s->delivery) : stop(s->delivery);
 }
 
 static celspan_status deliver_all(strips *s) {

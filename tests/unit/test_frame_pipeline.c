@@ -16,6 +16,8 @@ typedef struct studio {
   cs_pipeline_step steps[FRAMES];
   int fails_to_build, fails_to_make, fails_to_finish; /* a frame, or NOWHERE */
   int stops_after;                                    /* frames finished, or NOWHERE */
+  int stops_once_in; /* a frame of the calling thread, or NOWHERE: it does not heed the stop */
+  bool says_stop;
   atomic_int made[FRAMES];
   int built, finished, released, failed;
   double share; /* told last */
@@ -62,6 +64,12 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   if (is_here)
     f->before = s->finished;
   be_busy(f->index);
+  if (f->index == s->stops_once_in) {
+    s->says_stop = true;
+    s->faults += !is_here || cs_frame_pipeline_progress(turn, 1, 2);
+    s->says_stop = false;
+    return CELSPAN_OK;
+  }
   if (!cs_frame_pipeline_progress(turn, 1, 2))
     return cs_fail(context, CELSPAN_CANCELLED, "not wanted");
   if (f->index == s->fails_to_make)
@@ -95,6 +103,8 @@ static bool tick(void *user, double share) {
   studio *s = user;
   s->faults += !is_calling_thread(s) || !(share >= 0 && share <= FRAMES - s->finished);
   s->share = share;
+  if (s->says_stop)
+    return false;
   return s->stops_after == NOWHERE || s->finished < s->stops_after;
 }
 
@@ -118,7 +128,8 @@ static studio quiet(void) {
   return (studio){.fails_to_build = NOWHERE,
                   .fails_to_make = NOWHERE,
                   .fails_to_finish = NOWHERE,
-                  .stops_after = NOWHERE};
+                  .stops_after = NOWHERE,
+                  .stops_once_in = NOWHERE};
 }
 
 static const int WORKERS[] = {1, 2, 3, 8, 100};
@@ -177,6 +188,16 @@ static void test_stop(celspan_context *context, int workers) {
   CHECK(s.finished == 7 && s.released == s.built && s.faults == 0);
 }
 
+/* One refusal is enough, although the frame in which it was told is completed all the same. */
+static void test_stop_once(celspan_context *context, int workers) {
+  studio s = quiet();
+  s.stops_once_in = 11;
+  s.steps[11] = CS_PIPELINE_HERE;
+  CHECK(run(&s, context, workers, false) == CELSPAN_CANCELLED);
+  CHECK(strncmp(celspan_context_error(context), "stopped after ", 14) == 0);
+  CHECK(s.finished <= 12 && s.released == s.built && s.faults == 0);
+}
+
 /* With the n-th allocation failing, for every n, nothing is begun and nothing is lost. */
 static void test_memory(int workers) {
   celspan_status status = CELSPAN_NO_MEMORY;
@@ -203,6 +224,7 @@ int main(void) {
     test_failures(context, WORKERS[i]);
     test_going_on(context, WORKERS[i]);
     test_stop(context, WORKERS[i]);
+    test_stop_once(context, WORKERS[i]);
     test_memory(WORKERS[i]);
   }
   celspan_context_destroy(context);

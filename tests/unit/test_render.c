@@ -255,8 +255,8 @@ static bool stop_third(void *user, int32_t rows_done, int32_t rows_total) {
   return ++*(int *)user < 3;
 }
 
-/* Workers that fill parts of the sink stop amid them. */
-static void check_cancel_parts(studio *s) {
+/* Workers that fill shares of the sink stop amid them. */
+static void check_cancel_shares(studio *s) {
   celspan_exposure exposure = {random_rostrum(s, 18), 1};
   celspan_frame_desc desc = frame_of(&exposure, NULL);
   const celspan_sink nowhere = {.row = NULL};
@@ -325,7 +325,7 @@ int main(void) {
   check_touching_corner(&s, 60);
   check_touching_corner(&s, WIDTH);
   check_cancel(&s);
-  check_cancel_parts(&s);
+  check_cancel_shares(&s);
   check_refusals(&s);
   check_nothing(&s);
   studio_finish(&s);

@@ -5,8 +5,8 @@ local words = require "tests.support.rooms.words"
 
 local report = {}
 
---- The functions that make a row, the first that a tree has.
-local ROW_MAKERS = { "cs_row_make", "cs_scan_row" }
+--- The function that makes a row.
+local ROW_MAKER = "cs_row_make"
 
 local function say(format, ...) print(format:format(...)) end
 
@@ -165,12 +165,9 @@ end
 
 local function put_way(tree, maker)
   title "The way of one row"
-  local told
-  for _, name in ipairs(maker and { maker } or ROW_MAKERS) do
-    told = told or walk.from(tree, name)
-    maker = told and (maker or name) or maker
-  end
-  if not told then return say("   no function %s", maker or table.concat(ROW_MAKERS, ", ")) end
+  maker = maker or ROW_MAKER
+  local told = walk.from(tree, maker)
+  if not told then return say("   no function %s", maker) end
   say("   from %s: %d functions in %d files and their headers, %d folders", maker,
     told.functions, told.units, told.rooms)
   say("   %d changes of folder there and back; %d when what was read before counts too",
