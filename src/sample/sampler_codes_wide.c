@@ -127,7 +127,9 @@ static inline void decode_one_by_one(const cs_srgb8_curve *curve, const unsigned
 
 #ifdef __AVX512F__
 
-#define BYTES __attribute__((target("avx512vbmi")))
+/* Aligned to lines of the cache: otherwise what is linked in front of these loops decides, by where
+ * they come to lie, whether they are up to 8 % slower. */
+#define BYTES __attribute__((target("avx512vbmi"), aligned(64)))
 #define TEXELS 16      /* in 64 bytes of codes */
 #define COLOURS 0x7777 /* the lanes of red, green and blue in four pixels */
 /* Pixels a prefetch: a row of the frame soon leaves a row of texels that lies at an angle. */
