@@ -194,7 +194,6 @@ static void test_stop_once(celspan_context *context, int workers) {
   s.stops_once_in = 11;
   s.steps[11] = CS_PIPELINE_HERE;
   CHECK(run(&s, context, workers, false) == CELSPAN_CANCELLED);
-  CHECK(strncmp(celspan_context_error(context), "stopped after ", 14) == 0);
   CHECK(s.finished <= 12 && s.released == s.built && s.faults == 0);
 }
 
