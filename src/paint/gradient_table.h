@@ -47,8 +47,8 @@ typedef struct cs_gradient_table_layer {
 typedef struct cs_gradient_table {
   cs_v4 e, t;            /* of several: the layers behind them all */
   const cs_shade *shade; /* of the only gradient or the first one */
-  const cs_gradient_table_section
-      *sections; /* of one: before each stop, after the last, and behind the horizon */
+  /* Of one: before each stop, after the last, and behind the horizon. */
+  const cs_gradient_table_section *sections;
   const cs_gradient_table_layer *layers; /* of several, front to back */
   size_t layer_count;                    /* 0: of one */
   cs_set_hash name;                      /* of the program's layers */

@@ -34,8 +34,8 @@ typedef enum cs_sampler_kernel {
 
 typedef struct cs_sampler {
   const cs_picture *picture;
-  celspan_matrix
-      inverse;           /* frame pixels to picture pixels (texel i covers [i, i+1)), homogeneous */
+  /* Frame pixels to picture pixels (texel i covers [i, i+1)), homogeneous. */
+  celspan_matrix inverse;
   int32_t width, height; /* of the picture */
   celspan_sampling sampling;
   celspan_wrap wrap;
@@ -44,8 +44,8 @@ typedef struct cs_sampler {
   /* filled in by cs_sampler_prepare */
   cs_block_cache_source source;
   cs_sampler_placement placement;
-  cs_sampler_kernel
-      kernel;  /* PERSPECTIVE: CUBIC and TILTED where the picture is enlarged and shrunk */
+  /* PERSPECTIVE: BICUBIC and TILTED where the picture is enlarged and shrunk. */
+  cs_sampler_kernel kernel;
   double m[9]; /* the inverse; an affine one is divided by its last element */
   int level_count;
   int level;

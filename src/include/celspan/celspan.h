@@ -661,8 +661,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_pixels(celspan_context 
 
 typedef struct celspan_file_desc {
   size_t struct_size;
-  const char
-      *format; /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
+  /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
+  const char *format;
   celspan_coding coding;
   const char *title;    /* metadata; NULL: none */
   double frames_second; /* metadata; 0: none */
@@ -689,9 +689,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_write(celspan_context *
 /* The sink that celspan_frame_write renders into, for rows that come from elsewhere: call its
  * begin, then row for each row from the top, then end, which completes the file when the outcome is
  * OK and no call failed, else leaves nothing, and in any case destroys the sink. end is to be
- * called once whatever happened, even when begin failed or was not called. path, file: copied; file
- * may be NULL      out: new Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding
- * that is not known. */
+ * called once whatever happened, even when begin failed or was not called.
+ * path, file: copied; file may be NULL      out: new
+ * Errors: NO_MEMORY, OUTPUT, LIMIT; BAD_ARGUMENT for a format or coding that is not known. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_file_sink_create(celspan_context *context,
                                                                     const char *path,
                                                                     const celspan_file_desc *file,
