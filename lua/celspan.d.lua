@@ -1,11 +1,12 @@
 ---@meta celspan
 --- What editors know of celspan: for the Lua language server. Film coordinates start at the top left,
 --- x to the right, y down. Later is nearer the camera in every list. Angles are degrees, clockwise.
---- Colours are linear light unless they are written as strings.
+--- Colours are linear light unless they are written as strings. One file, because editors take it whole.
 
 ---@alias celspan.colour celspan.paint|string A paint, or "#rgb", "#rrggbb", "#rrggbbaa" (sRGB-coded)
 ---@alias celspan.surface celspan.colour|celspan.texture What a primitive's texture may be
----@alias celspan.light number[]|string {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1
+---@alias celspan.light number[]|string|celspan.paint|celspan.texture|celspan.light_shape {r, g, b}, {r, g, b, a} or "#rrggbb"; an omitted a is 1; or a light with a shape
+---@alias celspan.shape celspan.object|celspan.rostrum What a cel and a boolean hold: objects, and rostrums with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
@@ -16,11 +17,27 @@
 ---@field clear celspan.paint Nothing at all: light passes unchanged
 local celspan = {}
 
+-- ------------------------------------------------------------------ names
+
+--- What has a name, for people. Transforms, fades and `with` keep it.
+---@class celspan.nameable
+---@field name? string
+---@field origin? string Where it was made, "shot.lua:12"
+---@operator len: integer
+local nameable = {}
+
+--- The same value under a name, which messages use: 1 to 255 bytes without control characters.
+---@generic T: celspan.nameable
+---@param self T
+---@param name string
+---@return T
+function nameable:named(name) end
+
 -- ------------------------------------------------------------------ paints
 
 --- How a surface treats light: `pigment` reflects the front light, `medium` filters what comes from
 --- behind, `beta` says how much of the one and the other. All values are straight, 0..1.
----@class celspan.paint
+---@class celspan.paint: celspan.nameable
 ---@field pigment number[] {r, g, b}
 ---@field medium number[] {r, g, b}
 ---@field beta number
@@ -32,8 +49,8 @@ local paint = {}
 function paint:with(changes) end
 
 ---@class celspan.paint.fields
----@field pigment? number[] {r, g, b}; default black
----@field medium? number[] {r, g, b}; default white, which is clear
+---@field pigment? number[]|string {r, g, b} or "#rrggbb"; default black
+---@field medium? number[]|string {r, g, b} or "#rrggbb"; default white, which is clear
 ---@field beta? number Default 1, all pigment
 
 --- A paint of the Beta colour model.
@@ -47,14 +64,17 @@ function celspan.paint(fields) end
 ---@param b number
 ---@param alpha? number Default 1
 ---@return celspan.paint
+---@overload fun(colour: string, alpha?: number): celspan.paint
 function celspan.rgb(r, g, b, alpha) end
 
 --- A pure filter, like a coloured gel: it is seen only in the light from behind.
 ---@param r number
 ---@param g number
 ---@param b number
+---@param alpha? number Default 1; less mixes it with clear
 ---@return celspan.paint
-function celspan.gel(r, g, b) end
+---@overload fun(colour: string, alpha?: number): celspan.paint
+function celspan.gel(r, g, b, alpha) end
 
 --- (1-u) p + u q, premultiplied.
 ---@param p celspan.colour
@@ -66,7 +86,7 @@ function celspan.mix(p, q, u) end
 -- ------------------------------------------------------------------ textures
 
 --- A gradient or a picture, in the units of the primitive it is given to; it moves with it.
----@class celspan.texture
+---@class celspan.texture: celspan.nameable
 local texture = {}
 
 --- A copy with changes.
@@ -74,9 +94,12 @@ local texture = {}
 ---@return celspan.texture
 function texture:with(changes) end
 
+---@class celspan.gradient: celspan.texture
+---@field [integer] table Three corners {x, y, paint}
+
 --- The triangle gradient: three corners {x, y, paint}, continued outside.
 ---@param corners table[]
----@return celspan.texture
+---@return celspan.gradient
 function celspan.gradient(corners) end
 
 ---@class celspan.linear.fields
@@ -84,9 +107,11 @@ function celspan.gradient(corners) end
 ---@field to celspan.point Where 1 lies
 ---@field [integer] table Stops {at, paint}, at ascending in 0..1
 
+---@class celspan.linear: celspan.texture, celspan.linear.fields
+
 --- A gradient along a line; held outside.
 ---@param fields celspan.linear.fields
----@return celspan.texture
+---@return celspan.linear
 function celspan.linear(fields) end
 
 ---@class celspan.radial.fields
@@ -94,32 +119,44 @@ function celspan.linear(fields) end
 ---@field radius number Where 1 lies
 ---@field [integer] table Stops {at, paint}, at ascending in 0..1
 
+---@class celspan.radial: celspan.texture, celspan.radial.fields
+
 --- A gradient around a point; held outside.
 ---@param fields celspan.radial.fields
----@return celspan.texture
+---@return celspan.radial
 function celspan.radial(fields) end
 
 ---@class celspan.picture.common
----@field file string Relative to the script
+---@field file? string Relative to the script; needed, or `pixels` in its place
 ---@field colour? string "srgb", "linear", "rec709", "cineon"; default by the file
 ---@field sampling? "auto"|"nearest"|"bilinear"|"bicubic"
 ---@field as? "paint"|"gel" Painted, or a slide lit from behind
 ---@field wrap? "clear"|"clamp"|"repeat" Outside the box
 ---@field subimage? integer From 0
 ---@field layer? string The name of a subimage
+---@field source? integer[] {x, y, w, h}: a part of the picture, in its pixels
+---@field pixels? string Pixels in memory, rows from top to bottom without gaps
+---@field size? number[] {width, height} of the pixels
+---@field format? "rgba8"|"rgb8"|"grey8"|"rgba16"|"rgbaf" Of the pixels, in the machine's byte order; default "rgba8"
+---@field alpha? "straight"|"premultiplied" Of the pixels; default integers straight, floats premultiplied
 
 ---@class celspan.picture.fields: celspan.picture.common
 ---@field box? number[] {x, y, w, h}; default the primitive's bounding rectangle
 
---- A picture as a texture. It is read when it is first seen.
+---@class celspan.picture: celspan.texture, celspan.picture.fields
+---@field sampling "auto"|"nearest"|"bilinear"|"bicubic"
+---@field as "paint"|"gel"
+---@field wrap "clear"|"clamp"|"repeat"
+
+--- A picture as a texture: a file, read when it is first seen, or pixels in memory.
 ---@param fields celspan.picture.fields
----@return celspan.texture
+---@return celspan.picture
 function celspan.picture(fields) end
 
 -- ------------------------------------------------------------------ objects
 
 --- What objects and cels can do. Each method returns a new value.
----@class celspan.placed
+---@class celspan.placed: celspan.nameable
 local placed = {}
 
 ---@generic T: celspan.placed
@@ -129,12 +166,15 @@ local placed = {}
 ---@return T
 function placed:translate(dx, dy) end
 
+--- About the origin, or a centre that stays where it is.
 ---@generic T: celspan.placed
 ---@param self T
 ---@param sx number
 ---@param sy? number Default sx
+---@param cx? number
+---@param cy? number
 ---@return T
-function placed:scale(sx, sy) end
+function placed:scale(sx, sy, cx, cy) end
 
 --- Turns clockwise on screen, about the origin or a centre.
 ---@generic T: celspan.placed
@@ -149,8 +189,10 @@ function placed:rotate(degrees, cx, cy) end
 ---@param self T
 ---@param degrees_x number
 ---@param degrees_y number
+---@param cx? number
+---@param cy? number
 ---@return T
-function placed:skew(degrees_x, degrees_y) end
+function placed:skew(degrees_x, degrees_y, cx, cy) end
 
 --- A 3x3 matrix row by row, for column vectors.
 ---@generic T: celspan.placed
@@ -193,26 +235,33 @@ function placed:with(changes) end
 
 --- A primitive or a boolean tree of them.
 ---@class celspan.object: celspan.placed
----@operator bor(celspan.object): celspan.object
----@operator band(celspan.object): celspan.object
----@operator bxor(celspan.object): celspan.object
----@operator sub(celspan.object): celspan.object
+---@operator bor(celspan.object): celspan.boolean
+---@operator band(celspan.object): celspan.boolean
+---@operator bxor(celspan.object): celspan.boolean
+---@operator sub(celspan.object): celspan.boolean
 
 ---@class celspan.rect.fields
 ---@field [integer] number x, y, width, height
 ---@field radius? number Of the corners; default 0
 ---@field texture? celspan.surface Default opaque black
 
+---@class celspan.rect: celspan.object, celspan.rect.fields
+---@field radius number
+---@field texture celspan.surface
+
 ---@param fields celspan.rect.fields
----@return celspan.object
+---@return celspan.rect
 function celspan.rect(fields) end
 
 ---@class celspan.triangle.fields
 ---@field [integer] celspan.point Three points
 ---@field texture? celspan.surface
 
+---@class celspan.triangle: celspan.object, celspan.triangle.fields
+---@field texture celspan.surface
+
 ---@param fields celspan.triangle.fields
----@return celspan.object
+---@return celspan.triangle
 function celspan.triangle(fields) end
 
 ---@class celspan.circle.fields
@@ -220,8 +269,11 @@ function celspan.triangle(fields) end
 ---@field radius number
 ---@field texture? celspan.surface
 
+---@class celspan.circle: celspan.object, celspan.circle.fields
+---@field texture celspan.surface
+
 ---@param fields celspan.circle.fields
----@return celspan.object
+---@return celspan.circle
 function celspan.circle(fields) end
 
 ---@class celspan.ellipse.fields
@@ -229,8 +281,11 @@ function celspan.circle(fields) end
 ---@field radii number[] {rx, ry}
 ---@field texture? celspan.surface
 
+---@class celspan.ellipse: celspan.object, celspan.ellipse.fields
+---@field texture celspan.surface
+
 ---@param fields celspan.ellipse.fields
----@return celspan.object
+---@return celspan.ellipse
 function celspan.ellipse(fields) end
 
 ---@class celspan.polygon.fields
@@ -238,8 +293,12 @@ function celspan.ellipse(fields) end
 ---@field rule? celspan.rule
 ---@field texture? celspan.surface
 
+---@class celspan.polygon: celspan.object, celspan.polygon.fields
+---@field rule celspan.rule
+---@field texture celspan.surface
+
 ---@param fields celspan.polygon.fields
----@return celspan.object
+---@return celspan.polygon
 function celspan.polygon(fields) end
 
 ---@class celspan.nurbs.fields
@@ -250,9 +309,15 @@ function celspan.polygon(fields) end
 ---@field rule? celspan.rule
 ---@field texture? celspan.surface
 
+---@class celspan.nurbs: celspan.object, celspan.nurbs.fields
+---@field degree integer
+---@field closed "periodic"|"clamped"
+---@field rule celspan.rule
+---@field texture celspan.surface
+
 --- A closed curve of any degree, weighted or not.
 ---@param fields celspan.nurbs.fields
----@return celspan.object
+---@return celspan.nurbs
 function celspan.nurbs(fields) end
 
 ---@class celspan.path.fields
@@ -260,8 +325,12 @@ function celspan.nurbs(fields) end
 ---@field rule? celspan.rule
 ---@field texture? celspan.surface
 
+---@class celspan.path: celspan.object, celspan.path.fields
+---@field rule celspan.rule
+---@field texture celspan.surface
+
 ---@param fields celspan.path.fields
----@return celspan.object
+---@return celspan.path
 function celspan.path(fields) end
 
 ---@class celspan.image.fields: celspan.picture.common
@@ -271,9 +340,17 @@ function celspan.path(fields) end
 ---@field h? number
 ---@field fit? "fill"|"contain"|"cover" When both w and h are given
 
+---@class celspan.image: celspan.object, celspan.image.fields
+---@field sampling "auto"|"nearest"|"bilinear"|"bicubic"
+---@field as "paint"|"gel"
+---@field wrap "clear"|"clamp"|"repeat"
+---@field x number
+---@field y number
+---@field fit "fill"|"contain"|"cover"
+
 --- A rectangle textured with a picture.
 ---@param fields celspan.image.fields
----@return celspan.object
+---@return celspan.image
 function celspan.image(fields) end
 
 ---@class celspan.scanline.row
@@ -285,43 +362,51 @@ function celspan.image(fields) end
 ---@field bounds number[] {x, y, w, h}
 ---@field spans fun(y: number, row: celspan.scanline.row): table[] {x0, x1, paint [, paint]} or {x0, x1, array = {paint, ...}}
 
+---@class celspan.scanline: celspan.object
+---@field spans fun(y: number, row: celspan.scanline.row): table[]
+
 --- A primitive given by a function that returns its spans on a row.
 ---@param fields celspan.scanline.fields
----@return celspan.object
+---@return celspan.scanline
 function celspan.scanline(fields) end
 
+--- What the operators and the functions below make.
+---@class celspan.boolean: celspan.object
+---@field [integer] celspan.shape Its operands
+
 --- Later over earlier; a | b.
----@param objects celspan.object[]
----@return celspan.object
+---@param objects celspan.shape[]
+---@return celspan.boolean
 function celspan.union(objects) end
 
 --- Where all are, later over earlier; a & b.
----@param objects celspan.object[]
----@return celspan.object
+---@param objects celspan.shape[]
+---@return celspan.boolean
 function celspan.intersection(objects) end
 
 --- The first where no other is; a - b.
----@param objects celspan.object[]
----@return celspan.object
+---@param objects celspan.shape[]
+---@return celspan.boolean
 function celspan.difference(objects) end
 
 --- Where an odd number are; a ~ b.
----@param objects celspan.object[]
----@return celspan.object
+---@param objects celspan.shape[]
+---@return celspan.boolean
 function celspan.xor(objects) end
 
 --- The art where the shape is; the shape's own texture is not painted.
----@param art celspan.object
----@param shape celspan.object
----@return celspan.object
+---@param art celspan.shape
+---@param shape celspan.shape
+---@return celspan.boolean
 function celspan.clip(art, shape) end
 
 -- ------------------------------------------------------------------ cels and rostrum
 
----@class celspan.cel: celspan.placed
+---@class celspan.cel: celspan.placed, celspan.cel.fields
+---@field opacity number
 
 ---@class celspan.cel.fields
----@field [integer] celspan.object
+---@field [integer] celspan.shape
 ---@field front? celspan.light Default the rostrum's, else white
 ---@field back? celspan.light Shines through the whole frame behind this cel; default none
 ---@field viewport? number[] {x, y, w, h}: the part that fills the frame
@@ -333,7 +418,16 @@ function celspan.clip(art, shape) end
 ---@return celspan.cel
 function celspan.cel(fields) end
 
----@class celspan.rostrum
+--- A light with a shape: gain times beta times pigment at each point.
+---@class celspan.light_shape
+---@field texture celspan.surface
+---@field gain? number 0 or more, default 1
+---@field on? "frame"|"cel" In film units on the frame (default), or in the cel's units, moving with it
+
+--- With a size it is an object too; transforms and fades give that object.
+---@class celspan.rostrum: celspan.placed, celspan.rostrum.fields
+---@field brightness number
+---@field antialias celspan.antialias
 local rostrum = {}
 
 --- A copy with changes.
@@ -359,6 +453,7 @@ function rostrum:with(changes) end
 ---@field brightness? number Multiplies the light, not alpha; default 1
 ---@field camera? celspan.camera
 ---@field antialias? celspan.antialias Default "area"
+---@field size? number[] {w, h}, film units: its own film, which it needs as an object
 
 --- Cels under one camera.
 ---@param fields celspan.rostrum.fields
@@ -405,6 +500,12 @@ function frame:random(label, m, n) end
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
 
 ---@class celspan.film: celspan.film.fields
+---@field size integer[]
+---@field fps number
+---@field frames integer
+---@field duration number Seconds
+---@field first integer
+---@field sound_offset number
 local film = {}
 
 --- A copy with changes.
@@ -412,7 +513,7 @@ local film = {}
 ---@return celspan.film
 function film:with(changes) end
 
---- What the frame function returns for a frame's number.
+--- What the frame function returns for a frame of the film, by its number.
 ---@param number integer
 ---@return celspan.exposures
 function film:at(number) end
@@ -437,6 +538,7 @@ function celspan.film(fields) end
 ---@field depth? 8|16|"half"|"float"
 ---@field colour? "linear"|"srgb"|"rec709"|"cineon"
 ---@field alpha? "straight"|"premultiplied"
+---@field dither? boolean 8 bits without bands
 ---@field progress? fun(share: number, frame: integer): boolean? The share of the whole job; false stops
 
 --- Renders into files; #### or %04d is the frame's number.
@@ -458,8 +560,32 @@ local image = {}
 ---@return number r, number g, number b, number a
 function image:get(x, y) end
 
----@param what celspan.exposures
----@param options? celspan.options
+---@class celspan.bytes.options
+---@field depth? 8|16|"half"|"float" Default 8
+---@field colour? "linear"|"srgb"|"rec709"|"cineon"
+---@field alpha? "straight"|"premultiplied"
+---@field dither? boolean 8 bits without bands
+
+--- RGBA, rows from top to bottom, little endian.
+---@param options? celspan.bytes.options
+---@return string
+function image:bytes(options) end
+
+---@class celspan.write.options: celspan.bytes.options
+---@field format? string Default by the file's ending
+
+--- Writes a file.
+---@param path string
+---@param options? celspan.write.options
+---@return true? done
+---@return string? message
+function image:write(path, options) end
+
+---@class celspan.pixels.options: celspan.options
+---@field frame? integer Of a film; default its first
+
+---@param what celspan.film|celspan.exposures
+---@param options? celspan.pixels.options
 ---@return celspan.pixels.image? image
 ---@return string? message
 function celspan.pixels(what, options) end
@@ -471,22 +597,27 @@ function celspan.pixels(what, options) end
 ---@field kind "single"|"gradient"|"array"
 ---@field [integer] number
 
----@class celspan.spans.options: celspan.options
+---@class celspan.spans.options: celspan.pixels.options
 ---@field rows? integer[] {first, last}, inclusive, from 0
 
 --- Rows of spans: rows[y] is a list.
----@param what celspan.exposures
+---@param what celspan.film|celspan.exposures
 ---@param options? celspan.spans.options
 ---@return table<integer, celspan.span[]>? rows
 ---@return string? message
 function celspan.spans(what, options) end
 
 --- The colour of one point of the film by direct evaluation: no sweep, no antialiasing, no defocus.
----@param what celspan.exposures
+---@param what celspan.film|celspan.exposures
 ---@param x number
 ---@param y number
----@param options? {film?: number[]}
+---@param options? {film?: number[], frame?: integer}
 ---@return number? r, number|string g, number b, number a
 function celspan.probe(what, x, y, options) end
+
+--- Random numbers of a seed: random(label [, m, n]) depends on the seed and the label alone.
+---@param seed string|number
+---@return fun(label: string|number, m?: integer, n?: integer): number
+function celspan.random(seed) end
 
 return celspan

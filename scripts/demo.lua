@@ -1,7 +1,8 @@
 -- The lamplighter: ten seconds in which the evening comes, cel by cel.
 --
 -- A slow pan over planes at their own depths; front lights that dim from gold to dusk; a figure
--- whose lips follow a recorded line; and a second exposure for everything that glows.
+-- whose lips follow a recorded line; and a second exposure for everything that glows, and for what
+-- the lantern lights.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local keys = require "celspan.keys"
@@ -34,7 +35,7 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   end
   local function light(distance) return palette.lights[distance]:at(time) end
 
-  local figure, glass, frame, glow = character.draw(time, line:at(f.number))
+  local figure, glass, frame, wick = character.draw(time, line:at(f.number))
   local function stand(art) return art:translate(1500, 946) end
   local flame = lamp:at(time)
   local name = title.write("celspan", (time - cue.title) / 1.5, "#ffeccb")
@@ -59,9 +60,15 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   if flame == 0 then return painted end
 
   local gels, card, halos = village.light_box(time, cue.houses, window(0.42))
+  local lantern = { texture = palette.lamplight(1500 + wick[1], 946 + wick[2], 900), on = "cel" }
+  local function lamplit(gain, art)
+    lantern.gain = gain * flame
+    return plane(1, lantern, art)
+  end
   local lit = celspan.rostrum {
     gels, card, halos,
-    plane(1, grey(7 * flame), stand(glow)),
+    lamplit(1.5, landscape.ground), lamplit(1.7, stand(figure)), plane(1, grey(0), stand(glass)),
+    lamplit(1, stand(frame)),
     plane(1.5, grey(0), meadow),
   }
   return { { painted, 1 }, { lit, 1 } }

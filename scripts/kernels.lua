@@ -13,8 +13,7 @@ local KERNELS = {
     antialias = { kernel = function(x) return 1 - math.abs(x) end, radius = 1 } },
 }
 
-local ink = celspan.rgb(0.02, 0.03, 0.06)
-local blue = celspan.rgb(0.05, 0.2, 0.6)
+local ink, teal = "#1f2a44", "#2a7f83"
 
 local function fan(x, y, length)
   local rays = {}
@@ -26,10 +25,10 @@ local function fan(x, y, length)
 end
 
 local art = celspan.cel {
-  celspan.rect { 6, -10, 14, 100, texture = blue }:rotate(8, 12, 20),
+  celspan.rect { 6, -10, 14, 100, texture = teal }:rotate(8, 12, 20),
   celspan.circle { centre = { 38, 15 }, radius = 9.3, texture = ink },
-  celspan.circle { centre = { 40, 13 }, radius = 4.1, texture = "#ff8030" },
-  celspan.triangle { { 30, 39 }, { 47, 37 }, { 40, 27 }, texture = "#2f8f6b" },
+  celspan.circle { centre = { 40, 13 }, radius = 4.1, texture = "#f2b134" },
+  celspan.triangle { { 30, 39 }, { 47, 37 }, { 40, 27 }, texture = "#e4572e" },
   fan(52, 4, 34),
 }
 
@@ -37,6 +36,6 @@ local art = celspan.cel {
 return celspan.film {
   title = "Kernels", size = { 96, 40 }, fps = 1, frames = #KERNELS,
   frame = function(f)
-    return celspan.rostrum { art, back = "#f4efe4", antialias = KERNELS[f.index + 1].antialias }
+    return celspan.rostrum { art, back = "#f6ebd3", antialias = KERNELS[f.index + 1].antialias }
   end,
 }

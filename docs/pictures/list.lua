@@ -1,14 +1,17 @@
 -- The pictures of the documentation: what each is a frame of. `./run docs` makes them anew.
 --   script   a script of the tree
 --   page     a page whose example of the same name it is
+--   parts    frames that are rendered before, into a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
-  { name = "moon", page = "README.md", frame = 24 },
+  { name = "moon", page = "README.md", frame = 40 },
   { name = "beta", page = "docs/guide.md" },
   { name = "shapes", page = "docs/guide.md", size = "640x360" },
   { name = "gel", page = "docs/guide.md" },
   { name = "dusk", page = "docs/guide.md", frame = 36 },
-  { name = "soft", page = "docs/guide.md", frame = 12 },
+  { name = "lamplight", page = "docs/guide.md", frame = 18 },
+  { name = "postcards", page = "docs/guide.md", frame = 1 },
+  { name = "soft", page = "docs/guide.md", frame = 6 },
   { name = "gradients", page = "docs/guide.md" },
   { name = "exposures", page = "docs/guide.md" },
   { name = "easing", page = "docs/guide.md" },
@@ -23,6 +26,10 @@ return {
   { name = "dissolve", script = "scripts/dissolve.lua", frame = 24, size = "640x360" },
   { name = "gradient", script = "scripts/gradient.lua", frame = 24, size = "640x360" },
   { name = "picture", script = "scripts/picture.lua", frame = 40, size = "640x360" },
+  { name = "balloon", page = "docs/guide.md", frame = 24 },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
+  { name = "kernels", script = "docs/pictures/kernels.lua", parts = {
+    { script = "scripts/kernels.lua", frame = 2, size = "384x160", file = "kernels.art.png" },
+    { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },
 }

@@ -1,5 +1,6 @@
 -- Makes the pictures of the documentation: lua5.4 docs/pictures/make.lua BINARY FOLDER, from the
--- top of the tree. Examples in pages are put into FOLDER/examples/ first.
+-- top of the tree. Examples in pages are put into FOLDER/examples/, and what pictures are put
+-- together from into FOLDER/parts/.
 package.path = "./?.lua;" .. package.path
 local markdown = require "tests.support.markdown"
 local list = require "docs.pictures.list"
@@ -27,11 +28,24 @@ local function extract(page, name)
   error(("%s has no example %s.lua"):format(page, name))
 end
 
-run("mkdir -p", folder .. "/examples")
-for _, picture in ipairs(list) do
-  local script = picture.script or extract(picture.page, picture.name)
-  local arguments = { script, "--frames", tostring(picture.frame or 1), "--progress", "none",
-                      "-o", folder .. "/" .. picture.name .. ".png" }
-  if picture.size then table.move({ "--size", picture.size }, 1, 2, #arguments + 1, arguments) end
+local function render(script, picture, output, argument)
+  local arguments = { script, "--progress", "none", "-o", output }
+  local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
+  if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
+  if picture.size then add("--size", picture.size) end
+  if argument then add("--", argument) end
   run(binary .. " render", table.unpack(arguments))
+end
+
+local parts = folder .. "/parts"
+run("mkdir -p", folder .. "/examples", parts)
+-- A script is given an absolute path, because it looks for files beside itself.
+local pwd = assert(io.popen "pwd"):read "l"
+local absolute = parts:find "^/" and parts or pwd .. "/" .. parts
+for _, picture in ipairs(list) do
+  for _, part in ipairs(picture.parts or {}) do
+    render(part.script, part, parts .. "/" .. part.file)
+  end
+  local script = picture.script or extract(picture.page, picture.name)
+  render(script, picture, folder .. "/" .. picture.name .. ".png", picture.parts and absolute)
 end

@@ -7,6 +7,7 @@
 --
 -- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back and elastic overshoot between.
 local core = require "celspan.core"
+local fields = require "celspan.fields"
 
 local pi, sin, sqrt = math.pi, math.sin, math.sqrt
 
@@ -136,9 +137,9 @@ end
 ---@class celspan.ease
 ---@field names string[]
 ---@overload fun(curve: string|fun(u: number): number): fun(u: number): number
-return setmetatable({
+return fields.seal("ease", setmetatable({
   --- Every name in its plain form: "inquad", "quadin", ...
   names = names,
 }, {
   __call = function(_, name) return (find(name)) end,
-})
+}))

@@ -19,19 +19,78 @@ function fields.is_finite(value)
   return type(value) == "number" and value == value and value ~= math.huge and value ~= -math.huge
 end
 
---- What a message says was given: the value of a number, else the type.
-function fields.shown(value)
-  return type(value) == "number" and ("%.14g"):format(value) or type(value)
+--- What a message says was given: "nil", "a cel".
+function fields.kind(value)
+  local noun = type(value) == "userdata" and tostring(value):match "^(%l+)%f[{%z ]"
+  return noun and "a " .. noun or type(value)
 end
 
---- Raises at the line of the caller's caller, or at `level`. known: name -> what type() must give.
+--- The same, but the value of a number.
+function fields.shown(value)
+  if value ~= value then return "nan" end -- its sign means nothing
+  return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)
+end
+
+--- Raises that `noun` has no field or method of this name; the nearest of `names` is told. level:
+--- of the line that reads it, as for error.
+local function refuse_name(noun, name, names, level)
+  table.sort(names)
+  local hint = core.nearest(name, names)
+  error(("%s has no '%s'%s"):format(noun, name, hint and ("; did you mean '%s'?"):format(hint)
+    or "; there are " .. table.concat(names, ", ")), level + 1)
+end
+
+--- The __index of a class whose values have `methods` and fields of their own. optional: the
+--- fields that may be nil, as keys.
+function fields.reads(noun, methods, optional)
+  return function(value, name)
+    local found = methods[name]
+    if found ~= nil or type(name) ~= "string" or optional and optional[name] then return found end
+    local names = {}
+    for _, list in ipairs { methods, value, optional or {} } do
+      for known in pairs(list) do
+        if type(known) == "string" and not known:find "^__" then names[#names + 1] = known end
+      end
+    end
+    refuse_name(noun, name, names, 2)
+  end
+end
+
+--- Makes reading a name that a module does not have an error; gives the module.
+function fields.seal(noun, module)
+  local metatable = getmetatable(module) or {}
+  metatable.__index = fields.reads("celspan." .. noun, {})
+  return setmetatable(module, metatable)
+end
+
+--- Raises unless `value` is a list of `count` finite numbers. subject: what it is called, with the
+--- number's place: "film[%d]"; shape: what it must be.
+function fields.numbers(noun, subject, value, count, shape, level)
+  level = (level or 3) + 1
+  if type(value) ~= "table" then
+    error(("%s: %s must be %s, got %s"):format(noun, subject:match "^[^%[:]*", shape,
+      fields.kind(value)), level)
+  end
+  for i = 1, count do
+    local number = value[i]
+    if not fields.is_finite(number) then
+      error(("%s: %s must be a %snumber, got %s"):format(noun, subject:format(i),
+        type(number) == "number" and "finite " or "", fields.shown(number)), level)
+    end
+  end
+end
+
+--- Raises at the line of the caller's caller, or at `level`. known: name -> what type() must give,
+--- and something at place 1 where the table holds a list too.
 function fields.check(noun, given, known, level)
   level = level or 3
   if type(given) ~= "table" then
-    error(("%s: takes a table, got %s"):format(noun, type(given)), level)
+    error(("%s: takes a table, got %s"):format(noun, fields.kind(given)), level)
   end
   local names = {}
-  for name in pairs(known) do names[#names + 1] = name end
+  for name in pairs(known) do
+    if type(name) == "string" then names[#names + 1] = name end
+  end
   table.sort(names)
   local unknown = unknown_in(given, known)
   if unknown then
@@ -40,11 +99,15 @@ function fields.check(noun, given, known, level)
       hint and ("; did you mean '%s'?"):format(hint)
         or "; the fields are " .. table.concat(names, ", ")), level)
   end
+  if known[1] == nil and #given > 0 then
+    error(("%s: takes named fields only, but was given a list"):format(noun), level)
+  end
   for _, name in ipairs(names) do
     local value = given[name]
     local wanted = known[name]
     if value ~= nil and wanted ~= "any" and type(value) ~= wanted then
-      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted, type(value)), level)
+      error(("%s: field '%s' must be a %s, got %s"):format(noun, name, wanted,
+        fields.kind(value)), level)
     end
     if wanted == "number" and value ~= nil and not fields.is_finite(value) then
       error(("%s: field '%s' must be a finite number, got %s"):format(noun, name,

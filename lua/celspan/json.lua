@@ -146,4 +146,4 @@ function json.decode(text)
   return value
 end
 
-return json
+return require "celspan.fields".seal("json", json)

@@ -3,8 +3,8 @@
 --   local x = keys{ {0, 10}, {1, 50, "outQuad"}, {2, 20} }
 --   x:at(f.time)
 --
--- A key is {time, value [, ease into it]}. Numbers, arrays of numbers and paints are mixed; strings
--- and booleans hold until the next key. The ends hold, or the whole repeats (loop = "repeat") or
+-- A key is {time, value [, ease into it]}. Numbers, arrays of numbers, paints and colours such as
+-- "#ff8800" are mixed; other strings and booleans hold until the next key. The ends hold, or the whole repeats (loop = "repeat") or
 -- runs to and fro (loop = "mirror").
 local celspan = require "celspan"
 local ease = require "celspan.ease"
@@ -12,7 +12,7 @@ local fields = require "celspan.fields"
 
 ---@class celspan.keys.track
 local Track = {}
-Track.__index = Track
+Track.__index = fields.reads("a track of keys", Track, { loop = true })
 Track.__name = "celspan.keys"
 
 local paint_metatable = getmetatable(celspan.clear)
@@ -21,10 +21,17 @@ local function is_paint(value)
   return getmetatable(value) == paint_metatable
 end
 
---- "number", "array", "paint" or "held"; nil for what cannot be a value.
+--- The paint that a string like "#rrggbb" is, else nil.
+local function paint_of(text)
+  local good, paint = pcall(celspan.rgb, text)
+  return good and paint or nil
+end
+
+--- "number", "array", "paint", "colour" (a string), "held"; nil for what cannot be a value.
 local function kind_of(value)
   local type_of = type(value)
   if type_of == "number" then return fields.is_finite(value) and "number" or nil end
+  if type_of == "string" and paint_of(value) then return "colour" end
   if type_of == "string" or type_of == "boolean" then return "held" end
   if is_paint(value) then return "paint" end
   if type_of ~= "table" then return nil end
@@ -62,7 +69,7 @@ end
 
 --- What is wrong with a key by itself, or nil.
 local function problem_of(key)
-  if type(key) ~= "table" then return "must be {time, value}, got " .. type(key) end
+  if type(key) ~= "table" then return "must be {time, value}, got " .. fields.kind(key) end
   if not fields.is_finite(key[1]) then
     return "must begin with a time, a finite number, got " .. fields.shown(key[1])
   end
@@ -71,11 +78,20 @@ local function problem_of(key)
       .. "got " .. fields.shown(key[2])
   end
   local good, curve = pcall(ease, key[3] or "linear")
-  if not good then return curve end
+  if not good then return "cannot have this ease: " .. curve:gsub("^ease: ", "") end
 end
 
 local function copy(value)
   return type(value) == "table" and { table.unpack(value) } or value
+end
+
+--- What colour strings are: paints, unless any key is another string or a boolean, among which they
+--- are words that hold.
+local function meaning_of_colours(list)
+  for i = 1, #list do
+    if kind_of(list[i][2]) == "held" then return "held" end
+  end
+  return "paint"
 end
 
 local function read_keys(list)
@@ -83,9 +99,14 @@ local function read_keys(list)
   for i = 1, #list do
     local problem = problem_of(list[i])
     if problem then complain(i, "%s", problem) end
+  end
+  local colours = meaning_of_colours(list)
+  for i = 1, #list do
     local found = kind_of(list[i][2])
+    if found == "colour" then found = colours end
     kind = kind or found
     local time, value = list[i][1], copy(list[i][2])
+    if found == "paint" and type(value) == "string" then value = paint_of(value) end
     if found ~= kind then
       complain(i, "is of another kind (%s) than the first (%s)", found, kind)
     end
@@ -103,7 +124,7 @@ end
 local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
-  fields.check("keys", list, { loop = "string" })
+  fields.check("keys", list, { "keys", loop = "string" })
   if #list == 0 then error("keys: needs at least one key {time, value}", 2) end
   if list.loop ~= nil and not loops[list.loop] then
     error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 2)
@@ -152,4 +173,4 @@ end
 
 ---@class celspan.keys
 ---@overload fun(list: table): celspan.keys.track
-return setmetatable({}, { __call = new })
+return fields.seal("keys", setmetatable({}, { __call = new }))

@@ -18,7 +18,7 @@ local lips = {}
 ---@field fps number
 ---@field shapes string[]
 local Track = {}
-Track.__index = Track
+Track.__index = fields.reads("a track of mouths", Track)
 Track.__name = "celspan.lips"
 
 --- What stands in for a shape that a set of drawings lacks: Rhubarb's own rules.
@@ -30,10 +30,11 @@ local known = { fps = "number", hold = "number", map = "table", set = "table" }
 local function check_ranges(options)
   local fps, hold = options.fps or 24, options.hold or 2
   if not (fps > 0 and fps <= 1000) then
-    error("lips: field 'fps' must be above 0 and at most 1000", 3)
+    error("lips: field 'fps' must be above 0 and at most 1000, got " .. fields.shown(fps), 3)
   end
   if hold < 1 or hold ~= math.floor(hold) then
-    error("lips: field 'hold' must be a whole number of frames, 1 or more", 3)
+    error("lips: field 'hold' must be a whole number of frames, 1 or more, got "
+      .. fields.shown(hold), 3)
   end
 end
 
@@ -56,8 +57,8 @@ end
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)
-  if type(frame) ~= "number" then
-    error("lips: at takes a frame's number, got " .. type(frame), 2)
+  if not fields.is_finite(frame) then
+    error("lips: at takes a frame's number, a finite number, got " .. fields.shown(frame), 2)
   end
   return self.shapes[math.max(1, math.min(#self.shapes, math.floor(frame)))]
 end
@@ -68,7 +69,7 @@ end
 ---@field map? table<string, any> Names of one's own
 ---@field set? string[] The shapes that are drawn; others fall back: G to A, H to C, X to A
 
----@param path string Relative to the script
+---@param path string Relative to the caller's file, else to the script
 ---@param options? celspan.lips.options
 ---@return celspan.lips.track? track
 ---@return string? message
@@ -77,10 +78,14 @@ function lips.read(path, options)
   options = options or {}
   fields.check("lips", options, known)
   check_ranges(options)
-  local file, message = io.open(core.resolve(path), "rb")
+  local found_at, tried = core.find(path)
+  local file, message = io.open(found_at, "rb")
   local text = file and file:read "a"
   if file then file:close() end
-  if not text then return nil, message or ("%s: cannot be read"):format(path) end
+  if not text then
+    message = message or ("%s: cannot be read"):format(found_at)
+    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+  end
   local found, problem = cues.read(text)
   if not found then return nil, ("%s: %s"):format(path, problem) end
   local fps = options.fps or 24
@@ -97,4 +102,4 @@ function lips.read(path, options)
   return setmetatable({ shapes = shapes, frames = #shapes, fps = fps }, Track)
 end
 
-return lips
+return fields.seal("lips", lips)

@@ -13,12 +13,8 @@ local motion = {}
 ---@class celspan.motion.way
 ---@field length number
 local Way = {}
-Way.__index = Way
+Way.__index = fields.reads("a way", Way)
 Way.__name = "celspan.motion.way"
-
-local function is_point(p)
-  return type(p) == "table" and math.type(p[1]) and math.type(p[2]) and true or false
-end
 
 local function points_of(outline)
   if type(outline) == "string" then
@@ -27,12 +23,11 @@ local function points_of(outline)
     return points
   end
   if type(outline) ~= "table" then
-    error("motion: along takes path data or a list of points {x, y}, got " .. type(outline), 3)
+    error("motion: along takes path data or a list of points {x, y}, got "
+      .. fields.kind(outline), 3)
   end
   for i = 1, #outline do
-    if not is_point(outline[i]) then
-      error(("motion: point %d must be {x, y}, got %s"):format(i, type(outline[i])), 3)
-    end
+    fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}", 3)
   end
   return outline
 end
@@ -71,7 +66,9 @@ end
 ---@param u number
 ---@return number x, number y, number degrees
 function Way:at(u)
-  if type(u) ~= "number" then error("motion: at takes a number, got " .. type(u), 2) end
+  if not fields.is_finite(u) then
+    error("motion: at takes a share of the way, a finite number, got " .. fields.shown(u), 2)
+  end
   local points = self.points
   if #points == 1 then return points[1][1], points[1][2], 0 end
   local length = math.max(0, math.min(1, u)) * self.length
@@ -84,7 +81,7 @@ end
 
 ---@class celspan.motion.wiggle
 local Wiggle = {}
-Wiggle.__index = Wiggle
+Wiggle.__index = fields.reads("a wiggle", Wiggle)
 Wiggle.__name = "celspan.motion.wiggle"
 
 --- FNV-1a, 64 bits.
@@ -108,8 +105,8 @@ end
 ---@param settings? {frequency?: number, amplitude?: number} Changes a second (1); largest value (1)
 ---@return celspan.motion.wiggle
 function motion.wiggle(seed, settings)
-  if type(seed) ~= "string" and type(seed) ~= "number" then
-    error("motion: wiggle takes a seed, a string or a number, got " .. type(seed), 2)
+  if type(seed) ~= "string" and not fields.is_finite(seed) then
+    error("motion: wiggle takes a seed, a string or a finite number, got " .. fields.shown(seed), 2)
   end
   settings = settings or {}
   fields.check("motion", settings, { frequency = "number", amplitude = "number" })
@@ -120,8 +117,8 @@ end
 ---@param time number Seconds
 ---@return number
 function Wiggle:at(time)
-  if type(time) ~= "number" then
-    error("motion: at takes a time, a number, got " .. type(time), 2)
+  if not fields.is_finite(time) then
+    error("motion: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end
   local at = time * self.frequency
   local n = math.floor(at)
@@ -130,4 +127,4 @@ function Wiggle:at(time)
   return self.amplitude * (a + (b - a) * t * t * t * (t * (6 * t - 15) + 10))
 end
 
-return motion
+return fields.seal("motion", motion)

@@ -8,16 +8,27 @@ local closed = { A = true, MBP = true, X = true, rest = true }
 --- The longest recording that is read: a day at 24 frames a second.
 local most_frames = 2500000
 
+--- The cues by their starts; of equal starts in the order of the file.
+local function in_order(list)
+  local sorted, place = {}, {}
+  for i, cue in ipairs(list) do sorted[i], place[cue] = cue, i end
+  table.sort(sorted, function(a, b)
+    if a[1] ~= b[1] then return a[1] < b[1] end
+    return place[a] < place[b]
+  end)
+  return sorted
+end
+
 --- Cues in seconds -> shape of each frame: the one that covers most of it, the later of equals.
-function mouths.from_cues(list, fps)
-  local stop = 0
+function mouths.from_cues(given, fps)
+  local list, stop = in_order(given), 0
   for _, cue in ipairs(list) do stop = math.max(stop, cue[2]) end
   local count = math.ceil(stop * fps - 1e-6)
   if count > most_frames then return nil, "the recording is longer than a day" end
   local shapes, best = {}, {}
   for i, cue in ipairs(list) do
-    -- cues may overlap: a cue ends where the next one starts
-    local ends = list[i + 1] and math.min(cue[2], math.max(list[i + 1][1], cue[1])) or cue[2]
+    -- a cue ends where the next one starts, whether they overlap or leave a gap
+    local ends = list[i + 1] and list[i + 1][1] or cue[2]
     for n = math.max(1, math.floor(cue[1] * fps) + 1), math.min(count, math.ceil(ends * fps)) do
       local cover = math.min(ends * fps, n) - math.max(cue[1] * fps, n - 1)
       -- pressed lips that fill a third of a frame are worth the whole

@@ -8,21 +8,33 @@
 -- times that scale. Farther planes come first. A plane whose distance differs from `focus`
 -- (default: focal) by d is defocused by aperture |d| / distance, on top of what its cel has. Planes
 -- at or behind the camera are not seen. front, back, brightness and antialias go to the rostrum.
+--
+-- fit = true: each plane's cel is drawn for the film's frame and enlarged by (focal + z) / focal about
+-- its centre first, so that it fills the film while the camera rests at z = 0, whatever its depth.
+-- over = {cel, ...}: nearest of all, where they are, whatever the camera does.
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 
-local known = { film = "table", camera = "table", focal = "number", focus = "number",
-                aperture = "number", front = "any", back = "any", brightness = "number",
-                antialias = "any" }
-local known_plane = { z = "number" }
+local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
+                aperture = "number", fit = "boolean", over = "table", front = "any", back = "any",
+                brightness = "number", antialias = "any" }
+local known_plane = { "cel", z = "number", fit = "boolean" }
 local known_camera = { x = "number", y = "number", z = "number" }
 
+--- Whether a plane is enlarged to fill the film at rest.
+local function fits(plane, scene)
+  if plane.fit ~= nil then return plane.fit end
+  return scene.fit
+end
+
 --- The cel of a plane as the camera sees it.
-local function seen(plane, scene, scale, blur)
+local function seen(plane, scene, focal, distance, blur)
   local cx, cy = scene.film[1] / 2, scene.film[2] / 2
   local camera = scene.camera or {}
-  local cel = plane[1]:translate(-cx - (camera.x or 0), -cy - (camera.y or 0))
-    :scale(scale):translate(cx, cy)
+  local cel = plane[1]
+  if fits(plane, scene) then cel = cel:scale((focal + (plane.z or 0)) / focal, nil, cx, cy) end
+  cel = cel:translate(-cx - (camera.x or 0), -cy - (camera.y or 0))
+    :scale(focal / distance):translate(cx, cy)
   if blur == 0 then return cel end
   local own = cel.defocus or 0
   local radius = type(own) == "table" and own.radius or own
@@ -31,21 +43,36 @@ local function seen(plane, scene, scale, blur)
   return cel:with { defocus = { radius = radius, kernel = kernel } }
 end
 
+local cel_metatable = getmetatable(celspan.cel {})
+
 local function check(scene)
-  local film = scene.film
-  if not film or math.type(film[1]) == nil or math.type(film[2]) == nil then
-    error("multiplane: field 'film' must be {width, height}, the size of the film", 3)
+  if not scene.film then
+    error("multiplane: field 'film' must be {width, height}, the size of the film, got nil", 3)
+  end
+  fields.numbers("multiplane", "film[%d]", scene.film, 2, "{width, height}", 3)
+  if scene.aperture and scene.aperture < 0 then
+    error("multiplane: field 'aperture' must be 0 or more, got " .. fields.shown(scene.aperture), 3)
   end
   if scene.focal and scene.focal <= 0 then
-    error(("multiplane: field 'focal' must be above 0, got %s"):format(scene.focal), 3)
+    error("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal), 3)
   end
   for i = 1, #scene do
     local plane = scene[i]
-    if type(plane) ~= "table" or type(plane[1]) ~= "userdata" then
+    local cel = type(plane) == "table" and plane[1] or nil
+    if getmetatable(cel) ~= cel_metatable then
       error(("multiplane: plane %d must be {cel, z = depth}, got %s"):format(i,
-        type(plane) == "table" and "another table" or type(plane)), 3)
+        type(plane) == "table" and ("{%s}"):format(fields.kind(cel)) or fields.kind(plane)), 3)
     end
     fields.check("multiplane: plane " .. i, plane, known_plane, 4)
+    if fits(plane, scene) and (plane.z or 0) <= -(scene.focal or 1000) then
+      error(("multiplane: plane %d lies at or behind the camera at rest (z = %s, focal = %s); it "
+        .. "cannot fill the film there"):format(i, plane.z, scene.focal or 1000), 3)
+    end
+  end
+  for i = 1, #(scene.over or {}) do
+    if getmetatable(scene.over[i]) ~= cel_metatable then
+      error(("multiplane: over[%d] must be a cel, got %s"):format(i, fields.kind(scene.over[i])), 3)
+    end
   end
 end
 
@@ -68,12 +95,13 @@ local function multiplane(_, scene)
     local distance = focal + (scene[i].z or 0) - (scene.camera and scene.camera.z or 0)
     if distance > 0 then
       local blur = aperture * math.abs(distance - focus) / distance
-      cels[#cels + 1] = seen(scene[i], scene, focal / distance, blur)
+      cels[#cels + 1] = seen(scene[i], scene, focal, distance, blur)
     end
   end
+  for _, cel in ipairs(scene.over or {}) do cels[#cels + 1] = cel end
   return celspan.rostrum(cels)
 end
 
 ---@class celspan.multiplane
 ---@overload fun(scene: table): celspan.rostrum
-return setmetatable({}, { __call = multiplane })
+return fields.seal("multiplane", setmetatable({}, { __call = multiplane }))

@@ -40,10 +40,11 @@ local function shutter(_, settings)
   fields.check("shutter", settings, known)
   local angle, samples, frame = settings.angle or 180, settings.samples or 8, settings.frame
   if not (angle >= 0 and angle <= 360) then
-    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(angle), 2)
+    error(("shutter: field 'angle' must be 0..360 degrees, got %s"):format(fields.shown(angle)), 2)
   end
   if samples < 1 or samples > 10000 or samples ~= math.floor(samples) then
-    error(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(samples), 2)
+    error(("shutter: field 'samples' must be a whole number, 1..10000, got %s"):format(
+      fields.shown(samples)), 2)
   end
   if not frame then error("shutter: field 'frame' must be a function, got nil", 2) end
   return function(f)
@@ -57,4 +58,4 @@ end
 
 ---@class celspan.shutter
 ---@overload fun(settings: table): fun(f: celspan.frame): table[]
-return setmetatable({}, { __call = shutter })
+return fields.seal("shutter", setmetatable({}, { __call = shutter }))

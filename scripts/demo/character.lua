@@ -82,20 +82,21 @@ local function lantern(x, y, swing)
     celspan.rect { -3, 34, 6, 60, texture = palette.brass },
   }
   local function place(v) return v:rotate(swing):translate(x, y) end
-  return place(glass), place(frame), place(shapes.glow(0, 66, 250, 1, 0.55, 0.18, 0.12))
+  local turn = math.rad(swing)
+  return place(glass), place(frame), { x - 66 * math.sin(turn), y + 66 * math.cos(turn) }
 end
 
---- figure, lantern's glass, lantern's frame, its glow; all in the figure's units.
+--- figure, lantern's glass, lantern's frame, where its flame is; all in the figure's units.
 function character.draw(time, shape)
   local sway = math.sin(time * 1.7)
   local story = arm(-1, table.unpack(telling:at(time)))
   local holding, gx, gy = arm(1, 30 + sway * 1.5, 44 + sway * 2)
-  local glass, frame, glow = lantern(gx, gy, 5 * math.sin(time * 2.6))
+  local glass, frame, flame = lantern(gx, gy, 5 * math.sin(time * 2.6))
   local head = face.draw(time, shape)
     :rotate(2.4 * math.sin(time * 2.3) - 2):translate(sway * 2, -392 + sway)
   local figure = celspan.union {
     tail(time, 0, 250, 40), tail(time, 1.3, 200, 96), holding, body, story, head, collar }
-  return figure, glass, frame, glow
+  return figure, glass, frame, flame
 end
 
 return character

@@ -62,4 +62,15 @@ palette.hat = { "#e8a33d", "#b5672d" }
 palette.boot = "#3b2430"
 palette.brass = "#7a4b2a"
 
+--- The light of a lamp at a point: warm, and falling off with the distance.
+function palette.lamplight(x, y, radius)
+  local light = { centre = { x, y }, radius = radius }
+  for i = 0, 16 do
+    local u = i / 16
+    local strength = (1 - u) ^ 2 / (1 + 24 * u * u)
+    light[#light + 1] = { u, celspan.rgb(strength, 0.6 * strength, 0.26 * strength) }
+  end
+  return celspan.radial(light)
+end
+
 return palette

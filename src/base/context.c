@@ -5,6 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define ORIGIN_SIZE 255   /* bytes of a source that are kept */
+#define ORIGIN_COUNT 4096 /* sources that are kept */
+
+/* A file that values were made in. It lives as long as the memory, and so as long as any value: it
+ * needs no count, which every value would have to change. */
+typedef struct cs_source {
+  struct cs_source *next;
+  size_t size; /* of all of it */
+  char bytes[];
+} cs_source;
+
 static void *default_resize(void *user, void *storage, size_t old_size, size_t new_size) {
   (void)user, (void)old_size;
   if (new_size == 0) {
@@ -26,6 +37,7 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   atomic_init(&memory->bytes, 0);
   atomic_init(&memory->peak, 0);
   atomic_init(&memory->allocations, 0);
+  memory->sources = NULL;
   return memory;
 }
 
@@ -35,8 +47,13 @@ cs_memory *cs_memory_ref(cs_memory *memory) {
 }
 
 void cs_memory_unref(cs_memory *memory) {
-  if (atomic_fetch_sub_explicit(&memory->references, 1, memory_order_acq_rel) == 1)
-    memory->resize(memory->user, memory, sizeof *memory, 0);
+  if (atomic_fetch_sub_explicit(&memory->references, 1, memory_order_acq_rel) != 1)
+    return;
+  for (cs_source *source = memory->sources, *next; source; source = next) {
+    next = source->next;
+    memory->resize(memory->user, source, source->size, 0);
+  }
+  memory->resize(memory->user, memory, sizeof *memory, 0);
 }
 
 static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
@@ -168,6 +185,34 @@ void celspan_context_destroy(celspan_context *context) {
   cs_memory *memory = context->memory;
   cs_mem_free(memory, context, sizeof *context);
   cs_memory_unref(memory);
+}
+
+/* The source of this name, kept if it is there or there is room for it; else NULL. */
+static const char *find_source(cs_memory *memory, const char *name, size_t length) {
+  size_t count = 0, size = sizeof(cs_source) + length + 1;
+  for (const cs_source *at = memory->sources; at; at = at->next, count++)
+    if (strncmp(at->bytes, name, length) == 0 && at->bytes[length] == 0)
+      return at->bytes;
+  cs_source *source = count < ORIGIN_COUNT ? cs_mem_resize(memory, NULL, 0, size) : NULL;
+  if (!source)
+    return NULL;
+  source->next = memory->sources;
+  source->size = size;
+  memcpy(source->bytes, name, length);
+  source->bytes[length] = 0;
+  memory->sources = source;
+  return source->bytes;
+}
+
+void celspan_context_set_origin(celspan_context *context, const char *source, int32_t line) {
+  cs_mark *at = &context->origin;
+  at->line = source && line > 0 ? line : 0;
+  if (at->line == 0 || (at->source && strcmp(at->source, source) == 0))
+    return;
+  size_t length = strlen(source);
+  at->source = find_source(context->memory, source, length < ORIGIN_SIZE ? length : ORIGIN_SIZE);
+  if (!at->source)
+    at->line = 0;
 }
 
 const char *celspan_context_error(const celspan_context *context) { return context->error; }

@@ -21,6 +21,7 @@ typedef struct cs_memory {
   atomic_size_t bytes;
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
+  struct cs_source *sources; /* files that values were made in; owned */
 } cs_memory;
 
 /* A service is something that a higher folder keeps for a context, such as decoded pictures;
@@ -40,11 +41,18 @@ struct cs_service {
 
 enum { CS_ERROR_SIZE = 1024 }; /* bytes of the sentence that describes a failure */
 
+typedef struct cs_mark { /* see base/mark.h */
+  struct cs_text *name;  /* NULL: none */
+  const char *source;    /* NULL: not known; else the memory's */
+  int32_t line;          /* of the source, from 1; 0: not known */
+} cs_mark;
+
 struct celspan_context {
   cs_memory *memory;
   celspan_context *root;          /* itself, or the context it was branched from */
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes;
+  cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
   char error[CS_ERROR_SIZE];
 };
 

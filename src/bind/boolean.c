@@ -1,29 +1,17 @@
 /* Boolean objects, by name and by operator. A chain of one operator becomes a single object: a ~ b
  * ~ c is xor{a, b, c}. */
+#include "bind/caller.h"
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/named.h"
 #include "bind/openers.h"
+#include "bind/shape.h"
 #include "bind/userdata.h"
-
-/* The objects of the array part: scratch memory, left on the stack. */
-static celspan_object **read_operands(const cs_form *form, int count) {
-  lua_State *L = form->L;
-  celspan_object **operands = cs_form_scratch(L, (size_t)count, sizeof *operands);
-  for (int i = 0; i < count; i++) {
-    lua_rawgeti(L, form->table, i + 1);
-    cs_userdata *value = cs_userdata_test(L, -1, &cs_kind_object);
-    if (!value)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
-    operands[i] = value->handle;
-    lua_pop(L, 1);
-  }
-  return operands;
-}
 
 static void create(const cs_form *form, cs_userdata *value, celspan_operator op) {
   int count = cs_form_length(form);
-  celspan_object **operands = read_operands(form, count);
+  celspan_object **operands = cs_shape_items(form, count);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_boolean(cs_host_context(form->L), op, operands,
                                                   (size_t)count, &object));
@@ -59,9 +47,9 @@ static const cs_noun noun_clip = {BOOLEAN(clip), .list = CS_LIST_TUPLE};
 static int clip(lua_State *L) {
   static const char *const names[] = {"the art", "the shape"};
   for (int i = 1; i <= 2; i++)
-    if (!cs_userdata_test(L, i, &cs_kind_object))
-      return luaL_error(L, "clip: argument %d, %s, must be an object, got %s", i, names[i - 1],
-                        cs_userdata_type(L, i));
+    if (!cs_shape_at(L, i))
+      return cs_caller_error(L, "clip: argument %d, %s, must be an object, got %s", i, names[i - 1],
+                             cs_userdata_type(L, i));
   lua_createtable(L, 2, 0);
   for (int i = 1; i <= 2; i++) {
     lua_pushvalue(L, i);
@@ -74,40 +62,65 @@ static int clip(lua_State *L) {
 /* ---------------------------------------------------------------- operators */
 
 static cs_userdata *operand(lua_State *L, int index, const char *sign) {
-  cs_userdata *value = cs_userdata_test(L, index, &cs_kind_object);
+  cs_userdata *value = cs_shape_at(L, index);
   if (!value)
-    luaL_error(L, "operator %s: both sides must be objects, the %s one is %s", sign,
-               index == 1 ? "left" : "right", cs_userdata_type(L, index));
+    cs_caller_error(L, "operator %s: both sides must be objects, the %s one is %s", sign,
+                    index == 1 ? "left" : "right", cs_userdata_type(L, index));
   return value;
 }
 
-static int operate(lua_State *L, const cs_noun *noun, const char *sign) {
-  const cs_userdata *left = operand(L, 1, sign);
-  operand(L, 2, sign);
-  lua_settop(L, 2);
-  lua_newtable(L);
-  lua_Integer count = 0;
-  if (left->is_chain && left->noun == noun) {
-    lua_getiuservalue(L, 1, 1);
-    for (count = 0; lua_rawgeti(L, 4, count + 1) != LUA_TNIL; count++)
-      lua_rawseti(L, 3, count + 1);
-    lua_settop(L, 3);
-  } else {
+/* Pushes the operands of a chain as they are read, with the right one of the stack behind those of
+ * the left: the same table where the left one shows all of it, which a table does once. Its room
+ * doubles like the core's, so that a beginning that lives on holds few of what others added. */
+static void push_operands(lua_State *L, lua_Integer count) {
+  if (count == 1) {
+    lua_createtable(L, 2, 0);
     lua_pushvalue(L, 1);
-    lua_rawseti(L, 3, ++count);
+    lua_rawseti(L, -2, 1);
+  } else {
+    lua_getiuservalue(L, 1, 1);
+    bool is_full = (count & (count - 1)) == 0;
+    if (is_full || (lua_Integer)lua_rawlen(L, -1) != count) {
+      cs_userdata_push_fields(L, 1);
+      lua_remove(L, -2);
+    }
   }
   lua_pushvalue(L, 2);
-  lua_rawseti(L, 3, count + 1);
-  cs_construct_value(L, noun, 3);
-  cs_userdata *value = lua_touserdata(L, -1);
+  lua_rawseti(L, -2, count + 1);
+}
+
+/* A chain goes on, or one begins: what cs_construct_value would make of the operands in a table,
+ * without going through those that are there. */
+static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const char *sign) {
+  const cs_userdata *left = operand(L, 1, sign);
+  celspan_object *const pair[] = {left->handle, operand(L, 2, sign)->handle};
+  bool goes_on = left->is_chain && left->noun == noun;
+  lua_Integer count = goes_on ? left->shown : 1;
+  celspan_context *context = cs_host_context(L);
+  celspan_object *object = NULL;
+  lua_settop(L, 2);
+  cs_userdata *value = cs_userdata_push(L, noun);
+  cs_named_begin(L, context);
+  cs_host_try(L, noun->name,
+              goes_on ? celspan_object_extend_boolean(context, pair[0], &pair[1], 1, &object)
+                      : celspan_object_create_boolean(context, op, pair, 2, &object));
+  cs_named_end(context);
+  value->handle = object;
   value->is_chain = true;
+  value->shown = count + 1;
+  push_operands(L, count);
+  lua_setiuservalue(L, 3, 1);
   return 1;
 }
 
-static int operate_union(lua_State *L) { return operate(L, &noun_union, "|"); }
-static int operate_intersection(lua_State *L) { return operate(L, &noun_intersection, "&"); }
-static int operate_difference(lua_State *L) { return operate(L, &noun_difference, "-"); }
-static int operate_xor(lua_State *L) { return operate(L, &noun_xor, "~"); }
+static int operate_union(lua_State *L) { return operate(L, &noun_union, CELSPAN_UNION, "|"); }
+static int operate_intersection(lua_State *L) {
+  return operate(L, &noun_intersection, CELSPAN_INTERSECTION, "&");
+}
+static int operate_difference(lua_State *L) {
+  return operate(L, &noun_difference, CELSPAN_DIFFERENCE, "-");
+}
+static int operate_xor(lua_State *L) { return operate(L, &noun_xor, CELSPAN_XOR, "~"); }
 
 void cs_open_boolean(lua_State *L) {
   static const cs_noun *const nouns[] = {&noun_union, &noun_intersection, &noun_difference,
@@ -123,7 +136,10 @@ void cs_open_boolean(lua_State *L) {
   }
   lua_pushcfunction(L, clip);
   lua_setfield(L, -2, "clip");
-  luaL_getmetatable(L, cs_kind_object.name);
-  luaL_setfuncs(L, operators, 0);
-  lua_pop(L, 1);
+  static const cs_kind *const kinds[] = {&cs_kind_object, &cs_kind_rostrum};
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    luaL_getmetatable(L, kinds[i]->name);
+    luaL_setfuncs(L, operators, 0);
+    lua_pop(L, 1);
+  }
 }

@@ -2,8 +2,11 @@
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/light.h"
+#include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/placed.h"
+#include "bind/shape.h"
 #include "bind/userdata.h"
 
 static void unref(void *handle) { celspan_cel_unref(handle); }
@@ -36,7 +39,8 @@ const cs_kind cs_kind_cel = {.name = "celspan.cel",
                              .transform = transform,
                              .fade = fade,
                              .bounds = bounds,
-                             .contains = contains};
+                             .contains = contains,
+                             .push_field = cs_named_push_field};
 
 static const cs_field defocus_fields[] = {{"radius", NULL}, {"kernel", "gaussian"}, {0}};
 static const cs_noun noun_defocus = {.name = "cel: defocus", .fields = defocus_fields};
@@ -62,19 +66,10 @@ static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   int count = cs_form_length(form);
-  celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
-  for (int i = 0; i < count; i++) {
-    lua_rawgeti(L, form->table, i + 1);
-    cs_userdata *item = cs_userdata_test(L, -1, &cs_kind_object);
-    if (!item)
-      cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
-    objects[i] = item->handle;
-    lua_pop(L, 1);
-  }
-  desc.objects = objects;
+  desc.objects = cs_shape_items(form, count);
   desc.object_count = (size_t)count;
-  desc.has_front = cs_form_light(form, "front", &desc.front);
-  cs_form_light(form, "back", &desc.back);
+  desc.has_front = cs_light_read(form, "front", &desc.front, &desc.front_texture);
+  cs_light_read(form, "back", &desc.back, &desc.back_texture);
   desc.has_viewport = cs_form_box(form, "viewport", &desc.viewport);
   read_defocus(form, &desc);
   desc.opacity = cs_form_number_or(form, "opacity", 1);

@@ -2,9 +2,14 @@
 
 #include <lauxlib.h>
 
+#include "bind/caller.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/named.h"
 #include "bind/userdata.h"
+
+/* Room for presets in the kept fields: more than this are added more slowly. */
+#define PRESETS 3
 
 /* ---------------------------------------------------------------- making */
 
@@ -25,20 +30,33 @@ static void set_presets(lua_State *L, const cs_noun *noun, int table) {
 
 /* Gives the value on top of the stack a copy of the table at `fields`, with the presets. */
 static void freeze(lua_State *L, const cs_noun *noun, int fields) {
-  cs_userdata_push_copy(L, fields);
+  cs_userdata_push_copy(L, fields, PRESETS);
   set_presets(L, noun, lua_gettop(L));
   if (noun->complete)
     noun->complete(L, lua_gettop(L));
   lua_setiuservalue(L, -2, 1);
 }
 
-void cs_construct_value(lua_State *L, const cs_noun *noun, int fields) {
+/* like: whose line and name the value gets; NULL: the line of the caller. */
+static void make(lua_State *L, const cs_noun *noun, int fields, const cs_userdata *like) {
   cs_form form = cs_form_open(L, noun, fields);
+  celspan_context *context = cs_host_context(L);
+  if (like)
+    cs_named_begin_as(context, like);
+  else
+    cs_named_begin(L, context);
   cs_userdata *value = cs_userdata_push(L, noun);
   int place = lua_gettop(L);
   noun->create(&form, value);
+  cs_named_end(context);
+  if (like)
+    cs_named_copy(L, like, value);
   lua_settop(L, place);
   freeze(L, noun, form.table);
+}
+
+void cs_construct_value(lua_State *L, const cs_noun *noun, int fields) {
+  make(L, noun, fields, NULL);
 }
 
 static int constructor(lua_State *L) {
@@ -68,17 +86,33 @@ static void clear_list(lua_State *L, int table) {
   }
 }
 
-/* The kept fields of a value can have both of two fields that exclude each other, because the noun
- * completes them. The one that the changes do not name is removed; the second if they name none. */
-static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
-  if (!noun->either[0])
-    return;
-  lua_pushstring(L, noun->either[1]);
-  bool names_second = lua_rawget(L, changes) != LUA_TNIL;
-  lua_pushstring(L, noun->either[names_second ? 0 : 1]);
-  lua_pushnil(L);
-  lua_rawset(L, fields);
+static bool has(lua_State *L, int table, const char *name) {
+  lua_pushstring(L, name);
+  bool found = lua_rawget(L, table) != LUA_TNIL;
   lua_pop(L, 1);
+  return found;
+}
+
+static void drop(lua_State *L, int table, const char *name) {
+  lua_pushstring(L, name);
+  lua_pushnil(L);
+  lua_rawset(L, table);
+}
+
+/* Of two fields that exclude each other the one that the changes do not name is removed. The kept
+ * fields of a value can have both, because the noun completes them: then the second is, if the
+ * changes name none. */
+static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
+  const char *first = noun->either[0], *second = noun->either[1];
+  if (!first)
+    return;
+  if (has(L, changes, second)) {
+    drop(L, fields, first);
+  } else if (has(L, changes, first) || (has(L, fields, first) && has(L, fields, second))) {
+    drop(L, fields, second);
+    for (const char *const *name = noun->second; name && *name; name++)
+      drop(L, fields, *name);
+  }
 }
 
 /* Transforms and fades the value as `from` was after its constructor. */
@@ -101,21 +135,20 @@ static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
 }
 
 int cs_construct_with(lua_State *L) {
-  const cs_userdata *self = lua_touserdata(L, 1);
-  if (!self || !lua_getmetatable(L, 1) || lua_getfield(L, -1, "__celspan") != LUA_TBOOLEAN)
-    return luaL_error(L, "with: call it as a method, value:with{...}");
+  const cs_userdata *self = cs_userdata_any(L, 1);
+  if (!self)
+    return cs_caller_error(L, "with: call it as a method, value:with{...}");
   const cs_noun *noun = self->noun;
   if (lua_type(L, 2) != LUA_TTABLE)
-    return luaL_error(L, "%s: with takes a table of changes, got %s", noun->name,
-                      cs_userdata_type(L, 2));
+    return cs_caller_error(L, "%s: with takes a table of changes, got %s", noun->name,
+                           cs_userdata_type(L, 2));
   lua_settop(L, 2);
-  lua_getiuservalue(L, 1, 1);
-  cs_userdata_push_copy(L, 3);
-  drop_other(L, noun, 2, 4);
+  cs_userdata_push_fields(L, 1);
+  drop_other(L, noun, 2, 3);
   if (noun->list == CS_LIST_ITEMS && lua_rawgeti(L, 2, 1) != LUA_TNIL)
-    clear_list(L, 4);
-  copy_into(L, 2, 4);
-  cs_construct_value(L, noun, 4);
+    clear_list(L, 3);
+  copy_into(L, 2, 3);
+  make(L, noun, 3, self);
   reapply(L, self, lua_touserdata(L, -1));
   return 1;
 }

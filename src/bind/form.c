@@ -6,29 +6,25 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "bind/caller.h"
 #include "bind/host.h"
-#include "bind/suggest.h"
+#include "bind/numbers.h"
+#include "bind/unknown.h"
 #include "bind/userdata.h"
 
-#define MOST_FIELDS 32
+#define MOST_ITEMS 10000000 /* of a list: times the size of one it fits into 32 bits */
 
 _Noreturn void cs_form_fail(const cs_form *form, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   const char *text = lua_pushvfstring(form->L, format, arguments);
   va_end(arguments);
-  luaL_error(form->L, "%s: %s", form->noun->name, text);
-  for (;;) /* luaL_error does not return, though its declaration does not say so */
+  cs_caller_error(form->L, "%s: %s", form->noun->name, text);
+  for (;;) /* cs_caller_error does not return, though its declaration does not say so */
     ;
 }
 
-const char *cs_form_digits(lua_State *L, double number) {
-  if (isnan(number)) /* whose sign means nothing */
-    return lua_pushliteral(L, "nan");
-  bool is_whole = fabs(number) < 1e15 && number == floor(number);
-  return is_whole ? lua_pushfstring(L, "%I", (LUAI_UACINT)number)
-                  : lua_pushfstring(L, "%f", number);
-}
+const char *cs_form_digits(lua_State *L, double number) { return cs_numbers_digits(L, number); }
 
 void cs_form_try(const cs_form *form, celspan_status status) {
   cs_host_try(form->L, form->noun->name, status);
@@ -36,36 +32,11 @@ void cs_form_try(const cs_form *form, celspan_status status) {
 
 /* ---------------------------------------------------------------- names */
 
-static size_t list_names(const cs_noun *noun, const char **names) {
-  size_t count = 0;
-  for (const cs_field *field = noun->fields; field->name && count < MOST_FIELDS; field++)
-    names[count++] = field->name;
-  return count;
-}
-
 static bool is_known(const cs_noun *noun, const char *name) {
   for (const cs_field *field = noun->fields; field->name; field++)
     if (strcmp(field->name, name) == 0)
       return true;
   return false;
-}
-
-static _Noreturn void fail_unknown(const cs_form *form, const char *name) {
-  const char *names[MOST_FIELDS] = {0};
-  size_t count = list_names(form->noun, names);
-  const char *nearest = cs_suggest_name(name, names, count);
-  if (nearest)
-    cs_form_fail(form, "unknown field '%s'; did you mean '%s'?", name, nearest);
-  if (count == 0)
-    cs_form_fail(form, "unknown field '%s'; there are no named fields", name);
-  luaL_Buffer list;
-  luaL_buffinit(form->L, &list);
-  for (size_t i = 0; i < count; i++) {
-    luaL_addstring(&list, i ? ", " : "");
-    luaL_addstring(&list, names[i]);
-  }
-  luaL_pushresult(&list);
-  cs_form_fail(form, "unknown field '%s'; the fields are %s", name, lua_tostring(form->L, -1));
 }
 
 static void check_position(const cs_form *form, lua_Integer place, lua_Integer length) {
@@ -94,20 +65,24 @@ static void check_names(const cs_form *form) {
       cs_form_fail(form, "a field's name must be a word, got %s", cs_userdata_type(L, -2));
   }
   if (unknown)
-    fail_unknown(form, unknown);
+    cs_unknown_fail(L, form->noun, form->table, unknown);
 }
 
 static void check_either(const cs_form *form) {
   const char *const *either = form->noun->either;
   if (either[0] && cs_form_has(form, either[0]) && cs_form_has(form, either[1]))
     cs_form_fail(form, "give '%s' or '%s', not both", either[0], either[1]);
+  for (const char *const *name = form->noun->second; name && *name; name++)
+    if (cs_form_has(form, *name) && !cs_form_has(form, either[1]))
+      cs_form_fail(form, "field '%s' goes with '%s', which is not given", *name, either[1]);
 }
 
 cs_form cs_form_open(lua_State *L, const cs_noun *noun, int index) {
   cs_form form = {L, noun, lua_absindex(L, index)};
   luaL_checkstack(L, 40, noun->name);
   if (lua_type(L, index) != LUA_TTABLE)
-    cs_form_fail(&form, "takes a table, %s{ ... }, got %s", noun->name, cs_userdata_type(L, index));
+    cs_form_fail(&form, "takes a table%s%s{ ... }, got %s", noun->kind ? ", " : " ",
+                 noun->kind ? noun->name : "", cs_userdata_type(L, index));
   check_names(&form);
   check_either(&form);
   return form;
@@ -132,10 +107,11 @@ bool cs_form_has(const cs_form *form, const char *name) {
 }
 
 double cs_form_number(const cs_form *form, const char *name) {
-  if (get_field(form, name) != LUA_TNUMBER)
-    fail_type(form, name, "a number");
-  double number = lua_tonumber(form->L, -1);
-  lua_pop(form->L, 1);
+  lua_State *L = form->L;
+  bool good = get_field(form, name) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1));
+  const char *subject = good ? name : lua_pushfstring(L, "field '%s'", name);
+  double number = cs_numbers_check(L, good ? -1 : -2, form->noun->name, subject);
+  lua_pop(L, 1);
   return number;
 }
 
@@ -167,59 +143,43 @@ const char *cs_form_text_or(const cs_form *form, const char *name, const char *f
   return cs_form_has(form, name) ? cs_form_text(form, name) : fallback;
 }
 
-int cs_form_choice(const cs_form *form, const char *name, const char *const *names) {
-  if (!cs_form_has(form, name))
-    return 0;
-  const char *word = cs_form_text(form, name);
-  for (int i = 0; names[i]; i++)
-    if (strcmp(names[i], word) == 0)
-      return i;
+/* The value on top of the stack as messages show it: a string is quoted. */
+static const char *push_given(lua_State *L) {
+  return lua_type(L, -1) == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", lua_tostring(L, -1))
+                                        : cs_userdata_type(L, -1);
+}
+
+static _Noreturn void fail_choice(const cs_form *form, const char *name, const char *const *names) {
+  const char *given = push_given(form->L);
   lua_pushliteral(form->L, "");
   for (int i = 0; names[i]; i++) {
     lua_pushfstring(form->L, "%s\"%s\"", i ? names[i + 1] ? ", " : " or " : "", names[i]);
     lua_concat(form->L, 2);
   }
-  cs_form_fail(form, "field '%s' must be %s, got \"%s\"", name, lua_tostring(form->L, -1), word);
+  cs_form_fail(form, "field '%s' must be %s, got %s", name, lua_tostring(form->L, -1), given);
+}
+
+int cs_form_choice(const cs_form *form, const char *name, const char *const *names) {
+  int type = get_field(form, name), found = 0;
+  const char *word = type == LUA_TSTRING ? lua_tostring(form->L, -1) : "";
+  while (names[found] && strcmp(names[found], word) != 0)
+    found++;
+  if (type != LUA_TNIL && !names[found])
+    fail_choice(form, name, names);
+  lua_pop(form->L, 1);
+  return type == LUA_TNIL ? 0 : found;
 }
 
 /* ---------------------------------------------------------------- arrays of numbers */
 
-static bool is_array(lua_State *L, int index, int least, int most) {
-  if (lua_type(L, index) != LUA_TTABLE)
-    return false;
-  int length = (int)lua_rawlen(L, index);
-  bool good = length >= least && length <= most;
-  for (int i = 1; good && i <= length; i++) {
-    good = lua_rawgeti(L, index, i) == LUA_TNUMBER;
-    lua_pop(L, 1);
-  }
-  return good;
-}
-
-static double number_at(lua_State *L, int index, int place) {
-  lua_rawgeti(L, index, place);
-  double number = lua_tonumber(L, -1);
-  lua_pop(L, 1);
-  return number;
-}
-
 bool cs_form_numbers(const cs_form *form, const char *name, int count, double *out) {
   lua_State *L = form->L;
-  if (get_field(form, name) == LUA_TNIL) {
-    lua_pop(L, 1);
-    return false;
-  }
-  int place = lua_gettop(L);
-  if (!is_array(L, place, count, count)) {
-    bool is_table = lua_istable(L, place);
-    cs_form_fail(form, "field '%s' must be an array of %d numbers, got %s", name, count,
-                 is_table ? lua_pushfstring(L, "a table of %d values", (int)lua_rawlen(L, place))
-                          : cs_userdata_type(L, place));
-  }
-  for (int i = 0; i < count; i++)
-    out[i] = number_at(L, place, i + 1);
+  bool is_there = get_field(form, name) != LUA_TNIL;
+  const cs_numbers_name list = {.noun = form->noun->name, .field = name};
+  if (is_there)
+    cs_numbers_read(L, -1, &list, count, count, out);
   lua_pop(L, 1);
-  return true;
+  return is_there;
 }
 
 bool cs_form_point_or(const cs_form *form, const char *name, celspan_point *out) {
@@ -233,7 +193,7 @@ bool cs_form_point_or(const cs_form *form, const char *name, celspan_point *out)
 celspan_point cs_form_point(const cs_form *form, const char *name) {
   celspan_point point;
   if (!cs_form_point_or(form, name, &point))
-    cs_form_fail(form, "field '%s' must be a point {x, y}, got nil", name);
+    cs_numbers_fail_missing(form->L, form->noun->name, name, 2);
   return point;
 }
 
@@ -258,9 +218,7 @@ static bool read_paint(lua_State *L, int index, celspan_paint *out) {
 }
 
 static _Noreturn void fail_colour(const cs_form *form, const char *subject, const char *wanted) {
-  if (lua_type(form->L, -1) == LUA_TSTRING)
-    cs_form_fail(form, "%s must be %s, got \"%s\"", subject, wanted, lua_tostring(form->L, -1));
-  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_userdata_type(form->L, -1));
+  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, push_given(form->L));
 }
 
 static _Noreturn void fail_field_colour(const cs_form *form, const char *name, const char *wanted) {
@@ -276,14 +234,14 @@ bool cs_form_light(const cs_form *form, const char *name, celspan_light *out) {
   celspan_paint paint;
   if (type == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, place), &paint)) {
     *out = (celspan_light){paint.pigment[0], paint.pigment[1], paint.pigment[2], paint.beta};
-  } else if (type != LUA_TNIL) {
-    if (!is_array(L, place, 3, 4))
-      fail_field_colour(form, name, "a light {r, g, b}, {r, g, b, a} or \"#rrggbb\"");
-    bool has_matte = lua_rawlen(L, place) == 4;
-    *out = (celspan_light){(float)number_at(L, place, 1), (float)number_at(L, place, 2),
-                           (float)number_at(L, place, 3),
-                           has_matte ? (float)number_at(L, place, 4) : 1.0f};
-  }
+  } else if (type == LUA_TTABLE) {
+    double n[4] = {0, 0, 0, 1};
+    const cs_numbers_name list = {
+        .noun = form->noun->name, .field = name, .shape = "a light {r, g, b, a}"};
+    int count = cs_numbers_read(L, place, &list, 3, 4, n);
+    *out = (celspan_light){(float)n[0], (float)n[1], (float)n[2], count == 4 ? (float)n[3] : 1.0f};
+  } else if (type != LUA_TNIL)
+    fail_field_colour(form, name, "a light {r, g, b}, {r, g, b, a} or \"#rrggbb\"");
   lua_pop(L, 1);
   return type != LUA_TNIL;
 }
@@ -311,39 +269,48 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
 
 int cs_form_length(const cs_form *form) {
   size_t length = lua_rawlen(form->L, form->table);
-  if (length > 10000000)
-    cs_form_fail(form, "the list has %I items; at most 10000000 are allowed", (LUAI_UACINT)length);
+  if (length > MOST_ITEMS)
+    cs_form_fail(form, "the list has %I items; at most %d are allowed", (LUAI_UACINT)length,
+                 MOST_ITEMS);
   return (int)length;
 }
 
 void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape) {
-  if (lua_rawgeti(form->L, form->table, i) != type)
-    cs_form_fail(form, "%s %d must be %s, got %s", what, i, shape, cs_userdata_type(form->L, -1));
+  lua_State *L = form->L;
+  if (lua_rawgeti(L, form->table, i) != type)
+    cs_form_fail(form, "%s %d must be %s, got %s", what, i, shape, cs_userdata_type(L, -1));
+  bool is_empty = type == LUA_TTABLE && lua_rawlen(L, -1) == 0;
+  if (is_empty && cs_unknown_push_places(L, -1, shape))
+    cs_form_fail(form, "%s %d must be %s: %s", what, i, shape, lua_tostring(L, -1));
 }
 
 void *cs_form_scratch(lua_State *L, size_t count, size_t size) {
+  if (count > MOST_ITEMS)
+    cs_caller_error(L, "the list has %I items; at most %d are allowed", (LUAI_UACINT)count,
+                    MOST_ITEMS);
   return lua_newuserdatauv(L, count ? count * size : 1, 0);
 }
 
-celspan_point *cs_form_points(const cs_form *form, int index, int count, const double **weights) {
+celspan_point *cs_form_points(const cs_form *form, int index, size_t count,
+                              const double **weights) {
   lua_State *L = form->L;
-  int list = lua_absindex(L, index);
-  celspan_point *points = cs_form_scratch(L, (size_t)count, sizeof *points);
-  double *weight = weights ? cs_form_scratch(L, (size_t)count, sizeof *weight) : NULL;
-  for (int i = 0; i < count; i++) {
+  int list = lua_absindex(L, index), most = weights ? 3 : 2;
+  celspan_point *points = cs_form_scratch(L, count, sizeof *points);
+  double *weight = weights ? cs_form_scratch(L, count, sizeof *weight) : NULL;
+  cs_numbers_name name = {.noun = form->noun->name,
+                          .whole = "point %d",
+                          .item = "point %d: its value %d",
+                          .shape = weights ? "{x, y} or {x, y, weight}" : "{x, y}"};
+  for (int i = 0; i < (int)count; i++) {
+    double n[3] = {0, 0, 1};
+    name.number = i + 1;
     lua_rawgeti(L, list, i + 1);
-    int place = lua_gettop(L);
-    if (!is_array(L, place, 2, weights ? 3 : 2))
-      cs_form_fail(form, "point %d must be %s, got %s", i + 1,
-                   weights ? "{x, y} or {x, y, weight}" : "{x, y}",
-                   lua_istable(L, place) ? "a table of other values" : cs_userdata_type(L, place));
-    points[i] = (celspan_point){number_at(L, place, 1), number_at(L, place, 2)};
-    if (weights) {
-      bool has_weight = lua_rawlen(L, place) == 3;
-      weight[i] = has_weight ? number_at(L, place, 3) : 1;
-      if (has_weight)
-        *weights = weight;
-    }
+    bool has_weight = cs_numbers_read(L, -1, &name, 2, most, n) == 3;
+    points[i] = (celspan_point){n[0], n[1]};
+    if (weights)
+      weight[i] = n[2];
+    if (has_weight)
+      *weights = weight;
     lua_pop(L, 1);
   }
   return points;
@@ -351,24 +318,24 @@ celspan_point *cs_form_points(const cs_form *form, int index, int count, const d
 
 double *cs_form_array(const cs_form *form, const char *name, size_t *count) {
   lua_State *L = form->L;
-  if (get_field(form, name) == LUA_TNIL)
+  int type = get_field(form, name), place = lua_gettop(L);
+  if (type == LUA_TNIL)
     return NULL;
-  int place = lua_gettop(L);
-  if (!is_array(L, place, 0, INT_MAX))
+  if (type != LUA_TTABLE)
     fail_type(form, name, "an array of numbers");
   *count = lua_rawlen(L, place);
+  const cs_numbers_name list = {.noun = form->noun->name, .field = name};
   double *numbers = cs_form_scratch(L, *count, sizeof *numbers);
-  for (size_t i = 0; i < *count; i++)
-    numbers[i] = number_at(L, place, (int)i + 1);
+  cs_numbers_read_all(L, place, &list, (int)*count, numbers);
   return numbers;
 }
 
 double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item) {
-  if (lua_rawgeti(form->L, index, i) != LUA_TNUMBER)
-    cs_form_fail(form, "%s %d: its value %d must be a number, got %s", what, item, i,
-                 cs_userdata_type(form->L, -1));
-  double number = lua_tonumber(form->L, -1);
-  lua_pop(form->L, 1);
+  lua_State *L = form->L;
+  bool good = lua_rawgeti(L, index, i) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1));
+  const char *subject = good ? what : lua_pushfstring(L, "%s %d: its value %d", what, item, i);
+  double number = cs_numbers_check(L, good ? -1 : -2, form->noun->name, subject);
+  lua_pop(L, 1);
   return number;
 }
 
@@ -389,11 +356,9 @@ celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const c
 }
 
 double cs_form_argument(lua_State *L, int index, const char *function, const char *name) {
-  if (lua_type(L, index) != LUA_TNUMBER)
-    luaL_error(L, "%s: %s must be a number, got %s", function, name, cs_userdata_type(L, index));
-  double number = lua_tonumber(L, index);
-  if (!(fabs(number) <= CS_NUMBER_LIMIT))
-    luaL_error(L, "%s: %s must be a number from -1e12 to 1e12, got %s", function, name,
-               cs_form_digits(L, number));
+  double number = cs_numbers_check(L, index, function, name);
+  if (fabs(number) > CS_NUMBER_LIMIT)
+    cs_caller_error(L, "%s: %s must be between -1e12 and 1e12, got %s", function, name,
+                    cs_form_digits(L, number));
   return number;
 }

@@ -53,7 +53,7 @@ int cs_form_length(const cs_form *form);
 void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape);
 /* Points {x, y} of the table at index, or {x, y, w} where weights is not NULL. New scratch memory,
  * left on the stack. *weights stays NULL when every weight is left out. */
-celspan_point *cs_form_points(const cs_form *form, int index, int count, const double **weights);
+celspan_point *cs_form_points(const cs_form *form, int index, size_t count, const double **weights);
 /* The numbers of an array field as scratch memory on the stack; NULL when missing. */
 double *cs_form_array(const cs_form *form, const char *name, size_t *count);
 

@@ -1,15 +1,20 @@
 #include "bind/host.h"
 
 #include <lauxlib.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/context.h"
+#include "bind/caller.h"
 
 static const char host_key = 0; /* addresses in the registry */
 static const char folder_key = 0;
 
 void cs_host_unref(cs_host *host) {
-  if (host && --host->references == 0)
-    free(host);
+  if (!host || --host->references > 0)
+    return;
+  cs_memory *memory = host->memory;
+  cs_mem_free(memory, host, sizeof *host);
+  cs_memory_unref(memory);
 }
 
 static int close_host(lua_State *L) {
@@ -33,14 +38,28 @@ static lua_State *main_thread(lua_State *L) {
   return thread;
 }
 
-static bool has_host(lua_State *L) {
-  bool found = lua_rawgetp(L, LUA_REGISTRYINDEX, &host_key) == LUA_TUSERDATA;
+cs_host *cs_host_find(lua_State *L) {
+  cs_host *host = NULL;
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &host_key) == LUA_TUSERDATA)
+    host = *(cs_host **)lua_touserdata(L, -1);
   lua_pop(L, 1);
-  return found;
+  return host;
+}
+
+/* The host, with one reference; without memory the context is as it was. */
+static cs_host *create_host(lua_State *thread, celspan_context *context, bool owns_context) {
+  cs_host *host = cs_mem_array(context->memory, 1, sizeof *host);
+  if (host)
+    *host = (cs_host){.references = 1,
+                      .memory = cs_memory_ref(context->memory),
+                      .state = thread,
+                      .context = context,
+                      .owns_context = owns_context};
+  return host;
 }
 
 void cs_host_open(lua_State *L, celspan_context *context) {
-  if (has_host(L))
+  if (cs_host_find(L))
     return;
   cs_host **box = lua_newuserdatauv(L, sizeof *box, 0);
   *box = NULL;
@@ -50,26 +69,20 @@ void cs_host_open(lua_State *L, celspan_context *context) {
   lua_setmetatable(L, -2);
   lua_State *thread = main_thread(L);
 
-  cs_host *host = calloc(1, sizeof *host);
-  if (!host)
+  bool is_ours = !context;
+  if (is_ours && celspan_context_create(NULL, &context) != CELSPAN_OK)
+    luaL_error(L, "celspan: not enough memory for a context");
+  *box = create_host(thread, context, is_ours);
+  if (!*box) {
+    if (is_ours)
+      celspan_context_destroy(context);
     luaL_error(L, "celspan: not enough memory to open the module");
-  *box = host;
-  host->references = 1;
-  host->state = thread;
-  host->context = context;
-  if (!context) {
-    if (celspan_context_create(NULL, &host->context) != CELSPAN_OK)
-      luaL_error(L, "celspan: not enough memory for a context");
-    host->owns_context = true;
   }
   lua_rawsetp(L, LUA_REGISTRYINDEX, &host_key);
 }
 
 cs_host *cs_host_get(lua_State *L) {
-  cs_host *host = NULL;
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &host_key) == LUA_TUSERDATA)
-    host = *(cs_host **)lua_touserdata(L, -1);
-  lua_pop(L, 1);
+  cs_host *host = cs_host_find(L);
   if (!host)
     luaL_error(L, "celspan is closed in this Lua state");
   return host;
@@ -101,7 +114,7 @@ void cs_host_try(lua_State *L, const char *noun, celspan_status status) {
     return;
   cs_host *host = cs_host_get(L);
   host->failure = status;
-  luaL_error(L, "%s: %s", noun, sentence_of(host));
+  cs_caller_error(L, "%s: %s", noun, sentence_of(host));
 }
 
 celspan_status cs_host_blame(lua_State *L, const char *message) {
@@ -116,13 +129,9 @@ void cs_host_set_folder(lua_State *L, const char *folder) {
   lua_rawsetp(L, LUA_REGISTRYINDEX, &folder_key);
 }
 
-const char *cs_host_resolve(lua_State *L, const char *path) {
-  lua_rawgetp(L, LUA_REGISTRYINDEX, &folder_key);
-  const char *folder = lua_tostring(L, -1);
-  if (!folder || !folder[0] || path[0] == '/')
-    lua_pushstring(L, path);
-  else
-    lua_pushfstring(L, "%s/%s", folder, path);
-  lua_remove(L, -2);
-  return lua_tostring(L, -1);
+bool cs_host_push_folder(lua_State *L) {
+  bool found = lua_rawgetp(L, LUA_REGISTRYINDEX, &folder_key) == LUA_TSTRING;
+  if (!found)
+    lua_pop(L, 1);
+  return found;
 }

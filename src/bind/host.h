@@ -9,11 +9,12 @@
 
 #include <lua.h>
 
-#include "celspan/celspan.h"
+#include "base/context.h"
 
 typedef struct cs_host {
   size_t references;
-  lua_State *state; /* the thread that Lua callbacks run on */
+  cs_memory *memory; /* counted; that of the context */
+  lua_State *state;  /* the thread that Lua callbacks run on */
   celspan_context *context;
   bool owns_context;
   celspan_status failure; /* of the last core call that raised; its sentence is in the context */
@@ -22,7 +23,9 @@ typedef struct cs_host {
 /* Makes the host of this state if it has none. context: NULL makes one; else borrowed, and must
  * outlive the state. Raises when there is no memory. */
 void cs_host_open(lua_State *L, celspan_context *context);
-/* Raises when the state has no host or is closing. */
+/* The host; NULL when the state has none or is closing. Never raises. */
+cs_host *cs_host_find(lua_State *L);
+/* The same, but raises where there is none. */
 cs_host *cs_host_get(lua_State *L);
 celspan_context *cs_host_context(lua_State *L);
 void cs_host_unref(cs_host *host);
@@ -37,9 +40,9 @@ void cs_host_try(lua_State *L, const char *noun, celspan_status status);
  * sentence, else CALLBACK. */
 celspan_status cs_host_blame(lua_State *L, const char *message);
 
-/* The folder that relative file names are resolved against; "" is the current directory. */
+/* The folder of the script that the host runs; "" is the current directory. */
 void cs_host_set_folder(lua_State *L, const char *folder);
-/* Pushes path, made relative to the folder unless it is absolute, and returns it. */
-const char *cs_host_resolve(lua_State *L, const char *path);
+/* Pushes it; false, and nothing pushed, where no script is run. */
+bool cs_host_push_folder(lua_State *L);
 
 #endif

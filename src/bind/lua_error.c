@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bind/caller.h"
 #include "bind/host.h"
 #include "bind/userdata.h"
 
@@ -18,22 +19,16 @@ size_t cs_lua_error_position(const char *message) {
   return 0;
 }
 
-/* Pushes "script.lua:12: " for the innermost function on the stack that has lines; "" when none
- * has. */
-static void push_position(lua_State *L) {
-  lua_Debug info;
-  for (int level = 1; lua_getstack(L, level, &info); level++) {
-    lua_getinfo(L, "Sl", &info);
-    if (info.currentline > 0) {
-      lua_pushfstring(L, "%s:%d: ", info.short_src, info.currentline);
-      return;
-    }
-  }
-  lua_pushliteral(L, "");
+/* A frame that is built inside a frame has put its callers into the message already. */
+static void push_chain(lua_State *L, const char *message, const char *position) {
+  if (strstr(message, " (called from "))
+    lua_pushliteral(L, "");
+  else
+    cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
 }
 
-/* The message handler. A message without a position gets that of the innermost Lua function. A
- * frame that is built inside a frame has put its label into the message already. */
+/* The message handler. A message without a position gets that of the innermost function of a
+ * script. A frame that is built inside a frame has put its label into the message already. */
 static int handle_error(lua_State *L) {
   lua_settop(L, 1);
   const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
@@ -46,15 +41,18 @@ static int handle_error(lua_State *L) {
   if (position)
     lua_pushlstring(L, message, position);
   else
-    push_position(L);
+    cs_caller_push_position(L, lua_tocfunction(L, lua_upvalueindex(2)));
+  const char *where = lua_tostring(L, -1);
   lua_pushfstring(L, "%s%s", label, message + position);
-  lua_concat(L, 2);
+  push_chain(L, message, where);
+  lua_concat(L, 3);
   return 1;
 }
 
-void cs_lua_error_push_handler(lua_State *L, const char *label) {
+void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction last) {
   lua_pushstring(L, label);
-  lua_pushcclosure(L, handle_error, 1);
+  lua_pushcfunction(L, last);
+  lua_pushcclosure(L, handle_error, 2);
 }
 
 /* ---------------------------------------------------------------- the context's sentence */

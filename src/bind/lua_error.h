@@ -1,7 +1,10 @@
-/* Lua errors as sentences of the context: "shot.lua:12: frame 37: circle: ...".
+/* Lua errors as sentences of the context:
  *
- * A message handler puts the position and a label before the message while the stack of the failed
- * call still exists; afterwards the message becomes the sentence of the context, with a status.
+ *   hand.lua:12: frame 37: circle: radius is -3; ... (called from shot.lua:40)
+ *
+ * A message handler puts the position and a label before the message, and its callers after it,
+ * while the stack of the failed call still exists; afterwards the message becomes the sentence of
+ * the context, with a status.
  */
 #ifndef CS_BIND_LUA_ERROR_H
 #define CS_BIND_LUA_ERROR_H
@@ -11,8 +14,9 @@
 #include "celspan/celspan.h"
 
 /* Pushes a message handler for lua_pcall that puts the label, "frame 37: " or "", after the
- * position of the message. */
-void cs_lua_error_push_handler(lua_State *L, const char *label);
+ * position of the message. last: the function whose call is protected, with which the callers
+ * end. */
+void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction last);
 /* The length of the position "script.lua:12: " that a message begins with; 0: it begins with none.
  */
 size_t cs_lua_error_position(const char *message);

@@ -3,6 +3,7 @@
 #include <lauxlib.h>
 #include <math.h>
 
+#include "bind/caller.h"
 #include "bind/construct.h"
 #include "bind/host.h"
 #include "bind/lua_error.h"
@@ -53,8 +54,7 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   check_whole(form, "first", -MOST_FRAMES);
   check_text(form, "title");
   check_text(form, "sound");
-  if (!isfinite(cs_form_number_or(form, "sound_offset", 0)))
-    cs_form_fail(form, "field 'sound_offset' must be a number of seconds");
+  cs_form_number_or(form, "sound_offset", 0);
   lua_pushliteral(L, "frame");
   if (lua_rawget(L, form->table) != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
@@ -99,8 +99,15 @@ const cs_noun cs_noun_film = {.name = "film",
 /* film:at(number): what the frame function returns, for tests and tools. */
 static int film_at(lua_State *L) {
   cs_userdata_self(L, &cs_kind_film, "at");
-  lua_Integer number = luaL_checkinteger(L, 2);
-  cs_lua_film_push_frame(L, 1, number);
+  cs_film_info film;
+  cs_lua_film_read(L, 1, &film);
+  double number = cs_form_argument(L, 2, "at", "the frame's number"),
+         last = (double)(film.first + film.count - 1);
+  if (!(number >= (double)film.first && number <= last) || number != floor(number))
+    return cs_caller_error(L, "at: the frame's number must be a whole number from %s to %s, got %s",
+                           cs_form_digits(L, (double)film.first), cs_form_digits(L, last),
+                           cs_form_digits(L, number));
+  cs_lua_film_push_frame(L, 1, (int64_t)number);
   return 1;
 }
 
@@ -112,17 +119,31 @@ static int constant_frame(lua_State *L) {
 void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height) {
   rostrum = lua_absindex(L, rostrum);
   lua_createtable(L, 0, 2);
-  lua_createtable(L, 2, 0);
-  lua_pushinteger(L, width);
-  lua_rawseti(L, -2, 1);
-  lua_pushinteger(L, height);
-  lua_rawseti(L, -2, 2);
-  lua_setfield(L, -2, "size");
+  int form = lua_gettop(L);
+  if (lua_getfield(L, rostrum, "size") == LUA_TNIL) {
+    lua_createtable(L, 2, 0);
+    lua_pushinteger(L, width);
+    lua_rawseti(L, -2, 1);
+    lua_pushinteger(L, height);
+    lua_rawseti(L, -2, 2);
+  }
+  lua_setfield(L, form, "size");
+  lua_settop(L, form);
   lua_pushvalue(L, rostrum);
   lua_pushcclosure(L, constant_frame, 1);
   lua_setfield(L, -2, "frame");
   cs_construct_value(L, &cs_noun_film, lua_gettop(L));
   lua_remove(L, -2);
+}
+
+bool cs_lua_film_push(lua_State *L, int index) {
+  if (cs_userdata_test(L, index, &cs_kind_film))
+    lua_pushvalue(L, index);
+  else if (cs_userdata_test(L, index, &cs_kind_rostrum))
+    cs_lua_film_push_still(L, index, 1920, 1080);
+  else
+    return false;
+  return true;
 }
 
 void cs_open_film(lua_State *L) {
@@ -168,15 +189,12 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
 
 /* ---------------------------------------------------------------- frames */
 
-/* Pushes "script.lua:12: the frame function's result", with the line where the function begins,
- * because a result has no line of its own. */
+/* Pushes "script.lua:12: the frame function's result". */
 static const char *push_result_name(lua_State *L, int function) {
-  lua_Debug info;
-  lua_pushvalue(L, function);
-  lua_getinfo(L, ">S", &info);
-  return info.linedefined > 0 ? lua_pushfstring(L, "%s:%d: the frame function's result",
-                                                info.short_src, info.linedefined)
-                              : lua_pushliteral(L, "the frame function's result");
+  cs_caller_push_function(L, function);
+  lua_pushliteral(L, "the frame function's result");
+  lua_concat(L, 2);
+  return lua_tostring(L, -1);
 }
 
 /* frame function, f -> exposures */
@@ -198,7 +216,7 @@ static int protected_frame(lua_State *L, int film, int64_t number) {
   cs_film_info info;
   cs_lua_film_read(L, film, &info);
   const char *label = lua_pushfstring(L, "frame %I: ", (LUAI_UACINT)number);
-  cs_lua_error_push_handler(L, label);
+  cs_lua_error_push_handler(L, label, call_frame);
   lua_remove(L, -2);
   int handler = lua_gettop(L);
   lua_pushcfunction(L, call_frame);
@@ -220,7 +238,7 @@ void cs_lua_film_push_frame(lua_State *L, int film, int64_t number) {
 typedef struct request {
   int64_t number;
   cs_film_frame frame;
-  bool is_out_of_memory;
+  celspan_status status; /* of the core, when it could not take the exposures */
 } request;
 
 /* film, light userdata: fills the request. Runs protected. */
@@ -229,13 +247,14 @@ static int build_frame(lua_State *L) {
   cs_lua_film_push_frame(L, 1, r->number);
   celspan_frame_desc desc;
   cs_options_exposures(L, -1, "the frame function's result", &desc);
-  r->is_out_of_memory = !cs_film_frame_init(&r->frame, desc.exposures, desc.exposure_count);
+  r->status =
+      cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
   return 0;
 }
 
 celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number, cs_film_frame *out) {
   film = lua_absindex(L, film);
-  request r = {.number = number};
+  request r = {.number = number, .status = CELSPAN_OK};
   cs_host_get(L)->failure = CELSPAN_OK;
   if (!lua_checkstack(L, 10))
     return celspan_context_fail(cs_host_context(L), CELSPAN_LIMIT, "Lua's stack is full");
@@ -245,10 +264,7 @@ celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number, cs_film
   int outcome = lua_pcall(L, 2, 0, 0);
   if (outcome != LUA_OK)
     return cs_lua_error_report(L, outcome);
-  if (r.is_out_of_memory)
-    return celspan_context_fail(cs_host_context(L), CELSPAN_NO_MEMORY,
-                                "not enough memory for the exposures of frame %lld",
-                                (long long)number);
-  *out = r.frame;
-  return CELSPAN_OK;
+  if (r.status == CELSPAN_OK)
+    *out = r.frame;
+  return r.status;
 }

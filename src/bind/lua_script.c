@@ -4,20 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bind/caller.h"
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/lua_film.h"
+#include "bind/lua_text.h"
 #include "bind/userdata.h"
 
 /* ---------------------------------------------------------------- where require looks */
-
-/* Pushes the folder of a path; "" when it has none. */
-static const char *push_folder(lua_State *L, const char *path) {
-  const char *slash = strrchr(path, '/');
-  if (!slash)
-    return lua_pushliteral(L, "");
-  return lua_pushlstring(L, path, slash == path ? 1 : (size_t)(slash - path));
-}
 
 /* Puts `before` in front of package[field] and removes the current directory from it. */
 static void set_path(lua_State *L, const char *field, const char *before, const char *const *here) {
@@ -58,9 +52,14 @@ typedef struct call {
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
-  const char *folder = push_folder(L, c->path);
+  const char *folder = cs_caller_push_folder_of(L, c->path);
   cs_host_set_folder(L, folder);
   set_search_path(L, folder);
+  if (!cs_lua_text_accepts(c->path))
+    return luaL_error(L,
+                      "%s: is not a Lua script, but a picture or other binary data ('celspan info "
+                      "%s' tells of pictures)",
+                      c->path, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
   c->is_missing = outcome == LUA_ERRFILE;
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
@@ -71,9 +70,7 @@ static int run(lua_State *L) {
   for (int i = 0; i < c->argument_count; i++)
     lua_pushstring(L, c->arguments[i]);
   lua_call(L, c->argument_count, 1);
-  if (cs_userdata_test(L, -1, &cs_kind_rostrum))
-    cs_lua_film_push_still(L, -1, 1920, 1080);
-  if (!cs_userdata_test(L, -1, &cs_kind_film))
+  if (!cs_lua_film_push(L, -1))
     luaL_error(L, "%s must return a film or a rostrum, got %s", c->path, cs_userdata_type(L, -1));
   return 1;
 }
@@ -82,7 +79,7 @@ celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_co
                                  const char *const *arguments) {
   call c = {path, argument_count, arguments, false};
   cs_host_get(L)->failure = CELSPAN_OK;
-  cs_lua_error_push_handler(L, "");
+  cs_lua_error_push_handler(L, "", run);
   int handler = lua_gettop(L);
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, &c);

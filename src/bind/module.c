@@ -2,17 +2,23 @@
 #include "bind/openers.h"
 
 #include <lauxlib.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "bind/caller.h"
+#include "bind/files.h"
 #include "bind/host.h"
+#include "bind/random.h"
 #include "bind/suggest.h"
 #include "celspan/lua.h"
 
 #define MOST_NAMES 128
 
-/* core.resolve(path): a file name relative to the script's folder. */
-static int resolve(lua_State *L) {
-  cs_host_resolve(L, luaL_checkstring(L, 1));
-  return 1;
+/* core.find(name): where a file is and, if it is not there, where else it was looked for. */
+static int find(lua_State *L) {
+  const char *tried;
+  cs_files_find(L, luaL_checkstring(L, 1), &tried);
+  return 2;
 }
 
 /* core.nearest(word, names): the name that was probably meant, or nil. */
@@ -32,24 +38,55 @@ static int nearest(lua_State *L) {
 }
 
 int luaopen_celspan_core(lua_State *L) {
-  static const luaL_Reg functions[] = {{"resolve", resolve}, {"nearest", nearest}, {NULL, NULL}};
+  static const luaL_Reg functions[] = {{"find", find}, {"nearest", nearest}, {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);
   return 1;
 }
 
+static int compare(const void *a, const void *b) {
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* celspan.circl: reading a name that the module does not have. */
+static int fail_unknown(lua_State *L) {
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return 0;
+  const char *names[MOST_NAMES], *name = lua_tostring(L, 2);
+  size_t count = 0;
+  lua_pushnil(L);
+  for (; count < MOST_NAMES && lua_next(L, 1); lua_pop(L, 1))
+    if (lua_type(L, -2) == LUA_TSTRING)
+      names[count++] = lua_tostring(L, -2); /* the module keeps it alive */
+  qsort(names, count, sizeof *names, compare);
+  const char *nearest = cs_suggest_name(name, names, count);
+  if (nearest)
+    return cs_caller_error(L, "celspan has no '%s'; did you mean '%s'?", name, nearest);
+  return cs_caller_error(L, "celspan has no '%s'", name);
+}
+
+static void set_reading(lua_State *L) {
+  lua_createtable(L, 0, 1);
+  lua_pushcfunction(L, fail_unknown);
+  lua_setfield(L, -2, "__index");
+  lua_setmetatable(L, -2);
+}
+
 int luaopen_celspan(lua_State *L) {
   static void (*const openers[])(lua_State *) = {
-      cs_open_paint,    cs_open_texture, cs_open_object, cs_open_primitive,
-      cs_open_scanline, cs_open_boolean, cs_open_cel,    cs_open_rostrum,
-      cs_open_film,     cs_open_render,  cs_open_pixels, cs_open_spans};
+      cs_open_paint,   cs_open_texture, cs_open_object, cs_open_primitive, cs_open_scanline,
+      cs_open_rostrum, cs_open_boolean, cs_open_cel, /* operators: of objects and rostrums */
+      cs_open_film,    cs_open_render,  cs_open_pixels, cs_open_spans};
   luaL_checkversion(L);
   cs_host_open(L, NULL);
   lua_createtable(L, 0, 32);
   lua_pushfstring(L, "celspan %s", celspan_version());
   lua_setfield(L, -2, "_VERSION");
+  lua_pushcfunction(L, cs_random_make);
+  lua_setfield(L, -2, "random");
   for (size_t i = 0; i < sizeof openers / sizeof *openers; i++)
     openers[i](L);
   cs_open_embedded(L);
+  set_reading(L);
   return 1;
 }

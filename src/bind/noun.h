@@ -21,6 +21,9 @@ typedef struct cs_kind {
   celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
   bool (*bounds)(const void *handle, celspan_box *out);
   bool (*contains)(const void *handle, celspan_point point);
+  /* Pushes a field that is not kept but found in the core; false when there is none of this name.
+   * NULL: there are none. */
+  bool (*push_field)(lua_State *L, const struct cs_userdata *value, const char *key);
 } cs_kind;
 
 typedef struct cs_field {
@@ -39,9 +42,11 @@ typedef struct cs_noun {
   const char *name;
   const cs_kind *kind; /* NULL: a table of options, not a value */
   cs_list list;
-  const char *item;       /* "object": one of them; NULL without a list */
-  const cs_field *fields; /* ended by a NULL name */
-  const char *either[2];  /* fields of which only one may be given; NULL: none */
+  const char *item;          /* "object": one of them; NULL without a list */
+  const cs_field *fields;    /* ended by a NULL name */
+  const char *places;        /* TUPLE: "{x, y, w, h}" for messages; NULL: they have no names */
+  const char *either[2];     /* fields of which only one may be given; NULL: none */
+  const char *const *second; /* fields that go with either[1] alone, ended by NULL; NULL: none */
   void (*create)(const struct cs_form *form, struct cs_userdata *value);
   void (*complete)(lua_State *L,
                    int fields); /* fills in fields that follow from others; NULL: none */

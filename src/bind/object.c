@@ -1,5 +1,6 @@
 /* What objects and cels can do: transforms, fades, bounds. */
 #include "bind/host.h"
+#include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/placed.h"
 #include "bind/userdata.h"
@@ -36,6 +37,7 @@ const cs_kind cs_kind_object = {.name = "celspan.object",
                                 .transform = transform,
                                 .fade = fade,
                                 .bounds = bounds,
-                                .contains = contains};
+                                .contains = contains,
+                                .push_field = cs_named_push_field};
 
 void cs_open_object(lua_State *L) { cs_userdata_register(L, &cs_kind_object, cs_placed_methods); }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "bind/caller.h"
+#include "bind/numbers.h"
 #include "bind/userdata.h"
 #include "scene/antialias.h"
 
@@ -89,6 +91,47 @@ bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
   return type != LUA_TNIL;
 }
 
+/* ---------------------------------------------------------------- coding */
+
+static celspan_depth read_depth(const cs_form *form) {
+  static const char *const words[] = {"default", "8", "16", "half", "float"};
+  lua_State *L = form->L;
+  lua_pushliteral(L, "depth");
+  int type = lua_rawget(L, form->table), depth = 0;
+  const char *given = type == LUA_TNUMBER   ? cs_form_digits(L, lua_tonumber(L, -1)) /* 8 is "8" */
+                      : type == LUA_TSTRING ? lua_tostring(L, -1)
+                                            : cs_userdata_type(L, -1);
+  while (depth < 5 && strcmp(words[depth], given) != 0)
+    depth++;
+  if (type != LUA_TNIL && depth == 5)
+    cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %s",
+                 type == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", given) : given);
+  return type == LUA_TNIL ? CELSPAN_DEPTH_DEFAULT : (celspan_depth)depth;
+}
+
+static void read_dither(const cs_form *form, celspan_coding *out) {
+  lua_pushliteral(form->L, "dither");
+  int type = lua_rawget(form->L, form->table);
+  if (type != LUA_TNIL && type != LUA_TBOOLEAN)
+    cs_form_fail(form, "field 'dither' must be true or false, got %s",
+                 cs_userdata_type(form->L, -1));
+  bool dithers = lua_toboolean(form->L, -1);
+  lua_pop(form->L, 1);
+  if (dithers && out->depth != CELSPAN_DEPTH_DEFAULT && out->depth != CELSPAN_DEPTH_8)
+    cs_form_fail(form, "field 'dither' makes 8 bits; leave 'depth' out or give 8");
+  if (dithers)
+    out->depth = CELSPAN_DEPTH_8_DITHER;
+}
+
+void cs_options_coding(const cs_form *form, celspan_coding *out) {
+  static const char *const colours[] = {"default", "linear", "srgb", "rec709", "cineon", NULL};
+  static const char *const alphas[] = {"default", "straight", "premultiplied", NULL};
+  out->depth = read_depth(form);
+  out->transfer = (celspan_transfer)cs_form_choice(form, "colour", colours);
+  out->alpha = (celspan_alpha)cs_form_choice(form, "alpha", alphas);
+  read_dither(form, out);
+}
+
 /* ---------------------------------------------------------------- frames */
 
 static void read_integers(const cs_form *form, const char *name, int count, int32_t *out) {
@@ -141,19 +184,18 @@ cs_form cs_options_open(lua_State *L, const cs_noun *noun, int index) {
 static celspan_exposure read_exposure(lua_State *L, int list, int anchors, int i,
                                       const char *name) {
   if (lua_rawgeti(L, list, i) != LUA_TTABLE)
-    luaL_error(L, "%s: exposure %d must be {rostrum, weight}, got %s", name, i,
-               cs_userdata_type(L, -1));
+    cs_caller_error(L, "%s: exposure %d must be {rostrum, weight}, got %s", name, i,
+                    cs_userdata_type(L, -1));
   lua_rawgeti(L, -1, 1);
   const cs_userdata *rostrum = cs_userdata_test(L, -1, &cs_kind_rostrum);
   if (!rostrum)
-    luaL_error(L, "%s: exposure %d: its first value must be a rostrum, got %s", name, i,
-               cs_userdata_type(L, -1));
-  int type = lua_rawgeti(L, -2, 2);
-  if (type != LUA_TNUMBER && type != LUA_TNIL)
-    luaL_error(L, "%s: exposure %d: its weight must be a number, got %s", name, i,
-               cs_userdata_type(L, -1));
-  double weight = type == LUA_TNIL ? 1 : lua_tonumber(L, -1);
-  lua_pop(L, 1);
+    cs_caller_error(L, "%s: exposure %d: its first value must be a rostrum, got %s", name, i,
+                    cs_userdata_type(L, -1));
+  double weight = 1;
+  const char *subject = lua_pushfstring(L, "exposure %d: its weight", i);
+  if (lua_rawgeti(L, -3, 2) != LUA_TNIL)
+    weight = cs_numbers_check(L, -1, name, subject);
+  lua_pop(L, 2);
   lua_rawseti(L, anchors, i);
   lua_pop(L, 1);
   return (celspan_exposure){rostrum->handle, weight};
@@ -163,8 +205,8 @@ void cs_options_exposures(lua_State *L, int index, const char *name, celspan_fra
   index = lua_absindex(L, index);
   const cs_userdata *rostrum = cs_userdata_test(L, index, &cs_kind_rostrum);
   if (!rostrum && (!lua_istable(L, index) || lua_rawlen(L, index) > 100000))
-    luaL_error(L, "%s must be a rostrum or a list {{rostrum, weight}, ...}, got %s", name,
-               lua_istable(L, index) ? "a list that is too long" : cs_userdata_type(L, index));
+    cs_caller_error(L, "%s must be a rostrum or a list {{rostrum, weight}, ...}, got %s", name,
+                    lua_istable(L, index) ? "a list that is too long" : cs_userdata_type(L, index));
   size_t count = rostrum ? 1 : lua_rawlen(L, index);
   celspan_exposure *exposures = cs_form_scratch(L, count, sizeof *exposures);
   lua_newtable(L);

@@ -23,6 +23,12 @@ void cs_options_read(const cs_form *form, cs_options_frame *out);
 /* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
  * left on the stack; the rostrums are borrowed from the value. name: for messages. */
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);
+/* The fields that cs_options_coding reads. */
+#define CS_OPTIONS_CODING                                                                          \
+  {"depth", NULL}, {"colour", NULL}, {"alpha", NULL}, { "dither", NULL }
+
+/* Reads depth, colour, alpha, dither. */
+void cs_options_coding(const cs_form *form, celspan_coding *out);
 /* The table at index, or a new empty one, checked against the noun. It stays on the stack. */
 cs_form cs_options_open(lua_State *L, const cs_noun *noun, int index);
 

@@ -1,19 +1,23 @@
 /* Paints: the Beta colour model in Lua. */
+#include "bind/caller.h"
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/userdata.h"
 
 static void unref_paint(void *handle) { celspan_texture_unref(handle); }
 
-const cs_kind cs_kind_paint = {.name = "celspan.paint", .unref = unref_paint};
+const cs_kind cs_kind_paint = {
+    .name = "celspan.paint", .unref = unref_paint, .push_field = cs_named_push_field};
 
 /* Each paint gets a texture of that paint at once, so that the core checks it here and objects can
  * share it. */
-static void fill(lua_State *L, const char *noun, cs_userdata *value, celspan_paint paint) {
+static void fill(lua_State *L, celspan_context *context, const char *noun, cs_userdata *value,
+                 celspan_paint paint) {
   celspan_texture *texture = NULL;
-  cs_host_try(L, noun, celspan_texture_create_paint(cs_host_context(L), &paint, &texture));
+  cs_host_try(L, noun, celspan_texture_create_paint(context, &paint, &texture));
   value->handle = texture;
   value->paint = paint;
 }
@@ -27,12 +31,32 @@ static celspan_paint from_doubles(const double pigment[3], const double medium[3
   return paint;
 }
 
+/* The field `name`: three numbers, or a string that names a colour without alpha. */
+static void read_triple(const cs_form *form, const char *name, double triple[3]) {
+  lua_State *L = form->L;
+  lua_pushstring(L, name);
+  if (lua_rawget(L, form->table) != LUA_TSTRING) {
+    lua_pop(L, 1);
+    cs_form_numbers(form, name, 3, triple);
+    return;
+  }
+  celspan_paint colour;
+  const char *text = lua_tostring(L, -1);
+  if (!celspan_paint_parse(text, &colour) || colour.beta != 1)
+    cs_form_fail(form, "field '%s' must be {r, g, b} or a colour like \"#rrggbb\", got \"%s\"",
+                 name, text);
+  for (int i = 0; i < 3; i++)
+    triple[i] = colour.pigment[i];
+  lua_pop(L, 1);
+}
+
 static void create_paint(const cs_form *form, cs_userdata *value) {
   double pigment[3] = {0, 0, 0}, medium[3] = {1, 1, 1};
-  cs_form_numbers(form, "pigment", 3, pigment);
-  cs_form_numbers(form, "medium", 3, medium);
+  read_triple(form, "pigment", pigment);
+  read_triple(form, "medium", medium);
   double beta = cs_form_number_or(form, "beta", 1);
-  fill(form->L, form->noun->name, value, from_doubles(pigment, medium, beta));
+  fill(form->L, cs_host_context(form->L), form->noun->name, value,
+       from_doubles(pigment, medium, beta));
 }
 
 static void set_triple(lua_State *L, const char *name, const double triple[3]) {
@@ -44,18 +68,24 @@ static void set_triple(lua_State *L, const char *name, const double triple[3]) {
   lua_setfield(L, -2, name);
 }
 
-/* Adds what was left out, so that it can be read. */
+/* Adds a triple that was left out, and puts numbers for a colour, so that it can be read. */
+static void complete_triple(lua_State *L, int fields, const char *name, double fallback) {
+  int type = lua_getfield(L, fields, name);
+  celspan_paint colour;
+  if (type == LUA_TSTRING && celspan_paint_parse(lua_tostring(L, -1), &colour)) {
+    double numbers[3] = {colour.pigment[0], colour.pigment[1], colour.pigment[2]};
+    lua_settop(L, fields);
+    set_triple(L, name, numbers);
+  } else if (type == LUA_TNIL) {
+    lua_settop(L, fields);
+    set_triple(L, name, (const double[]){fallback, fallback, fallback});
+  }
+  lua_settop(L, fields);
+}
+
 static void complete_paint(lua_State *L, int fields) {
-  if (lua_getfield(L, fields, "pigment") == LUA_TNIL) {
-    lua_settop(L, fields);
-    set_triple(L, "pigment", (const double[]){0, 0, 0});
-  }
-  lua_settop(L, fields);
-  if (lua_getfield(L, fields, "medium") == LUA_TNIL) {
-    lua_settop(L, fields);
-    set_triple(L, "medium", (const double[]){1, 1, 1});
-  }
-  lua_settop(L, fields);
+  complete_triple(L, fields, "pigment", 0);
+  complete_triple(L, fields, "medium", 1);
 }
 
 static const cs_field paint_fields[] = {{"pigment", NULL}, {"medium", NULL}, {"beta", "1"}, {0}};
@@ -65,13 +95,34 @@ const cs_noun cs_noun_paint = {.name = "paint",
                                .create = create_paint,
                                .complete = complete_paint};
 
-static int push_paint(lua_State *L, const char *noun, const double pigment[3],
-                      const double medium[3], double beta) {
+static const char black_key = 0, clear_key = 0; /* addresses in the registry */
+
+/* Sets a field of the table on top of the stack to {0, 0, 0} or {1, 1, 1}: one table that all paints
+ * share, because it never changes. */
+static void set_constant(lua_State *L, const char *name, const char *key) {
+  lua_rawgetp(L, LUA_REGISTRYINDEX, key);
+  lua_setfield(L, -2, name);
+}
+
+/* pigment NULL: black; medium NULL: clear. */
+static int push_paint(lua_State *L, const char *noun, const double *pigment, const double *medium,
+                      double beta) {
+  static const double black[3] = {0, 0, 0}, clear[3] = {1, 1, 1};
   cs_userdata *value = cs_userdata_push(L, &cs_noun_paint);
-  fill(L, noun, value, from_doubles(pigment, medium, beta));
+  celspan_context *context = cs_host_context(L);
+  cs_named_begin(L, context);
+  fill(L, context, noun, value,
+       from_doubles(pigment ? pigment : black, medium ? medium : clear, beta));
+  cs_named_end(context);
   lua_createtable(L, 0, 3);
-  set_triple(L, "pigment", pigment);
-  set_triple(L, "medium", medium);
+  if (pigment)
+    set_triple(L, "pigment", pigment);
+  else
+    set_constant(L, "pigment", &black_key);
+  if (medium)
+    set_triple(L, "medium", medium);
+  else
+    set_constant(L, "medium", &clear_key);
   lua_pushnumber(L, beta);
   lua_setfield(L, -2, "beta");
   lua_setiuservalue(L, -2, 1);
@@ -84,17 +135,48 @@ static void read_rgb(lua_State *L, const char *function, double rgb[3]) {
     rgb[i] = cs_form_argument(L, i + 1, function, names[i]);
 }
 
-static int make_rgb(lua_State *L) {
-  double pigment[3];
-  read_rgb(L, "rgb", pigment);
-  double alpha = lua_isnoneornil(L, 4) ? 1 : cs_form_argument(L, 4, "rgb", "alpha");
-  return push_paint(L, "rgb", pigment, (const double[]){1, 1, 1}, alpha);
+/* Reads argument 1 if it is a string: the colour that it names, and *alpha. */
+static bool read_text(lua_State *L, const char *function, double rgb[3], double *alpha) {
+  if (lua_type(L, 1) != LUA_TSTRING)
+    return false;
+  celspan_paint colour;
+  if (!celspan_paint_parse(lua_tostring(L, 1), &colour))
+    cs_caller_error(L, "%s: takes numbers or a colour like \"#rrggbb\", got \"%s\"", function,
+                    lua_tostring(L, 1));
+  for (int i = 0; i < 3; i++)
+    rgb[i] = colour.pigment[i];
+  *alpha = colour.beta;
+  return true;
 }
 
+/* (r, g, b [, alpha]) or ("#rrggbb" [, alpha]): an alpha that is given counts instead of the
+ * string's. */
+static void read_colour(lua_State *L, const char *function, double rgb[3], double *alpha) {
+  bool is_text = read_text(L, function, rgb, alpha);
+  int place = is_text ? 2 : 4;
+  if (!is_text)
+    read_rgb(L, function, rgb);
+  if (!lua_isnoneornil(L, place))
+    *alpha = cs_form_argument(L, place, function, "alpha");
+  if (*alpha < 0 || *alpha > 1)
+    cs_caller_error(L, "%s: alpha is %s; it must be between 0 and 1", function,
+                    cs_form_digits(L, *alpha));
+}
+
+static int make_rgb(lua_State *L) {
+  double pigment[3], alpha = 1;
+  read_colour(L, "rgb", pigment, &alpha);
+  return push_paint(L, "rgb", pigment, NULL, alpha);
+}
+
+/* gel(r, g, b), gel("#rrggbb"), each also with an alpha: it mixes the gel with clear, as in a picture
+ * of gels. */
 static int make_gel(lua_State *L) {
-  double medium[3];
-  read_rgb(L, "gel", medium);
-  return push_paint(L, "gel", (const double[]){0, 0, 0}, medium, 0);
+  double medium[3], alpha = 1;
+  read_colour(L, "gel", medium, &alpha);
+  for (int i = 0; i < 3 && alpha < 1; i++)
+    medium[i] = alpha * medium[i] + (1 - alpha);
+  return push_paint(L, "gel", NULL, medium, 0);
 }
 
 static celspan_paint mix_argument(lua_State *L, int index) {
@@ -103,8 +185,10 @@ static celspan_paint mix_argument(lua_State *L, int index) {
     return paint;
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (!value)
-    luaL_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
-               lua_isstring(L, index) ? lua_tostring(L, index) : cs_userdata_type(L, index));
+    cs_caller_error(
+        L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
+        lua_type(L, index) == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", lua_tostring(L, index))
+                                          : cs_userdata_type(L, index));
   return value->paint;
 }
 
@@ -112,8 +196,8 @@ static int mix(lua_State *L) {
   celspan_paint p = mix_argument(L, 1), q = mix_argument(L, 2);
   double u = cs_form_argument(L, 3, "mix", "the share of the second paint");
   if (!(u >= 0 && u <= 1))
-    return luaL_error(L, "mix: the share of the second paint must be 0..1, got %s",
-                      cs_form_digits(L, u));
+    return cs_caller_error(L, "mix: the share of the second paint must be 0..1, got %s",
+                           cs_form_digits(L, u));
   celspan_paint paint = celspan_paint_mix(p, q, (float)u);
   double pigment[3], medium[3];
   for (int i = 0; i < 3; i++) {
@@ -123,14 +207,26 @@ static int mix(lua_State *L) {
   return push_paint(L, "mix", pigment, medium, paint.beta);
 }
 
+static void keep_triple(lua_State *L, const char *key, lua_Number number) {
+  lua_createtable(L, 3, 0);
+  for (int i = 1; i <= 3; i++) {
+    lua_pushnumber(L, number);
+    lua_rawseti(L, -2, i);
+  }
+  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
+}
+
 void cs_open_paint(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      {"with", cs_construct_with}, {"named", cs_named_method}, {NULL, NULL}};
   static const luaL_Reg functions[] = {
       {"rgb", make_rgb}, {"gel", make_gel}, {"mix", mix}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_paint, methods);
+  keep_triple(L, &black_key, 0);
+  keep_triple(L, &clear_key, 1);
   luaL_setfuncs(L, functions, 0);
   cs_construct_push(L, &cs_noun_paint);
   lua_setfield(L, -2, "paint");
-  push_paint(L, "clear", (const double[]){0, 0, 0}, (const double[]){1, 1, 1}, 0);
+  push_paint(L, "clear", NULL, NULL, 0);
   lua_setfield(L, -2, "clear");
 }

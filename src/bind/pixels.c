@@ -1,27 +1,39 @@
-/* celspan.pixels: a rostrum into memory; linear, premultiplied floats. */
+/* celspan.pixels: a frame into memory; linear, premultiplied floats, which can be coded and
+ * written. */
+#include <stdint.h>
 #include <string.h>
 
+#include "base/context.h"
+#include "bind/caller.h"
 #include "bind/host.h"
 #include "bind/openers.h"
-#include "bind/options.h"
+#include "bind/subject.h"
+#include "bind/unknown.h"
+#include "bind/userdata.h"
 
 #define IMAGE "celspan.pixels"
 
-static const cs_field fields[] = {CS_OPTIONS_FIELDS, {0}};
+static const cs_field fields[] = {CS_OPTIONS_FIELDS, {"frame", NULL}, {0}};
 static const cs_noun noun = {.name = "pixels", .fields = fields};
+static const cs_field bytes_fields[] = {CS_OPTIONS_CODING, {0}};
+static const cs_noun noun_bytes = {.name = "bytes", .fields = bytes_fields};
+static const cs_field write_fields[] = {CS_OPTIONS_CODING, {"format", NULL}, {0}};
+static const cs_noun noun_write = {.name = "write", .fields = write_fields};
 
 typedef struct image {
   int32_t width, height;
+  int32_t x, y;   /* the place of the first pixel in the whole frame */
+  bool is_opaque; /* every pixel's alpha is certain to be 1 */
   float pixels[]; /* RGBA, rows top to bottom */
 } image;
 
 static int32_t coordinate(lua_State *L, int index, const char *name, int32_t size) {
-  lua_Integer at = lua_isinteger(L, index) ? lua_tointeger(L, index) : -1;
-  if (lua_type(L, index) == LUA_TNUMBER && lua_tonumber(L, index) == (lua_Number)(int)at)
-    at = (lua_Integer)lua_tonumber(L, index);
-  if (at < 0 || at >= size)
-    luaL_error(L, "get: %s must be a whole number from 0 to %d, got %s", name, size - 1,
-               luaL_tolstring(L, index, NULL));
+  int is_whole = 0; /* 2.0 is a whole number too */
+  lua_Integer at = lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &is_whole) : -1;
+  if (!is_whole || at < 0 || at >= size)
+    cs_caller_error(L, "get: %s must be a whole number from 0 to %d, got %s", name, size - 1,
+                    lua_type(L, index) == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
+                                                      : cs_userdata_type(L, index));
   return (int32_t)at;
 }
 
@@ -34,17 +46,97 @@ static int get(lua_State *L) {
   return 4;
 }
 
+static int fail(lua_State *L, celspan_context *context) {
+  luaL_pushfail(L);
+  lua_pushstring(L, celspan_context_error(context));
+  return 2;
+}
+
+/* ---------------------------------------------------------------- coded */
+
+/* A row as one span. */
+static celspan_span span_of(const image *picture, int32_t y) {
+  return (celspan_span){.x1 = picture->width,
+                        .kind = CELSPAN_SPAN_ARRAY,
+                        .array = picture->pixels + 4 * (size_t)y * (size_t)picture->width};
+}
+
+/* image:bytes{ depth =, colour =, alpha = }: RGBA, rows from top to bottom. */
+static int bytes(lua_State *L) {
+  const image *picture = luaL_checkudata(L, 1, IMAGE);
+  lua_settop(L, 2);
+  cs_form form = cs_options_open(L, &noun_bytes, 2);
+  celspan_coding coding = CELSPAN_ZERO;
+  cs_options_coding(&form, &coding);
+  size_t row = (size_t)picture->width * celspan_coding_pixel_size(&coding), size;
+  if (__builtin_mul_overflow(row, (size_t)picture->height, &size))
+    cs_form_fail(&form, "%d x %d pixels are too many for a string", picture->width,
+                 picture->height);
+  luaL_Buffer buffer;
+  char *out = luaL_buffinitsize(L, &buffer, size);
+  for (int32_t y = 0; y < picture->height; y++) {
+    celspan_span span = span_of(picture, y);
+    celspan_spans_code_at(&coding, picture->x, picture->y + y, &span, 1, out + (size_t)y * row);
+  }
+  luaL_pushresultsize(&buffer, size);
+  return 1;
+}
+
+static celspan_status write_rows(celspan_context *context, const celspan_sink *sink,
+                                 const image *picture) {
+  CS_TRY(sink->begin(sink->user, context, picture->width, picture->height));
+  for (int32_t y = 0; y < picture->height; y++) {
+    celspan_span span = span_of(picture, y);
+    CS_TRY(sink->row(sink->user, context, y, &span, 1));
+  }
+  return CELSPAN_OK;
+}
+
+/* image:write(path [, options]) -> true | nil, message */
+static int write_image(lua_State *L) {
+  const image *picture = luaL_checkudata(L, 1, IMAGE);
+  lua_settop(L, 3);
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return cs_caller_error(L, "write: argument 1 must be a file name like \"one.png\", got %s",
+                           cs_userdata_type(L, 2));
+  cs_form form = cs_options_open(L, &noun_write, 3);
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  cs_options_coding(&form, &file.coding);
+  file.format = cs_form_text_or(&form, "format", NULL);
+  file.is_opaque = picture->is_opaque;
+  file.place_x = picture->x;
+  file.place_y = picture->y;
+  celspan_context *context = cs_host_context(L);
+  celspan_sink sink;
+  celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
+  if (status == CELSPAN_OK)
+    status = sink.end(sink.user, context, write_rows(context, &sink, picture));
+  if (status != CELSPAN_OK)
+    return fail(L, context);
+  lua_pushboolean(L, true);
+  return 1;
+}
+
+/* ---------------------------------------------------------------- the value */
+
 static int index_image(lua_State *L) {
   const image *picture = luaL_checkudata(L, 1, IMAGE);
-  const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
+  static const char *const names[] = {"width", "height", "get", "bytes", "write"};
+  if (lua_type(L, 2) != LUA_TSTRING)
+    return 0;
+  const char *name = lua_tostring(L, 2);
   if (strcmp(name, "get") == 0)
     lua_pushcfunction(L, get);
+  else if (strcmp(name, "bytes") == 0)
+    lua_pushcfunction(L, bytes);
+  else if (strcmp(name, "write") == 0)
+    lua_pushcfunction(L, write_image);
   else if (strcmp(name, "width") == 0)
     lua_pushinteger(L, picture->width);
   else if (strcmp(name, "height") == 0)
     lua_pushinteger(L, picture->height);
   else
-    lua_pushnil(L);
+    cs_unknown_fail_name(L, "pixels", name, names, 3);
   return 1;
 }
 
@@ -59,11 +151,11 @@ static image *push_image(const cs_form *form, const celspan_frame_desc *desc) {
   int32_t height = desc->crop_height ? desc->crop_height : desc->height;
   if (width <= 0 || height <= 0)
     cs_form_fail(form, "%d x %d pixels are asked for; each side must be at least 1", width, height);
-  if ((int64_t)width * height > INT64_C(1) << 32)
+  uint64_t count = (uint64_t)width * (uint64_t)height, pixel = 4 * sizeof(float);
+  if (count > UINT64_C(1) << 32 || count > (SIZE_MAX - sizeof(image)) / pixel)
     cs_form_fail(form, "%d x %d pixels cannot be held in memory; render a crop, or into a file",
                  width, height);
-  size_t count = 4 * (size_t)width * (size_t)height;
-  image *picture = lua_newuserdatauv(form->L, sizeof *picture + count * sizeof(float), 0);
+  image *picture = lua_newuserdatauv(form->L, sizeof *picture + (size_t)(count * pixel), 0);
   picture->width = width;
   picture->height = height;
   luaL_setmetatable(form->L, IMAGE);
@@ -75,20 +167,21 @@ static int pixels(lua_State *L) {
   cs_form form = cs_options_open(L, &noun, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
-  cs_options_exposures(L, 1, "pixels: argument 1", &frame.desc);
+  celspan_context *context = cs_host_context(L);
+  celspan_status status = cs_subject_read(&form, &frame.desc);
+  if (status != CELSPAN_OK)
+    return fail(L, context);
   image *picture = push_image(&form, &frame.desc);
+  picture->is_opaque = celspan_frame_is_opaque(&frame.desc);
+  picture->x = frame.desc.crop_x;
+  picture->y = frame.desc.crop_y;
   celspan_coding coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
                            CELSPAN_ALPHA_PREMULTIPLIED};
-  celspan_context *context = cs_host_context(L);
   lua_State *before = cs_host_enter(L);
-  celspan_status status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
-                                               (size_t)picture->width * 4 * sizeof(float), NULL);
+  status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
+                                (size_t)picture->width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
-  if (status == CELSPAN_OK)
-    return 1;
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
+  return status == CELSPAN_OK ? 1 : fail(L, context);
 }
 
 void cs_open_pixels(lua_State *L) {

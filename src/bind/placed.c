@@ -2,9 +2,13 @@
 
 #include <math.h>
 
+#include "bind/caller.h"
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/named.h"
+#include "bind/numbers.h"
+#include "bind/shape.h"
 #include "bind/userdata.h"
 
 #define PI 3.14159265358979323846
@@ -12,23 +16,13 @@
 double cs_placed_radians(double degrees) { return fmod(degrees, 360) * (PI / 180); }
 
 static cs_userdata *self(lua_State *L, const char *method) {
-  cs_userdata *value = cs_userdata_test(L, 1, &cs_kind_object);
+  cs_userdata *value = cs_shape_at(L, 1);
   return value ? value : cs_userdata_self(L, &cs_kind_cel, method);
-}
-
-/* Pushes a value with the fields of `from`, but without an object or cel yet. */
-static cs_userdata *push_copy(lua_State *L, const cs_userdata *from) {
-  cs_userdata *copy = cs_userdata_push(L, from->noun);
-  copy->matrix = from->matrix;
-  copy->fade = from->fade;
-  lua_getiuservalue(L, 1, 1); /* never changed, so it can be shared */
-  lua_setiuservalue(L, -2, 1);
-  return copy;
 }
 
 static int push_transformed(lua_State *L, const char *method, const cs_userdata *value,
                             celspan_matrix matrix) {
-  cs_userdata *copy = push_copy(L, value);
+  cs_userdata *copy = cs_userdata_push_like(L, 1);
   cs_host_try(
       L, method,
       value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &copy->handle));
@@ -43,11 +37,22 @@ static int translate(lua_State *L) {
   return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
 }
 
+/* The arguments cx, cy at `index`: both or none, which is the origin. */
+static celspan_point read_centre(lua_State *L, int index, const char *method) {
+  celspan_point centre = {0, 0};
+  if (!lua_isnoneornil(L, index) || !lua_isnoneornil(L, index + 1)) {
+    centre.x = cs_form_argument(L, index, method, "the centre's x");
+    centre.y = cs_form_argument(L, index + 1, method, "the centre's y");
+  }
+  return centre;
+}
+
 static int scale(lua_State *L) {
   const cs_userdata *value = self(L, "scale");
   double sx = cs_form_argument(L, 2, "scale", "sx");
   double sy = lua_isnoneornil(L, 3) ? sx : cs_form_argument(L, 3, "scale", "sy");
-  return push_transformed(L, "scale", value, celspan_matrix_scaling(sx, sy));
+  celspan_point centre = read_centre(L, 4, "scale");
+  return push_transformed(L, "scale", value, celspan_matrix_scaling_about(sx, sy, centre));
 }
 
 /* Quarter turns are exact: no rounded sine is in them. */
@@ -65,11 +70,7 @@ static celspan_matrix rotation(double degrees, celspan_point centre) {
 static int rotate(lua_State *L) {
   const cs_userdata *value = self(L, "rotate");
   double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
-  celspan_point centre = {0, 0};
-  if (!lua_isnoneornil(L, 3) || !lua_isnoneornil(L, 4)) {
-    centre.x = cs_form_argument(L, 3, "rotate", "the centre's x");
-    centre.y = cs_form_argument(L, 4, "rotate", "the centre's y");
-  }
+  celspan_point centre = read_centre(L, 3, "rotate");
   return push_transformed(L, "rotate", value, rotation(degrees, centre));
 }
 
@@ -77,54 +78,61 @@ static int skew(lua_State *L) {
   const cs_userdata *value = self(L, "skew");
   double x = cs_form_argument(L, 2, "skew", "the first angle in degrees");
   double y = cs_form_argument(L, 3, "skew", "the second angle in degrees");
-  celspan_matrix matrix = celspan_matrix_skewing(cs_placed_radians(x), cs_placed_radians(y));
+  celspan_point centre = read_centre(L, 4, "skew");
+  celspan_matrix matrix =
+      celspan_matrix_skewing_about(cs_placed_radians(x), cs_placed_radians(y), centre);
   return push_transformed(L, "skew", value, matrix);
 }
 
 static int transform(lua_State *L) {
+  static const cs_numbers_name name = {.noun = "transform",
+                                       .whole = "the matrix",
+                                       .item = "value %d of the matrix",
+                                       .shape = "{a,b,c, d,e,f, g,h,i}"};
   const cs_userdata *value = self(L, "transform");
   celspan_matrix matrix;
-  bool good = lua_istable(L, 2) && lua_rawlen(L, 2) == 9;
-  for (int i = 0; good && i < 9; i++) {
-    good = lua_rawgeti(L, 2, i + 1) == LUA_TNUMBER;
-    matrix.m[i] = lua_tonumber(L, -1);
-    lua_pop(L, 1);
-  }
-  if (!good)
-    return luaL_error(L, "transform: takes {a,b,c, d,e,f, g,h,i}, nine numbers row by row");
+  cs_numbers_read(L, 2, &name, 9, 9, matrix.m);
   return push_transformed(L, "transform", value, matrix);
 }
 
-static void read_corners(lua_State *L, int index, celspan_point corners[4]) {
-  bool good = lua_istable(L, index) && lua_rawlen(L, index) == 4;
-  for (int i = 0; good && i < 4; i++) {
-    good = lua_rawgeti(L, index, i + 1) == LUA_TTABLE && lua_rawgeti(L, -1, 1) == LUA_TNUMBER &&
-           lua_rawgeti(L, -2, 2) == LUA_TNUMBER;
-    if (good)
-      corners[i] = (celspan_point){lua_tonumber(L, -2), lua_tonumber(L, -1)};
-    lua_settop(L, 3);
+static void read_corners(lua_State *L, int index, const char *which, celspan_point corners[4]) {
+  cs_numbers_name name = {.noun = "quad",
+                          .whole = lua_pushfstring(L, "point %%d of %s", which),
+                          .item = lua_pushfstring(L, "point %%d of %s: its value %%d", which),
+                          .shape = "{x, y}"};
+  bool is_table = lua_istable(L, index);
+  if (!is_table || lua_rawlen(L, index) != 4)
+    cs_caller_error(L, "quad: %s must be four points {{x, y}, {x, y}, {x, y}, {x, y}}, got %s",
+                    which,
+                    is_table ? lua_pushfstring(L, "%d of them", (int)lua_rawlen(L, index))
+                             : cs_userdata_type(L, index));
+  for (int i = 0; i < 4; i++) {
+    double pair[2];
+    name.number = i + 1;
+    lua_rawgeti(L, index, i + 1);
+    cs_numbers_read(L, -1, &name, 2, 2, pair);
+    corners[i] = (celspan_point){pair[0], pair[1]};
+    lua_pop(L, 1);
   }
-  if (!good)
-    luaL_error(L, "quad: argument %d must be four points {{x,y}, {x,y}, {x,y}, {x,y}}", index - 1);
 }
 
 static int quad(lua_State *L) {
   const cs_userdata *value = self(L, "quad");
   lua_settop(L, 3);
   celspan_point from[4], to[4];
-  read_corners(L, 2, from);
-  read_corners(L, 3, to);
+  read_corners(L, 2, "the first four", from);
+  read_corners(L, 3, "the other four", to);
   celspan_matrix matrix;
   if (!celspan_matrix_quad(from, to, &matrix))
-    return luaL_error(L, "quad: no perspective takes the first four points to the second; "
-                         "no three of them may lie on one line");
+    return cs_caller_error(L, "quad: no perspective takes the first four points to the second; "
+                              "no three of them may lie on one line");
   return push_transformed(L, "quad", value, matrix);
 }
 
 static int fade(lua_State *L) {
   const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
-  cs_userdata *copy = push_copy(L, value);
+  cs_userdata *copy = cs_userdata_push_like(L, 1);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
   copy->fade = value->fade * k;
@@ -160,5 +168,6 @@ const luaL_Reg cs_placed_methods[] = {{"translate", translate},
                                       {"fade", fade},
                                       {"bounds", bounds},
                                       {"contains", contains},
+                                      {"named", cs_named_method},
                                       {"with", cs_construct_with},
                                       {NULL, NULL}};

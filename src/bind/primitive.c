@@ -1,6 +1,9 @@
 /* Primitives: rect, triangle, circle, ellipse, polygon, nurbs, path, image. */
+#include <math.h>
+
 #include "bind/construct.h"
 #include "bind/host.h"
+#include "bind/numbers.h"
 #include "bind/openers.h"
 #include "bind/texture.h"
 #include "bind/userdata.h"
@@ -14,10 +17,9 @@ static celspan_rule read_rule(const cs_form *form) {
 /* Value number `place` of a rectangle's array part. */
 static double corner(const cs_form *form, int place, const char *name) {
   lua_State *L = form->L;
-  if (lua_rawgeti(L, form->table, place) != LUA_TNUMBER)
-    cs_form_fail(form, "value %d (%s) must be a number, got %s", place, name,
-                 cs_userdata_type(L, -1));
-  double number = lua_tonumber(L, -1);
+  bool good = lua_rawgeti(L, form->table, place) == LUA_TNUMBER && isfinite(lua_tonumber(L, -1));
+  const char *subject = good ? name : lua_pushfstring(L, "value %d (%s)", place, name);
+  double number = cs_numbers_check(L, good ? -1 : -2, form->noun->name, subject);
   lua_pop(L, 1);
   return number;
 }
@@ -54,7 +56,7 @@ static void create_triangle(const cs_form *form, cs_userdata *value) {
 static void create_ellipse(const cs_form *form, cs_userdata *value) {
   double radii[2];
   if (!cs_form_numbers(form, "radii", 2, radii))
-    cs_form_fail(form, "field 'radii' must be an array of 2 numbers, got nil");
+    cs_numbers_fail_missing(form->L, form->noun->name, "radii", 2);
   celspan_ellipse_desc desc = {.centre = cs_form_point(form, "centre"),
                                .radius_x = radii[0],
                                .radius_y = radii[1],
@@ -85,7 +87,7 @@ static void create_circle(const cs_form *form, cs_userdata *value) {
 
 static void create_polygon(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
-  celspan_polygon_desc desc = {.points = cs_form_points(form, form->table, count, NULL),
+  celspan_polygon_desc desc = {.points = cs_form_points(form, form->table, (size_t)count, NULL),
                                .point_count = (size_t)count,
                                .rule = read_rule(form),
                                .texture = cs_form_texture(form, "texture")};
@@ -107,9 +109,8 @@ static void create_nurbs(const cs_form *form, cs_userdata *value) {
   if (lua_rawget(L, form->table) != LUA_TTABLE)
     cs_form_fail(form, "field 'points' must be an array of points {x, y} or {x, y, weight}, got %s",
                  cs_userdata_type(L, -1));
-  int count = (int)lua_rawlen(L, -1);
-  desc.point_count = (size_t)count;
-  desc.points = cs_form_points(form, -1, count, &desc.weights);
+  desc.point_count = lua_rawlen(L, -1);
+  desc.points = cs_form_points(form, -1, desc.point_count, &desc.weights);
   desc.knots = cs_form_array(form, "knots", &desc.knot_count);
   desc.texture = cs_form_texture(form, "texture");
   celspan_object *object = NULL;
@@ -128,12 +129,13 @@ static void create_path(const cs_form *form, cs_userdata *value) {
 
 static void create_image(const cs_form *form, cs_userdata *value) {
   static const char *const fits[] = {"fill", "contain", "cover", NULL};
+  int place = lua_gettop(form->L);
   celspan_image_desc desc = {.x = cs_form_number_or(form, "x", 0),
                              .y = cs_form_number_or(form, "y", 0),
                              .width = cs_form_number_or(form, "w", 0),
                              .height = cs_form_number_or(form, "h", 0),
                              .fit = (celspan_fit)cs_form_choice(form, "fit", fits)};
-  cs_texture_read_picture(form, &desc.picture);
+  cs_texture_read_picture(form, place, &desc.picture);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_image(cs_host_context(form->L), &desc, &object));
   value->handle = object;
@@ -158,14 +160,14 @@ static const cs_field image_fields[] = {
 #define OBJECT(noun)                                                                               \
   .name = #noun, .kind = &cs_kind_object, .fields = noun##_fields, .create = create_##noun
 static const cs_noun nouns[] = {
-    {OBJECT(rect), .list = CS_LIST_TUPLE, .item = "number"},
+    {OBJECT(rect), .list = CS_LIST_TUPLE, .item = "number", .places = "{x, y, w, h}"},
     {OBJECT(triangle), .list = CS_LIST_TUPLE, .item = "point"},
     {OBJECT(circle)},
     {OBJECT(ellipse)},
     {OBJECT(polygon), .list = CS_LIST_ITEMS, .item = "point"},
     {OBJECT(nurbs)},
     {OBJECT(path)},
-    {OBJECT(image)},
+    {OBJECT(image), CS_TEXTURE_PICTURE_EITHER},
 };
 
 void cs_open_primitive(lua_State *L) {

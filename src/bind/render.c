@@ -1,14 +1,17 @@
 /* celspan.render: a film or a rostrum into files. */
+#include <string.h>
+
+#include "bind/caller.h"
 #include "bind/host.h"
+#include "bind/lua_error.h"
 #include "bind/lua_film.h"
 #include "bind/openers.h"
 #include "bind/options.h"
 #include "bind/userdata.h"
 #include "film/shoot.h"
 
-static const cs_field fields[] = {
-    CS_OPTIONS_FIELDS, {"frames", NULL}, {"progress", NULL}, {"format", NULL},
-    {"depth", NULL},   {"colour", NULL}, {"alpha", NULL},    {0}};
+static const cs_field fields[] = {CS_OPTIONS_FIELDS,  CS_OPTIONS_CODING, {"frames", NULL},
+                                  {"progress", NULL}, {"format", NULL},  {0}};
 static const cs_noun noun = {.name = "render", .fields = fields};
 
 /* One run, in a userdata that frees the sequence. */
@@ -43,23 +46,7 @@ static job *push_job(lua_State *L) {
   return j;
 }
 
-static void read_coding(const cs_form *form, celspan_coding *out) {
-  static const char *const depths[] = {"default", "8", "16", "half", "float", NULL};
-  static const char *const colours[] = {"default", "linear", "srgb", "rec709", "cineon", NULL};
-  static const char *const alphas[] = {"default", "straight", "premultiplied", NULL};
-  double depth = 0;
-  lua_pushliteral(form->L, "depth");
-  if (lua_rawget(form->L, form->table) == LUA_TNUMBER)
-    depth = lua_tonumber(form->L, -1);
-  if (depth != 0 && depth != 8 && depth != 16)
-    cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %s",
-                 cs_form_digits(form->L, depth));
-  out->depth = depth == 8    ? CELSPAN_DEPTH_8
-               : depth == 16 ? CELSPAN_DEPTH_16
-                             : (celspan_depth)cs_form_choice(form, "depth", depths);
-  out->transfer = (celspan_transfer)cs_form_choice(form, "colour", colours);
-  out->alpha = (celspan_alpha)cs_form_choice(form, "alpha", alphas);
-}
+static int render(lua_State *L);
 
 /* Reports the share of the whole job that is done, and the first frame that is not done, or the
  * last.
@@ -71,12 +58,16 @@ static bool report_progress(void *user, double share) {
   share = ((double)j->done + share) / (double)j->sequence.count;
   j->share =
       share > j->share ? share : j->share; /* it never goes back, even when frames are given up */
-  if (!lua_checkstack(L, 4))
+  if (!lua_checkstack(L, 8))
     return false;
+  cs_lua_error_push_handler(L, "", render);
+  int handler = lua_gettop(L);
   lua_pushvalue(L, j->progress);
   lua_pushnumber(L, j->share);
   lua_pushinteger(L, j->sequence.frames[j->done < last ? j->done : last]);
-  if (lua_pcall(L, 2, 1, 0) != LUA_OK) {
+  int outcome = lua_pcall(L, 2, 1, handler);
+  lua_remove(L, handler);
+  if (outcome != LUA_OK) {
     j->has_error = true;
     return false;
   }
@@ -88,7 +79,7 @@ static bool report_progress(void *user, double share) {
 static void read_job(const cs_form *form, job *j) {
   lua_State *L = form->L;
   cs_options_read(form, &j->frame);
-  read_coding(form, &j->file.coding);
+  cs_options_coding(form, &j->file.coding);
   j->file.format = cs_form_text_or(form, "format", NULL);
   lua_pushliteral(L, "progress");
   int type = lua_rawget(L, form->table);
@@ -108,7 +99,8 @@ static void read_film(const cs_form *form, job *j) {
   else if (cs_userdata_test(L, 1, &cs_kind_rostrum))
     cs_lua_film_push_still(L, 1, desc->width, desc->height);
   else
-    luaL_error(L, "render: argument 1 must be a film or a rostrum, got %s", cs_userdata_type(L, 1));
+    cs_caller_error(L, "render: argument 1 must be a film or a rostrum, got %s",
+                    cs_userdata_type(L, 1));
   j->film = lua_gettop(L);
   cs_lua_film_read(L, j->film, &j->info);
   if (!cs_form_has(form, "size")) {
@@ -172,8 +164,9 @@ static celspan_status write_frames(job *j) {
 static int render(lua_State *L) {
   lua_settop(L, 3);
   if (lua_type(L, 2) != LUA_TSTRING)
-    return luaL_error(L, "render: argument 2 must be a file name like \"shot.####.png\", got %s",
-                      cs_userdata_type(L, 2));
+    return cs_caller_error(L,
+                           "render: argument 2 must be a file name like \"shot.####.png\", got %s",
+                           cs_userdata_type(L, 2));
   cs_form form = cs_options_open(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);

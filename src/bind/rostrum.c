@@ -1,6 +1,8 @@
 /* The rostrum: cels, lights, camera. */
 #include "bind/construct.h"
 #include "bind/host.h"
+#include "bind/light.h"
+#include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/options.h"
 #include "bind/placed.h"
@@ -8,7 +10,8 @@
 
 static void unref(void *handle) { celspan_rostrum_unref(handle); }
 
-const cs_kind cs_kind_rostrum = {.name = "celspan.rostrum", .unref = unref};
+const cs_kind cs_kind_rostrum = {
+    .name = "celspan.rostrum", .unref = unref, .push_field = cs_named_push_field};
 
 static const cs_field camera_fields[] = {{"centre", NULL}, {"width", NULL}, {"rotate", NULL}, {0}};
 static const cs_noun noun_camera = {.name = "rostrum: camera", .fields = camera_fields};
@@ -25,10 +28,9 @@ static void read_camera(const cs_form *form, celspan_rostrum_desc *desc) {
   desc->camera_rotation = cs_placed_radians(cs_form_number_or(&inner, "rotate", 0));
 }
 
-static void create(const cs_form *form, cs_userdata *value) {
+/* The cels of the array part: scratch memory, left on the stack. */
+static celspan_cel **read_cels(const cs_form *form, int count) {
   lua_State *L = form->L;
-  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  int count = cs_form_length(form);
   celspan_cel **cels = cs_form_scratch(L, (size_t)count, sizeof *cels);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
@@ -38,20 +40,49 @@ static void create(const cs_form *form, cs_userdata *value) {
     cels[i] = item->handle;
     lua_pop(L, 1);
   }
-  desc.cels = cels;
+  return cels;
+}
+
+static celspan_rostrum *create_rostrum(const cs_form *form) {
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  double size[2] = {0, 0};
+  int count = cs_form_length(form);
+  desc.cels = read_cels(form, count);
   desc.cel_count = (size_t)count;
-  desc.has_front = cs_form_light(form, "front", &desc.front);
-  cs_form_light(form, "back", &desc.back);
+  desc.has_front = cs_light_read(form, "front", &desc.front, &desc.front_texture);
+  cs_light_read(form, "back", &desc.back, &desc.back_texture);
   desc.brightness = cs_form_number_or(form, "brightness", 1);
+  desc.has_size = cs_form_numbers(form, "size", 2, size);
+  desc.width = size[0];
+  desc.height = size[1];
   read_camera(form, &desc);
   cs_options_antialias(form, &desc.antialias, &desc.filter);
   celspan_rostrum *rostrum = NULL;
-  cs_form_try(form, celspan_rostrum_create(cs_host_context(L), &desc, &rostrum));
-  value->handle = rostrum;
+  cs_form_try(form, celspan_rostrum_create(cs_host_context(form->L), &desc, &rostrum));
+  return rostrum;
 }
 
-static const cs_field fields[] = {{"front", NULL},  {"back", NULL},        {"brightness", "1"},
-                                  {"camera", NULL}, {"antialias", "area"}, {0}};
+static void create(const cs_form *form, cs_userdata *value) {
+  value->handle = create_rostrum(form);
+}
+
+/* The object that a rostrum is inside a cel: made again by :with. */
+static void create_object(const cs_form *form, cs_userdata *value) {
+  celspan_rostrum *rostrum = create_rostrum(form);
+  celspan_object *object = NULL;
+  celspan_status status = celspan_object_create_rostrum(cs_host_context(form->L), rostrum, &object);
+  celspan_rostrum_unref(rostrum);
+  cs_form_try(form, status);
+  value->handle = object;
+}
+
+static const cs_field fields[] = {{"front", NULL},
+                                  {"back", NULL},
+                                  {"brightness", "1"},
+                                  {"camera", NULL},
+                                  {"antialias", "area"},
+                                  {"size", NULL},
+                                  {0}};
 const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .kind = &cs_kind_rostrum,
                                  .list = CS_LIST_ITEMS,
@@ -59,9 +90,15 @@ const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .fields = fields,
                                  .create = create};
 
+const cs_noun cs_noun_rostrum_object = {.name = "rostrum",
+                                        .kind = &cs_kind_object,
+                                        .list = CS_LIST_ITEMS,
+                                        .item = "cel",
+                                        .fields = fields,
+                                        .create = create_object};
+
 void cs_open_rostrum(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
-  cs_userdata_register(L, &cs_kind_rostrum, methods);
+  cs_userdata_register(L, &cs_kind_rostrum, cs_placed_methods);
   cs_construct_push(L, &cs_noun_rostrum);
   lua_setfield(L, -2, cs_noun_rostrum.name);
 }

@@ -4,11 +4,11 @@
  * by the calling thread only (any_thread = false), and always protected, so that no error can jump
  * over C frames of the core.
  */
-#include <stdlib.h>
-
+#include "bind/caller.h"
 #include "bind/construct.h"
 #include "bind/form.h"
 #include "bind/host.h"
+#include "bind/lua_error.h"
 #include "bind/openers.h"
 #include "bind/userdata.h"
 
@@ -86,6 +86,21 @@ static int call(lua_State *L) {
   return 0;
 }
 
+/* Pushes the message on top of the stack again, with the line where the function begins if it has
+ * none. */
+static const char *push_message(lua_State *L, const procedure *p) {
+  const char *message =
+      lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "the error is not a string";
+  if (cs_lua_error_position(message))
+    return lua_pushstring(L, message);
+  lua_rawgeti(L, LUA_REGISTRYINDEX, p->function);
+  cs_caller_push_function(L, -1);
+  lua_remove(L, -2);
+  lua_pushstring(L, message);
+  lua_concat(L, 2);
+  return lua_tostring(L, -1);
+}
+
 static celspan_status spans(void *user, celspan_context *context, double y,
                             const celspan_scanline_row *row, celspan_scanline_output *output) {
   const procedure *p = user;
@@ -94,27 +109,30 @@ static celspan_status spans(void *user, celspan_context *context, double y,
     return celspan_context_fail(context, CELSPAN_CALLBACK,
                                 "scanline: the Lua state that made it is closed");
   request r = {p, y, row, output, CELSPAN_OK};
-  if (!lua_checkstack(L, 4))
+  if (!lua_checkstack(L, 8))
     return celspan_context_fail(context, CELSPAN_LIMIT, "scanline: Lua's stack is full");
+  cs_lua_error_push_handler(L, "", call);
+  int handler = lua_gettop(L);
   lua_pushcfunction(L, call);
   lua_pushlightuserdata(L, &r);
-  int outcome = lua_pcall(L, 1, 0, 0);
+  int outcome = lua_pcall(L, 1, 0, handler);
+  lua_remove(L, handler);
   if (outcome == LUA_OK)
     return r.status;
-  const char *message =
-      lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "the error is not a string";
+  const char *message = push_message(L, p);
   celspan_status status = outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
   status = celspan_context_fail(context, status, "%s", message);
-  lua_pop(L, 1);
+  lua_pop(L, 2);
   return status;
 }
 
 static void release(void *user) {
   procedure *p = user;
-  if (p->host->state)
-    luaL_unref(p->host->state, LUA_REGISTRYINDEX, p->function);
-  cs_host_unref(p->host);
-  free(p);
+  cs_host *host = p->host;
+  if (host->state)
+    luaL_unref(host->state, LUA_REGISTRYINDEX, p->function);
+  cs_mem_free(host->memory, p, sizeof *p);
+  cs_host_unref(host);
 }
 
 static void create(const cs_form *form, cs_userdata *value) {
@@ -127,7 +145,7 @@ static void create(const cs_form *form, cs_userdata *value) {
   if (lua_rawget(L, form->table) != LUA_TFUNCTION)
     cs_form_fail(form, "field 'spans' must be a function(y, row), got %s", cs_userdata_type(L, -1));
   int function = luaL_ref(L, LUA_REGISTRYINDEX);
-  procedure *p = malloc(sizeof *p);
+  procedure *p = cs_mem_array(host->memory, 1, sizeof *p);
   if (!p) {
     luaL_unref(L, LUA_REGISTRYINDEX, function);
     cs_form_fail(form, "not enough memory");

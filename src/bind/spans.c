@@ -1,13 +1,13 @@
 /* celspan.spans: rows of spans as tables; celspan.probe: one point by direct evaluation. */
 #include "bind/host.h"
 #include "bind/openers.h"
-#include "bind/options.h"
+#include "bind/subject.h"
 
 #define ROWS "celspan.rows"
 
-static const cs_field span_fields[] = {CS_OPTIONS_FIELDS, {"rows", NULL}, {0}};
+static const cs_field span_fields[] = {CS_OPTIONS_FIELDS, {"rows", NULL}, {"frame", NULL}, {0}};
 static const cs_noun noun_spans = {.name = "spans", .fields = span_fields};
-static const cs_field probe_fields[] = {{"film", NULL}, {0}};
+static const cs_field probe_fields[] = {{"film", NULL}, {"frame", NULL}, {0}};
 static const cs_noun noun_probe = {.name = "probe", .fields = probe_fields};
 
 static int finish_rows(lua_State *L) {
@@ -106,7 +106,8 @@ static int spans(lua_State *L) {
   cs_form form = cs_options_open(L, &noun_spans, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
-  cs_options_exposures(L, 1, "spans: argument 1", &frame.desc);
+  if (cs_subject_read(&form, &frame.desc) != CELSPAN_OK)
+    return fail(L);
   int32_t range[2];
   celspan_rows **rows = push_rows(L);
   int32_t height = frame.desc.crop_height ? frame.desc.crop_height : frame.desc.height;
@@ -138,11 +139,12 @@ static int probe(lua_State *L) {
   cs_form form = cs_options_open(L, &noun_probe, 4);
   double film[2] = {1920, 1080}, rgba[4];
   cs_form_numbers(&form, "film", 2, film);
-  celspan_frame_desc desc;
-  cs_options_exposures(L, 1, "probe: argument 1", &desc);
+  celspan_frame_desc desc = {.film_width = film[0], .film_height = film[1]};
+  if (cs_subject_read(&form, &desc) != CELSPAN_OK)
+    return fail(L);
   lua_State *before = cs_host_enter(L);
   celspan_status status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
-                                        film[0], film[1], point, rgba);
+                                        desc.film_width, desc.film_height, point, rgba);
   cs_host_leave(L, before);
   if (status != CELSPAN_OK)
     return fail(L);

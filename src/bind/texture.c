@@ -2,13 +2,16 @@
 #include "bind/texture.h"
 
 #include "bind/construct.h"
+#include "bind/files.h"
 #include "bind/host.h"
+#include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/userdata.h"
 
 static void unref_texture(void *handle) { celspan_texture_unref(handle); }
 
-const cs_kind cs_kind_texture = {.name = "celspan.texture", .unref = unref_texture};
+const cs_kind cs_kind_texture = {
+    .name = "celspan.texture", .unref = unref_texture, .push_field = cs_named_push_field};
 
 static void create_gradient(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
@@ -61,24 +64,34 @@ static void create_radial(const cs_form *form, cs_userdata *value) {
   value->handle = texture;
 }
 
-void cs_texture_read_picture(const cs_form *form, celspan_picture_desc *desc) {
+const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
+
+/* Reads the fields of a file, or of pixels, of the value at index `holder`. */
+static void read_content(const cs_form *form, int holder, celspan_picture_desc *desc) {
+  if (cs_form_has(form, "pixels"))
+    desc->surface = cs_pixel_string_surface(form, holder);
+  else
+    desc->file = cs_files_find(form->L, cs_form_text(form, "file"), &desc->tried);
+}
+
+void cs_texture_read_picture(const cs_form *form, int holder, celspan_picture_desc *desc) {
   static const char *const samplings[] = {"auto", "nearest", "bilinear", "bicubic", NULL};
   static const char *const wraps[] = {"clear", "clamp", "repeat", NULL};
   static const char *const uses[] = {"paint", "gel", NULL};
   *desc = (celspan_picture_desc){0};
-  const char *file = cs_form_text(form, "file");
   desc->colour = cs_form_text_or(form, "colour", NULL);
   desc->layer = cs_form_text_or(form, "layer", NULL);
   desc->subimage = cs_form_integer_or(form, "subimage", 0);
   desc->sampling = (celspan_sampling)cs_form_choice(form, "sampling", samplings);
   desc->wrap = (celspan_wrap)cs_form_choice(form, "wrap", wraps);
   desc->use = (celspan_picture_use)cs_form_choice(form, "as", uses);
-  desc->file = cs_host_resolve(form->L, file);
+  desc->has_source = cs_form_box(form, "source", &desc->source);
+  read_content(form, holder, desc);
 }
 
 static void create_picture(const cs_form *form, cs_userdata *value) {
   celspan_picture_desc desc;
-  cs_texture_read_picture(form, &desc);
+  cs_texture_read_picture(form, lua_gettop(form->L), &desc);
   desc.has_box = cs_form_box(form, "box", &desc.box);
   celspan_texture *texture = NULL;
   cs_form_try(form, celspan_texture_create_picture(cs_host_context(form->L), &desc, &texture));
@@ -112,11 +125,13 @@ static const cs_noun nouns[] = {
     {.name = "picture",
      .kind = &cs_kind_texture,
      .fields = picture_fields,
+     CS_TEXTURE_PICTURE_EITHER,
      .create = create_picture},
 };
 
 void cs_open_texture(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      {"with", cs_construct_with}, {"named", cs_named_method}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_texture, methods);
   for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
     cs_construct_push(L, &nouns[i]);

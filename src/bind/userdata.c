@@ -1,10 +1,15 @@
 #include "bind/userdata.h"
 
 #include <lauxlib.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "bind/caller.h"
+#include "bind/unknown.h"
 
 /* Deep enough for every field there is: a list of points. */
 #define COPY_DEPTH 3
+#define MOST_NAMES 64
 
 /* ---------------------------------------------------------------- making */
 
@@ -15,39 +20,87 @@ cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun) {
   return value;
 }
 
-/* Pushes a copy of the table at index; tables deeper than `depth` are left out. */
-static void push_copy(lua_State *L, int index, int depth) {
+cs_userdata *cs_userdata_push_like(lua_State *L, int index) {
+  index = lua_absindex(L, index);
+  const cs_userdata *from = lua_touserdata(L, index);
+  cs_userdata *copy = cs_userdata_push(L, from->noun);
+  copy->matrix = from->matrix;
+  copy->fade = from->fade;
+  copy->shown = from->shown;
+  copy->paint = from->paint;
+  lua_getiuservalue(L, index, 1); /* never changed, so it can be shared */
+  lua_setiuservalue(L, -2, 1);
+  return copy;
+}
+
+/* Pushes a copy of the table at index, with room for so many fields; tables deeper than `depth` are
+ * left out. */
+static void push_copy(lua_State *L, int index, int room, int depth) {
   index = lua_absindex(L, index);
   luaL_checkstack(L, 6, "copying a table");
-  lua_createtable(L, (int)lua_rawlen(L, index), 0);
+  lua_createtable(L, (int)lua_rawlen(L, index), room);
   for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
     lua_pushvalue(L, -2);
     if (!lua_istable(L, -2))
       lua_pushvalue(L, -2);
     else if (depth > 0)
-      push_copy(L, -2, depth - 1);
+      push_copy(L, -2, 0, depth - 1);
     else
       lua_pushnil(L);
     lua_rawset(L, -5);
   }
 }
 
-void cs_userdata_push_copy(lua_State *L, int table) { push_copy(L, table, COPY_DEPTH); }
+/* Fields of the table at index that are not in its list. */
+static int count_fields(lua_State *L, int index) {
+  int count = -(int)lua_rawlen(L, index);
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1))
+    count++;
+  return count > 0 ? count : 0;
+}
+
+void cs_userdata_push_copy(lua_State *L, int table, int more) {
+  table = lua_absindex(L, table);
+  push_copy(L, table, count_fields(L, table) + more, COPY_DEPTH);
+}
+
+void cs_userdata_push_fields(lua_State *L, int index) {
+  const cs_userdata *value = lua_touserdata(L, index);
+  lua_Integer count = value->shown;
+  lua_getiuservalue(L, index, 1);
+  if (count == 0)
+    cs_userdata_push_copy(L, -1, 0);
+  else
+    lua_createtable(L, (int)count, 0);
+  for (lua_Integer i = 1; i <= count; i++) {
+    lua_rawgeti(L, -2, i);
+    lua_rawseti(L, -2, i);
+  }
+  lua_remove(L, -2);
+}
 
 /* ---------------------------------------------------------------- finding */
 
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind) {
   cs_userdata *value = luaL_testudata(L, index, kind->name);
   if (value && kind->unref && !value->handle)
-    luaL_error(L, "this %s was released already", value->noun->name);
+    cs_caller_error(L, "this %s was released already", value->noun->name);
   return value;
+}
+
+cs_userdata *cs_userdata_any(lua_State *L, int index) {
+  if (!lua_touserdata(L, index) || !lua_getmetatable(L, index))
+    return NULL;
+  bool is_value = lua_getfield(L, -1, "__celspan") == LUA_TBOOLEAN;
+  lua_pop(L, 2);
+  return is_value ? lua_touserdata(L, index) : NULL;
 }
 
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method) {
   cs_userdata *value = cs_userdata_test(L, 1, kind);
   if (!value)
-    luaL_error(L, "%s: call it as a method, value:%s(...), got %s", method, method,
-               cs_userdata_type(L, 1));
+    cs_caller_error(L, "%s: call it as a method, value:%s(...), got %s", method, method,
+                    cs_userdata_type(L, 1));
   return value;
 }
 
@@ -65,21 +118,72 @@ const char *cs_userdata_type(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- metamethods */
 
+static bool has_field(const cs_noun *noun, const char *name) {
+  const cs_field *field = noun->fields;
+  while (field->name && strcmp(field->name, name) != 0)
+    field++;
+  return field->name != NULL;
+}
+
+static int compare(const void *a, const void *b) {
+  return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Of the names that can be read, those of methods are keys of the table at `methods`. */
+static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
+  const char *names[MOST_NAMES];
+  size_t count = 0;
+  for (const cs_field *field = noun->fields; field->name && count < MOST_NAMES - 2; field++)
+    names[count++] = field->name;
+  size_t first = count;
+  if (noun->kind->push_field) {
+    names[count++] = "name";
+    names[count++] = "origin";
+  }
+  for (lua_pushnil(L); count < MOST_NAMES && lua_next(L, methods); lua_pop(L, 1))
+    names[count++] = lua_tostring(L, -2); /* the table keeps it alive */
+  qsort(names + first, count - first, sizeof *names, compare);
+  cs_unknown_fail_name(L, noun->name, lua_tostring(L, 2), names, count);
+}
+
+/* Pushes field 2 of the value, nil when it was left out; false when it has no such field. */
+static bool push_read(lua_State *L, const cs_userdata *value) {
+  lua_pushnil(L);
+  bool is_place = lua_isinteger(L, 2);
+  bool is_hidden = is_place && value->shown && lua_tointeger(L, 2) > value->shown;
+  if (is_hidden || lua_getiuservalue(L, 1, 1) != LUA_TTABLE)
+    return true;
+  lua_pushvalue(L, 2);
+  int type = lua_rawget(L, -2);
+  if (type == LUA_TTABLE)
+    cs_userdata_push_copy(L, -1, 0);
+  return type != LUA_TNIL || lua_type(L, 2) != LUA_TSTRING ||
+         has_field(value->noun, lua_tostring(L, 2));
+}
+
 /* A method, else a field; tables come out as copies. */
 static int index_value(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(2));
-  luaL_checkudata(L, 1, kind->name);
+  const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
   lua_settop(L, 2);
-  if (lua_isnil(L, 2))
-    return 0;
   lua_pushvalue(L, 2);
-  if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
+  if (!lua_isnil(L, 2) && lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL)
     return 1;
-  if (lua_getiuservalue(L, 1, 1) != LUA_TTABLE)
-    return 0;
-  lua_pushvalue(L, 2);
-  if (lua_rawget(L, -2) == LUA_TTABLE)
-    cs_userdata_push_copy(L, -1);
+  if (kind->push_field && lua_type(L, 2) == LUA_TSTRING &&
+      kind->push_field(L, value, lua_tostring(L, 2)))
+    return 1;
+  if (lua_isnil(L, 2) || push_read(L, value))
+    return 1;
+  return fail_unknown(L, value->noun, lua_upvalueindex(1));
+}
+
+/* Items of the list that a value was made from: what can be read as value[1], value[2], ... */
+static int count_items(lua_State *L) {
+  const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
+  const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
+  bool has_fields = lua_getiuservalue(L, 1, 1) == LUA_TTABLE;
+  lua_Integer all = has_fields ? (lua_Integer)lua_rawlen(L, -1) : 0;
+  lua_pushinteger(L, value->shown ? value->shown : all);
   return 1;
 }
 
@@ -87,8 +191,8 @@ static int refuse_assignment(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
   bool is_frame = kind == &cs_kind_frame;
-  return luaL_error(L, "%ss are immutable%s", value->noun->name,
-                    is_frame ? "" : "; use :with{...}");
+  return cs_caller_error(L, "%ss are immutable%s", value->noun->name,
+                         is_frame ? "" : "; use :with{...}");
 }
 
 static int release(lua_State *L) {
@@ -135,8 +239,9 @@ static bool push_field(lua_State *L, int fields, const char *name) {
 }
 
 /* Pushes what the array part holds: "3 objects", or its numbers. */
-static bool push_list(lua_State *L, const cs_noun *noun, int fields) {
-  int count = (int)lua_rawlen(L, fields);
+static bool push_list(lua_State *L, const cs_userdata *value, int fields) {
+  const cs_noun *noun = value->noun;
+  int count = (int)(value->shown ? value->shown : (lua_Integer)lua_rawlen(L, fields));
   if (noun->list == CS_LIST_ITEMS)
     lua_pushfstring(L, "%d %s%s", count, noun->item, count == 1 ? "" : "s");
   return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_TUPLE && push_numbers(L, fields));
@@ -157,8 +262,13 @@ static int describe(lua_State *L) {
   lua_settop(L, 1);
   bool has_fields = lua_getiuservalue(L, 1, 1) == LUA_TTABLE;
   lua_pushstring(L, noun->name);
+  if (kind->push_field && kind->push_field(L, value, "name") && !lua_isnil(L, -1)) {
+    lua_pushfstring(L, "%s \"%s\"", noun->name, lua_tostring(L, -1));
+    lua_replace(L, -3);
+  }
+  lua_settop(L, 3);
   int count = 0;
-  if (has_fields && push_list(L, noun, 2))
+  if (has_fields && push_list(L, value, 2))
     join(L, &count);
   for (const cs_field *field = noun->fields; has_fields && field->name; field++)
     if (push_field(L, 2, field->name))
@@ -171,8 +281,11 @@ static int describe(lua_State *L) {
 }
 
 void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *methods) {
-  static const luaL_Reg plain[] = {
-      {"__newindex", refuse_assignment}, {"__tostring", describe}, {"__gc", release}, {NULL, NULL}};
+  static const luaL_Reg plain[] = {{"__newindex", refuse_assignment},
+                                   {"__len", count_items},
+                                   {"__tostring", describe},
+                                   {"__gc", release},
+                                   {NULL, NULL}};
   if (!luaL_newmetatable(L, kind->name)) {
     lua_pop(L, 1);
     return;

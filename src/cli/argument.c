@@ -187,6 +187,15 @@ cs_argument_outcome cs_argument_layout(const char *text, void *field) {
   return CHOOSE(text, field, choices);
 }
 
+cs_argument_outcome cs_argument_tint(const char *text, void *field) {
+  celspan_paint paint;
+  if (!celspan_paint_parse(text, &paint) || paint.beta != 1)
+    return CS_ARGUMENT_BAD;
+  *(cs_given_colour *)field =
+      (cs_given_colour){true, {paint.pigment[0], paint.pigment[1], paint.pigment[2]}};
+  return CS_ARGUMENT_READ;
+}
+
 cs_argument_outcome cs_argument_progress(const char *text, void *field) {
   static const choice choices[] = {{"auto", CS_PROGRESS_AUTO},   {"bar", CS_PROGRESS_BAR},
                                    {"lines", CS_PROGRESS_LINES}, {"none", CS_PROGRESS_NONE},

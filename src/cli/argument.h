@@ -39,6 +39,12 @@ typedef struct cs_given_integer {
   int32_t value;
 } cs_given_integer;
 
+/* "#rgb" or "#rrggbb": linear light, opaque. */
+typedef struct cs_given_colour {
+  bool is_given;
+  float rgb[3];
+} cs_given_colour;
+
 cs_argument_outcome cs_argument_text(const char *text, void *field);    /* const char * */
 cs_argument_outcome cs_argument_integer(const char *text, void *field); /* cs_given_integer */
 cs_argument_outcome cs_argument_workers(const char *text, void *field); /* int32_t, 1..1024 */
@@ -56,6 +62,7 @@ cs_argument_outcome cs_argument_colour(const char *text, void *field);    /* cel
 cs_argument_outcome cs_argument_alpha(const char *text, void *field);     /* celspan_alpha */
 cs_argument_outcome cs_argument_count(const char *text, void *field);    /* cs_given_integer, 0.. */
 cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
+cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
 
 #endif

@@ -1,20 +1,27 @@
 /* celspan check SCRIPT: builds every frame and renders none.
  *
- *   first pass   in order: frames that cannot be built, pictures that cannot be read
- *   second pass  a fresh film, last frame first: a frame whose scene now differs was not made by a
- *                pure function of its number
+ *   frames of a part   1 2 3 ... n | n+1 ...        part by part, so that memory has a bound:
  *
- * All faults are reported, the same one only once; the exit code is that of the first.
+ *   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
+ *   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
+ *                      by a pure function of its number
+ *
+ * All faults are reported, in the end, equal ones in one line (cli/faults.h).
  */
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/context.h"
-#include "base/hash.h"
+#include "cli/faults.h"
 #include "cli/interrupt.h"
 #include "cli/script.h"
+#include "cli/target.h"
 #include "cli/verbs.h"
+#include "scene/inspect.h"
 #include "scene/scene.h"
+
+enum { PART = 4096 }; /* frames between two turns */
 
 typedef struct scene_name {
   bool is_known; /* false: not built, or it contains procedures, which cannot be compared */
@@ -24,49 +31,37 @@ typedef struct scene_name {
 typedef struct checkup {
   celspan_context *context;
   const cs_request *request;
-  scene_name *names;
-  size_t fault_count, frames_at_fault;
-  cs_hash *reported; /* of the sentences reported so far; owned */
-  size_t reported_count, reported_capacity;
-  cs_exit outcome;
+  cs_script script, fresh;
+  cs_sequence frames; /* those of --frames; without it, empty */
+  int64_t count, done;
+  scene_name *names; /* of a part */
+  cs_inspection pictures;
+  cs_faults faults;
+  int64_t frame; /* whose pictures are looked at */
 } checkup;
 
-static bool is_new(checkup *check, const char *sentence) {
-  cs_hash hash = cs_hash_begin(0);
-  cs_hash_text(&hash, sentence);
-  hash = cs_hash_end(hash);
-  for (size_t i = 0; i < check->reported_count; i++)
-    if (check->reported[i].a == hash.a && check->reported[i].b == hash.b)
-      return false;
-  /* Without memory to remember it, the sentence may be reported twice. */
-  if (cs_mem_reserve(check->context, (void **)&check->reported, &check->reported_capacity,
-                     check->reported_count + 1, sizeof *check->reported) == CELSPAN_OK)
-    check->reported[check->reported_count++] = hash;
-  return true;
+static int64_t frame_at(const checkup *check, int64_t index) {
+  return check->frames.frames ? check->frames.frames[index] : check->script.film.first + index;
 }
 
-/* Leaves "frame N: " out of a sentence, so that equal faults of many frames are reported once. */
+/* Leaves "frame N: " out of a sentence, so that equal faults of many frames are one. */
 static void copy_without_frame(char *out, size_t size, const char *sentence, int64_t frame) {
   char label[40];
-  snprintf(label, sizeof label, "frame %lld: ", (long long)frame);
+  snprintf(label, sizeof label, "frame %" PRId64 ": ", frame);
   const char *at = strstr(sentence, label);
   int before = at ? (int)(at - sentence) : 0;
   snprintf(out, size, "%.*s%s", before, sentence, at ? at + strlen(label) : sentence);
 }
 
-static void fault(checkup *check, int64_t frame, const char *message, cs_exit code) {
-  char sentence[1024];
+static void fault(checkup *check, int64_t frame, const char *where, const char *message,
+                  cs_exit code) {
+  char sentence[CS_ERROR_SIZE];
   copy_without_frame(sentence, sizeof sentence, message, frame);
-  if (cs_interrupt_signal())
-    return; /* the frame did not fail: it was stopped */
-  check->frames_at_fault++;
-  if (check->outcome == CS_EXIT_OK)
-    check->outcome = code;
-  if (!is_new(check, sentence))
-    return;
-  check->fault_count++;
-  cs_report_error("frame %lld: %s", (long long)frame, sentence);
+  if (!cs_interrupt_signal()) /* else the frame did not fail: it was stopped */
+    cs_faults_add(&check->faults, frame, where, sentence, code);
 }
+
+/* ---------------------------------------------------------------- the two passes */
 
 static void name_scene(const cs_script *script, scene_name *out) {
   const cs_film_frame *frame = &script->frame;
@@ -78,83 +73,140 @@ static bool is_same(const scene_name *a, const scene_name *b) {
   return a->is_known && b->is_known && a->hash.a == b->hash.a && a->hash.b == b->hash.b;
 }
 
-static void check_pictures(checkup *check, const cs_script *script, int64_t frame) {
-  for (size_t i = 0; i < script->frame.count; i++) {
-    celspan_status status =
-        celspan_rostrum_check(check->context, script->frame.exposures[i].rostrum);
-    if (status != CELSPAN_OK)
-      fault(check, frame, celspan_context_error(check->context), cs_report_exit(status));
+static bool add_picture(void *user, const celspan_fault *found) {
+  checkup *check = user;
+  char where[CS_INSPECT_PLACE];
+  cs_inspect_place(found, where);
+  fault(check, check->frame, where, found->message, cs_report_exit(found->status));
+  return cs_interrupt_signal() == 0;
+}
+
+static void check_pictures(checkup *check, int64_t frame) {
+  check->frame = frame;
+  for (size_t i = 0; i < check->script.frame.count; i++) {
+    const celspan_rostrum *rostrum = check->script.frame.exposures[i].rostrum;
+    celspan_status status = cs_inspect_rostrum(&check->pictures, rostrum, add_picture, check);
+    if (status == CELSPAN_NO_MEMORY)
+      fault(check, frame, "", celspan_context_error(check->context), cs_report_exit(status));
   }
 }
 
-static void first_pass(checkup *check, cs_script *script) {
-  for (int64_t i = 0; i < script->film.count && !cs_interrupt_signal(); i++) {
-    int64_t frame = script->film.first + i;
-    celspan_status status = cs_script_try(script, frame);
+static void first_pass(checkup *check, int64_t begin, int64_t end) {
+  for (int64_t i = begin; i < end && !cs_interrupt_signal(); i++) {
+    int64_t frame = frame_at(check, i);
+    scene_name *name = &check->names[i - begin];
+    celspan_status status = cs_script_try(&check->script, frame);
+    *name = (scene_name){.is_known = false};
+    check->done++;
     if (status != CELSPAN_OK) {
-      fault(check, frame, celspan_context_error(check->context), cs_report_exit(status));
+      fault(check, frame, "", celspan_context_error(check->context), cs_report_exit(status));
       continue;
     }
-    name_scene(script, &check->names[i]);
-    check_pictures(check, script, frame);
+    name_scene(&check->script, name);
+    check_pictures(check, frame);
   }
 }
 
-static void second_pass(checkup *check, cs_script *script) {
+static void second_pass(checkup *check, int64_t begin, int64_t end) {
   static const char *const IMPURE =
       "the frame function is not pure: asked again in another order it gave another scene; let it "
       "depend on nothing but its argument";
-  for (int64_t i = script->film.count - 1; i >= 0 && !cs_interrupt_signal(); i--) {
+  for (int64_t i = end - 1; i >= begin && !cs_interrupt_signal(); i--) {
     scene_name again = {.is_known = false};
-    if (!check->names[i].is_known)
+    const scene_name *name = &check->names[i - begin];
+    if (!name->is_known)
       continue;
-    if (cs_script_try(script, script->film.first + i) == CELSPAN_OK)
-      name_scene(script, &again);
-    if (!is_same(&again, &check->names[i]))
-      fault(check, script->film.first + i, IMPURE, CS_EXIT_SCRIPT);
+    if (cs_script_try(&check->fresh, frame_at(check, i)) == CELSPAN_OK)
+      name_scene(&check->fresh, &again);
+    if (!is_same(&again, name))
+      fault(check, frame_at(check, i), "", IMPURE, CS_EXIT_SCRIPT);
   }
 }
 
-static void summarise(const checkup *check, const cs_script *script) {
-  if (check->fault_count)
-    cs_report_note("%zu %s, met %zu %s in %lld frames", check->fault_count,
-                   check->fault_count == 1 ? "fault" : "faults", check->frames_at_fault,
-                   check->frames_at_fault == 1 ? "time" : "times", (long long)script->film.count);
-  else
-    cs_report_note("%lld %s checked: no faults", (long long)script->film.count,
-                   script->film.count == 1 ? "frame" : "frames");
+/* The fresh film, made when it is first needed. */
+static cs_exit open_fresh(checkup *check) {
+  if (check->fresh.L)
+    return CS_EXIT_OK;
+  cs_exit outcome = cs_script_open(check->context, check->request, &check->fresh);
+  const cs_film_info *film = &check->script.film, *again = &check->fresh.film;
+  if (outcome != CS_EXIT_OK || (again->count == film->count && again->first == film->first))
+    return outcome;
+  cs_report_error("the script made a film of other frames when it was run again: %" PRId64
+                  " from %" PRId64 ", not %" PRId64 " from %" PRId64,
+                  again->count, again->first, film->count, film->first);
+  return CS_EXIT_SCRIPT;
 }
 
-static cs_exit run(checkup *check, cs_script *script) {
-  check->names =
-      cs_mem_array(check->context->memory, (size_t)script->film.count, sizeof *check->names);
+static cs_exit check_parts(checkup *check) {
+  cs_exit outcome = CS_EXIT_OK;
+  for (int64_t begin = 0; begin < check->count && !cs_interrupt_signal(); begin += PART) {
+    int64_t end = check->count - begin < PART ? check->count : begin + PART;
+    first_pass(check, begin, end);
+    outcome = open_fresh(check);
+    if (outcome != CS_EXIT_OK)
+      break;
+    second_pass(check, begin, end);
+  }
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- the report */
+
+static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
+
+static void report(const checkup *check) {
+  const cs_faults *faults = &check->faults;
+  uint64_t done = (uint64_t)check->done;
+  cs_faults_report(faults);
+  if (check->done < check->count)
+    cs_report_note("stopped after %" PRIu64 " of %" PRId64 " frames", done, check->count);
+  if (faults->met > 0)
+    cs_report_note("%s%zu fault%s, met %" PRIu64 " time%s in %" PRIu64 " frame%s",
+                   faults->beyond > 0 ? "more than " : "", faults->count, plural(faults->count),
+                   faults->met, plural(faults->met), done, plural(done));
+  else if (check->done == check->count)
+    cs_report_note("%" PRIu64 " frame%s checked: no faults", done, plural(done));
+}
+
+/* ---------------------------------------------------------------- the verb */
+
+static cs_exit list_frames(checkup *check) {
+  check->count = check->script.film.count;
+  if (!check->request->frames)
+    return CS_EXIT_OK;
+  cs_exit outcome = cs_target_frames(&check->script, check->request, &check->frames);
+  check->count = (int64_t)check->frames.count;
+  return outcome;
+}
+
+static cs_exit run(checkup *check) {
+  check->names = cs_mem_array(check->context->memory, PART, sizeof *check->names);
   if (!check->names) {
-    cs_report_error("no memory to remember %lld frames", (long long)script->film.count);
+    cs_report_error("no memory to compare frames");
     return CS_EXIT_MEMORY;
   }
-  first_pass(check, script);
-  cs_script fresh;
-  cs_exit outcome = cs_script_open(check->context, check->request, &fresh);
-  if (outcome == CS_EXIT_OK && fresh.film.count == script->film.count)
-    second_pass(check, &fresh);
-  else if (outcome == CS_EXIT_OK)
-    fault(check, script->film.first,
-          "the script made a film of another length when it was run again", CS_EXIT_SCRIPT);
-  cs_script_close(&fresh);
-  cs_mem_free(check->context->memory, check->names,
-              (size_t)script->film.count * sizeof *check->names);
-  if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
-    summarise(check, script);
-  return outcome == CS_EXIT_OK ? check->outcome : outcome;
+  cs_exit outcome = check_parts(check);
+  cs_mem_free(check->context->memory, check->names, PART * sizeof *check->names);
+  report(check);
+  return check->faults.outcome == CS_EXIT_OK ? outcome : check->faults.outcome;
 }
 
 cs_exit cs_verb_check(celspan_context *context, const cs_request *request) {
-  checkup check = {.context = context, .request = request};
-  cs_script script;
-  cs_exit outcome = cs_script_open(context, request, &script);
+  checkup check = {.context = context,
+                   .request = request,
+                   .pictures = {.context = context,
+                                .is_deep = request->is_deep,
+                                .progress = cs_interrupt_progress},
+                   .faults = {.context = context}};
+  cs_exit outcome = cs_script_open(context, request, &check.script);
   if (outcome == CS_EXIT_OK)
-    outcome = run(&check, &script);
-  cs_script_close(&script);
-  cs_mem_free(context->memory, check.reported, check.reported_capacity * sizeof *check.reported);
+    outcome = list_frames(&check);
+  if (outcome == CS_EXIT_OK)
+    outcome = run(&check);
+  cs_script_close(&check.fresh);
+  cs_script_close(&check.script);
+  cs_faults_finish(&check.faults);
+  cs_inspection_finish(&check.pictures);
+  cs_sequence_finish(&check.frames);
   return outcome;
 }

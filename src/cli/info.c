@@ -1,13 +1,17 @@
-/* celspan info SCRIPT|FILE.span: a film, or a span file, in figures, one "name value" a line. */
+/* celspan info SCRIPT|FILE: a film, a picture or a span file in figures, one "name value" a line.
+ * Which of them it is, its content tells. */
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "base/context.h"
+#include "base/hash_table.h"
+#include "bind/lua_text.h"
 #include "cli/interrupt.h"
+#include "cli/names.h"
+#include "cli/picture_info.h"
 #include "cli/script.h"
 #include "cli/span_reader.h"
 #include "cli/verbs.h"
-#include "film/duplicates.h"
 #include "scene/scene.h"
 
 static void keep_larger(size_t *most, size_t count) {
@@ -15,10 +19,14 @@ static void keep_larger(size_t *most, size_t count) {
     *most = count;
 }
 
+enum { DIFFERENT_MOST = 1 << 19 }; /* scenes that are told from one another, in some 25 MB */
+
 typedef struct totals {
   celspan_rostrum_counts most; /* the largest count of each in any frame */
   size_t different;            /* frames that are not equal to one before */
-  cs_duplicates duplicates;
+  bool is_least;               /* there may be more of them */
+  cs_hash_table scenes;
+  cs_names names;
 } totals;
 
 static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most) {
@@ -37,14 +45,18 @@ static void count_frame(const cs_film_frame *frame, celspan_rostrum_counts *most
 
 static celspan_status count_scene(cs_script *script, totals *s) {
   const cs_film_frame *frame = &script->frame;
-  bool is_new = true;
-  size_t index;
-  if (!cs_scene_has_procedure(frame->exposures, frame->count))
-    CS_TRY(cs_duplicates_add(&s->duplicates, script->context,
-                             cs_scene_hash(frame->exposures, frame->count), script->number, &index,
-                             &is_new));
-  s->different += is_new;
-  return CELSPAN_OK;
+  CS_TRY(cs_names_add(&s->names, frame->exposures, frame->count, script->number));
+  cs_hash hash = cs_scene_hash(frame->exposures, frame->count);
+  bool is_named = !cs_scene_has_procedure(frame->exposures, frame->count);
+  size_t number;
+  if (is_named && cs_hash_table_find(&s->scenes, hash, &number))
+    return CELSPAN_OK;
+  if (is_named && s->scenes.count == DIFFERENT_MOST) {
+    s->is_least = true;
+    return CELSPAN_OK;
+  }
+  s->different++;
+  return is_named ? cs_hash_table_add(&s->scenes, script->context, hash, 0) : CELSPAN_OK;
 }
 
 static cs_exit count_all(cs_script *script, totals *s) {
@@ -69,7 +81,8 @@ static void print_info(const cs_script *script, const totals *s) {
          (double)script->film.count / script->film.frames_second, script->film.width,
          script->film.height);
   printf("cels %zu\nprimitives %zu\npictures %zu\n", most->cels, most->primitives, most->pictures);
-  printf("different %zu\n", s->different);
+  printf("different%s %zu\n", s->is_least ? "_at_least" : "", s->different);
+  cs_names_print(&s->names);
 }
 
 /* Prints what the whole file consists of. */
@@ -99,14 +112,17 @@ static cs_exit inform_spans(celspan_context *context, const char *path) {
 cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
   if (cs_span_reader_accepts(request->operands[0]))
     return inform_spans(context, request->operands[0]);
+  if (!cs_lua_text_accepts(request->operands[0]))
+    return cs_picture_info_print(context, request->operands[0]);
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, &script);
-  totals s = {0};
+  totals s = {.names.context = context};
   if (outcome == CS_EXIT_OK)
     outcome = count_all(&script, &s);
   if (outcome == CS_EXIT_OK && !cs_interrupt_signal())
     print_info(&script, &s);
-  cs_duplicates_finish(&s.duplicates, context);
+  cs_names_finish(&s.names);
+  cs_hash_table_finish(&s.scenes, context);
   cs_script_close(&script);
   return outcome;
 }

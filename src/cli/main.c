@@ -11,6 +11,7 @@
 
 #include "bind/suggest.h"
 #include "cli/interrupt.h"
+#include "cli/manual.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
 
@@ -23,15 +24,21 @@ static const cs_verb VERBS[] = {
      "to\n"
      "standard output, top to bottom, little endian.\n",
      cs_verb_render},
-    {CS_VERB_INFO, "info", "SCRIPT|FILE.span", 1, 1,
-     "Prints frames, size, cels, primitives and pictures of a film; or what a span file holds.",
-     "A span file is read to its end and every checksum looked at.\n", cs_verb_info},
+    {CS_VERB_INFO, "info", "SCRIPT|FILE", 1, 1,
+     "Prints frames, size, cels, primitives and pictures of a film; or what a picture or span file "
+     "is.",
+     "Which it is, the content tells. Of a picture the headers are read: format, size, channels, "
+     "alpha,\n"
+     "depth, colour, subimages and layers. A span file is read to its end and every checksum "
+     "looked at.\n",
+     cs_verb_info},
     {CS_VERB_CHECK, "check", "SCRIPT", 1, 1,
      "Builds every frame without rendering and reports all faults.",
      "Each frame is built twice, the second time in another order in a fresh film: a frame "
      "function\n"
-     "that answers differently is not a pure function of its frame. Pictures are looked for.\n"
-     "Frames that hold scan-line procedures are built, but not compared.\n",
+     "that answers differently is not a pure function of its frame. Every picture is looked for,\n"
+     "hidden or not. Frames that hold scan-line procedures are built, but not compared. Equal\n"
+     "faults are one line, with the frames that have them.\n",
      cs_verb_check},
     {CS_VERB_SPANS, "spans", "SCRIPT", 1, 1, "Prints the spans of a frame as text.",
      "One line a span, colours linear and premultiplied, columns half-open, rows from 0:\n"
@@ -88,14 +95,9 @@ static void help_overview(FILE *stream) {
   for (size_t i = 0; i < VERB_COUNT; i++)
     fprintf(stream, "  %-8s %-19s %s\n", VERBS[i].name, VERBS[i].operands, VERBS[i].summary);
   fprintf(stream, "  %-8s %-19s %s\n\n", "help", "VERB", "Says more about a verb.");
-  fputs("celspan --version prints the version.\n\n"
-        "Exit codes\n"
-        "  0   every frame asked for exists      5      an output cannot be written\n"
-        "  1   some frames failed, or differ     6      a limit was hit\n"
-        "  2   wrong usage                       33     out of memory\n"
-        "  3   the script or its scene failed    70     internal error\n"
-        "  4   an input is missing or broken     128+n  ended by signal n\n",
+  fputs("celspan --version prints the version, celspan --man the manual page.\n\nExit codes\n",
         stream);
+  cs_manual_exit_codes(stream);
 }
 
 static cs_exit help(const char *name) {
@@ -140,6 +142,10 @@ static cs_exit dispatch(int count, char **arguments) {
   const char *first = arguments[1];
   if (strcmp(first, "--version") == 0) {
     printf("celspan %s\n", celspan_version());
+    return CS_EXIT_OK;
+  }
+  if (strcmp(first, "--man") == 0) {
+    cs_manual_print(VERBS, VERB_COUNT, stdout);
     return CS_EXIT_OK;
   }
   if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)

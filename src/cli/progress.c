@@ -160,7 +160,9 @@ void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, c
   progress->shown = now;
 }
 
-static void end_json(const cs_progress *progress, const int64_t *failed, size_t failed_count) {
+/* "exit" is what the program ends with: 128 and its number after a signal. */
+static void end_json(const cs_progress *progress, cs_progress_failures failed, int outcome) {
+  int stopped_by = cs_interrupt_signal();
   cs_json event;
   cs_json_begin(&event);
   cs_json_text(&event, "event", "end");
@@ -168,7 +170,9 @@ static void end_json(const cs_progress *progress, const int64_t *failed, size_t 
   cs_json_integer(&event, "copied", (int64_t)progress->copied);
   cs_json_integer(&event, "kept", (int64_t)progress->kept);
   cs_json_number(&event, "seconds", cs_progress_clock() - progress->started);
-  cs_json_integers(&event, "failed", failed, failed_count);
+  cs_json_integer(&event, "exit", stopped_by ? CS_EXIT_SIGNAL + stopped_by : outcome);
+  cs_json_integer(&event, "failures", (int64_t)failed.count);
+  cs_json_integers(&event, "failed", failed.frames, failed.count);
   cs_report_event(&event);
 }
 
@@ -190,13 +194,13 @@ static void end_words(const cs_progress *progress) {
                  format_count(kept, sizeof kept, progress->kept, "kept"));
 }
 
-void cs_progress_end(cs_progress *progress, const int64_t *failed, size_t failed_count) {
+void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome) {
   if (progress->style == CS_PROGRESS_BAR) {
     clear_bar();
     cs_report_before_line(NULL);
   }
   if (progress->style == CS_PROGRESS_JSON)
-    end_json(progress, failed, failed_count);
+    end_json(progress, failed, outcome);
   else if (progress->style != CS_PROGRESS_NONE && progress->frames_done == progress->frame_count)
     end_words(progress);
 }

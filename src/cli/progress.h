@@ -34,7 +34,14 @@ void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t fr
 bool cs_progress_tick(cs_progress *progress, double share);
 /* Counts a finished frame. what: where it was written; how: "made", "copied" or "kept". */
 void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, const char *how);
-/* Removes the bar, and sums up the run if all frames are done. failed: the frames that failed. */
-void cs_progress_end(cs_progress *progress, const int64_t *failed, size_t failed_count);
+/* The frames that failed. */
+typedef struct cs_progress_failures {
+  const int64_t *frames;
+  size_t count;
+} cs_progress_failures;
+
+/* Removes the bar, and sums up the run if all frames are done. Nothing is reported afterwards.
+ * outcome: the exit code, unless a signal stopped the run. */
+void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome);
 
 #endif

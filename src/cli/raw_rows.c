@@ -17,7 +17,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   cs_raw_rows *raw = user;
-  cs_pixels_row(&raw->coding, spans, span_count, raw->row);
+  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, raw->row);
   if (fwrite(raw->row, 1, raw->row_size, raw->stream) == raw->row_size)
     return CELSPAN_OK;
   return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: row %d: %s", y,
@@ -33,7 +33,15 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   return outcome;
 }
 
-celspan_sink cs_raw_rows_sink(cs_raw_rows *raw, const celspan_coding *coding, FILE *stream) {
-  *raw = (cs_raw_rows){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .stream = stream};
-  return (celspan_sink){raw, begin, put_row, end, cs_pixels_takes_codes(&raw->coding)};
+celspan_sink cs_raw_rows_sink(cs_raw_rows *raw, const celspan_coding *coding,
+                              const celspan_frame_desc *frame, FILE *stream) {
+  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
+  *raw = (cs_raw_rows){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8),
+                       .x = frame->crop_x,
+                       .y = frame->crop_y,
+                       .stream = stream};
+  bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
+  if (dithers)
+    raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return (celspan_sink){raw, begin, put_row, end, takes_codes};
 }

@@ -9,6 +9,7 @@
 
 #include "base/context.h"
 #include "cli/lines.h"
+#include "cli/target.h"
 #include "output/file_copy.h"
 #include "output/temporary.h"
 
@@ -28,7 +29,7 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   const int32_t numbers[] = {frame->width,       frame->height,           frame->crop_x,
                              frame->crop_y,      frame->crop_width,       frame->crop_height,
                              frame->filter.rows, frame->filter.has_radius};
-  const celspan_coding *coding = &request->coding;
+  const celspan_coding asked = cs_target_coding(request), *coding = &asked;
   cs_hash hash = cs_hash_begin(1);
   cs_hash_text(&hash, celspan_version());
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/context.h"
+#include "cli/change.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/raw_rows.h"
@@ -33,7 +34,8 @@ typedef struct render_job {
 static celspan_status put_raw(void *user, const celspan_frame_desc *frame) {
   const render_job *job = user;
   cs_raw_rows raw;
-  celspan_sink sink = cs_raw_rows_sink(&raw, &job->request->coding, stdout);
+  const celspan_coding coding = cs_target_coding(job->request);
+  celspan_sink sink = cs_raw_rows_sink(&raw, &coding, frame, stdout);
   return celspan_frame_render(job->script->context, frame, &sink, NULL);
 }
 
@@ -49,18 +51,22 @@ static bool tick(void *user, double share) {
 
 /* ---------------------------------------------------------------- reports */
 
-/* Reports a frame that failed. Under --keep-going it is remembered and the run goes on. */
-static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
-  celspan_context *context = job->script->context;
-  cs_exit outcome = cs_report_failure(context, status, NULL);
-  if (outcome == CS_EXIT_SIGNAL || !job->request->keeps_going) {
-    job->outcome = outcome;
-    return status;
-  }
-  CS_TRY(cs_mem_reserve(context, (void **)&job->failed, &job->failed_capacity,
+static celspan_status remember_failure(render_job *job, int64_t number) {
+  CS_TRY(cs_mem_reserve(job->script->context, (void **)&job->failed, &job->failed_capacity,
                         job->failed_count + 1, sizeof *job->failed));
   job->failed[job->failed_count++] = number;
   return CELSPAN_OK;
+}
+
+/* Reports a frame that failed, and remembers it. Under --keep-going the run goes on. */
+static celspan_status report_failure(render_job *job, int64_t number, celspan_status status) {
+  cs_exit outcome = cs_report_frame_failure(job->script->context, status, number);
+  celspan_status remembered =
+      outcome == CS_EXIT_SIGNAL ? CELSPAN_OK : remember_failure(job, number);
+  if (outcome != CS_EXIT_SIGNAL && job->request->keeps_going)
+    return remembered;
+  job->outcome = outcome;
+  return status;
 }
 
 static const char *destination_of(const cs_request *request, const cs_shoot_frame *frame) {
@@ -71,7 +77,14 @@ static const char *destination_of(const cs_request *request, const cs_shoot_fram
 
 static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
   const render_job *job = user;
-  return cs_lua_film_build(job->script->L, CS_SCRIPT_FILM, number, out);
+  cs_film_frame built;
+  CS_TRY(cs_lua_film_build(job->script->L, CS_SCRIPT_FILM, number, &built));
+  celspan_status status = cs_change_frame(job->script->context, job->request, &built);
+  if (status == CELSPAN_OK)
+    *out = built;
+  else
+    cs_film_frame_finish(&built);
+  return status;
 }
 
 static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {
@@ -104,17 +117,24 @@ static void list_failed(const render_job *job, char *out, size_t size) {
   }
 }
 
-static cs_exit report_end(render_job *job, cs_exit outcome) {
+static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   char list[1024];
   size_t done = job->progress.frames_done, count = job->frames.count;
-  cs_progress_end(&job->progress, job->failed, job->failed_count);
   if (done < count && count > 1)
     cs_report_note("%zu of %zu frames are finished", done, count);
-  if (job->failed_count == 0)
+  if (job->failed_count == 0 || !job->request->keeps_going)
     return outcome;
   list_failed(job, list, sizeof list);
   cs_report_error("%zu of %zu frames failed: %s", job->failed_count, count, list);
   return outcome == CS_EXIT_OK ? CS_EXIT_PARTIAL : outcome;
+}
+
+/* All that there is to say is said before the end. */
+static cs_exit report_end(render_job *job, cs_exit outcome) {
+  cs_progress_failures failed = {job->failed, job->failed_count};
+  outcome = cs_report_flush_output(sum_up(job, outcome));
+  cs_progress_end(&job->progress, failed, (int)outcome);
+  return outcome;
 }
 
 /* ---------------------------------------------------------------- the run */
@@ -181,11 +201,21 @@ static cs_exit refuse_resume(const cs_request *request) {
   return CS_EXIT_OK;
 }
 
+static cs_exit refuse_dither(const cs_request *request) {
+  bool is_8 =
+      request->coding.depth == CELSPAN_DEPTH_DEFAULT || request->coding.depth == CELSPAN_DEPTH_8;
+  return request->dithers && !is_8
+             ? cs_report_usage("--dither makes 8 bits: leave --depth out, or give --depth 8")
+             : CS_EXIT_OK;
+}
+
 /* Refuses what can be refused without running the script. */
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   if (!request->output && !request->hash)
     return cs_report_usage("where to? give -o shot.####.png (or --hash for digests alone)");
   cs_exit outcome = refuse_resume(request);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_dither(request);
   if (outcome != CS_EXIT_OK)
     return outcome;
   if (request->output && cs_target_is_stream(request->output))
@@ -198,6 +228,8 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
   if (outcome == CS_EXIT_OK)
     outcome = cs_target_frames(script, request, &job.frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_change_refuse(script, request, &job.frames);
   if (outcome == CS_EXIT_OK)
     outcome = resume_all(&job);
   cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);

@@ -62,24 +62,31 @@ static void print_words(bool is_error, const char *text) {
   fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", text);
 }
 
-static void print_event(bool is_error, const char *text) {
+/* number: NULL, or of the frame that failed. */
+static void print_event(bool is_error, const int64_t *number, const char *text) {
   cs_json event;
   cs_json_begin(&event);
   cs_json_text(&event, "event", is_error ? "error" : "note");
+  if (number)
+    cs_json_integer(&event, "number", *number);
   cs_json_text(&event, "message", text);
   cs_report_event(&event);
+}
+
+static void print_text(bool is_error, const int64_t *number, char *text) {
+  if (chosen == CS_REPORT_JSON)
+    print_event(is_error, number, text);
+  else
+    print_words(is_error, text);
+  if (chosen == CS_REPORT_OPENJD && is_error)
+    print_openjd("fail", text);
 }
 
 __attribute__((format(printf, 2, 0))) static void print_line(bool is_error, const char *format,
                                                              va_list arguments) {
   char text[SENTENCE];
   vsnprintf(text, sizeof text, format, arguments);
-  if (chosen == CS_REPORT_JSON)
-    print_event(is_error, text);
-  else
-    print_words(is_error, text);
-  if (chosen == CS_REPORT_OPENJD && is_error)
-    print_openjd("fail", text);
+  print_text(is_error, NULL, text);
 }
 
 void cs_report_error(const char *format, ...) {
@@ -104,8 +111,10 @@ cs_exit cs_report_usage(const char *format, ...) {
   return CS_EXIT_USAGE;
 }
 
-cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
-                          const char *where) {
+/* where: NULL, or what comes before the sentence. number: as in print_event. */
+static cs_exit fail(const celspan_context *context, celspan_status status, const char *where,
+                    const int64_t *number) {
+  char text[SENTENCE];
   if (status == CELSPAN_OK)
     return CS_EXIT_OK;
   if (status == CELSPAN_CANCELLED || cs_interrupt_signal())
@@ -114,19 +123,39 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
   if (!sentence[0])
     sentence = celspan_status_name(status);
   bool has_where = where && where[0];
-  cs_report_error("%s%s%s%s", has_where ? where : "", has_where ? ": " : "", sentence,
-                  status == CELSPAN_INTERNAL ? " (a fault of celspan itself: please report it)"
-                                             : "");
+  snprintf(text, sizeof text, "%s%s%s%s", has_where ? where : "", has_where ? ": " : "", sentence,
+           status == CELSPAN_INTERNAL ? " (a fault of celspan itself: please report it)" : "");
+  print_text(true, number, text);
   return cs_report_exit(status);
+}
+
+cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
+                          const char *where) {
+  return fail(context, status, where, NULL);
+}
+
+cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
+                                int64_t number) {
+  return fail(context, status, NULL, &number);
 }
 
 void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
 
-cs_exit cs_report_close_output(cs_exit outcome) {
-  errno = 0;
-  bool had_error = ferror(stdout) != 0;
-  if ((fclose(stdout) == 0 && !had_error) || outcome != CS_EXIT_OK)
+static cs_exit judge_output(cs_exit outcome, bool is_good) {
+  if (is_good || outcome != CS_EXIT_OK)
     return outcome; /* a run that failed has reported why */
   cs_report_error("standard output: %s", errno ? strerror(errno) : "not everything was written");
   return CS_EXIT_OUTPUT;
+}
+
+cs_exit cs_report_flush_output(cs_exit outcome) {
+  errno = 0;
+  bool is_flushed = fflush(stdout) == 0;
+  return judge_output(outcome, is_flushed && !ferror(stdout));
+}
+
+cs_exit cs_report_close_output(cs_exit outcome) {
+  errno = 0;
+  bool had_error = ferror(stdout) != 0;
+  return judge_output(outcome, fclose(stdout) == 0 && !had_error);
 }

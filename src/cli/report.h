@@ -37,11 +37,15 @@ cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1
  * exit code. Reports nothing for CANCELLED, and nothing at all once a signal asked to stop. */
 cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
 
+/* The same of a frame: programs are told its number. The sentence names it already. */
+cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
+                                int64_t number);
+
 /* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
-  CS_REPORT_JSON,      /* {"event":"error","message":"..."} */
-  CS_REPORT_OPENJD     /* as words, and errors on standard output too: "openjd_fail: ..." */
+  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; a number if it is a frame's */
+  CS_REPORT_OPENJD /* as words, and errors on standard output too: "openjd_fail: ..." */
 } cs_report_form;
 
 void cs_report_choose(cs_report_form form);
@@ -55,6 +59,8 @@ void cs_report_openjd(const char *name, const char *format, ...)
  * there; NULL: there is none. */
 void cs_report_before_line(void (*clear)(void));
 
+/* Writes what standard output still holds. The answer is as below. */
+cs_exit cs_report_flush_output(cs_exit outcome);
 /* Closes standard output. The answer is the outcome; where that is OK but not everything could be
  * written, it is CS_EXIT_OUTPUT, reported. */
 cs_exit cs_report_close_output(cs_exit outcome);

@@ -25,8 +25,8 @@ static const option OPTIONS[] = {
      "the folder for the pyramid and its page; made when it is missing"},
     {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_argument_text,
      "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames"},
-    {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45", CS_VERB_RENDER, FIELD(frames),
-     cs_argument_text, "frames to render, such as 1-10,20-30:2,45; default: all"},
+    {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45", CS_VERB_RENDER | CS_VERB_CHECK,
+     FIELD(frames), cs_argument_text, "the frames, such as 1-10,20-30:2,45; default: all"},
     {"--frame", "N", "the number of one frame", CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES,
      FIELD(frame), cs_argument_integer, "the frame; default: the first"},
     {"--size", "WxH", "width x height in whole pixels, 1 to 1048576, such as 1920x1080",
@@ -56,6 +56,12 @@ static const option OPTIONS[] = {
      cs_argument_colour, "srgb, linear, rec709 or cineon; default: srgb, floats linear"},
     {"--alpha", "KIND", "straight or premultiplied", CODED, FIELD(coding.alpha), cs_argument_alpha,
      "straight or premultiplied; default: straight, floats premultiplied"},
+    {"--dither", NULL, NULL, CS_VERB_RENDER, FIELD(dithers), NULL,
+     "8 bits without bands: rounded up or down by the place of the pixel"},
+    {"--background", "RGB", "a colour like #336699", CS_VERB_RENDER, FIELD(background),
+     cs_argument_tint, "a back light of this colour and matte 1 behind everything"},
+    {"--cel", "NAME", "the name of a cel", CS_VERB_RENDER, FIELD(cel), cs_argument_text,
+     "the cels of this name alone (cel:named), with their lights"},
     {"--workers", "N", "a whole number from 1 to 1024",
      CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_CONVERT | CS_VERB_TILES, FIELD(workers),
      cs_argument_workers, "threads that render; default: one a processor"},
@@ -85,7 +91,7 @@ static const option OPTIONS[] = {
     {"--fresh", NULL, NULL, CS_VERB_TILES, FIELD(is_fresh), NULL,
      "remove the tiles of an earlier run and start over"},
     {"--viewer", "PATH", "the name of a folder or file", CS_VERB_TILES, FIELD(viewer),
-     cs_argument_text, "OpenSeadragon, to be copied beside the page"},
+     cs_argument_text, "OpenSeadragon, to be copied beside the page in place of its own viewer"},
     {"--fail", "D", "a number, 0 or more", CS_VERB_COMPARE, FIELD(tolerance), cs_argument_tolerance,
      "largest difference of coded values (0..1) that is let pass; default 0"},
     {"--resume", NULL, NULL, CS_VERB_RENDER, FIELD(resumes), NULL,
@@ -94,6 +100,8 @@ static const option OPTIONS[] = {
      "with --resume: keep every frame that stands there whole, whatever it shows"},
     {"--keep-going", NULL, NULL, CS_VERB_RENDER, FIELD(keeps_going), NULL,
      "go on after frames that fail; the exit code is then 1"},
+    {"--deep", NULL, NULL, CS_VERB_CHECK, FIELD(is_deep), NULL,
+     "read pictures whole, not only their headers"},
     {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
      FIELD(memory), cs_argument_memory,
      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"
@@ -217,23 +225,38 @@ cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *argumen
 
 /* ---------------------------------------------------------------- help */
 
+void cs_request_list(const cs_verb *verb,
+                     void (*call)(void *user, const char *name, const char *value,
+                                  const char *help),
+                     void *user) {
+  for (size_t i = 0; i < OPTION_COUNT; i++)
+    if (belongs(&OPTIONS[i], verb))
+      call(user, OPTIONS[i].name, OPTIONS[i].value, OPTIONS[i].help);
+}
+
+typedef struct help_page {
+  FILE *stream;
+  bool has_options; /* so far */
+} help_page;
+
+static void print_option(void *user, const char *name, const char *value, const char *help) {
+  help_page *page = user;
+  char left[40];
+  if (!page->has_options)
+    fputs("\nOptions\n", page->stream);
+  page->has_options = true;
+  snprintf(left, sizeof left, "%s %s", name, value ? value : "");
+  fprintf(page->stream, "  %-18s %s\n", left, help);
+}
+
 void cs_request_help(const cs_verb *verb, FILE *stream) {
   bool has_script = (verb->self & CS_VERBS_WITH_SCRIPT) != 0;
+  help_page page = {stream, false};
   fprintf(stream, "celspan %s %s [options]%s\n\n%s\n", verb->name, verb->operands,
           has_script ? " [-- ARGS]" : "", verb->summary);
   if (verb->notes)
     fprintf(stream, "\n%s", verb->notes);
-  bool is_first = true;
-  for (size_t i = 0; i < OPTION_COUNT; i++) {
-    const option *known = &OPTIONS[i];
-    if (!belongs(known, verb))
-      continue;
-    fputs(is_first ? "\nOptions\n" : "", stream);
-    is_first = false;
-    char left[40];
-    snprintf(left, sizeof left, "%s %s", known->name, known->value ? known->value : "");
-    fprintf(stream, "  %-18s %s\n", left, known->help);
-  }
+  cs_request_list(verb, print_option, &page);
   if (has_script)
     fputs("\nWhat follows -- arrives in the script as its arguments (...).\n", stream);
 }

@@ -25,11 +25,15 @@ typedef struct cs_request {
   int32_t rows[2]; /* first and last, both included; last -1: not given */
   cs_given_antialias antialias;
   celspan_coding coding;
+  bool dithers;
+  const char *cel; /* NULL: not given */
+  cs_given_colour background;
   int32_t workers;         /* 0: one a processor */
   cs_given_integer memory; /* MiB; 0: nothing is kept from frame to frame */
   cs_progress_style progress;
   bool hash, statistics;
   bool resumes, is_forced, keeps_going;
+  bool is_deep;
   celspan_depth pixels; /* DEFAULT: not given */
   double tolerance;
   cs_pyramid_layout layout;
@@ -65,6 +69,11 @@ typedef struct cs_verb {
 /* arguments: what follows the verb. OK, or reported and CS_EXIT_USAGE. */
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *arguments,
                          cs_request *out);
+/* Calls `call` for each option of a verb. value: NULL for a flag. */
+void cs_request_list(const cs_verb *verb,
+                     void (*call)(void *user, const char *name, const char *value,
+                                  const char *help),
+                     void *user);
 /* Usage, summary and all options of a verb. */
 void cs_request_help(const cs_verb *verb, FILE *stream);
 

@@ -8,10 +8,17 @@
 
 static const char *const ABSENT_FORMATS[] = {"mp4", "mov", "webm", "mkv", "avi"};
 
+celspan_coding cs_target_coding(const cs_request *request) {
+  celspan_coding coding = request->coding;
+  if (request->dithers)
+    coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return coding;
+}
+
 celspan_file_desc cs_target_file(const cs_request *request) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = request->format;
-  file.coding = request->coding;
+  file.coding = cs_target_coding(request);
   return file;
 }
 

@@ -8,6 +8,8 @@
 /* OK for what this version can write under the options. Everything else is reported: unknown
  * formats, codings that a format lacks, and video, which is not built in. */
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request);
+/* The coding of pixels under the options, with defaults, but for --dither. */
+celspan_coding cs_target_coding(const cs_request *request);
 /* The description of a file under the options, without a frame's own metadata. */
 celspan_file_desc cs_target_file(const cs_request *request);
 /* The frames of --frames, or all; each is in the film and has a name of its own. out: new. OK, or

@@ -93,15 +93,32 @@ static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
  * error. */
 static bool layer_is_opaque(cs_composer *composer, const cs_layer *layer) {
   const cs_image_opacity *opacity = &composer->opacity;
-  if (layer->kind != CS_LAYER_PICTURE)
+  if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT)
     return layer->is_opaque;
   return opacity->is_opaque(opacity->painter, layer->index) && layer->fade == 1;
+}
+
+/* Adds the front lights of a group and of those around it that are not entered yet, outermost
+ * first. The fold has left all groups that do not hold this one. */
+static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_t group) {
+  if (group == CS_STACK_NONE || group == over->group)
+    return CELSPAN_OK;
+  const cs_group *entered = &composer->stack->groups[group];
+  CS_TRY(gather_front(composer, over, entered->parent)); /* at most CS_STACK_GROUPS levels */
+  if (!entered->has_light)
+    return CELSPAN_OK;
+  cs_over_move(over, entered->light, group);
+  return gather_item(composer, entered->light);
 }
 
 /* Adds one layer to a program, and to the fold if it is flat. A layer that varies and is not opaque
  * counts as clear, so that the program ends too late rather than too early. */
 static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
   const cs_layer *layer = &composer->stack->layers[index];
+  if (composer->stack->has_group_light) {
+    cs_over_leave(over, index);
+    CS_TRY(gather_front(composer, over, layer->group));
+  }
   cs_over_move(over, index, layer->group);
   CS_TRY(gather_item(composer, index));
   if (layer->kind == CS_LAYER_FLAT) {
@@ -127,13 +144,17 @@ static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   return CELSPAN_OK;
 }
 
+static inline bool group_varies(const cs_stack *stack, uint32_t group) {
+  return group != CS_STACK_NONE && stack->groups[group].varies;
+}
+
 /* Folds them in the same way while all are flat; false where one is not. */
 static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over *over) {
   const cs_layer *layers = composer->stack->layers;
   cs_over_begin(over, composer->stack);
   for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
        (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
-    if (layers[layer].kind != CS_LAYER_FLAT)
+    if (layers[layer].kind != CS_LAYER_FLAT || group_varies(composer->stack, layers[layer].group))
       return false;
     cs_over_move(over, layer, layers[layer].group);
     cs_over_add(over, layers[layer].s, layers[layer].t);

@@ -16,6 +16,8 @@
 #include "scene/scene.h"
 
 #define CS_STACK_NONE UINT32_MAX /* no group, no layer */
+/* Where lights multiply, level by level, they are held to this, so that all sums stay finite. */
+#define CS_LAYER_BRIGHTEST 1e12f
 
 typedef enum cs_layer_kind {
   CS_LAYER_FLAT,
@@ -25,14 +27,24 @@ typedef enum cs_layer_kind {
   CS_LAYER_DEFOCUSED /* a defocused cel */
 } cs_layer_kind;
 
+/* What the paint of a layer does. */
+typedef enum cs_layer_role {
+  CS_LAYER_PAINT, /* covers what lies behind it */
+  CS_LAYER_BACK,  /* a back light with a shape: its pigment adds to the light, and dims nothing */
+  CS_LAYER_FRONT  /* the front light of its group, which its pigment lights. Present nowhere: it is
+                     listed when its group is entered */
+} cs_layer_role;
+
 typedef struct cs_layer {
   cs_v4 s, t;     /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
-  cs_v4 front;    /* front light of its cel, brightness included; lane 3 is 0 */
-  uint32_t group; /* innermost faded group, or CS_STACK_NONE */
+  cs_v4 front;    /* front light of its cel, brightness included, or the gain of a light; lane 3 is
+                     0 */
+  uint32_t group; /* innermost group, or CS_STACK_NONE */
   uint32_t index; /* all but FLAT: index into the array of its kind */
   float fade;     /* of its paint, where that varies */
   uint8_t kind;   /* a cs_layer_kind */
   bool is_opaque; /* lets nothing through, wherever it is present */
+  uint8_t role;   /* a cs_layer_role */
 } cs_layer;
 static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
 
@@ -67,11 +79,15 @@ typedef struct cs_procedure {
   double scale_x, shift_x, scale_y, shift_y; /* own units to frame pixels */
 } cs_procedure;
 
-/* A faded boolean or cel: composited by itself, then mixed with clear. */
+/* A boolean or a cel that is faded, or lit by a light with a shape: composited by itself, then lit,
+ * and mixed with clear. */
 typedef struct cs_group {
   uint32_t parent; /* or CS_STACK_NONE */
   uint32_t first;  /* its rearmost layer */
   float fade;
+  bool has_light; /* a front light with a shape */
+  bool varies;    /* it has one, or a group around it has */
+  uint32_t light; /* has_light: the layer of that light, in front of all its others */
 } cs_group;
 
 /* A back light, met on the way from the camera before every layer below `below`. */

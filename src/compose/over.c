@@ -17,7 +17,7 @@ void cs_over_meet_light(cs_over *over) {
 void cs_over_enter_group(cs_over *over, uint32_t group) {
   const cs_group *inner = &over->stack->groups[group];
   if (inner->parent != over->group)
-    cs_over_enter_group(over, inner->parent); /* at most CS_SCENE_DEPTH + 1 levels */
+    cs_over_enter_group(over, inner->parent); /* at most CS_STACK_GROUPS levels */
   over->outer[over->depth++] = (cs_over_pair){over->e, over->t};
   over->e = cs_v4_all(0);
   over->t = cs_v4_all(1);

@@ -8,7 +8,7 @@
  *      +-- | ---+          enter a faded group: e and t are put aside,
  *      | layer 8|                 and inside it begins again with 0 and 1
  *      | layer 7|
- *      +-- | ---+          leave: faded as a whole, it is added to what was put aside
+ *      +-- | ---+          leave: lit and faded as a whole, it is added to what was put aside
  *          |
  *      =========           meet a back light: e += t * light;
  *          |                      its matte takes its share of the transparency
@@ -67,7 +67,7 @@ typedef struct cs_over {
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
   uint32_t depth;
-  cs_over_pair outer[CS_SCENE_DEPTH + 2]; /* put aside, of the groups around */
+  cs_over_pair outer[CS_STACK_GROUPS + 1]; /* put aside, of the groups around */
 } cs_over;
 
 static inline void cs_over_begin(cs_over *over, const cs_stack *stack) {
@@ -85,10 +85,15 @@ void cs_over_meet_light(cs_over *over);
 /* And the groups around it that were not entered yet. */
 void cs_over_enter_group(cs_over *over, uint32_t group);
 
-/* Moves back to just in front of a layer, which is in `group`. */
-static inline void cs_over_move(cs_over *over, uint32_t layer, uint32_t group) {
+/* Leaves the groups that end in front of a layer. */
+static inline void cs_over_leave(cs_over *over, uint32_t layer) {
   while (over->group != CS_STACK_NONE && layer < over->stack->groups[over->group].first)
     cs_over_leave_group(over);
+}
+
+/* Moves back to just in front of a layer, which is in `group`. */
+static inline void cs_over_move(cs_over *over, uint32_t layer, uint32_t group) {
+  cs_over_leave(over, layer);
   while (over->light < over->stack->light_count && layer < over->stack->lights[over->light].below)
     cs_over_meet_light(over);
   if (group != over->group)
@@ -100,10 +105,11 @@ static inline void cs_over_add(cs_over *over, cs_v4 s, cs_v4 t) {
   over->t *= t;
 }
 
-/* Where the fold goes on once nothing shines through: behind the group, which hides the rest of
- * itself, or nowhere. */
+/* Where the fold goes on once nothing shines through: behind the innermost group that is faded,
+ * which hides the rest of itself, or nowhere. */
 static inline uint32_t cs_over_hidden_end(const cs_over *over) {
-  return over->group == CS_STACK_NONE ? 0 : over->stack->groups[over->group].first;
+  uint32_t group = cs_stack_faded(over->stack, over->group);
+  return group == CS_STACK_NONE ? 0 : over->stack->groups[group].first;
 }
 
 /* Premultiplied RGBA; alpha is the mean of the three mattes. */

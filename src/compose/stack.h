@@ -2,7 +2,7 @@
  *
  *     camera
  *       layer n - 1   \
- *       ...            > a faded group, a boolean tree: each a range of neighbouring layers
+ *       ...            > a group, a boolean tree: each a range of neighbouring layers
  *       layer k       /
  *       - - - - - - -   a back light: between layers
  *       ...
@@ -24,15 +24,23 @@
 #include "compose/layer.h"
 
 #define CS_STACK_LAYERS ((size_t)10000000)
+/* Groups around a layer, at most: a cel may be lit and faded, which are two, and at each level of
+ * nesting there is a faded object around it. */
+#define CS_STACK_GROUPS (3 * CS_SCENE_DEPTH + 2)
 
 /* One step of a boolean tree in post-order. */
-typedef enum cs_step_kind { CS_STEP_LAYER, CS_STEP_LAYERS, CS_STEP_OPERATOR } cs_step_kind;
+typedef enum cs_step_kind {
+  CS_STEP_LAYER,
+  CS_STEP_LAYERS,
+  CS_STEP_OPERATOR,
+  CS_STEP_FRAME /* of a rostrum that is an object: present where its first layer is */
+} cs_step_kind;
 
 typedef struct cs_step {
   cs_step_kind kind;
   celspan_operator op; /* LAYERS: of operands that are all layers; OPERATOR: of results */
   uint32_t first, end; /* the layers below */
-  uint32_t operands;
+  uint32_t operands;   /* FRAME: the results of the trees inside it */
 } cs_step;
 
 typedef struct cs_tree {
@@ -60,10 +68,19 @@ typedef struct cs_stack {
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;
-  size_t step_depth; /* results a tree may need room for at a time */
+  size_t step_depth;    /* results a tree may need room for at a time */
+  bool has_group_light; /* any group has a light with a shape */
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);
+
+/* The innermost faded group that is `group` or around it: what is hidden inside hides nothing behind
+ * it. CS_STACK_NONE: there is none. */
+static inline uint32_t cs_stack_faded(const cs_stack *stack, uint32_t group) {
+  while (group != CS_STACK_NONE && stack->groups[group].fade == 1)
+    group = stack->groups[group].parent;
+  return group;
+}
 
 /* Words of a set of layers, one bit a layer. */
 static inline size_t cs_stack_words(const cs_stack *stack) {

@@ -62,6 +62,14 @@ static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_presen
     clear_range(set, first_end, step->end);
 }
 
+/* A composition inside another is cut at its frame; what its trees gave is of no use outside. */
+static cs_tree_result resolve_frame(const cs_step *step, uint64_t *set) {
+  bool is_present = has_bit(set, step->first);
+  if (!is_present)
+    clear_range(set, step->first, step->end);
+  return (cs_tree_result){step->first, step->end, is_present};
+}
+
 static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
                                    const cs_tree_result *operands) {
   uint32_t present = 0, first_end = step->first + 1;
@@ -91,9 +99,10 @@ static void resolve_tree(const cs_stack *stack, const cs_tree *tree, uint64_t *s
       results[depth++] = (cs_tree_result){step->first, step->end, has_bit(set, step->first)};
       continue;
     }
-    if (step->kind == CS_STEP_OPERATOR)
+    if (step->kind == CS_STEP_OPERATOR || step->kind == CS_STEP_FRAME)
       depth -= step->operands;
-    results[depth] = resolve_step(step, set, &results[depth]);
+    results[depth] = step->kind == CS_STEP_FRAME ? resolve_frame(step, set)
+                                                 : resolve_step(step, set, &results[depth]);
     depth++;
   }
 }

@@ -13,6 +13,9 @@
  *     set  1  0  1        1        0        union: present; intersection: 4 is missing
  *     after                                 difference: only its first operand is present
  *          1  0  1        0        0        bits 3 and 4 are cleared, 0 and 2 contribute
+ *
+ * A rostrum that is an object has a layer for its frame, behind all its others: where that one is
+ * absent, all are cleared; where it is present, the object is, whatever is painted there.
  */
 #ifndef CS_COMPOSE_TREE_H
 #define CS_COMPOSE_TREE_H

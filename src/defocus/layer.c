@@ -17,10 +17,25 @@ static const celspan_cel *cel_of(const cs_defocus_cel *place) {
 
 /* ---------------------------------------------------------------- the kernel */
 
-/* The cel's kernel in pixels of the frame. */
+/* A map near a point, as the affine one that touches it there: itself where it is affine. Film
+ * lies on the frame in perspective only where it is that of a rostrum inside another. */
+static celspan_matrix touching(const celspan_matrix *map, celspan_point at) {
+  celspan_matrix facing = cs_matrix_facing(map);
+  const double *m = facing.m;
+  if (m[6] == 0 && m[7] == 0 && m[8] == 1)
+    return facing;
+  cs_hpoint p = cs_matrix_apply(&facing, (cs_hpoint){at.x, at.y, 1});
+  double w = p.w > 0 ? p.w : 1;
+  return (celspan_matrix){{(m[0] - p.x / w * m[6]) / w, (m[1] - p.x / w * m[7]) / w, 0,
+                           (m[3] - p.y / w * m[6]) / w, (m[4] - p.y / w * m[7]) / w, 0, 0, 0, 1}};
+}
+
+/* The cel's kernel in pixels of the frame; in perspective, in the middle of its film. */
 static cs_blur find_blur(const cs_defocus_cel *place) {
+  const celspan_point middle = {place->film_width / 2, place->film_height / 2};
   celspan_matrix camera = cs_scene_camera(place->rostrum, place->film_width, place->film_height);
-  celspan_matrix map = celspan_matrix_then(camera, place->to_pixels);
+  celspan_matrix whole = celspan_matrix_then(camera, place->to_pixels);
+  celspan_matrix map = touching(&whole, middle);
   const double *m = map.m;
   double radius = cel_of(place)->defocus_radius;
   cs_blur blur = {.kind = cel_of(place)->defocus_kernel,
@@ -58,7 +73,8 @@ static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
     return false;
   celspan_matrix view = celspan_matrix_then(
       cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
-  (void)cs_boundary_around_box(&box, &view, out); /* viewport and camera have no horizon */
+  if (!cs_boundary_around_box(&box, &view, out))
+    *out = place->frame; /* beyond the horizon of a rostrum in perspective */
   return true;
 }
 
@@ -84,6 +100,9 @@ static bool find_box(const cs_defocus_cel *place, const cs_blur *blur, const cs_
 static bool stack_is_grey(const cs_stack *stack) {
   if (stack->procedure_count > 0)
     return false;
+  for (size_t i = 0; i < stack->defocused_count; i++)
+    if (stack->defocused[i]->planes > 1)
+      return false;
   for (size_t i = 0; i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
     const celspan_texture *texture =
@@ -97,8 +116,23 @@ static bool stack_is_grey(const cs_stack *stack) {
   return true;
 }
 
+static bool cel_varies(const celspan_cel *cel);
+
+/* A composition inside the cel. */
+static bool rostrum_varies(const celspan_rostrum *rostrum) {
+  bool varies = rostrum->front.texture || rostrum->back.texture;
+  for (size_t i = 0; i < rostrum->cel_count && !varies; i++) {
+    const celspan_cel *cel = rostrum->cels[i];
+    varies = cel->front.texture || cel->back.texture || cel->defocus_radius > 0 || cel_varies(cel);
+  }
+  return varies;
+}
+
+/* The recursion ends because nesting is at most CS_SCENE_DEPTH. */
 static bool object_varies(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
+  if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+    return rostrum_varies(data->rostrum);
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
     return data->texture->kind != CS_TEXTURE_FLAT;
   for (size_t i = 0; i < data->operand_count; i++)
@@ -119,7 +153,8 @@ static celspan_status compile_plane(celspan_context *context, const cs_defocus_c
                                     cs_defocus *defocus) {
   cs_defocus_job job = {.cel = cel_of(place),
                         .matrix = celspan_matrix_then(place->matrix, cs_defocus_matrix(defocus)),
-                        .is_through = plane == 1};
+                        .is_through = plane == 1,
+                        .front = plane == 1 ? &defocus->plans[0] : NULL};
   cs_defocus_raster(defocus, &job.width, &job.height);
   CS_TRY(cs_defocus_kernel(context, defocus, &job.kernel));
   return compiler->compile(compiler->user, &job, &defocus->plans[plane]);
@@ -160,24 +195,31 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur) {
 
 /* ---------------------------------------------------------------- life */
 
+static celspan_status add_box(celspan_context *context, const cs_boundary_frame *visible,
+                              cs_outline *box) {
+  return cs_outline_rect(context, box, visible->left, visible->top, visible->right - visible->left,
+                         visible->bottom - visible->top, 0);
+}
+
 celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocus_cel *place,
-                                       const cs_defocus_compiler *compiler, cs_outline *box,
-                                       cs_defocus **out) {
+                                       const cs_defocus_compiler *compiler, cs_defocus *made,
+                                       cs_outline *box, cs_defocus **out) {
   cs_blur blur = find_blur(place);
   cs_boundary_frame visible;
   cs_defocus *defocus;
   *out = NULL;
   CS_TRY(cs_defocus_create(context, &blur, cel_varies(cel_of(place)), place->width, place->height,
                            &defocus));
-  if (!find_box(place, &blur, &defocus->grid, &visible)) {
+  bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
+  if (!is_seen || made) {
     cs_defocus_free(defocus, context->memory);
-    return CELSPAN_OK;
+    *out = is_seen ? made : NULL;
+    return is_seen ? add_box(context, &visible, box) : CELSPAN_OK;
   }
   defocus->key = find_key(place, &blur);
   celspan_status status = compile_planes(context, place, compiler, defocus);
   if (status == CELSPAN_OK)
-    status = cs_outline_rect(context, box, visible.left, visible.top, visible.right - visible.left,
-                             visible.bottom - visible.top, 0);
+    status = add_box(context, &visible, box);
   if (status == CELSPAN_OK)
     *out = defocus;
   else
@@ -185,8 +227,14 @@ celspan_status cs_defocus_layer_create(celspan_context *context, const cs_defocu
   return status;
 }
 
+void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory) {
+  for (size_t i = 0; i < plan->defocus_count && !plan->borrows_defocus; i++)
+    cs_defocus_layer_free(plan->defocus[i], memory);
+  cs_plan_finish(plan, memory);
+}
+
 void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory) {
-  cs_plan_finish(&defocus->plans[0], memory);
-  cs_plan_finish(&defocus->plans[1], memory);
+  cs_defocus_layer_free_plan(&defocus->plans[0], memory);
+  cs_defocus_layer_free_plan(&defocus->plans[1], memory);
   cs_defocus_free(defocus, memory);
 }

@@ -18,8 +18,8 @@
  * not change from one frame to the next is not blurred again.
  *
  * The compiler of frames (render/compile.c) calls this room, and the art is compiled by that same
- * compiler, which comes as a callback. The recursion is one level deep: a cel that is compiled
- * alone is compiled without its blur.
+ * compiler, which comes as a callback. A cel that is compiled alone is compiled without its blur; a
+ * composition inside it may hold defocused cels of its own, level by level.
  */
 #ifndef CS_DEFOCUS_LAYER_H
 #define CS_DEFOCUS_LAYER_H
@@ -45,6 +45,9 @@ typedef struct cs_defocus_job {
   celspan_matrix matrix; /* the cel's units to the raster's pixels */
   int32_t width, height; /* of the raster, pixels */
   bool is_through;
+  /* is_through: the plan of the same job from the front, of which this one borrows the defocused
+   * cels, so that the work does not double with each level of nesting; else NULL. */
+  const cs_plan *front;
   cs_kernel *kernel; /* the compiler owns it from now on; NULL: the mean over each pixel */
 } cs_defocus_job;
 
@@ -55,12 +58,16 @@ typedef struct cs_defocus_compiler {
 
 /* Whether the blur of the cel is large enough to be visible. */
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place);
-/* *out: new; NULL when nothing can be seen. box: gets the rectangle, in whole pixels, in which the
- * layer is present. Errors: NO_MEMORY, and those of the compiler. */
+/* *out: new, or `made` where the layer was made before; NULL when nothing can be seen. box: gets the
+ * rectangle, in whole pixels, in which the layer is present. Errors: NO_MEMORY, and those of the
+ * compiler. */
 CELSPAN_CHECKED celspan_status cs_defocus_layer_create(celspan_context *context,
                                                        const cs_defocus_cel *place,
                                                        const cs_defocus_compiler *compiler,
-                                                       cs_outline *box, cs_defocus **out);
+                                                       cs_defocus *made, cs_outline *box,
+                                                       cs_defocus **out);
 void cs_defocus_layer_free(cs_defocus *defocus, cs_memory *memory);
+/* Frees what a plan holds, its defocused cels too, unless they are borrowed. */
+void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory);
 
 #endif

@@ -19,14 +19,15 @@ typedef struct cs_film_info {
 } cs_film_info;
 
 typedef struct cs_film_frame {
-  celspan_exposure *exposures; /* owned; each holds a reference to its rostrum */
+  celspan_exposure *exposures; /* made by cs_film_frame_init alone, owned; each holds a reference to
+                                  its rostrum */
   size_t count;
 } cs_film_frame;
 
-/* Copies the exposures and takes a reference to each rostrum. out: new, to be finished; untouched
- * when there is no memory, and the answer is then false. */
-CELSPAN_CHECKED bool cs_film_frame_init(cs_film_frame *out, const celspan_exposure *exposures,
-                                        size_t count);
+/* Copies the exposures and takes a reference to each rostrum. out: new, to be finished, by any
+ * thread and before or after the context is. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_context *context,
+                                                  const celspan_exposure *exposures, size_t count);
 /* A frame that is all zero, or finished already, may be finished too. */
 void cs_film_frame_finish(cs_film_frame *frame);
 

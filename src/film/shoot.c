@@ -5,9 +5,12 @@
 
 #include "film/duplicates.h"
 #include "film/frame_pipeline.h"
+#include "output/dither.h"
+#include "output/pixels.h"
 #include "output/sink.h"
 #include "output/tee.h"
 #include "scene/scene.h"
+#include "scene/walk.h"
 
 typedef struct job {
   const cs_shoot *shoot;
@@ -32,7 +35,7 @@ static celspan_status name_frame(job *j, frame_task *task) {
   frame->is_named = !cs_scene_has_procedure(task->built.exposures, task->built.count);
   frame->scene = cs_scene_hash(task->built.exposures, task->built.count);
   if (shoot->keep)
-    frame->inputs = cs_scene_hash_files(task->built.exposures, task->built.count);
+    frame->inputs = cs_walk_hash_files(task->built.exposures, task->built.count);
   if (!shoot->pattern || shoot->put)
     return CELSPAN_OK;
   return cs_sequence_name(shoot->context, shoot->pattern, frame->number, frame->path,
@@ -75,8 +78,15 @@ static celspan_status make_both(celspan_context *context, const celspan_frame_de
                                 const char *path, const celspan_file_desc *file,
                                 uint64_t digest[2]) {
   cs_tee tee;
-  CS_TRY(cs_sink_file(context, path, file, &tee.sinks[0]));
-  celspan_status status = cs_sink_digest(context, &file->coding, digest, &tee.sinks[1]);
+  celspan_file_desc placed = *file;
+  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  placed.place_x = frame->crop_x;
+  placed.place_y = frame->crop_y;
+  CS_TRY(cs_sink_file(context, path, &placed, &tee.sinks[0]));
+  celspan_status status = cs_sink_digest(context, &coding, digest, &tee.sinks[1]);
+  if (status == CELSPAN_OK)
+    status = cs_dither_sink(context, &file->coding, &coding, frame->crop_x, frame->crop_y,
+                            &tee.sinks[1]);
   if (status != CELSPAN_OK) {
     cs_sink_discard(context, &tee.sinks[0]);
     return status;

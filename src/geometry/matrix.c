@@ -62,6 +62,19 @@ celspan_matrix celspan_matrix_skewing(double radians_x, double radians_y) {
       {1, cs_elementary_tan(radians_x), 0, cs_elementary_tan(radians_y), 1, 0, 0, 0, 1}};
 }
 
+celspan_matrix celspan_matrix_scaling_about(double sx, double sy, celspan_point centre) {
+  return (celspan_matrix){
+      {sx, 0, centre.x - sx * centre.x, 0, sy, centre.y - sy * centre.y, 0, 0, 1}};
+}
+
+celspan_matrix celspan_matrix_skewing_about(double radians_x, double radians_y,
+                                            celspan_point centre) {
+  celspan_matrix matrix = celspan_matrix_skewing(radians_x, radians_y);
+  matrix.m[2] = 0 - matrix.m[1] * centre.y; /* never -0 */
+  matrix.m[5] = 0 - matrix.m[3] * centre.x;
+  return matrix;
+}
+
 celspan_matrix celspan_matrix_then(celspan_matrix first, celspan_matrix second) {
   celspan_matrix out;
   for (int row = 0; row < 3; row++)

@@ -55,12 +55,23 @@ static celspan_status check_counts(celspan_context *context, const celspan_nurbs
   return CELSPAN_OK;
 }
 
+static celspan_status refuse_infinite(celspan_context *context, const char *list, size_t i,
+                                      double number) {
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s[%zu] must be a finite number, got %s", list,
+                 i + 1,
+                 isnan(number) ? "nan"
+                 : number > 0  ? "inf"
+                               : "-inf");
+}
+
 static celspan_status check_weights(celspan_context *context, const celspan_nurbs_desc *desc,
                                     double *largest) {
   double least = HUGE_VAL;
   *largest = 0;
   for (size_t i = 0; i < desc->point_count; i++) {
     double weight = desc->weights ? desc->weights[i] : 1;
+    if (!isfinite(weight))
+      return refuse_infinite(context, "weights", i, weight);
     if (!(weight > 0) || !cs_number_is_sane(weight))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "weight %zu is %g; weights must be above 0 and at most 1e12", i + 1, weight);
@@ -77,9 +88,11 @@ static celspan_status check_weights(celspan_context *context, const celspan_nurb
 static celspan_status check_order(celspan_context *context, const curve *c) {
   const double *knots = c->desc->knots;
   for (size_t i = 0; i < c->knot_count; i++) {
+    if (!isfinite(knots[i]))
+      return refuse_infinite(context, "knots", i, knots[i]);
     if (!cs_number_is_sane(knots[i]))
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "knot %zu is %g; knots must be finite and within 1e12", i + 1, knots[i]);
+                     "knot %zu is %g; it must be between -1e12 and 1e12", i + 1, knots[i]);
     if (i > 0 && knots[i] < knots[i - 1])
       return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "knot %zu is %g, less than knot %zu, which is %g; knots must not decrease",

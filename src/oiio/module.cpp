@@ -27,6 +27,7 @@ const void *celspan_picture_module(void) {
                                           open_reader,
                                           read_reader,
                                           close_reader,
+                                          list_reader,
                                           open_writer,
                                           write_writer,
                                           close_writer,

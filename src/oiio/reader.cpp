@@ -22,6 +22,7 @@
 #include <mutex>
 #include <vector>
 
+#include "oiio/jpeg_end.h"
 #include "oiio/shared.h"
 #include "oiio/sniff.h"
 #include "oiio/source.h"
@@ -99,16 +100,6 @@ void open_input(cs_picture_reader &reader) {
   reader.spec = reader.input->spec(reader.subimage);
 }
 
-/* JPEG's library fills the missing part of a truncated file with grey and reports success. */
-void check_jpeg_end(Source &source) {
-  std::vector<unsigned char> tail(std::min<size_t>(source.size(), 1 << 16));
-  tail.resize(source.pread(tail.data(), tail.size(), int64_t(source.size() - tail.size())));
-  for (size_t i = tail.size(); i-- > 1;)
-    if (tail[i] == 0xd9 && tail[i - 1] == 0xff)
-      return;
-  throw Failure(CELSPAN_INPUT, "is truncated: the end of the picture is missing");
-}
-
 /* The readers of film formats return black for missing pixels. The header has the file's size. */
 void check_film_end(Source &source, const std::string &format) {
   unsigned char head[24] = {0};
@@ -163,12 +154,16 @@ bool choose_channels(cs_picture_reader &reader, const std::string &prefix) {
   return true;
 }
 
+/* Where formats have the name of a subimage. */
+const char *const name_keys[] = {"oiio:subimagename", "name", "psd:LayerName", "ImageDescription"};
+const int SUBIMAGES = 10000;
+
 bool choose_subimage(cs_picture_reader &reader, const std::string &layer) {
-  for (int i = 0; i < 10000; i++) {
+  for (int i = 0; i < SUBIMAGES; i++) {
     ImageSpec spec = reader.input->spec(i);
     if (spec.undefined())
       return false;
-    for (const char *key : {"oiio:subimagename", "name", "psd:LayerName", "ImageDescription"})
+    for (const char *key : name_keys)
       if (layer == spec.get_string_attribute(key).c_str()) {
         reader.subimage = i;
         return true;
@@ -486,6 +481,72 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
   return reader;
 }
 
+/* ---------------------------------------------------------------- what else is in the file */
+
+std::string depth_of(const ImageSpec &spec) {
+  if (spec.format == TypeDesc::HALF || spec.format == TypeDesc::FLOAT ||
+      spec.format == TypeDesc::DOUBLE)
+    return spec.format.c_str();
+  int bits = int(spec.format.basesize()) * 8;
+  return std::to_string(spec.get_int_attribute("oiio:BitsPerSample", bits));
+}
+
+cs_picture_part describe_part(const ImageSpec &spec, int subimage, const std::string &name) {
+  cs_picture_part part = {};
+  part.subimage = subimage;
+  part.width = spec.width;
+  part.height = spec.height;
+  part.channels = spec.nchannels;
+  snprintf(part.name, sizeof part.name, "%s", name.c_str());
+  snprintf(part.depth, sizeof part.depth, "%s", depth_of(spec).c_str());
+  return part;
+}
+
+std::string name_of(const ImageSpec &spec) {
+  for (const char *key : name_keys)
+    if (!spec.get_string_attribute(key).empty())
+      return spec.get_string_attribute(key).c_str();
+  return "";
+}
+
+/* The layers of a subimage are groups of channels such as light.R, light.G, light.B; in order. */
+std::vector<cs_picture_part> layers_of(const ImageSpec &spec) {
+  std::vector<cs_picture_part> layers;
+  for (const std::string &channel : spec.channelnames) {
+    size_t dot = channel.rfind('.');
+    std::string name = channel.substr(0, dot == std::string::npos ? 0 : dot);
+    auto known = std::find_if(layers.begin(), layers.end(),
+                              [&](const cs_picture_part &part) { return name == part.name; });
+    bool is_colour =
+        find_channel(spec, name + ".", "Y") >= 0 ||
+        (find_channel(spec, name + ".", "R") >= 0 && find_channel(spec, name + ".", "G") >= 0 &&
+         find_channel(spec, name + ".", "B") >= 0);
+    if (known != layers.end()) {
+      known->channels++;
+    } else if (!name.empty() && is_colour) {
+      layers.push_back(describe_part(spec, -1, name));
+      layers.back().channels = 1;
+    }
+  }
+  return layers;
+}
+
+void list_parts(cs_picture_reader &reader, bool (*put)(void *user, const cs_picture_part *part),
+                void *user) {
+  reader.source->forgive();
+  for (int i = 0; i < SUBIMAGES; i++) {
+    ImageSpec spec = reader.input->spec(i);
+    if (spec.undefined())
+      return;
+    cs_picture_part part = describe_part(spec, i, name_of(spec));
+    if (!put(user, &part))
+      return;
+    for (const cs_picture_part &layer : i == 0 ? layers_of(spec) : std::vector<cs_picture_part>())
+      if (!put(user, &layer))
+        return;
+  }
+}
+
 } // namespace
 
 celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
@@ -502,6 +563,12 @@ celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int3
                            int32_t height, float *rgba, cs_picture_failure *failure) {
   return fence(failure, CELSPAN_INPUT, reader->name,
                [&] { read_rectangle(*reader, x, y, width, height, rgba); });
+}
+
+celspan_status list_reader(cs_picture_reader *reader,
+                           bool (*put)(void *user, const cs_picture_part *part), void *user,
+                           cs_picture_failure *failure) {
+  return fence(failure, CELSPAN_INPUT, reader->name, [&] { list_parts(*reader, put, user); });
 }
 
 void close_reader(cs_picture_reader *reader) {

@@ -62,6 +62,9 @@ celspan_status open_reader(const cs_picture_request *request, cs_picture_reader 
                            cs_picture_header *header, cs_picture_failure *failure);
 celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
                            int32_t height, float *rgba, cs_picture_failure *failure);
+celspan_status list_reader(cs_picture_reader *reader,
+                           bool (*put)(void *user, const cs_picture_part *part), void *user,
+                           cs_picture_failure *failure);
 void close_reader(cs_picture_reader *reader);
 celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **out,
                            cs_picture_failure *failure);

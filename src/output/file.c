@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/error_text.h"
 #include "output/temporary.h"
 
 enum {
@@ -41,9 +42,9 @@ static const cs_file_system real_system = {.open = system_open,
                                            .mkdir = mkdir};
 
 static celspan_status report(const cs_file *file, celspan_context *context) {
-  char text[256];
+  char text[CS_ERROR_TEXT_SIZE];
   return cs_fail(context, CELSPAN_OUTPUT, "%s: %s: %s", file->path, file->failed_to,
-                 strerror_r(file->error, text, sizeof text));
+                 cs_error_text(file->error, text));
 }
 
 static celspan_status fail(cs_file *file, celspan_context *context, const char *failed_to) {

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "output/dither.h"
 #include "output/ending.h"
 #include "output/file.h"
 #include "output/pixels.h"
@@ -107,8 +108,11 @@ static void list_depths(const file_format *format, char *text, size_t size) {
 }
 
 static celspan_status choose_coding(celspan_context *context, const char *path,
-                                    const celspan_coding *asked, picture_sink *sink) {
+                                    const celspan_coding *wanted, picture_sink *sink) {
   const file_format *format = sink->format;
+  celspan_coding plain = *wanted, *asked = &plain;
+  if (asked->depth == CELSPAN_DEPTH_8_DITHER)
+    asked->depth = CELSPAN_DEPTH_8;
   if (asked->depth && !(format->depths & HAS(asked->depth))) {
     char depths[64];
     list_depths(format, depths, sizeof depths);
@@ -347,5 +351,5 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
                         .row = put_row,
                         .end = end,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
-  return CELSPAN_OK;
+  return cs_dither_sink(context, &file->coding, &sink->coding, file->place_x, file->place_y, out);
 }

@@ -34,6 +34,8 @@ celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth def
   celspan_coding resolved = coding ? *coding : (celspan_coding){0};
   if (resolved.depth == CELSPAN_DEPTH_DEFAULT)
     resolved.depth = default_depth == CELSPAN_DEPTH_DEFAULT ? CELSPAN_DEPTH_8 : default_depth;
+  if (resolved.depth == CELSPAN_DEPTH_8_DITHER)
+    resolved.depth = CELSPAN_DEPTH_8;
   bool integer = resolved.depth == CELSPAN_DEPTH_8 || resolved.depth == CELSPAN_DEPTH_16;
   if (resolved.transfer == CELSPAN_TRANSFER_DEFAULT)
     resolved.transfer = integer ? CELSPAN_TRANSFER_SRGB : CELSPAN_TRANSFER_LINEAR;
@@ -90,7 +92,7 @@ static uint16_t to_half(float x) {
 }
 
 /* The colour the transfer curve is applied to. */
-static void to_coded(const celspan_coding *coding, const float rgba[4], float coded[4]) {
+void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
   bool divide = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] != 1;
   for (int c = 0; c < 3; c++) {
     float light = !divide ? rgba[c] : rgba[3] > 0 ? rgba[c] / rgba[3] : 0;
@@ -114,7 +116,7 @@ static void code_8(const celspan_coding *coding, const float *rgba, size_t count
                    unsigned char *out) {
   for (; count > 0; count--, rgba += 4, out += 4) {
     float coded[4];
-    to_coded(coding, rgba, coded);
+    cs_pixels_encode(coding, rgba, coded);
     for (int c = 0; c < 4; c++)
       out[c] = (unsigned char)to_integer(coded[c], 255);
   }
@@ -125,7 +127,7 @@ static void code_16(const celspan_coding *coding, const float *rgba, size_t coun
   for (; count > 0; count--, rgba += 4, out += 8) {
     float coded[4];
     uint16_t numbers[4];
-    to_coded(coding, rgba, coded);
+    cs_pixels_encode(coding, rgba, coded);
     for (int c = 0; c < 4; c++)
       numbers[c] = (uint16_t)to_integer(coded[c], 65535);
     memcpy(out, numbers, sizeof numbers);
@@ -137,7 +139,7 @@ static void code_half(const celspan_coding *coding, const float *rgba, size_t co
   for (; count > 0; count--, rgba += 4, out += 8) {
     float coded[4];
     uint16_t numbers[4];
-    to_coded(coding, rgba, coded);
+    cs_pixels_encode(coding, rgba, coded);
     for (int c = 0; c < 4; c++)
       numbers[c] = to_half(coded[c]);
     memcpy(out, numbers, sizeof numbers);
@@ -148,7 +150,7 @@ static void code_float(const celspan_coding *coding, const float *rgba, size_t c
                        unsigned char *out) {
   for (; count > 0; count--, rgba += 4, out += 16) {
     float coded[4];
-    to_coded(coding, rgba, coded);
+    cs_pixels_encode(coding, rgba, coded);
     memcpy(out, coded, sizeof coded);
   }
 }
@@ -207,6 +209,10 @@ static void put_gradient(gathered *waiting, const celspan_coding *coding, coder 
 static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
                       size_t pixel_size, unsigned char *out) {
   size_t count = (size_t)(span->x1 - span->x0);
+  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes) {
+    memcpy(out, span->codes, count * pixel_size);
+    return;
+  }
   if (span->kind == CELSPAN_SPAN_ARRAY) {
     code(coding, span->array, count, out);
     return;

@@ -14,17 +14,21 @@
 
 #include "celspan/celspan.h"
 
-/* The coding with every default filled in, for integers and floats alike. */
+/* The coding with every default filled in, for integers and floats alike. 8_DITHER becomes 8: the
+ * rest is done by output/dither.h. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);
 
 /* Writes one row of pixels: the spans cover [0, width) without gap. A single span is coded once and
- * filled. coding: resolved. Threads: any. */
+ * filled. Codes of arrays are copied: of 8 bits, and in this coding. coding: resolved. Threads: any. */
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row);
 /* Whether array spans may hold codes, pixels coded already, in this coding. coding: resolved. */
 bool cs_pixels_takes_codes(const celspan_coding *coding);
 /* Columns [x, x + count) of a span, as a span from column 0. */
 celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count);
+/* One colour, linear premultiplied, as the numbers that integers are rounded from: 1 is the largest.
+ */
+void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]);
 /* One colour, linear premultiplied, to one coded pixel. */
 void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);
 

@@ -146,6 +146,11 @@ static bool is_storable(const celspan_coding *coding) {
 celspan_status cs_sink_span(celspan_context *context, const char *path,
                             const celspan_file_desc *file, celspan_sink *out) {
   celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  if (file->coding.depth == CELSPAN_DEPTH_8_DITHER)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: span files hold the colours of spans, which dithering would break into "
+                   "pixels; dither PNG, Targa or another format of pixels",
+                   path);
   if (!is_storable(&coding))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: span files hold depth 8 in sRGB with straight alpha, or depth half in "

@@ -86,9 +86,8 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   }
   if (layer->kind == CS_LAYER_PICTURE) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
-    cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->use,
-                            (const float(*)[4])room->rgba);
-    return CELSPAN_OK;
+    return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->use,
+                                   (const float(*)[4])room->rgba);
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
     CS_TRY(sample_defocused(painter, layer, batch, room));
@@ -96,8 +95,7 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
     sample_shade(&stack->shades[layer->index], batch, room);
   else
     sample_procedure(&procedure_spans[item.procedure_span], batch, room);
-  cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
-  return CELSPAN_OK;
+  return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
 }
 
 static celspan_status fold_items(cs_painter *painter, const cs_program *program,
@@ -122,8 +120,9 @@ static celspan_status fold_items(cs_painter *painter, const cs_program *program,
 bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
   const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
-  return layer->kind == CS_LAYER_PICTURE && layer->group == CS_STACK_NONE && layer->fade == 1 &&
-         layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1 &&
+  return layer->kind == CS_LAYER_PICTURE && layer->role == CS_LAYER_PAINT &&
+         layer->group == CS_STACK_NONE && layer->fade == 1 && layer->front[0] == 1 &&
+         layer->front[1] == 1 && layer->front[2] == 1 &&
          (stack->light_count == 0 || stack->lights[0].below <= item.layer);
 }
 

@@ -149,6 +149,8 @@ static celspan_status make_one(cs_gradient_tables *tables, const cs_program *pro
 static cs_gradient_table_tint tint_of(const cs_layer *layer, const cs_paint *paint) {
   cs_v4 s = {paint->s[0], paint->s[1], paint->s[2], 0};
   cs_v4 t = {paint->t[0], paint->t[1], paint->t[2], 0};
+  if (layer->role == CS_LAYER_BACK)
+    t = cs_v4_all(1);
   cs_over_pair lit = cs_over_lit(layer->front, layer->fade, s, t);
   return (cs_gradient_table_tint){.s = lit.e, .t = lit.t};
 }

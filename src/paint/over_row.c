@@ -28,6 +28,9 @@ celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, cons
 static void leave_group(cs_over_row *over) {
   const cs_group *group = &over->stack->groups[over->group];
   cs_over_row_state *inner = over->state;
+  if (group->has_light)
+    WIDE(over, cs_over_row_light_group)
+  (inner, over->count, (const float(*)[4])over->fronts[over->depth]);
   over->state = over->outer[--over->depth];
   WIDE(over, cs_over_row_add_group)(over->state, over->count, group->fade, inner);
   over->group = group->parent;
@@ -35,7 +38,7 @@ static void leave_group(cs_over_row *over) {
 
 static celspan_status enter_group(cs_over_row *over, uint32_t group) {
   const cs_group *inner = &over->stack->groups[group];
-  if (inner->parent != over->group) /* at most CS_SCENE_DEPTH + 1 states */
+  if (inner->parent != over->group) /* at most CS_STACK_GROUPS states */
     CS_TRY(enter_group(over, inner->parent));
   over->outer[over->depth++] = over->state;
   over->group = group;
@@ -64,27 +67,48 @@ void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
   (over->state, over->count, (const float *)&layer->s, (const float *)&layer->t);
 }
 
-void cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer, celspan_picture_use use,
-                             const float (*rgba)[4]) {
+/* A light with a shape: lane 3 of its pigments is not read. */
+static celspan_status add_light_shape(cs_over_row *over, const cs_layer *layer,
+                                      const float (*s)[4]) {
+  const float *gain = (const float *)&layer->front;
+  if (layer->role == CS_LAYER_BACK) {
+    WIDE(over, cs_over_row_add_back)(over->state, over->count, gain, s);
+    return CELSPAN_OK;
+  }
+  float(*front)[4] = cs_arena_take(over->context, over->arena, CS_OVER_ROW_BATCH * sizeof *front);
+  if (!front)
+    return CELSPAN_NO_MEMORY;
+  WIDE(over, cs_over_row_make_front)(over->count, gain, s, front);
+  over->fronts[over->depth] = front;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
+                                       celspan_picture_use use, const float (*rgba)[4]) {
+  if (layer->role != CS_LAYER_PAINT)
+    return add_light_shape(over, layer, rgba);
   WIDE(over, cs_over_row_add_picture)
   (over->state, over->count, (const float *)&layer->front, layer->fade, use == CELSPAN_PICTURE_GEL,
    rgba);
+  return CELSPAN_OK;
 }
 
-void cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, const float (*s)[4],
-                           const float (*t)[4]) {
+celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, const float (*s)[4],
+                                     const float (*t)[4]) {
+  if (layer->role != CS_LAYER_PAINT)
+    return add_light_shape(over, layer, s);
   WIDE(over, cs_over_row_add_paints)
   (over->state, over->count, (const float *)&layer->front, layer->fade, s, t);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer, const float (*s)[4],
                                  const float (*t)[4]) {
   const cs_layer *at = &over->stack->layers[layer];
   CS_TRY(cs_over_row_move(over, layer));
-  if (at->kind == CS_LAYER_FLAT)
-    cs_over_row_add_layer(over, at);
-  else
-    cs_over_row_add_paint(over, at, s, t);
+  if (at->kind != CS_LAYER_FLAT)
+    return cs_over_row_add_paint(over, at, s, t);
+  cs_over_row_add_layer(over, at);
   return CELSPAN_OK;
 }
 

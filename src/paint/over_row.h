@@ -2,8 +2,9 @@
  * shines through, pixel by pixel, from the camera backwards.
  *
  *     pixels          0    1    2    3   ...  count - 1
- *     state  e     [ rgb. rgb. rgb. rgb. .............. ]   a state for each faded group that has
- *            t     [ rgb. rgb. rgb. rgb. .............. ]   been entered and not yet left
+ *     state  e     [ rgb. rgb. rgb. rgb. .............. ]   a state for each group that has been
+ *            t     [ rgb. rgb. rgb. rgb. .............. ]   entered and not yet left, and the front
+ *            front [ rgb. rgb. rgb. rgb. .............. ]   light of a group that has a shape
  *
  *   begin; then for every item from the front: move to its layer, add its paints; then end
  *
@@ -31,7 +32,8 @@ typedef struct cs_over_row {
   cs_isa isa;
   int32_t count; /* pixels */
   cs_over_row_state *state;
-  cs_over_row_state *outer[CS_SCENE_DEPTH + 2]; /* those of the faded groups around it, put aside */
+  cs_over_row_state *outer[CS_STACK_GROUPS + 1]; /* those of the groups around it, put aside */
+  float (*fronts[CS_STACK_GROUPS + 1])[4]; /* the front lights with a shape of the groups entered */
   uint32_t depth;
   uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
@@ -45,13 +47,14 @@ CELSPAN_CHECKED celspan_status cs_over_row_begin(celspan_context *context, cs_ar
 /* Moves back to just in front of a layer: leaves groups, meets back lights, enters groups.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer);
-/* Add a layer that has been moved to. rgba: a picture's samples; s and t: paints, s not yet lit.
- * Room for a whole batch in each. */
+/* Add a layer that has been moved to, by its role. rgba: a picture's samples; s and t: paints, s
+ * not yet lit. Room for a whole batch in each. Errors: NO_MEMORY. */
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer);
-void cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer, celspan_picture_use use,
-                             const float (*rgba)[4]);
-void cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, const float (*s)[4],
-                           const float (*t)[4]);
+CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
+                                                       celspan_picture_use use,
+                                                       const float (*rgba)[4]);
+CELSPAN_CHECKED celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer,
+                                                     const float (*s)[4], const float (*t)[4]);
 /* Moves to a layer and adds it: a flat one as it is, any other by its paints. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer,
                                                  const float (*s)[4], const float (*t)[4]);
@@ -71,7 +74,16 @@ CS_WIDE_DECLARE(void, cs_over_row_add_paints,
                  const float (*s)[4], const float (*t)[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_light,
                 (cs_over_row_state * state, int32_t count, const float light[4]));
-/* Adds a faded group that has been left to the state around it. */
+/* Adds a back light with a shape: of a gain, and pigments. */
+CS_WIDE_DECLARE(void, cs_over_row_add_back,
+                (cs_over_row_state * state, int32_t count, const float gain[4],
+                 const float (*s)[4]));
+/* A front light with a shape: pigments times a gain; then the light of a group times that. */
+CS_WIDE_DECLARE(void, cs_over_row_make_front,
+                (int32_t count, const float gain[4], const float (*s)[4], float (*front)[4]));
+CS_WIDE_DECLARE(void, cs_over_row_light_group,
+                (cs_over_row_state * state, int32_t count, const float (*front)[4]));
+/* Adds a group that has been left to the state around it. */
 CS_WIDE_DECLARE(void, cs_over_row_add_group,
                 (cs_over_row_state * outer, int32_t count, float fade,
                  const cs_over_row_state *inner));

@@ -52,6 +52,30 @@ void CS_WIDE(cs_over_row_add_light)(cs_over_row_state *state, int32_t count, con
     cs_wide_store(state->e[i], cs_wide_load(state->e[i]) + cs_wide_load(state->t[i]) * wide);
 }
 
+void CS_WIDE(cs_over_row_add_back)(cs_over_row_state *state, int32_t count, const float gain[4],
+                                   const float (*s)[4]) {
+  cs_wide wide = cs_over_wide_all(gain);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(state->e[i], cs_wide_load(state->e[i]) +
+                                   cs_wide_load(state->t[i]) * (wide * cs_wide_load(s[i])));
+}
+
+void CS_WIDE(cs_over_row_make_front)(int32_t count, const float gain[4], const float (*s)[4],
+                                     float (*front)[4]) {
+  cs_wide wide = cs_over_wide_all(gain);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(front[i], wide * cs_wide_load(s[i]));
+}
+
+void CS_WIDE(cs_over_row_light_group)(cs_over_row_state *state, int32_t count,
+                                      const float (*front)[4]) {
+  const cs_wide brightest = cs_wide_all(CS_LAYER_BRIGHTEST);
+  for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
+    cs_wide lit = cs_wide_load(state->e[i]) * cs_wide_load(front[i]);
+    cs_wide_store(state->e[i], cs_wide_choose(lit > brightest, brightest, lit));
+  }
+}
+
 void CS_WIDE(cs_over_row_add_group)(cs_over_row_state *outer, int32_t count, float fade,
                                     const cs_over_row_state *inner) {
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)

@@ -94,7 +94,8 @@ static celspan_status find_opacity(cs_painter *painter, uint32_t index, cs_run r
   const cs_layer *layer = &painter->stack->layers[index];
   const cs_image_view *view;
   *out = CS_PICTURE_MIXED;
-  if (layer->kind != CS_LAYER_PICTURE || layer->fade != 1 || layer->group != CS_STACK_NONE)
+  if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT || layer->fade != 1 ||
+      layer->group != CS_STACK_NONE)
     return CELSPAN_OK;
   CS_TRY(cs_painter_image(painter, layer->index, &view));
   if (view->is_opaque) {

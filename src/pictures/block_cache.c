@@ -62,7 +62,7 @@ void cs_block_cache_fetch(cs_block_cache *cache, const cs_block_cache_source *so
                                 .texels = block->texels,
                                 .codes = block->is_coded ? block->codes[0] : NULL,
                                 .block = slot->block};
-  cache->curve = block->entry->curve;
+  cache->curve = &block->store->curve;
   if (block->is_coded)
     prefetch_codes(slot->codes);
 }

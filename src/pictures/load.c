@@ -6,7 +6,7 @@
  *                                        +--mean--> row k of level n + 1, and so on up to `level`
  *      row 2k + 1 of level n -----------/
  *
- *   Level 0 is read from the file in batches of rows. A pass fills the blocks of a window of
+ *   Level 0 is read from the file, or the surface, in batches of rows. A pass fills the blocks of a window of
  *   columns together.
  *
  *   level > base: from the four blocks of the level below
@@ -21,8 +21,11 @@
 
 #include <string.h>
 
+#include "pictures/surface.h"
+
 #define BATCH_BYTES ((size_t)4 << 20)
 #define LEVELS 24
+#define SURFACE_COLUMNS 16
 
 typedef struct file_pass {
   celspan_context *context;
@@ -69,11 +72,13 @@ static void cover_fitting(file_pass *pass, int32_t row) {
   }
 }
 
-/* The picture does not fit: a window of as many columns of blocks as one pass may make. */
+/* The picture does not fit: a window of as many columns of blocks as one pass may make. A surface
+ * can be asked for any part at no extra cost, so its windows are narrow. */
 static void cover_window(file_pass *pass, int32_t column, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   int32_t columns = columns_of(entry, pass->level);
-  int32_t window = least(columns, entry->share < 1 ? 1 : (int64_t)entry->share);
+  size_t share = entry->surface && entry->share > SURFACE_COLUMNS ? SURFACE_COLUMNS : entry->share;
+  int32_t window = least(columns, share < 1 ? 1 : (int64_t)share);
   pass->column = column / window * window;
   pass->columns = least(window, columns - pass->column);
   pass->row = row;
@@ -169,16 +174,54 @@ static void put_row(file_pass *pass, int level, int32_t y, const float *texels) 
   put_row(pass, level + 1, y / 2, waiting);
 }
 
-static celspan_status read_rows(file_pass *pass) {
+static celspan_status read_coded(const file_pass *pass, int32_t y, int32_t rows) {
+  const cs_picture_entry *entry = pass->entry;
+  const celspan_rectangle rectangle = {pass->x0, y, pass->x1 - pass->x0, rows};
+  if (entry->surface)
+    return cs_surface_read(pass->context, entry->surface, &rectangle, pass->batch);
   cs_picture_failure failure;
+  celspan_status status = entry->store->module->read(entry->reader, pass->x0, y, rectangle.width,
+                                                     rows, pass->batch, &failure);
+  return status == CELSPAN_OK ? status : cs_fail(pass->context, status, "%s", failure.text);
+}
+
+/* Copies what a block of the whole holds of the rows [y, y + rows) of a part, all in the pixels of
+ * the whole, the rectangle's left edge being x0. */
+static void copy_from_block(const file_pass *pass, const cs_picture_block *block, int32_t y,
+                            int32_t rows) {
+  const cs_picture *part = pass->entry->part;
+  int32_t x0 = part->x + pass->x0, x1 = part->x + pass->x1, width = x1 - x0;
+  int32_t left = block->column * CS_PICTURE_BLOCK, top = block->row * CS_PICTURE_BLOCK;
+  int32_t from = left > x0 ? left : x0, end = least(left + CS_PICTURE_BLOCK, x1);
+  int32_t first = top > y ? top : y, last = least(top + CS_PICTURE_BLOCK, (int64_t)y + rows);
+  for (int32_t row = first; row < last; row++)
+    memcpy(pass->batch + 4 * ((size_t)(row - y) * (size_t)width + (size_t)(from - x0)),
+           block->texels + 4 * ((size_t)(row - top) * CS_PICTURE_BLOCK + (size_t)(from - left)),
+           4 * sizeof(float) * (size_t)(end - from));
+}
+
+/* A part is made of the blocks of the whole, whose texels are light already. */
+static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) {
+  const cs_picture *part = pass->entry->part;
+  int32_t top = part->y + y, left = part->x + pass->x0;
+  for (int32_t row = top / CS_PICTURE_BLOCK; row * CS_PICTURE_BLOCK < top + rows; row++)
+    for (int32_t column = left / CS_PICTURE_BLOCK; column * CS_PICTURE_BLOCK < part->x + pass->x1;
+         column++) {
+      cs_picture_block *block;
+      CS_TRY(cs_load_block(pass->context, part->whole, 0, column, row, &block));
+      copy_from_block(pass, block, top, rows);
+      cs_store_release(block);
+    }
+  return CELSPAN_OK;
+}
+
+static celspan_status read_rows(file_pass *pass) {
   int32_t width = pass->x1 - pass->x0;
   for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {
     int32_t rows = least(pass->y1 - y, pass->batch_rows);
-    celspan_status status = pass->entry->store->module->read(pass->entry->reader, pass->x0, y,
-                                                             width, rows, pass->batch, &failure);
-    if (status != CELSPAN_OK)
-      return cs_fail(pass->context, status, "%s", failure.text);
-    cs_mip_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
+    CS_TRY(pass->entry->part ? read_part(pass, y, rows) : read_coded(pass, y, rows));
+    if (!pass->entry->part)
+      cs_mip_levels_decode(&pass->entry->decoder, pass->batch, (size_t)width * (size_t)rows);
     for (int32_t i = 0; i < rows; i++)
       put_row(pass, 0, y + i, pass->batch + (size_t)i * (size_t)width * 4);
   }
@@ -199,7 +242,7 @@ static int common_bits(const float *texels, int32_t count) {
 }
 
 static bool is_decoded(const cs_picture_block *block) {
-  const cs_srgb8_curve *curve = block->entry->curve;
+  const cs_srgb8_curve *curve = &block->store->curve;
   bool is_same = true;
   for (size_t i = 0; i < (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK && is_same; i++) {
     float rgba[4];
@@ -210,8 +253,7 @@ static bool is_decoded(const cs_picture_block *block) {
 }
 
 /* Sets the opacity and the codes of a block whose texels are complete. */
-static void describe(cs_picture_block *block) {
-  const celspan_picture_info *info = &block->entry->header.info;
+static void describe(const celspan_picture_info *info, cs_picture_block *block) {
   int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
   int32_t height = cs_mip_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
   int bits = 3;
@@ -242,7 +284,7 @@ static void join(const file_pass *pass, cs_picture_block *block, const cs_pictur
 static cs_picture_block *insert_blocks(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
   for (size_t i = 0; i < block_count(pass); i++)
-    describe(pass->blocks[i]);
+    describe(&pass->entry->header.info, pass->blocks[i]);
   for (size_t i = 0; i < block_count(pass); i++) {
     cs_picture_block *block = pass->blocks[i];
     bool is_wanted = block->column == column && block->row == row;
@@ -267,7 +309,8 @@ static void finish_pass(file_pass *pass) {
 
 static celspan_status run_pass(celspan_context *context, cs_picture_entry *entry, int level,
                                int32_t column, int32_t row, cs_picture_block **out) {
-  CS_TRY(cs_store_open_reader(context, entry));
+  if (!entry->surface && !entry->part)
+    CS_TRY(cs_store_open_reader(context, entry));
   file_pass pass = {.context = context, .entry = entry};
   cover(&pass, level, column, row);
   celspan_status status = make_buffers(&pass) ? make_blocks(&pass) : cs_fail_memory(context);
@@ -290,8 +333,8 @@ static celspan_status load(celspan_context *context, cs_picture_entry *entry, in
                            int32_t column, int32_t row, cs_picture_block **out);
 
 /* Fills a quarter of `block` with means of `from`, one of its four blocks of the level below. */
-static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
-  const celspan_picture_info *info = &block->entry->header.info;
+static void shrink_into(const celspan_picture_info *info, cs_picture_block *block,
+                        const cs_picture_block *from) {
   int level = from->level;
   int32_t x = from->column * CS_PICTURE_BLOCK, y = from->row * CS_PICTURE_BLOCK;
   int32_t count = least(cs_mip_levels_size(info->width, level) - x, CS_PICTURE_BLOCK);
@@ -307,8 +350,8 @@ static void shrink_into(cs_picture_block *block, const cs_picture_block *from) {
   }
 }
 
-static celspan_status fill_from_below(celspan_context *context, cs_picture_block *block) {
-  cs_picture_entry *entry = block->entry;
+static celspan_status fill_from_below(celspan_context *context, cs_picture_entry *entry,
+                                      cs_picture_block *block) {
   int level = block->level - 1;
   for (int i = 0; i < 4; i++) {
     int32_t column = 2 * block->column + i % 2, row = 2 * block->row + i / 2;
@@ -316,7 +359,7 @@ static celspan_status fill_from_below(celspan_context *context, cs_picture_block
       continue;
     cs_picture_block *below;
     CS_TRY(load(context, entry, level, column, row, &below));
-    shrink_into(block, below);
+    shrink_into(&entry->header.info, block, below);
     cs_store_release(below);
   }
   return CELSPAN_OK;
@@ -326,12 +369,12 @@ static celspan_status make_from_below(celspan_context *context, cs_picture_entry
                                       int32_t column, int32_t row, cs_picture_block **out) {
   cs_picture_block *block;
   CS_TRY(cs_store_create_block(context, entry, level, column, row, &block));
-  celspan_status status = fill_from_below(context, block);
+  celspan_status status = fill_from_below(context, entry, block);
   if (status != CELSPAN_OK) {
     cs_store_discard(block);
     return status;
   }
-  describe(block);
+  describe(&entry->header.info, block);
   *out = cs_store_insert(block, true);
   return CELSPAN_OK;
 }
@@ -353,20 +396,33 @@ static bool is_inside(const cs_picture_entry *entry, int level, int32_t column, 
          column < columns_of(entry, level) && row < rows_of(entry, level);
 }
 
+static celspan_status load_locked(celspan_context *context, cs_picture_entry *entry,
+                                  const cs_picture *picture, int level, int32_t column, int32_t row,
+                                  cs_picture_block **out) {
+  pthread_mutex_lock(&entry->reading); /* of a part before that of the whole */
+  entry->part = picture->whole ? picture : NULL;
+  entry->surface = picture->whole ? NULL : picture->surface;
+  celspan_status status = load(context, entry, level, column, row, out);
+  entry->surface = NULL;
+  entry->part = NULL;
+  pthread_mutex_unlock(&entry->reading);
+  return status;
+}
+
 celspan_status cs_load_block(celspan_context *context, const cs_picture *picture, int level,
                              int32_t column, int32_t row, cs_picture_block **out) {
   cs_picture_entry *entry;
   CS_TRY(cs_store_entry(context, picture, &entry));
-  if (!is_inside(entry, level, column, row))
-    return cs_fail(context, CELSPAN_INTERNAL, "%s: block %d, %d of level %d does not exist",
-                   picture->file, (int)column, (int)row, level);
-  cs_picture_block *block = cs_store_pin(entry, level, column, row);
   celspan_status status = CELSPAN_OK;
-  if (!block) {
-    pthread_mutex_lock(&entry->reading);
-    status = load(context, entry, level, column, row, &block);
-    pthread_mutex_unlock(&entry->reading);
-  }
+  cs_picture_block *block = NULL;
+  if (is_inside(entry, level, column, row))
+    block = cs_store_pin(entry, level, column, row);
+  else
+    status = cs_fail(context, CELSPAN_INTERNAL, "%s: block %d, %d of level %d does not exist",
+                     cs_picture_name(picture), (int)column, (int)row, level);
+  if (status == CELSPAN_OK && !block)
+    status = load_locked(context, entry, picture, level, column, row, &block);
+  cs_store_leave(entry);
   if (status == CELSPAN_OK)
     *out = block;
   return status;

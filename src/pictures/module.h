@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 1u
+#define CS_PICTURE_MODULE_VERSION 2u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 64
 
@@ -51,6 +51,15 @@ typedef struct cs_picture_header {
   uint64_t file_number;
 } cs_picture_header;
 
+/* What a file holds beside the picture that is read of it. */
+typedef struct cs_picture_part {
+  int subimage;          /* -1: a layer, of the first subimage */
+  char name[256];        /* by which it can be asked for as a layer; "": it has none */
+  int32_t width, height; /* of a subimage: as stored, its data window */
+  int channels;
+  char depth[16]; /* "8", "10", "16", "half", "float", ... */
+} cs_picture_part;
+
 typedef struct cs_picture_reader cs_picture_reader;
 typedef struct cs_picture_writer cs_picture_writer;
 
@@ -81,6 +90,10 @@ typedef struct cs_picture_module {
   celspan_status (*read)(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
                          int32_t height, float *rgba, cs_picture_failure *failure);
   void (*close)(cs_picture_reader *reader);
+  /* Calls `put` for every subimage and after each for its layers, until it answers false. */
+  celspan_status (*list)(cs_picture_reader *reader,
+                         bool (*put)(void *user, const cs_picture_part *part), void *user,
+                         cs_picture_failure *failure);
   celspan_status (*write_open)(const cs_picture_output *output, cs_picture_writer **out,
                                cs_picture_failure *failure);
   celspan_status (*write_rows)(cs_picture_writer *writer, int32_t y, int32_t count,

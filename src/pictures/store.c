@@ -1,20 +1,29 @@
 #include "pictures/store.h"
 
 #include <string.h>
+#include <unistd.h>
 
 #include "base/module.h"
 #include "base/number.h"
 #include "colour/transfer.h"
+#include "pictures/surface.h"
 
 /* Files kept open at a time: a film may have a picture for every frame. */
 #define OPEN_READERS 32
+/* Entries of surfaces before those that are not in use are dropped. */
+#define SURFACES_LEAST 256
 
 static const cs_module_desc picture_module = {
     .file = "celspan-picture.so",
     .override = "CELSPAN_PICTURE_MODULE",
     .symbol = "celspan_picture_module",
     .purpose = "reading and writing pictures",
+#ifdef CELSPAN_WITHOUT_PICTURES
+    .advice = "this celspan was built without OpenImageIO, so it writes PNG, Targa and span files "
+              "and reads no pictures; build it with -Dpictures=enabled",
+#else
     .advice = "install OpenImageIO and the celspan package with pictures",
+#endif
 };
 
 /* ---------------------------------------------------------------- the store itself */
@@ -51,6 +60,7 @@ static celspan_status create_store(celspan_context *context, cs_service **out) {
                              .entry_size = sizeof(cs_picture_block),
                              .budget = context->root->picture_bytes};
   cs_cache_init(&store->blocks);
+  store->surface_limit = SURFACES_LEAST;
   cs_srgb8_make_curve(&store->curve);
   pthread_mutex_init(&store->lock, NULL);
   *out = &store->service;
@@ -98,9 +108,10 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 
 /* ---------------------------------------------------------------- blocks */
 
+/* By the hash, not the entry: blocks of a surface outlive an entry that was dropped. */
 static cs_cache_key key_of(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
-  return (cs_cache_key){(uint64_t)entry->number << 32 | (uint32_t)level, (uint64_t)column,
-                        (uint64_t)row};
+  return (cs_cache_key){entry->hash.a, entry->hash.b,
+                        (uint64_t)level << 56 | (uint64_t)column << 28 | (uint64_t)row};
 }
 
 cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
@@ -109,7 +120,7 @@ cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t
 }
 
 void cs_store_release(cs_picture_block *block) {
-  cs_cache_unpin(&block->entry->store->blocks, &block->cached);
+  cs_cache_unpin(&block->store->blocks, &block->cached);
 }
 
 celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry *entry, int level,
@@ -118,7 +129,7 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
   CS_TRY(cs_cache_create(&entry->store->blocks, context, key_of(entry, level, column, row),
                          sizeof(cs_picture_block), &cached));
   cs_picture_block *block = (cs_picture_block *)cached;
-  block->entry = entry;
+  block->store = entry->store;
   block->level = level;
   block->column = column;
   block->row = row;
@@ -127,18 +138,17 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
 }
 
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned) {
-  return (cs_picture_block *)cs_cache_insert(&block->entry->store->blocks, &block->cached,
-                                             is_pinned);
+  return (cs_picture_block *)cs_cache_insert(&block->store->blocks, &block->cached, is_pinned);
 }
 
 void cs_store_discard(cs_picture_block *block) {
   if (block)
-    cs_cache_discard(&block->entry->store->blocks, &block->cached);
+    cs_cache_discard(&block->store->blocks, &block->cached);
 }
 
 /* ---------------------------------------------------------------- entries */
 
-static cs_picture_request request_of(const cs_picture *picture) {
+cs_picture_request cs_store_request(const cs_picture *picture) {
   celspan_transfer transfer;
   bool is_space = picture->colour && !cs_transfer_parse(picture->colour, &transfer);
   return (cs_picture_request){.file = picture->file,
@@ -147,11 +157,18 @@ static cs_picture_request request_of(const cs_picture *picture) {
                               .space = is_space ? picture->colour : NULL};
 }
 
+/* An entry that is in use from now on, or NULL. The caller has locked `lock`. */
 static cs_picture_entry *find_entry(const cs_picture_store *store, cs_hash hash) {
   cs_picture_entry *entry = store->entries[hash.a & 255];
   while (entry && !(entry->hash.a == hash.a && entry->hash.b == hash.b))
     entry = entry->next;
+  if (entry)
+    atomic_fetch_add_explicit(&entry->users, 1, memory_order_relaxed);
   return entry;
+}
+
+void cs_store_leave(cs_picture_entry *entry) {
+  atomic_fetch_sub_explicit(&entry->users, 1, memory_order_release);
 }
 
 static size_t blocks_across(int32_t size, int level) {
@@ -185,9 +202,9 @@ static const float *find_table(cs_picture_store *store, celspan_transfer transfe
   return *table;
 }
 
-static bool set_decoder(cs_picture_store *store, cs_picture_entry *entry) {
+static bool set_decoder(cs_picture_store *store, const char *colour, cs_picture_entry *entry) {
   const cs_picture_header *header = &entry->header;
-  const char *name = entry->picture->colour ? entry->picture->colour : header->info.colour;
+  const char *name = colour ? colour : header->info.colour;
   cs_mip_levels_decoder *decoder = &entry->decoder;
   decoder->transfer = CELSPAN_TRANSFER_LINEAR;
   decoder->alpha = header->alpha;
@@ -201,22 +218,59 @@ static bool set_decoder(cs_picture_store *store, cs_picture_entry *entry) {
   return decoder->table;
 }
 
+static celspan_status open_file(celspan_context *context, const cs_picture *picture,
+                                cs_picture_entry *entry) {
+  cs_picture_request request = cs_store_request(picture);
+  cs_picture_failure failure;
+  const cs_picture_module *module;
+  CS_TRY(cs_store_module(context, CELSPAN_INPUT, &module));
+  celspan_status status = module->open(&request, &entry->reader, &entry->header, &failure);
+  bool was_tried = status != CELSPAN_OK && picture->tried && access(picture->file, F_OK) != 0;
+  if (status != CELSPAN_OK)
+    return cs_fail(context, status, "%s%s%s", failure.text, was_tried ? "; nor is it there: " : "",
+                   was_tried ? picture->tried : "");
+  entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
+  return CELSPAN_OK;
+}
+
+/* What a part is like: the whole, but for its size. Its rows can be read in any order. */
+static celspan_status open_part(celspan_context *context, const cs_picture *part,
+                                cs_picture_header *header) {
+  cs_picture_entry *whole;
+  CS_TRY(cs_store_entry(context, part->whole, &whole));
+  *header = whole->header;
+  cs_store_leave(whole);
+  celspan_picture_info *info = &header->info;
+  if (part->x + part->width > info->width || part->y + part->height > info->height)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: source {%d, %d, %d, %d} is not inside the picture, which is %d x %d pixels",
+                   cs_picture_name(part), part->x, part->y, part->width, part->height, info->width,
+                   info->height);
+  info->width = part->width;
+  info->height = part->height;
+  header->is_turned = header->is_whole = header->is_sequential = false;
+  return CELSPAN_OK;
+}
+
 static celspan_status open_entry(celspan_context *context, cs_picture_store *store,
                                  const cs_picture *picture, cs_picture_entry **out) {
-  cs_picture_request request = request_of(picture);
-  cs_picture_failure failure;
   cs_picture_entry *entry = cs_mem_array(store->memory, 1, sizeof *entry);
   if (!entry)
     return cs_fail_memory(context);
-  celspan_status status = store->module->open(&request, &entry->reader, &entry->header, &failure);
+  celspan_status status = CELSPAN_OK;
+  if (picture->whole)
+    status = open_part(context, picture, &entry->header);
+  else if (picture->surface)
+    cs_surface_describe(picture->surface, &entry->header);
+  else
+    status = open_file(context, picture, entry);
   if (status != CELSPAN_OK) {
     cs_mem_free(store->memory, entry, sizeof *entry);
-    return cs_fail(context, status, "%s", failure.text);
+    return status;
   }
   pthread_mutex_init(&entry->reading, NULL);
-  entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
+  atomic_init(&entry->users, 1);
   entry->hash = picture->hash;
-  entry->curve = &store->curve;
   entry->store = store;
   *out = entry;
   return CELSPAN_OK;
@@ -241,14 +295,40 @@ static void close_readers(cs_picture_store *store) {
         close_unused(store, entry);
 }
 
+/* Drops the entries of surfaces that nobody uses: a host may make a surface for every frame. The
+ * caller has locked `lock`. */
+static void drop_surfaces(cs_picture_store *store) {
+  for (size_t i = 0; i < sizeof store->entries / sizeof *store->entries; i++)
+    for (cs_picture_entry **link = &store->entries[i], *entry; (entry = *link);) {
+      if (entry->picture || atomic_load_explicit(&entry->users, memory_order_acquire)) {
+        link = &entry->next;
+        continue;
+      }
+      *link = entry->next;
+      destroy_entry(store, entry);
+      store->surface_count--;
+    }
+  store->surface_limit = 2 * store->surface_count + SURFACES_LEAST;
+}
+
 /* The caller has locked `lock`. */
-static bool keep_entry(cs_picture_store *store, cs_picture_entry *entry) {
-  if (!set_decoder(store, entry))
+static void count_entry(cs_picture_store *store, const cs_picture_entry *entry) {
+  if (entry->picture) {
+    close_readers(store);
+    store->reader_count++;
+    return;
+  }
+  if (store->surface_count >= store->surface_limit)
+    drop_surfaces(store);
+  store->surface_count++;
+}
+
+/* The caller has locked `lock`. */
+static bool keep_entry(cs_picture_store *store, const char *colour, cs_picture_entry *entry) {
+  if (!set_decoder(store, colour, entry))
     return false;
   plan_entry(store, entry);
-  close_readers(store);
-  store->reader_count++;
-  entry->number = store->entry_count++;
+  count_entry(store, entry);
   entry->next = store->entries[entry->hash.a & 255];
   store->entries[entry->hash.a & 255] = entry;
   return true;
@@ -256,13 +336,11 @@ static bool keep_entry(cs_picture_store *store, cs_picture_entry *entry) {
 
 static celspan_status add_entry(celspan_context *context, cs_picture_store *store,
                                 const cs_picture *picture, cs_picture_entry **out) {
-  const cs_picture_module *module;
-  cs_picture_entry *entry;
-  CS_TRY(cs_store_module(context, CELSPAN_INPUT, &module));
+  cs_picture_entry *entry = NULL;
   CS_TRY(open_entry(context, store, picture, &entry));
   pthread_mutex_lock(&store->lock);
   cs_picture_entry *known = find_entry(store, picture->hash);
-  bool is_kept = !known && keep_entry(store, entry);
+  bool is_kept = !known && keep_entry(store, picture->colour, entry);
   pthread_mutex_unlock(&store->lock);
   if (!is_kept)
     destroy_entry(store, entry);
@@ -290,6 +368,7 @@ celspan_status cs_store_info(celspan_context *context, const cs_picture *picture
   cs_picture_entry *entry;
   CS_TRY(cs_store_entry(context, picture, &entry));
   *out = entry->header.info;
+  cs_store_leave(entry);
   return CELSPAN_OK;
 }
 
@@ -313,7 +392,7 @@ celspan_status cs_store_open_reader(celspan_context *context, cs_picture_entry *
   cs_picture_store *store = entry->store;
   if (entry->reader)
     return CELSPAN_OK;
-  cs_picture_request request = request_of(entry->picture);
+  cs_picture_request request = cs_store_request(entry->picture);
   cs_picture_failure failure;
   cs_picture_header header;
   cs_picture_reader *reader;

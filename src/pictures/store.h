@@ -4,11 +4,11 @@
  *   block   64 x 64 texels of one level of an entry, in the store's cache (base/cache.h)
  *
  * Reading goes through the picture module (pictures/module.h), a shared object that is loaded on
- * first use: a film without pictures never loads it.
+ * first use: a film without pictures never loads it, nor one of which all are in memory.
  *
- * Locks: `lock` guards entries and tables, and is never held while a file is read; an entry's
- * `reading` guards its reader and is locked before `lock`. The contents of a block are a function
- * of the file alone, so frames depend neither on the budget nor on the number of threads.
+ * Locks: `lock` guards entries and tables, and is never held while pixels are read; an entry's
+ * `reading` guards its reader and is locked before `lock`. What is in a block is a function of the
+ * picture alone, so frames depend neither on the budget nor on the number of threads.
  */
 #ifndef CS_PICTURES_STORE_H
 #define CS_PICTURES_STORE_H
@@ -39,8 +39,8 @@ typedef struct cs_picture_store cs_picture_store;
 /* One block of a picture at a mip level (a texel is the mean of 2^level x 2^level pixels, in linear
  * light). Constant once it is in the store. */
 typedef struct cs_picture_block {
-  cs_cache_entry cached; /* key: the entry's number, level, column and row */
-  cs_picture_entry *entry;
+  cs_cache_entry cached; /* key: the picture's hash, level, column and row */
+  cs_picture_store *store;
   int level;
   int32_t column, row;
   cs_picture_opacity opacity;
@@ -56,20 +56,21 @@ typedef struct cs_picture_block {
 struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
-  uint32_t number; /* in the order in which entries were made */
   cs_hash hash;
-  cs_picture *picture; /* a reference */
+  atomic_size_t users; /* calls that have the entry now; that of a surface may go without them */
+  cs_picture *picture; /* a reference; NULL: of a surface */
   cs_picture_header header;
   cs_mip_levels_decoder decoder;
-  const cs_srgb8_curve *curve; /* the store's: the light of all codes */
   int level_count;
   /* The first level of which all blocks fit into `share`. The levels up to it are made from the
    * rows of the file, those above from the level below. */
   int base;
   size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
-  cs_picture_reader *reader; /* NULL while closed */
-  int32_t next_strip;        /* of a sequential format: the first row of blocks not read yet */
+  cs_picture_reader *reader;      /* NULL while closed, and of a part */
+  int32_t next_strip;             /* of a sequential format: the first row of blocks not read yet */
+  const celspan_surface *surface; /* while `reading` is locked: of the picture that is loaded */
+  const cs_picture *part;         /* likewise, where it is a part */
 };
 
 struct cs_picture_store {
@@ -78,11 +79,11 @@ struct cs_picture_store {
   const cs_picture_module *module; /* NULL until it is needed */
   cs_cache blocks; /* its budget is at least a row of blocks of the widest picture */
   pthread_mutex_t lock;
-  cs_picture_entry *entries[256]; /* by hash */
-  uint32_t entry_count;
-  size_t reader_count;  /* readers open now */
-  float *tables[8][17]; /* light by code, for each transfer and number of bits */
-  cs_srgb8_curve curve;
+  cs_picture_entry *entries[256];      /* by hash */
+  size_t surface_count, surface_limit; /* entries of surfaces; those in use may be more */
+  size_t reader_count;                 /* readers open now */
+  float *tables[8][17];                /* light by code, for each transfer and number of bits */
+  cs_srgb8_curve curve;                /* the light of all codes */
 };
 
 /* The facts of the header, which is read once in a context. Errors: INPUT, LIMIT, NO_MEMORY. */
@@ -91,14 +92,17 @@ CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_
 /* The picture module. failure: the status when there is none, INPUT or OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);
+/* What the module is asked for. The texts are the picture's. */
+cs_picture_request cs_store_request(const cs_picture *picture);
 /* Removes a pin. */
 void cs_store_release(cs_picture_block *block);
 
 /* ---------------------------------------------------------------- for pictures/load.c */
 
-/* The entry of a picture, its header read. Errors: INPUT, LIMIT, NO_MEMORY, BAD_ARGUMENT. */
+/* The entry of a picture, in use until cs_store_leave. Errors: as cs_store_info, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_store_entry(celspan_context *context, const cs_picture *picture,
                                               cs_picture_entry **out);
+void cs_store_leave(cs_picture_entry *entry);
 /* Pins a block and returns it; NULL when it is not in the store. */
 cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
                                int32_t row);
@@ -111,10 +115,9 @@ CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
 /* Frees a block that was never inserted. NULL is ignored. */
 void cs_store_discard(cs_picture_block *block);
-/* Opens the entry's reader. The caller has locked `reading`. */
+/* Opens the entry's reader; closes it until it is needed again. The caller has locked `reading`. */
 CELSPAN_CHECKED celspan_status cs_store_open_reader(celspan_context *context,
                                                     cs_picture_entry *entry);
-/* Closes the reader until it is needed again. The caller has locked `reading`. */
 void cs_store_close_reader(cs_picture_entry *entry);
 
 #endif

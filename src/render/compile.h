@@ -14,8 +14,7 @@
  * The plan borrows textures, pictures and procedures of the rostrum, which must outlive it.
  *
  * A defocused cel is compiled by this compiler too, alone and onto a raster of its own: it is given
- * to defocus/layer.h as a callback. The recursion is one level deep, because a cel that is compiled
- * alone is compiled without its blur.
+ * to defocus/layer.h as a callback. A cel that is compiled alone is compiled without its blur.
  */
 #ifndef CS_RENDER_COMPILE_H
 #define CS_RENDER_COMPILE_H

@@ -2,7 +2,9 @@
 
 #include "base/number.h"
 #include "defocus/defocus.h"
+#include "pictures/surface.h"
 #include "render/compile.h"
+#include "scene/check.h"
 
 #include <unistd.h>
 
@@ -20,13 +22,10 @@ static celspan_status check_size(celspan_context *context, const celspan_frame_d
     return cs_fail(context, CELSPAN_LIMIT,
                    "frame: size is %d x %d; each side must be 1 to %d pixels", (int)desc->width,
                    (int)desc->height, SIDE_LIMIT);
-  bool has_film = desc->film_width != 0 || desc->film_height != 0;
-  if (has_film && !(cs_number_is_sane(desc->film_width) && cs_number_is_sane(desc->film_height) &&
-                    desc->film_width > 0 && desc->film_height > 0))
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "frame: film size is %g x %g; both sides must be greater than 0",
-                   desc->film_width, desc->film_height);
-  return CELSPAN_OK;
+  if (desc->film_width == 0 && desc->film_height == 0)
+    return CELSPAN_OK;
+  CS_TRY(cs_check_positive(context, "frame", "film width", desc->film_width));
+  return cs_check_positive(context, "frame", "film height", desc->film_height);
 }
 
 static celspan_status check_crop(celspan_context *context, const celspan_frame_desc *desc) {
@@ -45,11 +44,8 @@ static celspan_status check_crop(celspan_context *context, const celspan_frame_d
 
 static celspan_status check_exposures(celspan_context *context, const celspan_frame_desc *desc) {
   for (size_t i = 0; i < desc->exposure_count; i++) {
-    double weight = desc->exposures[i].weight;
-    if (!(weight >= 0 && cs_number_is_sane(weight)))
-      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "frame: the weight of exposure %zu is %g; it must be 0 or more", i + 1,
-                     weight);
+    CS_TRY(cs_check_item(context, (cs_check_field){"frame", "exposures", i + 1, "weight"},
+                         desc->exposures[i].weight, 0, CS_NUMBER_LIMIT));
     if (!desc->exposures[i].rostrum)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "frame: exposure %zu has no rostrum", i + 1);
   }
@@ -72,13 +68,18 @@ static bool stays_on_thread(const cs_plan *plan) {
   for (size_t k = 0; k < plan->stack.procedure_count; k++)
     if (!plan->stack.procedures[k].desc->any_thread)
       return true;
+  for (size_t k = 0; k < plan->stack.image_count; k++) {
+    const celspan_surface *surface = plan->stack.images[k].texture->picture->surface;
+    if (surface && cs_surface_stays_on_thread(surface))
+      return true;
+  }
   for (size_t k = 0; k < plan->defocus_count; k++)
     if (stays_on_thread(&plan->defocus[k]->plans[0]))
       return true;
   return false;
 }
 
-/* Procedures that must stay on the rendering thread leave one worker. */
+/* Procedures and surfaces that must stay on the rendering thread leave one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
     if (stays_on_thread(&frame->plans[i]))

@@ -1,8 +1,10 @@
 /* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by
  * row. */
+#include "output/dither.h"
 #include "output/pixels.h"
 #include "output/sink.h"
 #include "render/strips.h"
+#include "scene/blame.h"
 
 /* ---------------------------------------------------------------- into a sink */
 
@@ -63,6 +65,8 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
     status = feed_sink(context, &frame, desc, sink, &counted, ended);
     cs_frame_free(&frame, context->memory);
   }
+  if (status == CELSPAN_INPUT)
+    status = cs_blame_picture(context, desc->exposures, desc->exposure_count, status);
   if (statistics) {
     meter_end(context, &m, &counted);
     *statistics = counted;
@@ -90,8 +94,16 @@ static celspan_status render_own(celspan_context *context, const celspan_frame_d
 
 void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                         void *pixels) {
+  celspan_spans_code_at(coding, 0, 0, spans, span_count, pixels);
+}
+
+void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
+                           const celspan_span *spans, size_t span_count, void *pixels) {
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  cs_pixels_row(&resolved, spans, span_count, pixels);
+  if (coding && coding->depth == CELSPAN_DEPTH_8_DITHER)
+    cs_dither_row(&resolved, x, y, spans, span_count, pixels);
+  else
+    cs_pixels_row(&resolved, spans, span_count, pixels);
 }
 
 celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
@@ -100,14 +112,15 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
   celspan_sink sink;
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
+  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, statistics);
 }
 
 static bool is_backed(const celspan_rostrum *rostrum) {
-  if (rostrum->back.a == 1)
+  if (rostrum->back.flat.a == 1)
     return true;
   for (size_t i = 0; i < rostrum->cel_count; i++)
-    if (rostrum->cels[i]->back.a == 1)
+    if (rostrum->cels[i]->back.flat.a == 1)
       return true;
   return false;
 }
@@ -129,6 +142,8 @@ celspan_status celspan_frame_write(celspan_context *context, const celspan_frame
   celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
   known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
   known.workers = known.workers ? known.workers : desc->workers;
+  known.place_x += desc->crop_x;
+  known.place_y += desc->crop_y;
   CS_TRY(cs_sink_file(context, path, &known, &sink));
   return render_own(context, desc, &sink, statistics);
 }
@@ -138,6 +153,7 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
   celspan_sink sink;
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
+  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, NULL);
 }
 

@@ -22,10 +22,11 @@ typedef struct cs_plan {
   int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;
   cs_kernel *kernel; /* owned; NULL: rows are not filtered */
-  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Owned, and freed by
-   * cs_compile_free; a plan of one cel alone has none. */
+  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Freed by cs_compile_free,
+   * unless they are those of another plan, which lives as long. */
   struct cs_defocus **defocus;
   size_t defocus_count, defocus_capacity;
+  bool borrows_defocus;
 } cs_plan;
 
 /* Frees what a plan holds, except for its defocused cels. */

@@ -1,6 +1,8 @@
 #include "scene/antialias.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/elementary.h"
 #include "base/number.h"
@@ -52,6 +54,13 @@ static celspan_status kernel_value(celspan_context *context, const celspan_filte
   return CELSPAN_OK;
 }
 
+static celspan_status refuse_value(celspan_context *context, const char *noun, double x,
+                                   double value) {
+  char field[64];
+  snprintf(field, sizeof field, "the kernel's value at %s", cs_check_number_text(x).text);
+  return cs_check_number(context, noun, field, value);
+}
+
 static celspan_status sample(celspan_context *context, const char *noun,
                              const celspan_filter_desc *desc, const cs_antialias *antialias) {
   double sum = 0, size = 0;
@@ -59,9 +68,7 @@ static celspan_status sample(celspan_context *context, const char *noun,
     double x = ((2 * i + 1.0) / CS_ANTIALIAS_SAMPLES - 1) * antialias->radius, value = 0;
     CS_TRY(kernel_value(context, desc, antialias->radius, x, &value));
     if (!cs_number_is_sane(value))
-      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                     "%s: the kernel gives %s at %s; its values must be finite numbers", noun,
-                     cs_check_number_text(value).text, cs_check_number_text(x).text);
+      return refuse_value(context, noun, x, value);
     antialias->samples[i] = value;
     sum += value;
     size += fabs(value);
@@ -111,6 +118,18 @@ celspan_status cs_antialias_make(celspan_context *context, const char *noun,
   if (status != CELSPAN_OK)
     cs_antialias_free(out, context->memory);
   return status;
+}
+
+celspan_status cs_antialias_copy(celspan_context *context, const cs_antialias *from,
+                                 cs_antialias *out) {
+  *out = *from;
+  if (!from->samples)
+    return CELSPAN_OK;
+  out->samples = cs_mem_array(context->memory, CS_ANTIALIAS_SAMPLES, sizeof *out->samples);
+  if (!out->samples)
+    return cs_fail_memory(context);
+  memcpy(out->samples, from->samples, CS_ANTIALIAS_SAMPLES * sizeof *out->samples);
+  return CELSPAN_OK;
 }
 
 void cs_antialias_free(cs_antialias *antialias, cs_memory *memory) {

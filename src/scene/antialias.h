@@ -24,6 +24,9 @@ CELSPAN_CHECKED celspan_status cs_antialias_make(celspan_context *context, const
                                                  celspan_antialias_mode mode,
                                                  const celspan_filter_desc *desc,
                                                  cs_antialias *out);
+/* A copy of its own. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_antialias_copy(celspan_context *context, const cs_antialias *from,
+                                                 cs_antialias *out);
 void cs_antialias_free(cs_antialias *antialias, cs_memory *memory);
 void cs_antialias_hash(cs_hash *hash, const cs_antialias *antialias);
 

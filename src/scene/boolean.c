@@ -10,30 +10,18 @@ static const char *const nouns[] = {
     [CELSPAN_CLIP] = "clip",
 };
 
-/* Finds the depth and the number of primitives, and checks them against their limits. */
-static celspan_status measure(celspan_context *context, cs_primitive_data *data, const char *noun) {
-  for (size_t i = 0; i < data->operand_count; i++) {
-    const cs_primitive_data *operand = data->operands[i]->data;
-    data->depth = operand->depth > data->depth ? operand->depth : data->depth;
-    data->primitive_count += operand->primitive_count;
-    data->has_procedure |= operand->has_procedure;
-    if (data->primitive_count > CS_SCENE_PRIMITIVES)
-      return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
-                     CS_SCENE_PRIMITIVES);
-  }
-  data->depth++;
-  if (data->depth > CS_SCENE_DEPTH)
-    return cs_fail(context, CELSPAN_LIMIT, "%s: nested %d levels deep; the limit is %d", noun,
-                   data->depth, CS_SCENE_DEPTH);
-  return CELSPAN_OK;
+static void show_operands(cs_primitive_data *data) {
+  data->operands = data->view.objects;
+  data->operand_count = data->view.count;
+  data->is_empty = data->view.count == 0;
 }
 
 static celspan_status fill(celspan_context *context, cs_primitive_data *data, const char *noun,
                            celspan_object *const *operands, size_t count) {
-  CS_TRY(cs_primitive_data_list_copy(context, noun, "operands", operands, count, &data->operands));
-  data->operand_count = count;
-  data->is_empty = count == 0;
-  return measure(context, data, noun);
+  CS_TRY(cs_operands_create(context, noun, operands, count, &data->view));
+  show_operands(data);
+  CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
+  return cs_primitive_data_deepen(context, noun, data);
 }
 
 celspan_status celspan_object_create_boolean(celspan_context *context, celspan_operator op,
@@ -49,4 +37,49 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
   data->op = op;
   return cs_primitive_data_wrap(context, data, fill(context, data, noun, operands, operand_count),
                                 out);
+}
+
+/* What is known of the operands that are there already is taken over. */
+static celspan_status fill_more(celspan_context *context, cs_primitive_data *data,
+                                const cs_primitive_data *from, celspan_object *const *operands,
+                                size_t count) {
+  const char *noun = nouns[from->op];
+  CS_TRY(cs_operands_extend(context, noun, &from->view, operands, count, &data->view));
+  show_operands(data);
+  data->depth = from->depth - 1; /* below this one */
+  data->primitive_count = from->primitive_count;
+  data->has_procedure = from->has_procedure;
+  data->operands_hash = from->operands_hash;
+  data->hashed_count = from->hashed_count;
+  CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
+  return cs_primitive_data_deepen(context, noun, data);
+}
+
+static bool is_identity(const celspan_matrix *matrix) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  bool is_same = true;
+  for (int i = 0; i < 9; i++)
+    is_same = is_same && matrix->m[i] == identity.m[i];
+  return is_same;
+}
+
+static bool is_extendable(const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->op != CELSPAN_CLIP &&
+         is_identity(&object->matrix) && object->fade == 1;
+}
+
+celspan_status celspan_object_extend_boolean(celspan_context *context, celspan_object *boolean,
+                                             celspan_object *const *operands, size_t operand_count,
+                                             celspan_object **out) {
+  CS_TRY(cs_check_given(context, "extend", "the boolean", boolean));
+  if (!is_extendable(boolean))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "extend: the object is not a union, intersection, difference or xor as it was "
+                   "made, without transform and fade");
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
+  data->op = boolean->data->op;
+  celspan_status status = fill_more(context, data, boolean->data, operands, operand_count);
+  return cs_primitive_data_wrap(context, data, status, out);
 }

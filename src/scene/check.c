@@ -1,5 +1,6 @@
 #include "scene/check.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,11 +11,16 @@
 /* Seven digits show paints and lights, which are floats, as they were given; coordinates need
  * more. */
 cs_check_text cs_check_number_text(double value) {
-  cs_check_text number;
+  cs_check_text number = {"nan"}; /* whose sign means nothing */
+  if (value != value)
+    return number;
   snprintf(number.text, sizeof number.text, value == (float)value ? "%.7g" : "%.9g", value);
   char *comma = strchr(number.text, ',');
   if (comma)
     *comma = '.';
+  char *plus = strchr(number.text, '+');
+  if (plus) /* 1e+12 is 1e12, as scripts write it */
+    memmove(plus, plus + 1, strlen(plus));
   return number;
 }
 
@@ -22,10 +28,11 @@ celspan_status cs_check_range(celspan_context *context, const char *noun, const 
                               double value, double low, double high) {
   if (value >= low && value <= high)
     return CELSPAN_OK;
-  if (value != value)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s is not a number", noun, field);
   cs_check_text given = cs_check_number_text(value), least = cs_check_number_text(low),
                 most = cs_check_number_text(high);
+  if (!isfinite(value))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s must be a finite number, got %s", noun,
+                   field, given.text);
   if (low == -CS_NUMBER_LIMIT || high != CS_NUMBER_LIMIT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s is %s; it must be between %s and %s",
                    noun, field, given.text, least.text, most.text);
@@ -48,7 +55,7 @@ celspan_status cs_check_size(celspan_context *context, const char *noun, const c
 
 celspan_status cs_check_positive(celspan_context *context, const char *noun, const char *field,
                                  double value) {
-  if (value <= 0)
+  if (value <= 0 && isfinite(value))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s is %s; it must be more than 0", noun,
                    field, cs_check_number_text(value).text);
   return cs_check_size(context, noun, field, value);

@@ -2,7 +2,7 @@
  * refused with a sentence that names the noun, the field, the value given and the values allowed.
  *
  *   circle: radius is -3; it must be 0 or more
- *   polygon: points[4].x is not a number
+ *   polygon: points[4].x must be a finite number, got nan
  *
  * Lists are counted from 1, as scripts count them. All functions: BAD_ARGUMENT, or OK.
  */

@@ -179,12 +179,9 @@ static celspan_status shade_procedure(celspan_context *context, const cs_primiti
   return status;
 }
 
-celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *data,
-                                   celspan_point point, bool *is_there, cs_oracle_paint *out) {
-  *is_there = true;
-  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
-    return shade_procedure(context, data, point, is_there, out);
-  const celspan_texture *texture = data->texture;
+celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture *texture,
+                                 const celspan_box *bounds, celspan_point point,
+                                 cs_oracle_paint *out) {
   switch (texture->kind) {
   case CS_TEXTURE_FLAT:
     *out = widen(&texture->flat);
@@ -201,5 +198,13 @@ celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_
   case CS_TEXTURE_PICTURE:
     break;
   }
-  return shade_picture(context, texture, &data->bounds, point, out);
+  return shade_picture(context, texture, bounds, point, out);
+}
+
+celspan_status cs_oracle_primitive(celspan_context *context, const cs_primitive_data *data,
+                                   celspan_point point, bool *is_there, cs_oracle_paint *out) {
+  *is_there = true;
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    return shade_procedure(context, data, point, is_there, out);
+  return cs_oracle_texture(context, data->texture, &data->bounds, point, out);
 }

@@ -19,9 +19,14 @@ cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q
 /* Whether the paint lets no light through, so that nothing behind it is visible. */
 bool cs_oracle_hides(const cs_oracle_paint *shade);
 
-/* The paint of a primitive at a point of its own units that is inside it. Pictures are bilinear at
- * full resolution; procedures are asked for their row, and *is_there is whether a span of it
- * covers the point (true for all others). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
+/* A texture at a point of its own units. Pictures are bilinear at full resolution; bounds: where one
+ * without a box lies. Errors: INPUT, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_oracle_texture(celspan_context *context,
+                                                 const celspan_texture *texture,
+                                                 const celspan_box *bounds, celspan_point point,
+                                                 cs_oracle_paint *out);
+/* The paint of a primitive at a point of its own units that is inside it. Procedures are asked for
+ * their row, and *is_there is whether a span of it covers the point (true for all others). Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
                                                    celspan_point point, bool *is_there,

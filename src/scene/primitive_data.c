@@ -36,7 +36,8 @@ void cs_primitive_data_unref(cs_primitive_data *data) {
     data->scanline.release(data->scanline.user);
   cs_outline_finish(&data->outline, memory);
   celspan_texture_unref(data->texture);
-  cs_primitive_data_list_free(memory, data->operands, data->operand_count);
+  cs_operands_finish(&data->view);
+  celspan_rostrum_unref(data->rostrum);
   cs_mem_free(memory, data, sizeof *data);
   cs_memory_unref(memory);
 }
@@ -63,7 +64,7 @@ static void hash_procedure(cs_hash *hash, const cs_primitive_data *data) {
   cs_hash_word(hash, atomic_load_explicit(&data->memory->allocations, memory_order_relaxed));
 }
 
-static cs_hash hash_data(const cs_primitive_data *data) {
+static cs_hash hash_primitive(const cs_primitive_data *data) {
   cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
   cs_hash_word(&hash, data->kind);
   hash_outline(&hash, &data->outline);
@@ -72,21 +73,39 @@ static cs_hash hash_data(const cs_primitive_data *data) {
     cs_hash_hash(&hash, data->texture->hash);
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
     hash_procedure(&hash, data);
-  cs_hash_word(&hash, data->op);
-  cs_hash_word(&hash, data->operand_count);
-  for (size_t i = 0; i < data->operand_count; i++)
+  if (data->rostrum)
+    cs_hash_hash(&hash, data->rostrum->hash);
+  return cs_hash_end(hash);
+}
+
+/* The length comes last, so that the hash of more operands begins with that of fewer. */
+static cs_hash hash_boolean(cs_primitive_data *data) {
+  bool is_extended = data->hashed_count > 0;
+  cs_hash hash = is_extended ? data->operands_hash : cs_hash_begin(CS_VALUE_DATA);
+  if (!is_extended) {
+    cs_hash_word(&hash, data->kind);
+    cs_hash_word(&hash, data->op);
+  }
+  for (size_t i = data->hashed_count; i < data->operand_count; i++)
     cs_hash_hash(&hash, data->operands[i]->hash);
+  data->operands_hash = hash;
+  data->hashed_count = data->operand_count;
+  cs_hash_word(&hash, data->operand_count);
   return cs_hash_end(hash);
 }
 
 /* ---------------------------------------------------------------- objects */
 
+/* mark: a reference that the object takes; dropped on failure. */
 static celspan_status create_object(celspan_context *context, cs_primitive_data *data,
-                                    const celspan_matrix *matrix, double fade,
+                                    const celspan_matrix *matrix, double fade, cs_mark mark,
                                     celspan_object **out) {
   celspan_object *object = cs_mem_array(context->memory, 1, sizeof *object);
-  if (!object)
+  if (!object) {
+    cs_mark_drop(mark);
     return cs_fail_memory(context);
+  }
+  object->mark = mark;
   atomic_init(&object->references, 1);
   object->memory = cs_memory_ref(context->memory);
   cs_value_keep(&data->references);
@@ -106,8 +125,9 @@ celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_dat
                                       celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   if (status == CELSPAN_OK) {
-    data->hash = hash_data(data);
-    status = create_object(context, data, &identity, 1, out);
+    data->hash =
+        data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? hash_boolean(data) : hash_primitive(data);
+    status = create_object(context, data, &identity, 1, cs_mark_now(context), out);
   }
   cs_primitive_data_unref(data);
   return status;
@@ -130,14 +150,30 @@ celspan_status celspan_object_transform(celspan_context *context, celspan_object
   celspan_matrix whole;
   CS_TRY(cs_check_transform(context, &object->matrix, matrix, &whole));
   CS_TRY(cs_primitive_data_check_placement(context, object->data, &whole));
-  return create_object(context, object->data, &whole, object->fade, out);
+  return create_object(context, object->data, &whole, object->fade, cs_mark_keep(object->mark),
+                       out);
 }
 
 celspan_status celspan_object_fade(celspan_context *context, celspan_object *object, double k,
                                    celspan_object **out) {
   CS_TRY(cs_check_given(context, "fade", "the object", object));
   CS_TRY(cs_check_share(context, "fade", "k", k));
-  return create_object(context, object->data, &object->matrix, object->fade * k, out);
+  return create_object(context, object->data, &object->matrix, object->fade * k,
+                       cs_mark_keep(object->mark), out);
+}
+
+celspan_status celspan_object_named(celspan_context *context, celspan_object *object,
+                                    const char *name, celspan_object **out) {
+  CS_TRY(cs_check_given(context, "named", "the object", object));
+  cs_mark mark;
+  CS_TRY(cs_mark_named(context, object->mark, name, &mark));
+  return create_object(context, object->data, &object->matrix, object->fade, mark, out);
+}
+
+const char *celspan_object_name(const celspan_object *object) { return cs_mark_name(object->mark); }
+
+celspan_origin celspan_object_origin(const celspan_object *object) {
+  return cs_mark_origin(object->mark);
 }
 
 celspan_object *celspan_object_ref(celspan_object *object) {
@@ -150,6 +186,7 @@ void celspan_object_unref(celspan_object *object) {
     return;
   cs_memory *memory = object->memory;
   cs_primitive_data_unref(object->data);
+  cs_mark_drop(object->mark);
   cs_mem_free(memory, object, sizeof *object);
   cs_memory_unref(memory);
 }
@@ -170,6 +207,30 @@ celspan_status cs_primitive_data_list_copy(celspan_context *context, const char 
   for (size_t i = 0; i < count; i++)
     copy[i] = celspan_object_ref(objects[i]);
   *out = copy;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
+                                         celspan_object *const *objects, size_t count,
+                                         cs_primitive_data *data) {
+  for (size_t i = 0; i < count; i++) {
+    const cs_primitive_data *item = objects[i]->data;
+    data->depth = item->depth > data->depth ? item->depth : data->depth;
+    data->primitive_count += item->primitive_count;
+    data->has_procedure |= item->has_procedure;
+    if (data->primitive_count > CS_SCENE_PRIMITIVES)
+      return cs_fail(context, CELSPAN_LIMIT, "%s: it holds more than %d primitives", noun,
+                     CS_SCENE_PRIMITIVES);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
+                                        cs_primitive_data *data) {
+  data->depth++;
+  if (data->depth > CS_SCENE_DEPTH)
+    return cs_fail(context, CELSPAN_LIMIT, "%s: nested %d levels deep; the limit is %d", noun,
+                   data->depth, CS_SCENE_DEPTH);
   return CELSPAN_OK;
 }
 

@@ -42,6 +42,15 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_list_copy(celspan_context *cont
                                                            size_t count, celspan_object ***out);
 void cs_primitive_data_list_free(cs_memory *memory, celspan_object **objects, size_t count);
 
+/* Adds what a list's objects come to: their greatest depth, their primitives and procedures.
+ * Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
+                                                         celspan_object *const *objects,
+                                                         size_t count, cs_primitive_data *data);
+/* Adds the level that the data are themselves. Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
+                                                        cs_primitive_data *data);
+
 /* The box around a list's objects under a matrix; false when there is nothing. */
 bool cs_primitive_data_list_bounds(celspan_object *const *objects, size_t count,
                                    const celspan_matrix *matrix, celspan_box *out);

@@ -13,7 +13,9 @@
  *     camera                   the sum of L over the exposures, by their weights
  *
  * The paint of a cel is that of its objects over each other; a boolean object is present where its
- * operands say so (inside.h).
+ * operands say so (inside.h). Where an object is a rostrum, its own film is evaluated in the same
+ * way, and L and the matte that arrive at its camera are its paint. A light with a shape is its
+ * texture at the point.
  */
 #include <math.h>
 
@@ -22,12 +24,18 @@
 #include "scene/inside.h"
 #include "scene/oracle.h"
 
-/* One call of celspan_probe: the point of the film that is evaluated. */
+/* The point that is evaluated, and the film it belongs to: that of the call, or that of a rostrum
+ * which is an object. */
 typedef struct probe_call {
   celspan_context *context;
   double film_width, film_height;
   celspan_point point;
 } probe_call;
+
+/* The light that travels to the camera, and the matte of each channel. */
+typedef struct light_ray {
+  double light[3], matte[3];
+} light_ray;
 
 /* ---------------------------------------------------------------- objects */
 
@@ -70,6 +78,25 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
   return CELSPAN_OK;
 }
 
+/* What a rostrum shows at a point of its own film: defined below. */
+static celspan_status shown(const probe_call *probe, const celspan_rostrum *rostrum,
+                            light_ray *out);
+
+/* The paint of a composition inside another one: the light that it sends, and its matte. */
+static celspan_status paint_rostrum(const probe_call *probe, const celspan_rostrum *rostrum,
+                                    celspan_point own, cs_oracle_paint *out) {
+  const probe_call inner = {probe->context, rostrum->width, rostrum->height, own};
+  light_ray ray;
+  CS_TRY(shown(&inner, rostrum, &ray));
+  out->beta = 1;
+  for (int c = 0; c < 3; c++) {
+    out->s[c] = ray.light[c];
+    out->t[c] = 1 - ray.matte[c];
+    out->beta = fmin(out->beta, ray.matte[c]);
+  }
+  return CELSPAN_OK;
+}
+
 /* The objects of a list over each other; later ones are nearer. Hidden ones are not evaluated. */
 static celspan_status paint_list(const probe_call *probe, celspan_object *const *objects,
                                  size_t count, const celspan_matrix *matrix, cs_oracle_paint *out) {
@@ -99,7 +126,11 @@ static celspan_status paint(const probe_call *probe, const celspan_object *objec
     while (shown < data->operand_count && cs_inside_shows(data->op, shown))
       shown++;
     CS_TRY(paint_list(probe, data->operands, shown, &whole, out));
-  } else if (cs_inside_own_point(&whole, probe->point, &own)) {
+  } else if (!cs_inside_own_point(&whole, probe->point, &own)) {
+    return CELSPAN_OK;
+  } else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
+    CS_TRY(paint_rostrum(probe, data->rostrum, own, out));
+  } else {
     CS_TRY(cs_oracle_primitive(probe->context, data, own, &is_there, out));
   }
   *out = cs_oracle_mix(&cs_oracle_clear, out, object->fade);
@@ -119,25 +150,68 @@ static celspan_status paint_cel(const probe_call *probe, const celspan_rostrum *
   return CELSPAN_OK;
 }
 
-/* The light that travels to the camera, and the matte of each channel. */
-typedef struct light_ray {
-  double light[3], matte[3];
-} light_ray;
+/* What a light is at the point. */
+typedef struct light_sample {
+  double rgb[3], matte;
+} light_sample;
 
-static void add_back(light_ray *ray, celspan_light back) {
-  const double rgb[3] = {(double)back.r, (double)back.g, (double)back.b}, a = (double)back.a;
-  for (int c = 0; c < 3; c++) {
-    ray->light[c] += rgb[c];
-    ray->matte[c] += a - ray->matte[c] * a;
-  }
+/* A light that is a texture. matrix: its units to film units. Outside a picture it is dark. */
+static celspan_status sample_texture(const probe_call *probe, const cs_light *light,
+                                     const celspan_matrix *matrix, light_sample *out) {
+  const celspan_texture *texture = light->texture;
+  const celspan_box film = {0, 0, probe->film_width, probe->film_height};
+  celspan_point own;
+  cs_oracle_paint shade;
+  *out = (light_sample){{0, 0, 0}, 0};
+  if (!cs_inside_own_point(matrix, probe->point, &own))
+    return CELSPAN_OK;
+  if (texture->kind == CS_TEXTURE_PICTURE && !texture->has_box &&
+      texture->wrap == CELSPAN_WRAP_CLEAR &&
+      !(own.x >= 0 && own.x < film.width && own.y >= 0 && own.y < film.height))
+    return CELSPAN_OK;
+  CS_TRY(cs_oracle_texture(probe->context, texture, &film, own, &shade));
+  out->matte = shade.beta;
+  for (int c = 0; c < 3; c++)
+    out->rgb[c] = light->gain * shade.s[c];
+  return CELSPAN_OK;
 }
 
-static void pass_cel(light_ray *ray, const cs_oracle_paint *shade, celspan_light front) {
-  const double rgb[3] = {(double)front.r, (double)front.g, (double)front.b};
+/* index: of the cel that the light belongs to. */
+static celspan_status sample_light(const probe_call *probe, const celspan_rostrum *rostrum,
+                                   size_t index, const cs_light *light, light_sample *out) {
+  const celspan_light *flat = &light->flat;
+  *out = (light_sample){{(double)flat->r, (double)flat->g, (double)flat->b}, (double)flat->a};
+  if (!light->texture)
+    return CELSPAN_OK;
+  celspan_matrix matrix = cs_scene_camera(rostrum, probe->film_width, probe->film_height);
+  if (light->on == CELSPAN_LIGHT_ON_CEL)
+    CS_TRY(cs_scene_cel_matrix(probe->context, rostrum, index, probe->film_width,
+                               probe->film_height, &matrix));
+  return sample_texture(probe, light, &matrix, out);
+}
+
+static celspan_status add_back(const probe_call *probe, const celspan_rostrum *rostrum,
+                               size_t index, const cs_light *light, light_ray *ray) {
+  const cs_light back = cs_scene_back(rostrum, light);
+  light_sample sample;
+  CS_TRY(sample_light(probe, rostrum, index, &back, &sample));
   for (int c = 0; c < 3; c++) {
-    ray->light[c] = shade->s[c] * rgb[c] + shade->t[c] * ray->light[c];
+    ray->light[c] += sample.rgb[c];
+    ray->matte[c] += sample.matte - ray->matte[c] * sample.matte;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status pass_cel(const probe_call *probe, const celspan_rostrum *rostrum,
+                               size_t index, const cs_oracle_paint *shade, light_ray *ray) {
+  const cs_light front = cs_scene_front(rostrum, rostrum->cels[index]);
+  light_sample sample;
+  CS_TRY(sample_light(probe, rostrum, index, &front, &sample));
+  for (int c = 0; c < 3; c++) {
+    ray->light[c] = shade->s[c] * sample.rgb[c] + shade->t[c] * ray->light[c];
     ray->matte[c] = 1 - shade->t[c] * (1 - ray->matte[c]);
   }
+  return CELSPAN_OK;
 }
 
 /* shades: gets the paints of the cels. *rear: the rearmost cel that is not hidden. */
@@ -154,35 +228,40 @@ static celspan_status paint_cels(const probe_call *probe, const celspan_rostrum 
   return CELSPAN_OK;
 }
 
-static light_ray light_cels(const celspan_rostrum *rostrum, const cs_oracle_paint *shades,
-                            size_t rear) {
-  light_ray ray = {{0, 0, 0}, {0, 0, 0}};
-  add_back(&ray, cs_scene_back(rostrum, rostrum->back));
+static celspan_status light_cels(const probe_call *probe, const celspan_rostrum *rostrum,
+                                 const cs_oracle_paint *shades, size_t rear, light_ray *out) {
+  *out = (light_ray){{0, 0, 0}, {0, 0, 0}};
+  CS_TRY(add_back(probe, rostrum, 0, &rostrum->back, out));
   for (size_t i = rear; i < rostrum->cel_count; i++) {
-    add_back(&ray, cs_scene_back(rostrum, rostrum->cels[i]->back));
-    pass_cel(&ray, &shades[i], cs_scene_front(rostrum, rostrum->cels[i]));
+    CS_TRY(add_back(probe, rostrum, i, &rostrum->cels[i]->back, out));
+    CS_TRY(pass_cel(probe, rostrum, i, &shades[i], out));
   }
-  return ray;
+  return CELSPAN_OK;
 }
 
-static celspan_status add_exposure(const probe_call *probe, const celspan_exposure *exposure,
-                                   double rgba[4]) {
-  const celspan_rostrum *rostrum = exposure->rostrum;
+static celspan_status shown(const probe_call *probe, const celspan_rostrum *rostrum,
+                            light_ray *out) {
   cs_memory *memory = probe->context->memory;
   cs_oracle_paint *shades = cs_mem_array(memory, rostrum->cel_count, sizeof *shades);
   if (!shades && rostrum->cel_count > 0)
     return cs_fail_memory(probe->context);
   size_t rear = 0;
   celspan_status status = paint_cels(probe, rostrum, shades, &rear);
-  if (status == CELSPAN_OK) {
-    light_ray ray = light_cels(rostrum, shades, rear);
-    for (int c = 0; c < 3; c++) {
-      rgba[c] += exposure->weight * ray.light[c];
-      rgba[3] += exposure->weight * ray.matte[c] / 3;
-    }
-  }
+  if (status == CELSPAN_OK)
+    status = light_cels(probe, rostrum, shades, rear, out);
   cs_mem_free(memory, shades, rostrum->cel_count * sizeof *shades);
   return status;
+}
+
+static celspan_status add_exposure(const probe_call *probe, const celspan_exposure *exposure,
+                                   double rgba[4]) {
+  light_ray ray;
+  CS_TRY(shown(probe, exposure->rostrum, &ray));
+  for (int c = 0; c < 3; c++) {
+    rgba[c] += exposure->weight * ray.light[c];
+    rgba[3] += exposure->weight * ray.matte[c] / 3;
+  }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- checking */

@@ -1,7 +1,8 @@
+#include "scene/rostrum.h"
+
 #include "base/number.h"
 #include "geometry/matrix.h"
 #include "scene/check.h"
-#include "scene/scene.h"
 #include "scene/value.h"
 
 /* ---------------------------------------------------------------- making */
@@ -19,9 +20,15 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
   CS_TRY(cs_check_given(context, "rostrum", "the description", desc));
   CS_TRY(cs_check_version(context, "rostrum", desc->struct_size, sizeof *desc));
   CS_TRY(check_cels(context, desc));
-  if (desc->has_front)
-    CS_TRY(cs_check_light(context, "rostrum", "front", &desc->front));
-  CS_TRY(cs_check_light(context, "rostrum", "back", &desc->back));
+  if (desc->back_texture.texture && desc->back_texture.on == CELSPAN_LIGHT_ON_CEL)
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "rostrum: back cannot lie on the cel, because it belongs to none; it lies on the "
+        "frame");
+  if (desc->has_size) {
+    CS_TRY(cs_check_positive(context, "rostrum", "size.width", desc->width));
+    CS_TRY(cs_check_positive(context, "rostrum", "size.height", desc->height));
+  }
   CS_TRY(cs_check_size(context, "rostrum", "brightness", desc->brightness));
   if (desc->has_camera_centre)
     CS_TRY(cs_check_point(context, "rostrum", "camera.centre", 0, desc->camera_centre));
@@ -35,9 +42,9 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   cs_hash_word(&hash, rostrum->cel_count);
   for (size_t i = 0; i < rostrum->cel_count; i++)
     cs_hash_hash(&hash, rostrum->cels[i]->hash);
-  cs_hash_word(&hash, rostrum->has_front);
-  cs_value_hash_light(&hash, &rostrum->front);
-  cs_value_hash_light(&hash, &rostrum->back);
+  cs_hash_word(&hash, rostrum->front.is_given);
+  cs_light_hash(&hash, &rostrum->front);
+  cs_light_hash(&hash, &rostrum->back);
   cs_hash_number(&hash, rostrum->brightness);
   cs_hash_word(&hash, rostrum->has_camera_centre);
   cs_value_hash_point(&hash, rostrum->camera_centre);
@@ -45,16 +52,19 @@ static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   cs_hash_number(&hash, rostrum->camera_width);
   cs_hash_number(&hash, rostrum->camera_rotation);
   cs_antialias_hash(&hash, &rostrum->antialias);
+  if (rostrum->has_size)
+    cs_value_hash_point(&hash, (celspan_point){rostrum->width, rostrum->height});
   return cs_hash_end(hash);
 }
 
 /* Fields without effect stay zero, so that rostrums that look the same have the same hash. */
 static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
-  rostrum->has_front = desc->has_front;
-  if (desc->has_front)
-    rostrum->front = (celspan_light){desc->front.r, desc->front.g, desc->front.b, 1};
-  rostrum->back = desc->back;
   rostrum->brightness = desc->brightness;
+  rostrum->has_size = desc->has_size;
+  if (desc->has_size) {
+    rostrum->width = desc->width;
+    rostrum->height = desc->height;
+  }
   rostrum->has_camera_centre = desc->has_camera_centre;
   if (desc->has_camera_centre)
     rostrum->camera_centre = desc->camera_centre;
@@ -64,31 +74,120 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   rostrum->camera_rotation = desc->camera_rotation;
 }
 
+/* What is kept: the caller frees it, whatever the status. */
+static celspan_status make_parts(celspan_context *context, const celspan_rostrum_desc *desc,
+                                 celspan_rostrum *parts) {
+  cs_light_desc front = {.noun = "rostrum",
+                         .field = "front",
+                         .is_given = desc->has_front,
+                         .texture = &desc->front_texture};
+  const cs_light_desc back = {"rostrum", "back", true, desc->back, &desc->back_texture};
+  if (desc->has_front)
+    front.flat = (celspan_light){desc->front.r, desc->front.g, desc->front.b, 1};
+  celspan_status status = cs_light_make(context, &front, &parts->front);
+  if (status == CELSPAN_OK)
+    status = cs_light_make(context, &back, &parts->back);
+  if (status == CELSPAN_OK)
+    status = cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter,
+                               &parts->antialias);
+  parts->cels = cs_mem_array(context->memory, desc->cel_count, sizeof(celspan_cel *));
+  if (status == CELSPAN_OK && !parts->cels && desc->cel_count > 0)
+    status = cs_fail_memory(context);
+  parts->cel_count = parts->cels ? desc->cel_count : 0;
+  for (size_t i = 0; i < parts->cel_count; i++)
+    parts->cels[i] = celspan_cel_ref(desc->cels[i]);
+  return status;
+}
+
+static void free_parts(celspan_rostrum *rostrum, cs_memory *memory) {
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    celspan_cel_unref(rostrum->cels[i]);
+  cs_mem_free(memory, rostrum->cels, rostrum->cel_count * sizeof *rostrum->cels);
+  cs_light_unref(&rostrum->front);
+  cs_light_unref(&rostrum->back);
+  cs_antialias_free(&rostrum->antialias, memory);
+}
+
 celspan_status celspan_rostrum_create(celspan_context *context, const celspan_rostrum_desc *desc,
                                       celspan_rostrum **out) {
-  cs_antialias antialias;
   CS_TRY(check(context, desc));
-  CS_TRY(
-      cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter, &antialias));
-  celspan_cel **cels = cs_mem_array(context->memory, desc->cel_count, sizeof *cels);
   celspan_rostrum *rostrum = cs_mem_array(context->memory, 1, sizeof *rostrum);
-  if (!rostrum || (!cels && desc->cel_count > 0)) {
-    cs_mem_free(context->memory, cels, desc->cel_count * sizeof *cels);
-    cs_mem_free(context->memory, rostrum, sizeof *rostrum);
-    cs_antialias_free(&antialias, context->memory);
+  if (!rostrum)
     return cs_fail_memory(context);
+  celspan_status status = make_parts(context, desc, rostrum);
+  if (status != CELSPAN_OK) {
+    free_parts(rostrum, context->memory);
+    cs_mem_free(context->memory, rostrum, sizeof *rostrum);
+    return status;
   }
   atomic_init(&rostrum->references, 1);
   rostrum->memory = cs_memory_ref(context->memory);
-  rostrum->cels = cels;
-  rostrum->cel_count = desc->cel_count;
-  for (size_t i = 0; i < desc->cel_count; i++)
-    cels[i] = celspan_cel_ref(desc->cels[i]);
+  rostrum->mark = cs_mark_now(context);
   fill(rostrum, desc);
-  rostrum->antialias = antialias;
   rostrum->hash = hash_rostrum(rostrum);
   *out = rostrum;
   return CELSPAN_OK;
+}
+
+/* A rostrum like `from`, with these cels, and with references of its own; its hash is that of
+ * `from`. mark: a reference that it takes; dropped on failure. */
+static celspan_status copy(celspan_context *context, const celspan_rostrum *from,
+                           celspan_cel *const *cels, size_t cel_count, cs_mark mark,
+                           celspan_rostrum **out) {
+  cs_memory *memory = context->memory;
+  celspan_rostrum *rostrum = cs_mem_array(memory, 1, sizeof *rostrum);
+  celspan_cel **own = cs_mem_array(memory, cel_count, sizeof *own);
+  cs_antialias antialias = {0};
+  celspan_status status = rostrum && (own || cel_count == 0)
+                              ? cs_antialias_copy(context, &from->antialias, &antialias)
+                              : cs_fail_memory(context);
+  if (status != CELSPAN_OK) {
+    cs_mem_free(memory, rostrum, sizeof *rostrum);
+    cs_mem_free(memory, own, cel_count * sizeof *own);
+    cs_mark_drop(mark);
+    return status;
+  }
+  *rostrum = *from;
+  atomic_init(&rostrum->references, 1);
+  rostrum->memory = cs_memory_ref(memory);
+  rostrum->mark = mark;
+  rostrum->cels = own;
+  rostrum->cel_count = cel_count;
+  for (size_t i = 0; i < cel_count; i++)
+    own[i] = celspan_cel_ref(cels[i]);
+  rostrum->front = cs_light_ref(&from->front);
+  rostrum->back = cs_light_ref(&from->back);
+  rostrum->antialias = antialias;
+  *out = rostrum;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum *from,
+                                 celspan_cel *const *cels, size_t cel_count, celspan_light back,
+                                 celspan_rostrum **out) {
+  celspan_rostrum *changed;
+  CS_TRY(copy(context, from, cels, cel_count, cs_mark_keep(from->mark), &changed));
+  cs_light_unref(&changed->back);
+  changed->back = (cs_light){.is_given = from->back.is_given, .flat = back};
+  changed->hash = hash_rostrum(changed);
+  *out = changed;
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_rostrum_named(celspan_context *context, celspan_rostrum *rostrum,
+                                     const char *name, celspan_rostrum **out) {
+  CS_TRY(cs_check_given(context, "named", "the rostrum", rostrum));
+  cs_mark mark;
+  CS_TRY(cs_mark_named(context, rostrum->mark, name, &mark));
+  return copy(context, rostrum, rostrum->cels, rostrum->cel_count, mark, out);
+}
+
+const char *celspan_rostrum_name(const celspan_rostrum *rostrum) {
+  return cs_mark_name(rostrum->mark);
+}
+
+celspan_origin celspan_rostrum_origin(const celspan_rostrum *rostrum) {
+  return cs_mark_origin(rostrum->mark);
 }
 
 celspan_rostrum *celspan_rostrum_ref(celspan_rostrum *rostrum) {
@@ -100,10 +199,8 @@ void celspan_rostrum_unref(celspan_rostrum *rostrum) {
   if (!rostrum || !cs_value_drop(&rostrum->references))
     return;
   cs_memory *memory = rostrum->memory;
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    celspan_cel_unref(rostrum->cels[i]);
-  cs_mem_free(memory, rostrum->cels, rostrum->cel_count * sizeof *rostrum->cels);
-  cs_antialias_free(&rostrum->antialias, memory);
+  free_parts(rostrum, memory);
+  cs_mark_drop(rostrum->mark);
   cs_mem_free(memory, rostrum, sizeof *rostrum);
   cs_memory_unref(memory);
 }
@@ -166,24 +263,20 @@ celspan_status cs_scene_cel_matrix(celspan_context *context, const celspan_rostr
   if (!cs_matrix_is_sane(&view) || !cs_matrix_is_sane(&whole) ||
       !celspan_matrix_inverse(view, &inverse))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "cel %zu: its viewport and the camera together enlarge or reduce too far",
-                   cel_index + 1);
+                   "cel %zu%s: its viewport and the camera together enlarge or reduce too far",
+                   cel_index + 1, cs_mark_describe(cel->mark).text);
   *out = whole;
   return CELSPAN_OK;
 }
 
-static celspan_light brightened(const celspan_rostrum *rostrum, celspan_light light) {
-  float brightness = (float)rostrum->brightness;
-  return (celspan_light){light.r * brightness, light.g * brightness, light.b * brightness, light.a};
+cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel) {
+  const cs_light white = {.is_given = true, .flat = {1, 1, 1, 1}};
+  const cs_light *front = cel->front.is_given       ? &cel->front
+                          : rostrum->front.is_given ? &rostrum->front
+                                                    : &white;
+  return cs_light_scale(front, rostrum->brightness);
 }
 
-celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel) {
-  const celspan_light white = {1, 1, 1, 1};
-  return brightened(rostrum, cel->has_front       ? cel->front
-                             : rostrum->has_front ? rostrum->front
-                                                  : white);
-}
-
-celspan_light cs_scene_back(const celspan_rostrum *rostrum, celspan_light back) {
-  return brightened(rostrum, back);
+cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back) {
+  return cs_light_scale(back, rostrum->brightness);
 }

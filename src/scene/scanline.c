@@ -19,10 +19,13 @@ static celspan_status refuse_ends(const celspan_scanline_output *output, double 
   size_t number = output->emitted + 1;
   cs_check_text at = cs_check_number_text(output->y), begin = cs_check_number_text(x0),
                 end = cs_check_number_text(x1), before = cs_check_number_text(output->last_x1);
-  if (!cs_number_is_sane(x0) || !cs_number_is_sane(x1))
+  bool is_begin = !cs_number_is_sane(x0);
+  if (is_begin || !cs_number_is_sane(x1))
     return cs_fail(context, CELSPAN_CALLBACK,
-                   "scanline: an end of span %zu at y = %s is not a number within 1e12", number,
-                   at.text);
+                   "scanline: the %s of span %zu at y = %s must be a %s, got %s",
+                   is_begin ? "beginning" : "end", number, at.text,
+                   isfinite(is_begin ? x0 : x1) ? "number between -1e12 and 1e12" : "finite number",
+                   is_begin ? begin.text : end.text);
   if (x1 < x0)
     return cs_fail(context, CELSPAN_CALLBACK,
                    "scanline: span %zu at y = %s ends at %s, before it begins at %s", number,

@@ -2,6 +2,9 @@
  * 128-bit structural hash made at construction.
  *
  *   rostrum -> cels -> objects (boolean trees) -> primitives -> texture
+ *      ^        |                  |
+ *      |        +-> lights         |     a rostrum may be an object of a cel of another one: a
+ *      +---------------------------+     composition inside a composition
  *
  * Only scene/ writes these; the compiler of frames (render/compile.c) and the oracle
  * (scene/probe.c) read them. Invariant: every number was checked (finite, in range), every
@@ -11,8 +14,11 @@
 #ifndef CS_SCENE_SCENE_H
 #define CS_SCENE_SCENE_H
 
+#include "base/mark.h"
 #include "geometry/outline.h"
 #include "scene/antialias.h"
+#include "scene/light.h"
+#include "scene/operands.h"
 #include "scene/texture.h"
 
 #define CS_SCENE_DEPTH 128
@@ -21,7 +27,8 @@
 typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_OUTLINE,
   CS_PRIMITIVE_DATA_SCANLINE,
-  CS_PRIMITIVE_DATA_BOOLEAN
+  CS_PRIMITIVE_DATA_BOOLEAN,
+  CS_PRIMITIVE_DATA_ROSTRUM
 } cs_primitive_data_kind;
 
 /* The data of an object without its transform and fade: shared by all its transformed copies. */
@@ -30,16 +37,20 @@ typedef struct cs_primitive_data {
   cs_memory *memory;
   cs_hash hash;
   cs_primitive_data_kind kind;
-  cs_outline outline; /* OUTLINE */
+  cs_outline outline; /* OUTLINE; SCANLINE: its bounds; ROSTRUM: its frame */
   celspan_rule rule;
   celspan_texture *texture;       /* OUTLINE; never NULL */
-  celspan_box bounds;             /* OUTLINE, SCANLINE: tight, own units */
+  celspan_box bounds;             /* all but BOOLEAN: tight, own units */
   bool is_empty;                  /* nothing to draw: no contour, or an operator without operands */
   celspan_scanline_desc scanline; /* SCANLINE */
   celspan_operator op;            /* BOOLEAN */
-  celspan_object **operands;
+  cs_operands view;               /* BOOLEAN: keeps the operands */
+  celspan_object **operands;      /* those of the view */
   size_t operand_count;
-  int depth;              /* levels of booleans below and with this one; 0 for primitives */
+  cs_hash operands_hash; /* BOOLEAN: of the first hashed_count operands; more continue it */
+  size_t hashed_count;
+  struct celspan_rostrum *rostrum; /* ROSTRUM */
+  int depth; /* levels of booleans and rostrums below and with this one; 0 for primitives */
   size_t primitive_count; /* below and with this one, each time it occurs */
   bool has_procedure;     /* below or with this one */
 } cs_primitive_data;
@@ -48,6 +59,7 @@ struct celspan_object {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
+  cs_mark mark;
   cs_primitive_data *data;
   celspan_matrix matrix; /* own units to the parent's */
   double fade;           /* 0..1 */
@@ -57,11 +69,12 @@ struct celspan_cel {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
+  cs_mark mark;
   celspan_object **objects;
   size_t object_count;
   celspan_matrix matrix; /* the cel's own transform, before the viewport */
-  bool has_front, has_viewport;
-  celspan_light front, back;
+  cs_light front, back;
+  bool has_viewport;
   celspan_box viewport;
   double defocus_radius;
   celspan_defocus_kernel defocus_kernel;
@@ -72,11 +85,13 @@ struct celspan_rostrum {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
+  cs_mark mark;
   celspan_cel **cels;
   size_t cel_count;
-  bool has_front;
-  celspan_light front, back;
+  cs_light front, back;
   double brightness;
+  bool has_size;
+  double width, height; /* 0 without a size */
   bool has_camera_centre, has_camera_width;
   celspan_point camera_centre;
   double camera_width;
@@ -98,16 +113,14 @@ celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
                                double film_height);
 /* The front light of a cel, brightness included: the cel's own, else the rostrum's, else white. */
-celspan_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
+cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
+/* A back light times the rostrum's brightness; the matte does not change. */
+cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
 /* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
  * the same, provided that they contain no procedure and the files of their pictures do not
  * change. */
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
 /* Whether any exposure contains a scan-line procedure. */
 bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
-/* The sizes and times of change of the pictures' files as they are now. */
-cs_hash cs_scene_hash_files(const celspan_exposure *exposures, size_t count);
-/* A back light times the rostrum's brightness; the matte does not change. */
-celspan_light cs_scene_back(const celspan_rostrum *rostrum, celspan_light back);
 
 #endif

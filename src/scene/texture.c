@@ -1,7 +1,9 @@
 #include "scene/texture.h"
 
 #include <math.h>
+#include <string.h>
 
+#include "pictures/store.h"
 #include "scene/check.h"
 #include "scene/value.h"
 
@@ -15,6 +17,7 @@ static celspan_status create(celspan_context *context, cs_texture_kind kind,
     return cs_fail_memory(context);
   atomic_init(&texture->references, 1);
   texture->memory = cs_memory_ref(context->memory);
+  texture->mark = cs_mark_now(context);
   texture->kind = kind;
   *out = texture;
   return CELSPAN_OK;
@@ -207,10 +210,16 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
   CS_TRY(check_picture(context, desc));
   cs_picture *picture;
   CS_TRY(cs_picture_create(context, desc, &picture));
+  celspan_picture_info info;
+  celspan_status status = desc->has_source ? cs_store_info(context, picture, &info) : CELSPAN_OK;
+  if (status != CELSPAN_OK) {
+    cs_picture_unref(picture);
+    return status;
+  }
   bool is_degenerate = desc->has_box && !(desc->box.width > 0 && desc->box.height > 0);
   celspan_texture *texture;
-  celspan_status status = is_degenerate ? create_flat(context, &clear, &texture)
-                                        : create(context, CS_TEXTURE_PICTURE, &texture);
+  status = is_degenerate ? create_flat(context, &clear, &texture)
+                         : create(context, CS_TEXTURE_PICTURE, &texture);
   if (status != CELSPAN_OK || is_degenerate)
     cs_picture_unref(picture);
   CS_TRY(status);
@@ -224,6 +233,50 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
       texture->box = desc->box;
   }
   return finish(texture, out);
+}
+
+/* ---------------------------------------------------------------- lights */
+
+static cs_paint light_paint(const cs_paint *paint) {
+  cs_paint light = *paint;
+  for (int c = 0; c < 3; c++)
+    light.t[c] = 1 - paint->beta;
+  return light;
+}
+
+static celspan_status copy_stops(celspan_context *context, const celspan_texture *from,
+                                 celspan_texture *to) {
+  to->stops = cs_mem_array(context->memory, from->stop_count, sizeof *to->stops);
+  if (!to->stops)
+    return cs_fail_memory(context);
+  to->stop_count = from->stop_count;
+  for (size_t i = 0; i < from->stop_count; i++)
+    to->stops[i] = (cs_stop){from->stops[i].at, light_paint(&from->stops[i].paint)};
+  return CELSPAN_OK;
+}
+
+celspan_status cs_texture_create_light(celspan_context *context, celspan_texture *texture,
+                                       celspan_texture **out) {
+  const cs_paint clear = CS_PAINT_CLEAR;
+  celspan_texture *light;
+  if (texture->kind == CS_TEXTURE_PICTURE && texture->use == CELSPAN_PICTURE_GEL)
+    return create_flat(context, &clear, out);
+  if (texture->kind == CS_TEXTURE_PICTURE) {
+    *out = celspan_texture_ref(texture);
+    return CELSPAN_OK;
+  }
+  CS_TRY(create(context, texture->kind, &light));
+  light->flat = light_paint(&texture->flat);
+  light->radius = texture->radius;
+  for (int i = 0; i < 3; i++) {
+    light->points[i] = texture->points[i];
+    light->corners[i] = light_paint(&texture->corners[i]);
+  }
+  if (texture->stop_count > 0 && copy_stops(context, texture, light) != CELSPAN_OK) {
+    celspan_texture_unref(light);
+    return CELSPAN_NO_MEMORY;
+  }
+  return finish(light, out);
 }
 
 /* ---------------------------------------------------------------- questions */
@@ -255,6 +308,42 @@ bool cs_texture_is_grey(const celspan_texture *texture) {
                                              : all_paints(texture, is_grey);
 }
 
+/* ---------------------------------------------------------------- names */
+
+celspan_status celspan_texture_named(celspan_context *context, celspan_texture *texture,
+                                     const char *name, celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "named", "the texture", texture));
+  cs_mark mark;
+  CS_TRY(cs_mark_named(context, texture->mark, name, &mark));
+  celspan_texture *copy = cs_mem_array(context->memory, 1, sizeof *copy);
+  cs_stop *stops = cs_mem_array(context->memory, texture->stop_count, sizeof *stops);
+  if (!copy || (!stops && texture->stop_count > 0)) {
+    cs_mem_free(context->memory, copy, sizeof *copy);
+    cs_mem_free(context->memory, stops, texture->stop_count * sizeof *stops);
+    cs_mark_drop(mark);
+    return cs_fail_memory(context);
+  }
+  *copy = *texture;
+  atomic_init(&copy->references, 1);
+  copy->memory = cs_memory_ref(context->memory);
+  copy->mark = mark;
+  copy->stops = stops;
+  if (stops)
+    memcpy(stops, texture->stops, texture->stop_count * sizeof *stops);
+  if (copy->picture)
+    cs_picture_ref(copy->picture);
+  *out = copy;
+  return CELSPAN_OK;
+}
+
+const char *celspan_texture_name(const celspan_texture *texture) {
+  return cs_mark_name(texture->mark);
+}
+
+celspan_origin celspan_texture_origin(const celspan_texture *texture) {
+  return cs_mark_origin(texture->mark);
+}
+
 /* ---------------------------------------------------------------- references */
 
 celspan_texture *celspan_texture_ref(celspan_texture *texture) {
@@ -269,6 +358,7 @@ void celspan_texture_unref(celspan_texture *texture) {
   cs_mem_free(memory, texture->stops, texture->stop_count * sizeof *texture->stops);
   if (texture->picture)
     cs_picture_unref(texture->picture);
+  cs_mark_drop(texture->mark);
   cs_mem_free(memory, texture, sizeof *texture);
   cs_memory_unref(memory);
 }

@@ -8,6 +8,7 @@
 #define CS_SCENE_TEXTURE_H
 
 #include "base/hash.h"
+#include "base/mark.h"
 #include "colour/paint.h"
 #include "pictures/picture.h"
 
@@ -28,6 +29,7 @@ struct celspan_texture {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
+  cs_mark mark;
   cs_texture_kind kind;
   cs_paint flat;           /* FLAT */
   celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
@@ -46,6 +48,12 @@ struct celspan_texture {
 /* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);
+
+/* The texture as a light: with clear media, so that T is 1 - beta; a gel gives no light. *out: new,
+ * or `texture` with a reference more. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
+                                                       celspan_texture *texture,
+                                                       celspan_texture **out);
 
 /* Whether every colour of the texture is opaque, and whether every one lets the three channels
  * through alike. A picture is never known to be opaque here; it is grey unless it is a gel. */

@@ -15,6 +15,34 @@ local function box(rostrum, i)
 end
 
 describe("multiplane", function()
+  it("makes planes that fit fill the film at rest, and parts them in motion", function()
+    local function bounds(camera, fits)
+      local rostrum = multiplane { film = { 100, 50 }, focal = 500, camera = camera, fit = true,
+        { celspan.cel { celspan.rect { 0, 0, 100, 50 } }, z = 500, fit = fits } }
+      return { rostrum[1]:bounds() }
+    end
+    assert.are.same({ 0, 0, 100, 50 }, bounds(nil))
+    assert.are.same({ -10, 0, 100, 50 }, bounds { x = 20 }) -- half as fast as a plane at z = 0
+    assert.are.same({ 25, 12.5, 50, 25 }, bounds(nil, false))
+  end)
+
+  it("leaves what is over all where it is", function()
+    local caption = celspan.cel { celspan.rect { 1, 2, 3, 4 } }:named("caption")
+    local rostrum = multiplane { film = film, camera = { x = 99, z = 50 }, over = { caption },
+      { celspan.cel {}, z = 0 } }
+    assert.are.equal("caption", rostrum[#rostrum].name)
+    assert.are.same({ 1, 2, 3, 4 }, { rostrum[#rostrum]:bounds() })
+  end)
+
+  it("complains of planes that cannot fit and of overlays that are no cels", function()
+    local message = raised.message(function()
+      multiplane { film = film, fit = true, { celspan.cel {}, z = -1000 } }
+    end)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: plane 1 lies at or behind"), message)
+    message = raised.message(function() multiplane { film = film, over = { 7 } } end)
+    assert.is_truthy(message:find("camera_spec.lua:%d+: multiplane: over%[1%] must be a cel"), message)
+  end)
+
   it("shows a plane at depth 0 as it is", function()
     local rostrum = multiplane { film = film, { cel(), z = 0 } }
     assert.are.same({ 40, 20, 20, 10 }, box(rostrum, 1))

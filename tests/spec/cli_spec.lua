@@ -3,6 +3,8 @@
 local workbench = require "tests.support.workbench"
 
 local BINARY = workbench.binary
+--- A bound of a program's memory; one with a sanitizer maps far more than it uses.
+local BOUNDED = BINARY:find("san/", 1, true) and "" or "ulimit -v 1000000; "
 
 local bench, folder
 
@@ -75,6 +77,48 @@ describe("the command line", function()
         assert.equal("celspan " .. verb .. " ", text:sub(1, 9 + #verb))
         assert.same({ 0, text, "" }, { celspan(verb .. " --help") })
       end
+    end)
+
+    --- The manual page by its headings, without escapes.
+    local function sections_of(page)
+      local sections, heading = {}, ""
+      for line in page:gmatch "[^\n]*" do
+        line = line:gsub("\\f[BIR]", ""):gsub("\\&", ""):gsub("\\(.)", { ["-"] = "-", e = "\\" })
+        heading = line:match "^%.S[HS] (.*)" or heading
+        sections[heading] = (sections[heading] or "") .. line .. "\n"
+      end
+      return sections
+    end
+
+    it("is a manual page that has every verb and option of the help, and no other", function()
+      local code, page, err = celspan("--man")
+      assert.same({ 0, "" }, { code, err })
+      local sections, options = sections_of(page), 0
+      for verb in select(2, celspan("help")):gmatch "\n  (%l+) +[%u|]" do
+        local _, help = celspan("help " .. verb)
+        local section, count = sections[help:match "^[^\n]+"] or "", 0
+        for option in (help:match "\nOptions(\n.*)$" or ""):gmatch "\n  (%-[^\n]-)  " do
+          count = count + 1
+          assert.truthy(section:find("\n.TP\n" .. option, 1, true), verb .. " " .. option)
+        end
+        local _, listed = section:gsub("\n%.TP\n", "")
+        assert.equal(count, listed, verb)
+        options = options + count
+      end
+      assert.is_true(options > 40)
+      local _, codes = sections["EXIT STATUS"]:gsub("\n%.TP\n", "")
+      assert.equal(10, codes)
+    end)
+
+    it("is a manual page without faults", function()
+      local page = write("celspan.1", (select(2, celspan("--man"))))
+      if (shell "command -v mandoc") == 0 then
+        assert.same({ 0, "" }, { shell("mandoc -Tlint -W error " .. page) })
+      end
+      if (shell "command -v man && man --version") ~= 0 then return end
+      local code, text, err = shell("LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l " .. page)
+      assert.same({ 0, "" }, { code, err })
+      assert.truthy(text:gsub(".\b", ""):find("--keep-going\n", 1, true), text:sub(1, 2000))
     end)
 
     it("shows the options of a verb, and no other's", function()
@@ -491,6 +535,108 @@ describe("the command line", function()
     end)
   end)
 
+  describe("info of a very long film", function()
+    it("tells its scenes from one another in memory that has a bound", function()
+      local script = write("long.lua", [[
+        local celspan = require "celspan"
+        return celspan.film{ size = {8, 4}, frames = 550000, frame = function(f)
+          return celspan.rostrum{ brightness = f.number } end }]])
+      local code, out, err = shell(BOUNDED .. BINARY .. " info " .. script)
+      assert.equal(0, code, err)
+      assert.truthy(out:find("\ndifferent_at_least 524288\n$"), out)
+    end)
+  end)
+
+  describe("info of what is no script", function()
+    local function picture(name)
+      local path = folder .. "/" .. name
+      local code, _, err = celspan("render " .. plain .. " --progress none --frames 2 -o " .. path)
+      assert.equal(0, code, err)
+      return path, #read(path)
+    end
+
+    it_reads_pictures("tells of a picture what its header says, whatever its name", function()
+      local path, bytes = picture "a.png"
+      local expected = ("format png\nsize 8x4\nchannels 4\nalpha straight\ndepth 8\ncolour srgb\n"
+        .. "bytes %d\nsubimages 1\nsubimage 0 size 8x4 channels 4 depth 8\n"):format(bytes)
+      assert.same({ 0, expected, "" }, { celspan("info " .. path) })
+      assert.same({ 0, expected, "" }, { celspan("info " .. write("a.lua", read(path))) })
+      local _, out = celspan("info " .. (picture "a.exr"))
+      assert.truthy(out:find("format openexr\nsize 8x4\nchannels 4\nalpha premultiplied\ndepth half\n"
+        .. "colour linear\n", 1, true), out)
+    end)
+
+    it_reads_pictures("knows pictures that are text", function()
+      local _, out = celspan("info " .. write("a.ppm", "P3\n# two\n2 1\n255\n1 2 3 4 5 6\n"))
+      assert.truthy(out:find("format pnm\nsize 2x1\nchannels 3\nalpha none\n", 1, true), out)
+    end)
+
+    it_reads_pictures("names subimages and layers as `layer` takes them", function()
+      local material = os.getenv "CELSPAN_MATERIAL"
+      if not material then return pending "CELSPAN_MATERIAL is not set" end
+      local _, out = celspan("info " .. material .. "/psd/2layers.psd")
+      assert.truthy(out:find("subimages 3\nsubimage 0 size 101x55 channels 3 depth 8\n"
+        .. "subimage 1 size 101x55 channels 3 depth 8 layer \u{424}\u{43e}\u{43d}\n"
+        .. "subimage 2 size 85x46 channels 4 depth 8 layer \u{421}\u{43b}\u{43e}\u{439}\n", 1, true), out)
+    end)
+
+    --- An OpenEXR file of one pixel, all 1, with these channels of half floats.
+    local function exr(channels)
+      local function attribute(name, kind, value)
+        return name .. "\0" .. kind .. "\0" .. string.pack("<s4", value)
+      end
+      local list, box = "", string.pack("<i4i4i4i4", 0, 0, 0, 0)
+      for _, name in ipairs(channels) do list = list .. name .. "\0" .. string.pack("<i4I4i4i4", 1, 0, 1, 1) end
+      local head = "\x76\x2f\x31\x01\2\0\0\0" .. attribute("channels", "chlist", list .. "\0")
+        .. attribute("compression", "compression", "\0") .. attribute("dataWindow", "box2i", box)
+        .. attribute("displayWindow", "box2i", box) .. attribute("lineOrder", "lineOrder", "\0")
+        .. attribute("pixelAspectRatio", "float", string.pack("<f", 1))
+        .. attribute("screenWindowCenter", "v2f", string.pack("<ff", 0, 0))
+        .. attribute("screenWindowWidth", "float", string.pack("<f", 1)) .. "\0"
+      return head .. string.pack("<I8", #head + 8)
+        .. string.pack("<i4s4", 0, string.pack("<I2", 0x3c00):rep(#channels))
+    end
+
+    it_reads_pictures("names groups of channels as layers", function()
+      local path = write("a.exr", exr { "B", "G", "R", "beauty.key.B", "beauty.key.G", "beauty.key.R",
+        "depth.Z", "fog.A", "fog.Y" })
+      local code, out, err = celspan("info " .. path)
+      assert.equal(0, code, err)
+      assert.truthy(out:find("channels 9\nalpha none\ndepth half\n", 1, true), out)
+      assert.truthy(out:find("subimages 1\nsubimage 0 size 1x1 channels 9 depth half\n"
+        .. "layer beauty.key channels 3\nlayer fog channels 2\n$"), out)
+      for layer, expected in pairs { ["beauty.key"] = 0, fog = 0, depth = 4 } do
+        local script = write("layer.lua", ([[
+          local celspan = require "celspan"
+          return celspan.rostrum{ celspan.cel{ celspan.image{ file = "a.exr", layer = %q } } }]]):format(layer))
+        assert.equal(expected, (celspan("check --deep " .. script)), layer)
+      end
+    end)
+
+    it_reads_pictures("says that other binary data is nothing it knows", function()
+      local code, out, err = celspan("info " .. write("a.bin", "none of\0these"))
+      assert.same({ 4, "" }, { code, out })
+      assert.truthy(err:find("a.bin: is not a picture of a known format", 1, true), err)
+    end)
+
+    it("is refused by the verbs that run a script", function()
+      local path = write("a.lua", "\137PNG\r\n\26\n\0\0\0\rIHDR")
+      for _, verb in ipairs { "render %s --hash", "check %s", "spans %s", "probe %s 1 2",
+                              "tiles %s -o " .. folder .. "/t" } do
+        local code, out, err = celspan(verb:format(path))
+        assert.same({ 3, "" }, { code, out }, verb)
+        assert.equal(("celspan: error: %s: is not a Lua script, but a picture or other binary data "
+          .. "('celspan info %s' tells of pictures)\n"):format(path, path), err)
+      end
+    end)
+
+    it("is no script that begins like one, or holds odd bytes, and no pipe", function()
+      local script = "P1 = 3 -- \233\27\n" .. PLAIN
+      assert.equal(0, (celspan("info " .. write("odd.lua", script))))
+      assert.equal(0, (shell("cat " .. folder .. "/odd.lua | " .. BINARY .. " info /dev/stdin")))
+    end)
+  end)
+
   describe("check", function()
     it("has nothing to say about a film that is right", function()
       local code, out, err = celspan("check " .. plain)
@@ -534,6 +680,122 @@ describe("the command line", function()
       assert.truthy(err:find("frame 5", 1, true), err)
       local _, mentions = err:gsub("gone%.png", "")
       assert.equal(1, mentions, err)
+    end)
+  end)
+
+  describe("check of many faults", function()
+    local function film(frames, body)
+      return write("many.lua", ([[
+        local celspan = require "celspan"
+        return celspan.film{ size = {8, 4}, frames = %d, frame = function(f)
+          local n = f.number
+          %s
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, n, 4 } } }
+        end }]]):format(frames, body))
+    end
+
+    it("folds the frames that share one into a line", function()
+      local script = film(30, [[if n > 2 and n < 18 or n == 20 then error "bad" end
+        if n == 7 or n == 25 then error("bad " .. n) end]])
+      local code, out, err = celspan("check " .. script)
+      assert.same({ 3, "" }, { code, out })
+      assert.equal(("celspan: error: frames 3-17, 20: %s:4: bad\n"):format(script)
+        .. ("celspan: error: frame 25: %s:5: bad 25\n"):format(script)
+        .. "celspan: 2 faults, met 17 times in 30 frames\n", err)
+    end)
+
+    it("lists a few runs of frames and counts the rest", function()
+      local script = film(9000, "if n % 2 == 1 then error 'odd' end")
+      local _, _, err = celspan("check " .. script)
+      assert.equal(("celspan: error: frames 1, 3, 5, 7, 9, 11, 13, 15 and 4492 more up to 8999: "
+        .. "%s:4: odd\ncelspan: 1 fault, met 4500 times in 9000 frames\n"):format(script), err)
+    end)
+
+    it("joins the runs of parts that are looked at in both directions", function()
+      local script = write("impure.lua", [[
+        local celspan = require "celspan"
+        local calls = 0
+        return celspan.film{ size = {8, 4}, frames = 9000, frame = function(f)
+          calls = calls + 1
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, calls / 2, 5, 4 } } }
+        end }]])
+      local code, _, err = celspan("check " .. script)
+      assert.equal(3, code)
+      assert.truthy(err:find("error: frames 1-9000: the frame function is not pure", 1, true), err)
+    end)
+
+    it("lists no more than a thousand sentences", function()
+      local script = film(1500, "error('bad ' .. n)")
+      local _, _, err = celspan("check " .. script)
+      local _, lines = err:gsub("\n", "")
+      assert.equal(1002, lines)
+      assert.truthy(err:find("frame 1000: " .. script .. ":4: bad 1000\n"
+        .. "celspan: error: 500 more with other sentences are not listed: give --frames to look at "
+        .. "fewer frames\ncelspan: more than 1000 faults, met 1500 times in 1500 frames\n", 1, true),
+        err:sub(-400))
+    end)
+
+    it("looks at the frames of --frames alone", function()
+      local script = film(30, "if n == 7 then error 'bad' end")
+      assert.equal(0, (celspan("check " .. script .. " --frames 1-6,8-30:2")))
+      local _, _, err = celspan("check " .. script .. " --frames 8,7,6")
+      assert.equal(("celspan: error: frame 7: %s:4: bad\n"):format(script)
+        .. "celspan: 1 fault, met 1 time in 3 frames\n", err)
+      usage_error("check " .. script .. " --frames 31", "31")
+    end)
+
+    it("needs no memory for the frames of a long film, and tells what it met when it is stopped",
+      function()
+        local script = film(100000000, "if n % 2 == 0 then error 'even' end")
+        local code, _, err = shell(BOUNDED .. BINARY .. " check " .. script
+          .. " & pid=$!; sleep 1; kill -TERM $pid; wait $pid; exit $?")
+        assert.equal(143, code, err)
+        assert.truthy(err:match("^celspan: error: frames 2, 4, 6, 8, 10, 12, 14, 16 and %d+ more up "
+          .. "to %d+: [^\n]+:4: even\ncelspan: stopped after %d+ of 100000000 frames\n"), err)
+      end)
+  end)
+
+  describe("check of pictures", function()
+    local function film(body)
+      return write("pictures.lua", [[
+        local celspan = require "celspan"
+        local function slide(file) return celspan.image{ file = file, w = 3, h = 3 } end
+        return celspan.film{ size = {8, 4}, frames = 3, frame = function(f)
+          ]] .. body .. " end }")
+    end
+
+    it_reads_pictures("tells all of a frame, each with its cel and primitive", function()
+      write("broken.png", "this is no picture")
+      local script = film([[return celspan.rostrum{
+        celspan.cel{ celspan.rect{ 0, 0, 8, 4 }, slide "a.png" - slide "b.png" },
+        celspan.cel{ slide "broken.png", slide(f.number == 2 and "c.png" or "a.png") } }]])
+      local function at(line) return ("(%s:%d)"):format(script, line) end
+      local code, _, err = celspan("check " .. script)
+      assert.equal(4, code)
+      local gone = "cannot be opened: No such file or directory\n"
+      assert.equal(("celspan: error: frames 1-3: cel 1 %s, primitive 2 %s, and elsewhere: %s/a.png: "
+        .. gone .. "celspan: error: frames 1-3: cel 1 %s, primitive 3 %s: %s/b.png: " .. gone
+        .. "celspan: error: frames 1-3: cel 2 %s, primitive 1 %s: %s/broken.png: is not a picture of a "
+        .. "known format (png, tiff, openexr, jpeg, targa, dpx, cineon, psd, bmp, webp, gif, hdr, "
+        .. "pnm, jpeg2000, sgi)\ncelspan: error: frame 2: cel 2 %s, primitive 2 %s: %s/c.png: " .. gone
+        .. "celspan: 4 faults, met 12 times in 3 frames\n"):format(at(5), at(2), folder, at(5), at(2), folder, at(6), at(2), folder, at(6), at(2),
+        folder), err)
+    end)
+
+    it_reads_pictures("reads them whole with --deep", function()
+      local whole = folder .. "/whole.tif"
+      assert.equal(0, (celspan("render " .. plain .. " --progress none --frames 1 --size 300x200 -o "
+        .. whole)))
+      local bytes = read(whole)
+      write("cut.tif", bytes:sub(1, #bytes - 10))
+      local script = film [[return celspan.rostrum{ celspan.cel{ slide "whole.tif", slide "cut.tif" } }]]
+      local header_code = celspan("check " .. script)
+      local code, _, err = celspan("check --deep " .. script)
+      assert.equal(4, code, err)
+      assert.truthy(err:find("error: frames 1-3: cel 1 (" .. script .. ":4), primitive 2 (" .. script .. ":2): "
+        .. folder .. "/cut.tif: ", 1, true), err)
+      assert.is_nil(err:find("whole.tif", 1, true))
+      assert.equal(0, header_code)
     end)
   end)
 

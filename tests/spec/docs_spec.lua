@@ -296,6 +296,7 @@ describe("the C reference", function()
 
   it("shows what stands in the example programs", function()
     local programs = markdown.read "examples/memory.c" .. markdown.read "examples/embed.c"
+      .. markdown.read "examples/surface.c" .. markdown.read "examples/host.c"
     for _, block in ipairs(markdown.blocks "docs/c.md") do
       if block.language == "c" then
         assert.is_truthy(programs:find(block.text, 1, true), "docs/c.md:" .. block.line)
@@ -355,6 +356,14 @@ describe("the pictures", function()
       assert.is_truthy(text:find("pictures/" .. picture.name .. ".png", 1, true), picture.name)
     end
     assert.is_true(all < 2000000)
+  end)
+
+  it("move on the front page, round and round", function()
+    local moving = markdown.read "docs/pictures/moving.webp"
+    local control = moving:find("ANIM\6\0\0\0", 1, true)
+    assert.is_truthy(markdown.prose "README.md":find("pictures/moving.webp", 1, true))
+    assert.is_true(#moving < 1500000 and moving:find "^RIFF....WEBPVP8X" ~= nil)
+    assert.are.equal(0, (string.unpack("<I2", moving, control + 12))) -- how often it is shown; 0: for ever
   end)
 
   it("are what their scripts make (./run docs makes them anew)", function()

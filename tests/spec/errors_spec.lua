@@ -38,6 +38,9 @@ describe("a mistyped name", function()
   it("is found in tables inside", function()
     assert.are.equal("rostrum: camera: unknown field 'widht'; did you mean 'width'?",
       sentence(function() celspan.rostrum { camera = { widht = 3 } } end))
+    assert.are.equal("cel: front: unknown field 'gian'; did you mean 'gain'?", sentence(function()
+      celspan.cel { front = { texture = "#fff", gian = 2 } }
+    end))
     assert.are.equal("cel: defocus: unknown field 'radus'; did you mean 'radius'?",
       sentence(function() celspan.cel { defocus = { radus = 3 } } end))
   end)
@@ -81,7 +84,7 @@ describe("a wrong type", function()
       function() celspan.circle { centre = { 0, 0 } } end },
     { "circle: field 'centre' must be a point {x, y}, got nil",
       function() celspan.circle { radius = 1 } end },
-    { "circle: field 'centre' must be an array of 2 numbers, got a table of 3 values",
+    { "circle: field 'centre' must be a point {x, y}, got 3 values",
       function() celspan.circle { centre = { 0, 0, 0 }, radius = 1 } end },
     { "circle: takes a table, circle{ ... }, got number", function() celspan.circle(3) end },
     { "rect: value 3 (width) must be a number, got string",
@@ -127,6 +130,245 @@ describe("a wrong type", function()
   end
 end)
 
+describe("a list of numbers", function()
+  local circle = celspan.circle { centre = { 0, 0 }, radius = 3 }
+  local huge, nan = math.huge, 0 / 0
+  local cases = {
+    { "circle: centre[1] must be a number, got nil",
+      function() celspan.circle { centre = { nil, 10 }, radius = 1 } end },
+    { "circle: centre[2] must be a number, got nil",
+      function() celspan.circle { centre = { 10 }, radius = 1 } end },
+    { "circle: centre[2] must be a number, got string",
+      function() celspan.circle { centre = { 10, "20" }, radius = 1 } end },
+    { "circle: centre[1] must be a finite number, got nan",
+      function() celspan.circle { centre = { nan, 10 }, radius = 1 } end },
+    { "circle: field 'centre' must be a point {x, y}, got an empty table",
+      function() celspan.circle { centre = {}, radius = 1 } end },
+    { "circle: field 'centre' must be a point {x, y}, got string",
+      function() celspan.circle { centre = "10,20", radius = 1 } end },
+    { "circle: field 'centre' must be a point {x, y}: write {10, 20}, not {x = 10, y = 20}",
+      function() celspan.circle { centre = { x = 10, y = 20 }, radius = 1 } end },
+    { "circle: field 'centre' must be a point {x, y}: write {10, y}, not {x = 10}",
+      function() celspan.circle { centre = { x = 10 }, radius = 1 } end },
+    { "ellipse: radii[2] must be a finite number, got inf",
+      function() celspan.ellipse { centre = { 0, 0 }, radii = { 1, huge } } end },
+    { "cel: field 'viewport' must be a box {x, y, w, h}: write {0, 0, 8, 6}, "
+      .. "not {x = 0, y = 0, width = 8, height = 6}",
+      function() celspan.cel { viewport = { x = 0, y = 0, width = 8, height = 6 } } end },
+    { "cel: viewport[4] must be a number, got nil",
+      function() celspan.cel { viewport = { 0, 0, 8 } } end },
+    { "cel: front[3] must be a number, got nil", function() celspan.cel { front = { 1, 1 } } end },
+    { "cel: field 'front' must be a light {r, g, b, a}, got 5 values",
+      function() celspan.cel { front = { 1, 1, 1, 1, 1 } } end },
+    { "rostrum: field 'back' must be a light {r, g, b, a}: write {1, 0, 0, a}, "
+      .. "not {r = 1, g = 0, b = 0}",
+      function() celspan.rostrum { back = { r = 1, g = 0, b = 0 } } end },
+    { "rostrum: camera: centre[1] must be a number, got boolean",
+      function() celspan.rostrum { camera = { centre = { true, 1 } } } end },
+    { "paint: pigment[2] must be a number, got nil",
+      function() celspan.paint { pigment = { 1, nil, 1 } } end },
+    { "polygon: point 2: its value 1 must be a number, got nil",
+      function() celspan.polygon { { 0, 0 }, { nil, 1 }, { 1, 1 } } end },
+    { "polygon: point 2 must be {x, y}: write {1, 2}, not {x = 1, y = 2}",
+      function() celspan.polygon { { 0, 0 }, { x = 1, y = 2 } } end },
+    { "triangle: point 3 must be {x, y}, got 3 values",
+      function() celspan.triangle { { 0, 0 }, { 1, 0 }, { 1, 1, 1 } } end },
+    { "nurbs: point 1: its value 3 must be a finite number, got nan",
+      function() celspan.nurbs { points = { { 0, 0, nan } } } end },
+    { "nurbs: knots[3] must be a number, got string", function()
+      celspan.nurbs { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }, knots = { 0, 1, "2" } }
+    end },
+    { "linear: stop 1: its value 1 must be a finite number, got inf",
+      function() celspan.linear { from = { 0, 0 }, to = { 1, 0 }, { huge, "#000" } } end },
+    { "linear: stop 1 must be {at, paint}: write {0, paint}, not {at = 0, paint = ...}", function()
+      celspan.linear { from = { 0, 0 }, to = { 1, 0 }, { at = 0, paint = "#000" } }
+    end },
+    { "gradient: corner 1: its value 2 must be a number, got string",
+      function() celspan.gradient { { 0, "#fff" }, { 1, 0, "#fff" }, { 1, 1, "#fff" } } end },
+    { "scanline: bounds[1] must be a number, got nil",
+      function() celspan.scanline { bounds = { nil, 0, 1, 1 }, spans = print } end },
+    { "film: size[2] must be a number, got nil",
+      function() celspan.film { size = { 8 }, frame = print } end },
+    { "pixels: crop[1] must be a number, got nil",
+      function() celspan.pixels(celspan.rostrum {}, { crop = { nil, 0, 1, 1 } }) end },
+    { "spans: field 'rows' must be rows {first, last}: write {1, 2}, not {first = 1, last = 2}",
+      function() celspan.spans(celspan.rostrum {}, { rows = { first = 1, last = 2 } }) end },
+    { "transform: value 9 of the matrix must be a number, got nil",
+      function() circle:transform { 1, 0, 0, 0, 1, 0, 0, 0 } end },
+    { "transform: the matrix must be {a,b,c, d,e,f, g,h,i}, got 10 values",
+      function() circle:transform { 1, 0, 0, 0, 1, 0, 0, 0, 1, 1 } end },
+    { "quad: point 2 of the other four: its value 1 must be a number, got nil", function()
+      local corners = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }
+      circle:quad(corners, { { 0, 0 }, { nil, 0 }, { 1, 1 }, { 0, 1 } })
+    end },
+    { "quad: the first four must be four points {{x, y}, {x, y}, {x, y}, {x, y}}, got 1 of them",
+      function() circle:quad({ { 0, 0 } }, {}) end },
+  }
+  for _, case in ipairs(cases) do
+    it("is told by the place of what is wrong: " .. case[1], function()
+      assert.are.equal(case[1], sentence(case[2]))
+    end)
+  end
+end)
+
+describe("numbers that were named", function()
+  local cases = {
+    { "rect: write rect{ 1, 2, 3, 4 }, not rect{ x = 1, y = 2, w = 3, h = 4 }",
+      function() celspan.rect { x = 1, y = 2, w = 3, h = 4 } end },
+    { "rect: write rect{ x, y, 3, 4 }, not rect{ width = 3, height = 4 }",
+      function() celspan.rect { width = 3, height = 4 } end },
+    { "circle: unknown field 'x'; write centre = {10, 20}, not x = 10, y = 20",
+      function() celspan.circle { x = 10, y = 20, radius = 3 } end },
+    { "circle: unknown field 'cx'; write centre = {10, 20}, not cx = 10, cy = 20",
+      function() celspan.circle { cx = 10, cy = 20, radius = 3 } end },
+    { "ellipse: unknown field 'rx'; write radii = {3, 4}, not rx = 3, ry = 4",
+      function() celspan.ellipse { centre = { 0, 0 }, rx = 3, ry = 4 } end },
+    { "film: unknown field 'height'; write size = {8, 6}, not width = 8, height = 6",
+      function() celspan.film { width = 8, height = 6, frame = print } end },
+    { "polygon: unknown field 'points'; the points stand in the table itself, "
+      .. "polygon{ a, b, ... }, not polygon{ points = ... }",
+      function() celspan.polygon { points = { { 0, 0 } } } end },
+    { "cel: unknown field 'objects'; the objects stand in the table itself, cel{ a, b, ... }, "
+      .. "not cel{ objects = ... }", function() celspan.cel { objects = {} } end },
+  }
+  for _, case in ipairs(cases) do
+    it("are told where they go: " .. case[1], function()
+      assert.are.equal(case[1], sentence(case[2]))
+    end)
+  end
+end)
+
+describe("reading what is not there", function()
+  local circle = celspan.circle { centre = { 0, 0 }, radius = 3 }
+  local image = celspan.pixels(celspan.rostrum {}, { size = { 1, 1 } })
+  local keys = require "celspan.keys"
+  local motion = require "celspan.motion"
+  local way = motion.along { { 0, 0 }, { 1, 0 } }
+  local function in_frame(read)
+    return function()
+      celspan.film { frame = function(f) return celspan.rostrum {}, read(f) end }:at(1)
+    end
+  end
+  local cases = {
+    { "celspan has no 'circl'; did you mean 'circle'?", function() return celspan.circl end },
+    { "celspan has no 'nothing_like_it'", function() return celspan.nothing_like_it end },
+    { "circle: unknown field 'raduis'; did you mean 'radius'?",
+      function() return circle.raduis end },
+    { "circle: unknown field 'transalte'; did you mean 'translate'?",
+      function() circle:transalte(1, 2) end },
+    { "rect: unknown field 'color'; did you mean 'texture'?",
+      function() return celspan.rect { 0, 0, 1, 1, color = "#fff" } end },
+    { "picture: unknown field 'color'; did you mean 'colour'?",
+      function() return celspan.picture { file = "a.png", color = "srgb" } end },
+    { "circle: unknown field 'r'; did you mean 'radius'?",
+      function() return celspan.circle { centre = { 0, 0 }, r = 3 } end },
+    { "circle: unknown field 'center'; did you mean 'centre'?",
+      function() return celspan.circle { center = { 0, 0 }, radius = 3 } end },
+    { "paint: unknown field 'betta'; did you mean 'beta'?",
+      function() return celspan.clear.betta end },
+    { "film: unknown field 'farmes'; did you mean 'frames'?",
+      function() return celspan.film { frame = print }.farmes end },
+    { "frame 1: frame: unknown field 'tiem'; did you mean 'time'?",
+      in_frame(function(f) return f.tiem end) },
+    { "frame 1: frame: unknown field 'radnom'; did you mean 'random'?",
+      in_frame(function(f) return f:radnom "a" end) },
+    { "pixels: unknown field 'widht'; did you mean 'width'?", function() return image.widht end },
+    { "probe: unknown field 'flim'; did you mean 'film'?",
+      function() celspan.probe(celspan.rostrum {}, 0, 0, { flim = { 1, 1 } }) end },
+    { "celspan.motion has no 'alogn'; did you mean 'along'?",
+      function() return motion.alogn end },
+    { "celspan.ease has no 'name'; did you mean 'names'?",
+      function() return require "celspan.ease".name end },
+    { "celspan.lips has no 'raed'; did you mean 'read'?",
+      function() return require "celspan.lips".raed end },
+    { "a track of keys has no 'att'; did you mean 'at'?",
+      function() return keys { { 0, 1 } }:att(0) end },
+    { "a way has no 'lenght'; did you mean 'length'?", function() return way.lenght end },
+    { "shutter: unknown field 'angel'; did you mean 'angle'?",
+      function() require "celspan.shutter" { angel = 90 } end },
+  }
+  for _, case in ipairs(cases) do
+    it("is told with the nearest name: " .. case[1], function()
+      assert.are.equal(case[1], (sentence(case[2]):gsub(" %(called from .*", "")))
+    end)
+  end
+
+  it("is nil where the name is known, and for places", function()
+    assert.is_nil(celspan.nurbs { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } }.knots)
+    assert.is_nil(celspan.union { circle }[2])
+    assert.is_nil(circle[1])
+    assert.is_nil(keys { { 0, 1 } }.loop)
+  end)
+
+  it("is possible without an error", function()
+    assert.is_nil(rawget(celspan, "circl"))
+    local count = 0
+    for name in pairs(celspan) do count = count + #name end
+    assert.is_true(count > 100)
+  end)
+end)
+
+describe("film:at", function()
+  local film = celspan.film { first = 10, frames = 3, frame = function() return celspan.rostrum {} end }
+  local cases = {
+    { "at: the frame's number must be a whole number from 10 to 12, got 9", 9 },
+    { "at: the frame's number must be a whole number from 10 to 12, got 13", 13 },
+    { "at: the frame's number must be a whole number from 10 to 12, got 10.5", 10.5 },
+    { "at: the frame's number must be a number, got string", "10" },
+    { "at: the frame's number must be a number, got no value" },
+    { "at: the frame's number must be a finite number, got nan", 0 / 0 },
+  }
+  for _, case in ipairs(cases) do
+    it("refuses: " .. case[1], function()
+      assert.are.equal(case[1], sentence(function() film:at(table.unpack(case, 2)) end))
+    end)
+  end
+
+  it("answers for the film's frames", function()
+    film:at(10)
+    film:at(12.0)
+  end)
+end)
+
+describe("the library", function()
+  local motion = require "celspan.motion"
+  local multiplane = require "celspan.multiplane"
+  local cases = {
+    { "motion: point 2: its value 1 must be a number, got nil",
+      function() motion.along { { 0, 0 }, { nil, 1 } } end },
+    { "motion: point 1: its value 2 must be a finite number, got nan",
+      function() motion.along { { 0, 0 / 0 } } end },
+    { "motion: point 1 must be {x, y}, got number", function() motion.along { 3 } end },
+    { "motion: at takes a share of the way, a finite number, got nan",
+      function() motion.along({ { 0, 0 } }):at(0 / 0) end },
+    { "multiplane: film[2] must be a number, got nil", function() multiplane { film = { 8 } } end },
+    { "multiplane: field 'film' must be {width, height}, the size of the film, got nil",
+      function() multiplane {} end },
+    { "multiplane: field 'aperture' must be 0 or more, got -1",
+      function() multiplane { film = { 8, 8 }, aperture = -1 } end },
+    { "multiplane: camera: takes named fields only, but was given a list",
+      function() multiplane { film = { 8, 8 }, camera = { 1, 2 } } end },
+    { "keys: takes a table, got a cel", function() require "celspan.keys" (celspan.cel {}) end },
+    { 'keys: key 2 cannot have this ease: there is no curve "ot"',
+      function() require "celspan.keys" { { 0, 1 }, { 1, 1, "ot" } } end },
+    { "motion: wiggle takes a seed, a string or a finite number, got nan",
+      function() motion.wiggle(0 / 0) end },
+    { "shutter: field 'angle' must be 0..360 degrees, got 361",
+      function() require "celspan.shutter" { frame = print, angle = 361.0 } end },
+    { "multiplane: plane 1 must be {cel, z = depth}, got {a rect}",
+      function() multiplane { film = { 8, 8 }, { celspan.rect { 0, 0, 1, 1 } } } end },
+    { "rostrum: field 'front' must be a light {r, g, b}, {r, g, b, a} or \"#rrggbb\", got number",
+      function() multiplane { film = { 8, 8 }, front = 3 } end },
+    { "lips: field 'fps' must be above 0 and at most 1000, got -3",
+      function() require "celspan.lips".read("none", { fps = -3 }) end },
+  }
+  for _, case in ipairs(cases) do
+    it("tells the caller: " .. case[1], function()
+      assert.are.equal(case[1], sentence(case[2]))
+    end)
+  end
+end)
+
 describe("a scan-line primitive that would not stand upright", function()
   local refusal = "a scan-line primitive can be moved and scaled, but not rotated, skewed or put in perspective"
   local function rows()
@@ -152,21 +394,25 @@ end)
 describe("a number that is refused", function()
   local cases = {
     { "circle: radius is -1; ", function() celspan.circle { centre = { 0, 0 }, radius = -1 } end },
-    { "circle: radius is not a number",
+    { "circle: field 'radius' must be a finite number, got nan",
       function() celspan.circle { centre = { 0, 0 }, radius = 0 / 0 } end },
     { "rgb: pigment[1] is 2; ", function() celspan.rgb(2, 0, 0) end },
     { "fade: ", function() celspan.union {}:fade(2) end },
     { "rect: ", function() celspan.rect { math.huge, 0, 1, 1 } end },
-    { "translate: dx must be a number from -1e12 to 1e12, got 2000000000000",
+    { "translate: dx must be between -1e12 and 1e12, got 2000000000000",
       function() celspan.union {}:translate(2e12, 0) end },
-    { "translate: dy must be a number from -1e12 to 1e12, got nan",
+    { "translate: dy must be a finite number, got nan",
       function() celspan.union {}:translate(0, 0 / 0) end },
-    { "rotate: the angle in degrees must be a number from -1e12 to 1e12, got inf",
+    { "rotate: the angle in degrees must be a finite number, got inf",
       function() celspan.union {}:rotate(math.huge) end },
     { "film: field 'frames' must be a whole number from 1 to 1000000000, got 0",
       function() celspan.film { frames = 0, frame = print } end },
     { "pixels: field 'workers' must be 0 or more, got -1",
       function() celspan.pixels(celspan.rostrum {}, { size = { 1, 1 }, workers = -1 }) end },
+    { "pixels: 1048576 x 1048576 pixels cannot be held in memory; render a crop, or into a file",
+      function() celspan.pixels(celspan.rostrum {}, { size = { 1048576, 1048576 } }) end },
+    { "get: x must be a whole number from 0 to 0, got 0.5",
+      function() celspan.pixels(celspan.rostrum {}, { size = { 1, 1 } }):get(0.5, 0.0) end },
     { "pixels: 0 x 1 pixels are asked for; each side must be at least 1",
       function() celspan.pixels(celspan.rostrum {}, { size = { 0, 1 } }) end },
   }

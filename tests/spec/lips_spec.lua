@@ -107,6 +107,25 @@ describe("a file", function()
     assert.are.equal(expected, shapes(xml, options))
   end)
 
+  it("that leaves a gap between cues holds the shape before it, as TSV does", function()
+    local json = [[{"mouthCues": [{"start": 0, "end": 0.21, "value": "B"},
+      {"start": 0.46, "end": 0.48, "value": "C"}, {"start": 0.68, "end": 0.9, "value": "D"}]}]]
+    local xml = '<mouthCue start="0" end="0.21">B</mouthCue><mouthCue start="0.46" end="0.48">C'
+      .. '</mouthCue><mouthCue start="0.68" end="0.9">D</mouthCue>'
+    local options = { fps = 10, hold = 1 }
+    -- frame 5 is B for 60 %, 6 and 7 are C, for 80 % in the second of them
+    local expected = "B B B B B C C D D"
+    assert.are.equal(expected, shapes("0.00\tB\n0.46\tC\n0.68\tD\n0.90\tX\n", options))
+    assert.are.equal(expected, shapes(json, options))
+    assert.are.equal(expected, shapes(xml, options))
+  end)
+
+  it("may list its cues in any order", function()
+    local json = [[{"mouthCues": [{"start": 0.2, "end": 0.4, "value": "C"},
+      {"start": 0, "end": 0.2, "value": "B"}]}]]
+    assert.are.equal("B B C C", shapes(json, { fps = 10, hold = 1 }))
+  end)
+
   it("that is missing or foreign gives nil and a message with its name", function()
     local track, message = lips.read "no/such/file.tsv"
     assert.is_nil(track)

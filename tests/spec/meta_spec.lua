@@ -5,7 +5,93 @@ local file = assert(io.open "lua/celspan.d.lua")
 local text = file:read "a"
 file:close()
 
+--- Classes by name: { parents = {names}, fields = { [name] = is_certain } }.
+local function read_classes()
+  local classes, class = {}, nil
+  for line in (text .. "\n"):gmatch "(.-)\n" do
+    local name, parents = line:match "^%-%-%-@class ([%w_.]+):?%s*(.*)$"
+    local field, mark = line:match "^%-%-%-@field ([%w_]+)(%??) "
+    if name then
+      class = { parents = {}, fields = {} }
+      for parent in parents:gmatch "[%w_.]+" do table.insert(class.parents, parent) end
+      classes[name] = class
+    elseif field and class then
+      class.fields[field] = mark == ""
+    elseif line:find "^%-%-%-@field %[integer%]" and class then
+      class.fields[1] = true
+    elseif not line:find "^%-%-%-@operator" then
+      class = nil
+    end
+  end
+  return classes
+end
+
+local classes = read_classes()
+
+--- What a class says of a field, itself or through its parents: true, false (it may be nil), nil.
+local function declared(name, field)
+  local class = assert(classes[name], name)
+  local found = class.fields[field]
+  for _, parent in ipairs(class.parents) do
+    if found == nil then found = declared(parent, field) end
+  end
+  return found
+end
+
+--- The class that a constructor is said to return.
+local function returned(constructor)
+  local at = assert(text:find("\nfunction celspan." .. constructor .. "(", 1, true), constructor)
+  return text:sub(1, at):match ".*%-%-%-@return ([%w_.]+)"
+end
+
+local dot = celspan.circle { centre = { 0, 0 }, radius = 1 }
+local cel = celspan.cel { dot }
+--- The least that each constructor takes.
+local samples = {
+  paint = {}, linear = { from = { 0, 0 }, to = { 1, 1 }, { 0, "#fff" } },
+  gradient = { { 0, 0, "#fff" }, { 1, 0, "#fff" }, { 0, 1, "#fff" } },
+  radial = { centre = { 0, 0 }, radius = 1, { 0, "#fff" } }, picture = { file = "x.png" },
+  rect = { 0, 0, 1, 1 }, triangle = { { 0, 0 }, { 1, 0 }, { 0, 1 } },
+  circle = { centre = { 0, 0 }, radius = 1 }, ellipse = { centre = { 0, 0 }, radii = { 1, 2 } },
+  polygon = { { 0, 0 }, { 1, 0 }, { 0, 1 } }, path = { d = "M0 0L1 0L0 1" },
+  nurbs = { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } },
+  image = { file = "x.png", w = 1, h = 1 },
+  scanline = { bounds = { 0, 0, 1, 1 }, spans = function() end },
+  union = { dot }, intersection = { dot }, difference = { dot }, xor = { dot },
+  cel = { dot }, rostrum = { cel }, film = { frame = function() return celspan.rostrum {} end },
+}
+
+--- The fields that a constructor says it has, when it is given one that cannot be.
+local function fields_of(constructor)
+  local _, message = pcall(celspan[constructor], { ["@@@@@@@@@@"] = true })
+  return (tostring(message):match "the fields are (.*)" or ""):gmatch "[%w_]+"
+end
+
 describe("the annotations", function()
+  for constructor, sample in pairs(samples) do
+    it("declare what can be read of a value: " .. constructor, function()
+      local class, value = returned(constructor), celspan[constructor](sample)
+      for field in fields_of(constructor) do
+        local is_method = type(value[field]) == "function" and type(sample[field]) ~= "function"
+        local certain = declared(class, field)
+        assert.is_true(is_method or certain ~= nil, class .. "." .. field)
+        if value[field] ~= nil and sample[field] == nil and not is_method then
+          local word = " can be read though it was not given: it should have no '?'"
+          assert.is_true(certain, class .. "." .. field .. word)
+        end
+      end
+      assert.are.equal(value[1] ~= nil, declared(class, 1) or false, class .. "[1]")
+    end)
+  end
+
+  it("have a sample of every constructor of a value", function()
+    for name in pairs(celspan) do
+      if fields_of(name)() and name ~= "render" and name ~= "pixels" and name ~= "spans" then
+        assert.is_truthy(samples[name], name)
+      end
+    end
+  end)
+
   it("name every function and value of the module", function()
     for name in pairs(celspan) do
       local is_told = text:find("function celspan." .. name .. "(", 1, true)
@@ -29,5 +115,6 @@ describe("the annotations", function()
                             "bounds", "contains", "with" } do
       assert.is_truthy(text:find("function placed:" .. name .. "(", 1, true), name)
     end
+    assert.is_truthy(text:find("function nameable:named(", 1, true))
   end)
 end)

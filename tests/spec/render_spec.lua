@@ -259,3 +259,96 @@ describe("a picture's words", function()
     assert.are.equal("rbrbrb", row { wrap = "repeat" })
   end)
 end)
+
+describe("a film, frame by frame", function()
+  local film = celspan.film { size = { 8, 4 }, first = 5, frames = 3, frame = function(f)
+    if f.number == 7 then error("no sky today") end
+    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, f.number, 4, texture = red } } }
+  end }
+
+  it("is shown by pixels, spans and probe", function()
+    local image = assert(celspan.pixels(film, { frame = 6 }))
+    assert.are.same({ 8, 4 }, { image.width, image.height })
+    assert.are.same({ 1, 0, 0, 1, 0, 0, 0, 0 },
+      table.move({ image:get(6, 0) }, 1, 4, 5, { image:get(5, 0) }))
+    assert.are.equal(0, (assert(celspan.pixels(film)):get(5, 0)))
+    assert.are.equal(10, assert(celspan.spans(film, { frame = 6, size = { 16, 8 } }))[0][1].x1 - 2)
+    assert.are.same({ 1, 0 }, { (celspan.probe(film, 5.5, 1, { frame = 6 })), (celspan.probe(film, 5.5, 1)) })
+  end)
+
+  it("says what is wrong with a frame", function()
+    for _, call in ipairs { celspan.pixels, celspan.spans,
+                            function(...) return celspan.probe(film, 1, 1, select(2, ...)) end } do
+      local nothing, message = call(film, { frame = 7 })
+      assert.is_nil(nothing)
+      assert.is_truthy(message:find("frame 7: no sky today", 1, true), message)
+      message = raised.message(call, film, { frame = 8 })
+      assert.is_truthy(message:find("frame 8 is not in the film, which has frames 5 to 7", 1, true), message)
+    end
+    local message = raised.message(celspan.pixels, scene(), { frame = 1 })
+    assert.is_truthy(message:find("field 'frame' is for films", 1, true), message)
+  end)
+end)
+
+describe("an image", function()
+  local half = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 2, 1, texture = "#ff800080" } } }
+
+  it("is a string of bytes in any coding", function()
+    local image = assert(celspan.pixels(half, { size = { 3, 1 } }))
+    assert.are.same({ 255, 128, 0, 128, 255, 128, 0, 128, 0, 0, 0, 0 }, { image:bytes():byte(1, -1) })
+    assert.are.equal(24, #image:bytes { depth = 16 })
+    assert.are.equal(24, #image:bytes { depth = "half" })
+    local r, g, b, a = string.unpack("<ffff", image:bytes { depth = "float" })
+    assert.are.same({ image:get(0, 0) }, { r, g, b, a })
+    local premultiplied = image:bytes { alpha = "premultiplied", colour = "linear" }
+    assert.are.equal(128, premultiplied:byte(1))
+    assert.are.equal("bytes: unknown field 'dept'; did you mean 'depth'?",
+      (raised.sentence(function() image:bytes { dept = 8 } end)))
+  end)
+
+  it("is written as render writes it", function()
+    local image = assert(celspan.pixels(scene(), options))
+    local ours, theirs = os.tmpname() .. ".png", os.tmpname() .. ".png"
+    assert.is_true(image:write(ours))
+    assert.is_true(celspan.render(scene(), theirs, options))
+    local a, b = assert(io.open(ours, "rb")), assert(io.open(theirs, "rb"))
+    assert.are.equal(b:read "a", a:read "a")
+    a:close()
+    b:close()
+    os.remove(ours)
+    os.remove(theirs)
+  end)
+
+  it("says why it cannot be written", function()
+    local image = assert(celspan.pixels(scene(), options))
+    local nothing, message = image:write("a.nothing")
+    assert.is_nil(nothing)
+    assert.is_truthy(message:find('the format "nothing" is not written', 1, true), message)
+    nothing, message = image:write("/proc/no/such/place.png")
+    assert.is_nil(nothing)
+    assert.is_string(message)
+    raised.message(image.write, image)
+  end)
+end)
+
+describe("random", function()
+  it("is a function of seed and label", function()
+    local random = celspan.random("snow")
+    assert.are.equal(random("x"), celspan.random("snow")("x"))
+    assert.are_not.equal(random("x"), random("y"))
+    assert.are_not.equal(random("x"), celspan.random("rain")("x"))
+    assert.are_not.equal(celspan.random("a")("b"), celspan.random("ab")(""))
+    local seen = {}
+    for i = 1, 400 do
+      local x, die = random(i), random(i, 6)
+      assert.is_true(x >= 0 and x < 1)
+      seen[die] = true
+      assert.is_true(random(i, -2, 2) >= -2 and random(i, -2, 2) <= 2)
+    end
+    assert.are.equal(6, #seen)
+    assert.are.equal("random: the seed must be a string or a number, got no value",
+      (raised.sentence(function() celspan.random() end)))
+    assert.are.equal("random: the label must be a string or a number, got boolean",
+      (raised.sentence(function() random(true) end)))
+  end)
+end)

@@ -137,7 +137,7 @@ describe("frames by several workers", function()
     for workers = 1, 3 do
       local code, _, err = render("singular.lua", "--hash --workers %d --progress none", workers)
       assert.are.equal(3, code, err)
-      assert.is_truthy(err:find("^celspan: error: frame 5: cel 1: "), err)
+      assert.is_truthy(err:find("^celspan: error: frame 5: cel 1 %([^)]*singular.lua:3%): "), err)
     end
   end)
 
@@ -339,6 +339,70 @@ describe("--progress", function()
     code, _, err = render("nothing.lua", "--hash --progress json")
     assert.are.equal(4, code)
     assert.are.equal(1, #events(err, "error"))
+  end)
+
+  --- The lines in short: the kind, and what its number is; and the end, which is last.
+  local function course(text)
+    local list, last = {}, nil
+    for line in text:gmatch "[^\n]+" do
+      last = json.decode(line)
+      list[#list + 1] = last.event .. (last.number and " " .. last.number or "")
+    end
+    return table.concat(list, ", "), last
+  end
+
+  it("json ends a failed run with the frame that failed, told before the end #workers", function()
+    for workers = 1, 3 do
+      local code, _, err = render("faulty.lua", "-o %s/f.##.png --progress json --workers %d",
+        bench.folder, workers)
+      local lines, last = course(err)
+      assert.are.equal("start, frame 1, frame 2, error 3, note, end", lines)
+      assert.are.same({ 3, 3, 1, { 3 }, 2, 12 },
+        { code, last.exit, last.failures, last.failed, last.done, last.count })
+    end
+  end)
+
+  it("json lists all that failed under --keep-going, and sums up before the end", function()
+    local code, _, err = render("faulty.lua", "-o %s/f.##.png --progress json --keep-going", bench.folder)
+    local lines, last = course(err)
+    assert.are.equal("start, frame 1, frame 2, error 3, frame 4, frame 5, error 6, error 7, frame 8, "
+      .. "frame 9, frame 10, frame 11, frame 12, note, error, end", lines)
+    assert.are.same({ 1, 1, 3, { 3, 6, 7 }, 9 },
+      { code, last.exit, last.failures, last.failed, last.done })
+  end)
+
+  it("json says when a signal stopped the run", function()
+    bench:write("slow.lua", (FILM:gsub("frames = 12", "frames = 100000"):gsub("local at = .-\n",
+      'local at = f.number\n  if at == 2 then error "no moon" end\n')))
+    local code = bench:shell(("%s render %s/slow.lua --hash --keep-going --progress json 2>%s/log & "
+      .. "pid=$!; sleep 0.5; kill -TERM $pid; wait $pid; exit $?"):format(workbench.binary, bench.folder,
+      bench.folder))
+    local lines, last = course(bench:read "log")
+    assert.are.equal(143, code, lines:sub(-300))
+    assert.is_truthy(lines:find(", note, error, end$"), lines:sub(-300))
+    assert.are.same({ "end", 143, { 2 } }, { last.event, last.exit, last.failed })
+    assert.is_true(last.done < 100000)
+  end)
+
+  it("json tells of standard output that is full before the end", function()
+    local code, _, err = bench:shell(("%s render %s/film.lua --hash --progress json >/dev/full")
+      :format(workbench.binary, bench.folder))
+    local lines, last = course(err)
+    assert.is_truthy(lines:find("frame 12, error, end$"), lines)
+    assert.are.same({ 5, 5, 0 }, { code, last.exit, last.failures })
+  end)
+
+  it("json of tiles has its errors before the end, too", function()
+    local arguments = "tiles %s/film.lua -o %s/t --tile 32 --progress json"
+    local code, _, err = bench:celspan(arguments, bench.folder, bench.folder)
+    local lines, last = course(err)
+    assert.is_truthy(lines:find("^start, tile row 0, .*, note, end$"), lines)
+    assert.are.same({ 0, 0 }, { code, last.exit })
+    bench:shell(("rm %s/t/index.html; mkdir %s/t/index.html"):format(bench.folder, bench.folder))
+    code, _, err = bench:celspan(arguments, bench.folder, bench.folder)
+    lines, last = course(err)
+    assert.are.equal("start, error, end", lines)
+    assert.are.same({ 5, 5 }, { code, last.exit })
   end)
 
   it("openjd is lines on standard output", function()

@@ -69,6 +69,20 @@ describe("keys", function()
     assert.are.equal(0.5, paint.beta)
   end)
 
+  it("mix colours given as strings, which become paints", function()
+    local track = keys { { 0, "#f00" }, { 1, "#0000ff00" } }
+    local paint = track:at(0.25)
+    assert.are.equal(0.75, paint.beta)
+    assert.are.same(celspan.rgb("#f00").pigment, track:at(-1).pigment)
+    assert.are.same({ 1, 1, 1 }, keys { { 0, celspan.rgb(0, 0, 0) }, { 1, "#fff" } }:at(2).pigment)
+    assert.are.same({ 0, 0, 0 }, keys { { 0, "#000" }, { 1, celspan.rgb(1, 1, 1) } }:at(0).pigment)
+  end)
+
+  it("hold colours among words", function()
+    local track = keys { { 0, "#abc" }, { 1, "shut" }, { 2, "#fff" } }
+    assert.are.same({ "#abc", "shut", "#fff" }, { track:at(0.9), track:at(1.9), track:at(2) })
+  end)
+
   it("hold at the ends, and hold strings and booleans", function()
     local x = keys { { 1, 10 }, { 2, 20 } }
     assert.are.same({ 10, 20 }, { x:at(0), x:at(5) })
@@ -114,7 +128,7 @@ describe("keys", function()
       { "keys: needs at least one key {time, value}", {} },
       { "keys: unknown field 'lop'; did you mean 'loop'?", { { 0, 1 }, lop = "repeat" } },
       { 'keys: loop must be "repeat" or "mirror", got no', { { 0, 1 }, loop = "no" } },
-      { 'keys: key 2 ease: there is no curve "outQuat"; did you mean "outquad"?',
+      { 'keys: key 2 cannot have this ease: there is no curve "outQuat"; did you mean "outquad"?',
         { { 0, 1 }, { 1, 2, "outQuat" } } },
       { "keys: key 1 must begin with a time, a finite number, got inf", { { math.huge, 1 } } },
       { "keys: key 1 must have a finite number, an array of them, a paint, a string or a boolean "

@@ -22,7 +22,7 @@ describe("a value", function()
     local nurbs = celspan.nurbs { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1, 2 } } }
     assert.are.same({ 3, "periodic", "nonzero" }, { nurbs.degree, nurbs.closed, nurbs.rule })
     assert.are.equal(2, nurbs.points[4][3])
-    assert.is_nil(circle.nothing)
+    assert.is_nil(nurbs.knots)
   end)
 
   it("gives copies of its tables", function()
@@ -106,6 +106,45 @@ describe("operators", function()
     assert.are.equal("xor{ 2 objects }", tostring(celspan.xor { a, b } ~ c))
   end)
 
+  it("branch from one beginning", function()
+    local function parts(value)
+      local list = {}
+      while value[#list + 1] do list[#list + 1] = value[#list + 1] end
+      return list
+    end
+    local base = a | b | c
+    local one, other = base | a, base | b
+    local moved = one:translate(1, 0)
+    local longer = one | b
+    assert.are.same({ 3, 4, 4, 4, 5 }, { #parts(base), #parts(one), #parts(other), #parts(moved),
+                                         #parts(longer) })
+    assert.are.equal(a, one[4])
+    assert.are.equal(b, other[4])
+    assert.is_nil(base[4])
+    assert.is_nil(moved[5])
+    assert.are.equal("union{ 3 objects }", tostring(base))
+    assert.are.equal("union{ 4 objects }", tostring(one:with {}))
+    assert.are.equal("union{ 2 objects }", tostring(longer:with { a, b }))
+  end)
+
+  it("cost what they hold: memory grows with the length of a chain", function()
+    local function bytes(operate, count)
+      collectgarbage()
+      collectgarbage "stop"
+      local before, chain = collectgarbage "count", a
+      for _ = 2, count do chain = operate(chain, b) end
+      local after = collectgarbage "count"
+      collectgarbage "restart"
+      assert.are.equal(b, chain[count])
+      return after - before
+    end
+    for _, operate in ipairs { function(x, y) return x | y end, function(x, y) return x & y end,
+                               function(x, y) return x - y end, function(x, y) return x ~ y end } do
+      -- a copy of all operands at each step takes sixty times as much
+      assert.is_true(bytes(operate, 8000) < 9 * bytes(operate, 1000))
+    end
+  end)
+
   it("bind as Lua binds them: - & ~ |", function()
     assert.are.equal("difference{ 2 objects }", tostring((a | b - c)[2]))
   end)
@@ -178,5 +217,101 @@ describe("paints", function()
     local half = celspan.mix(celspan.rgb(1, 0, 0), celspan.clear, 0.5)
     assert.are.same({ 1, 0, 0 }, half.pigment)
     assert.are.equal(0.5, half.beta)
+  end)
+end)
+
+describe("the parts of a value", function()
+  it("are counted, walked and unpacked", function()
+    local a, b = disc(1), disc(2)
+    local cases = {
+      { celspan.union { a, b, a }, 3 }, { a - b - a, 3 }, { celspan.cel { a, b }, 2 },
+      { celspan.rostrum { celspan.cel {} }, 1 }, { celspan.rect { 1, 2, 3, 4 }, 4 },
+      { celspan.polygon { { 0, 0 }, { 1, 0 }, { 1, 1 } }, 3 }, { a, 0 }, { celspan.clip(a, b), 2 },
+      { celspan.linear { from = { 0, 0 }, to = { 1, 0 }, { 0, "#000" }, { 1, "#fff" } }, 2 },
+      { celspan.clear, 0 }, { celspan.union {}, 0 },
+    }
+    for i, case in ipairs(cases) do
+      local value, count = case[1], case[2]
+      assert.are.equal(count, #value, i)
+      assert.are.equal(count, select("#", table.unpack(value)), i)
+      local walked = 0
+      for _ in ipairs(value) do walked = walked + 1 end
+      assert.are.equal(count, walked, i)
+    end
+    assert.are.same({ 1, 2, 3, 4 }, { table.unpack(celspan.rect { 1, 2, 3, 4 }) })
+    assert.are.equal(2, select(2, table.unpack(celspan.union { a, b })).centre[1])
+  end)
+
+  it("of a chain are its own", function()
+    local pair = disc(1) | disc(2)
+    local three = pair | disc(3)
+    assert.are.same({ 2, 3 }, { #pair, #three })
+    assert.are.same({ 3, 2 }, { #(three:translate(1, 1)), #(pair:fade(0.5)) })
+    assert.are.equal(1, #three:with { disc(9) })
+  end)
+end)
+
+describe("a colour as a string", function()
+  it("makes paints as numbers do", function()
+    local orange = celspan.rgb("#ff8000").pigment
+    assert.are.same(orange, celspan.paint { pigment = "#ff8000" }.pigment)
+    assert.are.same(orange, celspan.gel("#ff8000").medium)
+    assert.are.same(orange, celspan.paint { medium = "#ff8000" }.medium)
+    assert.are.same({ 0, 0, 0 }, celspan.gel("#ff8000").pigment)
+    assert.are.equal(0, celspan.gel("#ff8000").beta)
+    assert.are.same({ 1, 1, 1 }, celspan.rgb("#ff8000").medium)
+    assert.are.equal(0.5, celspan.paint { pigment = "#f80" }:with { beta = 0.5 }.beta)
+  end)
+
+  it("takes its alpha along, unless one is given", function()
+    assert.is_true(math.abs(celspan.rgb("#ff800080").beta - 128 / 255) < 1e-6)
+    assert.are.equal(0.25, celspan.rgb("#ff800080", 0.25).beta)
+    assert.are.equal(0.25, celspan.rgb("#ff8000", 0.25).beta)
+    local half = celspan.gel("#00000080").medium
+    assert.is_true(math.abs(half[1] - 127 / 255) < 1e-6)
+  end)
+
+  it("is refused when it is none, or has an alpha where there is no place for it", function()
+    local function sentence(call, ...)
+      local arguments = table.pack(...)
+      return (raised.sentence(function() call(table.unpack(arguments)) end))
+    end
+    assert.are.equal('rgb: takes numbers or a colour like "#rrggbb", got "red"',
+      sentence(celspan.rgb, "red"))
+    assert.are.equal('gel: takes numbers or a colour like "#rrggbb", got "#12"',
+      sentence(celspan.gel, "#12"))
+    assert.are.equal('paint: field \'pigment\' must be {r, g, b} or a colour like "#rrggbb", got "#f008"',
+      sentence(celspan.paint, { pigment = "#f008" }))
+    assert.are.equal('paint: field \'medium\' must be {r, g, b} or a colour like "#rrggbb", got "#ff000080"',
+      sentence(celspan.paint, { medium = "#ff000080" }))
+  end)
+end)
+
+describe("a pivot", function()
+  it("stays where it is", function()
+    local square = celspan.rect { 10, 20, 4, 4 }
+    assert.are.same({ 8, 18, 8, 8 }, { square:scale(2, nil, 12, 22):bounds() })
+    assert.are.same({ 8, 20, 8, 4 }, { square:scale(2, 1, 12, 22):bounds() })
+    assert.are.same({ 10, 20, 4, 4 }, { square:scale(-1, 1, 12, 22):bounds() })
+    local x, y, w, h = square:skew(45, 0, 12, 22):bounds()
+    assert.is_true(math.abs(x - 8) < 1e-9 and math.abs(w - 8) < 1e-9)
+    assert.are.same({ 20, 4 }, { y, h })
+    assert.are.equal("skew: the centre's y must be a number, got no value",
+      (raised.sentence(function() square:skew(1, 2, 3) end)))
+  end)
+end)
+
+describe("gels with an alpha", function()
+  local celspan = require "celspan"
+
+  it("are mixed with clear, whichever way the colour is written", function()
+    local halfway = celspan.mix(celspan.gel(1, 0.5, 0), celspan.clear, 0.5)
+    for _, gel in ipairs { celspan.gel(1, 0.5, 0, 0.5), celspan.gel("#ff000080", 1) } do
+      assert.equal(0, gel.beta)
+    end
+    assert.same(halfway.medium, celspan.gel(1, 0.5, 0, 0.5).medium)
+    assert.same({ 1, 0, 0 }, celspan.gel("#ff000080", 1).medium)
+    assert.error_matches(function() return celspan.gel(1, 1, 1, 2) end, "gel: alpha is 2; it must be between 0 and 1", 1, true)
+    assert.error_matches(function() return celspan.rgb("#fff", -1) end, "rgb: alpha is -1; it must be between 0 and 1", 1, true)
   end)
 end)

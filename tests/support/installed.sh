@@ -33,8 +33,13 @@ flags() {
 read -ra of_c <<<"$(flags celspan | tr '\n' ' ')"
 read -ra of_lua <<<"$(flags celspan-lua | tr '\n' ' ')"
 "${CC:-cc}" examples/memory.c -o "$tree/memory" "${of_c[@]}"
+"${CC:-cc}" examples/surface.c -o "$tree/surface" "${of_c[@]}" -lm
 "${CC:-cc}" examples/embed.c -o "$tree/embed" "${of_lua[@]}"
+"${CC:-cc}" examples/host.c -o "$tree/host" "${of_lua[@]}"
 "$tree/memory" >/dev/null
+"$tree/surface" | grep -q '80000 pixels'
+"$tree/host" scripts/booleans.lua 32 18 | head -c 2 | grep -q P6
+installed celspan.d.lua >/dev/null
 "$tree/embed" | grep -q '#'
 
 module=$(dirname "$(installed celspan.so)")
@@ -47,6 +52,7 @@ assert(select(4, image:get(12, 6)) == 1 and select(4, image:get(0, 0)) == 0)
 LUA
 
 program=$(find "$tree" -path '*/bin/celspan')
+"$program" --man | cmp - "$(installed celspan.1)"
 cat >"$tree/dot.lua" <<'LUA'
 local celspan = require "celspan"
 return celspan.film{ size = {24, 12}, frames = 1, frame = function()

@@ -29,6 +29,8 @@ static inline void *memory_watch_resize(void *user, void *block, size_t old_size
     return NULL;
   watch->blocks += (new_size > 0) - (size_t)(block != NULL);
   watch->bytes += new_size - (header ? header->size : 0);
+  if (header && new_size == 0)
+    explicit_bzero(header, sizeof *header + header->size); /* who reads it still, will notice */
   if (new_size == 0) {
     free(header);
     return NULL;

@@ -1,8 +1,12 @@
-/* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). */
+/* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). No two of them
+ * are drawn among the arguments of one call, or the operands of one sum, because C does not say
+ * which comes first (draws.lua checks it). */
 #ifndef CELSPAN_TESTS_RANDOM_H
 #define CELSPAN_TESTS_RANDOM_H
 
 #include <stdint.h>
+
+#include "celspan/celspan.h"
 
 typedef struct test_random {
   uint64_t state;
@@ -17,6 +21,13 @@ static inline uint64_t random_bits(test_random *random) {
 
 static inline double random_between(test_random *random, double low, double high) {
   return low + (high - low) * ((double)(random_bits(random) >> 11) * 0x1p-53);
+}
+
+/* In [x0, x1) x [y0, y1). */
+static inline celspan_point random_point(test_random *random, double x0, double x1, double y0,
+                                         double y1) {
+  double x = random_between(random, x0, x1), y = random_between(random, y0, y1);
+  return (celspan_point){x, y};
 }
 
 /* In [0, 1), a multiple of 2^-24. */

@@ -89,7 +89,30 @@ function maker:texture()
     return ("celspan.radial{ centre = %s, radius = %s, %s }"):format(
       self:point_text(), self:number(1, 30), self:stops())
   end
+  if kind == 4 and self.has_pictures then return self:picture() end
   return self:paint()
+end
+
+local formats = { { "rgba8", 4 }, { "rgb8", 3 }, { "grey8", 1 }, { "rgba16", 8 } }
+
+--- A few pixels in memory, bilinear, as the oracle takes them.
+function maker:picture()
+  local format, w, h = self.random:pick(formats), self.random:whole(1, 5), self.random:whole(1, 4)
+  local bytes = {}
+  for i = 1, w * h * format[2] do
+    bytes[i] = ("\\x%02x"):format(self.random:pick { 0, 255, self.random:whole(0, 255) })
+  end
+  local fields = ""
+  if self.random:once(4) then fields = fields .. ', as = "gel"' end
+  if self.random:once(3) then fields = fields .. ', alpha = "premultiplied"' end
+  if self.random:once(3) then fields = fields .. ', colour = "linear"' end
+  if self.random:once(2) then
+    fields = ('%s, wrap = "%s", box = {%s, %s, %s, %s}'):format(
+      fields, self.random:pick { "clear", "clamp", "repeat" }, self:number(0, 20),
+      self:number(0, 20), self:number(4, 40), self:number(4, 40))
+  end
+  return ('celspan.picture{ pixels = "%s", size = {%d, %d}, format = %q, sampling = "bilinear"%s }')
+    :format(table.concat(bytes), w, h, format[1], fields)
 end
 
 -- ---------------------------------------------------------------- primitives
@@ -279,7 +302,23 @@ function maker:dress(object)
   return object
 end
 
+--- A composition inside another, in a film of its own size. Its paint may be brighter than white,
+-- so whatever light falls on it is multiplied by its own.
+function maker:nested()
+  local traits, lights, most = self.traits, self.lights, self.most
+  local width, height, brightest = traits.width, traits.height, self.brightest
+  traits.width, traits.height = self.random:whole(10, 50), self.random:whole(10, 40)
+  self.level, self.brightest, self.most = self.level + 1, 1, self.random:pick { 1, 2 }
+  local text = self:rostrum(("size = {%d, %d}"):format(traits.width, traits.height))
+  self.level, self.brightest, self.most = self.level - 1, math.max(brightest, self.lights), most
+  traits.width, traits.height, self.lights = width, height, lights
+  return text
+end
+
 function maker:object(depth)
+  if self.level < 2 and not self.is_plain and self.random:once(12) then
+    return self:dress(self:nested())
+  end
   if depth == 0 or self.random:once(3) then return self:dress(self:primitive()) end
   local kind = self.random:pick { "union", "intersection", "difference", "xor", "clip",
                                   "|", "&", "-", "~" }
@@ -303,15 +342,33 @@ function maker:light(most)
   return table.concat(values, ", ")
 end
 
+--- A light with a shape, on the frame or on the cel.
+function maker:light_shape(places)
+  local gain = self.random:between(0, 2)
+  self.lights = self.lights + math.max(1, gain)
+  return ("{ texture = %s, gain = %s, on = %q }"):format(self:texture(), text_of(gain),
+                                                        self.random:pick(places))
+end
+
+local anywhere, on_frame = { "frame", "frame", "cel" }, { "frame" }
+
+function maker:front(most)
+  if not self.is_plain and self.random:once(3) then return self:light_shape(anywhere) end
+  return ("{%s}"):format(self:light(most))
+end
+
+function maker:back(places)
+  if not self.is_plain and self.random:once(3) then return self:light_shape(places) end
+  return ("{%s, %s}"):format(self:light(1), self:share())
+end
+
 function maker:cel()
   local fields = {}
   for i = 1, self.random:whole(1, self.most) do
     fields[i] = "\n        " .. self:object(self.random:whole(0, self.depth))
   end
-  if self.random:once(3) then fields[#fields + 1] = ("front = {%s}"):format(self:light(1.5)) end
-  if self.random:once(5) then
-    fields[#fields + 1] = ("back = {%s, %s}"):format(self:light(1), self:share())
-  end
+  if self.random:once(3) then fields[#fields + 1] = "front = " .. self:front(1.5) end
+  if self.random:once(5) then fields[#fields + 1] = "back = " .. self:back(anywhere) end
   if self.random:once(6) then
     fields[#fields + 1] = ("viewport = {%s, %s, %s, %s}"):format(
       self:number(-10, 10), self:number(-10, 10), self:number(15, 60), self:number(15, 60))
@@ -321,14 +378,12 @@ function maker:cel()
   return ("celspan.cel{ %s }%s"):format(table.concat(fields, ", "), transform)
 end
 
-function maker:rostrum()
-  local fields = {}
+function maker:rostrum(size)
+  local fields = { size }
   self.lights = 1
-  for i = 1, self.random:whole(1, self.most) do fields[i] = "\n      " .. self:cel() end
-  if self.random:once(4) then fields[#fields + 1] = ("front = {%s}"):format(self:light(1.2)) end
-  if self.random:once(3) then
-    fields[#fields + 1] = ("back = {%s, %s}"):format(self:light(1), self:share())
-  end
+  for _ = 1, self.random:whole(1, self.most) do fields[#fields + 1] = "\n      " .. self:cel() end
+  if self.random:once(4) then fields[#fields + 1] = "front = " .. self:front(1.2) end
+  if self.random:once(3) then fields[#fields + 1] = "back = " .. self:back(on_frame) end
   if self.random:once(5) then
     local brightness = self.random:between(0, 2)
     fields[#fields + 1] = ("brightness = %s"):format(text_of(brightness))
@@ -339,6 +394,7 @@ function maker:rostrum()
     fields[#fields + 1] = ("camera = { centre = %s, width = %s, rotate = %s }"):format(
       self:point_text(), self:number(15, 70), rotate)
   end
+  self.lights = self.lights * self.brightest
   return ("celspan.rostrum{ %s }"):format(table.concat(fields, ", "))
 end
 
@@ -366,13 +422,16 @@ local function start(seed, options)
   return setmetatable({
     random = random, traits = traits, made = {},
     is_straight = random:once(2), is_upright = options.has_rows ~= false and random:once(4),
-    is_flat = options.is_flat, is_single = options.is_single,
+    is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
+    has_pictures = options.has_pictures ~= false, level = 0, lights = 1, brightest = 1,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
 
 --- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
--- options: is_flat (no gradients), is_single (one exposure), has_rows = false (no scan-lines).
+-- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
+-- scan-lines), has_pictures = false, is_plain (no lights with a shape, no compositions inside
+-- others).
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

@@ -32,8 +32,7 @@ static void random_nurbs(test_random *random, cs_outline *outline) {
   bool is_periodic = random_below(random, 2);
   int grid = random_below(random, 3) == 0;
   for (int i = 0; i < count; i++) {
-    points[i] =
-        (celspan_point){random_between(random, -100, 400), random_between(random, -80, 300)};
+    points[i] = random_point(random, -100, 400, -80, 300);
     if (grid)
       points[i] = (celspan_point){20 * floor(points[i].x / 20), 20 * floor(points[i].y / 20)};
     weights[i] = random_below(random, 4) == 0 ? random_between(random, 0.01, 20) : 1;
@@ -47,11 +46,12 @@ static void random_nurbs(test_random *random, cs_outline *outline) {
     row = again ? row + 1 : 1;
     knots[i] = knots[i - 1] + (again ? 0 : random_between(random, 0.1, 2));
   }
+  bool has_weights = random_below(random, 2), has_knots = random_below(random, 2);
   celspan_nurbs_desc desc = {.points = points,
-                             .weights = random_below(random, 2) ? weights : NULL,
+                             .weights = has_weights ? weights : NULL,
                              .point_count = (size_t)count,
                              .degree = degree,
-                             .knots = random_below(random, 2) ? knots : NULL,
+                             .knots = has_knots ? knots : NULL,
                              .knot_count = knot_count,
                              .closure =
                                  is_periodic ? CELSPAN_NURBS_PERIODIC : CELSPAN_NURBS_CLAMPED};
@@ -64,16 +64,18 @@ static void random_outline(test_random *random, cs_outline *outline) {
   case 0: {
     celspan_point points[12];
     int count = 3 + random_below(random, 9);
-    for (int i = 0; i < count; i++)
-      points[i] = (celspan_point){floor(random_between(random, -50, 350)),
-                                  floor(random_between(random, -50, 250))};
+    for (int i = 0; i < count; i++) {
+      celspan_point point = random_point(random, -50, 350, -50, 250);
+      points[i] = (celspan_point){floor(point.x), floor(point.y)};
+    }
     MUST(cs_outline_polygon(context, outline, points, (size_t)count));
     break;
   }
-  case 1:
-    MUST(cs_outline_ellipse(context, outline, (celspan_point){150, 100},
-                            random_between(random, 0, 200), random_between(random, 0, 200)));
+  case 1: {
+    double rx = random_between(random, 0, 200), ry = random_between(random, 0, 200);
+    MUST(cs_outline_ellipse(context, outline, (celspan_point){150, 100}, rx, ry));
     break;
+  }
   case 2:
     MUST(cs_outline_rect(context, outline, 20, 30, 200, 100, random_between(random, 0, 80)));
     break;
@@ -85,10 +87,12 @@ static void random_outline(test_random *random, cs_outline *outline) {
 static celspan_matrix random_matrix(test_random *random) {
   celspan_matrix matrix = celspan_matrix_identity();
   int kind = random_below(random, 3);
-  if (kind >= 1)
-    matrix = celspan_matrix_then(
-        celspan_matrix_rotation(random_between(random, -3, 3), (celspan_point){150, 100}),
-        celspan_matrix_scaling(random_between(random, -2, 2), random_between(random, 0.1, 2)));
+  if (kind >= 1) {
+    double angle = random_between(random, -3, 3);
+    celspan_point scale = random_point(random, -2, 2, 0.1, 2);
+    matrix = celspan_matrix_then(celspan_matrix_rotation(angle, (celspan_point){150, 100}),
+                                 celspan_matrix_scaling(scale.x, scale.y));
+  }
   if (kind == 2) {
     matrix.m[6] = random_between(random, -0.004, 0.004);
     matrix.m[7] = random_between(random, -0.004, 0.004);
@@ -266,9 +270,11 @@ static void check_case(const cs_outline *outline, const celspan_matrix *matrix,
   cs_boundary_set set = build(outline, matrix, frame);
   cs_outline turned = reversed_outline(outline);
   cs_boundary_set turned_set = build(&turned, matrix, frame);
-  int passed = CHECK(is_well_formed(&set, frame)) & CHECK(keeps_vertices_inside(&set, frame)) &
-               CHECK(keeps_half_open_rule(&set, frame, random)) &
-               CHECK(starts_anywhere(&set, random)) & CHECK(are_turned_copies(&set, &turned_set));
+  int passed = CHECK(is_well_formed(&set, frame));
+  passed &= CHECK(keeps_vertices_inside(&set, frame));
+  passed &= CHECK(keeps_half_open_rule(&set, frame, random));
+  passed &= CHECK(starts_anywhere(&set, random));
+  passed &= CHECK(are_turned_copies(&set, &turned_set));
   if (!passed)
     fprintf(stderr, "  case %d, frame %g\n", seed, frame->right);
   cs_boundary_finish(&set, context->memory);
@@ -289,6 +295,12 @@ static void random_curves_obey_the_rules(void) {
 }
 
 /* Entries over many orders of magnitude: nothing hangs, overflows or loses its partner. */
+/* Of any size, up to 1e12. */
+static double random_wild(test_random *random) {
+  double digits = random_between(random, -1, 1), power = random_between(random, -12, 12);
+  return digits * pow(10, power);
+}
+
 static void wild_matrices_obey_the_rules(void) {
   for (int seed = 1; seed <= 1500; seed++) {
     test_random random = {(uint64_t)seed + 100000};
@@ -297,7 +309,7 @@ static void wild_matrices_obey_the_rules(void) {
     celspan_matrix matrix = random_matrix(&random);
     for (int i = 0; i < 9; i++)
       if (random_below(&random, 3) == 0)
-        matrix.m[i] = random_between(&random, -1, 1) * pow(10, random_between(&random, -12, 12));
+        matrix.m[i] = random_wild(&random);
     if (random_below(&random, 4) == 0)
       matrix.m[random_below(&random, 9)] = 0;
     check_case(&outline, &matrix, &small, &random, seed + 100000);
@@ -529,10 +541,12 @@ static void the_horizon_cuts_exactly(void) {
     test_random random = {(uint64_t)seed};
     double angle = random_between(&random, -3.2, 3.2), steep = random_between(&random, 0, 0.03);
     double shift = random_between(&random, -30, 30);
-    celspan_matrix matrix = {{random_between(&random, -3, 3), random_between(&random, -3, 3),
-                              random_between(&random, -100, 300), random_between(&random, -3, 3),
-                              random_between(&random, -3, 3), random_between(&random, -100, 200),
-                              steep * cos(angle), steep * sin(angle),
+    celspan_point right = random_point(&random, -3, 3, -3, 3);
+    double x = random_between(&random, -100, 300);
+    celspan_point down = random_point(&random, -3, 3, -3, 3);
+    double y = random_between(&random, -100, 200);
+    celspan_matrix matrix = {{right.x, right.y, x, down.x, down.y, y, steep * cos(angle),
+                              steep * sin(angle),
                               1 - steep * ((50 + shift) * cos(angle) + 50 * sin(angle))}};
     check_insides(&circle, in_circle, &matrix, &random, seed);
     check_insides(&square, in_square, &matrix, &random, seed);
@@ -647,8 +661,7 @@ static void shared_edges_are_one(void) {
     test_random random = {(uint64_t)seed};
     celspan_point p[4];
     for (int i = 0; i < 4; i++)
-      p[i] =
-          (celspan_point){random_between(&random, -500, 800), random_between(&random, -500, 700)};
+      p[i] = random_point(&random, -500, 800, -500, 700);
     const celspan_point one[3] = {p[0], p[1], p[2]}, two[3] = {p[1], p[0], p[3]};
     celspan_matrix matrix = random_matrix(&random);
     matrix.m[6] *= 0.1;

@@ -9,6 +9,7 @@
 
 #define SIDE 48
 #define CELLS 84 /* probe samples across a kernel */
+#define BOUND 0.004
 
 typedef struct view {
   int32_t width, height;
@@ -78,11 +79,12 @@ typedef struct stage { /* one cel, sharp and defocused, seen alike */
 
 static celspan_texture *random_ramp(studio *s) {
   celspan_stop stops[3];
-  for (int i = 0; i < 3; i++)
-    stops[i] = (celspan_stop){i / 2.0, celspan_paint_rgb((float)random_unit(), (float)random_unit(),
-                                                         (float)random_unit(), 1)};
-  return studio_linear(s, (celspan_point){between(0, 20), between(0, 20)},
-                       (celspan_point){between(28, 48), between(28, 48)}, stops, 3);
+  for (int i = 0; i < 3; i++) {
+    float r = (float)random_unit(), g = (float)random_unit(), b = (float)random_unit();
+    stops[i] = (celspan_stop){i / 2.0, celspan_paint_rgb(r, g, b, 1)};
+  }
+  double x0 = between(0, 20), y0 = between(0, 20), x1 = between(28, 48), y1 = between(28, 48);
+  return studio_linear(s, (celspan_point){x0, y0}, (celspan_point){x1, y1}, stops, 3);
 }
 
 static celspan_object *random_object(studio *s, bool has_gels, bool has_ramps) {
@@ -106,8 +108,9 @@ static celspan_matrix random_placement(int kind) {
   celspan_matrix matrix = celspan_matrix_identity();
   if (kind == 1)
     matrix = celspan_matrix_rotation(between(-2, 2), (celspan_point){24, 24});
+  double across = kind == 2 ? between(0.6, 1.5) : 1, down = kind == 2 ? between(0.6, 1.5) : 1;
   if (kind == 2)
-    matrix = celspan_matrix_scaling(between(0.6, 1.5), between(0.6, 1.5));
+    matrix = celspan_matrix_scaling(across, down);
   if (kind == 3)
     CHECK(celspan_matrix_quad(from, to, &matrix));
   return matrix;
@@ -182,6 +185,27 @@ static void convolve(studio *s, const stage *set, celspan_defocus_kernel kernel,
     out[k] /= total;
 }
 
+/* How far a pixel is from the mean, at most. Where that is half of what is let pass, the mean is
+ * taken again and again first, until its own noise is a third. */
+static double difference(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
+                         celspan_point at, const float pixel[4]) {
+  double sum[4] = {0, 0, 0, 0}, worst = 0;
+  int times = 0, most = 1;
+  while (times < most) {
+    double want[4];
+    convolve(s, set, kernel, radius, at, want);
+    times++;
+    worst = 0;
+    for (int c = 0; c < 4; c++) {
+      sum[c] += want[c];
+      worst = fmax(worst, fabs(sum[c] / times - (double)pixel[c]));
+    }
+    if (times == 1 && worst > BOUND / 2)
+      most = 9;
+  }
+  return worst;
+}
+
 static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, double radius,
                     const view *v, int points, const char *what) {
   image defocused = make(s, set->defocused, v, 1);
@@ -191,12 +215,9 @@ static void compare(studio *s, const stage *set, celspan_defocus_kernel kernel, 
     int32_t x = k == 0 ? 0 : k == 1 ? v->width - 1 : (int32_t)between(0, v->width);
     int32_t y = k == 2 ? 0 : k == 3 ? v->height - 1 : (int32_t)between(0, v->height);
     celspan_point at = {(x + 0.5) * SIDE / v->width, (y + 0.5) * SIDE / v->height};
-    double want[4];
-    convolve(s, set, kernel, radius, at, want);
-    for (int c = 0; c < 4; c++)
-      worst = fmax(worst, fabs(want[c] - (double)defocused.rgba[y * v->width + x][c]));
+    worst = fmax(worst, difference(s, set, kernel, radius, at, defocused.rgba[y * v->width + x]));
   }
-  if (!CHECK_NEAR(worst, 0, 0.004))
+  if (!CHECK_NEAR(worst, 0, BOUND))
     fprintf(stderr, "  %s: radius %g, kernel %d\n", what, radius, (int)kernel);
   free(defocused.rgba);
 }

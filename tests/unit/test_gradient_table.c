@@ -42,8 +42,9 @@ static celspan_paint random_paint(void) {
 
 /* Stops that leave both ends free, two of them in one place. */
 static void make_textures(celspan_context *context) {
-  celspan_stop stops[4] = {
-      {0.1, random_paint()}, {0.4, random_paint()}, {0.4, random_paint()}, {0.9, random_paint()}};
+  celspan_stop stops[4] = {{.at = 0.1}, {.at = 0.4}, {.at = 0.4}, {.at = 0.9}};
+  for (int i = 0; i < 4; i++)
+    stops[i].paint = random_paint();
   celspan_point from = {20, 10}, to = {150, 60};
   CHECK(celspan_texture_create_linear(context, from, to, stops, 4, &linear) == CELSPAN_OK);
   CHECK(celspan_texture_create_radial(context, from, 160, stops, 4, &radial) == CELSPAN_OK);
@@ -51,12 +52,14 @@ static void make_textures(celspan_context *context) {
 
 static void make_layers(bool is_grouped, double perspective) {
   for (uint32_t i = 0; i < LEAVES; i++) {
-    layers[i] = (cs_layer){.fade = random_unit(&numbers),
+    float fade = random_unit(&numbers), red = random_unit(&numbers), blue = random_unit(&numbers);
+    float s = random_unit(&numbers), t = random_unit(&numbers);
+    layers[i] = (cs_layer){.fade = fade,
                            .group = is_grouped && i > 0 && i < 4 ? 0 : CS_STACK_NONE,
                            .index = i,
-                           .front = {random_unit(&numbers), 1, random_unit(&numbers), 0},
-                           .s = {0.1f, 0.2f, random_unit(&numbers), 0},
-                           .t = {0.5f, random_unit(&numbers), 0.7f, 0}};
+                           .front = {red, 1, blue, 0},
+                           .s = {0.1f, 0.2f, s, 0},
+                           .t = {0.5f, t, 0.7f, 0}};
     rules[i] = (cs_layer_rule){.key = {(uint64_t)1 << i | (uint64_t)i << 40, ~(uint64_t)i << i}};
     shades[i] = (cs_shade){.texture = i % 2 ? linear : radial,
                            .inverse = {{1, 0.1 * i, 3, -0.2, 1, 5, perspective, 0, 1}}};
@@ -90,7 +93,7 @@ static void fold(cs_painter *painter, const cs_program *program, double y, float
       cs_v4_store(t[x], paint.t);
     }
     if (layer->kind == CS_LAYER_SHADED)
-      cs_over_row_add_paint(&over, layer, (const float(*)[4])s, (const float(*)[4])t);
+      CHECK(cs_over_row_add_paint(&over, layer, (const float(*)[4])s, (const float(*)[4])t) == CELSPAN_OK);
     else
       cs_over_row_add_layer(&over, layer);
   }

@@ -21,9 +21,10 @@ static void make_polylines(size_t count, int bends) {
     double step = 1.0 / (inner + 1);
     point_counts[i] = inner + 2;
     points[i][0] = (celspan_point){(double)i / 8, 2};
-    for (int k = 1; k <= inner; k++)
-      points[i][k] = (celspan_point){random_between(&numbers, 0, 8),
-                                     2 + step * (k - 0.5 + random_between(&numbers, 0, 0.4))};
+    for (int k = 1; k <= inner; k++) {
+      celspan_point bend = random_point(&numbers, 0, 8, 0, 0.4);
+      points[i][k] = (celspan_point){bend.x, 2 + step * (k - 0.5 + bend.y)};
+    }
     points[i][last] = (celspan_point){random_between(&numbers, 0, 8), 3};
     tops[i] = points[i][0].x;
     feet[i] = points[i][last].x;

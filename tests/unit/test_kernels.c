@@ -365,7 +365,7 @@ static void check_door(void) {
   refuse(context, &f, CELSPAN_BAD_ARGUMENT,
          "rostrum: antialias: radius is -1; it must be between 0 and 256");
   f.radius = (double)NAN;
-  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius is not a number");
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius must be a finite number, got nan");
   f = filter(CELSPAN_KERNEL_FUNCTION, 2);
   double value = 0;
   f.function_user = &value;
@@ -376,7 +376,7 @@ static void check_door(void) {
   value = (double)INFINITY;
   refuse(
       context, &f, CELSPAN_BAD_ARGUMENT,
-      "rostrum: antialias: the kernel gives inf at -1.999023; its values must be finite numbers");
+      "rostrum: antialias: the kernel's value at -1.999023 must be a finite number, got inf");
   f.function = no_function;
   refuse(context, &f, CELSPAN_CALLBACK, "no kernel today");
   celspan_context_destroy(context);

@@ -26,6 +26,23 @@ static void makers_move_points(void) {
   check_goes(celspan_matrix_skewing(0, quarter / 2), 1, 2, 1, 3);
 }
 
+static void makers_about_a_centre_keep_it(void) {
+  double eighth = 3.14159265358979323846 / 4;
+  celspan_point centre = {5, 7};
+  check_goes(celspan_matrix_scaling_about(2, -3, centre), 5, 7, 5, 7);
+  check_goes(celspan_matrix_scaling_about(2, -3, centre), 6, 8, 7, 4);
+  check_goes(celspan_matrix_skewing_about(eighth, 0, centre), 5, 7, 5, 7);
+  check_goes(celspan_matrix_skewing_about(eighth, 0, centre), 5, 9, 7, 9);
+  check_goes(celspan_matrix_skewing_about(0, -eighth, centre), 8, 7, 8, 4);
+  /* About the origin they are the plain ones, to the bit. */
+  celspan_matrix plain = celspan_matrix_skewing(-0.5, 0.5);
+  celspan_matrix about = celspan_matrix_skewing_about(-0.5, 0.5, (celspan_point){0, 0});
+  CHECK(memcmp(&plain, &about, sizeof plain) == 0);
+  plain = celspan_matrix_scaling(-2, 3);
+  about = celspan_matrix_scaling_about(-2, 3, (celspan_point){0, 0});
+  CHECK(memcmp(&plain, &about, sizeof plain) == 0);
+}
+
 static void then_applies_the_first_first(void) {
   celspan_matrix both =
       celspan_matrix_then(celspan_matrix_translation(1, 0), celspan_matrix_scaling(10, 10));
@@ -64,9 +81,10 @@ static void quad_takes_corners_to_corners(void) {
     test_random random = {(uint64_t)seed};
     celspan_point to[4];
     const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    for (int i = 0; i < 4; i++)
-      to[i] = (celspan_point){300 + signs[i][0] * random_between(&random, 60, 150),
-                              200 + signs[i][1] * random_between(&random, 60, 150)};
+    for (int i = 0; i < 4; i++) {
+      celspan_point away = random_point(&random, 60, 150, 60, 150);
+      to[i] = (celspan_point){300 + signs[i][0] * away.x, 200 + signs[i][1] * away.y};
+    }
     celspan_matrix quad;
     if (!CHECK(celspan_matrix_quad(from, to, &quad)))
       continue;
@@ -109,6 +127,7 @@ static void kinds_are_told(void) {
 
 int main(void) {
   makers_move_points();
+  makers_about_a_centre_keep_it();
   then_applies_the_first_first();
   inverse_undoes();
   singular_matrices_have_no_inverse();

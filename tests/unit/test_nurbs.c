@@ -88,7 +88,7 @@ static void pieces_equal_the_definition(void) {
     celspan_point points[MOST];
     double weights[MOST], knots[MOST];
     for (int i = 0; i < count; i++) {
-      points[i] = (celspan_point){random_between(&random, 0, 100), random_between(&random, 0, 100)};
+      points[i] = random_point(&random, 0, 100, 0, 100);
       weights[i] = random_between(&random, 0.1, 3);
     }
     int knot_count = is_periodic ? count + 1 : count + degree + 1, row = 1;
@@ -100,11 +100,12 @@ static void pieces_equal_the_definition(void) {
       row = again ? row + 1 : 1;
       knots[i] = knots[i - 1] + (again ? 0 : random_between(&random, 0.2, 2));
     }
+    bool has_weights = random_below(&random, 2), has_knots = random_below(&random, 3);
     celspan_nurbs_desc desc = {.points = points,
-                               .weights = random_below(&random, 2) ? weights : NULL,
+                               .weights = has_weights ? weights : NULL,
                                .point_count = (size_t)count,
                                .degree = degree,
-                               .knots = random_below(&random, 3) ? knots : NULL,
+                               .knots = has_knots ? knots : NULL,
                                .knot_count = (size_t)knot_count,
                                .closure =
                                    is_periodic ? CELSPAN_NURBS_PERIODIC : CELSPAN_NURBS_CLAMPED};
@@ -187,7 +188,7 @@ static void mistakes_are_named(void) {
   desc.knots = (const double[6]){0, 1, 2, 1.5, 4, 5};
   check_refused(&desc, "knot 4 is 1.5, less than knot 3, which is 2; knots must not decrease");
   desc.knots = (const double[6]){0, 1, HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
-  check_refused(&desc, "knot 3 is inf; knots must be finite and within 1e12");
+  check_refused(&desc, "knots[3] must be a finite number, got inf");
   desc.knots = (const double[6]){3, 3, 3, 3, 3, 3};
   check_refused(&desc, "knots 1 to 6 are all 3; the curve has no length between them");
   desc.knots = (const double[6]){0, 1, 1, 1, 2, 3};

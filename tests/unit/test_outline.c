@@ -105,7 +105,7 @@ static void boxes_are_tight_in_perspective(void) {
     celspan_point points[7];
     double weights[7];
     for (int i = 0; i < 7; i++) {
-      points[i] = (celspan_point){random_between(&random, 0, 100), random_between(&random, 0, 100)};
+      points[i] = random_point(&random, 0, 100, 0, 100);
       weights[i] = random_between(&random, 0.1, 5);
     }
     celspan_nurbs_desc desc = {.points = points, .weights = weights, .point_count = 7, .degree = 4};

@@ -29,13 +29,16 @@ static void fill(void) {
       t[i][c] = random_unit(&numbers);
     }
   for (uint32_t i = 0; i < 6; i++) {
-    all_layers[i] = (cs_layer){.fade = i == 5 ? 1 : random_unit(&numbers),
+    float fade = i == 5 ? 1 : random_unit(&numbers);
+    float red = random_unit(&numbers), blue = 2 * random_unit(&numbers);
+    float from_front = random_unit(&numbers), through = random_unit(&numbers);
+    all_layers[i] = (cs_layer){.fade = fade,
                                .group = i == 0 || i == 5  ? CS_STACK_NONE
                                         : i < 2 || i == 4 ? 0
                                                           : 1,
-                               .front = {random_unit(&numbers), 1, 2 * random_unit(&numbers), 0},
-                               .s = {0.1f, 0.2f, random_unit(&numbers), 0},
-                               .t = {0.5f, random_unit(&numbers), 0.7f, 0}};
+                               .front = {red, 1, blue, 0},
+                               .s = {0.1f, 0.2f, from_front, 0},
+                               .t = {0.5f, through, 0.7f, 0}};
   }
 }
 
@@ -50,12 +53,12 @@ static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t 
     if (layer % 3 == 0)
       cs_over_row_add_layer(&over, &all_layers[layer]);
     else if (layer % 3 == 1)
-      cs_over_row_add_paint(&over, &all_layers[layer], (const float(*)[4])s + from,
-                            (const float(*)[4])t + from);
+      CHECK(cs_over_row_add_paint(&over, &all_layers[layer], (const float(*)[4])s + from,
+                            (const float(*)[4])t + from) == CELSPAN_OK);
     else
-      cs_over_row_add_samples(&over, &all_layers[layer],
+      CHECK(cs_over_row_add_samples(&over, &all_layers[layer],
                               layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
-                              (const float(*)[4])rgba + from);
+                              (const float(*)[4])rgba + from) == CELSPAN_OK);
   }
   cs_over_row_end(&over, out);
 }
@@ -95,7 +98,7 @@ static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack
   const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
   for (uint32_t i = 0; i < 2; i++) {
     CHECK(cs_over_row_move(&over, 5 - i) == CELSPAN_OK);
-    cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]);
+    CHECK(cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]) == CELSPAN_OK);
     for (int32_t k = layers.shown.first; k < layers.shown.end; k++)
       memcpy(layers.rgba[k], samples[i][k], sizeof *layers.rgba);
     if (i == 0)

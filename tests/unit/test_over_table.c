@@ -60,6 +60,12 @@ static int check_light(cs_over_pair light) {
   return last;
 }
 
+/* Puts one of the first `count` leaves into the set, as often as the density says, or out of it. */
+static void put_any(int count, float density) {
+  float place = random_unit(&numbers), depth = random_unit(&numbers);
+  put((int)(place * (float)count), depth < density);
+}
+
 /* A walk from set to set; a stranger who has seen none of them finds the same light. */
 static void test_walk(celspan_context *context, float through, float density) {
   cs_over_table table, stranger;
@@ -67,13 +73,13 @@ static void test_walk(celspan_context *context, float through, float density) {
   CHECK(cs_over_table_init(&table, context, &stack) == CELSPAN_OK);
   for (int step = 0; step < 300; step++) {
     for (int k = 0; k < 1 + step % 9; k++)
-      put((int)(random_unit(&numbers) * LEAVES), random_unit(&numbers) < density);
+      put_any(LEAVES, density);
     cs_over_pair light = light_of(&table);
     int last = check_light(light);
     CHECK(cs_over_table_init(&stranger, context, &stack) == CELSPAN_OK);
     CHECK(same(light, light_of(&stranger)));
     for (int k = 0; k < 5 && last > 64; k++) /* nobody sees them */
-      put((int)(random_unit(&numbers) * (float)(last - 64)), random_unit(&numbers) < 0.5f);
+      put_any(last - 64, 0.5f);
     CHECK(last <= 64 || same(light, light_of(&table)));
     cs_over_table_finish(&stranger);
   }

@@ -83,7 +83,8 @@ static void numbers_are_right_to_an_ulp(void) {
   for (int seed = 1; seed <= 3000; seed++) {
     test_random random = {(uint64_t)seed};
     char data[100], number[64];
-    double value = random_between(&random, -1, 1) * pow(10, random_between(&random, -20, 11));
+    double digits = random_between(&random, -1, 1);
+    double value = digits * pow(10, random_between(&random, -20, 11));
     snprintf(number, sizeof number, "%.*g", 1 + random_below(&random, 20), value);
     snprintf(data, sizeof data, "M0 0L%s 1", number);
     cs_outline outline = read_path(data);

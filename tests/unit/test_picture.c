@@ -320,6 +320,119 @@ static void test_truncated(void) {
   }
 }
 
+/* ---------------------------------------------------------------- where a JPEG ends */
+
+/* 40 x 24, grey, progressive, with restart markers. */
+static const unsigned char progressive[] = {
+    0xff, 0xd8, 0xff, 0xdb, 0x00, 0x43, 0x00, 0x28, 0x1c, 0x1e, 0x23, 0x1e, 0x19, 0x28, 0x23, 0x21,
+    0x23, 0x2d, 0x2b, 0x28, 0x30, 0x3c, 0x64, 0x41, 0x3c, 0x37, 0x37, 0x3c, 0x7b, 0x58, 0x5d, 0x49,
+    0x64, 0x91, 0x80, 0x99, 0x96, 0x8f, 0x80, 0x8c, 0x8a, 0xa0, 0xb4, 0xe6, 0xc3, 0xa0, 0xaa, 0xda,
+    0xad, 0x8a, 0x8c, 0xc8, 0xff, 0xcb, 0xda, 0xee, 0xf5, 0xff, 0xff, 0xff, 0x9b, 0xc1, 0xff, 0xff,
+    0xff, 0xfa, 0xff, 0xe6, 0xfd, 0xff, 0xf8, 0xff, 0xc2, 0x00, 0x0b, 0x08, 0x00, 0x18, 0x00, 0x28,
+    0x01, 0x01, 0x11, 0x00, 0xff, 0xc4, 0x00, 0x19, 0x00, 0x00, 0x02, 0x03, 0x01, 0x00, 0x00, 0x00,
+    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x03, 0x04, 0x00, 0x01, 0x02, 0x05, 0xff,
+    0xdd, 0x00, 0x04, 0x00, 0x02, 0xff, 0xda, 0x00, 0x08, 0x01, 0x01, 0x00, 0x00, 0x00, 0x01, 0x54,
+    0xdf, 0xff, 0xd0, 0x86, 0xff, 0xd1, 0x67, 0x9d, 0xff, 0xd2, 0xd4, 0xff, 0xd3, 0xdd, 0xff, 0x00,
+    0xff, 0xd4, 0x13, 0xbf, 0xff, 0xd5, 0x2a, 0x3f, 0xff, 0xd6, 0x07, 0xff, 0xc4, 0x00, 0x19, 0x10,
+    0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+    0x01, 0x00, 0x02, 0x12, 0x03, 0x11, 0xff, 0xda, 0x00, 0x08, 0x01, 0x01, 0x00, 0x01, 0x05, 0x02,
+    0x20, 0xbf, 0xff, 0xd0, 0x20, 0xbf, 0xff, 0xd1, 0x22, 0xff, 0xd2, 0x08, 0xbf, 0xff, 0xd3, 0xde,
+    0xf9, 0xbd, 0x75, 0xf3, 0x3f, 0xff, 0xd4, 0x20, 0xbf, 0xff, 0xd5, 0x20, 0xbf, 0xff, 0xd6, 0xde,
+    0xba, 0xd7, 0xff, 0xc4, 0x00, 0x19, 0x10, 0x01, 0x00, 0x02, 0x03, 0x00, 0x00, 0x00, 0x00, 0x00,
+    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x10, 0x00, 0x11, 0x01, 0x31, 0x51, 0xff, 0xda, 0x00,
+    0x08, 0x01, 0x01, 0x00, 0x06, 0x3f, 0x02, 0x3f, 0xff, 0xd0, 0x3f, 0xff, 0xd1, 0x3f, 0xff, 0xd2,
+    0x3f, 0xff, 0xd3, 0xac, 0x6e, 0x57, 0x67, 0xff, 0xd4, 0x3f, 0xff, 0xd5, 0x3f, 0xff, 0xd6, 0xb9,
+    0xff, 0xc4, 0x00, 0x1b, 0x10, 0x00, 0x02, 0x02, 0x03, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x10, 0x11, 0x21, 0x31, 0x41, 0xf1, 0xff, 0xda, 0x00,
+    0x08, 0x01, 0x01, 0x00, 0x01, 0x3f, 0x21, 0x48, 0x3f, 0xff, 0xd0, 0x48, 0x3f, 0xff, 0xd1, 0x41,
+    0x0f, 0xff, 0xd2, 0x04, 0x3f, 0xff, 0xd3, 0xaf, 0xe1, 0x30, 0x6d, 0xe0, 0x7f, 0xff, 0xd4, 0x48,
+    0x3f, 0xff, 0xd5, 0x48, 0x3f, 0xff, 0xd6, 0xb3, 0xe3, 0x48, 0xff, 0xda, 0x00, 0x08, 0x01, 0x01,
+    0x00, 0x00, 0x00, 0x10, 0xff, 0x00, 0xff, 0xd0, 0x3f, 0xff, 0xd1, 0xff, 0x00, 0xff, 0xd2, 0x7f,
+    0xff, 0xd3, 0xbf, 0xff, 0xd4, 0x3f, 0xff, 0xd5, 0x7f, 0xff, 0xd6, 0xff, 0x00, 0xff, 0xc4, 0x00,
+    0x1f, 0x10, 0x00, 0x01, 0x03, 0x03, 0x05, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00,
+    0x00, 0x00, 0x10, 0x00, 0x01, 0x71, 0x11, 0x21, 0xf0, 0x31, 0x41, 0x81, 0x91, 0xd1, 0xff, 0xda,
+    0x00, 0x08, 0x01, 0x01, 0x00, 0x01, 0x3f, 0x10, 0x01, 0xff, 0xd0, 0x01, 0xff, 0xd1, 0x01, 0xff,
+    0xd2, 0x01, 0xff, 0xd3, 0x6a, 0xc6, 0xee, 0x6c, 0x4a, 0x8b, 0x34, 0x6f, 0xe7, 0x2b, 0xff, 0xd4,
+    0x01, 0xff, 0xd5, 0x01, 0xff, 0xd6, 0xa4, 0x9a, 0x7a, 0x5b, 0x2a, 0xbf, 0xff, 0xd9,
+};
+
+/* Bytes that are put together. */
+typedef struct joined {
+  unsigned char bytes[1 << 17];
+  size_t size;
+} joined;
+
+static void join(joined *to, const void *bytes, size_t size) {
+  if (!CHECK(size <= sizeof to->bytes - to->size))
+    return;
+  memcpy(to->bytes + to->size, bytes, size);
+  to->size += size;
+}
+
+static joined painted_jpeg(int width, int height) {
+  const char *path = picture_path("painted.jpg");
+  joined out = {.size = 0};
+  CHECK(picture_write(context, path, NULL, width, height, paint_opaque) == CELSPAN_OK);
+  FILE *file = fopen(path, "rb");
+  out.size = file ? fread(out.bytes, 1, sizeof out.bytes, file) : 0;
+  if (file)
+    fclose(file);
+  unlink(path);
+  CHECK(out.size > 1000 && out.size < 50000);
+  return out;
+}
+
+/* The picture, after its first marker a segment that holds a whole other picture. */
+static joined with_thumbnail(const joined *picture, const joined *thumbnail) {
+  size_t length = thumbnail->size + 8;
+  const unsigned char head[] = {
+      0xff, 0xe1, (unsigned char)(length >> 8), (unsigned char)length, 'E', 'x', 'i', 'f', 0, 0};
+  joined out = {.size = 0};
+  join(&out, picture->bytes, 2);
+  join(&out, head, sizeof head);
+  join(&out, thumbnail->bytes, thumbnail->size);
+  join(&out, picture->bytes + 2, picture->size - 2);
+  return out;
+}
+
+static celspan_status read_bytes(const void *bytes, size_t size) {
+  const char *path = picture_path("end.jpg");
+  write_bytes(path, bytes, size);
+  celspan_status status = read_file(path);
+  unlink(path);
+  return status;
+}
+
+static void check_cut(const joined *file, size_t size) {
+  if (!CHECK(read_bytes(file->bytes, size) == CELSPAN_INPUT) ||
+      !CHECK(strstr(celspan_context_error(context), "is truncated")))
+    fprintf(stderr, "  %zu of %zu bytes: %s\n", size, file->size, celspan_context_error(context));
+}
+
+/* The end of a thumbnail, or of a picture that follows, is not the end of the picture. */
+static void test_jpeg_ends(void) {
+  joined picture = painted_jpeg(200, 150), small = painted_jpeg(60, 40);
+  joined file = with_thumbnail(&picture, &small);
+  CHECK(read_bytes(file.bytes, file.size) == CELSPAN_OK);
+  for (size_t i = 1; i < 10; i++) /* the first cuts are in the thumbnail */
+    check_cut(&file, file.size * i / 10);
+  check_cut(&file, file.size - 1);
+  joined cut = {.size = 0}, filled = {.size = 0};
+  join(&cut, picture.bytes, picture.size * 7 / 10);
+  join(&cut, small.bytes, small.size);
+  check_cut(&cut, cut.size);
+  join(&file, small.bytes, small.size); /* as phones append further pictures */
+  join(&file, "and notes", 9);
+  CHECK(read_bytes(file.bytes, file.size) == CELSPAN_OK);
+  join(&filled, picture.bytes, 2);
+  join(&filled, "\xff\xff\xff", 3); /* markers may be filled up */
+  join(&filled, picture.bytes + 2, picture.size - 2);
+  CHECK(read_bytes(filled.bytes, filled.size) == CELSPAN_OK);
+  CHECK(read_bytes(progressive, sizeof progressive) == CELSPAN_OK);
+  for (size_t size = 1; size < sizeof progressive; size++)
+    CHECK(read_bytes(progressive, size) != CELSPAN_OK);
+}
+
 /* Every byte of small files, changed: the answer may be anything but a crash or a hang. */
 static void test_corrupt(void) {
   static const char *const names[] = {"c.png", "c.tga", "c.exr", "c.gif"};
@@ -392,9 +505,13 @@ static void test_hash(void) {
                                         {.file = "b"},
                                         {.file = "a", .colour = "srgb"},
                                         {.file = "a", .layer = "srgb"},
-                                        {.file = "a", .subimage = 1}};
-  cs_hash hashes[5];
-  for (int i = 0; i < 5; i++) {
+                                        {.file = "a", .subimage = 1},
+                                        {.file = "a", .has_source = true, .source = {0, 0, 2, 3}},
+                                        {.file = "a", .has_source = true, .source = {0, 0, 3, 2}},
+                                        {.file = "a", .has_source = true, .source = {1, 0, 2, 3}},
+                                        {.file = "b", .has_source = true, .source = {0, 0, 2, 3}}};
+  cs_hash hashes[9];
+  for (int i = 0; i < 9; i++) {
     cs_picture *picture;
     CHECK(cs_picture_create(context, &descs[i], &picture) == CELSPAN_OK);
     hashes[i] = cs_picture_hash(picture);
@@ -402,6 +519,48 @@ static void test_hash(void) {
       CHECK(hashes[i].a != hashes[j].a || hashes[i].b != hashes[j].b);
     cs_picture_unref(picture);
   }
+}
+
+static void test_part_in_memory(const char *path, celspan_context *own, size_t *status_count) {
+  const celspan_picture_desc desc = {.file = path, .has_source = true, .source = {50, 3, 40, 66}};
+  cs_picture *part = NULL;
+  float rgba[4], whole[4];
+  celspan_status status = cs_picture_create(own, &desc, &part);
+  if (status == CELSPAN_OK)
+    status = picture_texel(own, part, 0, 20, 65, rgba);
+  if (status == CELSPAN_OK) {
+    CHECK(picture_texel(own, part->whole, 0, 70, 68, whole) == CELSPAN_OK);
+    CHECK(memcmp(rgba, whole, sizeof rgba) == 0);
+  }
+  CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+  *status_count += status == CELSPAN_OK;
+  cs_picture_unref(part);
+}
+
+/* A part is made of the blocks of its whole, and every allocation may fail. */
+static void test_parts(void) {
+  const char *path = picture_path("part.png");
+  size_t good = 0;
+  CHECK(picture_write(context, path, NULL, 100, 70, paint_waves) == CELSPAN_OK);
+  for (size_t n = 1; n < 100 && good == 0; n++) {
+    memory_watch watch = {0};
+    celspan_context *own = memory_watch_context(&watch);
+    watch.fail_at = watch.allocations + n;
+    test_part_in_memory(path, own, &good);
+    celspan_context_destroy(own);
+    CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  }
+  CHECK(good == 1);
+  celspan_picture_info info;
+  celspan_picture_desc desc = {.file = path, .has_source = true, .source = {90, 60, 10, 10}};
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_OK);
+  CHECK(info.width == 10 && info.height == 10);
+  desc.source.height = 11;
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "source {90, 60, 10, 11} is not inside"));
+  desc.source.height = NAN;
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+  unlink(path);
 }
 
 /* Every allocation fails once: nothing is lost, the next try succeeds. */
@@ -635,10 +794,12 @@ int main(void) {
     test_budget_and_threads();
     test_missing();
     test_truncated();
+    test_jpeg_ends();
     test_corrupt();
     test_huge_headers();
     test_changed();
     test_memory();
+    test_parts();
     test_orientation();
     test_film_log();
     test_windows();

@@ -430,7 +430,7 @@ static void test_scanline_errors(studio *s) {
                         "scanline: span 2 at y = 1.5 ends at 3, before it begins at 4");
   bad_spans = endless;
   expect_callback_error(s, emit_bad,
-                        "scanline: an end of span 2 at y = 1.5 is not a number within 1e12");
+                        "scanline: the end of span 2 at y = 1.5 must be a finite number, got inf");
   expect_callback_error(s, fail_silently, "scanline: its spans function failed at y = 1.5");
 }
 

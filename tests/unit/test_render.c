@@ -16,9 +16,11 @@ static const celspan_coding float_coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFE
 /* ---------------------------------------------------------------- a scene */
 
 static celspan_texture *random_texture(studio *s, test_random *random) {
+  float rgb[3];
+  for (int c = 0; c < 3; c++)
+    rgb[c] = (float)random_between(random, 0, 1);
   celspan_paint paint =
-      celspan_paint_rgb((float)random_between(random, 0, 1), (float)random_between(random, 0, 1),
-                        (float)random_between(random, 0, 1), (float)random_between(random, 0.2, 1));
+      celspan_paint_rgb(rgb[0], rgb[1], rgb[2], (float)random_between(random, 0.2, 1));
   if (random_below(random, 2))
     return studio_paint(s, paint);
   celspan_stop stops[2] = {{0, paint}, {1, celspan_paint_gel(0.5f, 1, 0.25f)}};
@@ -27,13 +29,13 @@ static celspan_texture *random_texture(studio *s, test_random *random) {
 
 static celspan_object *random_shape(studio *s, test_random *random) {
   celspan_texture *texture = random_texture(s, random);
-  if (random_below(random, 3) == 0)
-    return studio_circle(s, random_between(random, 0, WIDTH), random_between(random, 0, HEIGHT),
-                         random_between(random, 1, 40), texture);
+  if (random_below(random, 3) == 0) {
+    celspan_point centre = random_point(random, 0, WIDTH, 0, HEIGHT);
+    return studio_circle(s, centre.x, centre.y, random_between(random, 1, 40), texture);
+  }
   celspan_point points[7];
   for (int i = 0; i < 7; i++)
-    points[i] = (celspan_point){random_between(random, -20, WIDTH + 20),
-                                random_between(random, -20, HEIGHT + 20)};
+    points[i] = random_point(random, -20, WIDTH + 20, -20, HEIGHT + 20);
   return studio_polygon(s, points, 7, CELSPAN_RULE_EVENODD, texture);
 }
 
@@ -45,9 +47,10 @@ static celspan_rostrum *random_rostrum(studio *s, uint64_t seed) {
     celspan_object *objects[12];
     for (int i = 0; i < 12; i++)
       objects[i] = random_shape(s, &random);
-    for (int i = 0; i < 12; i += 3)
-      objects[i] = studio_pair(s, (celspan_operator)random_below(&random, 5), objects[i],
-                               random_shape(s, &random));
+    for (int i = 0; i < 12; i += 3) {
+      celspan_operator kind = (celspan_operator)random_below(&random, 5);
+      objects[i] = studio_pair(s, kind, objects[i], random_shape(s, &random));
+    }
     celspan_matrix tilt = {{1, 0.1, 0, 0, 1, 0, 0.002, 0.003, 1}};
     objects[11] = studio_transform(s, objects[11], tilt);
     celspan_cel_desc desc = CELSPAN_CEL_DESC;

@@ -28,7 +28,7 @@ static void test_paint_door(studio *s) {
   REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out),
           "paint: medium[3] is -0.25; it must be between 0 and 1");
   paint = (celspan_paint){{0, 1, 0}, {1, 1, 1}, NAN};
-  REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out), "paint: beta is not a number");
+  REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out), "paint: beta must be a finite number, got nan");
   CHECK(out == NULL);
 }
 
@@ -37,7 +37,7 @@ static void test_gradient_doors(studio *s) {
   celspan_point points[3] = {{0, 0}, {1, NAN}, {0, 1}};
   celspan_paint paints[3] = {red, red, {{0, 0, 0}, {1, 1, 1}, 2}};
   REFUSED(s, celspan_texture_create_gradient(s->context, points, paints, &out),
-          "gradient: points[2].y is not a number");
+          "gradient: points[2].y must be a finite number, got nan");
   points[1].y = 0;
   REFUSED(s, celspan_texture_create_gradient(s->context, points, paints, &out),
           "gradient: paints[3].beta is 2; it must be between 0 and 1");
@@ -75,10 +75,10 @@ static void test_rect_door(studio *s) {
           "rect: w is -3; it must be 0 or more");
   desc = (celspan_rect_desc){INFINITY, 2, 3, 4, 0, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
-          "rect: x is inf; it must be between -1e+12 and 1e+12");
+          "rect: x must be a finite number, got inf");
   desc = (celspan_rect_desc){1, 2, 3, 1.5e12, 0, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
-          "rect: h is 1.5e+12; it must be at most 1e+12");
+          "rect: h is 1.5e12; it must be at most 1e12");
   desc = (celspan_rect_desc){1, 2, 3, 4, -1, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
           "rect: radius is -1; it must be 0 or more");
@@ -92,11 +92,11 @@ static void test_outline_doors(studio *s) {
           "ellipse: radii[2] is -3; it must be 0 or more");
   ellipse = (celspan_ellipse_desc){{0, NAN}, 1, 3, NULL};
   REFUSED(s, celspan_object_create_ellipse(s->context, &ellipse, &out),
-          "ellipse: centre.y is not a number");
+          "ellipse: centre.y must be a finite number, got nan");
   celspan_point points[4] = {{0, 0}, {1, 0}, {1, 1}, {NAN, 1}};
   celspan_polygon_desc polygon = {points, 4, CELSPAN_RULE_NONZERO, NULL};
   REFUSED(s, celspan_object_create_polygon(s->context, &polygon, &out),
-          "polygon: points[4].x is not a number");
+          "polygon: points[4].x must be a finite number, got nan");
   polygon = (celspan_polygon_desc){points, 3, (celspan_rule)2, NULL};
   REFUSED(s, celspan_object_create_polygon(s->context, &polygon, &out),
           "polygon: rule is 2; it must be between 0 and 1");
@@ -105,10 +105,10 @@ static void test_outline_doors(studio *s) {
           "polygon: points is missing");
   celspan_triangle_desc triangle = {{{0, 0}, {0, -2e12}, {1, 1}}, NULL};
   REFUSED(s, celspan_object_create_triangle(s->context, &triangle, &out),
-          "triangle: points[2].y is -2e+12; it must be between -1e+12 and 1e+12");
+          "triangle: points[2].y is -2e12; it must be between -1e12 and 1e12");
   celspan_nurbs_desc nurbs = {.points = points, .point_count = 4};
   REFUSED(s, celspan_object_create_nurbs(s->context, &nurbs, &out),
-          "nurbs: points[4].x is not a number");
+          "nurbs: points[4].x must be a finite number, got nan");
   celspan_path_desc path = {NULL, CELSPAN_RULE_NONZERO, NULL};
   REFUSED(s, celspan_object_create_path(s->context, &path, &out), "path: d is missing");
   path.data = "M0 0 h1e12 h1e12 h1e12 v5";
@@ -139,13 +139,13 @@ static void test_object_doors(studio *s) {
   celspan_matrix matrix = celspan_matrix_identity();
   matrix.m[5] = NAN;
   REFUSED(s, celspan_object_transform(s->context, rect, &matrix, &out),
-          "transform: matrix[6] is not a number");
+          "transform: matrix[6] must be a finite number, got nan");
   matrix = celspan_matrix_scaling(1e9, 1);
   celspan_object *large = studio_transform(s, rect, matrix);
   REFUSED(
       s, celspan_object_transform(s->context, large, &matrix, &out),
-      "transform, after those that are there: matrix[1] is 1e+18; it must be between -1e+12 and "
-      "1e+12");
+      "transform, after those that are there: matrix[1] is 1e18; it must be between -1e12 and "
+      "1e12");
   CHECK(out == NULL);
 }
 
@@ -200,7 +200,7 @@ static void test_rostrum_door(studio *s) {
   desc = CELSPAN_ROSTRUM_DESC;
   desc.has_camera_centre = true;
   desc.camera_centre.x = NAN;
-  refuse_rostrum(s, desc, "rostrum: camera.centre.x is not a number");
+  refuse_rostrum(s, desc, "rostrum: camera.centre.x must be a finite number, got nan");
   desc = CELSPAN_ROSTRUM_DESC;
   celspan_cel *nothing[2] = {NULL, NULL};
   desc.cels = nothing;
@@ -451,6 +451,82 @@ static void test_hash_of_unused_fields(studio *s) {
 
 /* ---------------------------------------------------------------- limits and counts */
 
+/* ---------------------------------------------------------------- names */
+
+static bool is_at(celspan_origin origin, const char *source, int32_t line) {
+  return strcmp(origin.source, source) == 0 && origin.line == line;
+}
+
+static void test_names(studio *s) {
+  celspan_context_set_origin(s->context, "shot.lua", 12);
+  celspan_object *plain = studio_rect(s, 0, 0, 9, 9, studio_paint(s, red));
+  celspan_context_set_origin(s->context, "other.lua", 7);
+  celspan_object *named = NULL, *moved = NULL;
+  celspan_matrix twice = celspan_matrix_scaling(2, 2);
+  studio_check(s, celspan_object_named(s->context, plain, "hand", &named));
+  studio_check(s, celspan_object_transform(s->context, named, &twice, &moved));
+  CHECK_TEXT(celspan_object_name(plain), "");
+  CHECK_TEXT(celspan_object_name(moved), "hand");
+  CHECK(is_at(celspan_object_origin(moved), "shot.lua", 12));
+  CHECK(named->hash.a == plain->hash.a && named->hash.b == plain->hash.b);
+  CHECK(is_at(celspan_texture_origin(studio_paint(s, red)), "other.lua", 7));
+  celspan_context_set_origin(s->context, NULL, 0);
+  CHECK(is_at(celspan_texture_origin(studio_paint(s, red)), "", 0));
+  REFUSED(s, celspan_object_named(s->context, plain, NULL, &moved), "named: the name is missing");
+  celspan_object_unref(named);
+  celspan_object_unref(moved);
+}
+
+static void test_names_of_others(studio *s) {
+  celspan_stop stops[2] = {{0, red}, {1, red}};
+  celspan_texture *texture = NULL;
+  studio_check(s, celspan_texture_named(
+                      s->context,
+                      studio_linear(s, (celspan_point){0, 0}, (celspan_point){1, 0}, stops, 2),
+                      "dusk", &texture));
+  CHECK_TEXT(celspan_texture_name(texture), "dusk");
+  CHECK(texture->stop_count == 2 && texture->stops[1].at == 1);
+  celspan_texture_unref(texture);
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  celspan_cel *cel = NULL, *cel_named = NULL, *faded = NULL;
+  studio_check(s, celspan_cel_create(s->context, &desc, &cel));
+  studio_check(s, celspan_cel_named(s->context, cel, "back", &cel_named));
+  studio_check(s, celspan_cel_fade(s->context, cel_named, 0.5, &faded));
+  CHECK_TEXT(celspan_cel_name(faded), "back");
+  CHECK(cel->hash.a == cel_named->hash.a);
+  celspan_rostrum_desc stand = CELSPAN_ROSTRUM_DESC;
+  stand.cels = &faded;
+  stand.cel_count = 1;
+  stand.antialias = CELSPAN_ANTIALIAS_FILTER;
+  celspan_rostrum *rostrum = NULL, *named = NULL;
+  studio_check(s, celspan_rostrum_create(s->context, &stand, &rostrum));
+  studio_check(s, celspan_rostrum_named(s->context, rostrum, "stand", &named));
+  CHECK_TEXT(celspan_rostrum_name(named), "stand");
+  CHECK(rostrum->hash.a == named->hash.a && rostrum->hash.b == named->hash.b);
+  celspan_rostrum_unref(rostrum);
+  celspan_rostrum_unref(named);
+  celspan_cel_unref(cel);
+  celspan_cel_unref(cel_named);
+  celspan_cel_unref(faded);
+}
+
+/* Sources live as long as the values that were made there; more than a context keeps are not
+ * known, and long ones are cut. */
+static void test_origins(studio *s) {
+  char source[300];
+  memset(source, 'x', sizeof source - 1);
+  source[sizeof source - 1] = 0;
+  celspan_context_set_origin(s->context, source, 1);
+  CHECK(strlen(celspan_texture_origin(studio_paint(s, red)).source) == 255);
+  for (int i = 0; i < 5000; i++) {
+    snprintf(source, sizeof source, "file%d.lua", i);
+    celspan_context_set_origin(s->context, source, 1);
+  }
+  CHECK(is_at(celspan_texture_origin(studio_paint(s, red)), "", 0));
+  celspan_context_set_origin(s->context, "file9.lua", 3);
+  CHECK(is_at(celspan_texture_origin(studio_paint(s, red)), "file9.lua", 3));
+}
+
 static void test_nesting_limit(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 1, 1, NULL), *object = rect, *deeper = NULL;
   for (int i = 0; i < CS_SCENE_DEPTH; i++)
@@ -528,7 +604,9 @@ typedef struct everything {
   celspan_texture *textures[4];
   celspan_object *objects[9], *operands[2];
   celspan_cel *cel, *cels[2];
-  celspan_rostrum *rostrum;
+  celspan_rostrum *rostrum, *inner;
+  celspan_object *nested;
+  celspan_cel *lit;
 } everything;
 
 static const celspan_point square[] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}};
@@ -568,6 +646,22 @@ static celspan_status build_primitives(celspan_context *context, everything *all
   return CELSPAN_OK;
 }
 
+static celspan_status name_everything(celspan_context *context, const everything *all) {
+  celspan_object *object;
+  celspan_cel *cel;
+  celspan_rostrum *rostrum;
+  celspan_texture *texture;
+  CS_TRY(celspan_object_named(context, all->objects[0], "o", &object));
+  celspan_object_unref(object);
+  CS_TRY(celspan_cel_named(context, all->cel, "c", &cel));
+  celspan_cel_unref(cel);
+  CS_TRY(celspan_rostrum_named(context, all->rostrum, "r", &rostrum));
+  celspan_rostrum_unref(rostrum);
+  CS_TRY(celspan_texture_named(context, all->textures[2], "t", &texture));
+  celspan_texture_unref(texture);
+  return CELSPAN_OK;
+}
+
 static celspan_status build_film(celspan_context *context, everything *all) {
   const celspan_matrix half = celspan_matrix_scaling(0.5, 0.5);
   CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, all->objects, 7, &all->operands[0]));
@@ -582,7 +676,22 @@ static celspan_status build_film(celspan_context *context, everything *all) {
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.cels = all->cels;
   desc.cel_count = 2;
+  desc.front_texture.texture = all->textures[1];
+  desc.back_texture.texture = all->textures[2];
+  desc.has_size = true;
+  desc.width = desc.height = 20;
+  CS_TRY(celspan_rostrum_create(context, &desc, &all->inner));
+  CS_TRY(celspan_object_create_rostrum(context, all->inner, &all->nested));
+  cel_desc.objects = &all->nested;
+  cel_desc.object_count = 1;
+  cel_desc.front_texture.texture = all->textures[1];
+  cel_desc.back_texture.texture = all->textures[2];
+  CS_TRY(celspan_cel_create(context, &cel_desc, &all->lit));
+  desc.cels = &all->lit;
+  desc.cel_count = 1;
+  desc.antialias = CELSPAN_ANTIALIAS_FILTER;
   CS_TRY(celspan_rostrum_create(context, &desc, &all->rostrum));
+  CS_TRY(name_everything(context, all));
   celspan_exposure exposure = {all->rostrum, 1};
   double rgba[4];
   return celspan_probe(context, &exposure, 1, 20, 20, (celspan_point){3, 2}, rgba);
@@ -590,6 +699,9 @@ static celspan_status build_film(celspan_context *context, everything *all) {
 
 static void release(everything *all) {
   celspan_rostrum_unref(all->rostrum);
+  celspan_rostrum_unref(all->inner);
+  celspan_object_unref(all->nested);
+  celspan_cel_unref(all->lit);
   celspan_cel_unref(all->cel);
   for (int i = 0; i < 2; i++) {
     celspan_cel_unref(all->cels[i]);
@@ -629,8 +741,59 @@ static void test_failing_allocations(void) {
   CHECK(status == CELSPAN_OK);
 }
 
+/* ---------------------------------------------------------------- lights with a shape, rostrums */
+
+static void test_light_doors(studio *s) {
+  celspan_texture *texture = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.front_texture = (celspan_light_texture){texture, -1, CELSPAN_LIGHT_ON_FRAME};
+  refuse_cel(s, desc, "cel: front.gain is -1; it must be 0 or more");
+  desc.front_texture.gain = 1;
+  desc.front_texture.on = (celspan_light_place)7;
+  refuse_cel(s, desc, "cel: front.on is 7; it must be between 0 and 1");
+  celspan_rostrum_desc rostrum_desc = CELSPAN_ROSTRUM_DESC;
+  rostrum_desc.back_texture = (celspan_light_texture){texture, 1, CELSPAN_LIGHT_ON_CEL};
+  refuse_rostrum(s, rostrum_desc,
+                 "rostrum: back cannot lie on the cel, because it belongs to none; it lies on the "
+                 "frame");
+}
+
+/* A rostrum is an object if it has a size; equal ones have equal hashes. */
+static void test_nested_doors(studio *s) {
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  celspan_object *object = NULL;
+  celspan_rostrum *bare = studio_rostrum(s, desc, NULL, 0);
+  CHECK(celspan_object_create_rostrum(s->context, bare, &object) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_create_rostrum(s->context, NULL, &object) == CELSPAN_BAD_ARGUMENT);
+  CHECK(!object);
+  desc.has_size = true;
+  for (int i = 0; i < 3; i++) {
+    static const double bad[] = {0, -1, INFINITY};
+    celspan_rostrum *rostrum = NULL;
+    desc.width = 5;
+    desc.height = bad[i];
+    CHECK(celspan_rostrum_create(s->context, &desc, &rostrum) == CELSPAN_BAD_ARGUMENT);
+  }
+  desc.height = 4;
+  celspan_rostrum *pair[2] = {studio_rostrum(s, desc, NULL, 0), studio_rostrum(s, desc, NULL, 0)};
+  uint64_t hashes[3][2];
+  for (int i = 0; i < 2; i++)
+    celspan_rostrum_hash(pair[i], hashes[i]);
+  celspan_rostrum_hash(bare, hashes[2]);
+  CHECK(memcmp(hashes[0], hashes[1], sizeof hashes[0]) == 0);
+  CHECK(memcmp(hashes[0], hashes[2], sizeof hashes[0]) != 0);
+  celspan_box box;
+  studio_check(s, celspan_object_create_rostrum(s->context, pair[0], &object));
+  CHECK(object && celspan_object_bounds(object, &box) && box.width == 5 && box.height == 4);
+  CHECK(celspan_object_contains(object, (celspan_point){0, 0}));
+  CHECK(!celspan_object_contains(object, (celspan_point){5, 1}));
+  celspan_object_unref(object);
+}
+
 int main(void) {
   void (*const tests[])(studio *) = {
+      test_light_doors,
+      test_nested_doors,
       test_paint_door,
       test_gradient_doors,
       test_picture_door,
@@ -650,6 +813,9 @@ int main(void) {
       test_hashes,
       test_hash_of_degrees,
       test_hash_of_unused_fields,
+      test_names,
+      test_names_of_others,
+      test_origins,
       test_nesting_limit,
       test_primitive_limit,
       test_count,

@@ -22,7 +22,7 @@ static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
   if (number == r->fails_at)
     return celspan_context_fail(r->scenes->context, CELSPAN_CALLBACK, "out of ink");
   celspan_exposure exposure = {r->scenes->rostrums[number % SCENES], 1};
-  return cs_film_frame_init(out, &exposure, 1) ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+  return cs_film_frame_init(out, r->scenes->context, &exposure, 1);
 }
 
 static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_status status) {

@@ -46,8 +46,10 @@ static void check_translucent(cs_isa isa, int strangers) {
     colours[i][3] = i % 5 ? random_unit(&numbers) : 1;
     for (int c = 0; c < 3; c++)
       colours[i][c] = random_unit(&numbers) * colours[i][3];
-    if (strangers && i % strangers == 0)
-      colours[i][random_below(&numbers, 4)] = strange();
+    if (strangers && i % strangers == 0) {
+      int channel = random_below(&numbers, 4);
+      colours[i][channel] = strange();
+    }
   }
   cs_srgb8_choose(isa)(colours[0], PIXELS, codes);
   for (int i = 0; i < PIXELS; i++) {

@@ -27,16 +27,43 @@ static celspan_object *random_blob(studio *s, test_random *random) {
                            {0.5, celspan_paint_gel(0.5f, 1, 0.5f)},
                            {1, celspan_paint_rgb(0, 0, 1, 1)}};
   for (int i = 0; i < 5; i++)
-    points[i] = (celspan_point){random_between(random, -10, WIDTH + 10),
-                                random_between(random, -10, HEIGHT + 10)};
+    points[i] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
   celspan_texture *texture = random_below(random, 2)
                                  ? studio_paint(s, stops[0].paint)
                                  : studio_radial(s, (celspan_point){30, 20}, 25, stops, 3);
   return studio_polygon(s, points, 5, CELSPAN_RULE_NONZERO, texture);
 }
 
-/* Twelve shapes, two of them in a faded difference, and a scan-line primitive. */
-static celspan_rostrum *make_scene(studio *s) {
+static celspan_texture *make_lamp(studio *s) {
+  celspan_stop stops[2] = {{0, celspan_paint_rgb(1, 1, 0.5f, 1)},
+                           {1, celspan_paint_rgb(0, 0, 1, 0)}};
+  return studio_radial(s, (celspan_point){20, 30}, 50, stops, 2);
+}
+
+/* A cel that holds the scene as a composition of its own, under lights with a shape. radius: of its
+ * defocus. */
+static celspan_rostrum *nest(studio *s, celspan_cel *cel, double radius) {
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  desc.has_size = true;
+  desc.width = 50;
+  desc.height = 40;
+  desc.back = (celspan_light){0.5f, 0, 0, 0.5f};
+  celspan_rostrum *inner = studio_rostrum(s, desc, &cel, 1);
+  celspan_object *object = NULL;
+  studio_check(s, celspan_object_create_rostrum(s->context, inner, &object));
+  if (object)
+    s->objects[s->object_count++] = object;
+  celspan_cel_desc outer = CELSPAN_CEL_DESC;
+  outer.defocus_radius = radius;
+  outer.front_texture.texture = outer.back_texture.texture = make_lamp(s);
+  outer.back_texture.on = CELSPAN_LIGHT_ON_CEL;
+  celspan_cel *lit = studio_cel(s, outer, &object, 1);
+  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &lit, 1);
+}
+
+/* Twelve shapes, two of them in a faded difference, and a scan-line primitive: in a
+ * composition inside another one. radius: of the defocus of both. */
+static celspan_rostrum *make_scene(studio *s, double radius) {
   test_random random = {4};
   celspan_object *objects[12];
   for (int i = 0; i < 12; i++)
@@ -49,8 +76,8 @@ static celspan_rostrum *make_scene(studio *s) {
     s->objects[s->object_count++] = objects[7] = lines;
   celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;
   cel_desc.opacity = 0.9;
-  celspan_cel *cel = studio_cel(s, cel_desc, objects, 12);
-  return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+  cel_desc.defocus_radius = radius;
+  return nest(s, studio_cel(s, cel_desc, objects, 12), radius);
 }
 
 static celspan_frame_desc frame_of(const celspan_exposure *exposures,
@@ -104,20 +131,25 @@ static void check_settled(studio *s, const memory_watch *watch, const celspan_fr
   celspan_rows_destroy(rows);
 }
 
-int main(void) {
+static void check_scene(studio *s, memory_watch *watch, double radius) {
   static const celspan_antialias_mode modes[] = {CELSPAN_ANTIALIAS_NONE, CELSPAN_ANTIALIAS_AREA};
+  celspan_exposure exposures[2];
+  exposures[0] = (celspan_exposure){make_scene(s, radius), 0.75};
+  exposures[1] = (celspan_exposure){exposures[0].rostrum, 0.5};
+  for (int m = 0; m < 2; m++) {
+    celspan_frame_desc desc = frame_of(exposures, &modes[m]);
+    check_failures_of(s, watch, &desc);
+    check_settled(s, watch, &desc);
+  }
+}
+
+int main(void) {
   memory_watch watch = {0};
   studio s = {.context = memory_watch_context(&watch)};
   if (!s.context)
     return 1;
-  celspan_exposure exposures[2];
-  exposures[0] = (celspan_exposure){make_scene(&s), 0.75};
-  exposures[1] = (celspan_exposure){exposures[0].rostrum, 0.5};
-  for (int m = 0; m < 2; m++) {
-    celspan_frame_desc desc = frame_of(exposures, &modes[m]);
-    check_failures_of(&s, &watch, &desc);
-    check_settled(&s, &watch, &desc);
-  }
+  check_scene(&s, &watch, 0);
+  check_scene(&s, &watch, 2);
   studio_finish(&s);
   celspan_context_destroy(s.context);
   CHECK(watch.blocks == 0 && watch.bytes == 0);

@@ -170,8 +170,9 @@ static void check_vertices(cs_isa isa, test_random *random) {
 /* Vertices near an arc, one of them perhaps too far from it; what lies beyond them must not tell.
  */
 static void check_strays(cs_isa isa, test_random *random) {
-  cs_polyline_arc arc = {random_x(random), random_x(random), random_between(random, 5, 50),
-                         random_between(random, -2, 2), random_between(random, -0.03, 0.03)};
+  double x = random_x(random), y = random_x(random), height = random_between(random, 5, 50);
+  double mean = random_between(random, -2, 2), curve = random_between(random, -0.03, 0.03);
+  cs_polyline_arc arc = {x, y, height, mean, curve};
   cs_polyline_vertices v;
   int first = random_below(random, 4), end = first + 2 + random_below(random, 3);
   int odd = random_below(random, CS_POLYLINE_ROOM);

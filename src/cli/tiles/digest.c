@@ -6,11 +6,7 @@
 
 #include "pictures/picture.h"
 #include "scene/scene.h"
-
-typedef struct scene_facts {
-  cs_hash pictures;
-  bool has_procedure;
-} scene_facts;
+#include "scene/walk.h"
 
 static void add_file_state(cs_hash *hash, const char *path) {
   struct stat found;
@@ -20,19 +16,6 @@ static void add_file_state(cs_hash *hash, const char *path) {
   cs_hash_word(hash, (uint64_t)found.st_size);
   cs_hash_word(hash, (uint64_t)found.st_mtim.tv_sec);
   cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
-}
-
-/* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-static void add_objects(scene_facts *facts, celspan_object *const *objects, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    const cs_primitive_data *data = objects[i]->data;
-    if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      add_objects(facts, data->operands, data->operand_count);
-    else if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
-      facts->has_procedure = true;
-    else if (data->texture->kind == CS_TEXTURE_PICTURE)
-      add_file_state(&facts->pictures, data->texture->picture->file);
-  }
 }
 
 static void add_file(cs_hash *hash, const char *path) {
@@ -47,20 +30,14 @@ static void add_file(cs_hash *hash, const char *path) {
 }
 
 static void add_scene(cs_hash *hash, const cs_request *request, const celspan_frame_desc *frame) {
-  scene_facts facts = {.pictures = cs_hash_begin(frame->exposure_count)};
-  bool has_procedure = false;
+  const celspan_exposure *exposures = frame->exposures;
   for (size_t i = 0; i < frame->exposure_count; i++) {
-    const celspan_rostrum *rostrum = frame->exposures[i].rostrum;
-    facts.has_procedure = false;
-    for (size_t c = 0; c < rostrum->cel_count; c++)
-      add_objects(&facts, rostrum->cels[c]->objects, rostrum->cels[c]->object_count);
-    if (!facts.has_procedure)
-      cs_hash_hash(hash, rostrum->hash);
-    has_procedure |= facts.has_procedure;
-    cs_hash_number(hash, frame->exposures[i].weight);
+    if (!cs_scene_has_procedure(&exposures[i], 1))
+      cs_hash_hash(hash, exposures[i].rostrum->hash);
+    cs_hash_number(hash, exposures[i].weight);
   }
-  cs_hash_hash(hash, cs_hash_end(facts.pictures));
-  if (!has_procedure)
+  cs_hash_hash(hash, cs_walk_hash_files(exposures, frame->exposure_count));
+  if (!cs_scene_has_procedure(exposures, frame->exposure_count))
     return;
   add_file(hash, request->operands[0]);
   for (size_t i = 0; i < request->script_argument_count; i++)

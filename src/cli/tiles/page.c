@@ -4,11 +4,14 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/context.h"
 #include "cli/json.h"
 #include "cli/tiles/page_html.h"
 #include "output/file.h"
+
+#define OPENSEADRAGON "/openseadragon/openseadragon.min.js" /* in the folder of the page */
 
 enum { PATH_SIZE = 4096 };
 
@@ -144,6 +147,13 @@ static void put_places(text_file *out, const cs_tile_page *page) {
   }
 }
 
+/* Whether it was copied beside the page, now or by an earlier run. */
+static bool has_openseadragon(const cs_pyramid *pyramid) {
+  char path[PATH_SIZE];
+  int length = snprintf(path, sizeof path, "%s" OPENSEADRAGON, pyramid->folder);
+  return length < (int)sizeof path && access(path, R_OK) == 0;
+}
+
 static void put_data(text_file *out, const cs_tile_page *page) {
   const cs_pyramid *pyramid = page->pyramid;
   put(out, "{\n  \"name\": ");
@@ -152,9 +162,11 @@ static void put_data(text_file *out, const cs_tile_page *page) {
   put_string(out, page->title);
   put_line(out,
            ",\n  \"layout\": \"%s\", \"ending\": \"%s\", \"background\": \"%s\",\n"
+           "  \"openseadragon\": %s,\n"
            "  \"width\": %d, \"height\": %d, \"tile\": %d, \"overlap\": %d,\n",
            pyramid->layout == CS_PYRAMID_DZI ? "dzi" : "iiif", pyramid->ending, page->background,
-           pyramid->width, pyramid->height, pyramid->tile, pyramid->overlap);
+           has_openseadragon(pyramid) ? "true" : "false", pyramid->width, pyramid->height,
+           pyramid->tile, pyramid->overlap);
   put(out, "  \"places\": [");
   put_places(out, page);
   put(out, "],\n  \"tiles\": [");
@@ -194,29 +206,56 @@ static celspan_status copy_all(text_file *out, FILE *in, const char *path) {
   return close_text(out);
 }
 
+/* Opens a file that has at least one byte. A folder can be opened too, but not read. */
+static FILE *open_filled(const char *path) {
+  FILE *file = fopen(path, "rb");
+  if (!file)
+    return NULL;
+  if (getc(file) == EOF) {
+    fclose(file);
+    return NULL;
+  }
+  rewind(file);
+  return file;
+}
+
 static FILE *open_viewer(const char *from, char path[PATH_SIZE]) {
   static const char *const PLACES[] = {"", "/openseadragon.min.js",
                                        "/build/openseadragon/openseadragon.min.js"};
   for (size_t i = 0; i < sizeof PLACES / sizeof *PLACES; i++) {
     int length = snprintf(path, PATH_SIZE, "%s%s", from, PLACES[i]);
     size_t ending = length > 3 ? (size_t)length - 3 : 0;
-    FILE *file = length < PATH_SIZE && strcmp(path + ending, ".js") == 0 ? fopen(path, "rb") : NULL;
+    FILE *file = length < PATH_SIZE && strcmp(path + ending, ".js") == 0 ? open_filled(path) : NULL;
     if (file)
       return file;
   }
   return NULL;
 }
 
+static celspan_status find_viewer(celspan_context *context, const char *from, char path[PATH_SIZE],
+                                  FILE **out) {
+  *out = open_viewer(from, path);
+  return *out ? CELSPAN_OK
+              : cs_fail(context, CELSPAN_INPUT,
+                        "--viewer %s: no openseadragon.min.js that can be read is there", from);
+}
+
+celspan_status cs_tile_page_find_viewer(celspan_context *context, const char *from) {
+  char path[PATH_SIZE];
+  FILE *file;
+  CS_TRY(find_viewer(context, from, path, &file));
+  fclose(file);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_tile_page_copy_viewer(celspan_context *context, const cs_pyramid *pyramid,
                                         const char *from) {
   char path[PATH_SIZE], to[PATH_SIZE];
   text_file out;
-  FILE *in = open_viewer(from, path);
-  if (!in)
-    return cs_fail(context, CELSPAN_INPUT, "--viewer %s: no openseadragon.min.js is there", from);
+  FILE *in;
+  CS_TRY(find_viewer(context, from, path, &in));
   celspan_status status = CELSPAN_OK;
-  if (snprintf(to, sizeof to, "%s/openseadragon/openseadragon.min.js", pyramid->folder) >=
-      (int)sizeof to)
+  if (snprintf(to, sizeof to, "%s" OPENSEADRAGON, pyramid->folder) >= (int)sizeof to)
     status = cs_fail(context, CELSPAN_OUTPUT, "%s: the name is too long", pyramid->folder);
   if (status == CELSPAN_OK)
     status = open_text(context, to, &out);

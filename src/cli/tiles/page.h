@@ -19,6 +19,8 @@ typedef struct cs_tile_page {
 /* NAME.dzi or NAME/info.json, and index.html. */
 CELSPAN_CHECKED celspan_status cs_tile_page_write(celspan_context *context,
                                                   const cs_tile_page *page);
+/* Whether there is a viewer to copy. Errors: INPUT. */
+CELSPAN_CHECKED celspan_status cs_tile_page_find_viewer(celspan_context *context, const char *from);
 /* Copies OpenSeadragon to FOLDER/openseadragon/. from: its folder or its script. Errors: INPUT,
  * OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_tile_page_copy_viewer(celspan_context *context,

@@ -53,7 +53,10 @@ static cs_exit read_places(celspan_context *context, FILE *file, const char *pat
     if (status != CELSPAN_OK)
       return cs_report_failure(context, status, NULL);
   }
-  return CS_EXIT_OK;
+  if (!ferror(file))
+    return CS_EXIT_OK;
+  cs_report_error("%s: cannot be read: %s", path, strerror(errno));
+  return CS_EXIT_INPUT;
 }
 
 static cs_exit load_places(celspan_context *context, const char *path,

@@ -142,7 +142,6 @@ celspan_status cs_tile_render_run(cs_tile_render *render) {
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < render->plan->count && status == CELSPAN_OK; i++)
     status = render_job(render, &render->plan->jobs[i]);
-  cs_progress_end(&render->progress, NULL, 0);
   cs_tile_output_finish(&render->output);
   cs_tile_means_free(render->context, &render->means);
   return keep_finished(render, status);

@@ -31,7 +31,7 @@ typedef struct cs_tile_render {
   int workers;
 } cs_tile_render;
 
-/* Errors: those of rendering and writing; CANCELLED. The record has what was finished even so. */
+/* Starts the progress, which the caller ends. Errors: those of rendering and writing; CANCELLED. The record has what was finished even so. */
 CELSPAN_CHECKED celspan_status cs_tile_render_run(cs_tile_render *render);
 
 #endif

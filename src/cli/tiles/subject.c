@@ -54,7 +54,7 @@ void cs_tile_subject_background(const cs_tile_subject *subject, float out[4]) {
   memset(out, 0, 4 * sizeof *out);
   for (size_t i = 0; subject->is_script && i < frame->exposure_count; i++) {
     const celspan_exposure *exposure = &frame->exposures[i];
-    celspan_light back = cs_scene_back(exposure->rostrum, exposure->rostrum->back);
+    celspan_light back = cs_scene_back(exposure->rostrum, &exposure->rostrum->back).flat;
     const float light[4] = {back.r, back.g, back.b, back.a};
     for (int c = 0; c < 4; c++)
       out[c] += (float)exposure->weight * light[c];

@@ -110,10 +110,9 @@ static celspan_status write_page(tiles_job *job) {
                        .frame = &job->subject.frame,
                        .title = job->subject.title};
   code_background(job, page.background);
-  CS_TRY(cs_tile_page_write(job->context, &page));
-  return job->request->viewer
-             ? cs_tile_page_copy_viewer(job->context, &job->pyramid, job->request->viewer)
-             : CELSPAN_OK;
+  if (job->request->viewer)
+    CS_TRY(cs_tile_page_copy_viewer(job->context, &job->pyramid, job->request->viewer));
+  return cs_tile_page_write(job->context, &page);
 }
 
 static void summarise(const tiles_job *job) {
@@ -138,11 +137,23 @@ static cs_exit make_pyramid(tiles_job *job) {
     status = write_page(job);
   if (status == CELSPAN_OK)
     summarise(job);
+  cs_exit outcome = cs_report_failure(job->context, status, NULL);
+  cs_progress_end(&job->render.progress, (cs_progress_failures){NULL, 0}, (int)outcome);
+  return outcome;
+}
+
+/* What the end of the run needs, before its beginning. */
+static cs_exit find_inputs(tiles_job *job) {
+  celspan_status status = job->request->viewer
+                              ? cs_tile_page_find_viewer(job->context, job->request->viewer)
+                              : CELSPAN_OK;
   return cs_report_failure(job->context, status, NULL);
 }
 
 static cs_exit run(tiles_job *job) {
-  cs_exit outcome = cs_tile_subject_open(job->context, job->request, &job->subject);
+  cs_exit outcome = find_inputs(job);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_tile_subject_open(job->context, job->request, &job->subject);
   if (outcome == CS_EXIT_OK)
     outcome = set_pyramid(job);
   if (outcome == CS_EXIT_OK)

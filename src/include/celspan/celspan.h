@@ -45,6 +45,15 @@ extern "C" {
 #endif
 #define CELSPAN_CHECKED __attribute__((warn_unused_result))
 
+/* What every field of a structure is set to by "= CELSPAN_ZERO": C and C++ write it differently. */
+#ifdef __cplusplus
+#define CELSPAN_ZERO                                                                               \
+  {}
+#else
+#define CELSPAN_ZERO                                                                               \
+  { 0 }
+#endif
+
 #define CELSPAN_VERSION_MAJOR 0
 #define CELSPAN_VERSION_MINOR 1
 #define CELSPAN_VERSION_PATCH 0
@@ -83,6 +92,14 @@ typedef struct celspan_context_desc {
   size_t defocus_bytes; /* defocused cels kept from frame to frame; 0: 256 MiB */
 } celspan_context_desc;
 
+/* A description with every field at its default, here and below; set what differs. */
+static inline celspan_context_desc celspan_context_desc_default(void) {
+  celspan_context_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_CONTEXT_DESC (celspan_context_desc_default())
+
 /* desc  borrowed, NULL for the defaults      out  new
  * Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_context_create(const celspan_context_desc *desc,
@@ -95,11 +112,23 @@ CELSPAN_API const char *celspan_context_error(const celspan_context *context);
 CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspan_status status,
                                                 const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* Where in a script the values that are made from now on are made: messages about them say it.
+ * Values made of others by transforms, fades and names keep the place of those. source: copied, its
+ * first 255 bytes; NULL, or line 0: not known, as in a new context. What cannot be kept, without
+ * memory or after 4096 different sources, is not known either. */
+CELSPAN_API void celspan_context_set_origin(celspan_context *context, const char *source,
+                                            int32_t line);
 /* Bytes held now, the most ever held, and allocations made so far. */
 CELSPAN_API void celspan_context_memory(const celspan_context *context, size_t *bytes,
                                         size_t *peak_bytes, uint64_t *allocations);
 
 /* ---------------------------------------------------------------- plain values */
+
+/* Where a value was made; source lives as long as the value. */
+typedef struct celspan_origin {
+  const char *source; /* "shot.lua"; "" when it is not known */
+  int32_t line;       /* from 1; 0 when it is not known */
+} celspan_origin;
 
 typedef struct celspan_point {
   double x, y;
@@ -118,6 +147,10 @@ CELSPAN_API celspan_matrix celspan_matrix_translation(double dx, double dy);
 CELSPAN_API celspan_matrix celspan_matrix_scaling(double sx, double sy);
 CELSPAN_API celspan_matrix celspan_matrix_rotation(double radians, celspan_point centre);
 CELSPAN_API celspan_matrix celspan_matrix_skewing(double radians_x, double radians_y);
+/* The same about a centre, which stays where it is. */
+CELSPAN_API celspan_matrix celspan_matrix_scaling_about(double sx, double sy, celspan_point centre);
+CELSPAN_API celspan_matrix celspan_matrix_skewing_about(double radians_x, double radians_y,
+                                                        celspan_point centre);
 /* first, then second. */
 CELSPAN_API celspan_matrix celspan_matrix_then(celspan_matrix first, celspan_matrix second);
 /* false, and *out untouched, when singular. */
@@ -146,10 +179,30 @@ CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, fl
 /* "#rgb", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not one. */
 CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
 
+typedef enum celspan_alpha {
+  CELSPAN_ALPHA_DEFAULT = 0, /* integers straight, floats premultiplied */
+  CELSPAN_ALPHA_STRAIGHT,
+  CELSPAN_ALPHA_PREMULTIPLIED
+} celspan_alpha;
+
 /* r, g, b >= 0 without upper limit; a in 0..1 is the matte of a back light (unused in front). */
 typedef struct celspan_light {
   float r, g, b, a;
 } celspan_light;
+
+/* A light with a shape, instead of one colour everywhere: at each point it is gain * beta * pigment
+ * of its texture there, and as a back light its matte is beta. Media are not used. Beyond a picture
+ * there is no light; a picture without a box lies on the film's frame. */
+typedef enum celspan_light_place {
+  CELSPAN_LIGHT_ON_FRAME = 0, /* film units after the viewport: the camera moves it */
+  CELSPAN_LIGHT_ON_CEL        /* the cel's own units: it moves with the cel */
+} celspan_light_place;
+
+typedef struct celspan_light_texture {
+  struct celspan_texture *texture; /* kept; NULL: none, so the plain light counts */
+  double gain;                     /* >= 0 */
+  celspan_light_place on;
+} celspan_light_texture;
 
 /* ---------------------------------------------------------------- textures
  * In the units of the primitive they are given to; they move with it. A texture is kept by the
@@ -181,8 +234,10 @@ typedef enum celspan_picture_use {
   CELSPAN_PICTURE_GEL        /* medium = rgb, beta 0; alpha mixes it with clear */
 } celspan_picture_use;
 
+typedef struct celspan_surface celspan_surface; /* a picture in memory: see below */
+
 typedef struct celspan_picture_desc {
-  const char *file;   /* copied */
+  const char *file;   /* copied; NULL where there is a surface */
   const char *colour; /* NULL: by the file; "srgb" "linear" "rec709" "cineon"; copied */
   const char *layer;  /* NULL, or the name of a subimage; copied */
   int subimage;       /* from 0, when layer is NULL */
@@ -191,6 +246,13 @@ typedef struct celspan_picture_desc {
   celspan_wrap wrap;
   bool has_box; /* false: the primitive's own tight bounding rectangle */
   celspan_box box;
+  celspan_surface *surface; /* kept; instead of a file. colour NULL: integers sRGB, floats linear */
+  const char *tried; /* NULL, or where it was looked for in vain: told when `file` is not there
+                        either; copied */
+  /* A part of the picture, as if it were a file of its own: whole pixels, inside the picture, whose
+   * header is read at once. */
+  bool has_source;
+  celspan_box source;
 } celspan_picture_desc;
 
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,
@@ -219,19 +281,103 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
 CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
 CELSPAN_API void celspan_texture_unref(celspan_texture *texture);
 
+/* Names, for people: of textures here, of objects, cels and rostrums below. A named value is a new
+ * value with the same content; names, as the places where values were made, are no part of hashes.
+ * Messages, celspan info and celspan check tell them.
+ * name: copied; 1 to 255 bytes of UTF-8 without control characters      out: new
+ * Errors: NO_MEMORY, BAD_ARGUMENT.
+ * _name: "" when the value has none; lives as long as the value. Shared read. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_named(celspan_context *context,
+                                                                 celspan_texture *texture,
+                                                                 const char *name,
+                                                                 celspan_texture **out);
+CELSPAN_API const char *celspan_texture_name(const celspan_texture *texture);
+CELSPAN_API celspan_origin celspan_texture_origin(const celspan_texture *texture);
+
 typedef struct celspan_picture_info {
   int32_t width, height; /* the display window, in pixels, after the orientation tag */
   int channels;
   bool has_alpha;
   bool is_float;
-  char format[16]; /* "png", "openexr", ... */
+  char format[16]; /* "png", "openexr", ...; "memory" for a surface */
   char colour[16]; /* how it would be read by default: "srgb", "linear", "cineon" */
 } celspan_picture_info;
 
-/* Reads a picture's header. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* Reads a picture's header; tells of a surface without asking for its pixels. Errors: INPUT, LIMIT,
+ * NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_picture_inspect(celspan_context *context,
                                                                    const celspan_picture_desc *desc,
                                                                    celspan_picture_info *out);
+
+/* ---- surfaces: pictures in memory */
+
+/* A picture in memory, a buffer of the caller's or what a function fills on demand, so that a host's
+ * own images and live surfaces are textures. It is immutable and counted like a scene value, and
+ * may be shared by pictures, threads and contexts. Channels are interleaved, in the machine's byte
+ * order. */
+typedef enum celspan_surface_format {
+  CELSPAN_SURFACE_RGBA8 = 0,
+  CELSPAN_SURFACE_RGB8,
+  CELSPAN_SURFACE_GREY8,
+  CELSPAN_SURFACE_RGBA16,
+  CELSPAN_SURFACE_RGBAF
+} celspan_surface_format;
+
+typedef struct celspan_rectangle { /* pixels */
+  int32_t x, y, width, height;
+} celspan_rectangle;
+
+/* Fills a rectangle of a surface: row i of it from destination + i * stride on, in the surface's
+ * format. The rows that were filled, from the top, are to be set in *rows: fewer than the rectangle
+ * has are a failure. Rectangles lie inside the surface; they are up to 64 rows of its whole width,
+ * or where it is too large for `picture_bytes` of a part of it, and are asked for when they are
+ * first seen, and again when they had to be forgotten.
+ * A function that fails may record a sentence with celspan_context_fail. The frame then ends with
+ * CALLBACK and a sentence that names the rectangle. It must not render with this surface itself. */
+typedef celspan_status (*celspan_surface_fill)(void *user, celspan_context *context,
+                                               const celspan_rectangle *rectangle,
+                                               void *destination, size_t stride, int32_t *rows);
+
+typedef struct celspan_surface_desc {
+  size_t struct_size;
+  int32_t width, height; /* 1..1,048,576 */
+  celspan_surface_format format;
+  celspan_alpha alpha; /* DEFAULT: integers straight, floats premultiplied */
+  /* Either pixels: copied where release is NULL, else used as they are, unchanged, until release.
+   * Rows from top to bottom, stride bytes apart; 0: without gaps. */
+  const void *pixels;
+  size_t stride;
+  celspan_surface_fill fill; /* or a function that gives them */
+  void *user;
+  void (*release)(void *user); /* NULL, or called once when the surface is destroyed, by the thread
+                                  that drops the last reference; not when _create fails */
+  bool any_thread; /* fill may be called by workers, by several at once; false: by the rendering
+                      thread alone */
+  /* A name for the content, instead of all of its bytes; a fill function needs one. Surfaces of the
+   * same key, size, format and alpha are taken for the same picture, in a frame and from frame to
+   * frame: a live surface whose content changed is a new one with another key. */
+  bool has_key;
+  uint64_t key[2];
+} celspan_surface_desc;
+
+static inline celspan_surface_desc celspan_surface_desc_default(void) {
+  celspan_surface_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_SURFACE_DESC (celspan_surface_desc_default())
+
+/* Premultiplied integers are coded colours multiplied by alpha, as in TIFF and most window systems.
+ * Of floats NaN becomes 0, what is beyond 65504 becomes that, and alpha is held to 0..1, as in
+ * files. The bytes of buffers do not count in picture_bytes; what is decoded from them does.
+ * desc: borrowed      out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_surface_create(celspan_context *context,
+                                                                  const celspan_surface_desc *desc,
+                                                                  celspan_surface **out);
+CELSPAN_API celspan_surface *celspan_surface_ref(celspan_surface *surface);
+CELSPAN_API void celspan_surface_unref(celspan_surface *surface);
+/* Bytes of a pixel: 4, 3, 1, 8 or 16; 0 for what is no format. Any thread. */
+CELSPAN_API size_t celspan_surface_pixel_size(celspan_surface_format format);
 
 /* ---------------------------------------------------------------- objects
  * Primitives and boolean trees of them: one type. texture NULL is opaque black; textures and
@@ -367,6 +513,13 @@ typedef enum celspan_operator {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_boolean(
     celspan_context *context, celspan_operator op, celspan_object *const *operands,
     size_t operand_count, celspan_object **out);
+/* The boolean with more operands after those it has, as if it had been made with all of them at
+ * once: a | b | c. Many, one after the other, cost and hold as much as one boolean of them all.
+ * boolean: not a clip, and neither transformed nor faded. Errors: as above. Threads: one boolean
+ * may be extended on several. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
+    celspan_context *context, celspan_object *boolean, celspan_object *const *operands,
+    size_t operand_count, celspan_object **out);
 /* Applied after what is there already, about the origin. The object is kept in part, never changed.
  * Errors: NO_MEMORY; BAD_ARGUMENT when a number of the matrix, or of it with what is there, is not
  * finite or beyond 1e12. */
@@ -379,6 +532,13 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_transform(celspan_cont
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_fade(celspan_context *context,
                                                                celspan_object *object, double k,
                                                                celspan_object **out);
+/* Names and origins: see celspan_texture_named. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_named(celspan_context *context,
+                                                                celspan_object *object,
+                                                                const char *name,
+                                                                celspan_object **out);
+CELSPAN_API const char *celspan_object_name(const celspan_object *object);
+CELSPAN_API celspan_origin celspan_object_origin(const celspan_object *object);
 CELSPAN_API celspan_object *celspan_object_ref(celspan_object *object);
 CELSPAN_API void celspan_object_unref(celspan_object *object);
 /* The smallest upright rectangle around what can be painted; false when there is nothing. For
@@ -410,11 +570,18 @@ typedef struct celspan_cel_desc {
   celspan_box viewport;
   double defocus_radius; /* film units on the frame; 0: sharp */
   celspan_defocus_kernel defocus_kernel;
-  double opacity; /* 0..1 */
+  double opacity;                                    /* 0..1 */
+  celspan_light_texture front_texture, back_texture; /* instead of front and back */
 } celspan_cel_desc;
 
-/* A description with every field at its default; set what differs. */
-#define CELSPAN_CEL_DESC ((celspan_cel_desc){.struct_size = sizeof(celspan_cel_desc), .opacity = 1})
+static inline celspan_cel_desc celspan_cel_desc_default(void) {
+  celspan_cel_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.opacity = 1;
+  desc.front_texture.gain = desc.back_texture.gain = 1;
+  return desc;
+}
+#define CELSPAN_CEL_DESC (celspan_cel_desc_default())
 
 /* desc: borrowed, but for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a matte
  * or opacity outside 0..1, a viewport without size. */
@@ -429,6 +596,11 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_transform(celspan_context
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_fade(celspan_context *context,
                                                             celspan_cel *cel, double k,
                                                             celspan_cel **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_cel_named(celspan_context *context,
+                                                             celspan_cel *cel, const char *name,
+                                                             celspan_cel **out);
+CELSPAN_API const char *celspan_cel_name(const celspan_cel *cel);
+CELSPAN_API celspan_origin celspan_cel_origin(const celspan_cel *cel);
 CELSPAN_API celspan_cel *celspan_cel_ref(celspan_cel *cel);
 CELSPAN_API void celspan_cel_unref(celspan_cel *cel);
 /* In the cel's units after its own transform, before the viewport. Shared read. */
@@ -481,22 +653,47 @@ typedef struct celspan_rostrum_desc {
   double camera_width;
   double camera_rotation; /* radians; turns the camera, so the picture turns back */
   celspan_antialias_mode antialias;
-  celspan_filter_desc filter; /* where antialias is FILTER */
+  celspan_filter_desc filter;                        /* where antialias is FILTER */
+  celspan_light_texture front_texture, back_texture; /* instead of front and back; back: on the
+                                                        frame only */
+  bool has_size; /* its own size in film units: needed for celspan_object_create_rostrum */
+  double width, height;
 } celspan_rostrum_desc;
 
-#define CELSPAN_ROSTRUM_DESC                                                                       \
-  ((celspan_rostrum_desc){.struct_size = sizeof(celspan_rostrum_desc), .brightness = 1})
+static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {
+  celspan_rostrum_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.brightness = 1;
+  desc.front_texture.gain = desc.back_texture.gain = 1;
+  return desc;
+}
+#define CELSPAN_ROSTRUM_DESC (celspan_rostrum_desc_default())
 
 /* desc: borrowed, but for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
  * below 0, a camera without width, a kernel that sums to nothing; what its function returns. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_create(celspan_context *context,
                                                                   const celspan_rostrum_desc *desc,
                                                                   celspan_rostrum **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_named(celspan_context *context,
+                                                                 celspan_rostrum *rostrum,
+                                                                 const char *name,
+                                                                 celspan_rostrum **out);
+CELSPAN_API const char *celspan_rostrum_name(const celspan_rostrum *rostrum);
+CELSPAN_API celspan_origin celspan_rostrum_origin(const celspan_rostrum *rostrum);
 CELSPAN_API celspan_rostrum *celspan_rostrum_ref(celspan_rostrum *rostrum);
 CELSPAN_API void celspan_rostrum_unref(celspan_rostrum *rostrum);
+/* A composition used inside another: a rostrum with a size as an object, present in its frame
+ * {0, 0, width, height}, swept in place and sharp at every zoom. As paint it has S = the light it
+ * sends to its own camera, T = 1 - its matte channel by channel, beta = 1 - the greatest T; S may
+ * exceed beta. Its lights, brightness and camera stay inside, its antialias is not used. It counts
+ * as a level of nesting. rostrum: kept. Errors: NO_MEMORY; BAD_ARGUMENT for one without a size, or
+ * with a singular viewport or camera; LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rostrum(celspan_context *context,
+                                                                         celspan_rostrum *rostrum,
+                                                                         celspan_object **out);
 /* 128 bits that are equal for equal scenes, in every process: a name for a frame's content.
- * Pictures count by their names. A scan-line procedure cannot be compared: each object made with
- * one is another. Shared read. */
+ * Pictures count by their names, surfaces by their content or key. A scan-line procedure cannot be
+ * compared: each object made with one is another. Shared read. */
 CELSPAN_API void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]);
 
 /* What a rostrum holds, every level counted. */
@@ -504,9 +701,45 @@ typedef struct celspan_rostrum_counts {
   size_t cels, primitives, pictures;
 } celspan_rostrum_counts;
 CELSPAN_API void celspan_rostrum_count(const celspan_rostrum *rostrum, celspan_rostrum_counts *out);
-/* Reads the header of every picture, hidden or not. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* Reads the header of every picture, hidden or not, up to the first that cannot be read, and keeps
+ * it for the frames to come. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_check(celspan_context *context,
                                                                  const celspan_rostrum *rostrum);
+
+/* A picture that cannot be read, where a rostrum has it. cel, primitive: counted from 1; a cel's
+ * primitives are counted through its booleans and the rostrums inside it. primitive 0: a light has
+ * it, of the cel or of a rostrum inside; cel 0: a light of the rostrum itself. */
+typedef struct celspan_fault {
+  celspan_status status; /* INPUT, LIMIT, BAD_ARGUMENT; CALLBACK of a surface */
+  const char *message;   /* borrowed for the call; it begins with the file, where there is one */
+  size_t cel, primitive;
+  const char *cel_name, *name;       /* of the cel and of the object that is the primitive; "": none */
+  celspan_origin cel_origin, origin; /* where these were made */
+} celspan_fault;
+
+typedef struct celspan_inspect_desc {
+  size_t struct_size; /* sizeof(celspan_inspect_desc) */
+  bool is_deep;       /* pictures are read whole, not only their headers */
+  /* Called for every fault, in the order of cels and primitives; false: that is enough. NULL:
+   * nobody is told. */
+  bool (*report)(void *user, const celspan_fault *fault);
+  /* Called now and then while a picture is read whole; false: stop. NULL: nobody asks. */
+  bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
+  void *user;
+} celspan_inspect_desc;
+
+static inline celspan_inspect_desc celspan_inspect_desc_default(void) {
+  celspan_inspect_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_INSPECT_DESC (celspan_inspect_desc_default())
+
+/* Looks at every picture, hidden or not, and reports all that cannot be read; nothing is kept of
+ * them. The answer is OK, or the status and sentence of the first fault. Other errors: NO_MEMORY,
+ * BAD_ARGUMENT for the description; CANCELLED. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_inspect(
+    celspan_context *context, const celspan_rostrum *rostrum, const celspan_inspect_desc *desc);
 
 /* One point by direct evaluation of the tree: no sweep, no spans, no antialiasing, no defocus.
  * x, y: film units. rgba: linear, premultiplied. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
@@ -567,7 +800,12 @@ typedef struct celspan_frame_desc {
   void *progress_user;
 } celspan_frame_desc;
 
-#define CELSPAN_FRAME_DESC ((celspan_frame_desc){.struct_size = sizeof(celspan_frame_desc)})
+static inline celspan_frame_desc celspan_frame_desc_default(void) {
+  celspan_frame_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_FRAME_DESC (celspan_frame_desc_default())
 
 typedef struct celspan_statistics {
   uint64_t rows, spans, single, gradient, array;
@@ -618,7 +856,11 @@ typedef enum celspan_depth {
   CELSPAN_DEPTH_8,
   CELSPAN_DEPTH_16,
   CELSPAN_DEPTH_HALF,
-  CELSPAN_DEPTH_FLOAT
+  CELSPAN_DEPTH_FLOAT,
+  /* 8 bits, rounded up or down by the place of the pixel in the whole frame: gradients show no
+   * bands, and the mean of 16 x 16 pixels of one colour is within 1/130560 of it. What is exact in
+   * 8 bits stays as it is. Not for span files. */
+  CELSPAN_DEPTH_8_DITHER
 } celspan_depth;
 
 typedef enum celspan_transfer {
@@ -628,12 +870,6 @@ typedef enum celspan_transfer {
   CELSPAN_TRANSFER_REC709,
   CELSPAN_TRANSFER_CINEON
 } celspan_transfer;
-
-typedef enum celspan_alpha {
-  CELSPAN_ALPHA_DEFAULT = 0, /* integers straight, floats premultiplied */
-  CELSPAN_ALPHA_STRAIGHT,
-  CELSPAN_ALPHA_PREMULTIPLIED
-} celspan_alpha;
 
 /* How colours are coded. Straight: un-premultiplied in linear light, then coded, then rounded to
  * nearest. */
@@ -650,6 +886,11 @@ CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
  * that take rows and want pixels. Any thread. */
 CELSPAN_API void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans,
                                     size_t span_count, void *pixels);
+
+/* The same for a coding that dithers: x, y is the place of the first pixel in the whole frame;
+ * celspan_spans_code takes it for 0, 0. */
+CELSPAN_API void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
+                                       const celspan_span *spans, size_t span_count, void *pixels);
 
 /* Renders into memory: RGBA interleaved, rows top to bottom, `stride` bytes apart. pixels NULL:
  * rows are coded, each over the one before, and dropped: for measuring. */
@@ -669,9 +910,17 @@ typedef struct celspan_file_desc {
   int32_t frame;        /* metadata: the frame's number */
   bool is_opaque;       /* every pixel's alpha is 1: formats that can leave it out */
   int workers;          /* threads that compress; 0: one a processor; the bytes do not change */
+  /* Of the sink's first pixel in the whole frame, where the depth dithers; celspan_frame_write adds
+   * the corner of the crop. */
+  int32_t place_x, place_y;
 } celspan_file_desc;
 
-#define CELSPAN_FILE_DESC ((celspan_file_desc){.struct_size = sizeof(celspan_file_desc)})
+static inline celspan_file_desc celspan_file_desc_default(void) {
+  celspan_file_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_FILE_DESC (celspan_file_desc_default())
 
 /* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1
  * stands behind everything. Shared read. */
@@ -704,7 +953,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
                                                                 uint64_t digest[2]);
 
 /* ---------------------------------------------------------------- Lua
- * luaopen_celspan and luaopen_celspan_core are declared in celspan/lua.h. */
+ * A Lua state's films and rostrums as values of this header: celspan/lua.h. */
 
 #ifdef __cplusplus
 }

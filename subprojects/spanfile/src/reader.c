@@ -5,6 +5,9 @@
  *
  * INVARIANT: nothing in the file is believed. Every number is checked before it is used, and
  * nothing is allocated for which the file does not have the bytes.
+ *
+ * One file, because opening, finding a row and reading records share the checks and the state of
+ * the reader.
  */
 #include <inttypes.h>
 #include <stdarg.h>

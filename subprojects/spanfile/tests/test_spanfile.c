@@ -198,9 +198,10 @@ static void test_lying(void) {
     memory_file file = write_picture(&p, seed);
     random_state random = {seed};
     size_t first = random_below(&random, 8) ? SF_HEADER_BYTES : 26;
-    for (uint32_t i = 0; i <= seed % 3; i++)
-      file.bytes[first + random_below(&random, (uint32_t)(file.size - first))] =
-          (unsigned char)random_next(&random);
+    for (uint32_t i = 0; i <= seed % 3; i++) {
+      size_t at = first + random_below(&random, (uint32_t)(file.size - first));
+      file.bytes[at] = (unsigned char)random_next(&random);
+    }
     mend_sums(&file, p.height);
     spanfile_source source = memory_source(&file);
     spanfile_reader *reader = NULL;

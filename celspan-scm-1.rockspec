@@ -1,0 +1,33 @@
+-- The module from a checkout of the tree: `luarocks make` in its folder, for Lua 5.4.
+rockspec_format = "3.0"
+package = "celspan"
+version = "scm-1"
+source = {
+  url = "git+file://.",
+}
+description = {
+  summary = "Compositing engine for cel animation",
+  detailed = [[
+Films described frame by frame in Lua and composed as spans of colour: paints and gels, cels under a
+camera, light from the front and from behind. The animation library is built into the module.
+Needs a C17 compiler, meson, ninja and zlib; for pictures a C++17 compiler and OpenImageIO.]],
+  license = "MIT",
+}
+dependencies = {
+  "lua >= 5.4, < 5.5",
+}
+-- CELSPAN_BUILD names a build folder that meson has made already; without it build-rock is made.
+build = {
+  type = "command",
+  build_command = [[
+build=${CELSPAN_BUILD:-build-rock}
+[ -f "$build/build.ninja" ] || meson setup "$build" --buildtype=release -Dtests=false
+ninja -C "$build"]],
+  install_command = [[
+build=${CELSPAN_BUILD:-build-rock} pictures=src/oiio/celspan-picture.so
+install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
+install -D -m 644 lua/celspan.d.lua "$(PREFIX)/annotations/celspan.d.lua" &&
+if [ -f "$build/$pictures" ]; then
+  install -D -m 755 "$build/$pictures" "$(LIBDIR)/celspan/celspan-picture.so"
+fi]],
+}

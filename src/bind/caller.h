@@ -1,0 +1,40 @@
+/* Who called: the Lua function that people wrote, behind celspan's own modules.
+ *
+ *   shot.lua:40       frame = function(f)         one of those who called
+ *   hand.lua:12         finger(f)                 the caller: errors stand here, and files are
+ *   celspan/keys.lua      keys{ ... }             celspan's own      looked for beside this one
+ *   [C]                     celspan.mix(p, q, u)  where it is asked
+ *
+ * INVARIANT: nothing here changes the stack but for what it pushes.
+ */
+#ifndef CS_BIND_CALLER_H
+#define CS_BIND_CALLER_H
+
+#include <lua.h>
+#include <stdbool.h>
+
+/* The nearest function that has lines and is not celspan's own, with its source and line; false when
+ * there is none. */
+bool cs_caller_find(lua_State *L, lua_Debug *out);
+/* Raises a message with the formats of lua_pushfstring at the caller's line; without a line where C
+ * called. Does not return; the type is that of luaL_error. */
+int cs_caller_error(lua_State *L, const char *format, ...);
+
+/* Pushes "hand.lua:12: " for the nearest function below `last` that has lines and is not celspan's
+ * own; "" when there is none. */
+void cs_caller_push_position(lua_State *L, lua_CFunction last);
+/* Pushes the same for the line where the function at index begins, for what is wrong with its
+ * result, which has no line of its own. */
+void cs_caller_push_function(lua_State *L, int index);
+/* Pushes the folder of the nearest file that is not celspan's own, "" for the current one; false,
+ * and nothing pushed, when there is none. */
+bool cs_caller_push_folder(lua_State *L);
+/* Pushes the folder of a path; "" when it has none. */
+const char *cs_caller_push_folder_of(lua_State *L, const char *path);
+
+/* Pushes " (called from shot.lua:40, shot.lua:55)": those who called the function that stands at
+ * `position`, up to the C function `last`; "" when nobody did. For message handlers, while the
+ * stack of the failed call is there. */
+void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last);
+
+#endif

@@ -1,0 +1,18 @@
+/* Where the files are that scripts name.
+ *
+ *   shot.lua                   picture "bg.png"     -> bg.png
+ *   characters/hand.lua        picture "palm.png"   -> characters/palm.png, else palm.png
+ *
+ * A relative name is looked for beside the Lua file of the nearest caller that is not celspan's
+ * own, then beside the script, where there is one. Nothing is opened here.
+ */
+#ifndef CS_BIND_FILES_H
+#define CS_BIND_FILES_H
+
+#include <lua.h>
+
+/* Pushes where the file is and, after it, where else it was looked for if it is in neither place;
+ * else nil. *tried: that or NULL. */
+const char *cs_files_find(lua_State *L, const char *name, const char **tried);
+
+#endif

@@ -1,0 +1,13 @@
+/* Pictures whose pixels are a Lua string. */
+#ifndef CS_BIND_PIXEL_STRING_H
+#define CS_BIND_PIXEL_STRING_H
+
+#include "bind/form.h"
+
+/* The surface of the fields `pixels`, `size`, `format` and `alpha`: one for all pictures that show
+ * the same string. Borrowed; it lives as long as the value at index `holder`. */
+celspan_surface *cs_pixel_string_surface(const cs_form *form, int holder);
+/* Fills in the format that is left out. */
+void cs_pixel_string_complete(lua_State *L, int fields);
+
+#endif

@@ -1,0 +1,134 @@
+#include "render/layers.h"
+
+#include "compose/over.h"
+#include "geometry/matrix.h"
+#include "paint/shade.h"
+#include "scene/texture.h"
+
+void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
+  cs_paint faded = cs_paint_fade(paint, fade);
+  layer->kind = CS_LAYER_FLAT;
+  cs_v4 s = {faded.s[0], faded.s[1], faded.s[2], 0}, t = {faded.t[0], faded.t[1], faded.t[2], 0};
+  layer->s = cs_over_lit(layer->front, 1, s, t).e;
+  layer->t = t;
+  layer->is_opaque = cs_paint_is_opaque(&faded);
+}
+
+static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
+  cs_stack *stack = &c->plan->stack;
+  CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
+  cs_shade *shade = &stack->shades[stack->shade_count];
+  *shade = (cs_shade){.texture = place->texture, .inverse = place->inverse};
+  cs_shade_prepare(shade);
+  layer->kind = CS_LAYER_SHADED;
+  layer->index = (uint32_t)stack->shade_count++;
+  layer->is_opaque = layer->fade == 1 && cs_matrix_is_affine(&place->inverse) &&
+                     cs_texture_is_opaque(place->texture);
+  return CELSPAN_OK;
+}
+
+/* A picture that fills its primitive's rectangle is clamped at its edges, because the boundary
+ * decides where it ends, not the picture. */
+static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
+                                   const cs_layers_texture *place) {
+  cs_stack *stack = &c->plan->stack;
+  const celspan_texture *texture = place->texture;
+  const celspan_box *box = texture->has_box ? &texture->box : &place->bounds;
+  if (box->width <= 0 || box->height <= 0) {
+    cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
+    return CELSPAN_OK;
+  }
+  CS_TRY(CS_COMPILER_APPEND(c, images, image_count, image_capacity));
+  bool is_own = place->ends_at_bounds && !texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR;
+  stack->images[stack->image_count] =
+      (cs_image_layer){texture, place->inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
+  layer->kind = CS_LAYER_PICTURE;
+  layer->index = (uint32_t)stack->image_count++;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_layers_fill(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
+  if (layer->fade == 0)
+    cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
+  else if (place->texture->kind == CS_TEXTURE_FLAT)
+    cs_layers_fill_flat(layer, place->texture->flat, layer->fade);
+  else
+    return place->texture->kind == CS_TEXTURE_PICTURE ? fill_picture(c, layer, place)
+                                                      : fill_shaded(c, layer, place);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_layers_append(cs_compiler *c, double fade, celspan_rule rule, uint32_t *index) {
+  cs_stack *stack = &c->plan->stack;
+  if (stack->layer_count == CS_STACK_LAYERS)
+    return cs_fail(c->context, CELSPAN_LIMIT, "cel %zu%s: more than %zu primitives in one frame",
+                   c->cel, cs_mark_describe(c->mark).text, (size_t)CS_STACK_LAYERS);
+  CS_TRY(CS_COMPILER_APPEND(c, layers, layer_count, layer_capacity));
+  CS_TRY(CS_COMPILER_APPEND(c, rules, layer_count, rule_capacity));
+  *index = (uint32_t)stack->layer_count++;
+  stack->layers[*index] =
+      (cs_layer){.group = c->group, .front = c->front, .fade = c->fades_out ? 0 : (float)fade};
+  cs_hash key = cs_hash_begin(*index);
+  key = cs_hash_end(key);
+  stack->rules[*index] = (cs_layer_rule){{key.a, key.b}, rule == CELSPAN_RULE_EVENODD ? 1 : -1};
+  return CELSPAN_OK;
+}
+
+/* Whether anything inside a box may be on the rows that will be asked for. */
+static bool meets_rows(const cs_compiler *c, const celspan_box *box, const celspan_matrix *matrix) {
+  cs_boundary_frame around;
+  return !cs_boundary_around_box(box, matrix, &around) ||
+         (around.bottom >= c->first_height && around.top <= c->end_height);
+}
+
+celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
+                                     const celspan_box *bounds, const celspan_matrix *matrix,
+                                     uint32_t index) {
+  celspan_matrix facing = cs_matrix_facing(matrix);
+  if (!meets_rows(c, bounds, &facing))
+    return CELSPAN_OK;
+  return cs_boundary_add(c->context, &c->plan->boundaries, outline, matrix, &c->frame, index);
+}
+
+static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data, double fade,
+                                  const celspan_matrix *matrix) {
+  uint32_t index;
+  cs_layers_texture place = {data->texture, data->bounds, true, {{0}}};
+  CS_TRY(cs_layers_append(c, fade, data->rule, &index));
+  cs_layer *layer = &c->plan->stack.layers[index];
+  if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &place.inverse)) {
+    cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1); /* it has no area */
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_layers_fill(c, layer, &place));
+  return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
+}
+
+static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data, double fade,
+                                   const celspan_matrix *matrix) {
+  cs_stack *stack = &c->plan->stack;
+  const double *m = matrix->m;
+  uint32_t index;
+  CS_TRY(cs_layers_append(c, fade, CELSPAN_RULE_NONZERO, &index));
+  cs_layers_fill_flat(&stack->layers[index], CS_PAINT_CLEAR, 1);
+  if (!cs_matrix_is_upright(matrix))
+    return cs_fail(
+        c->context, CELSPAN_BAD_ARGUMENT,
+        "cel %zu%s: a scan-line primitive can be moved and scaled, but not rotated, skewed "
+        "or put in perspective",
+        c->cel, cs_mark_describe(c->mark).text);
+  if (m[0] == 0 || m[4] == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_COMPILER_APPEND(c, procedures, procedure_count, procedure_capacity));
+  stack->procedures[stack->procedure_count] =
+      (cs_procedure){&data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+  stack->layers[index].kind = CS_LAYER_SCANLINE;
+  stack->layers[index].index = (uint32_t)stack->procedure_count++;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_layers_add(cs_compiler *c, const cs_primitive_data *data, double fade,
+                             const celspan_matrix *matrix) {
+  return data->kind == CS_PRIMITIVE_DATA_SCANLINE ? add_scanline(c, data, fade, matrix)
+                                                  : add_outline(c, data, fade, matrix);
+}

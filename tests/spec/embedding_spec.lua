@@ -1,0 +1,115 @@
+-- Other people's programs: hosts in C and C++, and Lua's package manager.
+local BINARY = os.getenv "CELSPAN" or "build/celspan"
+local BUILD = os.getenv "CELSPAN_BUILD" or "build"
+
+local folder
+
+local function has(program) return os.execute("command -v " .. program .. " >/dev/null") end
+
+--- Runs a command: whether it ended well, and what it said.
+local function run(command, ...)
+  local pipe = assert(io.popen("{ " .. command:format(...) .. "; } 2>&1"))
+  local text = pipe:read "a"
+  return pipe:close() or false, text
+end
+
+local function good(...)
+  local ended_well, text = run(...)
+  assert.is_true(ended_well, text)
+  return text
+end
+
+local function write(name, text)
+  local file = assert(io.open(folder .. "/" .. name, "wb"))
+  assert(file:write(text))
+  file:close()
+end
+
+setup(function()
+  folder = os.tmpname()
+  os.remove(folder)
+  assert(os.execute("mkdir " .. folder))
+end)
+
+teardown(function() os.execute("rm -r " .. folder) end)
+
+describe("the headers", function()
+  local source = [[
+#include <celspan/lua.h>
+int main(void) {
+  celspan_context_desc context = CELSPAN_CONTEXT_DESC;
+  celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_span span = CELSPAN_ZERO;
+  float colour[4];
+  celspan_span_colour(&span, 0, colour);
+  return context.struct_size == sizeof context && cel.opacity == 1 && rostrum.brightness == 1 &&
+         frame.struct_size == sizeof frame && file.struct_size == sizeof file ? 0 : 1;
+}
+]]
+  for compiler, mode in pairs {
+    gcc = "-x c -std=c17 -Wstrict-prototypes", ["g++"] = "-x c++ -std=c++17",
+    clang = "-x c -std=c17 -Wstrict-prototypes", ["clang++"] = "-x c++ -std=c++17",
+  } do
+    local test = has(compiler) and it or pending
+    test("give no warning under " .. compiler .. " " .. mode, function()
+      write("header.c", source)
+      good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only -Isrc/include %s %s/header.c",
+        compiler, mode, "$(pkg-config --cflags lua5.4)", folder)
+    end)
+  end
+end)
+
+describe("a host in C", function()
+  local film = [[
+local celspan = require "celspan"
+return celspan.film { size = { 160, 90 }, frames = 2, frame = function(f)
+  local dot = celspan.circle { centre = { 40 * f.number, 45 }, radius = 30, texture = "#d06030" }
+  return celspan.rostrum { celspan.cel { dot }, back = "#fbe9c6" }
+end }
+]]
+
+  it("takes under 80 lines to play a film", function()
+    local count = 0
+    for _ in io.lines "examples/host.c" do count = count + 1 end
+    assert.is_true(count < 80)
+  end)
+
+  for _, program in ipairs { "example_host", "example_host_cpp" } do
+    local path = ("%s/examples/%s"):format(BUILD, program)
+    local test = has(path) and it or pending
+    test("shows what the program celspan renders: " .. program, function()
+      write("film.lua", film)
+      good("%s %s/film.lua 80 45 >%s/film.ppm", path, folder, folder)
+      good("%s render %s/film.lua --size 80x45 --progress none -o %s/film.#.png", BINARY, folder, folder)
+      for frame = 1, 2 do -- pictures one after the other, of 13 bytes and the pixels each
+        good("tail -c +%d %s/film.ppm | head -c %d >%s/one.ppm", 1 + (frame - 1) * (13 + 80 * 45 * 3),
+          folder, 13 + 80 * 45 * 3, folder)
+        good("%s compare %s/one.ppm %s/film.%d.png", BINARY, folder, folder, frame)
+      end
+    end)
+
+    test("says what is wrong with a film: " .. program, function()
+      write("wrong.lua", film:gsub("radius = 30", "raduis = 30"))
+      local ended_well, text = run("%s %s/wrong.lua 80 45", path, folder)
+      assert.is_false(ended_well)
+      assert.is_truthy(text:find "wrong.lua:3: frame 1: circle: .*raduis", text)
+    end)
+  end
+end)
+
+describe("the rockspec", function()
+  local test = has "luarocks" and it or pending
+  test("is well-formed, and makes a rock of what is built", function()
+    local luarocks = "luarocks --lua-version 5.4"
+    good("%s lint celspan-scm-1.rockspec", luarocks)
+    good("CELSPAN_BUILD=%s %s make --deps-mode none --tree %s/rocks celspan-scm-1.rockspec", BUILD,
+      luarocks, folder)
+    good("test -s %s/rocks/lib/luarocks/rocks-5.4/celspan/scm-1/annotations/celspan.d.lua", folder)
+    write("rock.lua", 'assert(require "celspan"._VERSION and require "celspan.ease" "inOutSine")')
+    good("LUA_PATH= LUA_CPATH='%s/rocks/lib/lua/5.4/?.so' %s/tests/lua_host %s/rock.lua", folder, BUILD,
+      folder)
+  end)
+end)
