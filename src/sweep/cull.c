@@ -245,7 +245,7 @@ static celspan_status place_chain(const culler *c, job *s, uint32_t chain, int32
   size_t place = c->cull->places[chain] + (size_t)(row - c->cull->first_rows[chain]);
   column_range r = c->columns[place];
   f->touched |= column_mask(r);
-  if (ch->y0 <= top)
+  if (ch->y0 <= top && top < ch->y1)
     cross_column(f, r.low, ch->direction);
   bool is_partial = ch->y0 > top || ch->y1 < foot;
   if (is_partial) {

@@ -43,6 +43,24 @@ describe("pixels", function()
     assert.are.same({ 0, 0, 1, 1 }, { image:get(12, 7) })
   end)
 
+  -- A chain ends and another one begins at a height where rows of tiles meet (sweep/cull.h).
+  it("show what lies beside a shape whose outline steps at a whole height", function()
+    local step = celspan.path { d = "M10 0H40V64H20V48H10Z", texture = "#f00" }
+    local shapes = { celspan.rect { 0, 0, 64, 64, texture = "#fff" } }
+    for k = 1, 8 do
+      shapes[#shapes + 1] = celspan.rect { 44 + k, 30, 62, 62, texture = celspan.rgb(0, k / 8, 1) }
+    end
+    shapes[#shapes + 1] = step
+    local rostrum = celspan.rostrum { celspan.cel(shapes) }
+    local image = celspan.pixels(rostrum, { size = { 64, 64 }, antialias = "area" })
+    for y = 44, 55 do
+      for x = 0, 63 do
+        assert.same({ celspan.probe(rostrum, x + 0.5, y + 0.5) }, { image:get(x, y) },
+          ("pixel %d, %d"):format(x, y))
+      end
+    end
+  end)
+
   it("of several exposures add", function()
     local image = assert(celspan.pixels({ { scene(), 0.25 }, { celspan.rostrum {}, 1 } }, options))
     assert.are.same({ 0.25, 0, 0, 0.25 }, { image:get(2, 1) })
