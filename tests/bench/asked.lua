@@ -2,6 +2,7 @@
 --- whether that meets it. A figure whose rows are not in the table is told as not measured.
 local published = require "tests.bench.published"
 local results = require "tests.bench.results"
+local scenes = require "tests.bench.scenes"
 
 local asked = {}
 local seconds = results.seconds
@@ -90,7 +91,7 @@ function asked.by_yardstick(run, scene, side)
   return known and over(over(seconds(agg), known / published.shapes[scene][side]), seconds(mine))
 end
 
-local names = { [1024] = "1k", [4096] = "4k", [30000] = "30k" }
+local names = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k" }
 
 local function pixels(run, lines)
   local bounds = {
@@ -106,6 +107,59 @@ local function pixels(run, lines)
           :format(name, names[side], bound), ahead(run, scene, side), bound, times)
       end
     end
+  end
+end
+
+local function artwork(run, lines)
+  for _, scene in ipairs(scenes.artwork) do
+    for _, bound in ipairs { { 1024, 1.05 }, { 2048, 1.2 }, { 4096, 1.3 } } do
+      local side, least = table.unpack(bound)
+      at_least(lines, ("`%s` at %s to pixels: the best of AGG, Qt, Skia and Cairo takes at least "
+        .. "%g times as long"):format(scene, names[side], least),
+        over(run:best_peer(scene, side), seconds(shapes(run, scene, side, "row", "area"))), least,
+        times)
+    end
+  end
+end
+
+--- What is asked of scenes that are hard, and of 10 to 1000 shapes, at the sizes of films.
+local function film_sizes(run, lines)
+  for _, bound in ipairs { { "small", 1024, 0.7 }, { "small", 4096, 0.95 },
+                           { "faint", 1024, 0.55 }, { "faint", 4096, 1.2 } } do
+    local scene, side, least = table.unpack(bound)
+    at_least(lines, ("the scene `%s` at %s to pixels: AGG takes at least %g times as long"):format(
+      scene, names[side], least), over(seconds(shapes(run, scene, side, "row", "area", "agg")),
+      seconds(shapes(run, scene, side, "row", "area"))), least, times)
+  end
+  for _, bound in ipairs { { "10", 0.00025 }, { "100", 0.0036 }, { "1000", 0.022 },
+                           { "gradients-100", 0.04 }, { "gradients-1000", 0.25 } } do
+    local scene, most = table.unpack(bound)
+    at_most(lines, ("%s at 1k to pixels: at most %s"):format(
+      tonumber(scene) and scene .. " shapes" or "the scene `" .. scene .. "`", time(most)),
+      seconds(shapes(run, scene, 1024, "row", "area")), most, time)
+  end
+end
+
+-- ---------------------------------------------------------------- accuracy
+
+--- The worst of a figure over all drawings of the run.
+local function worst(run, key)
+  local most
+  for _, row in ipairs(run:all { part = "accuracy" }) do
+    if row.rms and row[key] then most = math.max(most or 0, row[key]) end
+  end
+  return most
+end
+
+local function accuracy(run, lines)
+  local function codes(value) return ("%.3g of 255"):format(value) end
+  at_most(lines, "`area`, every pixel of every drawing: at most 2 of 255 off in linear light",
+    worst(run, "worst"), 2, codes)
+  at_most(lines, "`area`, every drawing: at most 0.1 of 255 rms", worst(run, "rms"), 0.1, codes)
+  for _, cover in ipairs { "fans", "bars" } do
+    local row = run:one { part = "accuracy", scene = "abutting " .. cover }
+    at_most(lines, ("`area`, inside abutting %s: no light leaks"):format(cover), row and row.worst,
+      0, codes)
   end
 end
 
@@ -238,7 +292,8 @@ end
 --- { { what, told, is_met }, ... }; is_met is nil where nothing was measured.
 function asked.lines(run)
   local lines = {}
-  local parts = { spans, pixels, pictures, softness, span_files, png_files, film_frame, sequences }
+  local parts = { artwork, film_sizes, accuracy, spans, pixels, pictures, softness, span_files,
+                  png_files, film_frame, sequences }
   for _, part in ipairs(parts) do part(run, lines) end
   return lines
 end

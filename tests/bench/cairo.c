@@ -49,12 +49,30 @@ static void *begin(const bench_drawing *drawing, int side, bool is_antialiased) 
   return frame;
 }
 
+static void add_stop(cairo_pattern_t *pattern, double at, bench_colour c) {
+  cairo_pattern_add_color_stop_rgba(pattern, at, c.red / 255.0, c.green / 255.0, c.blue / 255.0,
+                                    c.alpha / 255.0);
+}
+
+/* Gradients are blended premultiplied, in more than 8 bits, at each pixel's centre. */
+static void set_paint(cairo_t *cairo, const bench_shape *s, double side) {
+  bench_colour c = s->colour;
+  if (s->is_gradient) {
+    cairo_pattern_t *pattern = cairo_pattern_create_linear(side * s->x0, 0, side * s->x1, 0);
+    add_stop(pattern, 0, c);
+    add_stop(pattern, 1, s->far_colour);
+    cairo_set_source(cairo, pattern);
+    cairo_pattern_destroy(pattern);
+  } else
+    cairo_set_source_rgba(cairo, c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0);
+}
+
 static void draw(cairo_t *cairo, const cairo_frame *frame, size_t index) {
   const bench_shape *s = &frame->drawing->shapes[index];
   cairo_new_path(cairo);
   cairo_append_path(cairo, frame->paths[index]);
   cairo_set_fill_rule(cairo, s->is_evenodd ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
-  cairo_set_source_rgba(cairo, s->red / 255.0, s->green / 255.0, s->blue / 255.0, s->alpha / 255.0);
+  set_paint(cairo, s, frame->side);
   cairo_fill(cairo);
 }
 

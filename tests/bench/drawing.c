@@ -114,19 +114,30 @@ static void span_rows(bench_shape *shape) {
 
 /* ---------------------------------------------------------------- lines of a file */
 
-static const char *read_head(const char *line, bench_shape *shape) {
-  char kind[8], rule[8];
+static const char *read_colour(const char *at, bench_colour *colour) {
   unsigned red, green, blue, alpha;
   int used = 0;
-  if (sscanf(line, "%7s %7s %u %u %u %u %n", kind, rule, &red, &green, &blue, &alpha, &used) < 6)
+  if (sscanf(at, "%u %u %u %u %n", &red, &green, &blue, &alpha, &used) < 4)
+    bench_stop("a drawing has no colour where one was expected: %.40s", at);
+  *colour = (bench_colour){(uint8_t)red, (uint8_t)green, (uint8_t)blue, (uint8_t)alpha};
+  return at + used;
+}
+
+static const char *read_paint(const char *at, bench_shape *shape) {
+  int used = 0;
+  shape->is_gradient = sscanf(at, "across %lf %lf %n", &shape->x0, &shape->x1, &used) == 2;
+  at = read_colour(at + used, &shape->colour);
+  return shape->is_gradient ? read_colour(at, &shape->far_colour) : at;
+}
+
+static const char *read_head(const char *line, bench_shape *shape) {
+  char kind[8], rule[9];
+  int used = 0;
+  if (sscanf(line, "%7s %8s %n", kind, rule, &used) < 2)
     bench_stop("a drawing has a line that is no shape: %.40s", line);
   shape->is_spline = strcmp(kind, "spline") == 0;
   shape->is_evenodd = strcmp(rule, "evenodd") == 0;
-  shape->red = (uint8_t)red;
-  shape->green = (uint8_t)green;
-  shape->blue = (uint8_t)blue;
-  shape->alpha = (uint8_t)alpha;
-  return line + used;
+  return read_paint(line + used, shape);
 }
 
 static void read_shape(const char *line, bench_shape *shape) {

@@ -2,10 +2,21 @@
  * back to front, over white. Coordinates lie in the unit square, colours are 8-bit, alpha straight.
  *
  *   drawing COUNT
- *   spline RULE R G B A  X Y X Y X Y X Y    a closed uniform cubic B-spline on four points
- *   path RULE R G B A  M X Y L X Y C X Y X Y X Y Z ...
+ *   spline RULE PAINT  X Y X Y X Y X Y    a closed uniform cubic B-spline on four points
+ *   path RULE PAINT  M X Y L X Y C X Y X Y X Y Z ...
  *
- * RULE is evenodd or nonzero.
+ * RULE is evenodd or nonzero. PAINT is a colour or a linear gradient:
+ *
+ *   R G B A
+ *   across X X R G B A R G B A    from the first colour at the first column to the second at the
+ *                                 second, held outside; both of one alpha
+ *
+ *      colour            far_colour
+ *        |  :  :  :  :  :  |
+ *   -----x0----------------x1-----> columns of the unit square
+ *
+ * Every renderer blends between codes as they are, as it blends flat colours; where alpha is the
+ * same at both ends, straight and premultiplied values make the same gradient.
  *
  * INVARIANT: every shape has its outline as moves, lines and cubics; each contour begins with a
  * move.
@@ -32,8 +43,15 @@ typedef struct bench_segment {
   bench_point p[3]; /* the last that the verb uses is the end */
 } bench_segment;
 
+typedef struct bench_colour {
+  uint8_t red, green, blue, alpha; /* straight */
+} bench_colour;
+
 typedef struct bench_shape {
-  uint8_t red, green, blue, alpha;
+  bench_colour colour;
+  bool is_gradient;
+  bench_colour far_colour; /* this and the columns: of a gradient */
+  double x0, x1;
   bool is_evenodd, is_spline;
   bench_point spline[4];
   const char *data; /* path data of a shape that is no spline */

@@ -7,15 +7,18 @@ local Runner = require "tests.bench.runner"
 local scenes = require "tests.bench.scenes"
 local machine = require "tests.bench.machine"
 
+local accuracy = require "tests.bench.parts_accuracy"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
 local pictures = require "tests.bench.parts_pictures"
 local shapes = require "tests.bench.parts_shapes"
 
 local parts = {
+  { "accuracy", "how exact it is", accuracy.accuracy },
   { "agreement", "whether all draw the same picture", shapes.agreement },
   { "shapes", "10, 100 and 1000 random shapes", shapes.shapes },
   { "hard", "scenes that are hard for spans", shapes.hard },
+  { "gradients", "the random shapes, each with a gradient", shapes.gradients },
   { "artwork", "real artwork", shapes.artwork },
   { "large", "to spans, a hundred thousand and a million pixels a side", shapes.large },
   { "whole", "whole images, and without antialiasing", shapes.whole },
@@ -68,6 +71,9 @@ for _, part in ipairs(parts) do
   end
 end
 
+if not runner:has_counter() then
+  runner:note "no counter of instructions here: that column is empty"
+end
 local csv = options.folder .. "/bench.csv"
 runner:write(csv)
 machine.write(options.folder .. "/machine.txt", { began = began, ended = os.time(),

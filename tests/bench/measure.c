@@ -1,5 +1,6 @@
 #include "measure.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -7,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+
+#include "instructions.h"
 
 #define RUNS_LIMIT 300
 #define DEFAULT_SECONDS 0.2
@@ -29,6 +32,16 @@ static double seconds(clockid_t clock) {
 double bench_wall(void) { return seconds(CLOCK_MONOTONIC); }
 double bench_processor(void) { return seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
+bench_cost bench_spent(void) {
+  return (bench_cost){bench_wall(), bench_processor(), bench_instructions()};
+}
+
+bench_cost bench_since(bench_cost before) {
+  bench_cost now = bench_spent();
+  return (bench_cost){now.wall - before.wall, now.processor - before.processor,
+                      now.instructions - before.instructions};
+}
+
 /* The most memory that was ever resident since the program began, in KiB: rusage would count the
  * program that started this one. */
 static long peak_kib(void) {
@@ -48,31 +61,46 @@ static int ascending(const void *p, const void *q) {
   return (a > b) - (a < b);
 }
 
-static void tell_times(const char *name, double *times, int runs, bench_part part) {
-  qsort(times, (size_t)runs, sizeof *times, ascending);
-  double rest = 1 - part.scale;
-  printf("%s %.9g best_%s %.9g ", name, part.scale * times[runs / 2] + rest * part.fixed, name,
-         part.scale * times[0] + rest * part.fixed);
+/* Figures of the whole, ascending. */
+static void make_whole(double *figures, int runs, double scale, double fixed) {
+  qsort(figures, (size_t)runs, sizeof *figures, ascending);
+  for (int i = 0; i < runs; i++)
+    figures[i] = scale * figures[i] + (1 - scale) * fixed;
+}
+
+static void tell_times(const char *name, double *times, int runs, double scale, double fixed) {
+  make_whole(times, runs, scale, fixed);
+  printf("%s %.9g best_%s %.9g ", name, times[runs / 2], name, times[0]);
+}
+
+static void tell_instructions(double *counts, int runs, double scale, double fixed) {
+  if (isnan(counts[0]))
+    return;
+  make_whole(counts, runs, scale, fixed);
+  bench_tell("instructions", counts[runs / 2]);
 }
 
 /* The first run warms caches; it counts only where it alone takes all the time there is. */
 void bench_measure_part(void (*job)(void *user), void *user, bench_part part) {
-  static double wall[RUNS_LIMIT], processor[RUNS_LIMIT];
+  static double wall[RUNS_LIMIT], processor[RUNS_LIMIT], instructions[RUNS_LIMIT];
   const char *told = getenv("BENCH_SECONDS");
   double limit = told ? atof(told) : DEFAULT_SECONDS, spent = 0;
   int runs = 0;
   for (bool is_first = true; runs < RUNS_LIMIT && (is_first || runs == 0 || spent < limit);
        is_first = false) {
-    double begun = bench_wall(), begun_processor = bench_processor();
+    bench_cost begun = bench_spent();
     job(user);
-    processor[runs] = bench_processor() - begun_processor;
-    wall[runs] = bench_wall() - begun;
-    if (is_first && wall[runs] < limit)
+    bench_cost cost = bench_since(begun);
+    if (is_first && cost.wall < limit)
       continue;
-    spent += wall[runs++];
+    wall[runs] = cost.wall;
+    processor[runs] = cost.processor;
+    instructions[runs++] = cost.instructions;
+    spent += cost.wall;
   }
-  tell_times("wall", wall, runs, part);
-  tell_times("processor", processor, runs, part);
+  tell_times("wall", wall, runs, part.scale, part.fixed.wall);
+  tell_times("processor", processor, runs, part.scale, part.fixed.processor);
+  tell_instructions(instructions, runs, part.scale, part.fixed.instructions);
   printf("runs %d peak_kib %ld ", runs, peak_kib());
 }
 

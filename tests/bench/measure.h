@@ -24,14 +24,23 @@ void bench_stop(const char *format, ...);
 double bench_wall(void);
 double bench_processor(void); /* of all threads of the process */
 
+/* What the process has spent so far; instructions are NAN without a counter. */
+typedef struct bench_cost {
+  double wall, processor, instructions;
+} bench_cost;
+bench_cost bench_spent(void);
+bench_cost bench_since(bench_cost before);
+
 /* Runs job(user) as told above and prints wall and processor seconds, each median and least, the
- * number of runs, and the peak of memory in KiB. The line is left open for more pairs. */
+ * median of instructions where they are counted, the number of runs, and the peak of memory in KiB.
+ * The line is left open for more pairs. */
 void bench_measure(void (*job)(void *user), void *user);
 
-/* A job that does a part of the work for the whole: of its seconds `fixed` are the whole's too, the
+/* A job that does a part of the work for the whole: of its cost `fixed` is the whole's too, the
  * rest counts `scale` times. */
 typedef struct bench_part {
-  double scale, fixed;
+  double scale;
+  bench_cost fixed;
 } bench_part;
 void bench_measure_part(void (*job)(void *user), void *user, bench_part part);
 

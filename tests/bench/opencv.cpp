@@ -51,6 +51,6 @@ int main(int argc, char **argv) {
   const cv::Mat whole(side, side, CV_8UC4, bytes.data());
   const int rows = std::atoi(argv[4]);
   Job job{whole.rowRange(0, rows).clone(), cv::Mat(), std::atof(argv[3])};
-  bench_measure_part(blur, &job, {double(side) / rows, 0});
+  bench_measure_part(blur, &job, {double(side) / rows, {}});
   bench_line_end();
 }

@@ -8,6 +8,9 @@ local parts = {}
 --- where a frame takes seconds.
 local function band_of(side) return side <= 4096 and 256 or 64 end
 
+--- Sides in pixels: those of films, and one of a poster.
+local sides, film_sides = { 1024, 2048, 4096, 30000 }, { 1024, 2048, 4096 }
+
 local strides = { ["10"] = 1, ["100"] = 4, small = 4 }
 local function stride_of(scene, side) return side < 30000 and 1 or strides[scene] or 16 end
 
@@ -39,14 +42,15 @@ function parts.peers(runner)
     if runner:has(name) then list[#list + 1] = name
     else runner:note(name .. " is not installed: its columns are empty") end
   end
+  if runner:has "blend2d" then list[#list + 1] = "blend2d"
+  else runner:note "blend2d is not here (BLEND2D_ROOT): its columns are empty" end
   if runner.skia then list[#list + 1] = "skia"
   else runner:note "skia is not installed (npm: @napi-rs/canvas): its columns are empty" end
   return list
 end
 
---- One drawing at one side: all who draw it, in turn.
-local function point(runner, folder, scene, side, rounds)
-  local path = ("%s/%s.txt"):format(folder, scene)
+--- All who draw a drawing at one side.
+local function renderers(runner, path, scene, side)
   local entries = {}
   for _, output in ipairs { "spans", "row" } do
     for _, antialias in ipairs { "none", "area" } do
@@ -56,24 +60,43 @@ local function point(runner, folder, scene, side, rounds)
   for _, name in ipairs(parts.peers(runner)) do
     entries[#entries + 1] = peer(runner, path, scene, side, "area", name)
   end
+  return entries
+end
+
+--- One drawing at one side: all who draw it, in turn, and the limits.
+local function point(runner, folder, scene, side, rounds)
+  local path = ("%s/%s.txt"):format(folder, scene)
+  local entries = renderers(runner, path, scene, side)
   entries[#entries + 1] = limit(runner, path, scene, side, 1, "memset")
   entries[#entries + 1] = limit(runner, path, scene, side, 2, "fill of runs")
   runner:measure(rounds, entries)
 end
 
-local random = { "10", "100", "1000" }
-
 function parts.shapes(runner, folder, is_quick)
-  local sides = is_quick and { 1024, 4096 } or { 1024, 4096, 30000 }
-  for _, scene in ipairs(is_quick and { "100" } or random) do
-    for _, side in ipairs(sides) do point(runner, folder, scene, side, side < 30000 and 3 or 2) end
+  for _, scene in ipairs(is_quick and { "100" } or scenes.random) do
+    for _, side in ipairs(is_quick and film_sides or sides) do
+      point(runner, folder, scene, side, side < 30000 and 3 or 2)
+    end
   end
 end
 
 function parts.hard(runner, folder, is_quick)
-  local sides = is_quick and { 1024 } or { 1024, 4096, 30000 }
-  for _, scene in ipairs { "opaque", "small", "faint" } do
-    for _, side in ipairs(sides) do point(runner, folder, scene, side, side < 30000 and 2 or 1) end
+  for _, scene in ipairs(scenes.hard) do
+    for _, side in ipairs(is_quick and { 1024 } or sides) do
+      point(runner, folder, scene, side, side < 30000 and 2 or 1)
+    end
+  end
+end
+
+--- A gradient has no runs of one colour, so the limits say nothing here.
+function parts.gradients(runner, folder, is_quick)
+  for _, scene in ipairs(is_quick and { "gradients-100" } or scenes.gradients) do
+    for _, side in ipairs(is_quick and { 1024 } or film_sides) do
+      local path = ("%s/%s.txt"):format(folder, scene)
+      local entries = renderers(runner, path, scene, side)
+      for _, entry in ipairs(entries) do entry.limit = 20 end
+      runner:measure(1, entries)
+    end
   end
 end
 
@@ -81,15 +104,16 @@ function parts.artwork(runner, folder, is_quick)
   if not runner.has_material then
     return runner:note "no CELSPAN_MATERIAL: the random shapes are made, artwork is left out"
   end
-  local sides = is_quick and { 4096 } or { 1024, 4096, 30000 }
   for _, scene in ipairs(scenes.artwork) do
-    for _, side in ipairs(sides) do point(runner, folder, scene, side, side < 30000 and 2 or 1) end
+    for _, side in ipairs(is_quick and { 1024, 4096 } or sides) do
+      point(runner, folder, scene, side, side < 30000 and 2 or 1)
+    end
   end
 end
 
 --- Sides that no renderer of pixels reaches.
 function parts.large(runner, folder, is_quick)
-  for _, scene in ipairs(is_quick and { "100" } or random) do
+  for _, scene in ipairs(is_quick and { "100" } or scenes.random) do
     local path = ("%s/%s.txt"):format(folder, scene)
     for _, side in ipairs { 100000, 1000000 } do
       local entries = {}
@@ -137,7 +161,8 @@ end
 
 --- Whether the peers draw the very picture: the distance of their cells from celspan's, at 1024.
 function parts.agreement(runner, folder, is_quick)
-  local names = is_quick and { "100" } or { "10", "100", "1000", "opaque", "small", "faint" }
+  local names = is_quick and { "100", "gradients-100" }
+    or { "10", "100", "1000", "opaque", "small", "faint", "gradients-100", "gradients-1000" }
   if runner.has_material and not is_quick then
     table.move(scenes.artwork, 1, #scenes.artwork, #names + 1, names)
   end

@@ -40,10 +40,10 @@ static double scale_of(const shapes_job *job) {
 }
 
 /* What building the paths takes, which a part of the bands needs whole. */
-static double build_seconds(const shapes_job *job) {
-  double begun = bench_processor();
+static bench_cost build_cost(const shapes_job *job) {
+  bench_cost begun = bench_spent();
   bench_peer_here.end(bench_peer_here.begin(&job->drawing, job->side, job->is_antialiased));
-  return bench_processor() - begun;
+  return bench_since(begun);
 }
 
 static shapes_job open_shapes(const char *path, int side, bool is_antialiased, int rows,
@@ -65,7 +65,7 @@ static void close_shapes(shapes_job *job) {
 static void measure_shapes(char **words) {
   shapes_job job = open_shapes(words[0], atoi(words[1]), strcmp(words[2], "area") == 0,
                                atoi(words[3]), atoi(words[4]));
-  bench_measure_part(draw_shapes, &job, (bench_part){scale_of(&job), build_seconds(&job)});
+  bench_measure_part(draw_shapes, &job, (bench_part){scale_of(&job), build_cost(&job)});
   bench_tell("crossings", job.drawing.crossings * job.side);
   bench_line_end();
   close_shapes(&job);

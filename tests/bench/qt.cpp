@@ -1,5 +1,7 @@
 // Qt: QPainter on a QImage, premultiplied ARGB32.
+#include <QBrush>
 #include <QImage>
+#include <QLinearGradient>
 #include <QPainter>
 #include <QPainterPath>
 #include <QTransform>
@@ -48,6 +50,18 @@ void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
   return frame;
 }
 
+QColor colour(bench_colour c) { return QColor(c.red, c.green, c.blue, c.alpha); }
+
+// Qt looks gradients up in a table of 1024 colours.
+QBrush brush(const bench_shape &shape, double side) {
+  if (!shape.is_gradient)
+    return colour(shape.colour);
+  QLinearGradient gradient(side * shape.x0, 0, side * shape.x1, 0);
+  gradient.setColorAt(0, colour(shape.colour));
+  gradient.setColorAt(1, colour(shape.far_colour));
+  return gradient;
+}
+
 void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   const auto *frame = static_cast<const Frame *>(user);
   QImage image(pixels, width, rows, 4 * width, QImage::Format_ARGB32_Premultiplied);
@@ -59,7 +73,7 @@ void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
   for (size_t i = 0; i < frame->paths.size(); i++) {
     const bench_shape &s = frame->drawing->shapes[i];
     if (bench_shape_meets(&s, frame->side, first_row, rows))
-      painter.fillPath(frame->paths[i], QColor(s.red, s.green, s.blue, s.alpha));
+      painter.fillPath(frame->paths[i], brush(s, frame->side));
   }
 }
 

@@ -4,6 +4,10 @@ local Runner = require "tests.bench.runner"
 local results = {}
 results.__index = results
 
+--- The peers that every page names, as rows and as people call them. Blend2D is not among them: it
+--- is seldom there.
+results.peers = { { "skia", "Skia" }, { "agg", "AGG" }, { "qt", "Qt" }, { "cairo", "Cairo" } }
+
 local numbers = { side = true, workers = true }
 for i = 8, #Runner.columns do numbers[Runner.columns[i]] = true end
 
@@ -43,6 +47,22 @@ function results:one(wanted) return self:all(wanted)[1] end
 function results.seconds(row)
   if not row then return nil end
   return row.workers == 1 and row.processor or row.wall
+end
+
+--- The row of a drawing that became pixels in one reused row or band.
+function results:pixel_row(scene, side, renderer, antialias)
+  return self:one { part = "shapes", scene = scene, side = side, output = "row",
+                    antialias = antialias, renderer = renderer }
+end
+
+--- The seconds of the fastest peer, antialiased, and its name; nil where none was measured.
+function results:best_peer(scene, side)
+  local least, name
+  for _, peer in ipairs(results.peers) do
+    local taken = results.seconds(self:pixel_row(scene, side, peer[1], "area"))
+    if taken and (not least or taken < least) then least, name = taken, peer[2] end
+  end
+  return least, name
 end
 
 --- What stands before a time: only a part was measured, or it was ended before it was done.

@@ -5,8 +5,9 @@ Runner.__index = Runner
 --- A row of the table that is written: these columns in this order.
 Runner.columns = {
   "part", "scene", "side", "output", "antialias", "renderer", "workers", "wall", "best_wall",
-  "processor", "best_processor", "runs", "peak_kib", "spans", "colours", "crossings", "bytes",
-  "is_part", "is_over", "rms", "load",
+  "processor", "best_processor", "instructions", "runs", "peak_kib", "spans", "colours",
+  "crossings", "bytes", "is_part", "is_over", "rms", "worst", "over_two", "pixels", "leaking",
+  "load",
 }
 
 --- programs: the folder of the built ones; seconds: that a program may repeat a job; share: of the
@@ -40,6 +41,8 @@ local function load_average()
   return load
 end
 
+local hexadecimal = { picture = true, digest = true }
+
 local function quote(word) return "'" .. tostring(word):gsub("'", "'\\''") .. "'" end
 
 function Runner.command(...)
@@ -63,7 +66,9 @@ function Runner:ask(command, limit)
   local lines = {}
   for line in text:gmatch "[^\n]+" do
     local pairs_told = {}
-    for key, value in line:gmatch "([%a_]+) (%S+)" do pairs_told[key] = tonumber(value) or value end
+    for key, value in line:gmatch "([%a_]+) (%S+)" do
+      pairs_told[key] = not hexadecimal[key] and tonumber(value) or value
+    end
     lines[#lines + 1] = pairs_told
   end
   return lines
@@ -78,7 +83,8 @@ end
 local function fold(entry, told)
   local row = {}
   for key, value in pairs(entry) do row[key] = value end
-  local lists = { wall = {}, best_wall = {}, processor = {}, best_processor = {} }
+  local lists = { wall = {}, best_wall = {}, processor = {}, best_processor = {},
+                  instructions = {} }
   row.runs = 0
   for _, line in ipairs(told) do
     for key, list in pairs(lists) do list[#list + 1] = line[key] end
@@ -90,6 +96,7 @@ local function fold(entry, told)
     end
   end
   row.wall, row.processor = median(lists.wall), median(lists.processor)
+  row.instructions = median(lists.instructions) -- nil where none were counted
   row.best_wall, row.best_processor = math.min(table.unpack(lists.best_wall)),
     math.min(table.unpack(lists.best_processor))
   return row
@@ -137,6 +144,14 @@ function Runner.distance(a, b)
     sum = sum + difference * difference
   end
   return math.sqrt(sum / count)
+end
+
+--- Whether any program was lent a counter of instructions.
+function Runner:has_counter()
+  for _, row in ipairs(self.rows) do
+    if row.instructions then return true end
+  end
+  return false
 end
 
 function Runner:write(path)

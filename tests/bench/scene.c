@@ -9,14 +9,29 @@ void bench_check(celspan_context *context, celspan_status status) {
     bench_stop("%s", celspan_context_error(context));
 }
 
-static celspan_object *make_shape(celspan_context *context, const bench_shape *shape) {
-  celspan_paint paint =
-      celspan_paint_rgb((float)(shape->red / 255.0), (float)(shape->green / 255.0),
-                        (float)(shape->blue / 255.0), (float)(shape->alpha / 255.0));
-  celspan_rule rule = shape->is_evenodd ? CELSPAN_RULE_EVENODD : CELSPAN_RULE_NONZERO;
+/* Codes are taken for light as they are. */
+static celspan_paint make_paint(bench_colour colour) {
+  return celspan_paint_rgb((float)(colour.red / 255.0), (float)(colour.green / 255.0),
+                           (float)(colour.blue / 255.0), (float)(colour.alpha / 255.0));
+}
+
+static celspan_texture *make_texture(celspan_context *context, const bench_shape *shape) {
+  celspan_paint paint = make_paint(shape->colour);
   celspan_texture *texture;
+  if (shape->is_gradient) {
+    const celspan_stop stops[] = {{0, paint}, {1, make_paint(shape->far_colour)}};
+    bench_check(context,
+                celspan_texture_create_linear(context, (celspan_point){shape->x0, 0},
+                                              (celspan_point){shape->x1, 0}, stops, 2, &texture));
+  } else
+    bench_check(context, celspan_texture_create_paint(context, &paint, &texture));
+  return texture;
+}
+
+static celspan_object *make_shape(celspan_context *context, const bench_shape *shape) {
+  celspan_rule rule = shape->is_evenodd ? CELSPAN_RULE_EVENODD : CELSPAN_RULE_NONZERO;
+  celspan_texture *texture = make_texture(context, shape);
   celspan_object *object;
-  bench_check(context, celspan_texture_create_paint(context, &paint, &texture));
   if (shape->is_spline) {
     celspan_point points[4];
     for (int i = 0; i < 4; i++)

@@ -19,6 +19,9 @@ local single = { mosquito = "zanzara_cretina_architet_01", skaters = "pattinatri
                  boating = "boating_rules5" }
 local sheets = { clipart = { "/artwork-openclipart", 8 }, emoji = { "/artwork-noto", 8 },
                  twemoji = { "/artwork-twemoji", 8 } }
+scenes.random = { "10", "100", "1000" }
+scenes.hard = { "opaque", "small", "faint" }
+scenes.gradients = { "gradients-100", "gradients-1000" }
 scenes.artwork = { "mosquito", "skaters", "boating", "clipart", "emoji", "twemoji" }
 
 local function write_artwork(material, folder)
@@ -57,13 +60,16 @@ function scenes.write(folder)
   local is_given = all ~= nil
   all = all or shapes.random(1000)
   local function write(list, name) shapes.write(list, ("%s/%s.txt"):format(folder, name)) end
-  for _, count in ipairs { 10, 100, 1000 } do
-    write(table.move(all, 1, count, 1, {}), tostring(count))
+  for _, count in ipairs(scenes.random) do
+    write(table.move(all, 1, tonumber(count), 1, {}), count)
   end
   local random = prng.new(22)
   write(shapes.with_alpha(all, function() return 255 end), "opaque")
   write(shapes.with_alpha(all, function() return random:whole(5, 20) end), "faint")
   write(shapes.small(10000, 1 / 20), "small")
+  local gradients = shapes.with_gradients(all)
+  write(table.move(gradients, 1, 100, 1, {}), "gradients-100")
+  write(gradients, "gradients-1000")
   write(clovers(), "clovers")
   if is_given then write_artwork(material, folder) end
   return is_given

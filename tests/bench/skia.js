@@ -26,12 +26,21 @@ function splineData(n) {
   return data + "Z";
 }
 
+const readColour = ([r, g, b, a]) => `rgba(${r},${g},${b},${a / 255})`;
+
+// A colour, or a gradient as drawing.h tells; what is left of the words.
+function readPaint(words) {
+  if (words[0] !== "across") return [{ colour: readColour(words) }, words.slice(4)];
+  return [{ columns: [Number(words[1]), Number(words[2])], colour: readColour(words.slice(3)),
+            farColour: readColour(words.slice(7)) }, words.slice(11)];
+}
+
 function readShape(line) {
-  const [kind, rule, r, g, b, a, ...rest] = line.split(/\s+/);
+  const [kind, rule, ...words] = line.split(/\s+/);
+  const [paint, rest] = readPaint(words);
   const data = kind === "spline" ? splineData(rest.map(Number)) : rest.join(" ");
   const heights = data.match(/-?[\d.]+(?:e[-+]?\d+)?/g).filter((_, i) => i % 2 === 1).map(Number);
-  return { rule, data, colour: `rgba(${r},${g},${b},${a / 255})`,
-           top: Math.min(...heights), bottom: Math.max(...heights) };
+  return { rule, data, paint, top: Math.min(...heights), bottom: Math.max(...heights) };
 }
 
 function readDrawing(file) {
@@ -98,6 +107,16 @@ function cells(canvas) {
 
 // ---------------------------------------------------------------- jobs
 
+// Skia blends the colours of a gradient straight, in floats.
+function styleOf(context, paint, side) {
+  if (!paint.columns) return paint.colour;
+  const [x0, x1] = paint.columns;
+  const gradient = context.createLinearGradient(side * x0, 0, side * x1, 0);
+  gradient.addColorStop(0, paint.colour);
+  gradient.addColorStop(1, paint.farColour);
+  return gradient;
+}
+
 // One pixel read makes Skia draw what was recorded.
 function drawBand(context, shapes, paths, side, rows, top) {
   context.setTransform(1, 0, 0, 1, 0, 0);
@@ -106,7 +125,7 @@ function drawBand(context, shapes, paths, side, rows, top) {
   context.translate(0, -top);
   shapes.forEach((shape, i) => {
     if (shape.bottom * side < top - 1 || shape.top * side > top + rows + 1) return;
-    context.fillStyle = shape.colour;
+    context.fillStyle = styleOf(context, shape.paint, side);
     context.fill(paths[i], shape.rule);
   });
   context.getImageData(0, 0, 1, 1);

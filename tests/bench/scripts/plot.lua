@@ -10,8 +10,8 @@ local results = require "tests.bench.results"
 
 local path, plot, scene = ...
 local run = results.read(path)
-local sides = { 1024, 4096, 30000, 100000, 1000000 }
-local peers = { { "skia", "Skia" }, { "agg", "AGG" }, { "qt", "Qt" }, { "cairo", "Cairo" } }
+local sides = { 1024, 2048, 4096, 30000, 100000, 1000000 }
+local peers = { { "blend2d", "Blend2D" }, table.unpack(results.peers) }
 
 local colours = { celspan = "#c8102e", spans = "#e8743b", blend2d = "#1b6ca8", skia = "#4c9f70",
   agg = "#8c6bb1", qt = "#6b7a3a", cairo = "#b08a2e", limit = "#7a8087", opencv = "#1b6ca8",
@@ -65,7 +65,7 @@ end
 local function ratios()
   local groups = {}
   for _, name in ipairs { "10", "100", "1000" } do
-    for _, side in ipairs { 1024, 4096, 30000 } do
+    for _, side in ipairs { 1024, 2048, 4096, 30000 } do
       local mine = run:one { part = "shapes", scene = name, side = side, output = "row",
                              antialias = "area", renderer = "celspan" }
       local bars = {}
@@ -81,7 +81,7 @@ local function ratios()
           side = side, output = "row", antialias = "area", renderer = peer[1] }))
       end
       if #bars > 0 then
-        local short = side >= 30000 and "30k" or side >= 4096 and "4k" or "1k"
+        local short = side >= 30000 and "30k" or side // 1024 .. "k"
         local drawing = side == 4096 and name .. " shapes" or "" -- once, under the middle one
         groups[#groups + 1] = { names = { short, drawing }, bars = bars }
       end

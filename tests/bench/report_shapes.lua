@@ -1,0 +1,230 @@
+--- What the page tells of drawings: celspan beside the peers. Each function adds to a page
+--- (page.lua) and leaves out what was not measured.
+local asked = require "tests.bench.asked"
+local published = require "tests.bench.published"
+local results = require "tests.bench.results"
+local scenes = require "tests.bench.scenes"
+
+local report = {}
+local seconds, time = results.seconds, asked.time
+
+local short = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k", [100000] = "100k",
+                [1000000] = "1M" }
+local pixel_sides = { 1024, 2048, 4096, 30000 }
+
+local function shown(row)
+  if not row then return "" end
+  return results.mark(row) .. time(seconds(row))
+end
+
+local function count(value) return value and ("%.3g million"):format(value / 1e6) or "" end
+
+-- ---------------------------------------------------------------- ratios
+
+--- "1.2 AGG", and Blend2D's ratio where it was measured.
+local function ratio_cell(run, scene, side)
+  local mine = run:pixel_row(scene, side, "celspan", "area")
+  local best, name = run:best_peer(scene, side)
+  if not (mine and best) then return "" end
+  local cell = ("%s%.2f %s"):format(mine.is_over and "under " or "", best / seconds(mine), name)
+  local blend2d = run:pixel_row(scene, side, "blend2d", "area")
+  return blend2d and ("%s, %.2f Blend2D"):format(cell, seconds(blend2d) / seconds(mine)) or cell
+end
+
+local function ratio_lines(page, names)
+  for _, scene in ipairs(names) do
+    local line, is_measured = { scene }, false
+    for _, side in ipairs(pixel_sides) do
+      line[#line + 1] = ratio_cell(page.run, scene, side)
+      is_measured = is_measured or line[#line] ~= ""
+    end
+    if is_measured then page:cells(line) end
+  end
+end
+
+--- Every drawing against the best of the peers.
+function report.ratios(page)
+  page:put [[
+Drawings to pixels, antialiased, one thread: how many times celspan's time the fastest of Skia, AGG,
+Qt and Cairo takes, and which that is. Over 1 celspan is the fastest.
+]]
+  page:head { "drawing", "1k", "2k", "4k", "30k" }
+  for _, names in ipairs { scenes.artwork, scenes.random, scenes.hard, scenes.gradients } do
+    ratio_lines(page, names)
+  end
+  page:put ""
+end
+
+-- ---------------------------------------------------------------- tables of drawings
+
+--- One drawing at one side.
+local function pixel_line(run, scene, side, mine)
+  local known = (published.shapes[scene] or {})[side]
+  local line = { scene, short[side], shown(mine), count(mine.instructions),
+                 shown(run:pixel_row(scene, side, "blend2d", "area")),
+                 known and time(known) or "" }
+  for _, peer in ipairs(results.peers) do
+    line[#line + 1] = shown(run:pixel_row(scene, side, peer[1], "area"))
+  end
+  line[#line + 1] = shown(run:pixel_row(scene, side, "fill of runs"))
+  line[#line + 1] = shown(run:pixel_row(scene, side, "memset"))
+  line[#line + 1] = known and ("%.2g times"):format(known / mine.best_processor) or ""
+  local yardstick = asked.by_yardstick(run, scene, side)
+  line[#line + 1] = yardstick and ("%.2g times"):format(yardstick) or ""
+  local best = run:best_peer(scene, side)
+  line[#line + 1] = best and ("%.2g times"):format(best / seconds(mine)) or ""
+  return line
+end
+
+--- The table of drawings to pixels.
+local function pixel_table(page, names)
+  page:head { "drawing", "side", "celspan", "instructions", "Blend2D", "Blend2D, published", "Skia",
+              "AGG", "Qt", "Cairo", "fill of the runs", "memset", "ahead of Blend2D, published",
+              "by AGG's yardstick", "ahead of the best here" }
+  for _, scene in ipairs(names) do
+    for _, side in ipairs(pixel_sides) do
+      local mine = page.run:pixel_row(scene, side, "celspan", "area")
+      if mine then page:cells(pixel_line(page.run, scene, side, mine)) end
+    end
+  end
+  page:put ""
+end
+
+local function power(run, wanted, sides)
+  local exponent = run:exponent(wanted, sides)
+  return exponent and ("%.2f"):format(exponent) or ""
+end
+
+--- By which power of the side the time grows.
+local function exponent_table(page, names)
+  page:head { "drawing", "spans `none`, 4k to 1M", "spans `area`, 4k to 1M",
+              "pixels `area`, 4k to 30k", "Skia", "AGG", "Qt", "Cairo" }
+  for _, scene in ipairs(names) do
+    local line = { scene }
+    for _, antialias in ipairs { "none", "area" } do
+      line[#line + 1] = power(page.run, { part = "shapes", scene = scene, output = "spans",
+        antialias = antialias, renderer = "celspan" }, { 4096, 30000, 100000, 1000000 })
+    end
+    for _, name in ipairs { "celspan", "skia", "agg", "qt", "cairo" } do
+      line[#line + 1] = power(page.run, { part = "shapes", scene = scene, output = "row",
+        antialias = "area", renderer = name }, { 4096, 30000 })
+    end
+    page:cells(line)
+  end
+  page:put ""
+end
+
+local function span_line(row)
+  return { row.scene, short[row.side], row.antialias, shown(row), count(row.instructions),
+           ("%.0f"):format(row.spans), ("%.0f"):format(row.colours),
+           ("%.1f"):format(1e9 * seconds(row) / row.spans),
+           ("%.1f"):format(1e9 * seconds(row) / row.crossings),
+           ("%.1f MiB"):format(row.peak_kib / 1024) }
+end
+
+local function span_table(page, names)
+  page:head { "drawing", "side", "antialiasing", "time", "instructions", "spans",
+              "colours composed", "ns a span", "ns a crossing", "peak memory" }
+  for _, scene in ipairs(names) do
+    for _, antialias in ipairs { "none", "area" } do
+      for _, side in ipairs { 1024, 2048, 4096, 30000, 100000, 1000000 } do
+        local row = page.run:one { part = "shapes", scene = scene, side = side, output = "spans",
+                                   antialias = antialias, renderer = "celspan" }
+        if row and row.spans then page:cells(span_line(row)) end
+      end
+    end
+  end
+  page:put ""
+end
+
+--- A title, words and the table of these drawings to pixels.
+local function section(page, title, text, names)
+  page:put("### ", title)
+  page:put ""
+  page:put(text)
+  pixel_table(page, names)
+end
+
+--- The random shapes, those that are hard, and artwork.
+function report.tables(page)
+  page:put "## Random shapes"
+  page:put ""
+  page:put [[
+10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead*: how
+many times celspan's time another takes; under 1 it is faster.]]
+  page:plot("ratios", "ratios")
+  for _, scene in ipairs(scenes.random) do page:plot("shapes-" .. scene, "shapes", scene) end
+  pixel_table(page, scenes.random)
+  page:put "### To spans"
+  page:put ""
+  page:put [[
+A crossing is an edge that meets a row, whether or not it is hidden.
+]]
+  span_table(page, scenes.random)
+  page:put "The power of the side that the time follows: 1 is linear, 2 is square."
+  page:put ""
+  exponent_table(page, scenes.random)
+  section(page, "Hard for spans", [[
+`opaque`: the 1000 shapes without transparency. `small`: 10,000 shapes of a twentieth of the side.
+`faint`: the 1000 at alpha 0.02 to 0.08, where about 60 layers are seen at once.
+]], scenes.hard)
+  section(page, "Gradients", [[
+The 100 and the 1000 shapes, each with a linear gradient from the left to the right of its box,
+between its colour and another of the same alpha. All blend between codes as they are. celspan has a
+gradient of floats, one span where nothing lies over it; AGG and Qt look up 256 and 1024 colours.
+]], scenes.gradients)
+  section(page, "Artwork", [[
+Drawings of the material as filled paths, mostly opaque: `mosquito`, `skaters` and `boating` of 155
+to 159 paths each; sheets of about 64 drawings each, `clipart` (2053 paths), `emoji` (983) and
+`twemoji` (426).
+]], scenes.artwork)
+end
+
+-- ---------------------------------------------------------------- whole images, agreement
+
+function report.whole_images(page)
+  if #page.run:all { part = "shapes", output = "whole" } == 0 then return end
+  page:put "### Whole images, and without antialiasing"
+  page:put ""
+  page:head { "drawing", "side", "antialiasing", "to", "celspan", "Blend2D", "Skia", "AGG", "Qt",
+              "Cairo" }
+  for _, kind in ipairs { { "whole", "area" }, { "row", "none" } } do
+    for _, scene in ipairs { "100", "1000" } do
+      local line = { scene, "4k", kind[2], kind[1] == "whole" and "a whole image" or "pixels" }
+      for _, name in ipairs { "celspan", "blend2d", "skia", "agg", "qt", "cairo" } do
+        line[#line + 1] = shown(page.run:one { part = "shapes", scene = scene, side = 4096,
+          output = kind[1], antialias = kind[2], renderer = name })
+      end
+      page:cells(line)
+    end
+  end
+  page:put ""
+end
+
+function report.agreement(page)
+  local rows = page.run:all { part = "agreement" }
+  if #rows == 0 then return end
+  page:put "## Do all draw the same?"
+  page:put ""
+  page:put [[
+Each drawing once at 1024 pixels a side, in cells of 16 x 16 pixels: the root of the mean square of
+how far they are from celspan's, of 255; for this celspan blends coded values as they are, as the
+others do. Cairo and Skia drop fractions of a value at each of 60 faint layers.
+]]
+  page:head { "drawing", "Blend2D", "Skia", "AGG", "Qt", "Cairo" }
+  local done = {}
+  for _, row in ipairs(rows) do
+    if not done[row.scene] then
+      done[row.scene] = true
+      local line = { row.scene }
+      for _, name in ipairs { "blend2d", "skia", "agg", "qt", "cairo" } do
+        local one = page.run:one { part = "agreement", scene = row.scene, renderer = name }
+        line[#line + 1] = one and ("%.2f"):format(one.rms) or ""
+      end
+      page:cells(line)
+    end
+  end
+  page:put ""
+end
+
+return report
