@@ -15,6 +15,7 @@
 #include <agg_span_subdiv_adaptor.h>
 #include <agg_trans_perspective.h>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "peer.h"
@@ -24,10 +25,18 @@ namespace {
 using Format = agg::pixfmt_bgra32_pre;
 using Base = agg::renderer_base<Format>;
 
+using Rasterizer = agg::rasterizer_scanline_aa<>;
+using Colours = agg::pod_auto_array<agg::rgba8, 256>; // of a gradient, premultiplied
+
+agg::rgba8 colour(bench_colour c) {
+  return agg::rgba8(c.red, c.green, c.blue, c.alpha).premultiply();
+}
+
 struct Frame {
   const bench_drawing *drawing;
   agg::path_storage paths; // of all shapes, flattened at full size
   std::vector<unsigned> starts;
+  std::map<size_t, Colours> tables; // of the shapes that have gradients
   int side;
   bool is_antialiased;
 };
@@ -53,8 +62,15 @@ void trace(const bench_shape &shape, double side, agg::path_storage &path) {
   }
 }
 
+Colours table(const bench_shape &s) {
+  Colours colours;
+  for (unsigned i = 0; i < colours.size(); i++)
+    colours[i] = colour(s.colour).gradient(colour(s.far_colour), i / (colours.size() - 1.0));
+  return colours;
+}
+
 void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
-  auto *frame = new Frame{drawing, {}, {}, side, is_antialiased};
+  auto *frame = new Frame{drawing, {}, {}, {}, side, is_antialiased};
   agg::path_storage path;
   for (size_t i = 0; i < drawing->shape_count; i++) {
     path.remove_all();
@@ -62,26 +78,20 @@ void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
     agg::conv_curve<agg::path_storage> curve(path);
     frame->starts.push_back(frame->paths.start_new_path());
     frame->paths.concat_path(curve);
+    if (drawing->shapes[i].is_gradient)
+      frame->tables[i] = table(drawing->shapes[i]);
   }
   return frame;
 }
 
-using Rasterizer = agg::rasterizer_scanline_aa<>;
-
-agg::rgba8 colour(bench_colour c) {
-  return agg::rgba8(c.red, c.green, c.blue, c.alpha).premultiply();
-}
-
-// Of 256 premultiplied colours at steps of a 16th of a pixel; AGG takes no gradient under a step.
-void fill_gradient(const bench_shape &s, double side, Rasterizer &rasterizer,
-                   agg::scanline_p8 &scanline, Base &base) {
+// At steps of a 16th of a pixel.
+void fill_gradient(const bench_shape &s, const Colours &colours, double side,
+                   Rasterizer &rasterizer, agg::scanline_p8 &scanline, Base &base) {
   using Interpolator = agg::span_interpolator_linear<>;
-  using Colours = agg::gradient_linear_color<agg::rgba8>;
-  using Span = agg::span_gradient<agg::rgba8, Interpolator, agg::gradient_x, Colours>;
+  using Span = agg::span_gradient<agg::rgba8, Interpolator, agg::gradient_x, const Colours>;
   agg::trans_affine as_it_is;
   Interpolator interpolator(as_it_is);
   agg::gradient_x along;
-  Colours colours(colour(s.colour), colour(s.far_colour));
   Span span(interpolator, along, colours, side * s.x0, side * s.x1);
   agg::span_allocator<agg::rgba8> spans;
   agg::render_scanlines_aa(rasterizer, scanline, base, spans, span);
@@ -108,7 +118,7 @@ void band(void *user, uint8_t *pixels, int width, int rows, int first_row) {
     rasterizer.filling_rule(s.is_evenodd ? agg::fill_even_odd : agg::fill_non_zero);
     rasterizer.add_path(placed, frame->starts[i]);
     if (s.is_gradient)
-      fill_gradient(s, frame->side, rasterizer, scanline, base);
+      fill_gradient(s, frame->tables.at(i), frame->side, rasterizer, scanline, base);
     else
       agg::render_scanlines_aa_solid(rasterizer, scanline, base, colour(s.colour));
   }

@@ -13,9 +13,9 @@ local run = results.read(path)
 local sides = { 1024, 2048, 4096, 30000, 100000, 1000000 }
 local peers = { { "blend2d", "Blend2D" }, table.unpack(results.peers) }
 
-local colours = { celspan = "#c8102e", spans = "#e8743b", blend2d = "#1b6ca8", skia = "#4c9f70",
-  agg = "#8c6bb1", qt = "#6b7a3a", cairo = "#b08a2e", limit = "#7a8087", opencv = "#1b6ca8",
-  vips = "#4c9f70" }
+local colours = { celspan = "#c8102e", spans = "#e8743b", published = "#1b6ca8",
+  blend2d = "#0d3552", skia = "#4c9f70", agg = "#8c6bb1", qt = "#6b7a3a", cairo = "#b08a2e",
+  limit = "#7a8087", opencv = "#1b6ca8", vips = "#4c9f70" }
 
 --- The seconds of the rows that are wanted, against x; a point where there is a row.
 local function points(wanted, list, key)
@@ -49,7 +49,7 @@ local function shapes()
              antialias = antialias }
   end
   local known = published_points(published.shapes[scene])
-  add(series, "Blend2D, published", colours.blend2d, known, true)
+  add(series, "Blend2D, published", colours.published, known, true)
   for _, peer in ipairs(peers) do
     add(series, peer[2], colours[peer[1]], points(wanted(peer[1], "row", "area"), sides))
   end
@@ -75,7 +75,7 @@ local function ratios()
                               value = seconds / results.seconds(mine) }
         end
       end
-      bar("Blend2D, published", colours.blend2d, published.shapes[name][side])
+      bar("Blend2D, published", colours.published, published.shapes[name][side])
       for _, peer in ipairs(peers) do
         bar(peer[2], colours[peer[1]], results.seconds(run:one { part = "shapes", scene = name,
           side = side, output = "row", antialias = "area", renderer = peer[1] }))
@@ -102,7 +102,7 @@ local function figure14()
   add(series, "paper: pictures", colours.limit, curve(paper.all_pictures), true)
   add(series, "paper: geometry", "#a9b0b8", curve(paper.geometry), true)
   local pairs_of_curves = {
-    { "pictures bilinear", colours.blend2d }, { "pictures nearest", colours.skia },
+    { "pictures bilinear", colours.published }, { "pictures nearest", colours.skia },
     { "geometry bilinear", colours.celspan }, { "geometry nearest", colours.spans },
   }
   for _, one in ipairs(pairs_of_curves) do
