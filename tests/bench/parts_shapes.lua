@@ -94,7 +94,7 @@ function parts.gradients(runner, folder, is_quick)
     for _, side in ipairs(is_quick and { 1024 } or film_sides) do
       local path = ("%s/%s.txt"):format(folder, scene)
       local entries = renderers(runner, path, scene, side)
-      for _, entry in ipairs(entries) do entry.limit = 20 end
+      for _, entry in ipairs(entries) do entry.limit = 10 end
       runner:measure(1, entries)
     end
   end

@@ -67,6 +67,42 @@ describe("the drawings of the benchmark", function()
     local given = material and shapes.read(material .. "/bench-scenes/scene1000.txt")
     if given then assert.equal(#list, #given) end
   end)
+
+  --- The least and the greatest x of a closed uniform cubic B-spline on four points, among many.
+  local function spline_columns(p)
+    local least, most = math.huge, -math.huge
+    for i = 0, 3 do
+      local function x(k) return p[2 * ((i + k) % 4) + 1] end
+      for step = 0, 1000 do
+        local t = step / 1000
+        local s = 1 - t
+        local at = (s ^ 3 * x(0) + (3 * t ^ 3 - 6 * t ^ 2 + 4) * x(1)
+          + (3 * s ^ 3 - 6 * s ^ 2 + 4) * x(2) + t ^ 3 * x(3)) / 6
+        least, most = math.min(least, at), math.max(most, at)
+      end
+    end
+    return least, most
+  end
+
+  it("have gradients from the left to the right of their boxes, of one alpha", function()
+    for _, shape in ipairs(shapes.with_gradients(shapes.random(50))) do
+      local least, most = spline_columns(shape.points)
+      assert.near(least, shape.columns[1], 1e-5)
+      assert.near(most, shape.columns[2], 1e-5)
+      assert.equal(shape.rgba[4], shape.far_rgba[4])
+    end
+  end)
+
+  it("are written with their gradients", function()
+    local shape = { rgba = { 1, 2, 3, 4 }, far_rgba = { 5, 6, 7, 4 }, columns = { 0.25, 0.5 },
+                    points = { 0, 0, 0, 0, 0, 0, 0, 0 } }
+    shapes.write({ shape }, folder .. "/g.txt")
+    local file = assert(io.open(folder .. "/g.txt"))
+    local text = file:read "a"
+    file:close()
+    local paint = "across 0.250000000 0.500000000 1 2 3 4 5 6 7 4  0.0"
+    assert.truthy(text:find("\nspline evenodd " .. paint, 1, true))
+  end)
 end)
 
 describe("the table of the benchmark", function()
@@ -105,6 +141,36 @@ describe("the table of the benchmark", function()
     local other = told["1000 shapes at 1M, `area`, to spans: at most 1 s"]
     assert.is_nil(other.is_met)
     assert.equal("not measured", other.told)
+  end)
+
+  local function pixels_row(scene, renderer, seconds)
+    return { part = "shapes", scene = scene, side = 1024, output = "row", antialias = "area",
+             renderer = renderer, workers = 1, wall = seconds, processor = seconds }
+  end
+
+  it("names the fastest peer, and sets it against what is asked", function()
+    local run = table_of { pixels_row("emoji", "celspan", 0.004),
+                           pixels_row("emoji", "qt", 0.006), pixels_row("emoji", "agg", 0.005),
+                           pixels_row("emoji", "blend2d", 0.001) }
+    local least, name = run:best_peer("emoji", 1024)
+    assert.equal(0.005, least)
+    assert.equal("AGG", name)
+    assert.is_nil(run:best_peer("emoji", 2048))
+    for _, line in ipairs(asked.lines(run)) do
+      if line.what:find("`emoji` at 1k", 1, true) then assert.equal("1.25 times", line.told) end
+    end
+  end)
+
+  it("sets the worst of all drawings against the accuracy that is asked", function()
+    local function told(most)
+      local run = table_of { { part = "accuracy", scene = "10", rms = 0.02, worst = 1.5 },
+                             { part = "accuracy", scene = "small", rms = 0.09, worst = most } }
+      for _, line in ipairs(asked.lines(run)) do
+        if line.what:find "every pixel of every drawing" then return line.is_met end
+      end
+    end
+    assert.is_true(told(2.0))
+    assert.is_false(told(2.01))
   end)
 
   it("tells how far two pictures are apart", function()
