@@ -26,7 +26,8 @@ using Format = agg::pixfmt_bgra32_pre;
 using Base = agg::renderer_base<Format>;
 
 using Rasterizer = agg::rasterizer_scanline_aa<>;
-using Colours = agg::pod_auto_array<agg::rgba8, 256>; // of a gradient, premultiplied
+// Of a gradient, between ends that are premultiplied and rounded to 8 bits.
+using Colours = agg::pod_auto_array<agg::rgba8, 256>;
 
 agg::rgba8 colour(bench_colour c) {
   return agg::rgba8(c.red, c.green, c.blue, c.alpha).premultiply();
@@ -84,7 +85,7 @@ void *begin(const bench_drawing *drawing, int side, bool is_antialiased) {
   return frame;
 }
 
-// At steps of a 16th of a pixel.
+// Columns count in 16ths of a pixel.
 void fill_gradient(const bench_shape &s, const Colours &colours, double side,
                    Rasterizer &rasterizer, agg::scanline_p8 &scanline, Base &base) {
   using Interpolator = agg::span_interpolator_linear<>;

@@ -1,6 +1,6 @@
 --- Blend2D's best times as published for the same kind of machine (2 cores of a Zen 5 EPYC with
 --- AVX-512; antialiased, one thread, bands of 8-bit pixels), in seconds by scene and side. Blend2D
---- is in no Debian package, so it does not run here; on another machine it is a yardstick only.
+--- is in no Debian package, so it seldom runs here; on another machine this is a yardstick only.
 local published = {}
 
 published.shapes = {
