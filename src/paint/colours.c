@@ -21,10 +21,6 @@ static cs_paint procedure_paint(const cs_procedure_span *span, double x) {
   return cs_paint_mix(&span->paints[i], &span->paints[i + 1], (float)(at - (double)i));
 }
 
-static double centre(const cs_batch *batch, int32_t k) {
-  return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
-}
-
 /* The samples and paints of one layer that varies, in a batch of pixels. */
 typedef struct samples {
   float rgba[CS_OVER_ROW_BATCH][4];                       /* pictures */
@@ -33,7 +29,7 @@ typedef struct samples {
 
 static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
   for (int32_t k = 0; k < batch->count; k++) {
-    cs_shade_lanes paint = cs_shade_paint(shade, centre(batch, k), batch->y);
+    cs_shade_lanes paint = cs_shade_paint(shade, cs_batch_centre(batch, k), batch->y);
     cs_v4_store(out->s[k], paint.s);
     cs_v4_store(out->t[k], paint.t);
   }
@@ -41,7 +37,7 @@ static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *
 
 static void sample_procedure(const cs_procedure_span *span, const cs_batch *batch, samples *out) {
   for (int32_t k = 0; k < batch->count; k++) {
-    cs_paint paint = procedure_paint(span, centre(batch, k));
+    cs_paint paint = procedure_paint(span, cs_batch_centre(batch, k));
     cs_v4_store(out->s[k], (cs_v4){paint.s[0], paint.s[1], paint.s[2], 0});
     cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
   }
@@ -66,7 +62,7 @@ static celspan_status sample_defocused(cs_painter *painter, const cs_layer *laye
   size_t line = 0;
   for (int32_t k = 0; k < batch->count; k++) {
     cs_v4 s, t;
-    cs_defocused_paint(defocused, view, centre(batch, k), &line, &s, &t);
+    cs_defocused_paint(defocused, view, cs_batch_centre(batch, k), &line, &s, &t);
     cs_v4_store(out->s[k], s);
     cs_v4_store(out->t[k], t);
   }
@@ -167,8 +163,7 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
   painter->evaluations += (uint64_t)batch->count;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (table) {
-    for (int32_t k = 0; k < batch->count; k++)
-      cs_v4_store(rgba[k], cs_gradient_table_colour(table, centre(batch, k), batch->y));
+    cs_gradient_table_colours(table, batch, rgba);
     return CELSPAN_OK;
   }
   cs_arena_reset(&painter->scratch);

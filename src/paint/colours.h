@@ -7,15 +7,9 @@
 #ifndef CS_PAINT_COLOURS_H
 #define CS_PAINT_COLOURS_H
 
+#include "paint/over_row.h"
 #include "paint/painter.h"
 #include "span/run.h"
-
-/* Pixels of one row, ascending: `count` from x0 on, or those listed. */
-typedef struct cs_batch {
-  const int32_t *columns; /* or NULL */
-  int32_t x0, count;      /* count: at most CS_OVER_ROW_BATCH */
-  double y;
-} cs_batch;
 
 /* Premultiplied RGBA at the middles of a run's pixels: of a cell, and of a program by itself.
  * Errors: NO_MEMORY, and those of reading pictures and making defocused cels. */

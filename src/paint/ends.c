@@ -1,7 +1,7 @@
 #include "paint/ends.h"
 
 #include "base/number.h"
-#include "paint/shade.h"
+#include "paint/gradient_table.h"
 
 #include <stdlib.h>
 
@@ -93,7 +93,8 @@ static celspan_status add_formula(const finder *f, cs_item item, cs_ends *list) 
   CS_TRY(find_breaks(f, item, breaks, &count));
   for (size_t i = 0; i < count; i++)
     columns[i] = cs_number_first_centre(breaks[i]);
-  qsort(columns, count, sizeof *columns, compare_columns);
+  if (count > 1)
+    qsort(columns, count, sizeof *columns, compare_columns);
   merge(list, count);
   return CELSPAN_OK;
 }
@@ -101,6 +102,10 @@ static celspan_status add_formula(const finder *f, cs_item item, cs_ends *list) 
 static celspan_status add_item(const finder *f, cs_item item, cs_ends *list) {
   const cs_layer *layer = &f->painter->stack->layers[item.layer];
   if (layer->kind == CS_LAYER_FLAT)
+    return CELSPAN_OK;
+  if (layer->kind == CS_LAYER_SHADED &&
+      cs_gradient_table_is_one_section(&f->painter->stack->shades[layer->index], f->run.x0 + 0.5,
+                                       f->run.x1 - 0.5, f->run.y))
     return CELSPAN_OK;
   if (layer->kind != CS_LAYER_PICTURE)
     return add_formula(f, item, list);

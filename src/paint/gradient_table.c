@@ -1,9 +1,8 @@
 #include "paint/gradient_table.h"
 
-#include "paint/over_row.h"
-
-#define SLOTS 256          /* tables remembered; a power of two */
-#define SECTION_LIMIT 4096 /* sections and tints of all tables together */
+#define SLOTS 1024          /* tables remembered; a power of two */
+#define SECTION_LIMIT 16384 /* sections and layers of all tables together */
+#define SECTION_LEAST 3     /* pixels for which it pays to look whether they lie in one section */
 
 struct cs_gradient_tables {
   celspan_context *context;
@@ -11,8 +10,10 @@ struct cs_gradient_tables {
   cs_isa isa;
   cs_arena *scratch;              /* borrowed */
   cs_gradient_table slots[SLOTS]; /* a slot without a shade is empty */
-  cs_arena sections;
+  cs_arena sections;              /* and layers: of all tables */
   size_t section_count;
+  cs_arena lasting;                     /* of the tints */
+  const cs_gradient_table_tint **tints; /* by shade; NULL: not yet */
 };
 
 celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stack *stack,
@@ -25,31 +26,92 @@ celspan_status cs_gradient_tables_create(celspan_context *context, const cs_stac
   tables->isa = isa;
   tables->scratch = scratch;
   cs_arena_init(&tables->sections);
+  cs_arena_init(&tables->lasting);
   *out = tables;
-  return CELSPAN_OK;
+  tables->tints = cs_mem_array(context->memory, stack->shade_count, sizeof *tables->tints);
+  return tables->tints ? CELSPAN_OK : cs_fail_memory(context);
 }
 
 void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {
   if (!tables)
     return;
   cs_arena_finish(&tables->sections, memory);
+  cs_arena_finish(&tables->lasting, memory);
+  cs_mem_free(memory, tables->tints, tables->stack->shade_count * sizeof *tables->tints);
   cs_mem_free(memory, tables, sizeof *tables);
 }
 
-cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y) {
-  cs_v4 e = table->e, t = table->t;
-  for (size_t i = table->layer_count; i-- > 0;) {
-    const cs_gradient_table_layer *layer = &table->layers[i];
-    double at = cs_shade_at(layer->shade, x, y);
-    const cs_gradient_table_tint *tint =
-        &layer->tints[cs_gradient_table_section_at(layer->shade, at)];
-    float share = cs_gradient_table_share(tint->at, tint->scale, at);
-    cs_v4 through = tint->t + tint->step_t * share;
-    e = layer->e + layer->t * ((tint->s + tint->step_s * share) + through * e);
-    t = layer->t * (through * t);
+/* ---------------------------------------------------------------- colours */
+
+/* Puts a gradient, and the flat layers in front of it, over what lies behind them. */
+static inline cs_over_pair fold_point(const cs_gradient_table_layer *layer,
+                                      const cs_gradient_table_tint *tint, double at,
+                                      cs_over_pair behind) {
+  float share = cs_gradient_table_share(tint->at, tint->scale, at);
+  cs_v4 through = tint->t + tint->step_t * share;
+  return (cs_over_pair){layer->e +
+                            layer->t * ((tint->s + tint->step_s * share) + through * behind.e),
+                        layer->t * (through * behind.t)};
+}
+
+/* The same for pixels that lie in one section of a linear gradient, most of which do. */
+static void fold_section(const cs_gradient_table_layer *layer, const cs_batch *batch,
+                         size_t section, cs_over_pair *restrict pixels) {
+  const cs_gradient_table_tint *tint = &layer->tints[section];
+  const double *p = layer->shade->plane[0], base = p[1] * batch->y + p[2];
+  cs_v4 e = layer->e, t = layer->t, s0 = tint->s, s1 = tint->step_s, t0 = tint->t,
+        t1 = tint->step_t;
+  double step = p[0], begin = tint->at, scale = tint->scale;
+  for (int32_t k = 0; k < batch->count; k++) {
+    double at = step * cs_batch_centre(batch, k) + base;
+    float share = cs_gradient_table_share(begin, scale, at);
+    cs_v4 through = t0 + t1 * share;
+    pixels[k].e = e + t * ((s0 + s1 * share) + through * pixels[k].e);
+    pixels[k].t = t * (through * pixels[k].t);
   }
-  e[3] = 1 - table->keep * cs_over_mean(t);
-  return e;
+}
+
+static void fold_layer(const cs_gradient_table_layer *layer, const cs_batch *batch,
+                       cs_over_pair *pixels) {
+  const cs_shade *shade = layer->shade;
+  if (batch->count >= SECTION_LEAST) {
+    double first = cs_batch_centre(batch, 0), last = cs_batch_centre(batch, batch->count - 1);
+    if (cs_gradient_table_is_one_section(shade, first, last, batch->y)) {
+      double at = cs_shade_at(shade, first, batch->y);
+      fold_section(layer, batch, cs_gradient_table_section_at(shade, at), pixels);
+      return;
+    }
+  }
+  for (int32_t k = 0; k < batch->count; k++) {
+    double at = cs_shade_at(shade, cs_batch_centre(batch, k), batch->y);
+    const cs_gradient_table_tint *tint = &layer->tints[cs_gradient_table_section_at(shade, at)];
+    pixels[k] = fold_point(layer, tint, at, pixels[k]);
+  }
+}
+
+static void fold_several(const cs_gradient_table *table, const cs_batch *batch, float (*rgba)[4]) {
+  cs_over_pair pixels[CS_OVER_ROW_BATCH];
+  for (int32_t k = 0; k < batch->count; k++)
+    pixels[k] = (cs_over_pair){table->e, table->t};
+  for (size_t i = table->layer_count; i-- > 0;)
+    fold_layer(&table->layers[i], batch, pixels);
+  for (int32_t k = 0; k < batch->count; k++) {
+    pixels[k].e[3] = 1 - table->keep * cs_over_mean(pixels[k].t);
+    cs_v4_store(rgba[k], pixels[k].e);
+  }
+}
+
+void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *batch,
+                               float (*rgba)[4]) {
+  if (table->layer_count > 0) {
+    fold_several(table, batch, rgba);
+    return;
+  }
+  for (int32_t k = 0; k < batch->count; k++) {
+    double at = cs_shade_at(table->shade, cs_batch_centre(batch, k), batch->y);
+    size_t section = cs_gradient_table_section_at(table->shade, at);
+    cs_v4_store(rgba[k], cs_gradient_table_mix(&table->sections[section], at));
+  }
 }
 
 /* ---------------------------------------------------------------- which programs */
@@ -126,7 +188,7 @@ static void fill_sections(const celspan_texture *texture, const samples *folded,
   sections[count + 1] = (cs_gradient_table_section){.colour = cs_v4_load(folded->rgba[count])};
 }
 
-/* Memory for sections, tints or layers of one program. */
+/* Memory for sections or layers of one program. */
 static void *allocate(cs_gradient_tables *tables, size_t count, size_t size) {
   return cs_arena_take(tables->context, &tables->sections, count * size);
 }
@@ -172,51 +234,57 @@ static void fill_tints(const cs_layer *layer, const celspan_texture *texture,
   tints[count + 1] = tint_of(layer, &clear);
 }
 
-/* Returns the light and transmission that have been folded so far, and begins a new fold behind
- * them: over keeps its group and lights. */
-static celspan_status cut_over(cs_gradient_tables *tables, cs_over_row *over, cs_v4 *e, cs_v4 *t) {
-  cs_over_row next;
-  *e = cs_v4_load(over->state->e[0]);
-  *t = cs_v4_load(over->state->t[0]);
-  CS_TRY(cs_over_row_begin(tables->context, tables->scratch, tables->stack, tables->isa, 1, &next));
-  over->state = next.state;
+/* The tints of a layer, which are the same in every program. Errors: NO_MEMORY. */
+static celspan_status find_tints(cs_gradient_tables *tables, const cs_layer *layer,
+                                 const cs_gradient_table_tint **out) {
+  const celspan_texture *texture = tables->stack->shades[layer->index].texture;
+  const cs_gradient_table_tint **kept = &tables->tints[layer->index];
+  if (!*kept) {
+    cs_gradient_table_tint *tints =
+        cs_arena_take(tables->context, &tables->lasting, (texture->stop_count + 2) * sizeof *tints);
+    if (!tints)
+      return CELSPAN_NO_MEMORY;
+    fill_tints(layer, texture, tints);
+    *kept = tints;
+  }
+  *out = *kept;
   return CELSPAN_OK;
 }
 
-static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *layer,
-                                cs_over_row *over, cs_gradient_table_layer *out) {
-  const cs_shade *shade = &tables->stack->shades[layer->index];
-  cs_gradient_table_tint *tints = allocate(tables, shade->texture->stop_count + 2, sizeof *tints);
-  if (!tints)
-    return CELSPAN_NO_MEMORY;
-  fill_tints(layer, shade->texture, tints);
-  out->shade = shade;
-  out->tints = tints;
-  return cut_over(tables, over, &out->e, &out->t);
+/* Moves what has been folded so far into the layer of the next gradient, and begins a new fold
+ * behind it: over keeps its lights. */
+static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *layer, cs_over *over,
+                                cs_gradient_table_layer *out) {
+  out->e = over->e;
+  out->t = over->t;
+  out->shade = &tables->stack->shades[layer->index];
+  over->e = cs_v4_all(0);
+  over->t = cs_v4_all(1);
+  return find_tints(tables, layer, &out->tints);
 }
 
+/* No layer is in a group. */
 static celspan_status make_several(cs_gradient_tables *tables, const cs_program *program,
                                    size_t layer_count, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;
   cs_gradient_table_layer *layers = allocate(tables, layer_count, sizeof *layers);
-  cs_over_row over;
+  cs_over over;
   if (!layers)
     return CELSPAN_NO_MEMORY;
-  CS_TRY(cs_over_row_begin(tables->context, tables->scratch, stack, tables->isa, 1, &over));
+  cs_over_begin(&over, stack);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    CS_TRY(cs_over_row_move(&over, program->items[i].layer));
+    cs_over_move(&over, program->items[i].layer, CS_STACK_NONE);
     if (layer->kind == CS_LAYER_FLAT)
-      cs_over_row_add_layer(&over, layer);
+      cs_over_add(&over, layer->s, layer->t);
     else
       CS_TRY(add_layer(tables, layer, &over, &layers[out->layer_count++]));
   }
-  float rest[1][4];
+  cs_over_end(&over);
   out->layers = layers;
-  cs_over_row_end(&over, rest);
   out->keep = over.keep;
-  out->e = cs_v4_load(rest[0]);
-  out->t = cs_v4_load(over.state->t[0]);
+  out->e = over.e;
+  out->t = over.t;
   return CELSPAN_OK;
 }
 
@@ -232,22 +300,12 @@ static void make_way(cs_gradient_tables *tables, size_t count) {
   tables->section_count = count;
 }
 
-static size_t count_sections(const cs_stack *stack, const cs_program *program) {
-  size_t count = 0;
-  for (uint32_t i = 0; i < program->length; i++) {
-    const cs_layer *layer = &stack->layers[program->items[i].layer];
-    if (layer->kind == CS_LAYER_SHADED)
-      count += stack->shades[layer->index].texture->stop_count + 3;
-  }
-  return count;
-}
-
 /* Makes the table of a program with `count` gradients, the first of which is layer `first`. */
 static celspan_status make(cs_gradient_tables *tables, const cs_program *program, uint32_t first,
                            size_t count, cs_set_hash name, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;
   cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].index], .name = name};
-  make_way(tables, count_sections(stack, program));
+  make_way(tables, count == 1 ? made.shade->texture->stop_count + 2 : count);
   cs_arena_reset(tables->scratch);
   CS_TRY(count == 1 ? make_one(tables, program, &made)
                     : make_several(tables, program, count, &made));

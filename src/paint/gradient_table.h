@@ -23,6 +23,7 @@
 #include "base/wide.h"
 #include "compose/cell.h"
 #include "compose/stack.h"
+#include "paint/over_row.h"
 #include "paint/shade.h"
 
 /* The section of a gradient from one stop to the next. */
@@ -41,7 +42,7 @@ typedef struct cs_gradient_table_tint {
 typedef struct cs_gradient_table_layer {
   cs_v4 e, t; /* light and transmission of the flat layers between it and the gradient in front */
   const cs_shade *shade;
-  const cs_gradient_table_tint *tints; /* one for each section */
+  const cs_gradient_table_tint *tints; /* one for each section; of the layer in any program */
 } cs_gradient_table_layer;
 
 typedef struct cs_gradient_table {
@@ -91,16 +92,16 @@ static inline cs_v4 cs_gradient_table_mix(const cs_gradient_table_section *secti
   return section->colour + section->step * cs_gradient_table_share(section->at, section->scale, at);
 }
 
-/* The colour at a point of the frame, of several gradients. */
-cs_v4 cs_gradient_table_fold(const cs_gradient_table *table, double x, double y);
+/* The colours of the middles of pixels, premultiplied RGBA: each depends on its place alone. */
+void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *batch,
+                               float (*rgba)[4]);
 
-/* The colour at a point of the frame. */
-static inline cs_v4 cs_gradient_table_colour(const cs_gradient_table *table, double x, double y) {
-  if (table->layer_count > 0)
-    return cs_gradient_table_fold(table, x, y);
-  double at = cs_shade_at(table->shade, x, y);
-  return cs_gradient_table_mix(&table->sections[cs_gradient_table_section_at(table->shade, at)],
-                               at);
+/* Whether all points of a row from x to another lie in one section of a gradient. */
+static inline bool cs_gradient_table_is_one_section(const cs_shade *shade, double x, double last,
+                                                    double y) {
+  return shade->is_affine && shade->texture->kind == CS_TEXTURE_LINEAR && /* at is monotone */
+         cs_gradient_table_section_at(shade, cs_shade_at(shade, x, y)) ==
+             cs_gradient_table_section_at(shade, cs_shade_at(shade, last, y));
 }
 
 #endif

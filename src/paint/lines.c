@@ -13,18 +13,18 @@ typedef struct colour_curve {
   const cs_program *program;
   const cs_gradient_table *table; /* of the program, or NULL */
   double y;
-  cs_halving_point known; /* of the table: at the middle of the line that was tested last */
 } colour_curve;
 
-/* ---------------------------------------------------------------- curves of any program
- *
- * Many colours cost little more than one, since a batch is folded layer by layer. So the columns of
+/* Many colours cost little more than one, since a batch is folded layer by layer. So the columns of
  * many lines are gathered before their colours are computed. */
-
 static celspan_status find_colours(const colour_curve *c, const int32_t *columns, int32_t count,
                                    float (*rgba)[4]) {
   cs_batch batch = {columns, 0, count, c->y};
-  return cs_painter_batch_colours(c->painter, c->program, &batch, rgba);
+  if (!c->table)
+    return cs_painter_batch_colours(c->painter, c->program, &batch, rgba);
+  c->painter->evaluations += (uint64_t)count;
+  cs_gradient_table_colours(c->table, &batch, rgba);
+  return CELSPAN_OK;
 }
 
 /* inner: the colours at the quarters. */
@@ -122,54 +122,6 @@ static celspan_status put_lines(colour_curve *c, const cs_ends *ends) {
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- curves of a gradient table
- *
- * Here every colour is computed by itself and costs the same at any time. So it is computed only if
- * those before it have not decided. The one in the middle is kept, because a curve that is halved
- * needs it again. */
-
-static cs_halving_point table_point(colour_curve *c, int32_t column) {
-  c->painter->evaluations++;
-  return (cs_halving_point){column, 0, cs_gradient_table_colour(c->table, column + 0.5, c->y)};
-}
-
-static bool is_near(const cs_halving_point *first, const cs_halving_point *last,
-                    cs_halving_point point) {
-  return cs_halving_is_near(first, last, point.column, point.colour);
-}
-
-static celspan_status test_table(cs_curve *curve, const cs_halving_point *first,
-                                 const cs_halving_point *last, bool *is_straight) {
-  colour_curve *c = (colour_curve *)curve;
-  *is_straight = true;
-  if (last->column - first->column < 2)
-    return CELSPAN_OK;
-  cs_run run = cs_halving_run(first, last);
-  c->known = table_point(c, cs_halving_quarter(run, 2));
-  *is_straight = is_near(first, last, c->known) &&
-                 is_near(first, last, table_point(c, cs_halving_quarter(run, 1))) &&
-                 is_near(first, last, table_point(c, cs_halving_quarter(run, 3)));
-  return CELSPAN_OK;
-}
-
-static celspan_status split_table(cs_curve *curve, int32_t column, cs_halving_point points[2]) {
-  colour_curve *c = (colour_curve *)curve;
-  for (int k = 0; k < 2; k++)
-    points[k] = c->known.column == column + k ? c->known : table_point(c, column + k);
-  return CELSPAN_OK;
-}
-
-static celspan_status put_table_lines(colour_curve *c, const cs_ends *ends) {
-  c->curve.test = test_table;
-  c->curve.split = split_table;
-  for (size_t i = 0; i + 1 < ends->count; i++) {
-    cs_halving_point first = table_point(c, ends->columns[i]);
-    cs_halving_point last = table_point(c, ends->columns[i + 1] - 1);
-    CS_TRY(cs_halving_fit(&c->curve, &first, &last));
-  }
-  return CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- runs */
 
 celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_run run,
@@ -183,5 +135,5 @@ celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_r
   if (cs_gradient_run_fits(c.table))
     return cs_gradient_run(painter, c.table, run, row);
   CS_TRY(cs_ends_find(painter, program, run, row, &ends));
-  return c.table ? put_table_lines(&c, &ends) : put_lines(&c, &ends);
+  return put_lines(&c, &ends);
 }

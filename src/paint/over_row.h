@@ -20,6 +20,17 @@
 
 #define CS_OVER_ROW_BATCH 256 /* pixels, a multiple of those in a register */
 
+/* Pixels of one row, ascending: `count` from x0 on, or those listed. */
+typedef struct cs_batch {
+  const int32_t *columns; /* or NULL */
+  int32_t x0, count;      /* count: at most CS_OVER_ROW_BATCH */
+  double y;
+} cs_batch;
+
+static inline double cs_batch_centre(const cs_batch *batch, int32_t k) {
+  return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
+}
+
 /* Four floats a pixel; lane 3 has no meaning. */
 typedef struct cs_over_row_state {
   float e[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* light gathered, and transmission */
