@@ -89,13 +89,14 @@ static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
   return CELSPAN_OK;
 }
 
-/* A picture whose header cannot be read counts as clear until it is really seen: only then is it an
- * error. */
-static bool layer_is_opaque(cs_composer *composer, const cs_layer *layer) {
+/* The most that a layer which varies lets through. A picture whose header cannot be read counts as
+ * clear until it is really seen: only then is it an error. */
+static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
   const cs_image_opacity *opacity = &composer->opacity;
-  if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT)
-    return layer->is_opaque;
-  return opacity->is_opaque(opacity->painter, layer->index) && layer->fade == 1;
+  if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT ||
+      !opacity->is_opaque(opacity->painter, layer->index))
+    return layer->t;
+  return cs_v4_all(1 - layer->fade);
 }
 
 /* Adds the front lights of a group and of those around it that are not entered yet, outermost
@@ -111,22 +112,16 @@ static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_
   return gather_item(composer, entered->light);
 }
 
-/* Adds one layer to a program, and to the fold if it is flat. A layer that varies and is not opaque
- * counts as clear, so that the program ends too late rather than too early. */
+/* Adds one layer to a program, and to the fold: one that varies as if it let through everywhere the
+ * most it lets through anywhere, so that the program ends too late rather than too early. The light
+ * of that fold has no meaning. */
 static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
   const cs_layer *layer = &composer->stack->layers[index];
-  if (composer->stack->has_group_light) {
-    cs_over_leave(over, index);
+  if (composer->stack->has_group_light)
     CS_TRY(gather_front(composer, over, layer->group));
-  }
   cs_over_move(over, index, layer->group);
   CS_TRY(gather_item(composer, index));
-  if (layer->kind == CS_LAYER_FLAT) {
-    cs_over_add(over, layer->s, layer->t);
-    return CELSPAN_OK;
-  }
-  if (layer_is_opaque(composer, layer))
-    over->t = cs_v4_all(0);
+  over->t *= layer->kind == CS_LAYER_FLAT ? layer->t : most_through(composer, layer);
   return CELSPAN_OK;
 }
 
@@ -138,7 +133,8 @@ static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   composer->gathered_count = 0;
   for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
        (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
-    CS_TRY(gather_layer(composer, &over, layer));
+    if (cs_over_reaches(&over, layer))
+      CS_TRY(gather_layer(composer, &over, layer));
     end = cs_over_is_opaque(over.t) ? cs_over_hidden_end(&over) : layer;
   }
   return CELSPAN_OK;
@@ -154,10 +150,12 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over
   cs_over_begin(over, composer->stack);
   for (uint32_t layer, end = (uint32_t)composer->stack->layer_count;
        (layer = cs_set_below(set, composer->filled, end)) != CS_STACK_NONE;) {
-    if (layers[layer].kind != CS_LAYER_FLAT || group_varies(composer->stack, layers[layer].group))
-      return false;
-    cs_over_move(over, layer, layers[layer].group);
-    cs_over_add(over, layers[layer].s, layers[layer].t);
+    if (cs_over_reaches(over, layer)) {
+      if (layers[layer].kind != CS_LAYER_FLAT || group_varies(composer->stack, layers[layer].group))
+        return false;
+      cs_over_move(over, layer, layers[layer].group);
+      cs_over_add(over, layers[layer].s, layers[layer].t);
+    }
     end = cs_over_is_opaque(over->t) ? cs_over_hidden_end(over) : layer;
   }
   return true;

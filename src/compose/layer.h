@@ -36,14 +36,16 @@ typedef enum cs_layer_role {
 } cs_layer_role;
 
 typedef struct cs_layer {
-  cs_v4 s, t;     /* FLAT: light scattered under its front light, and transmission; lane 3 is 0 */
+  cs_v4 s;        /* FLAT: light scattered under its front light; lane 3 is 0 */
+  cs_v4 t;        /* FLAT: transmission. Else the most that each channel lets through wherever the
+                     layer is present, fade included; PICTURE: unless the picture is known to be
+                     opaque. Lane 3 is 0 */
   cs_v4 front;    /* front light of its cel, brightness included, or the gain of a light; lane 3 is
                      0 */
   uint32_t group; /* innermost group, or CS_STACK_NONE */
   uint32_t index; /* all but FLAT: index into the array of its kind */
   float fade;     /* of its paint, where that varies */
   uint8_t kind;   /* a cs_layer_kind */
-  bool is_opaque; /* lets nothing through, wherever it is present */
   uint8_t role;   /* a cs_layer_role */
 } cs_layer;
 static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");

@@ -105,6 +105,15 @@ static inline void cs_over_add(cs_over *over, cs_v4 s, cs_v4 t) {
   over->t *= t;
 }
 
+/* Leaves the groups that end in front of a layer, and returns whether anything shines through then:
+ * a faded group may have been the last that was needed to hide what is behind it. */
+static inline bool cs_over_reaches(cs_over *over, uint32_t layer) {
+  if (over->group == CS_STACK_NONE || layer >= over->stack->groups[over->group].first)
+    return true;
+  cs_over_leave(over, layer);
+  return !cs_over_is_opaque(over->t);
+}
+
 /* Where the fold goes on once nothing shines through: behind the innermost group that is faded,
  * which hides the rest of itself, or nowhere. */
 static inline uint32_t cs_over_hidden_end(const cs_over *over) {

@@ -1,8 +1,8 @@
 #include "render/compile.h"
 
-#include "base/number.h"
 #include "defocus/layer.h"
 #include "geometry/matrix.h"
+#include "render/hidden.h"
 #include "render/layers.h"
 #include "render/lights.h"
 #include "render/objects.h"
@@ -18,6 +18,7 @@ static celspan_status append_defocused(cs_compiler *c, const cs_defocus_cel *pla
   CS_TRY(cs_layers_append(c, opacity, CELSPAN_RULE_NONZERO, &index));
   stack->layers[index].kind = CS_LAYER_DEFOCUSED;
   stack->layers[index].index = detail;
+  stack->layers[index].t = (cs_v4){1, 1, 1, 0};
   return cs_boundary_add(c->context, &c->plan->boundaries, box, &identity, &c->frame, index);
 }
 
@@ -109,45 +110,6 @@ static void reverse_lights(cs_stack *stack) {
   }
 }
 
-/* ---------------------------------------------------------------- the cull */
-
-/* The most that a layer lets through; 1 for a layer of a faded group, which lets through more than
- * its paint says. */
-static double layer_through(const cs_stack *stack, const cs_layer *layer) {
-  if (cs_stack_faded(stack, layer->group) != CS_STACK_NONE)
-    return 1;
-  if (layer->kind != CS_LAYER_FLAT)
-    return layer->is_opaque ? 0 : 1;
-  double through = layer->t[0];
-  for (int c = 1; c < 3; c++)
-    through = layer->t[c] > through ? layer->t[c] : through;
-  return through;
-}
-
-static celspan_status cull(cs_compiler *c) {
-  const cs_stack *stack = &c->plan->stack;
-  cs_cull_layer *layers = cs_mem_array(c->context->memory, stack->layer_count, sizeof *layers);
-  if (stack->layer_count > 0 && !layers)
-    return cs_fail_memory(c->context);
-  for (size_t i = 0; i < stack->layer_count; i++)
-    layers[i] =
-        (cs_cull_layer){layer_through(stack, &stack->layers[i]), stack->rules[i].winding_mask};
-  for (size_t t = 0; t < stack->tree_count; t++) /* where a layer may be present but not painted */
-    for (uint32_t i = stack->trees[t].first; i < stack->trees[t].end; i++)
-      layers[i].through = 1;
-  const cs_cull_desc desc = {.set = &c->plan->boundaries,
-                             .layers = layers,
-                             .layer_count = stack->layer_count,
-                             .width = c->plan->width,
-                             .height = c->plan->height,
-                             .margin = c->plan->margin,
-                             .opaque = (double)CS_PAINT_OPAQUE * 0.999,
-                             .workers = c->workers};
-  celspan_status status = cs_cull_create(c->context, &desc, &c->plan->cull);
-  cs_mem_free(c->context->memory, layers, stack->layer_count * sizeof *layers);
-  return status;
-}
-
 static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *rostrum,
                                       double film_width, double film_height) {
   const cs_compiler_film film = {.width = film_width,
@@ -158,7 +120,7 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
-  return cull(c);
+  return cs_hidden_cull(c);
 }
 
 static void begin(cs_compiler *c, celspan_context *context, cs_plan *plan, int32_t first_row,
@@ -201,7 +163,7 @@ static celspan_status compile_objects(cs_compiler *c, const cs_defocus_job *job)
     CS_TRY(cs_lights_add_flat(c, (celspan_light){1, 1, 1, 0}));
   CS_TRY(cs_objects_add(c, job->cel->objects, job->cel->object_count, &job->matrix));
   cs_boundary_sort(&c->plan->boundaries);
-  return cull(c);
+  return cs_hidden_cull(c);
 }
 
 static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out) {

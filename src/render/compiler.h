@@ -22,6 +22,13 @@ typedef struct cs_compiler_film {
   const cs_outline *outline; /* of an object's frame, film units; NULL: the whole plane */
 } cs_compiler_film;
 
+/* What outlines in the frame are like. Those that are left out because they are on no row asked for
+ * are included, so that it depends on the scene and the frame's size alone. */
+typedef struct cs_compiler_census {
+  double pieces, rows; /* rows: the heights of the outlines, pixels */
+  double depth;        /* halvings of light that the layers make behind a point, on the average */
+} cs_compiler_census;
+
 typedef struct cs_compiler cs_compiler;
 struct cs_compiler {
   celspan_context *context;
@@ -37,6 +44,7 @@ struct cs_compiler {
   bool is_nested;   /* inside a rostrum that is an object, so inside a tree */
   uint32_t results; /* is_nested: those that the trees inside it have left so far */
   bool fades_out;   /* inside something faded to nothing: present, but clear */
+  cs_compiler_census census;
   const cs_plan *front_plan; /* the same lit from the front, whose defocused cels are borrowed */
   /* Compiles the cels of a rostrum that is an object. */
   celspan_status (*compile_nested)(cs_compiler *c, const celspan_rostrum *rostrum,

@@ -1,8 +1,11 @@
 #include "render/layers.h"
 
+#include <math.h>
+
 #include "compose/over.h"
 #include "geometry/matrix.h"
 #include "paint/shade.h"
+#include "render/through.h"
 #include "scene/texture.h"
 
 void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
@@ -11,7 +14,13 @@ void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   cs_v4 s = {faded.s[0], faded.s[1], faded.s[2], 0}, t = {faded.t[0], faded.t[1], faded.t[2], 0};
   layer->s = cs_over_lit(layer->front, 1, s, t).e;
   layer->t = t;
-  layer->is_opaque = cs_paint_is_opaque(&faded);
+}
+
+/* What lets through at most `t` before it is faded. */
+static cs_v4 faded_through(float fade, cs_v4 t) {
+  cs_v4 faded = (1 - fade) + fade * t;
+  faded[3] = 0;
+  return faded;
 }
 
 static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_layers_texture *place) {
@@ -22,8 +31,7 @@ static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_laye
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
   layer->index = (uint32_t)stack->shade_count++;
-  layer->is_opaque = layer->fade == 1 && cs_matrix_is_affine(&place->inverse) &&
-                     cs_texture_is_opaque(place->texture);
+  layer->t = faded_through(layer->fade, cs_through_shade(shade, &place->visible));
   return CELSPAN_OK;
 }
 
@@ -44,6 +52,7 @@ static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
       (cs_image_layer){texture, place->inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
   layer->kind = CS_LAYER_PICTURE;
   layer->index = (uint32_t)stack->image_count++;
+  layer->t = faded_through(1, cs_v4_all(1));
   return CELSPAN_OK;
 }
 
@@ -74,18 +83,29 @@ celspan_status cs_layers_append(cs_compiler *c, double fade, celspan_rule rule, 
   return CELSPAN_OK;
 }
 
-/* Whether anything inside a box may be on the rows that will be asked for. */
-static bool meets_rows(const cs_compiler *c, const celspan_box *box, const celspan_matrix *matrix) {
-  cs_boundary_frame around;
-  return !cs_boundary_around_box(box, matrix, &around) ||
-         (around.bottom >= c->first_height && around.top <= c->end_height);
+/* Adds an outline that lies in a rectangle to the census. */
+static void count_outline(cs_compiler *c, const cs_outline *outline, const cs_layer *layer,
+                          const cs_boundary_frame *around) {
+  const cs_boundary_frame *frame = &c->frame;
+  double width = fmin(around->right, frame->right) - fmax(around->left, frame->left);
+  double height = fmin(around->bottom, frame->bottom) - fmax(around->top, frame->top);
+  double all = (frame->right - frame->left) * (frame->bottom - frame->top);
+  if (!(width > 0 && height > 0))
+    return;
+  c->census.pieces += (double)outline->piece_count;
+  c->census.rows += height;
+  c->census.depth += width * height / all * cs_through_halvings(layer->t);
 }
 
 celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
                                      const celspan_box *bounds, const celspan_matrix *matrix,
                                      uint32_t index) {
   celspan_matrix facing = cs_matrix_facing(matrix);
-  if (!meets_rows(c, bounds, &facing))
+  cs_boundary_frame around;
+  if (!cs_boundary_around_box(bounds, &facing, &around))
+    around = c->frame;
+  count_outline(c, outline, &c->plan->stack.layers[index], &around);
+  if (around.bottom < c->first_height || around.top > c->end_height)
     return CELSPAN_OK;
   return cs_boundary_add(c->context, &c->plan->boundaries, outline, matrix, &c->frame, index);
 }
@@ -93,13 +113,16 @@ celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
 static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data, double fade,
                                   const celspan_matrix *matrix) {
   uint32_t index;
-  cs_layers_texture place = {data->texture, data->bounds, true, {{0}}};
+  cs_layers_texture place = {data->texture, data->bounds, true, {{0}}, c->frame};
   CS_TRY(cs_layers_append(c, fade, data->rule, &index));
   cs_layer *layer = &c->plan->stack.layers[index];
-  if (!celspan_matrix_inverse(cs_matrix_facing(matrix), &place.inverse)) {
+  celspan_matrix facing = cs_matrix_facing(matrix);
+  if (!celspan_matrix_inverse(facing, &place.inverse)) {
     cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1); /* it has no area */
     return CELSPAN_OK;
   }
+  if (!cs_boundary_around_box(&data->bounds, &facing, &place.visible))
+    place.visible = c->frame;
   CS_TRY(cs_layers_fill(c, layer, &place));
   return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
 }

@@ -19,9 +19,10 @@ void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade);
 /* A texture in its place. */
 typedef struct cs_layers_texture {
   const celspan_texture *texture;
-  celspan_box bounds;     /* of the primitive: where a picture without a box lies */
-  bool ends_at_bounds;    /* a boundary ends it there, not the picture */
-  celspan_matrix inverse; /* frame pixels to its units */
+  celspan_box bounds;        /* of the primitive: where a picture without a box lies */
+  bool ends_at_bounds;       /* a boundary ends it there, not the picture */
+  celspan_matrix inverse;    /* frame pixels to its units */
+  cs_boundary_frame visible; /* pixels: the layer is present nowhere else */
 } cs_layers_texture;
 
 /* Fills a layer by its texture. Errors: NO_MEMORY. */

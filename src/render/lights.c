@@ -50,7 +50,7 @@ static celspan_status append_shape(cs_compiler *c, const cs_light *light,
                                    const cs_compiler_film *film, const celspan_matrix *inverse,
                                    cs_v4 front, uint32_t *index) {
   const cs_layers_texture place = {
-      light->texture, {0, 0, film->width, film->height}, false, *inverse};
+      light->texture, {0, 0, film->width, film->height}, false, *inverse, c->frame};
   CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, index));
   cs_layer *layer = &c->plan->stack.layers[*index];
   layer->front = front;
@@ -131,9 +131,10 @@ celspan_status cs_lights_add_back(cs_compiler *c, const celspan_rostrum *rostrum
     return CELSPAN_OK;
   CS_TRY(append_shape(c, &light, film, &inverse, under_shine(film, grey(light.gain)), &layer));
   cs_layer *added = &c->plan->stack.layers[layer];
-  if (added->kind != CS_LAYER_FLAT)
+  if (added->kind != CS_LAYER_FLAT) {
     added->role = CS_LAYER_BACK;
-  added->is_opaque = false;
+    added->t = grey(1); /* it dims nothing */
+  }
   return add_film_outline(c, film, layer);
 }
 
@@ -160,7 +161,6 @@ celspan_status cs_lights_light_group(cs_compiler *c, const cs_lights_front *fron
     return CELSPAN_OK;
   CS_TRY(append_shape(c, &front->light, film, &front->inverse, grey(front->light.gain), &index));
   stack->layers[index].role = CS_LAYER_FRONT;
-  stack->layers[index].is_opaque = false;
   stack->groups[c->group].light = index;
   stack->groups[c->group].has_light = true;
   stack->has_group_light = true;

@@ -142,7 +142,6 @@ static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
   cs_layer *layer = &c->plan->stack.layers[index];
   cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
   layer->t = (cs_v4){keep, keep, keep, 0};
-  layer->is_opaque = keep == 0;
   return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
 }
 

@@ -281,31 +281,25 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
 
 /* ---------------------------------------------------------------- questions */
 
-static bool is_opaque(const cs_paint *paint) { return cs_paint_is_opaque(paint); }
-
 static bool is_grey(const cs_paint *paint) {
   return paint->t[0] == paint->t[1] && paint->t[1] == paint->t[2];
 }
 
-/* Whether a property is true of every paint of a texture that is not a picture. */
-static bool all_paints(const celspan_texture *texture, bool (*has)(const cs_paint *paint)) {
+static bool all_paints_are_grey(const celspan_texture *texture) {
+  const cs_paint *corners = texture->corners;
   if (texture->kind == CS_TEXTURE_FLAT)
-    return has(&texture->flat);
+    return is_grey(&texture->flat);
   if (texture->kind == CS_TEXTURE_TRIANGLE)
-    return has(&texture->corners[0]) && has(&texture->corners[1]) && has(&texture->corners[2]);
+    return is_grey(&corners[0]) && is_grey(&corners[1]) && is_grey(&corners[2]);
   for (size_t i = 0; i < texture->stop_count; i++)
-    if (!has(&texture->stops[i].paint))
+    if (!is_grey(&texture->stops[i].paint))
       return false;
   return true;
 }
 
-bool cs_texture_is_opaque(const celspan_texture *texture) {
-  return texture->kind != CS_TEXTURE_PICTURE && all_paints(texture, is_opaque);
-}
-
 bool cs_texture_is_grey(const celspan_texture *texture) {
   return texture->kind == CS_TEXTURE_PICTURE ? texture->use == CELSPAN_PICTURE_PAINT
-                                             : all_paints(texture, is_grey);
+                                             : all_paints_are_grey(texture);
 }
 
 /* ---------------------------------------------------------------- names */

@@ -55,9 +55,8 @@ CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
                                                        celspan_texture *texture,
                                                        celspan_texture **out);
 
-/* Whether every colour of the texture is opaque, and whether every one lets the three channels
- * through alike. A picture is never known to be opaque here; it is grey unless it is a gel. */
-bool cs_texture_is_opaque(const celspan_texture *texture);
+/* Whether every colour of the texture lets the three channels through alike. A picture is grey
+ * unless it is a gel. */
 bool cs_texture_is_grey(const celspan_texture *texture);
 
 #endif

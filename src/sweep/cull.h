@@ -2,7 +2,9 @@
  *
  * The frame is divided into rows of tiles, 64 tiles a row, so that a row of tiles is one machine
  * word. The tiles are filled layer by layer from the camera backwards. Where the layers that cover
- * a whole tile let (almost) nothing through, the tile is dead for every layer behind them.
+ * a whole tile let (almost) nothing through, the tile is dead for every layer behind them. Layers
+ * of a group are dead behind what the group has itself; a layer of a boolean tree fills a tile only
+ * where it is certain to be painted.
  *
  *     tile     0   1   2   3   4   5   6   7
  *            +---+---+---+---+---+---+---+---+     d: dead for the layer that is being culled
@@ -30,12 +32,40 @@
 
 #define CS_CULL_COLUMNS 64 /* tiles in a row of tiles */
 
+#define CS_CULL_NONE UINT32_MAX /* no group */
+
 /* A layer as the cull needs to know it. */
 typedef struct cs_cull_layer {
-  /* The most that any channel lets through wherever the layer is present; 1 where unknown. */
+  /* The most that any channel lets through wherever the layer is painted; 1 where unknown. */
   double through;
   int32_t winding_mask; /* the layer is present where the winding and this is not 0 */
+  uint32_t group;       /* the innermost, or CS_CULL_NONE */
+  bool is_anywhere;     /* it may be present where no chain says so */
 } cs_cull_layer;
+
+/* Layers that are composited by themselves, then mixed with clear: what they hide of each other
+ * they hide wholly, what is behind them by the share `fade`. */
+typedef struct cs_cull_group {
+  uint32_t parent; /* or CS_CULL_NONE */
+  uint32_t first;  /* its rearmost layer */
+  double fade;
+} cs_cull_group;
+
+/* Layers of which it depends on the presence of others whether they are painted where they are
+ * present. */
+typedef struct cs_cull_tree {
+  uint32_t first, end;
+} cs_cull_tree;
+
+/* Tiles of a row, one bit a tile: all of it is inside the layer, or some of it may be. */
+typedef struct cs_cull_presence {
+  uint64_t certain, possible;
+} cs_cull_presence;
+
+/* Finds in which tiles the layers of a tree are certainly painted all over, given where they are
+ * present; both arrays begin with the tree's first layer. scratch: of scratch_size bytes. */
+typedef void (*cs_cull_resolve)(const void *user, size_t tree, const cs_cull_presence *presences,
+                                void *scratch, uint64_t *painted);
 
 /* A deferred winding change: it takes the place of a culled chain in one row of tiles. */
 typedef struct cs_deferred {
@@ -61,6 +91,13 @@ typedef struct cs_cull_desc {
   const cs_boundary_set *set;  /* in its final order */
   const cs_cull_layer *layers; /* from the rear to the camera */
   size_t layer_count;
+  const cs_cull_group *groups; /* each a range of neighbouring layers */
+  size_t group_count;
+  const cs_cull_tree *trees; /* disjoint, rear first */
+  size_t tree_count;
+  cs_cull_resolve resolve; /* with `user`: of trees */
+  const void *user;
+  size_t scratch_size;
   int32_t width, height, margin; /* pixels */
   double opaque;                 /* what lets through no more than this lets nothing through */
   int workers;                   /* threads at most */

@@ -121,7 +121,9 @@ static void check_case(uint64_t seed) {
   test_random random = {seed + 1000};
   for (int layer = 0; layer < LAYERS; layer++)
     layers[layer] =
-        (cs_cull_layer){random_below(&random, 2) ? 0 : random_between(&random, 0, 1), -1};
+        (cs_cull_layer){.through = random_below(&random, 2) ? 0 : random_between(&random, 0, 1),
+                        .winding_mask = -1,
+                        .group = CS_CULL_NONE};
   make_set(&set, seed);
   const cs_cull_desc desc = {.set = &set,
                              .layers = layers,

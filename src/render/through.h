@@ -1,0 +1,29 @@
+/* Bounds on the light that shines through a layer: what is hidden behind several of them need not be
+ * looked at.
+ *
+ *     T of a layer
+ *       |  - - - - - - - - - - - - - - -  bound: no channel lets through more, wherever the layer
+ *       |      .-o-.                      is present
+ *       |  o-'      ` - . _ o
+ *       |  :   :            :
+ *       +--------------------------> x    between stops a paint is a mix of theirs, and outside of
+ *          stops                          them it is that of the nearest
+ *
+ * Invariant: a bound depends on the scene and the frame's size alone, so that what is cut behind it
+ * is the same for every worker, strip and crop.
+ */
+#ifndef CS_RENDER_THROUGH_H
+#define CS_RENDER_THROUGH_H
+
+#include "compose/layer.h"
+#include "geometry/boundary.h"
+
+/* Of a formula that is visible in a part of the frame, pixels. Lane 3 is 0. */
+cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
+
+/* How often what lets through at most `t` halves the light behind it, roughly; CS_THROUGH_OPAQUE
+ * where that is so often or more. */
+#define CS_THROUGH_OPAQUE 16
+double cs_through_halvings(cs_v4 t);
+
+#endif
