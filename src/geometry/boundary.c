@@ -42,16 +42,19 @@ static bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
   return a->layer != b->layer ? a->layer < b->layer : a->piece < b->piece;
 }
 
+/* Brings a heap in order whose root alone may be out of place. Most roots came from the bottom and
+ * go back there: so the way down to a leaf is made without asking, and the root comes up from it. */
 static void sift_down(cs_boundary_chain *chains, size_t root, size_t count) {
   cs_boundary_chain moved = chains[root];
-  for (size_t child; (child = 2 * root + 1) < count; root = child) {
-    if (child + 1 < count && is_before(&chains[child], &chains[child + 1]))
-      child++;
-    if (!is_before(&moved, &chains[child]))
-      break;
-    chains[root] = chains[child];
+  size_t hole = root;
+  for (size_t child; (child = 2 * hole + 1) < count; hole = child) {
+    child += child + 1 < count && is_before(&chains[child], &chains[child + 1]);
+    chains[hole] = chains[child];
   }
-  chains[root] = moved;
+  for (size_t parent; hole > root && is_before(&chains[parent = (hole - 1) / 2], &moved);
+       hole = parent)
+    chains[hole] = chains[parent];
+  chains[hole] = moved;
 }
 
 /* A heap sort: in place, without memory of its own, n log n always. */
