@@ -3,7 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "geometry/matrix.h"
+#include "geometry/pair.h"
 
 #define HORIZON 1e-9  /* of the outline's largest |w| */
 #define ROOT_DEPTH 46 /* halvings: two roots that are nearer than this count as one */
@@ -56,32 +58,27 @@ bool cs_bezier_is_polynomial(const cs_bezier *piece) {
   return true;
 }
 
-double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis) {
-  return (axis == CS_BEZIER_X ? point.x : point.y) / point.w;
-}
-
-/* In this form the mean of two equal numbers is the same number. */
-static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
-  return (cs_hpoint){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
-}
-
-void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high) {
-  cs_hpoint work[CS_BEZIER_DEGREE + 1];
-  int degree = piece->degree;
-  for (int i = 0; i <= degree; i++)
-    work[i] = piece->points[i];
-  low->degree = high->degree = degree;
-  for (int level = 0; level <= degree; level++) {
-    low->points[level] = work[0];
-    high->points[degree - level] = work[degree - level];
-    for (int i = 0; i < degree - level; i++)
-      work[i] = between(work[i], work[i + 1], t);
-  }
-}
-
 void cs_bezier_copy(const cs_bezier *piece, cs_bezier *copy) {
   memcpy(copy, piece,
          offsetof(cs_bezier, points) + ((size_t)piece->degree + 1) * sizeof(cs_hpoint));
+}
+
+static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
+  cs_pair pair = cs_pair_between(cs_pair_load(&a), cs_pair_load(&b), t);
+  return (cs_hpoint){pair[0], pair[1], a.w + t * (b.w - a.w)};
+}
+
+void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high) {
+  int degree = piece->degree;
+  if (high != piece)
+    cs_bezier_copy(piece, high);
+  low->degree = degree;
+  low->points[0] = high->points[0];
+  for (int level = 1; level <= degree; level++) {
+    for (int i = 0; i <= degree - level; i++)
+      high->points[i] = between(high->points[i], high->points[i + 1], t);
+    low->points[level] = high->points[0];
+  }
 }
 
 void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *front) {
@@ -129,7 +126,7 @@ static sign_pattern signs_of(const double *coefficients, int degree, double nois
     int sign = (coefficients[i] > noise) - (coefficients[i] < -noise);
     if (sign == 0)
       continue;
-    signs.changes += signs.last != 0 && sign != signs.last;
+    signs.changes += sign == -signs.last;
     signs.first = signs.first == 0 ? sign : signs.first;
     signs.last = sign;
   }
@@ -187,15 +184,11 @@ static void find_quadratic_roots(const double *c, root_list *list) {
 /* Isolates roots by halving. By the variation diminishing property there is no root without a
  * change of sign of the coefficients, and exactly one with one change. Recursion ends at
  * ROOT_DEPTH. */
-static void find_roots(const double *coefficients, int degree, double noise, double from, double to,
-                       int depth, root_list *list) {
+static void isolate_roots(const double *coefficients, int degree, double noise, double from,
+                          double to, int depth, root_list *list) {
   sign_pattern signs = signs_of(coefficients, degree, noise);
   if (signs.changes == 0 || list->count == list->limit)
     return;
-  if (degree == 2) {
-    find_quadratic_roots(coefficients, list);
-    return;
-  }
   if (signs.changes == 1) {
     add_root(list, from + (to - from) * bracketed_root(coefficients, degree, signs.first));
     return;
@@ -208,11 +201,18 @@ static void find_roots(const double *coefficients, int degree, double noise, dou
   }
   double low[COEFFICIENTS], high[COEFFICIENTS];
   halve(coefficients, degree, low, high);
-  find_roots(low, degree, noise, from, middle, depth + 1, list);
+  isolate_roots(low, degree, noise, from, middle, depth + 1, list);
   /* A root at the middle itself is an end of both halves, which both leave it out. */
   if (signs_of(low, degree, noise).last * signs_of(high, degree, noise).first < 0)
     add_root(list, middle);
-  find_roots(high, degree, noise, middle, to, depth + 1, list);
+  isolate_roots(high, degree, noise, middle, to, depth + 1, list);
+}
+
+static void find_roots(const double *coefficients, int degree, double noise, root_list *list) {
+  if (degree != 2)
+    isolate_roots(coefficients, degree, noise, 0, 1, 0, list);
+  else if (signs_of(coefficients, degree, noise).changes > 0)
+    find_quadratic_roots(coefficients, list);
 }
 
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form,
@@ -221,11 +221,12 @@ int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form,
   for (int i = 0; i <= piece->degree; i++) {
     cs_hpoint p = piece->points[i];
     coefficients[i] = form.x * p.x + form.y * p.y + form.w * p.w + form.constant;
-    size = fmax(size,
-                fabs(form.x * p.x) + fabs(form.y * p.y) + fabs(form.w * p.w) + fabs(form.constant));
+    double terms =
+        fabs(form.x * p.x) + fabs(form.y * p.y) + fabs(form.w * p.w) + fabs(form.constant);
+    size = cs_number_most(terms, size);
   }
   root_list list = {0, CS_BEZIER_ROOTS, roots};
-  find_roots(coefficients, piece->degree, NOISE * size, 0, 1, 0, &list);
+  find_roots(coefficients, piece->degree, NOISE * size, &list);
   return list.count;
 }
 
@@ -260,41 +261,60 @@ static double slope_numerator(const cs_bezier *piece, cs_bezier_axis axis, doubl
       terms += share * (fabs(rise * c.w) + fabs(component(c, axis) * (b.w - a.w)));
     }
     coefficients[k] = sum;
-    size = fmax(size, terms);
+    size = cs_number_most(terms, size);
   }
   return size;
 }
 
-int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[CS_BEZIER_ROOTS]) {
-  double coefficients[COEFFICIENTS], size = 0;
-  int degree = piece->degree - 1;
-  if (cs_bezier_is_polynomial(piece)) {
-    for (int i = 0; i < piece->degree; i++) {
-      double a = component(piece->points[i], axis), b = component(piece->points[i + 1], axis);
-      coefficients[i] = b - a;
-      size = fmax(size, fabs(a) + fabs(b));
-    }
-    size *= 0.05; /* a difference has only one rounding */
-  } else {
-    degree = 2 * piece->degree - 1;
-    size = slope_numerator(piece, axis, coefficients);
+int cs_bezier_turns(const double *coefficients, int degree, double *roots) {
+  double rises[CS_BEZIER_DEGREE], size = 0;
+  for (int i = 0; i < degree; i++) {
+    double a = coefficients[i], b = coefficients[i + 1];
+    rises[i] = b - a;
+    size = cs_number_most(fabs(a) + fabs(b), size);
   }
+  size *= 0.05; /* a difference has only one rounding */
   root_list list = {0, CS_BEZIER_ROOTS, roots};
-  find_roots(coefficients, degree, NOISE * size, 0, 1, 0, &list);
+  find_roots(rises, degree - 1, NOISE * size, &list);
+  return list.count;
+}
+
+int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[CS_BEZIER_ROOTS]) {
+  double coefficients[COEFFICIENTS];
+  if (cs_bezier_is_polynomial(piece)) {
+    for (int i = 0; i <= piece->degree; i++)
+      coefficients[i] = component(piece->points[i], axis);
+    return cs_bezier_turns(coefficients, piece->degree, roots);
+  }
+  double size = slope_numerator(piece, axis, coefficients);
+  root_list list = {0, CS_BEZIER_ROOTS, roots};
+  find_roots(coefficients, 2 * piece->degree - 1, NOISE * size, &list);
   return list.count;
 }
 
 /* ---------------------------------------------------------------- horizon */
 
-bool cs_bezier_horizon(const cs_outline *outline, const celspan_matrix *matrix, double *least) {
-  double largest = 0;
+/* The largest |w| of an outline under a matrix; false when a number is not finite. */
+static bool find_largest_weight(const cs_outline *outline, const celspan_matrix *matrix,
+                                double *largest) {
+  *largest = fabs(matrix->m[8]);
+  if (outline->is_plain && cs_matrix_is_affine(matrix) && cs_matrix_is_sane(matrix))
+    return true; /* that is the weight of every point */
+  *largest = 0;
   for (size_t i = 0; i < outline->point_count; i++) {
     cs_hpoint p = cs_matrix_apply(matrix, outline->points[i]);
     double sum = p.x + p.y + p.w;
     if (sum - sum != 0)
       return false;
-    largest = fmax(largest, fabs(p.w));
+    *largest = cs_number_most(fabs(p.w), *largest);
   }
+  return true;
+}
+
+bool cs_bezier_horizon(const cs_outline *outline, const celspan_matrix *matrix, double *least) {
+  double largest;
+  if (!find_largest_weight(outline, matrix, &largest))
+    return false;
   *least = HORIZON * largest;
   return *least > 0;
 }
@@ -302,7 +322,7 @@ bool cs_bezier_horizon(const cs_outline *outline, const celspan_matrix *matrix, 
 static double least_weight(const cs_bezier *piece) {
   double least = piece->points[0].w;
   for (int i = 1; i <= piece->degree; i++)
-    least = fmin(least, piece->points[i].w);
+    least = cs_number_least(piece->points[i].w, least);
   return least;
 }
 

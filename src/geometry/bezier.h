@@ -44,7 +44,9 @@ void cs_bezier_reverse(cs_bezier *piece);
 bool cs_bezier_canonise(cs_bezier *piece);
 bool cs_bezier_is_polynomial(const cs_bezier *piece); /* all weights equal */
 /* Projected coordinate of a point with w > 0. */
-double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis);
+static inline double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis) {
+  return (axis == CS_BEZIER_X ? point.x : point.y) / point.w;
+}
 
 /* low and high share the joint bitwise; either may be the piece itself. */
 void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high);
@@ -54,6 +56,9 @@ void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *fro
 
 /* Parameters inside (0, 1) where a form changes its sign, ascending; their number. */
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form, double roots[CS_BEZIER_ROOTS]);
+/* Parameters inside (0, 1) where the polynomial with these Bernstein coefficients has an extremum,
+ * ascending; their number. */
+int cs_bezier_turns(const double *coefficients, int degree, double *roots);
 /* Parameters inside (0, 1) where a projected coordinate has an extremum; weights must be > 0. */
 int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[CS_BEZIER_ROOTS]);
 

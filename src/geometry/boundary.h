@@ -73,13 +73,6 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
 void cs_boundary_init(cs_boundary_set *set);
 void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
 
-/* Appends the chains of an outline under a matrix (own units to pixels). A contour in part behind
- * the horizon is cut there. Errors: NO_MEMORY, LIMIT. */
-CELSPAN_CHECKED celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
-                                               const cs_outline *outline,
-                                               const celspan_matrix *matrix,
-                                               const cs_boundary_frame *frame, uint32_t layer);
-
 /* Orders the chains by y0, then x0, then layer, then the order of adding: the order in which a
  * sweep meets them. Call once, after the last outline. */
 void cs_boundary_sort(cs_boundary_set *set);

@@ -1,24 +1,14 @@
-/* cs_boundary_add: contours to chains.
- *
- *   horizon: a curve is cut       y extrema: a curve is cut      sides of the frame: beyond them
- *   off behind it                 into monotone stretches        vertical lines replace a curve
- *
- *        .---.                             .*.  extremum                  left
- *      .'     '.                         .'   '.                             |   .
- *   --o---------o--- horizon            /       \                            | .
- *     :         :                     one       another                      |'  the curve leaves
- *     (cut off)                       stretch   stretch                    . |   along the side
- *                                                                         .  |
+/* cs_boundary_add: contours to stretches.
  *
  * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
  * the same bits, and makes stretches from top to bottom. The stretches of a piece are then put into
- * the order of the contour, and consecutive stretches of one direction are joined to chains.
+ * the order of the contour.
  */
+#include "geometry/boundary_build.h"
+
 #include <math.h>
 
 #include "base/number.h"
-#include "geometry/bezier.h"
-#include "geometry/boundary.h"
 #include "geometry/matrix.h"
 #include "geometry/polyline.h"
 
@@ -26,64 +16,42 @@
 #define WEIGHT_DEPTH 40
 /* Pixels that a piece may always extend beyond top or bottom without being cut there. */
 #define LEAST_OUTSIDE 1024
+/* Pixels that a piece inside is away from where it would be cut, against rounding in its parts. */
+#define CLEARANCE 1
 
-typedef struct stretch {
-  cs_boundary_piece piece;
-  int32_t direction; /* along the contour: +1 down, -1 up */
-} stretch;
-
-typedef struct builder {
-  celspan_context *context;
-  cs_boundary_set *set;
-  const cs_boundary_frame *frame;
-  uint32_t layer;
-  stretch *stretches; /* of the current contour */
-  size_t stretch_count, stretch_capacity;
-  cs_bezier *fronts; /* the current piece, cut to what is in front of the horizon */
-  size_t front_count, front_capacity;
-  bool has_pen;
-  cs_hpoint first, pen; /* the beginning of the contour, and its current point */
-} builder;
+typedef cs_boundary_builder builder;
 
 /* ---------------------------------------------------------------- stretches */
+
+static celspan_status reserve_stretches(builder *b, size_t more) {
+  cs_stretches *stretches = &b->stretches;
+  return cs_mem_reserve(b->context, (void **)&stretches->items, &stretches->capacity,
+                        stretches->count + more, sizeof *stretches->items);
+}
+
+/* A straight one, for which there is room. */
+static inline cs_boundary_piece *append_stretch(builder *b, celspan_point from, celspan_point to) {
+  cs_stretch *added = &b->stretches.items[b->stretches.count++];
+  *added = b->straight;
+  added->piece.x0 = from.x;
+  added->piece.y0 = from.y;
+  added->piece.x1 = to.x;
+  added->piece.y1 = to.y;
+  return &added->piece;
+}
 
 /* curve: NULL for a straight stretch. Horizontal stretches vanish. */
 static celspan_status add_stretch(builder *b, const cs_bezier *curve, celspan_point from,
                                   celspan_point to) {
   if (!(from.y < to.y))
     return CELSPAN_OK;
-  CS_TRY(cs_mem_reserve(b->context, (void **)&b->stretches, &b->stretch_capacity,
-                        b->stretch_count + 1, sizeof *b->stretches));
-  stretch *added = &b->stretches[b->stretch_count];
-  *added = (stretch){.piece = {.x0 = from.x,
-                               .y0 = from.y,
-                               .x1 = to.x,
-                               .y1 = to.y,
-                               .left = b->frame->left,
-                               .right = b->frame->right,
-                               .chords = 1,
-                               .group = 1,
-                               .half = 1,
-                               .leap = 1,
-                               .degree = 1}};
-  if (curve)
-    CS_TRY(cs_polyline_fit(b->context, b->set, curve, &added->piece));
-  b->stretch_count++;
-  return CELSPAN_OK;
+  CS_TRY(reserve_stretches(b, 1));
+  cs_boundary_piece *piece = append_stretch(b, from, to);
+  return curve ? cs_polyline_fit(b->context, b->set, curve, piece) : CELSPAN_OK;
 }
 
 static celspan_status add_vertical(builder *b, double x, double y0, double y1) {
   return add_stretch(b, NULL, (celspan_point){x, y0}, (celspan_point){x, y1});
-}
-
-static void reverse_stretches(builder *b, size_t begin, bool turns_direction) {
-  for (size_t i = begin; turns_direction && i < b->stretch_count; i++)
-    b->stretches[i].direction = -b->stretches[i].direction;
-  for (size_t i = begin, j = b->stretch_count; i + 1 < j; i++) {
-    stretch swapped = b->stretches[i];
-    b->stretches[i] = b->stretches[--j];
-    b->stretches[j] = swapped;
-  }
 }
 
 /* ---------------------------------------------------------------- the frame */
@@ -98,7 +66,7 @@ static double edge_height(celspan_point top, celspan_point bottom, double x) {
 }
 
 static celspan_status add_line(builder *b, celspan_point top, celspan_point bottom) {
-  double left = b->frame->left, right = b->frame->right;
+  double left = b->frame.left, right = b->frame.right;
   double first = top.x < bottom.x ? left : right, second = top.x < bottom.x ? right : left;
   celspan_point at = {cs_number_clamp(top.x, left, right), top.y};
   celspan_point end = {cs_number_clamp(bottom.x, left, right), bottom.y};
@@ -121,8 +89,8 @@ static celspan_status add_line(builder *b, celspan_point top, celspan_point bott
 static double weight_ratio(const cs_bezier *curve) {
   double least = curve->points[0].w, largest = least;
   for (int i = 1; i <= curve->degree; i++) {
-    least = fmin(least, curve->points[i].w);
-    largest = fmax(largest, curve->points[i].w);
+    least = cs_number_least(curve->points[i].w, least);
+    largest = cs_number_most(curve->points[i].w, largest);
   }
   return largest / least;
 }
@@ -135,7 +103,7 @@ static celspan_point project(cs_hpoint point) {
 static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_point from,
                            celspan_point to) {
   celspan_point end = project(curve->points[curve->degree]);
-  return (celspan_point){cs_number_clamp(end.x, b->frame->left, b->frame->right),
+  return (celspan_point){cs_number_clamp(end.x, b->frame.left, b->frame.right),
                          cs_number_clamp(end.y, from.y, to.y)};
 }
 
@@ -157,10 +125,10 @@ static celspan_status add_one_side(builder *b, const cs_bezier *curve, celspan_p
   cs_bezier upper, lower;
   cs_bezier_split(curve, 0.5, &upper, &lower);
   double x = project(lower.points[0]).x;
-  if (x <= b->frame->left)
-    return add_vertical(b, b->frame->left, from.y, to.y);
-  if (x >= b->frame->right)
-    return add_vertical(b, b->frame->right, from.y, to.y);
+  if (x <= b->frame.left)
+    return add_vertical(b, b->frame.left, from.y, to.y);
+  if (x >= b->frame.right)
+    return add_vertical(b, b->frame.right, from.y, to.y);
   return add_curve(b, curve, from, to, 0);
 }
 
@@ -186,7 +154,7 @@ static void find_side_cuts(const cs_bezier *curve, const cs_boundary_frame *fram
 static celspan_status add_cut_curve(builder *b, const cs_bezier *curve, celspan_point from,
                                     celspan_point to) {
   side_cuts cuts;
-  find_side_cuts(curve, b->frame, &cuts);
+  find_side_cuts(curve, &b->frame, &cuts);
   cs_bezier rest, upper;
   cs_bezier_copy(curve, &rest);
   double position = 0;
@@ -202,12 +170,12 @@ static celspan_status add_cut_curve(builder *b, const cs_bezier *curve, celspan_
 
 /* y0, y1: the heights of its ends. */
 static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, double y1) {
-  double left = b->frame->left, right = b->frame->right;
+  double left = b->frame.left, right = b->frame.right;
   double least = HUGE_VAL, largest = -HUGE_VAL;
   for (int i = 0; i <= curve->degree; i++) {
     double x = cs_bezier_coordinate(curve->points[i], CS_BEZIER_X);
-    least = fmin(least, x);
-    largest = fmax(largest, x);
+    least = cs_number_least(x, least);
+    largest = cs_number_most(x, largest);
   }
   if (largest <= left)
     return add_vertical(b, left, y0, y1);
@@ -222,7 +190,7 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
 /* curve: goes down from its first point to its last. It may extend a little beyond top and bottom:
  * that costs little, and its vertices are then those of a larger frame. */
 static celspan_status add_falling(builder *b, cs_bezier *curve) {
-  const cs_boundary_frame *frame = b->frame;
+  const cs_boundary_frame *frame = &b->frame;
   celspan_point from = project(curve->points[0]), to = project(curve->points[curve->degree]);
   if (to.y <= frame->top || from.y >= frame->bottom)
     return CELSPAN_OK;
@@ -248,16 +216,15 @@ static celspan_status add_falling(builder *b, cs_bezier *curve) {
 static celspan_status add_monotone(builder *b, cs_bezier *curve) {
   double y0 = cs_bezier_coordinate(curve->points[0], CS_BEZIER_Y);
   double y1 = cs_bezier_coordinate(curve->points[curve->degree], CS_BEZIER_Y);
-  size_t begin = b->stretch_count;
+  size_t begin = b->stretches.count;
   if (y0 == y1)
     return CELSPAN_OK;
+  b->straight.direction = y0 > y1 ? -1 : 1;
   if (y0 > y1)
     cs_bezier_reverse(curve);
   CS_TRY(add_falling(b, curve));
-  for (size_t i = begin; i < b->stretch_count; i++)
-    b->stretches[i].direction = y0 > y1 ? -1 : 1;
   if (y0 > y1)
-    reverse_stretches(b, begin, false);
+    cs_stretches_reverse(&b->stretches, begin, false);
   return CELSPAN_OK;
 }
 
@@ -274,20 +241,20 @@ static bool has_monotone_polygon(const cs_bezier *curve) {
   return !(rises && falls);
 }
 
-/* curve: canonical and in front of the horizon; is_turned: the contour has the other direction. */
-static celspan_status add_canonical(builder *b, const cs_bezier *curve, bool is_turned) {
+/* curve: canonical and in front of the horizon; it is used up. is_turned: the contour has the other
+ * direction. */
+static celspan_status add_canonical(builder *b, cs_bezier *curve, bool is_turned) {
   double roots[CS_BEZIER_ROOTS], position = 0;
   int count = has_monotone_polygon(curve) ? 0 : cs_bezier_extrema(curve, CS_BEZIER_Y, roots);
-  size_t begin = b->stretch_count;
-  cs_bezier rest, monotone;
-  cs_bezier_copy(curve, &rest);
+  size_t begin = b->stretches.count;
+  cs_bezier monotone;
   for (int i = 0; i < count; i++) {
-    cs_bezier_cut_front(&rest, &position, roots[i], &monotone);
+    cs_bezier_cut_front(curve, &position, roots[i], &monotone);
     CS_TRY(add_monotone(b, &monotone));
   }
-  CS_TRY(add_monotone(b, &rest));
+  CS_TRY(add_monotone(b, curve));
   if (is_turned)
-    reverse_stretches(b, begin, true);
+    cs_stretches_reverse(&b->stretches, begin, true);
   return CELSPAN_OK;
 }
 
@@ -304,7 +271,7 @@ static celspan_status add_gap(builder *b, cs_hpoint to) {
   return add_canonical(b, &line, is_turned);
 }
 
-static celspan_status add_front(builder *b, const cs_bezier *curve, bool is_turned) {
+static celspan_status add_front(builder *b, cs_bezier *curve, bool is_turned) {
   cs_hpoint from = curve->points[is_turned ? curve->degree : 0];
   CS_TRY(add_gap(b, from));
   if (!b->has_pen)
@@ -322,113 +289,146 @@ static celspan_status keep_front(void *user, const cs_bezier *curve) {
   return CELSPAN_OK;
 }
 
-static celspan_status add_piece(builder *b, const cs_outline *outline, size_t piece,
-                                const celspan_matrix *matrix, double least) {
-  cs_bezier curve;
-  cs_bezier_load(outline, piece, matrix, &curve);
-  bool is_turned = cs_bezier_canonise(&curve);
+static celspan_status add_piece(builder *b, cs_bezier *curve, double least) {
+  bool is_turned = cs_bezier_canonise(curve);
   b->front_count = 0;
-  CS_TRY(cs_bezier_clip(&curve, least, keep_front, b));
+  CS_TRY(cs_bezier_clip(curve, least, keep_front, b));
   for (size_t i = 0; i < b->front_count; i++)
     CS_TRY(add_front(b, &b->fronts[is_turned ? b->front_count - 1 - i : i], is_turned));
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- chains */
-
-/* Whether b continues a, along the contour. */
-static bool joins(const stretch *a, const stretch *b) {
-  if (a->direction != b->direction)
-    return false;
-  const cs_boundary_piece *upper = a->direction > 0 ? &a->piece : &b->piece;
-  const cs_boundary_piece *lower = a->direction > 0 ? &b->piece : &a->piece;
-  return upper->x1 == lower->x0 && upper->y1 == lower->y0;
+static celspan_status add_contour(builder *b, const cs_outline *outline, size_t begin, size_t end,
+                                  const celspan_matrix *matrix, double least) {
+  b->has_pen = false;
+  for (size_t piece = begin; piece < end; piece++) {
+    cs_bezier curve;
+    cs_bezier_load(outline, piece, matrix, &curve);
+    CS_TRY(add_piece(b, &curve, least));
+  }
+  return add_gap(b, b->first);
 }
 
-static bool is_vertical(const cs_boundary_piece *piece) {
-  return piece->chords == 1 && piece->x0 == piece->x1;
+/* ---------------------------------------------------------------- plain contours */
+
+/* The parts of a curve that is inside are inside too. */
+static inline bool is_inside(const builder *b, const cs_plain *curve) {
+  const cs_boundary_frame *inside = &b->inside;
+  cs_plain_hull hull = cs_plain_hull_of(curve);
+  return hull.least[0] >= inside->left && hull.most[0] <= inside->right &&
+         hull.least[1] >= inside->top && hull.most[1] <= inside->bottom;
 }
 
-/* Appends a piece below the last of the chain; two vertical lines become one. */
-static void append_piece(cs_boundary_set *set, cs_boundary_chain *chain,
-                         const cs_boundary_piece *piece) {
-  chain->y1 = piece->y1;
-  cs_boundary_piece *last = chain->piece_count > 0 ? &set->pieces[set->piece_count - 1] : NULL;
-  if (last && is_vertical(last) && is_vertical(piece)) {
-    last->y1 = piece->y1;
+/* A monotone curve that is inside is at most one stretch. */
+static void add_inside(builder *b, cs_plain *curve) {
+  const cs_pair *p = curve->points;
+  double y0 = p[0][1], y1 = p[CS_PLAIN_DEGREE][1];
+  double top = b->frame.top, bottom = b->frame.bottom;
+  if (y0 == y1 || (y0 <= top && y1 <= top) || (y0 >= bottom && y1 >= bottom))
     return;
+  b->straight.direction = y0 > y1 ? -1 : 1;
+  if (y0 > y1)
+    cs_plain_reverse(curve);
+  cs_boundary_piece *piece =
+      append_stretch(b, cs_pair_point(p[0]), cs_pair_point(p[CS_PLAIN_DEGREE]));
+  if (curve->degree > 1)
+    cs_polyline_fit_plain(b->set, curve, piece);
+}
+
+/* add_canonical for a curve that is inside. */
+static void add_cut_inside(builder *b, cs_plain *curve) {
+  double roots[CS_PLAIN_DEGREE], position = 0;
+  bool is_turned = cs_plain_canonise(curve);
+  int count = cs_plain_extrema(curve, CS_BEZIER_Y, roots);
+  size_t begin = b->stretches.count;
+  cs_plain monotone;
+  for (int i = 0; i < count; i++) {
+    cs_plain_cut_front(curve, &position, roots[i], &monotone);
+    add_inside(b, &monotone);
   }
-  set->pieces[set->piece_count++] = *piece;
-  chain->piece_count++;
+  add_inside(b, curve);
+  if (is_turned)
+    cs_stretches_reverse(&b->stretches, begin, true);
 }
 
-/* The chain of `count` stretches from `begin` on, counted around the contour. */
-static void add_chain(builder *b, size_t begin, size_t count) {
-  cs_boundary_set *set = b->set;
-  int32_t direction = b->stretches[begin % b->stretch_count].direction;
-  cs_boundary_chain chain = {
-      .piece = (uint32_t)set->piece_count, .layer = b->layer, .direction = direction};
-  for (size_t i = 0; i < count; i++) {
-    size_t place = begin + (direction > 0 ? i : count - 1 - i);
-    append_piece(set, &chain, &b->stretches[place % b->stretch_count].piece);
-  }
-  chain.x0 = set->pieces[chain.piece].x0;
-  chain.y0 = set->pieces[chain.piece].y0;
-  set->chains[set->chain_count++] = chain;
+/* A curve that may have to be cut at the frame. */
+static celspan_status add_beside(builder *b, const cs_plain *curve) {
+  cs_bezier weighted;
+  cs_plain_weigh(curve, &weighted);
+  bool is_turned = cs_bezier_canonise(&weighted);
+  return add_canonical(b, &weighted, is_turned);
 }
 
-static bool continues(const builder *b, size_t place) {
-  size_t count = b->stretch_count;
-  return joins(&b->stretches[(place + count - 1) % count], &b->stretches[place % count]);
+static celspan_status add_plain_piece(builder *b, cs_plain *curve) {
+  if (!is_inside(b, curve))
+    return add_beside(b, curve);
+  CS_TRY(reserve_stretches(b, CS_PLAIN_PARTS)); /* so that nothing below can fail */
+  CS_TRY(cs_polyline_reserve(b->context, b->set, CS_PLAIN_PARTS * (CS_PLAIN_DEGREE + 1)));
+  if (cs_plain_has_monotone_polygon(curve))
+    add_inside(b, curve);
+  else
+    add_cut_inside(b, curve);
+  return CELSPAN_OK;
 }
 
-static celspan_status reserve_chains(builder *b) {
-  cs_boundary_set *set = b->set;
-  if (b->stretch_count > UINT32_MAX - set->piece_count)
-    return cs_fail(b->context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve pieces");
-  CS_TRY(cs_mem_reserve(b->context, (void **)&set->pieces, &set->piece_capacity,
-                        set->piece_count + b->stretch_count, sizeof *set->pieces));
-  return cs_mem_reserve(b->context, (void **)&set->chains, &set->chain_capacity,
-                        set->chain_count + b->stretch_count, sizeof *set->chains);
-}
-
-static celspan_status add_chains(builder *b) {
-  CS_TRY(reserve_chains(b));
-  size_t origin = 0;
-  while (origin < b->stretch_count && continues(b, origin))
-    origin++;
-  for (size_t i = 0, next; i < b->stretch_count; i = next) {
-    for (next = i + 1; next < b->stretch_count && continues(b, origin + next); next++) {
-    }
-    add_chain(b, origin + i, next - i);
+/* All of it is in front of the horizon, so it has no gaps. */
+static celspan_status add_plain_contour(builder *b, const cs_outline *outline, size_t begin,
+                                        size_t end, const cs_plain_map *map) {
+  const cs_hpoint *points = outline->points + outline->starts[begin];
+  cs_pair joint = cs_plain_place(map, points++);
+  for (size_t piece = begin; piece < end; piece++) {
+    cs_plain curve;
+    cs_plain_load(&curve, joint, points, outline->degrees[piece], map);
+    points += curve.degree;
+    joint = curve.points[CS_PLAIN_DEGREE];
+    CS_TRY(add_plain_piece(b, &curve));
   }
   return CELSPAN_OK;
 }
 
-static celspan_status add_contour(builder *b, const cs_outline *outline, size_t contour,
-                                  const celspan_matrix *matrix, double least) {
-  size_t end =
-      contour + 1 < outline->contour_count ? outline->contours[contour + 1] : outline->piece_count;
-  b->stretch_count = 0;
-  b->has_pen = false;
-  for (size_t piece = outline->contours[contour]; piece < end; piece++)
-    CS_TRY(add_piece(b, outline, piece, matrix, least));
-  CS_TRY(add_gap(b, b->first));
-  return add_chains(b);
-}
+/* ---------------------------------------------------------------- outlines */
 
-celspan_status cs_boundary_add(celspan_context *context, cs_boundary_set *set,
-                               const cs_outline *outline, const celspan_matrix *matrix,
-                               const cs_boundary_frame *frame, uint32_t layer) {
+celspan_status cs_boundary_add(cs_boundary_builder *b, const cs_outline *outline,
+                               const celspan_matrix *matrix, uint32_t layer) {
   double least;
   celspan_matrix facing = cs_matrix_facing(matrix);
   if (!cs_bezier_horizon(outline, &facing, &least))
     return CELSPAN_OK;
-  builder b = {.context = context, .set = set, .frame = frame, .layer = layer};
-  celspan_status status = CELSPAN_OK;
-  for (size_t i = 0; i < outline->contour_count && status == CELSPAN_OK; i++)
-    status = add_contour(&b, outline, i, &facing, least);
-  cs_mem_free(context->memory, b.stretches, b.stretch_capacity * sizeof *b.stretches);
-  cs_mem_free(context->memory, b.fronts, b.front_capacity * sizeof *b.fronts);
-  return status;
+  bool is_plain = cs_plain_applies(outline, &facing);
+  const cs_plain_map map = cs_plain_map_of(&facing);
+  for (size_t i = 0; i < outline->contour_count; i++) {
+    size_t begin = outline->contours[i];
+    size_t end = i + 1 < outline->contour_count ? outline->contours[i + 1] : outline->piece_count;
+    b->stretches.count = 0;
+    CS_TRY(is_plain ? add_plain_contour(b, outline, begin, end, &map)
+                    : add_contour(b, outline, begin, end, &facing, least));
+    CS_TRY(cs_stretches_join(b->context, &b->stretches, layer, b->set));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the builder */
+
+void cs_boundary_builder_init(cs_boundary_builder *b, celspan_context *context,
+                              cs_boundary_set *set, const cs_boundary_frame *frame) {
+  const double outside = LEAST_OUTSIDE - CLEARANCE;
+  const cs_boundary_piece straight = {.left = frame->left,
+                                      .right = frame->right,
+                                      .chords = 1,
+                                      .group = 1,
+                                      .half = 1,
+                                      .leap = 1,
+                                      .degree = 1};
+  *b = (cs_boundary_builder){.context = context,
+                             .set = set,
+                             .frame = *frame,
+                             .inside = {frame->left + CLEARANCE, frame->right - CLEARANCE,
+                                        frame->top - outside, frame->bottom + outside},
+                             .straight = {.piece = straight}};
+}
+
+void cs_boundary_builder_finish(cs_boundary_builder *b) {
+  cs_memory *memory = b->context->memory;
+  cs_mem_free(memory, b->stretches.items, b->stretches.capacity * sizeof *b->stretches.items);
+  cs_mem_free(memory, b->fronts, b->front_capacity * sizeof *b->fronts);
 }

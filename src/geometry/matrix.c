@@ -3,22 +3,11 @@
 #include "base/elementary.h"
 #include "base/number.h"
 
-cs_hpoint cs_matrix_apply(const celspan_matrix *matrix, cs_hpoint point) {
-  const double *m = matrix->m;
-  return (cs_hpoint){m[0] * point.x + m[1] * point.y + m[2] * point.w,
-                     m[3] * point.x + m[4] * point.y + m[5] * point.w,
-                     m[6] * point.x + m[7] * point.y + m[8] * point.w};
-}
-
 bool cs_matrix_is_sane(const celspan_matrix *matrix) {
   for (int i = 0; i < 9; i++)
     if (!cs_number_is_sane(matrix->m[i]))
       return false;
   return true;
-}
-
-bool cs_matrix_is_affine(const celspan_matrix *matrix) {
-  return matrix->m[6] == 0 && matrix->m[7] == 0;
 }
 
 bool cs_matrix_is_upright(const celspan_matrix *matrix) {

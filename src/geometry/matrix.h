@@ -17,9 +17,20 @@
 #include "celspan/celspan.h"
 #include "geometry/outline.h"
 
-cs_hpoint cs_matrix_apply(const celspan_matrix *matrix, cs_hpoint point);
+static inline cs_hpoint cs_matrix_apply(const celspan_matrix *matrix, cs_hpoint point) {
+  const double *m = matrix->m;
+  return (cs_hpoint){m[0] * point.x + m[1] * point.y + m[2] * point.w,
+                     m[3] * point.x + m[4] * point.y + m[5] * point.w,
+                     m[6] * point.x + m[7] * point.y + m[8] * point.w};
+}
 bool cs_matrix_is_sane(const celspan_matrix *matrix); /* every entry passes cs_number_is_sane */
-bool cs_matrix_is_affine(const celspan_matrix *matrix);
+static inline bool cs_matrix_is_affine(const celspan_matrix *matrix) {
+  return matrix->m[6] == 0 && matrix->m[7] == 0;
+}
+/* Affine, and a weight of 1 stays 1. */
+static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
+  return cs_matrix_is_affine(matrix) && matrix->m[8] == 1;
+}
 /* Affine without rotation or skew: rows stay rows and columns columns. */
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
 /* The same map; an affine one with m8 < 0 gets all its signs changed, so that W > 0. */

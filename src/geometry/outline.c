@@ -1,11 +1,12 @@
 #include "geometry/outline.h"
 
 #include <math.h>
-#include <string.h>
+
+#include "base/number.h"
 
 #define POINT_LIMIT ((size_t)1 << 31)
 
-void cs_outline_init(cs_outline *outline) { memset(outline, 0, sizeof *outline); }
+void cs_outline_init(cs_outline *outline) { *outline = (cs_outline){.is_plain = true}; }
 
 void cs_outline_finish(cs_outline *outline, cs_memory *memory) {
   cs_mem_free(memory, outline->points, outline->point_capacity * sizeof *outline->points);
@@ -26,13 +27,19 @@ static celspan_status reserve_points(celspan_context *context, cs_outline *outli
                         outline->point_count + more, sizeof *outline->points);
 }
 
+static void append_point(cs_outline *outline, cs_hpoint point) {
+  outline->is_plain =
+      outline->is_plain && point.w == 1 && cs_number_is_sane(point.x) && cs_number_is_sane(point.y);
+  outline->points[outline->point_count++] = point;
+}
+
 celspan_status cs_outline_move(celspan_context *context, cs_outline *outline, cs_hpoint to) {
   CS_TRY(cs_outline_close(context, outline));
   CS_TRY(reserve_points(context, outline, 1));
   CS_TRY(cs_mem_reserve(context, (void **)&outline->contours, &outline->contour_capacity,
                         outline->contour_count + 1, sizeof *outline->contours));
   outline->contours[outline->contour_count++] = (uint32_t)outline->piece_count;
-  outline->points[outline->point_count++] = to;
+  append_point(outline, to);
   return CELSPAN_OK;
 }
 
@@ -45,8 +52,9 @@ celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline, i
                         outline->piece_count + 1, sizeof *outline->degrees));
   outline->starts[outline->piece_count] = (uint32_t)(outline->point_count - 1);
   outline->degrees[outline->piece_count++] = (uint8_t)degree;
-  memcpy(outline->points + outline->point_count, points, (size_t)degree * sizeof *points);
-  outline->point_count += (size_t)degree;
+  outline->is_plain = outline->is_plain && degree <= CS_OUTLINE_PLAIN_DEGREE;
+  for (int i = 0; i < degree; i++)
+    append_point(outline, points[i]);
   return CELSPAN_OK;
 }
 

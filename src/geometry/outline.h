@@ -17,6 +17,8 @@
 
 #include "base/context.h"
 
+#define CS_OUTLINE_PLAIN_DEGREE 3
+
 typedef struct cs_hpoint {
   double x, y, w;
 } cs_hpoint;
@@ -29,6 +31,9 @@ typedef struct cs_outline {
   size_t point_count, point_capacity;
   size_t piece_count, start_capacity, degree_capacity;
   size_t contour_count, contour_capacity;
+  /* Every weight is 1, every coordinate passes cs_number_is_sane, and no piece has a degree over
+   * CS_OUTLINE_PLAIN_DEGREE. */
+  bool is_plain;
 } cs_outline;
 
 /* An empty outline; finish frees its arrays. */

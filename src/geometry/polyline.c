@@ -1,5 +1,4 @@
 #include "geometry/polyline.h"
-
 #include "geometry/polyline_vertex.h"
 #include "geometry/polyline_wide.h"
 
@@ -216,14 +215,20 @@ celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_pi
 
 /* ---------------------------------------------------------------- fitting */
 
-static double polynomial_bend(const cs_bezier *curve) {
-  double largest = 0, w = curve->points[0].w;
-  for (int i = 0; i + 2 <= curve->degree; i++) {
-    const cs_hpoint *p = curve->points + i;
-    double x = p[0].x - 2 * p[1].x + p[2].x, y = p[0].y - 2 * p[1].y + p[2].y;
-    largest = fmax(largest, x * x + y * y);
+static inline double bend_at(const cs_pair *p) {
+  cs_pair bend = p[0] - 2 * p[1] + p[2];
+  bend *= bend;
+  return bend[0] + bend[1];
+}
+
+/* The largest second derivative of a polynomial, by its control points. */
+static inline double polynomial_bend(const cs_pair *p, int degree) {
+  double largest = 0;
+  for (int i = 0; i + 2 <= degree; i++) {
+    double bend = bend_at(&p[i]);
+    largest = bend > largest ? bend : largest;
   }
-  return curve->degree * (curve->degree - 1) * sqrt(largest) / w;
+  return degree * (degree - 1) * sqrt(largest);
 }
 
 static double rational_bend(const cs_bezier *curve) {
@@ -236,37 +241,28 @@ static double rational_bend(const cs_bezier *curve) {
   return SAMPLING_MARGIN * sqrt(largest);
 }
 
-static void to_powers(const cs_bezier *curve, cs_hpoint *c) {
-  cs_hpoint p[4];
-  for (int i = 0; i <= curve->degree; i++)
-    p[i] = (cs_hpoint){curve->points[i].x / curve->points[i].w,
-                       curve->points[i].y / curve->points[i].w, 0};
-  c[0] = p[0];
-  double n = curve->degree;
-  c[1] = (cs_hpoint){n * (p[1].x - p[0].x), n * (p[1].y - p[0].y), 0};
-  double pairs = n * (n - 1) / 2;
-  c[2] = (cs_hpoint){pairs * ((p[2].x - p[1].x) - (p[1].x - p[0].x)),
-                     pairs * ((p[2].y - p[1].y) - (p[1].y - p[0].y)), 0};
-  if (curve->degree == 3)
-    c[3] = (cs_hpoint){(p[3].x - p[0].x) - 3 * (p[2].x - p[1].x),
-                       (p[3].y - p[0].y) - 3 * (p[2].y - p[1].y), 0};
+static inline cs_hpoint power(cs_pair coefficient) {
+  return (cs_hpoint){coefficient[0], coefficient[1], 0};
 }
 
-static celspan_status store_points(celspan_context *context, cs_boundary_set *set,
-                                   const cs_bezier *curve, cs_boundary_piece *piece) {
-  size_t count = (size_t)curve->degree + 1;
-  if (set->point_count > UINT32_MAX - count)
-    return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
-  CS_TRY(cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
-                        set->point_count + count, sizeof *set->points));
-  piece->point = (uint32_t)set->point_count;
-  piece->degree = (uint8_t)curve->degree;
-  if (piece->is_power)
-    to_powers(curve, set->points + set->point_count);
-  else
-    memcpy(set->points + set->point_count, curve->points, count * sizeof *set->points);
-  set->point_count += count;
-  return CELSPAN_OK;
+/* p: in pixels; of the second degree, or the third. */
+static inline void to_powers(const cs_pair *p, int degree, cs_hpoint *c) {
+  double n = degree, pairs = n * (n - 1) / 2;
+  cs_pair first = p[1] - p[0], second = p[2] - p[1];
+  c[0] = power(p[0]);
+  c[1] = power(n * first);
+  c[2] = power(pairs * (second - first));
+  if (degree == 3)
+    c[3] = power((p[3] - p[0]) - 3 * second);
+}
+
+/* Points of a piece, for which there is room; it is then of that degree. */
+static inline cs_hpoint *append_points(cs_boundary_set *set, int degree, cs_boundary_piece *piece) {
+  size_t first = set->point_count;
+  piece->point = (uint32_t)first;
+  piece->degree = (uint8_t)degree;
+  set->point_count = first + (size_t)degree + 1;
+  return &set->points[first];
 }
 
 /* The error of an arc grows with the cube of its length, that of a chord with the square. So an arc
@@ -279,22 +275,62 @@ static uint8_t choose_leap(uint32_t chords) {
   return (uint8_t)leap;
 }
 
-celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
-                               const cs_bezier *curve, cs_boundary_piece *piece) {
-  bool is_polynomial = cs_bezier_is_polynomial(curve);
-  double bend = is_polynomial ? polynomial_bend(curve) : rational_bend(curve);
-  piece->chords = 1;
-  piece->degree = 1;
+/* The next whole number of a positive one. */
+static inline uint32_t ceiling(double x) {
+  int32_t whole = (int32_t)x;
+  return (uint32_t)whole + (whole < x);
+}
+
+/* False: a single chord is near enough. */
+static inline bool choose_chords(double bend, cs_boundary_piece *piece) {
   if (!(bend > 8 * ONE_CHORD))
-    return CELSPAN_OK;
-  double chords = fmin(fmax(2, ceil(sqrt(bend / (8 * CHORD_SAG)))), CHORD_LIMIT);
-  double groups = ceil(chords / CS_BOUNDARY_GROUP);
-  piece->group = (uint8_t)ceil(chords / groups);
+    return false;
+  double wanted = sqrt(bend / (8 * CHORD_SAG));
+  uint32_t chords = ceiling(cs_number_clamp(wanted, 2, CHORD_LIMIT));
+  uint32_t groups = (chords + CS_BOUNDARY_GROUP - 1) / CS_BOUNDARY_GROUP;
+  piece->group = (uint8_t)((chords + groups - 1) / groups);
   piece->half = piece->group >= HALVES_LEAST ? piece->group / 2 : piece->group;
-  piece->chords = piece->group * (uint32_t)groups;
+  piece->chords = piece->group * groups;
   piece->leap = choose_leap(piece->chords);
   piece->step = 1.0 / piece->chords;
   piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
-  piece->is_power = is_polynomial && curve->degree <= 3;
-  return store_points(context, set, curve, piece);
+  return true;
+}
+
+static inline void fit_plain(cs_boundary_set *set, const cs_pair *points, int degree,
+                             cs_boundary_piece *piece) {
+  if (!choose_chords(polynomial_bend(points, degree), piece))
+    return;
+  piece->is_power = true;
+  to_powers(points, degree, append_points(set, degree, piece));
+}
+
+void cs_polyline_fit_plain(cs_boundary_set *set, const cs_plain *curve, cs_boundary_piece *piece) {
+  if (curve->degree == CS_PLAIN_DEGREE) /* most are, and the compiler then needs no loops */
+    fit_plain(set, curve->points, CS_PLAIN_DEGREE, piece);
+  else
+    fit_plain(set, curve->points, curve->degree, piece);
+}
+
+celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
+                               const cs_bezier *curve, cs_boundary_piece *piece) {
+  bool is_polynomial = cs_bezier_is_polynomial(curve);
+  int degree = curve->degree;
+  cs_pair p[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; i <= degree; i++)
+    p[i] = cs_pair_load(&curve->points[i]);
+  double bend =
+      is_polynomial ? polynomial_bend(p, degree) / curve->points[0].w : rational_bend(curve);
+  if (!choose_chords(bend, piece))
+    return CELSPAN_OK;
+  CS_TRY(cs_polyline_reserve(context, set, (size_t)degree + 1));
+  cs_hpoint *points = append_points(set, degree, piece);
+  piece->is_power = is_polynomial && degree <= 3;
+  for (int i = 0; i <= degree; i++) {
+    points[i] = curve->points[i];
+    p[i] /= curve->points[i].w;
+  }
+  if (piece->is_power)
+    to_powers(p, degree, points);
+  return CELSPAN_OK;
 }

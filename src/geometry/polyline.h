@@ -25,14 +25,25 @@
 #ifndef CS_GEOMETRY_POLYLINE_H
 #define CS_GEOMETRY_POLYLINE_H
 
-#include "geometry/bezier.h"
 #include "geometry/boundary.h"
+#include "geometry/plain.h"
 
-/* Chooses the chords of a piece whose ends and limits in x are set, and stores the points that its
- * vertices are made from. curve: in the direction of the piece, with weights that are > 0 and
+/* Chooses the chords of a piece whose ends and limits in x are set, and which is one chord until
+ * then; stores the points that its vertices are made from. curve: in the direction of the piece, with weights that are > 0 and
  * within a factor of about 2. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
                                                const cs_bezier *curve, cs_boundary_piece *piece);
+/* The same for a plain curve of the second or third degree; there must be room for its points. */
+void cs_polyline_fit_plain(cs_boundary_set *set, const cs_plain *curve, cs_boundary_piece *piece);
+/* Room for so many more points. Errors: NO_MEMORY, LIMIT. */
+static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context *context,
+                                                                 cs_boundary_set *set,
+                                                                 size_t points) {
+  if (set->point_count > UINT32_MAX - points)
+    return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
+  return cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
+                        set->point_count + points, sizeof *set->points);
+}
 /* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
  * if one arc is near enough to all of it. */
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,

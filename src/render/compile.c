@@ -19,7 +19,7 @@ static celspan_status append_defocused(cs_compiler *c, const cs_defocus_cel *pla
   stack->layers[index].kind = CS_LAYER_DEFOCUSED;
   stack->layers[index].index = detail;
   stack->layers[index].t = (cs_v4){1, 1, 1, 0};
-  return cs_boundary_add(c->context, &c->plan->boundaries, box, &identity, &c->frame, index);
+  return cs_boundary_add(c->boundaries, box, &identity, index);
 }
 
 static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_plan *out);
@@ -123,17 +123,29 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
   return cs_hidden_cull(c);
 }
 
-static void begin(cs_compiler *c, celspan_context *context, cs_plan *plan, int32_t first_row,
-                  int32_t end_row) {
+static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_context *context,
+                  cs_plan *plan, int32_t first_row, int32_t end_row) {
   double margin = plan->margin;
   *c = (cs_compiler){.context = context,
                      .plan = plan,
+                     .boundaries = boundaries,
                      .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
                      .first_height = first_row - margin - 1, /* a pixel more, against rounding */
                      .end_height = end_row + margin + 1,
                      .group = CS_STACK_NONE,
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);
+  cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
+}
+
+/* status: that of compiling. The plan is given away, or freed. */
+static celspan_status finish(cs_compiler *c, celspan_status status, cs_plan *out) {
+  cs_boundary_builder_finish(c->boundaries);
+  if (status == CELSPAN_OK)
+    *out = *c->plan;
+  else
+    cs_compile_free(c->plan, c->context->memory);
+  return status;
 }
 
 celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostrum,
@@ -145,14 +157,10 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
     plan.margin = cs_kernel_extent(plan.kernel);
   }
   cs_compiler c;
-  begin(&c, context, &plan, view->first_row, view->end_row);
+  cs_boundary_builder boundaries;
+  begin(&c, &boundaries, context, &plan, view->first_row, view->end_row);
   c.workers = workers;
-  celspan_status status = compile_rostrum(&c, rostrum, view->film_width, view->film_height);
-  if (status == CELSPAN_OK)
-    *out = plan;
-  else
-    cs_compile_free(&plan, context->memory);
-  return status;
+  return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
 }
 
 /* ---------------------------------------------------------------- one cel alone */
@@ -174,16 +182,12 @@ static celspan_status compile_alone(void *user, const cs_defocus_job *job, cs_pl
                   .kernel = job->kernel,
                   .borrows_defocus = job->front != NULL};
   cs_compiler c;
-  begin(&c, outer->context, &plan, 0, job->height);
+  cs_boundary_builder boundaries;
+  begin(&c, &boundaries, outer->context, &plan, 0, job->height);
   c.front_plan = job->front;
   c.workers = 1;
   c.cel = outer->cel;
-  celspan_status status = compile_objects(&c, job);
-  if (status == CELSPAN_OK)
-    *out = plan;
-  else
-    cs_compile_free(&plan, outer->context->memory);
-  return status;
+  return finish(&c, compile_objects(&c, job), out);
 }
 
 void cs_compile_free(cs_plan *plan, cs_memory *memory) { cs_defocus_layer_free_plan(plan, memory); }

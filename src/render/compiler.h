@@ -11,6 +11,7 @@
 #ifndef CS_RENDER_COMPILER_H
 #define CS_RENDER_COMPILER_H
 
+#include "geometry/boundary_build.h"
 #include "row/plan.h"
 #include "scene/scene.h"
 
@@ -35,6 +36,7 @@ struct cs_compiler {
   cs_plan *plan;
   int workers; /* threads at most */
   cs_boundary_frame frame;
+  cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */

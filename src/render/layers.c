@@ -107,7 +107,7 @@ celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
   count_outline(c, outline, &c->plan->stack.layers[index], &around);
   if (around.bottom < c->first_height || around.top > c->end_height)
     return CELSPAN_OK;
-  return cs_boundary_add(c->context, &c->plan->boundaries, outline, matrix, &c->frame, index);
+  return cs_boundary_add(c->boundaries, outline, matrix, index);
 }
 
 static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data, double fade,

@@ -40,7 +40,7 @@ static celspan_status add_film_outline(cs_compiler *c, const cs_compiler_film *f
       cs_outline_rect(c->context, &plane, frame->left, frame->top, frame->right - frame->left,
                       frame->bottom - frame->top, 0);
   if (status == CELSPAN_OK)
-    status = cs_boundary_add(c->context, &c->plan->boundaries, &plane, &identity, &c->frame, index);
+    status = cs_boundary_add(c->boundaries, &plane, &identity, index);
   cs_outline_finish(&plane, c->context->memory);
   return status;
 }

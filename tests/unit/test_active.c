@@ -2,6 +2,7 @@
  * height alone; and culling leaves out only boundaries that cannot be seen.
  */
 #include "base/number.h"
+#include "geometry/boundary_build.h"
 #include "geometry/matrix.h"
 #include "sweep/active.h"
 #include "tests/support/check.h"
@@ -13,11 +14,10 @@
 
 static celspan_context *context;
 
-static void add_blob(cs_boundary_set *set, test_random *random, uint32_t layer) {
+static void add_blob(cs_boundary_builder *builder, test_random *random, uint32_t layer) {
   cs_outline outline;
   celspan_point points[6];
   celspan_matrix identity = celspan_matrix_identity();
-  cs_boundary_frame frame = {0, WIDTH, 0, HEIGHT};
   cs_outline_init(&outline);
   for (int i = 0; i < 6; i++)
     points[i] = random_point(random, -30, WIDTH + 30, -30, HEIGHT + 30);
@@ -25,15 +25,19 @@ static void add_blob(cs_boundary_set *set, test_random *random, uint32_t layer) 
   celspan_status status = layer % 3 == 0 ? cs_outline_polygon(context, &outline, points, 6)
                                          : cs_outline_nurbs(context, &outline, &desc);
   CHECK(status == CELSPAN_OK);
-  CHECK(cs_boundary_add(context, set, &outline, &identity, &frame, layer) == CELSPAN_OK);
+  CHECK(cs_boundary_add(builder, &outline, &identity, layer) == CELSPAN_OK);
   cs_outline_finish(&outline, context->memory);
 }
 
 static void make_set(cs_boundary_set *set, uint64_t seed) {
+  const cs_boundary_frame frame = {0, WIDTH, 0, HEIGHT};
   test_random random = {seed};
+  cs_boundary_builder builder;
   cs_boundary_init(set);
+  cs_boundary_builder_init(&builder, context, set, &frame);
   for (uint32_t layer = 0; layer < LAYERS; layer++)
-    add_blob(set, &random, layer);
+    add_blob(&builder, &random, layer);
+  cs_boundary_builder_finish(&builder);
   cs_boundary_sort(set);
 }
 

@@ -3,7 +3,7 @@
  */
 #include <stdlib.h>
 
-#include "geometry/bezier.h"
+#include "geometry/boundary_build.h"
 #include "geometry/boundary_walk.h"
 #include "geometry/matrix.h"
 #include "tests/support/check.h"
@@ -123,8 +123,11 @@ static cs_outline reversed_outline(const cs_outline *outline) {
 static cs_boundary_set build(const cs_outline *outline, const celspan_matrix *matrix,
                              const cs_boundary_frame *frame) {
   cs_boundary_set set;
+  cs_boundary_builder builder;
   cs_boundary_init(&set);
-  MUST(cs_boundary_add(context, &set, outline, matrix, frame, 7));
+  cs_boundary_builder_init(&builder, context, &set, frame);
+  MUST(cs_boundary_add(&builder, outline, matrix, 7));
+  cs_boundary_builder_finish(&builder);
   cs_boundary_sort(&set);
   return set;
 }
@@ -732,14 +735,17 @@ static void chains_run_over_the_start_of_a_contour(void) {
 static void chains_are_sorted_by_top_then_left(void) {
   test_random random = {5};
   cs_boundary_set set;
+  cs_boundary_builder builder;
   cs_boundary_init(&set);
+  cs_boundary_builder_init(&builder, context, &set, &wide);
   celspan_matrix matrix = celspan_matrix_identity();
   for (uint32_t layer = 0; layer < 40; layer++) {
     cs_outline outline;
     random_outline(&random, &outline);
-    MUST(cs_boundary_add(context, &set, &outline, &matrix, &wide, layer / 2));
+    MUST(cs_boundary_add(&builder, &outline, &matrix, layer / 2));
     cs_outline_finish(&outline, context->memory);
   }
+  cs_boundary_builder_finish(&builder);
   cs_boundary_sort(&set);
   bool is_sorted = true;
   for (size_t i = 1; i < set.chain_count; i++) {
@@ -761,21 +767,30 @@ static void failing_memory_is_reported(void) {
   celspan_context *old = context;
   for (size_t n = 2; n < 200 && !is_done; n++) {
     memory_watch watch = {.fail_at = 0};
-    cs_outline outline;
+    cs_outline outline, plain;
     cs_boundary_set set;
+    cs_boundary_builder builder;
     context = memory_watch_context(&watch);
     watch.fail_at = watch.allocations + n - 1;
     cs_outline_init(&outline);
+    cs_outline_init(&plain);
     cs_boundary_init(&set);
-    celspan_matrix steep = {{1, 0, 0, 0, 1, 0, 0.01, 0, -0.5}};
+    cs_boundary_builder_init(&builder, context, &set, &small);
+    celspan_matrix steep = {{1, 0, 0, 0, 1, 0, 0.01, 0, -0.5}}, level = celspan_matrix_identity();
     celspan_status status = cs_outline_path(
         context, &outline, "M0 0L90 9 80 80A50 20 0 0 1 4 4C100 3 7 80 3 90zM5 5h90v90h-90z");
     if (status == CELSPAN_OK)
-      status = cs_boundary_add(context, &set, &outline, &steep, &small, 0);
+      status = cs_outline_path(context, &plain, "M9 9L90 9Q200 80 80 80C60 8 40 150 4 90z");
+    if (status == CELSPAN_OK)
+      status = cs_boundary_add(&builder, &outline, &steep, 0);
+    if (status == CELSPAN_OK)
+      status = cs_boundary_add(&builder, &plain, &level, 1);
+    cs_boundary_builder_finish(&builder);
     is_done = status == CELSPAN_OK;
     CHECK(is_done || status == CELSPAN_NO_MEMORY);
     cs_boundary_finish(&set, context->memory);
     cs_outline_finish(&outline, context->memory);
+    cs_outline_finish(&plain, context->memory);
     celspan_context_destroy(context);
     CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
   }
