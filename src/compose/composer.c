@@ -13,6 +13,18 @@ static celspan_status allocate(cs_composer *composer, void *field, size_t count,
   return CELSPAN_OK;
 }
 
+/* What folds flat layers fast, if anything does. */
+static celspan_status make_table(cs_composer *composer) {
+  const cs_stack *stack = composer->stack;
+  bool has_table = cs_over_table_suits(stack), has_tree = has_table && cs_over_tree_suits(stack);
+  if (has_tree) {
+    CS_TRY(allocate(composer, &composer->tree, 1, sizeof(cs_over_tree)));
+    return cs_over_tree_init(composer->tree, composer->context, stack);
+  }
+  CS_TRY(allocate(composer, &composer->table, has_table, sizeof(cs_over_table)));
+  return has_table ? cs_over_table_init(composer->table, composer->context, stack) : CELSPAN_OK;
+}
+
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack, cs_image_opacity opacity) {
   *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
@@ -26,9 +38,7 @@ celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
   if (stack->procedure_count > 0)
     CS_TRY(allocate(composer, &composer->procedure_span_of, stack->layer_count, sizeof(uint32_t)));
   CS_TRY(allocate(composer, &composer->results, stack->step_depth, sizeof(cs_tree_result)));
-  CS_TRY(allocate(composer, &composer->table, cs_over_table_suits(stack), sizeof(cs_over_table)));
-  if (composer->table)
-    CS_TRY(cs_over_table_init(composer->table, context, stack));
+  CS_TRY(make_table(composer));
   return allocate(composer, &composer->memo, MEMO_SIZE, sizeof(cs_memo));
 }
 
@@ -47,6 +57,9 @@ void cs_composer_finish(cs_composer *composer) {
   if (composer->table)
     cs_over_table_finish(composer->table);
   cs_mem_free(memory, composer->table, sizeof(cs_over_table));
+  if (composer->tree)
+    cs_over_tree_finish(composer->tree);
+  cs_mem_free(memory, composer->tree, sizeof(cs_over_tree));
   cs_mem_free(memory, composer->memo, MEMO_SIZE * sizeof(cs_memo));
   cs_mem_free(memory, composer->items, composer->item_capacity * sizeof(cs_item));
   cs_mem_free(memory, composer->gathered, composer->gathered_capacity * sizeof(cs_item));
@@ -184,18 +197,25 @@ static const uint64_t *resolve(cs_composer *composer) {
   return composer->contributing;
 }
 
+/* The same fold by table or tree. */
+static celspan_status look_up(cs_composer *composer, const uint64_t *set, cs_over *over) {
+  cs_over_pair light;
+  CS_TRY(composer->tree
+             ? cs_over_tree_light(composer->tree, set, &light)
+             : cs_over_table_light(composer->table, set, composer->filled, &light));
+  cs_over_begin(over, composer->stack);
+  over->e = light.e;
+  over->t = light.t;
+  return CELSPAN_OK;
+}
+
 static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   cs_over over;
   composer->evaluations++;
   const uint64_t *set = resolve(composer);
-  if (composer->table) {
-    cs_over_pair light;
-    CS_TRY(cs_over_table_light(composer->table, set, composer->filled, &light));
-    cs_over_begin(&over, composer->stack);
-    over.e = light.e;
-    over.t = light.t;
-  }
-  if (composer->table || fold_flats(composer, set, &over)) {
+  if (composer->table || composer->tree)
+    CS_TRY(look_up(composer, set, &over));
+  if (composer->table || composer->tree || fold_flats(composer, set, &over)) {
     cell->colour = cs_over_end(&over);
     return CELSPAN_OK;
   }
@@ -219,20 +239,29 @@ void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t proc
     composer->procedure_span_of[layer] = procedure_span;
 }
 
+/* Composes the cell at the place of the walk. */
+static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
+  *out = (cs_cell){.colour = cs_v4_all(0), .hash = composer->hash};
+  celspan_status status = compose(composer, out);
+  if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
+    composer->failure = status;
+  return status;
+}
+
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
+  if (composer->tree) {
+    (void)!compose_here(composer, out);
+    return;
+  }
   cs_memo *pair = &composer->memo[composer->hash.a & (MEMO_SIZE - 2)];
   for (int i = 0; i < 2; i++)
     if (pair[i].is_used && cs_set_hash_same(pair[i].cell.hash, composer->hash)) {
       *out = pair[i].cell;
       return;
     }
-  cs_cell cell = {.colour = cs_v4_all(0), .hash = composer->hash};
-  celspan_status status = compose(composer, &cell);
-  if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
-    composer->failure = status;
+  celspan_status status = compose_here(composer, out);
   pair[1] = pair[0];
-  pair[0] = (cs_memo){cell, status == CELSPAN_OK};
-  *out = cell;
+  pair[0] = (cs_memo){*out, status == CELSPAN_OK};
 }
 
 bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b) {

@@ -10,7 +10,7 @@
  *            | no
  *       trees: what contributes (tree.h)
  *            |
- *       all of it flat? --yes--> one colour (over.h, over_table.h)
+ *       all of it flat? --yes--> one colour (over.h, over_table.h, over_tree.h)
  *            | no
  *       the layers that are not hidden, front to back = a program, for paint/ to paint
  *
@@ -27,6 +27,7 @@
 
 #include "compose/cell.h"
 #include "compose/over_table.h"
+#include "compose/over_tree.h"
 #include "compose/tree.h"
 
 typedef struct cs_memo {
@@ -53,6 +54,7 @@ typedef struct cs_composer {
   cs_set_hash hash;            /* of the set */
   cs_tree_result *results;
   cs_over_table *table; /* NULL where it does not suit the stack */
+  cs_over_tree *tree;   /* NULL where it does not; then there is no table, either */
   cs_memo *memo;
   cs_item *items; /* of all programs in use */
   size_t item_count, item_capacity;

@@ -19,12 +19,13 @@
  * Before a layer is added three moves may be due, in this order: leave the groups that end in front
  * of it, meet the back lights in front of it, enter the groups it is in.
  *
- * The same fold is written three times, since it must be fast on three kinds of data:
+ * The same fold is written four times, since it must be fast on four kinds of data:
  *   over.h            one cell, layer by layer;
  *   over_table.h      one cell of a frame that has flat layers only, without groups: most layers
  *                     of neighbouring cells are the same, so their light is looked up;
+ *   over_tree.h       the same where very many layers are seen at once;
  *   paint/over_row.h  up to 256 pixels of one program at once, a register at a time.
- * Names and arithmetic are the same in all three.
+ * Names and arithmetic are the same in all four.
  */
 #ifndef CS_COMPOSE_OVER_H
 #define CS_COMPOSE_OVER_H

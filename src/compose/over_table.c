@@ -2,10 +2,6 @@
 
 #include "compose/set.h"
 
-#define FOUR 4              /* layers of a quad */
-#define QUADS 16            /* of a word */
-#define CHOICES (1 << FOUR) /* of the layers of a quad */
-
 bool cs_over_table_suits(const cs_stack *stack) {
   for (size_t i = 0; i < stack->layer_count; i++)
     if (stack->layers[i].kind != CS_LAYER_FLAT)
@@ -34,52 +30,23 @@ void cs_over_table_finish(cs_over_table *table) {
     return;
   cs_memory *memory = table->context->memory;
   for (size_t i = 0; table->words && i < table->count; i++)
-    cs_mem_free(memory, table->words[i].quads, QUADS * CHOICES * sizeof(cs_over_pair));
+    cs_over_quads_free(table->words[i].quads, memory);
   cs_mem_free(memory, table->words, table->count * sizeof *table->words);
   *table = (cs_over_table){0};
 }
 
 /* ---------------------------------------------------------------- words */
 
-static inline cs_over_pair pair_of(const cs_over_table *table, size_t layer) {
-  if (layer >= table->stack->layer_count)
-    return cs_over_pair_clear;
-  return (cs_over_pair){table->stack->layers[layer].s, table->stack->layers[layer].t};
-}
-
-static void make_quad(const cs_over_table *table, size_t layer, cs_over_pair *quad) {
-  cs_over_pair halves[2][FOUR]; /* what the lower two layers may give, and the upper two */
-  for (size_t half = 0; half < 2; half++) {
-    cs_over_pair *h = halves[half];
-    h[0] = cs_over_pair_clear;
-    h[1] = pair_of(table, layer + 2 * half);
-    h[2] = pair_of(table, layer + 2 * half + 1);
-    h[3] = cs_over_pair_over(h[2], h[1]);
-  }
-  for (size_t choice = 0; choice < CHOICES; choice++)
-    quad[choice] = cs_over_pair_over(halves[1][choice / FOUR], halves[0][choice % FOUR]);
-}
-
-static celspan_status make_quads(cs_over_table *table, size_t i) {
-  cs_over_pair *quads = cs_mem_array(table->context->memory, QUADS * CHOICES, sizeof *quads);
-  if (!quads)
-    return cs_fail_memory(table->context);
-  for (size_t quad = 0; quad < QUADS; quad++)
-    make_quad(table, 64 * i + FOUR * quad, quads + CHOICES * quad);
-  table->words[i].quads = quads;
-  return CELSPAN_OK;
-}
-
 /* Sixteen layers of a word, the first of which is the lowest bit. */
 static inline cs_over_pair fold_quarter(const cs_over_pair *quads, unsigned word) {
-  const cs_over_pair *high = &quads[2 * CHOICES];
+  const cs_over_pair *high = &quads[2 * CS_OVER_CHOICES];
   return cs_over_pair_over(
-      cs_over_pair_over(high[CHOICES + (word >> 12 & 15)], high[word >> 8 & 15]),
-      cs_over_pair_over(quads[CHOICES + (word >> 4 & 15)], quads[word & 15]));
+      cs_over_pair_over(high[CS_OVER_CHOICES + (word >> 12 & 15)], high[word >> 8 & 15]),
+      cs_over_pair_over(quads[CS_OVER_CHOICES + (word >> 4 & 15)], quads[word & 15]));
 }
 
 static inline cs_over_pair fold_quarters(const cs_over_pair *quads, uint64_t word) {
-  const size_t quarter = FOUR * CHOICES;
+  const size_t quarter = CS_OVER_FOUR * CS_OVER_CHOICES;
   return cs_over_pair_over(
       cs_over_pair_over(fold_quarter(quads + 3 * quarter, (unsigned)(word >> 48)),
                         fold_quarter(quads + 2 * quarter, (unsigned)(word >> 32))),
@@ -93,8 +60,8 @@ static cs_over_pair fold_few(const cs_over_table *table, size_t i, uint64_t word
     return cs_over_pair_clear;
   size_t front = 64 * i + 63 - (size_t)__builtin_clzll(word);
   size_t back = 64 * i + (size_t)__builtin_ctzll(word);
-  cs_over_pair pair = pair_of(table, front);
-  return front == back ? pair : cs_over_pair_over(pair, pair_of(table, back));
+  cs_over_pair pair = cs_over_layer_pair(table->stack, front);
+  return front == back ? pair : cs_over_pair_over(pair, cs_over_layer_pair(table->stack, back));
 }
 
 /* Word i of the set has become `word`. */
@@ -107,22 +74,12 @@ static celspan_status fold_word(cs_over_table *table, size_t i, uint64_t word) {
     return CELSPAN_OK;
   }
   if (!known->quads)
-    CS_TRY(make_quads(table, i));
+    CS_TRY(cs_over_quads_create(table->context, table->stack, i, &known->quads));
   known->all = fold_quarters(known->quads, word);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- the whole */
-
-/* The word in which the light ends, layer by layer. */
-static cs_over_pair fold_last(const cs_over_table *table, cs_over_pair light, size_t i) {
-  for (uint64_t word = table->words[i].word; word != 0 && !cs_over_is_opaque(light.t);) {
-    int highest = 63 - __builtin_clzll(word);
-    word ^= (uint64_t)1 << highest;
-    light = cs_over_pair_over(light, pair_of(table, 64 * i + (size_t)highest));
-  }
-  return light;
-}
 
 celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, const uint8_t *filled,
                                    cs_over_pair *out) {
@@ -136,7 +93,7 @@ celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set, co
         CS_TRY(fold_word(table, i, set[i]));
       cs_over_pair all = cs_over_pair_over(light, table->words[i].all);
       if (cs_over_is_opaque(all.t)) {
-        *out = fold_last(table, light, i);
+        *out = cs_over_word_layers(table->stack, light, i, set[i]);
         return CELSPAN_OK;
       }
       light = all;

@@ -20,7 +20,7 @@
 #ifndef CS_COMPOSE_OVER_TABLE_H
 #define CS_COMPOSE_OVER_TABLE_H
 
-#include "compose/over.h"
+#include "compose/over_quads.h"
 
 /* The layers of one word of a set. */
 typedef struct cs_over_word {

@@ -1,0 +1,147 @@
+/* compose/over_tree.c: the light of a set is that of its layers one over the other, by whatever
+ * changes the set was arrived at, and whatever lies behind the last layer that counts; and which
+ * stacks are folded by tree.
+ */
+#include "compose/over_tree.h"
+
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+#define MOST 4500 /* layers */
+#define WORDS ((MOST + 63) / 64)
+
+static test_random numbers = {5};
+
+static cs_layer layers[MOST];
+static cs_stack stack = {.layers = layers};
+static uint64_t set[WORDS];
+
+/* Layers that let through at least `through`, of which every one is seen from the front. */
+static void make_layers(int count, float through) {
+  stack.layer_count = (size_t)count;
+  memset(set, 0, sizeof set);
+  for (int i = 0; i < count; i++)
+    for (int c = 0; c < 3; c++) {
+      layers[i].t[c] = through + (1 - through) * random_unit(&numbers);
+      layers[i].s[c] = (1 - layers[i].t[c]) * random_unit(&numbers);
+    }
+}
+
+static int count_layers(void) { return (int)stack.layer_count; }
+
+static void put(int layer, bool is_present) {
+  uint64_t bit = (uint64_t)1 << layer % 64;
+  set[layer / 64] = is_present ? set[layer / 64] | bit : set[layer / 64] & ~bit;
+}
+
+static bool has(int layer) { return set[layer / 64] >> layer % 64 & 1; }
+
+/* Puts one of the first `count` layers into the set, as often as the density says, or out of it. */
+static void put_any(int count, float density) {
+  float place = random_unit(&numbers), depth = random_unit(&numbers);
+  put((int)(place * (float)count), depth < density);
+}
+
+static cs_over_pair light_of(cs_over_tree *tree) {
+  cs_over_pair light = cs_over_pair_clear;
+  CHECK(cs_over_tree_light(tree, set, &light) == CELSPAN_OK);
+  return light;
+}
+
+static cs_over_pair light_from_nothing(celspan_context *context) {
+  cs_over_tree stranger;
+  CHECK(cs_over_tree_init(&stranger, context, &stack) == CELSPAN_OK);
+  cs_over_pair light = light_of(&stranger);
+  cs_over_tree_finish(&stranger);
+  return light;
+}
+
+static bool same(cs_over_pair a, cs_over_pair b) {
+  return cs_v4_same(a.e, b.e) && cs_v4_same(a.t, b.t);
+}
+
+/* One layer after the other, in doubles. Returns the last layer that is seen: behind it nothing
+ * shines through, beyond all doubt by rounding. */
+static int check_light(cs_over_pair light) {
+  const double opaque = 0.999 * (double)CS_PAINT_OPAQUE;
+  double e[3] = {0}, t[3] = {1, 1, 1};
+  int last = count_layers();
+  while (last > 0 && (t[0] > opaque || t[1] > opaque || t[2] > opaque))
+    if (has(--last))
+      for (int c = 0; c < 3; c++) {
+        e[c] += t[c] * (double)layers[last].s[c];
+        t[c] *= (double)layers[last].t[c];
+      }
+  for (int c = 0; c < 3; c++) {
+    CHECK_NEAR((double)light.e[c], e[c], 2e-5);
+    CHECK_NEAR((double)light.t[c], t[c], 2e-5);
+  }
+  return last;
+}
+
+/* A walk from set to set. A stranger who has seen none of them finds the same light, and so does one
+ * who finds other layers behind the last that is seen. */
+static void test_walk(celspan_context *context, int count, float through, float density) {
+  cs_over_tree tree;
+  int hidden = 0;
+  make_layers(count, through);
+  CHECK(cs_over_tree_init(&tree, context, &stack) == CELSPAN_OK);
+  for (int step = 0; step < 300; step++) {
+    for (int k = 0; k < (step == 0 ? count : 1 + step % 9); k++)
+      put_any(count, density);
+    cs_over_pair light = light_of(&tree);
+    int last = check_light(light);
+    CHECK(same(light, light_from_nothing(context)));
+    CHECK(same(light, light_of(&tree)));
+    hidden += last > 0;
+    for (int k = 0; k < 5 && last > 0; k++)
+      put_any(last, 0.5f);
+    CHECK(same(light, light_of(&tree)));
+    CHECK(same(light, light_from_nothing(context)));
+  }
+  CHECK((hidden > 100) == (through < 0.9f || density > 0.8f));
+  cs_over_tree_finish(&tree);
+}
+
+/* Behind all others lies one that lets nothing through. */
+static void test_background(celspan_context *context) {
+  make_layers(1000, 0.95f);
+  layers[0].t = cs_v4_all(0);
+  put(0, true);
+  for (int i = 0; i < 60; i++)
+    put_any(1000, 1);
+  cs_over_pair light = light_from_nothing(context);
+  check_light(light);
+  CHECK(light.t[0] == 0);
+}
+
+static void test_choice(void) {
+  make_layers(256, 0.9f);
+  CHECK(cs_over_tree_suits(&stack));
+  layers[0].t = cs_v4_all(0); /* a single background does not count */
+  CHECK(cs_over_tree_suits(&stack));
+  stack.layer_count = 190;
+  CHECK(!cs_over_tree_suits(&stack)); /* few layers */
+  stack.layer_count = 256;
+  for (int i = 0; i < 256; i++)
+    layers[i].t = cs_v4_all(0.6f);
+  CHECK(!cs_over_tree_suits(&stack)); /* few of them are seen */
+  make_layers(256, 0.9f);
+  stack.layer_count = 64 * CS_OVER_TREE_WORDS + 1;
+  CHECK(!cs_over_tree_suits(&stack)); /* too many to compare each time */
+}
+
+int main(void) {
+  celspan_context *context;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  for (int i = 0; i < MOST; i++)
+    layers[i].group = CS_STACK_NONE;
+  test_walk(context, 700, 0.98f, 0.2f);
+  test_walk(context, 1000, 0.9f, 0.9f);
+  test_walk(context, 257, 0.2f, 0.5f);
+  test_walk(context, 4500, 0.98f, 0.95f);
+  test_background(context);
+  test_choice();
+  celspan_context_destroy(context);
+  return check_done();
+}
