@@ -1,7 +1,10 @@
 #include "area/intersections.h"
 
+#include "base/vector.h"
+
 #include <math.h>
 
+#define FOUR 4   /* shares that are compared at a time */
 #define BATCH 16 /* places that have a common least share */
 
 /* Bytes of one edge over all arrays. */
@@ -48,54 +51,67 @@ static inline double find_share(const cs_intersections *m, size_t place) {
 
 static inline size_t batch_count(size_t count) { return (count + BATCH - 1) / BATCH; }
 
+/* The least of some shares, in both lanes. count: a multiple of four. */
+static inline cs_v2d least_of(const double *shares, size_t count) {
+  cs_v2d low = cs_v2d_load(shares), high = cs_v2d_load(shares + 2);
+  for (size_t i = FOUR; i < count; i += FOUR) {
+    low = cs_v2d_min(cs_v2d_load(shares + i), low);
+    high = cs_v2d_min(cs_v2d_load(shares + i + 2), high);
+  }
+  low = cs_v2d_min(low, high);
+  return cs_v2d_min(low, (cs_v2d){low[1], low[0]});
+}
+
 static void find_batch_least(cs_intersections *m, size_t batch) {
-  const double *shares = m->shares + batch * BATCH;
-  double least[4]; /* four chains of comparisons that do not wait for each other */
-  for (size_t i = 0; i < 4; i++)
-    least[i] = shares[i];
-  for (size_t i = 4; i < BATCH; i++)
-    least[i % 4] = shares[i] < least[i % 4] ? shares[i] : least[i % 4];
-  double even = least[0] < least[2] ? least[0] : least[2];
-  double odd = least[1] < least[3] ? least[1] : least[3];
-  m->least[batch] = even < odd ? even : odd;
+  m->least[batch] = least_of(m->shares + batch * BATCH, BATCH)[0];
 }
 
 /* Whether there are so many places that the least share of every batch is kept. */
-static inline bool has_batches(size_t count) { return count > BATCH; }
+static inline bool has_batches(size_t count) { return count > BATCH + 1; }
 
-/* Finds all shares. Returns whether any two cross. */
+/* Finds all shares, and fills the last four up. Returns whether any two cross. */
 static bool find_shares(cs_intersections *m, size_t count) {
   int64_t crossings = 0;
   for (size_t place = 0; place + 1 < count; place++) {
     m->shares[place] = find_share(m, place);
     crossings += m->foot[place] > m->foot[place + 1];
   }
-  if (crossings == 0 || !has_batches(count))
-    return crossings > 0;
-  for (size_t place = count - 1; place < batch_count(count) * BATCH; place++)
+  if (crossings == 0)
+    return false;
+  size_t unit = has_batches(count) ? BATCH : FOUR;
+  for (size_t place = count - 1; place % unit > 0; place++)
     m->shares[place] = INFINITY;
-  for (size_t batch = 0; batch < batch_count(count); batch++)
+  for (size_t batch = 0; has_batches(count) && batch < batch_count(count - 1); batch++)
     find_batch_least(m, batch);
   return true;
 }
 
-/* The first place of the least share among some, without a branch that could not be foreseen. */
+/* The first place of the least among at most BATCH shares, a multiple of four. Where it is can
+ * hardly be foreseen, so nothing here is a branch. */
 static inline size_t find_least(const double *shares, size_t count) {
-  double least = shares[0];
-  size_t place = 0;
+  cs_v2d least = least_of(shares, count);
+  unsigned places = 0;
+  for (size_t i = 0; i < count; i += 2)
+    places |= cs_v2d_equal(cs_v2d_load(shares + i), least) << i;
+  return (size_t)__builtin_ctz(places);
+}
+
+static inline size_t find_least_batch(const cs_intersections *m, size_t count) {
+  double least = m->least[0];
+  size_t batch = 0;
   for (size_t i = 1; i < count; i++)
-    least = shares[i] < least ? shares[i] : least;
+    least = m->least[i] < least ? m->least[i] : least;
   for (size_t i = count; i-- > 0;)
-    place = shares[i] == least ? i : place;
-  return place;
+    batch = m->least[i] == least ? i : batch;
+  return batch;
 }
 
 /* The place of the next intersection; false: there is none left. */
 static bool find_next(const cs_intersections *m, size_t count, size_t *place) {
   if (!has_batches(count)) {
-    *place = find_least(m->shares, count - 1);
+    *place = find_least(m->shares, (count - 1 + FOUR - 1) / FOUR * FOUR);
   } else {
-    size_t batch = find_least(m->least, batch_count(count));
+    size_t batch = find_least_batch(m, batch_count(count - 1));
     *place = batch * BATCH + find_least(m->shares + batch * BATCH, BATCH);
   }
   return m->shares[*place] < INFINITY;
@@ -125,12 +141,13 @@ static celspan_status swap_places(cs_intersections *m, celspan_context *context,
   double left_x = m->top[place] + (m->foot[place] - m->top[place]) * share;
   double right_x = m->top[place + 1] + (m->foot[place + 1] - m->top[place + 1]) * share;
   cs_active_edge *from = &m->edges[left], *to = &m->edges[right];
+  bool is_first = m->first[place] == CS_INTERSECTIONS_NONE;
+  uint32_t previous = is_first ? CS_INTERSECTIONS_NONE : m->last[place];
   m->intersections[index] = (cs_intersection){
-      y, left_x, right_x, from->at, to->at, left, right, CS_INTERSECTIONS_NONE, NULL};
+      y, left_x, right_x, from->at, to->at, left, right, CS_INTERSECTIONS_NONE, previous, NULL};
   move_to(from, left_x, y);
   move_to(to, right_x, y);
-  *(m->first[place] == CS_INTERSECTIONS_NONE ? &m->first[place]
-                                             : &m->intersections[m->last[place]].next) = index;
+  *(is_first ? &m->first[place] : &m->intersections[previous].next) = index;
   m->last[place] = index;
   m->order[place] = right;
   m->order[place + 1] = left;

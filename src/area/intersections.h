@@ -37,7 +37,7 @@ typedef struct cs_intersection {
   double y, left_x, right_x;  /* where each of them is */
   uint32_t left_at, right_at; /* on which segment */
   uint32_t left, right;       /* edges: left goes from the place to the one right of it */
-  uint32_t next;              /* the next intersection at the same place, or NONE */
+  uint32_t next, previous;    /* intersections at the same place, or NONE */
   const void *cell; /* for the caller: the cell between the two edges below the intersection */
 } cs_intersection;
 

@@ -91,13 +91,17 @@ static void cross(cs_composer *composer, const cs_member *member, int32_t sign) 
     cs_composer_cross_span(composer, member->layer, member->span, sign * member->direction);
 }
 
+static inline const cs_member *member_at(const cs_local_sweep *sweep, size_t place) {
+  return sweep->members[sweep->is_low ? sweep->intersections.order[place] : place];
+}
+
 /* Moves the composer to just right of the first `place` members. */
 static void cross_to(cs_local_sweep *sweep, size_t place) {
   cs_composer *composer = sweep->composer;
   for (; sweep->crossed < place; sweep->crossed++)
-    cross(composer, sweep->members[sweep->crossed], 1);
+    cross(composer, member_at(sweep, sweep->crossed), 1);
   for (; sweep->crossed > place; sweep->crossed--)
-    cross(composer, sweep->members[sweep->crossed - 1], -1);
+    cross(composer, member_at(sweep, sweep->crossed - 1), -1);
 }
 
 /* The cell at the composer's place. known: NULL, or a cell that is returned if it has the same set
@@ -142,13 +146,18 @@ static inline cs_intersection *intersection_at(const cs_local_sweep *sweep, uint
   return index == CS_INTERSECTIONS_NONE ? NULL : &sweep->intersections.intersections[index];
 }
 
-/* Composes the cell right of place j after each of the intersections there. */
-static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
+/* Composes the cell below an intersection, where the composer is. */
+static celspan_status compose_below(cs_local_sweep *sweep, cs_intersection *intersection) {
+  cs_deferred_to(&sweep->deferred, sweep->composer, intersection->right_x);
+  intersection->cell = find_cell(sweep, NULL);
+  return sweep->composer->failure;
+}
+
+/* Composes the cells right of place j below each of its intersections, from the first one down. */
+static celspan_status compose_down(cs_local_sweep *sweep, size_t j) {
   cs_composer *composer = sweep->composer;
   cs_member *const *members = sweep->members;
   cs_intersection *first = intersection_at(sweep, sweep->intersections.first[j]);
-  if (!first)
-    return CELSPAN_OK;
   const cs_intersection *leaves =
       first->left == j ? first : NULL; /* member j leaves its place: it is not crossed before */
   cross_to(sweep, leaves ? j : j + 1);
@@ -157,17 +166,34 @@ static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
     if (intersection != leaves)
       cross(composer, members[intersection->left], -1);
     cross(composer, members[intersection->right], 1);
-    cs_deferred_to(&sweep->deferred, sweep->composer, intersection->right_x);
-    intersection->cell = find_cell(sweep, NULL);
-    CS_TRY(composer->failure);
+    CS_TRY(compose_below(sweep, intersection));
   }
-  for (cs_intersection *intersection = first; intersection;
-       intersection = intersection_at(sweep, intersection->next)) {
-    cross(composer, members[intersection->right], -1);
-    if (intersection != leaves)
-      cross(composer, members[intersection->left], 1);
-  }
+  sweep->crossed = j + 1;
+  sweep->is_low = true;
   return CELSPAN_OK;
+}
+
+/* The same from the last one up. */
+static celspan_status compose_up(cs_local_sweep *sweep, size_t j) {
+  cs_member *const *members = sweep->members;
+  cross_to(sweep, j + 1);
+  for (cs_intersection *intersection = intersection_at(sweep, sweep->intersections.last[j]);
+       intersection; intersection = intersection_at(sweep, intersection->previous)) {
+    CS_TRY(compose_below(sweep, intersection));
+    cross(sweep->composer, members[intersection->right], -1);
+    cross(sweep->composer, members[intersection->left], 1);
+  }
+  sweep->crossed = j + 1;
+  sweep->is_low = false;
+  return CELSPAN_OK;
+}
+
+/* Composes the cells right of place j. One place is gone down and the next one up: so few layers
+ * come and go from cell to cell, and no way is gone twice. */
+static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
+  if (sweep->intersections.first[j] == CS_INTERSECTIONS_NONE)
+    return CELSPAN_OK;
+  return sweep->is_low ? compose_up(sweep, j) : compose_down(sweep, j);
 }
 
 /* Follows place j down the slab: the member that is there is drawn from one intersection with a
@@ -226,6 +252,7 @@ static celspan_status draw_intersections(cs_local_sweep *sweep) {
     left = sweep->members[j]->right;
   }
   cross_to(sweep, 0);
+  sweep->is_low = false;
   commit_places(sweep);
   return CELSPAN_OK;
 }
@@ -388,6 +415,7 @@ celspan_status cs_local_sweep_replay(cs_local_sweep *sweep) {
   CS_TRY(cs_intersections_reserve(&sweep->intersections, sweep->composer->context,
                                   sweep->count + sweep->begin_count));
   sweep->crossed = 0;
+  sweep->is_low = false;
   for (;;) {
     double next = next_height(sweep);
     if (next > y)

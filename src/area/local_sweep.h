@@ -58,7 +58,8 @@ typedef struct cs_local_sweep {
   size_t count;
   cs_member **spare;           /* room for as many */
   const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
-  size_t crossed;              /* the composer is right of so many members */
+  size_t crossed;              /* the composer is right of so many members, */
+  bool is_low;                 /* in their order at the foot of the slab, not at its top */
   /* its own room, kept from one replay to the next */
   cs_intersections intersections;
   cs_member *entering; /* the members at the top of the row */

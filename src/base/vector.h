@@ -18,6 +18,30 @@ typedef struct cs_v4d {
 
 static inline cs_v4 cs_v4_all(float x) { return (cs_v4){x, x, x, x}; }
 
+static inline cs_v2d cs_v2d_load(const double *from) {
+  cs_v2d v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+/* Lane by lane the lesser; b where a is not a number. */
+static inline cs_v2d cs_v2d_min(cs_v2d a, cs_v2d b) {
+#ifdef __SSE2__
+  return _mm_min_pd(a, b);
+#else
+  return (cs_v2d){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
+#endif
+}
+
+/* Which lanes are equal: bit 0 and bit 1. */
+static inline unsigned cs_v2d_equal(cs_v2d a, cs_v2d b) {
+#ifdef __SSE2__
+  return (unsigned)_mm_movemask_pd(_mm_cmpeq_pd(a, b));
+#else
+  return (unsigned)(a[0] == b[0]) | (unsigned)(a[1] == b[1]) << 1;
+#endif
+}
+
 static inline cs_v4d cs_v4_wide(cs_v4 v) { return (cs_v4d){{v[0], v[1]}, {v[2], v[3]}}; }
 
 static inline cs_v4 cs_v4_narrow(cs_v4d v) {
