@@ -200,9 +200,8 @@ static const uint64_t *resolve(cs_composer *composer) {
 /* The same fold by table or tree. */
 static celspan_status look_up(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
-  CS_TRY(composer->tree
-             ? cs_over_tree_light(composer->tree, set, &light)
-             : cs_over_table_light(composer->table, set, composer->filled, &light));
+  CS_TRY(composer->tree ? cs_over_tree_light(composer->tree, set, &light)
+                        : cs_over_table_light(composer->table, set, composer->filled, &light));
   cs_over_begin(over, composer->stack);
   over->e = light.e;
   over->t = light.t;

@@ -14,8 +14,8 @@ static double let_through(const cs_layer *layer) {
   return most > CS_PAINT_OPAQUE ? (double)most : (double)CS_PAINT_OPAQUE;
 }
 
-/* Nothing shines through after sixteen halvings. Where a layer halves the light less than every
- * other time, on the average, more than 32 of them are seen at once, if as many lie there. */
+/* Nothing shines through after sixteen halvings. Where the layers halve the light less than once in
+ * two, on the average, more than 32 are seen in a place, if as many lie there. */
 bool cs_over_tree_suits(const cs_stack *stack) {
   size_t words = cs_stack_words(stack), halvings = 0;
   double through = 1;
@@ -31,9 +31,7 @@ bool cs_over_tree_suits(const cs_stack *stack) {
 
 /* ---------------------------------------------------------------- life */
 
-static inline size_t group_count(size_t nodes) {
-  return (nodes + CS_OVER_FOUR - 1) / CS_OVER_FOUR;
-}
+static inline size_t group_count(size_t nodes) { return (nodes + CS_OVER_FOUR - 1) / CS_OVER_FOUR; }
 
 /* Every level but the last is filled up to a multiple of four, with clear nodes. */
 static celspan_status make_nodes(cs_over_tree *tree) {
@@ -58,8 +56,7 @@ static celspan_status make_nodes(cs_over_tree *tree) {
 
 celspan_status cs_over_tree_init(cs_over_tree *tree, celspan_context *context,
                                  const cs_stack *stack) {
-  *tree =
-      (cs_over_tree){.context = context, .stack = stack, .word_count = cs_stack_words(stack)};
+  *tree = (cs_over_tree){.context = context, .stack = stack, .word_count = cs_stack_words(stack)};
   tree->words = cs_mem_array(context->memory, tree->word_count, sizeof *tree->words);
   tree->quads = cs_mem_array(context->memory, tree->word_count, sizeof *tree->quads);
   if (!tree->words || !tree->quads)
@@ -86,7 +83,7 @@ static inline cs_over_pair join(const cs_over_pair *four) {
                            cs_over_pair_over(four[1], four[0]));
 }
 
-/* Quad `place` of the level 0 has changed: makes the nodes above it anew, but for the last. */
+/* Node `place` of level 0 has changed: joins those above it again, except for the last. */
 static inline void renew_above(cs_over_tree *tree, size_t place) {
   for (int level = 1; level < tree->top; level++) {
     place /= CS_OVER_FOUR;
@@ -113,8 +110,8 @@ static inline celspan_status renew_word(cs_over_tree *tree, size_t i, uint64_t w
 
 #define BATCH 8 /* words compared at a time */
 
-/* Which of eight words differ, as bits. They have just been written word by word: to read two at once
- * would wait until they have arrived in memory. */
+/* Which of eight words differ, as bits. The set has just been written word by word: whoever reads
+ * two at once waits until both have left the processor's store buffer. */
 static inline unsigned compare_words(const uint64_t *a, const uint64_t *b) {
   unsigned differ = 0;
   for (unsigned i = 0; i < BATCH; i++)
@@ -141,8 +138,8 @@ static celspan_status renew(cs_over_tree *tree, const uint64_t *set) {
 
 /* ---------------------------------------------------------------- the whole */
 
-/* The light where it ends on the way to the rear. At the latest it ends in the last quad: nothing is
- * behind it. */
+/* The light as far as it comes, where the layers together let nothing through. It ends in the
+ * rearmost quad at the latest: there is nothing behind that one. */
 static cs_over_pair go_down(const cs_over_tree *tree) {
   cs_over_pair light = cs_over_pair_clear;
   size_t place = 0;

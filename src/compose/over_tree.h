@@ -1,5 +1,5 @@
-/* The fold of over.h by tree, for frames of flat layers of which very many are seen at once, because
- * each of them takes only little of the light.
+/* The fold of over.h by tree, for frames of flat layers so faint that dozens of them are seen at
+ * once.
  *
  *                                  [all]                            level 3
  *                    ________________|________________
@@ -9,23 +9,25 @@
  *                    ___________|____________
  *               [111-108] [107-104] [103-100] [99-96]               level 0: quads, looked up
  *
- * A node keeps the light of its layers, and what they let through, by themselves. When a layer comes
- * or goes its quad is looked up anew, and so are made the nodes above it: a few, however many layers
- * lie over each other. Four nodes are joined by two over two, so that nothing waits for long.
+ * A node keeps the light of its layers, and what they let through, by themselves. When a layer
+ * comes or goes, its quad is looked up again and the nodes above it are joined again: one a level,
+ * however many layers lie over each other. Of four nodes two and two are joined first, so that a
+ * result waits for few others.
  *
  * Where the layers together let nothing through, those behind the end must not count, down to the
- * last bit: then the tree is gone down from the front, node by node, and the word in which the light
- * ends is added layer by layer.
+ * last bit. Then the fold goes down the tree from the front, node by node, to the quad in which the
+ * light ends; its layers are added one by one.
  *
- * Invariant: the light of a set depends on the set alone, to the bit: what is joined with what is
- * given by the numbers of the layers, whatever was known before.
+ * Invariant: the light of a set depends on the set alone, to the bit: which nodes are joined is
+ * given by the numbers of the layers, whatever was known before. Layers behind others that let
+ * clearly less through than CS_PAINT_OPAQUE change no bit: for the cull leaves them out.
  */
 #ifndef CS_COMPOSE_OVER_TREE_H
 #define CS_COMPOSE_OVER_TREE_H
 
 #include "compose/over_quads.h"
 
-#define CS_OVER_TREE_WORDS 256 /* of a stack, at most: all are compared each time */
+#define CS_OVER_TREE_WORDS 256 /* of a set, at most: all are compared each time */
 #define CS_OVER_TREE_LEVELS 8  /* enough for these */
 
 typedef struct cs_over_tree {
@@ -40,7 +42,8 @@ typedef struct cs_over_tree {
   int top;                                   /* the last level */
 } cs_over_tree;
 
-/* Whether this is the way for a stack that over_table.h suits. */
+/* Whether a stack that over_table.h suits is better folded by tree: its layers are many, and on the
+ * average so faint that more than 32 in a place would be seen. */
 bool cs_over_tree_suits(const cs_stack *stack);
 /* Errors: NO_MEMORY; cs_over_tree_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_over_tree_init(cs_over_tree *tree, celspan_context *context,

@@ -1,5 +1,5 @@
--- Stacks of hundreds of faint layers, of which dozens are seen at once: the fold by tree. Against the
--- oracle and many pixel centres, and the same bits by whatever way the sets of layers are reached.
+-- Stacks of hundreds of faint layers, of which dozens are seen at once: the fold by tree. Against
+-- the oracle and many pixel centres, and the same bits by whatever way sets of layers are reached.
 --
 -- CASE=n runs one random scene alone.
 local celspan = require "celspan"
@@ -40,7 +40,9 @@ local function deep_scene(seed)
     local is_opaque = seed % 3 == 1 and random:whole(1, 60) == 1
     objects[i] = is_opaque and triangle(random, 1) or object(random)
   end
-  if seed % 3 == 0 then table.insert(objects, 1, celspan.rect { -9, -9, 70, 70, texture = "#fff" }) end
+  if seed % 3 == 0 then
+    table.insert(objects, 1, celspan.rect { -9, -9, 70, 70, texture = "#fff" })
+  end
   return celspan.rostrum { back = { 0.2, 0.3, 0.4, 0.5 },
                            celspan.cel { front = { 1, 0.9, 0.8 }, table.unpack(objects) } }, random
 end
@@ -111,7 +113,8 @@ describe("deep stacks of faint layers", function()
       for _ = 1, 6 do
         local y = random:whole(0, SIZE[2] - 1)
         local alone = spans(rostrum, "none", { crop = { 0, y, SIZE[1], 1 } })
-        assert(rows.text({ [0] = all[y] }, 0, 0) == rows.text(alone, 0, 0), ("%s: row %d"):format(case, y))
+        local is_same = rows.text({ [0] = all[y] }, 0, 0) == rows.text(alone, 0, 0)
+        assert(is_same, ("%s: row %d"):format(case, y))
       end
     end)
   end)

@@ -16,7 +16,7 @@ static cs_layer layers[MOST];
 static cs_stack stack = {.layers = layers};
 static uint64_t set[WORDS];
 
-/* Layers that let through at least `through`, of which every one is seen from the front. */
+/* Layers that let through at least `through`; none of them is present. */
 static void make_layers(int count, float through) {
   stack.layer_count = (size_t)count;
   memset(set, 0, sizeof set);
@@ -79,8 +79,8 @@ static int check_light(cs_over_pair light) {
   return last;
 }
 
-/* A walk from set to set. A stranger who has seen none of them finds the same light, and so does one
- * who finds other layers behind the last that is seen. */
+/* A walk from set to set. A stranger who has seen none of them finds the same light, and so does
+ * one who finds other layers behind the last that is seen. */
 static void test_walk(celspan_context *context, int count, float through, float density) {
   cs_over_tree tree;
   int hidden = 0;
