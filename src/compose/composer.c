@@ -197,8 +197,8 @@ static const uint64_t *resolve(cs_composer *composer) {
   return composer->contributing;
 }
 
-/* The same fold by table or tree. */
-static celspan_status look_up(cs_composer *composer, const uint64_t *set, cs_over *over) {
+/* The same by what has been folded beforehand, in a table or a tree. */
+static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
   CS_TRY(composer->tree ? cs_over_tree_light(composer->tree, set, &light)
                         : cs_over_table_light(composer->table, set, composer->filled, &light));
@@ -213,7 +213,7 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
   composer->evaluations++;
   const uint64_t *set = resolve(composer);
   if (composer->table || composer->tree)
-    CS_TRY(look_up(composer, set, &over));
+    CS_TRY(fold_prepared(composer, set, &over));
   if (composer->table || composer->tree || fold_flats(composer, set, &over)) {
     cell->colour = cs_over_end(&over);
     return CELSPAN_OK;
@@ -248,8 +248,8 @@ static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
 }
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
-  if (composer->tree) {
-    (void)!compose_here(composer, out);
+  if (composer->tree) { /* nearly every set is new, and its colour found as soon as its memo */
+    compose_here(composer, out);
     return;
   }
   cs_memo *pair = &composer->memo[composer->hash.a & (MEMO_SIZE - 2)];

@@ -6,7 +6,7 @@
  *        | --------> cross ---------> |          the walk: sets, windings, hash
  *               cell |
  *                    v
- *       hash known? ----yes----> the same cell as before
+ *       hash known? ----yes----> the same cell as before (not asked where over_tree.h folds)
  *            | no
  *       trees: what contributes (tree.h)
  *            |

@@ -33,9 +33,9 @@ bool cs_over_tree_suits(const cs_stack *stack) {
 
 static inline size_t group_count(size_t nodes) { return (nodes + CS_OVER_FOUR - 1) / CS_OVER_FOUR; }
 
-/* Every level but the last is filled up to a multiple of four, with clear nodes. */
+/* Every tier but the last is filled up to a multiple of four, with clear nodes. */
 static celspan_status make_nodes(cs_over_tree *tree) {
-  size_t counts[CS_OVER_TREE_LEVELS];
+  size_t counts[CS_OVER_TREE_TIERS];
   size_t nodes = CS_OVER_QUADS * tree->word_count;
   for (; nodes > 1; nodes = group_count(nodes)) {
     counts[tree->top] = CS_OVER_FOUR * group_count(nodes);
@@ -49,8 +49,8 @@ static celspan_status make_nodes(cs_over_tree *tree) {
   for (size_t i = 0; i < tree->node_count; i++)
     tree->nodes[i] = cs_over_pair_clear;
   cs_over_pair *next = tree->nodes;
-  for (int level = 0; level <= tree->top; next += counts[level++])
-    tree->levels[level] = next;
+  for (int tier = 0; tier <= tree->top; next += counts[tier++])
+    tree->tiers[tier] = next;
   return CELSPAN_OK;
 }
 
@@ -83,11 +83,11 @@ static inline cs_over_pair join(const cs_over_pair *four) {
                            cs_over_pair_over(four[1], four[0]));
 }
 
-/* Node `place` of level 0 has changed: joins those above it again, except for the last. */
+/* Node `place` of tier 0 has changed: joins those above it again, except for the last. */
 static inline void renew_above(cs_over_tree *tree, size_t place) {
-  for (int level = 1; level < tree->top; level++) {
+  for (int tier = 1; tier < tree->top; tier++) {
     place /= CS_OVER_FOUR;
-    tree->levels[level][place] = join(&tree->levels[level - 1][CS_OVER_FOUR * place]);
+    tree->tiers[tier][place] = join(&tree->tiers[tier - 1][CS_OVER_FOUR * place]);
   }
 }
 
@@ -102,7 +102,7 @@ static inline celspan_status renew_word(cs_over_tree *tree, size_t i, uint64_t w
     unsigned choice = (unsigned)(word >> CS_OVER_FOUR * quad) % CS_OVER_CHOICES;
     changed &= ~((uint64_t)(CS_OVER_CHOICES - 1) << CS_OVER_FOUR * quad);
     size_t place = CS_OVER_QUADS * i + quad;
-    tree->levels[0][place] = tree->quads[i][CS_OVER_CHOICES * quad + choice];
+    tree->tiers[0][place] = tree->quads[i][CS_OVER_CHOICES * quad + choice];
     renew_above(tree, place);
   }
   return CELSPAN_OK;
@@ -132,7 +132,7 @@ static celspan_status renew(cs_over_tree *tree, const uint64_t *set) {
   for (; first < tree->word_count; first++)
     if (tree->words[first] != set[first])
       CS_TRY(renew_word(tree, first, set[first]));
-  *tree->levels[tree->top] = join(tree->levels[tree->top - 1]);
+  *tree->tiers[tree->top] = join(tree->tiers[tree->top - 1]);
   return CELSPAN_OK;
 }
 
@@ -143,8 +143,8 @@ static celspan_status renew(cs_over_tree *tree, const uint64_t *set) {
 static cs_over_pair go_down(const cs_over_tree *tree) {
   cs_over_pair light = cs_over_pair_clear;
   size_t place = 0;
-  for (int level = tree->top; level > 0; level--) {
-    const cs_over_pair *nodes = tree->levels[level - 1];
+  for (int tier = tree->top; tier > 0; tier--) {
+    const cs_over_pair *nodes = tree->tiers[tier - 1];
     for (place = CS_OVER_FOUR * place + CS_OVER_FOUR - 1; place % CS_OVER_FOUR > 0; place--) {
       cs_over_pair all = cs_over_pair_over(light, nodes[place]);
       if (cs_over_is_opaque(all.t))
@@ -159,7 +159,7 @@ static cs_over_pair go_down(const cs_over_tree *tree) {
 
 celspan_status cs_over_tree_light(cs_over_tree *tree, const uint64_t *set, cs_over_pair *out) {
   CS_TRY(renew(tree, set));
-  *out = *tree->levels[tree->top];
+  *out = *tree->tiers[tree->top];
   if (cs_over_is_opaque(out->t))
     *out = go_down(tree);
   return CELSPAN_OK;

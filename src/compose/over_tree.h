@@ -1,16 +1,16 @@
 /* The fold of over.h by tree, for frames of flat layers so faint that dozens of them are seen at
  * once.
  *
- *                                  [all]                            level 3
+ *                                  [all]                            tier 3
  *                    ________________|________________
- *              [ 255-192 ]   [ 191-128 ]   [ 127-64 ]   [ 63-0 ]    level 2: a word each
+ *              [ 255-192 ]   [ 191-128 ]   [ 127-64 ]   [ 63-0 ]    tier 2: a word each
  *                     ________________________|___
- *               [127-112]  [111-96]  [95-80]  [79-64]               level 1
+ *               [127-112]  [111-96]  [95-80]  [79-64]               tier 1
  *                    ___________|____________
- *               [111-108] [107-104] [103-100] [99-96]               level 0: quads, looked up
+ *               [111-108] [107-104] [103-100] [99-96]               tier 0: quads, looked up
  *
  * A node keeps the light of its layers, and what they let through, by themselves. When a layer
- * comes or goes, its quad is looked up again and the nodes above it are joined again: one a level,
+ * comes or goes, its quad is looked up again and the nodes above it are joined again: one a tier,
  * however many layers lie over each other. Of four nodes two and two are joined first, so that a
  * result waits for few others.
  *
@@ -28,7 +28,7 @@
 #include "compose/over_quads.h"
 
 #define CS_OVER_TREE_WORDS 256 /* of a set, at most: all are compared each time */
-#define CS_OVER_TREE_LEVELS 8  /* enough for these */
+#define CS_OVER_TREE_TIERS 8   /* enough for these */
 
 typedef struct cs_over_tree {
   celspan_context *context;
@@ -36,10 +36,10 @@ typedef struct cs_over_tree {
   uint64_t *words;      /* the layers present */
   cs_over_pair **quads; /* one table a word; NULL: not yet */
   size_t word_count;
-  cs_over_pair *nodes; /* of all levels */
+  cs_over_pair *nodes; /* of all tiers */
   size_t node_count;
-  cs_over_pair *levels[CS_OVER_TREE_LEVELS]; /* in nodes: 0 has the quads, the last has one node */
-  int top;                                   /* the last level */
+  cs_over_pair *tiers[CS_OVER_TREE_TIERS]; /* in nodes: 0 has the quads, the last has one node */
+  int top;                                 /* the last tier */
 } cs_over_tree;
 
 /* Whether a stack that over_table.h suits is better folded by tree: its layers are many, and on the
