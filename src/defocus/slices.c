@@ -1,15 +1,41 @@
 #include "defocus/slices.h"
 
 #include "base/number.h"
+#include "defocus/samples.h"
 
 #include <math.h>
 
 #define SAMPLES 16 /* in the lesser radius, where the factor allows it */
 #define FACTOR 9   /* at most; odd, so that a node lies in the middle of a sample */
-#define TILE 32    /* nodes of a row that are summed together */
+#define TILE 64    /* nodes of a row that are summed together */
 #define SHORT 1e-6 /* slices that are shorter are left out */
 
 /* ---------------------------------------------------------------- slices */
+
+/* Where a sum is kept, in floats from the first one of the rows under a node. */
+static size_t place_of(const cs_defocus_slices *slices, int32_t row, int32_t sample) {
+  size_t factor = (size_t)slices->factor, k = (size_t)sample;
+  return 4 * ((size_t)row * slices->stride + k % factor * slices->places + k / factor);
+}
+
+/* One end of a slice, at a place among the samples: between two sums. */
+static void find_end(const cs_defocus_slices *slices, int32_t row, double place, double weight,
+                     size_t at[2], float weights[2]) {
+  int32_t sample = (int32_t)floor(place);
+  double share = place - sample;
+  at[0] = place_of(slices, row, sample);
+  at[1] = place_of(slices, row, sample + 1);
+  weights[0] = (float)((1 - share) * weight);
+  weights[1] = (float)(share * weight);
+}
+
+static cs_defocus_slice slice_at(const cs_defocus_slices *slices, int32_t row, double from,
+                                 double to, double weight) {
+  cs_defocus_slice out;
+  find_end(slices, row, to, weight, out.add, out.add_weights);
+  find_end(slices, row, from, weight, out.subtract, out.subtract_weights);
+  return out;
+}
 
 static celspan_status add_slice(celspan_context *context, cs_defocus_slices *slices,
                                 const cs_kernel *kernel, int32_t row) {
@@ -23,15 +49,8 @@ static celspan_status add_slice(celspan_context *context, cs_defocus_slices *sli
     return CELSPAN_OK;
   CS_TRY(cs_mem_reserve(context, (void **)&slices->slices, &slices->capacity, slices->count + 1,
                         sizeof *slices->slices));
-  double low = floor(centre_x + from), high = floor(centre_x + to);
-  slices->slices[slices->count++] = (cs_defocus_slice){
-      row,
-      (int32_t)low,
-      (int32_t)high,
-      (float)(centre_x + from - low),
-      (float)(centre_x + to - high),
-      (float)(weight / (to - from)),
-  };
+  slices->slices[slices->count++] =
+      slice_at(slices, row, centre_x + from, centre_x + to, weight / (to - from));
   return CELSPAN_OK;
 }
 
@@ -51,6 +70,8 @@ celspan_status cs_defocus_slices_init(celspan_context *context, const cs_blur *b
   out->factor = (int32_t)factor;
   out->extent_x = cs_number_ceil(kernel->radius_x) + 1;
   out->extent_y = cs_number_ceil(kernel->radius_y) + 1;
+  out->places = (size_t)(TILE + (2 * out->extent_x + 1) / out->factor + 1);
+  out->stride = (size_t)out->factor * out->places;
   celspan_status status = CELSPAN_OK;
   for (int32_t row = 0; row < out->factor + 2 * out->extent_y && status == CELSPAN_OK; row++)
     status = add_slice(context, out, kernel, row);
@@ -67,90 +88,85 @@ void cs_defocus_slices_finish(cs_defocus_slices *slices, cs_memory *memory) {
 
 typedef struct summing {
   const cs_defocus_slices *slices;
-  cs_row *rows; /* of samples: those under all nodes */
-  size_t *from; /* by row: the first span that may meet the tile */
-  int32_t row_count;
-  int32_t x0, x1; /* nodes of the tile */
-  size_t stride;  /* of a row of sums */
-  cs_v4 *sums;    /* by row: of the samples from the tile's left edge up to each */
+  cs_isa isa;
+  cs_defocus_samples samples; /* those under all nodes */
+  int32_t columns, band_rows;
+  int32_t x0, x1;  /* nodes of the tile */
+  cs_v4 *row;      /* samples of one row under the tile */
+  cs_v4 *sums;     /* by row: of the samples from the tile's left edge up to each */
+  float (*out)[4]; /* TILE nodes */
 } summing;
 
 /* The prefix sums of a row's samples from the tile's left edge on. */
 static void sum_samples(summing *s, int32_t k) {
-  const cs_row *row = &s->rows[k];
-  const cs_defocus_slices *slices = s->slices;
-  int32_t left = s->x0 * slices->factor, end = s->x1 * slices->factor + 2 * slices->extent_x;
-  cs_v4 *sums = s->sums + (size_t)k * s->stride, sum = cs_v4_all(0);
-  while (row->spans[s->from[k]].x1 <= left)
-    s->from[k]++;
-  *sums++ = sum;
-  for (size_t i = s->from[k]; i < row->count && row->spans[i].x0 < end; i++) {
-    const celspan_span *span = &row->spans[i];
-    int32_t x = span->x0 > left ? span->x0 : left, stop = span->x1 < end ? span->x1 : end;
-    for (; x < stop; x++) {
-      float rgba[4];
-      celspan_span_colour(span, x, rgba);
-      *sums++ = sum += cs_v4_load(rgba);
+  size_t factor = (size_t)s->slices->factor, places = s->slices->places;
+  size_t count = (size_t)(s->samples.high - s->samples.low);
+  cs_v4 *first = s->sums + (size_t)k * s->slices->stride, sum = cs_v4_all(0), *row = s->row;
+  cs_defocus_samples_spread(&s->samples, k, row);
+  for (size_t at = 0; at <= count; first++)
+    for (size_t place = 0; place < factor && at <= count; place++, at++) {
+      first[place * places] = sum;
+      sum += row[at];
     }
-  }
 }
 
-static inline cs_v4 sum_up_to(const cs_v4 *sums, float share) {
-  return sums[0] + share * (sums[1] - sums[0]);
+static void sum_nodes(summing *s, int32_t y, float (*nodes)[4]) {
+  const cs_v4 *sums = s->sums + (size_t)(y * s->slices->factor) * s->slices->stride;
+  CS_WIDE_CHOOSE(s->isa, cs_defocus_slices_sum)
+  (s->slices->slices, s->slices->count, (const float *)sums, TILE, s->out[0]);
+  memcpy(nodes, s->out, (size_t)(s->x1 - s->x0) * sizeof *nodes);
 }
 
-/* The node whose kernel begins at the sample that `sums` points to. */
-static cs_v4 sum_node(const summing *s, const cs_v4 *sums) {
-  cs_v4 value = cs_v4_all(0);
-  for (size_t i = 0; i < s->slices->count; i++) {
-    const cs_defocus_slice *slice = &s->slices->slices[i];
-    const cs_v4 *row = sums + (size_t)slice->row * s->stride;
-    value += slice->weight * (sum_up_to(row + slice->to, slice->to_share) -
-                              sum_up_to(row + slice->from, slice->from_share));
-  }
-  return value;
-}
-
-static void sum_tile(summing *s, int32_t columns, int32_t band_rows, float (*nodes)[4]) {
-  for (int32_t k = 0; k < s->row_count; k++)
+static void sum_tile(summing *s, float (*nodes)[4]) {
+  size_t columns = (size_t)s->columns;
+  cs_v4 colour;
+  bool is_plain = cs_defocus_samples_are_plain(&s->samples, &colour);
+  for (int32_t k = 0; k < s->samples.count && !is_plain; k++)
     sum_samples(s, k);
-  for (int32_t y = 0; y < band_rows; y++)
-    for (int32_t x = s->x0; x < s->x1; x++) {
-      const cs_v4 *sums =
-          s->sums + (size_t)(y * s->slices->factor) * s->stride + (x - s->x0) * s->slices->factor;
-      cs_v4_store(nodes[(size_t)y * (size_t)columns + (size_t)x], sum_node(s, sums));
-    }
+  for (int32_t y = 0; y < s->band_rows; y++) {
+    float(*row)[4] = nodes + (size_t)y * columns + (size_t)s->x0;
+    if (!is_plain)
+      sum_nodes(s, y, row);
+    for (int32_t x = 0; x < s->x1 - s->x0 && is_plain; x++)
+      cs_v4_store(row[x], colour);
+  }
 }
 
-static celspan_status sum_rows(summing *s, cs_row_maker *maker, int32_t columns, int32_t first,
-                               int32_t end, float (*nodes)[4]) {
-  for (int32_t k = 0; k < s->row_count; k++)
-    CS_TRY(cs_row_make(maker, first * s->slices->factor + k, &s->rows[k]));
-  for (s->x0 = 0; s->x0 < columns; s->x0 = s->x1) {
-    s->x1 = columns - s->x0 < TILE ? columns : s->x0 + TILE;
-    sum_tile(s, columns, end - first, nodes);
+static void sum_tiles(summing *s, float (*nodes)[4]) {
+  int32_t factor = s->slices->factor;
+  for (s->x0 = 0; s->x0 < s->columns; s->x0 = s->x1) {
+    s->x1 = s->columns - s->x0 < TILE ? s->columns : s->x0 + TILE;
+    cs_defocus_samples_move(&s->samples, s->x0 * factor,
+                            s->x1 * factor + 2 * s->slices->extent_x);
+    sum_tile(s, nodes);
   }
-  return CELSPAN_OK;
 }
 
 celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_maker *maker,
                                       int32_t columns, int32_t first, int32_t end,
                                       float (*nodes)[4]) {
-  cs_memory *memory = maker->context->memory;
-  summing s = {.slices = slices};
-  s.row_count = (end - first) * slices->factor + 2 * slices->extent_y;
-  s.stride = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
-  size_t rows = (size_t)s.row_count;
-  s.rows = cs_mem_array(memory, rows, sizeof *s.rows);
-  s.from = cs_mem_array(memory, rows, sizeof *s.from);
-  s.sums = cs_mem_array(memory, rows * s.stride, sizeof *s.sums);
-  celspan_status status = s.rows && s.from && s.sums
-                              ? sum_rows(&s, maker, columns, first, end, nodes)
-                              : cs_fail_memory(maker->context);
-  for (size_t k = 0; s.rows && k < rows; k++)
-    cs_row_finish(&s.rows[k], memory);
-  cs_mem_free(memory, s.rows, rows * sizeof *s.rows);
-  cs_mem_free(memory, s.from, rows * sizeof *s.from);
-  cs_mem_free(memory, s.sums, rows * s.stride * sizeof *s.sums);
+  celspan_context *context = maker->context;
+  cs_memory *memory = context->memory;
+  summing s = {.slices = slices,
+               .isa = maker->painter.isa,
+               .columns = columns,
+               .band_rows = end - first};
+  int32_t rows = (end - first) * slices->factor + 2 * slices->extent_y;
+  size_t samples = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
+  size_t sums = (size_t)rows * slices->stride;
+  celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
+  s.row = cs_mem_array(memory, samples, sizeof *s.row);
+  s.sums = cs_mem_array(memory, sums, sizeof *s.sums);
+  s.out = cs_mem_array(memory, TILE, sizeof *s.out);
+  if (status == CELSPAN_OK && (!s.row || !s.sums || !s.out))
+    status = cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = cs_defocus_samples_make(&s.samples, maker, first * slices->factor);
+  if (status == CELSPAN_OK)
+    sum_tiles(&s, nodes);
+  cs_defocus_samples_finish(&s.samples, memory);
+  cs_mem_free(memory, s.row, samples * sizeof *s.row);
+  cs_mem_free(memory, s.sums, sums * sizeof *s.sums);
+  cs_mem_free(memory, s.out, TILE * sizeof *s.out);
   return status;
 }
