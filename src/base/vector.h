@@ -106,6 +106,17 @@ static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
   return (cs_v4)(((lanes)one & mask) | ((lanes)other & ~mask));
 }
 
+/* Whether every lane lies between the same lanes of two others. */
+static inline int cs_v4_is_between(cs_v4 value, cs_v4 least, cs_v4 most) {
+#ifdef __SSE__
+  return _mm_movemask_ps(_mm_and_ps(_mm_cmpge_ps(value, least), _mm_cmple_ps(value, most))) == 15;
+#else
+  typedef long long words __attribute__((vector_size(16)));
+  words lanes = (words)((value >= least) & (value <= most));
+  return (lanes[0] & lanes[1]) == -1;
+#endif
+}
+
 /* Whether a lane of a is greater than that of b. */
 static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
   typedef long long words __attribute__((vector_size(16)));
@@ -115,11 +126,11 @@ static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
 
 /* Whether all 128 bits agree: minus zero differs from zero. */
 static inline int cs_v4_same(cs_v4 a, cs_v4 b) {
+#ifdef __SSE__
+  return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)a, (__m128i)b)) == 0xffff;
+#else
   typedef long long words __attribute__((vector_size(16)));
   words differ = (words)a ^ (words)b;
-#ifdef __SSE4_1__
-  return _mm_testz_si128((__m128i)differ, (__m128i)differ);
-#else
   return (differ[0] | differ[1]) == 0;
 #endif
 }

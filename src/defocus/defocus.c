@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "defocus/flat.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -156,74 +157,43 @@ void cs_defocus_free(cs_defocus *defocus, cs_memory *memory) {
   cs_mem_free(memory, defocus, sizeof *defocus);
 }
 
-/* ---------------------------------------------------------------- rows through a kernel */
-
-static void write_row(const cs_row *row, float (*nodes)[4]) {
-  for (size_t i = 0; i < row->count; i++)
-    for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
-      celspan_span_colour(&row->spans[i], x, nodes[x]);
-}
-
-static celspan_status fill_filtered(cs_row_maker *maker, int32_t columns, int32_t first,
-                                    int32_t end, float (*nodes)[4]) {
-  cs_row row;
-  cs_row_init(&row);
-  celspan_status status = CELSPAN_OK;
-  for (int32_t y = first; y < end && status == CELSPAN_OK; y++) {
-    status = cs_row_make(maker, y, &row);
-    if (status == CELSPAN_OK)
-      write_row(&row, nodes + (size_t)(y - first) * (size_t)columns);
-  }
-  cs_row_finish(&row, maker->context->memory);
-  return status;
-}
-
 /* ---------------------------------------------------------------- bands */
 
-static celspan_status fill_rows(const cs_defocus *defocus, cs_row_maker *maker, int32_t first,
-                                int32_t end, float (*nodes)[4]) {
+static celspan_status sum_rows(const cs_defocus *defocus, cs_row_maker *maker, int32_t first,
+                               int32_t end, float (*nodes)[4]) {
   int32_t columns = defocus->grid.columns;
-  switch (defocus->way) {
-  case CS_DEFOCUS_KERNEL:
-    return fill_filtered(maker, columns, first, end, nodes);
-  case CS_DEFOCUS_EDGES:
-    return cs_defocus_edges_fill(&defocus->edges, maker, columns, first, end, nodes);
-  case CS_DEFOCUS_SUMS:
-    return cs_defocus_sums_fill(&defocus->sums, maker, columns, first, end, nodes);
-  case CS_DEFOCUS_SLICES:
-    return cs_defocus_slices_fill(&defocus->slices, maker, columns, first, end, nodes);
-  }
-  return CELSPAN_OK;
+  return defocus->way == CS_DEFOCUS_SUMS
+             ? cs_defocus_sums_fill(&defocus->sums, maker, columns, first, end, nodes)
+             : cs_defocus_slices_fill(&defocus->slices, maker, columns, first, end, nodes);
 }
 
-/* How many node rows are filled together. Rows of samples need much memory, so no more are kept
+/* How many node rows are summed together. Rows of samples need much memory, so no more are kept
  * than are needed to outweigh the rows that are made twice. */
 static int32_t rows_together(const cs_defocus *defocus) {
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
-  bool has_samples = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
-  int32_t rows = 4 * extent_y / factor;
-  return !has_samples || rows > defocus->grid.band_rows ? defocus->grid.band_rows
-         : rows < BAND_ROWS_LEAST                       ? BAND_ROWS_LEAST
-                                                        : rows;
+  return (int32_t)cs_number_clamp(4 * extent_y / factor, BAND_ROWS_LEAST, defocus->grid.band_rows);
 }
 
-static celspan_status fill_plane(const cs_defocus *defocus, celspan_context *context, int plane,
-                                 int32_t first, int32_t end, float (*nodes)[4]) {
+static celspan_status sum_plane(const cs_defocus *defocus, celspan_context *context, int plane,
+                                int32_t first, int32_t end, float (*nodes)[4]) {
   cs_row_maker maker;
   celspan_status status = cs_row_maker_init(&maker, context, &defocus->plans[plane]);
   int32_t columns = defocus->grid.columns, step = rows_together(defocus);
   for (int32_t y = first; y < end && status == CELSPAN_OK; y += step)
-    status = fill_rows(defocus, &maker, y, end - y < step ? end : y + step,
-                       nodes + (size_t)(y - first) * (size_t)columns);
+    status = sum_rows(defocus, &maker, y, end - y < step ? end : y + step,
+                      nodes + (size_t)(y - first) * (size_t)columns);
   cs_row_maker_finish(&maker);
   return status;
 }
 
-/* Whether only the ends of straight runs of nodes are kept: for art in which such runs are
- * frequent, and where nothing is interpolated between the rows. */
-static bool is_thin(const cs_defocus *defocus) {
-  return defocus->grid.pitch_y == 1 &&
-         (defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL);
+static celspan_status sum_planes(const cs_defocus *defocus, celspan_context *context, int32_t first,
+                                 int32_t end, cs_defocus_band *band) {
+  const cs_defocused *grid = &defocus->grid;
+  size_t size = (size_t)grid->band_rows * (size_t)grid->columns;
+  CS_TRY(cs_defocus_band_room(grid, context, band));
+  for (int plane = 0; plane < grid->planes; plane++)
+    CS_TRY(sum_plane(defocus, context, plane, first, end, band->nodes + (size_t)plane * size));
+  return CELSPAN_OK;
 }
 
 static celspan_status make_band(const void *layer, celspan_context *context, int32_t number,
@@ -232,16 +202,9 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
   const cs_defocused *grid = &defocus->grid;
   int32_t first = number * grid->band_rows;
   int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
-  size_t plane_size = (size_t)grid->band_rows * (size_t)grid->columns;
-  size_t count = (size_t)grid->planes * plane_size;
-  band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
-  if (!band->nodes)
-    return cs_fail_memory(context);
-  band->node_count = count;
-  for (int plane = 0; plane < grid->planes; plane++)
-    CS_TRY(
-        fill_plane(defocus, context, plane, first, end, band->nodes + (size_t)plane * plane_size));
-  return is_thin(defocus) ? cs_defocus_band_thin(grid, context, end - first, band) : CELSPAN_OK;
+  bool is_flat = defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL;
+  return is_flat ? cs_defocus_flat_fill(defocus, context, first, end, band)
+                 : sum_planes(defocus, context, first, end, band);
 }
 
 static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,

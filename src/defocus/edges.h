@@ -14,38 +14,24 @@
  *
  * A line lies on the border between two rows and weighs both of them by a tent, so that neither
  * axis shows where inside a sample an edge lies. For a box of radius r this rounds its kinks by
- * 1/(12 r). The cost along x follows the number of edges. Along y it follows the number of nodes
- * that are near some edge: columns are treated in groups, and where no edge is near a group in any
- * of the lines under a node, the whole group is one colour.
+ * 1/(12 r). Here are the tables; lines.h sweeps the rows.
  */
 #ifndef CS_DEFOCUS_EDGES_H
 #define CS_DEFOCUS_EDGES_H
 
-#include "base/wide.h"
-#include "row/row.h"
+#include "kernel/kernel.h"
+
+#define CS_DEFOCUS_EDGES_PHASES 64 /* positions of an edge in its column that are tabulated */
 
 typedef struct cs_defocus_edges {
   int32_t extent_x, extent_y; /* of the kernel: samples */
-  float *shares;              /* by phase and column: of the kernel right of an edge */
-  float *weights;             /* extent_y of them: of lines k + 1/2 rows away */
+  float *shares;  /* by phase and by 2 extent_x + 2 columns: of the kernel right of an edge */
+  float *weights; /* extent_y of them: of lines k + 1/2 rows away */
 } cs_defocus_edges;
 
 /* blur: in samples; a Gaussian, or a box along the axes. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_edges_init(celspan_context *context, const cs_blur *blur,
                                                      cs_defocus_edges *out);
 void cs_defocus_edges_finish(cs_defocus_edges *edges, cs_memory *memory);
-/* Fills the rows [first, end) of `columns` nodes each. maker: of the samples, of which extent_x
- * columns and extent_y rows lie before those of the first node. Errors: those of its rows. */
-CELSPAN_CHECKED celspan_status cs_defocus_edges_fill(const cs_defocus_edges *edges,
-                                                     cs_row_maker *maker, int32_t columns,
-                                                     int32_t first, int32_t end, float (*nodes)[4]);
-
-/* ---- edges_wide.c */
-
-/* Fills the floats [first, end) of a row of nodes with weighed sums over `pairs` pairs of lines.
- * The pairs are given from the middle outwards: lines[2 k] and lines[2 k + 1] have weights[k]. */
-CS_WIDE_DECLARE(void, cs_defocus_edges_weigh,
-                (const float *const *lines, const float *weights, int32_t pairs, int32_t first,
-                 int32_t end, float *nodes));
 
 #endif

@@ -136,8 +136,7 @@ static void sum_tiles(summing *s, float (*nodes)[4]) {
   int32_t factor = s->slices->factor;
   for (s->x0 = 0; s->x0 < s->columns; s->x0 = s->x1) {
     s->x1 = s->columns - s->x0 < TILE ? s->columns : s->x0 + TILE;
-    cs_defocus_samples_move(&s->samples, s->x0 * factor,
-                            s->x1 * factor + 2 * s->slices->extent_x);
+    cs_defocus_samples_move(&s->samples, s->x0 * factor, s->x1 * factor + 2 * s->slices->extent_x);
     sum_tile(s, nodes);
   }
 }
@@ -147,10 +146,8 @@ celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_ma
                                       float (*nodes)[4]) {
   celspan_context *context = maker->context;
   cs_memory *memory = context->memory;
-  summing s = {.slices = slices,
-               .isa = maker->painter.isa,
-               .columns = columns,
-               .band_rows = end - first};
+  summing s = {
+      .slices = slices, .isa = maker->painter.isa, .columns = columns, .band_rows = end - first};
   int32_t rows = (end - first) * slices->factor + 2 * slices->extent_y;
   size_t samples = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
   size_t sums = (size_t)rows * slices->stride;

@@ -69,9 +69,8 @@ static celspan_status find_pairs(celspan_context *context, cs_defocus_sums *sums
   if ((x > 0 && !sums->across) || (y > 0 && !sums->down))
     return cs_fail_memory(context);
   for (int32_t k = x; k >= 1; k--)
-    sums->across[x - k] =
-        (cs_defocus_pair){4 * place_of(sums, x + half - k), 4 * place_of(sums, x + half + k),
-                          sums->weights[0][k]};
+    sums->across[x - k] = (cs_defocus_pair){4 * place_of(sums, x + half - k),
+                                            4 * place_of(sums, x + half + k), sums->weights[0][k]};
   for (int32_t k = y; k >= 1; k--)
     sums->down[y - k] = (cs_defocus_pair){4 * TILE * (size_t)(y + half - k),
                                           4 * TILE * (size_t)(y + half + k), sums->weights[1][k]};

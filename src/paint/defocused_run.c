@@ -36,6 +36,7 @@ bool cs_defocused_run_fits(const cs_stack *stack, const cs_program *program, uin
 /* Trial paints of the defocused layer: none, all light scattered, clear, and each channel let
  * through by itself. */
 enum { NONE, SCATTERED, CLEAR, RED, GREEN, BLUE, TRIALS };
+#define READ 8 /* trials that may be read: whole registers */
 
 typedef struct trials {
   float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4], rgba[CS_OVER_ROW_BATCH][4];
@@ -61,7 +62,8 @@ static celspan_status find_light(drawing *w) {
   trials *room = cs_arena_take(w->painter->context, scratch, sizeof *room);
   if (!room)
     return CELSPAN_NO_MEMORY;
-  memset(room, 0, sizeof *room);
+  memset(room->s, 0, READ * sizeof *room->s);
+  memset(room->t, 0, READ * sizeof *room->t);
   for (int c = 0; c < 3; c++)
     room->s[SCATTERED][c] = room->t[CLEAR][c] = room->t[RED + c][c] = 1;
   CS_TRY(try_paints(w, room));
@@ -87,9 +89,11 @@ static inline cs_v4 vertex_colour(const drawing *w, size_t k) {
 }
 
 static bool is_constant(const drawing *w, size_t k) {
-  size_t planes = (size_t)w->defocused->planes;
-  const float(*values)[4] = w->view->values + k * planes;
-  return memcmp(values, values + planes, planes * sizeof *values) == 0;
+  for (int plane = 0; plane < w->defocused->planes; plane++)
+    if (!cs_v4_same(cs_defocused_value(w->defocused, w->view, k, plane),
+                    cs_defocused_value(w->defocused, w->view, k + 1, plane)))
+      return false;
+  return true;
 }
 
 /* The colour of a constant line; where the layer is clear, to the bit the colour without it. */

@@ -10,10 +10,17 @@
 
 /* ---------------------------------------------------------------- polylines */
 
+/* The constant stretch that was looked for last, since it is asked for several times. */
+typedef struct stretch {
+  int32_t from, end;
+} stretch;
+
 typedef struct node_row {
   const float (*planes[2])[4]; /* nodes */
+  const bool *even;            /* as in cs_defocused_nodes */
   int plane_count;
-  int32_t last;  /* node */
+  int32_t last; /* node */
+  stretch *found;
   bool is_split; /* every node is a pixel: a line may end in one, and the next begin in the next */
 } node_row;
 
@@ -31,19 +38,41 @@ static void add_vertex(const node_row *row, int32_t i, cs_defocused_polyline *ou
   out->at[out->count++] = i;
 }
 
-static bool is_constant(const node_row *row, int32_t i) {
-  for (int plane = 0; plane < row->plane_count; plane++)
+static inline bool is_constant(const node_row *row, int planes, int32_t i) {
+  for (int plane = 0; plane < planes; plane++)
     if (!cs_v4_same(cs_v4_load(row->planes[plane][i]), cs_v4_load(row->planes[plane][i + 1])))
       return false;
   return true;
 }
 
+/* The last node of the even group that begins with node i; i where none does. */
+static inline int32_t even_end(const node_row *row, int32_t i) {
+  if (!row->even || i % CS_DEFOCUSED_GROUP != 0 || !row->even[i / CS_DEFOCUSED_GROUP])
+    return i;
+  int32_t end = i + CS_DEFOCUSED_GROUP - 1;
+  return end < row->last ? end : row->last;
+}
+
+/* Whether a constant stretch may begin with node i. */
+static inline bool may_be_constant(const node_row *row, int planes, int32_t i) {
+  return even_end(row, i) > i || is_constant(row, planes, i);
+}
+
+static inline int32_t same_until(const node_row *row, int planes, int32_t i) {
+  int32_t end = even_end(row, i);
+  while (end < row->last && is_constant(row, planes, end))
+    end = even_end(row, end + 1);
+  return end;
+}
+
 /* The last node of the constant stretch from i on; i where it is too short to count. */
 static int32_t constant_end(const node_row *row, int32_t i) {
-  int32_t end = i;
-  while (end < row->last && is_constant(row, end))
-    end++;
-  return end - i >= CONSTANT || end == row->last ? end : i;
+  stretch *found = row->found;
+  if (found->from == i)
+    return found->end;
+  int32_t end = row->plane_count == 1 ? same_until(row, 1, i) : same_until(row, 2, i);
+  *found = (stretch){i, end - i >= CONSTANT || end == row->last ? end : i};
+  return found->end;
 }
 
 /* The slopes that a line from a node on may have, so that it is near every node after it:
@@ -62,21 +91,16 @@ typedef struct swing {
   cs_v4 least[2], most[2];
 } swing;
 
-static inline bool is_within(cs_v4 value, cs_v4 least, cs_v4 most) {
-  typedef long long words __attribute__((vector_size(16)));
-  words lanes = (words)((value >= least) & (value <= most));
-  return (lanes[0] & lanes[1]) == -1;
-}
-
-/* Whether the line from node `from` to node i is near all between; if so, narrows the slopes by it.
- */
-static inline bool swing_admits(swing *s, const node_row *row, int32_t from, int32_t i) {
-  float across = 1 / (float)(i - from);
-  cs_v4 slack = cs_v4_all(TOLERANCE * across);
-  for (int plane = 0; plane < row->plane_count; plane++) {
-    cs_v4 start = cs_v4_load(row->planes[plane][from]);
-    cs_v4 slope = (cs_v4_load(row->planes[plane][i]) - start) * across;
-    if (!is_within(slope, s->least[plane], s->most[plane]))
+/* Whether the line from node `from` to a node is near all between; if so, narrows the slopes by it.
+ * across: how far the node is. */
+static inline bool swing_admits(swing *s, const node_row *row, int planes, int32_t from,
+                                int32_t across) {
+  float scale = 1 / (float)across;
+  cs_v4 slack = cs_v4_all(TOLERANCE * scale);
+  for (int plane = 0; plane < planes; plane++) {
+    const float(*start)[4] = row->planes[plane] + from;
+    cs_v4 slope = (cs_v4_load(start[across]) - cs_v4_load(start[0])) * scale;
+    if (!cs_v4_is_between(slope, s->least[plane], s->most[plane]))
       return false;
     s->least[plane] = cs_v4_max(s->least[plane], slope - slack);
     s->most[plane] = cs_v4_min(s->most[plane], slope + slack);
@@ -86,16 +110,21 @@ static inline bool swing_admits(swing *s, const node_row *row, int32_t from, int
 
 /* The last node that a line from `from` may end at, or the first before it at which a constant
  * stretch begins. */
-static int32_t swing_end(const node_row *row, int32_t from) {
+static inline int32_t swing_to(const node_row *row, int planes, int32_t from) {
   swing s = {{cs_v4_all(-INFINITY), cs_v4_all(-INFINITY)},
              {cs_v4_all(INFINITY), cs_v4_all(INFINITY)}};
   for (int32_t i = from + 1; i <= row->last; i++) {
-    if (!swing_admits(&s, row, from, i))
+    if (!swing_admits(&s, row, planes, from, i - from))
       return i - 1;
-    if (i < row->last && is_constant(row, i) && constant_end(row, i) > i)
+    if (i < row->last && may_be_constant(row, planes, i) && constant_end(row, i) > i)
       return i;
   }
   return row->last;
+}
+
+/* The loop for one plane is nearly all of the time that is spent on rows of nodes. */
+static int32_t swing_end(const node_row *row, int32_t from) {
+  return row->plane_count == 1 ? swing_to(row, 1, from) : swing_to(row, 2, from);
 }
 
 /* By how much the sum of the nodes between two nodes grows when a line takes their place. */
@@ -122,7 +151,9 @@ static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t
     cs_v4 owed = cs_v4_all(0); /* to be subtracted for the line that ends in the vertex */
     for (size_t k = first; k + 1 < polyline->count; k++) {
       bool moves = !is_fixed(polyline, first, k);
-      cs_v4 added = light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);
+      cs_v4 added = polyline->constant[k - first]
+                        ? cs_v4_all(0)
+                        : light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);
       cs_v4 here = is_fixed(polyline, first, k + 1) ? added : 0.5f * added;
       if (moves) {
         float *value = polyline->values[k * planes + p];
@@ -135,8 +166,9 @@ static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t
 }
 
 /* Appends the vertices of a row. */
-static celspan_status add_row(celspan_context *context, const node_row *row,
-                              cs_defocused_polyline *out) {
+static celspan_status add_row(celspan_context *context, node_row *row, cs_defocused_polyline *out) {
+  stretch found = {-1, -1};
+  row->found = &found;
   size_t first = out->count, limit = first + (size_t)row->last + 1;
   CS_TRY(cs_mem_reserve(context, (void **)&out->at, &out->at_capacity, limit, sizeof *out->at));
   CS_TRY(cs_mem_reserve(context, (void **)&out->values, &out->value_capacity,
@@ -201,26 +233,44 @@ static void fit(cs_memory *memory, void **items, size_t *capacity, size_t count,
   *capacity = count;
 }
 
-celspan_status cs_defocus_band_thin(const cs_defocused *defocused, celspan_context *context,
-                                    int32_t rows, cs_defocus_band *band) {
-  cs_memory *memory = context->memory;
-  cs_defocused_polyline *polyline = &band->polyline;
+celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_context *context,
+                                    cs_defocus_band *band) {
+  size_t count =
+      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns;
+  band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
+  if (!band->nodes)
+    return cs_fail_memory(context);
+  band->node_count = count;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
+                                     cs_defocus_band *band) {
   CS_TRY(cs_mem_reserve(context, (void **)&band->rows, &band->row_capacity, (size_t)rows + 1,
                         sizeof *band->rows));
-  for (int32_t row = 0; row < rows; row++) {
-    node_row nodes = band_nodes(defocused, band, row);
-    band->rows[row] = polyline->count;
-    CS_TRY(add_row(context, &nodes, polyline));
-  }
-  band->rows[rows] = polyline->count;
+  band->rows[0] = 0;
+  band->row_count = 0;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_defocus_band_add(const cs_defocused *defocused, celspan_context *context,
+                                   const cs_defocused_nodes *nodes, cs_defocus_band *band) {
+  node_row row = {.planes = {nodes->planes[0], nodes->planes[1]},
+                  .even = nodes->even,
+                  .plane_count = defocused->planes,
+                  .last = defocused->columns - 1,
+                  .is_split = defocused->pitch_x == 1};
+  CS_TRY(add_row(context, &row, &band->polyline));
+  band->rows[++band->row_count] = band->polyline.count;
+  return CELSPAN_OK;
+}
+
+void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band) {
+  cs_defocused_polyline *polyline = &band->polyline;
   fit(memory, (void **)&polyline->at, &polyline->at_capacity, polyline->count,
       sizeof *polyline->at);
   fit(memory, (void **)&polyline->values, &polyline->value_capacity,
       polyline->count * (size_t)defocused->planes, sizeof *polyline->values);
-  cs_mem_free(memory, band->nodes, band->node_count * sizeof *band->nodes);
-  band->nodes = NULL;
-  band->node_count = 0;
-  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- rows */

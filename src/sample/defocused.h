@@ -40,6 +40,14 @@ typedef struct cs_defocused_polyline {
   size_t count, at_capacity, value_capacity, constant_capacity;
 } cs_defocused_polyline;
 
+/* The nodes of one row, plane after plane. Stretches of one colour are known group by group: in an
+ * even group all nodes are equal, and only its first and its last one need to be there. */
+#define CS_DEFOCUSED_GROUP 8
+typedef struct cs_defocused_nodes {
+  const float (*planes[2])[4];
+  const bool *even; /* by group, in all planes together; NULL: unknown */
+} cs_defocused_nodes;
+
 /* A band: band_rows rows of nodes that are made and kept together, plane after plane or as
  * polylines. */
 typedef struct cs_defocus_band {
@@ -47,7 +55,7 @@ typedef struct cs_defocus_band {
   size_t node_count;
   cs_defocused_polyline polyline;
   size_t *rows; /* the first vertex of each row, and the end: band_rows + 1 */
-  size_t row_capacity;
+  size_t row_count, row_capacity;
 } cs_defocus_band;
 
 typedef struct cs_defocused cs_defocused;
@@ -80,10 +88,23 @@ typedef struct cs_defocused_view {
 
 void cs_defocus_band_free(cs_defocus_band *band, cs_memory *memory);
 size_t cs_defocus_band_bytes(const cs_defocus_band *band);
-/* Turns the nodes of a band of `rows` rows into polylines. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_defocus_band_thin(const cs_defocused *defocused,
-                                                    celspan_context *context, int32_t rows,
+/* Room for the nodes of a band, which are not set. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_band_room(const cs_defocused *defocused,
+                                                    celspan_context *context,
                                                     cs_defocus_band *band);
+/* Begins a band of `rows` rows that is kept as polylines; adds its next row; gives back the room
+ * that was not needed. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_band_begin(celspan_context *context, int32_t rows,
+                                                     cs_defocus_band *band);
+CELSPAN_CHECKED celspan_status cs_defocus_band_add(const cs_defocused *defocused,
+                                                   celspan_context *context,
+                                                   const cs_defocused_nodes *nodes,
+                                                   cs_defocus_band *band);
+void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band);
+/* How many groups a row of nodes has. */
+static inline int32_t cs_defocused_groups(const cs_defocused *defocused) {
+  return (defocused->columns + CS_DEFOCUSED_GROUP - 1) / CS_DEFOCUSED_GROUP;
+}
 
 /* ---- rows */
 
