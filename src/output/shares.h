@@ -40,5 +40,6 @@ typedef struct cs_shares {
  * output/sink_shares.h asks them all. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
 
 #endif

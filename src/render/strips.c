@@ -288,7 +288,10 @@ static int32_t choose_rows(const strips *s, const celspan_frame_desc *desc) {
 static celspan_status render_together(celspan_context *context, const cs_frame *frame,
                                       delivery *d) {
   strips s = {.context = context, .frame = frame, .delivery = d};
-  s.has_shares = cs_sink_shares(d->sink, &s.shares);
+  /* Of one share alone only one worker could make the rows. */
+  s.has_shares = cs_sink_shares(d->sink, &s.shares) && s.shares.rows < frame->crop_height;
+  if (!s.has_shares)
+    s.shares = (cs_shares){.rows = 0};
   s.strip_height = choose_rows(&s, d->desc);
   s.total = (int32_t)(((int64_t)frame->crop_height + s.strip_height - 1) / s.strip_height);
   s.worker_count = frame->workers < s.total ? frame->workers : (int)s.total;

@@ -102,6 +102,26 @@ end)
 teardown(function() os.execute("rm -rf '" .. folder .. "'") end)
 
 describe("a span file", function()
+  it("is the same bytes for any number of workers, and so are its parts #workers", function()
+    write("parts.lua", [[
+local celspan = require "celspan"
+local ramp = celspan.linear { from = { 0, 0 }, to = { 90, 70 }, { 0, "#f00" }, { 1, "#0000ff80" } }
+return celspan.film { size = { 100, 100 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel {
+    celspan.circle { centre = { 40, 45 }, radius = 38, texture = "#ffcc0080" },
+    celspan.rect { 20, 10, 60, 85, texture = ramp }:rotate(20, 50, 50) } }
+end }]])
+    for _, height in ipairs { 100, 256, 257, 900 } do
+      local size = ("--progress none --size 300x%d"):format(height)
+      done(("render parts.lua %s --workers 1 -o one.span"):format(size))
+      local one = read "one.span"
+      for _, workers in ipairs { 2, 3, 5 } do
+        done(("render parts.lua %s --workers %d -o some.span"):format(size, workers))
+        assert.is_true(one == read "some.span", ("%d rows, %d workers"):format(height, workers))
+      end
+    end
+  end)
+
   it("holds the same pixels after it is converted to another", function()
     for _, name in ipairs { "scene", "half" } do
       done(("convert %s.span again.span%s"):format(name, name == "half" and " --depth half" or ""))

@@ -102,6 +102,25 @@ spanfile_status spanfile_writer_row(spanfile_writer *writer);
 /* After the last row: index and trailer, and all bytes to the write function. */
 spanfile_status spanfile_writer_finish(spanfile_writer *writer);
 
+/* Parts of a picture, packed by several threads: a part is the rows from a multiple of
+ * SPANFILE_PART_ROWS up to the next one, or to the height. It is a writer without a file, which holds
+ * the bytes of its part. Parts are joined to the file in order; the bytes of the file are what one
+ * writer would have written of the same rows.
+ *
+ *   spanfile_writer_create_part(&desc, &part);            one or several for each thread
+ *   spanfile_writer_begin_part(part, 256); rows           side by side
+ *   spanfile_writer_join(file, part);                     in order
+ */
+#define SPANFILE_PART_ROWS 256
+
+/* desc: as that of the file; write is not used. out: new; rows of its first part may follow. */
+spanfile_status spanfile_writer_create_part(const spanfile_writer_desc *desc,
+                                            spanfile_writer **out);
+/* Forgets the part that was packed, and any failure, and begins the one whose first row this is. */
+spanfile_status spanfile_writer_begin_part(spanfile_writer *part, uint32_t row);
+/* Adds a complete part, the next of the file. part: borrowed. */
+spanfile_status spanfile_writer_join(spanfile_writer *writer, const spanfile_writer *part);
+
 /* ---------------------------------------------------------------- reading */
 
 typedef struct spanfile_reader spanfile_reader;

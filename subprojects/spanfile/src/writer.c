@@ -1,10 +1,6 @@
 /* Rows to records:
  *
- *   runs, pixels --pack--> row --fit to the row above--> record 'P', 'M' or 'S' --> buffer -->
- * write
- *                           |
- *                       key rows --> node of level 0 --full--> node of level 1 --full--> ...
- *                                    512 entries               an entry for each node below
+ *   runs, pixels --pack--> row --fit to the row above--> record 'P', 'M' or 'S' --> output.h
  *
  * A row that can be read first (a key row), and one that has other spans than the row above, is
  * written whole, as 'P'. For others the end of each span is stored as a difference of its move: how
@@ -14,45 +10,50 @@
  *   row 8   |-------22         2
  *   row 9   |---------24       2       0: an edge that goes straight on costs two bits a row
  *
- * INVARIANT: memory does not grow with the height. A node of the index is written when it is full.
+ * Every SF_KEY_ROWS rows there is a key row, whatever came before, so the rows from there to the next
+ * such row are the same bytes wherever they are packed: as a part, by a writer of its own that has no
+ * file, and the bytes are joined to a file later.
+ *
+ *   part 0 |key ... key .....|                      keys: what the index is told when it is joined
+ *   part 1                   |key .........|
+ *   file   header |bytes of part 0| node |bytes of part 1| ... trailer
  */
 #include "crc32c.h"
 #include "fit.h"
+#include "output.h"
 #include "pack.h"
 #include "store.h"
 
 enum {
-  BUFFER_BYTES = 256 * 1024,
-  HEAD_BYTES = 1 + SF_LENGTH_BYTES,
   /* The codes for differences of -1, 0, 1 and others: two bits each, the first lowest. */
   MOVE_CODES = 0xd2
 };
 
-typedef struct index_node {
-  uint32_t count;
-  unsigned char entries[SF_NODE_ENTRIES * SF_ENTRY_BYTES];
-} index_node;
+/* Where the records of a part go. */
+typedef struct part_bytes {
+  uint32_t first; /* row */
+  uint32_t key_count;
+  uint32_t key_rows[SF_KEY_ROWS];
+  uint64_t key_offsets[SF_KEY_ROWS];
+  sf_bytes bytes;
+} part_bytes;
 
 struct spanfile_writer {
   sf_memory memory;
-  bool (*write)(void *user, const void *bytes, size_t size);
-  void *user;
+  sf_output *output; /* NULL: a part */
+  part_bytes *part;  /* NULL: a file */
   uint32_t width, height;
   spanfile_format format;
   size_t pixel_size;
   spanfile_status status;
-  uint64_t y;        /* complete rows; more than height: finished */
+  uint32_t end;      /* the row before which the file or the part ends */
+  uint64_t y;        /* complete rows; more than end: finished */
   sf_row row, above; /* the current row, and the last complete one */
   sf_row fitted;
   int64_t *moves; /* of the ends in `above`, from the row above that */
   size_t move_capacity;
-  sf_bytes record; /* room for the head, HEAD_BYTES, then the payload */
-  uint32_t key_row;
-  uint64_t key_offset;
-  uint64_t flushed; /* bytes that were passed to `write` */
-  size_t buffered;
-  index_node nodes[SF_LEVELS];
-  unsigned char buffer[BUFFER_BYTES];
+  sf_bytes record;     /* room for the head, SF_HEAD_BYTES, then the payload */
+  uint64_t key_offset; /* of the latest key row */
 };
 
 static spanfile_status fail(spanfile_writer *writer, spanfile_status status) {
@@ -64,31 +65,28 @@ static spanfile_status fail(spanfile_writer *writer, spanfile_status status) {
 /* ---------------------------------------------------------------- bytes */
 
 static uint64_t position(const spanfile_writer *writer) {
-  return writer->flushed + writer->buffered;
-}
-
-static bool write_out(spanfile_writer *writer, const void *bytes, size_t size) {
-  if (size > 0 && !writer->write(writer->user, bytes, size)) {
-    fail(writer, SPANFILE_WRITE_FAILED);
-    return false;
-  }
-  writer->flushed += size;
-  return true;
-}
-
-static bool flush(spanfile_writer *writer) {
-  size_t size = writer->buffered;
-  writer->buffered = 0;
-  return write_out(writer, writer->buffer, size);
+  return writer->part ? writer->part->bytes.size : sf_output_position(writer->output);
 }
 
 static bool put(spanfile_writer *writer, const void *bytes, size_t size) {
-  if (size > BUFFER_BYTES - writer->buffered && !flush(writer))
+  bool is_put = writer->part ? sf_bytes_add(&writer->memory, &writer->part->bytes, bytes, size)
+                             : sf_output_put(writer->output, bytes, size);
+  if (!is_put)
+    fail(writer, writer->part ? SPANFILE_NO_MEMORY : SPANFILE_WRITE_FAILED);
+  return is_put;
+}
+
+/* The record that comes next is that of a key row. */
+static bool note_key(spanfile_writer *writer, uint32_t row) {
+  part_bytes *p = writer->part;
+  if (p) {
+    p->key_rows[p->key_count] = row;
+    p->key_offsets[p->key_count++] = p->bytes.size;
+  } else if (!sf_output_key(writer->output, row)) {
+    fail(writer, SPANFILE_WRITE_FAILED);
     return false;
-  if (size > BUFFER_BYTES)
-    return write_out(writer, bytes, size);
-  memcpy(writer->buffer + writer->buffered, bytes, size);
-  writer->buffered += size;
+  }
+  writer->key_offset = position(writer);
   return true;
 }
 
@@ -97,90 +95,21 @@ static bool put(spanfile_writer *writer, const void *bytes, size_t size) {
 /* Empties the record and makes room for a payload. */
 static bool begin_record(spanfile_writer *writer, size_t payload) {
   writer->record.size = 0;
-  if (!sf_bytes_room(&writer->memory, &writer->record, HEAD_BYTES + payload + SF_CHECK_BYTES)) {
+  if (!sf_bytes_room(&writer->memory, &writer->record, SF_HEAD_BYTES + payload + SF_CHECK_BYTES)) {
     fail(writer, SPANFILE_NO_MEMORY);
     return false;
   }
-  writer->record.size = HEAD_BYTES;
+  writer->record.size = SF_HEAD_BYTES;
   return true;
 }
 
 /* Completes the record with kind and length before the payload and the checksum after it, and puts
  * it into the file. */
 static bool put_record(spanfile_writer *writer, unsigned char kind, uint32_t row) {
-  unsigned char head[1 + 10], *start;
-  size_t payload = writer->record.size - HEAD_BYTES;
-  head[0] = kind;
-  size_t head_size = 1 + sf_store_varint(head + 1, payload);
-  start = writer->record.at + HEAD_BYTES - head_size;
-  memcpy(start, head, head_size);
-  size_t size = head_size + payload;
-  sf_store_32(start + size, sf_crc32c_record(row, start, size));
-  return put(writer, start, size + SF_CHECK_BYTES);
-}
-
-/* ---------------------------------------------------------------- the index */
-
-static bool put_node(spanfile_writer *writer, int level, uint64_t *offset) {
-  index_node *node = &writer->nodes[level];
-  size_t size = node->count * (size_t)SF_ENTRY_BYTES;
-  if (!begin_record(writer, 4 + size))
-    return false;
-  unsigned char *payload = writer->record.at + HEAD_BYTES;
-  sf_store_32(payload, (uint32_t)level);
-  memcpy(payload + 4, node->entries, size);
-  writer->record.size += 4 + size;
-  *offset = position(writer);
-  return put_record(writer, SF_INDEX, SF_INDEX_ROW);
-}
-
-static void add_entry(index_node *node, uint32_t row, uint64_t offset) {
-  unsigned char *entry = node->entries + node->count++ * (size_t)SF_ENTRY_BYTES;
-  sf_store_32(entry, row);
-  sf_store_64(entry + 4, offset);
-}
-
-/* Writes a full node and adds an entry for it to the node one level higher, which has room. */
-static bool pass_on(spanfile_writer *writer, int level) {
-  uint64_t offset;
-  index_node *node = &writer->nodes[level];
-  if (!put_node(writer, level, &offset))
-    return false;
-  add_entry(&writer->nodes[level + 1], sf_load_32(node->entries), offset);
-  node->count = 0;
-  return true;
-}
-
-/* Room for one more key row in the lowest node. */
-static bool make_room(spanfile_writer *writer) {
-  int full = 0;
-  while (full < SF_LEVELS - 1 && writer->nodes[full].count == SF_NODE_ENTRIES)
-    full++;
-  for (int level = full - 1; level >= 0; level--)
-    if (!pass_on(writer, level))
-      return false;
-  return true;
-}
-
-static bool note_key(spanfile_writer *writer) {
-  if (!make_room(writer))
-    return false;
-  writer->key_row = (uint32_t)writer->y;
-  writer->key_offset = position(writer);
-  add_entry(&writer->nodes[0], writer->key_row, writer->key_offset);
-  return true;
-}
-
-/* Writes the nodes that are not full, the lowest first; the last one is the root. */
-static bool finish_index(spanfile_writer *writer, uint64_t *root, int *levels) {
-  int top = SF_LEVELS - 1;
-  while (top > 0 && writer->nodes[top].count == 0)
-    top--;
-  for (int level = 0; level < top; level++)
-    if (writer->nodes[level].count > 0 && !pass_on(writer, level))
-      return false;
-  *levels = top + 1;
-  return put_node(writer, top, root);
+  unsigned char *start;
+  size_t size = sf_record_seal(writer->record.at + SF_HEAD_BYTES,
+                               writer->record.size - SF_HEAD_BYTES, kind, row, &start);
+  return put(writer, start, size);
 }
 
 /* ---------------------------------------------------------------- a row as packets */
@@ -240,7 +169,7 @@ static bool has_same_values(const sf_row *row, const sf_row *above) {
 static bool add_moves(spanfile_writer *writer) {
   size_t count = writer->row.count - 1;
   const spanfile_span *now = writer->row.spans, *before = writer->above.spans;
-  unsigned char *codes = writer->record.at + HEAD_BYTES, *more = codes + (count + 3) / 4;
+  unsigned char *codes = writer->record.at + SF_HEAD_BYTES, *more = codes + (count + 3) / 4;
   uint64_t moved = 0;
   unsigned byte = 0;
   for (size_t i = 0; i < count; i++) {
@@ -268,7 +197,7 @@ static bool put_moves(spanfile_writer *writer) {
     return false;
   bool is_moved = add_moves(writer);
   if (!is_moved && has_same_values(&writer->row, &writer->above)) {
-    writer->record.size = HEAD_BYTES;
+    writer->record.size = SF_HEAD_BYTES;
     return put_record(writer, SF_SAME, (uint32_t)writer->y);
   }
   if (values->size > 0)
@@ -280,8 +209,7 @@ static bool put_moves(spanfile_writer *writer) {
 /* ---------------------------------------------------------------- rows */
 
 static bool is_key_due(const spanfile_writer *writer) {
-  return writer->y == 0 || writer->y - writer->key_row >= SF_KEY_ROWS ||
-         position(writer) - writer->key_offset >= SF_KEY_BYTES;
+  return writer->y % SF_KEY_ROWS == 0 || position(writer) - writer->key_offset >= SF_KEY_BYTES;
 }
 
 static bool clear_moves(spanfile_writer *writer) {
@@ -318,14 +246,14 @@ static bool fit_above(spanfile_writer *writer) {
 
 static bool put_row(spanfile_writer *writer) {
   if (is_key_due(writer)) /* the row itself, which has not been fitted to rows above */
-    return note_key(writer) && put_packets(writer) && clear_moves(writer);
+    return note_key(writer, (uint32_t)writer->y) && put_packets(writer) && clear_moves(writer);
   if (fit_above(writer))
     return put_moves(writer);
   return writer->status == SPANFILE_OK && put_packets(writer) && clear_moves(writer);
 }
 
 static bool has_room(const spanfile_writer *writer, uint64_t count) {
-  return writer->y < writer->height && count <= writer->width - sf_row_end(&writer->row);
+  return writer->y < writer->end && count <= writer->width - sf_row_end(&writer->row);
 }
 
 spanfile_status spanfile_writer_runs(spanfile_writer *writer, const spanfile_run *runs,
@@ -364,7 +292,7 @@ spanfile_status spanfile_writer_pixels(spanfile_writer *writer, const void *pixe
 spanfile_status spanfile_writer_row(spanfile_writer *writer) {
   if (writer->status != SPANFILE_OK)
     return writer->status;
-  if (writer->y >= writer->height || sf_row_end(&writer->row) != writer->width)
+  if (writer->y >= writer->end || sf_row_end(&writer->row) != writer->width)
     return fail(writer, SPANFILE_BAD_ARGUMENT);
   if (!put_row(writer))
     return writer->status;
@@ -376,7 +304,7 @@ spanfile_status spanfile_writer_row(spanfile_writer *writer) {
   return SPANFILE_OK;
 }
 
-/* ---------------------------------------------------------------- beginning and end */
+/* ---------------------------------------------------------------- the beginning */
 
 static bool put_header(spanfile_writer *writer) {
   unsigned char header[SF_HEADER_BYTES] = {0};
@@ -392,49 +320,106 @@ static bool put_header(spanfile_writer *writer) {
   return put(writer, header, sizeof header);
 }
 
-static bool put_end(spanfile_writer *writer, uint64_t root, int levels) {
-  unsigned char trailer[SF_TRAILER_BYTES] = {0};
-  memcpy(trailer, sf_end_magic, sizeof sf_end_magic);
-  sf_store_64(trailer + 8, root);
-  sf_store_64(trailer + 16, position(writer) + SF_END_BYTES);
-  sf_store_32(trailer + 24, writer->height);
-  sf_store_32(trailer + 28, (uint32_t)levels);
-  sf_store_32(trailer + 36, sf_crc32c(0, trailer, 36));
-  return put(writer, trailer, sizeof trailer) && put(writer, sf_footer, sizeof sf_footer);
-}
-
-spanfile_status spanfile_writer_create(const spanfile_writer_desc *desc, spanfile_writer **out) {
+/* A writer with neither file nor part yet. */
+static spanfile_status create(const spanfile_writer_desc *desc, spanfile_writer **out) {
   bool has_format = desc->format == SPANFILE_SRGB8 || desc->format == SPANFILE_HALF;
-  if (desc->width == 0 || desc->height == 0 || !has_format || !desc->write)
+  if (desc->width == 0 || desc->height == 0 || !has_format)
     return SPANFILE_BAD_ARGUMENT;
   sf_memory memory = sf_memory_of(desc->resize, desc->resize_user);
   spanfile_writer *writer = sf_allocate(&memory, sizeof *writer);
   if (!writer)
     return SPANFILE_NO_MEMORY;
-  memset(writer, 0, offsetof(spanfile_writer, nodes));
-  for (int level = 0; level < SF_LEVELS; level++)
-    writer->nodes[level].count = 0;
-  writer->memory = memory;
-  writer->write = desc->write;
-  writer->user = desc->user;
-  writer->width = desc->width;
-  writer->height = desc->height;
-  writer->format = desc->format;
-  writer->pixel_size = spanfile_pixel_size(desc->format);
+  *writer = (spanfile_writer){.memory = memory,
+                              .width = desc->width,
+                              .height = desc->height,
+                              .format = desc->format,
+                              .pixel_size = spanfile_pixel_size(desc->format)};
+  *out = writer;
+  return SPANFILE_OK;
+}
+
+spanfile_status spanfile_writer_create(const spanfile_writer_desc *desc, spanfile_writer **out) {
+  spanfile_writer *writer;
+  spanfile_status status = desc->write ? create(desc, &writer) : SPANFILE_BAD_ARGUMENT;
+  if (status != SPANFILE_OK)
+    return status;
+  writer->output = sf_output_create(&writer->memory, desc->write, desc->user);
+  if (!writer->output) {
+    spanfile_writer_destroy(writer);
+    return SPANFILE_NO_MEMORY;
+  }
+  writer->end = desc->height;
   (void)put_header(writer); /* fits the buffer */
   *out = writer;
   return SPANFILE_OK;
 }
 
-spanfile_status spanfile_writer_finish(spanfile_writer *writer) {
-  uint64_t root;
-  int levels;
+/* ---------------------------------------------------------------- parts */
+
+spanfile_status spanfile_writer_create_part(const spanfile_writer_desc *desc,
+                                            spanfile_writer **out) {
+  spanfile_writer *writer;
+  spanfile_status status = create(desc, &writer);
+  if (status != SPANFILE_OK)
+    return status;
+  writer->part = sf_allocate(&writer->memory, sizeof *writer->part);
+  if (!writer->part) {
+    spanfile_writer_destroy(writer);
+    return SPANFILE_NO_MEMORY;
+  }
+  writer->part->bytes = (sf_bytes){0};
+  *out = writer;
+  return spanfile_writer_begin_part(writer, 0);
+}
+
+spanfile_status spanfile_writer_begin_part(spanfile_writer *writer, uint32_t row) {
+  if (!writer->part || row >= writer->height || row % SPANFILE_PART_ROWS != 0)
+    return fail(writer, SPANFILE_BAD_ARGUMENT);
+  uint32_t left = writer->height - row;
+  writer->status = SPANFILE_OK;
+  writer->y = row;
+  writer->end = row + (left < SPANFILE_PART_ROWS ? left : SPANFILE_PART_ROWS);
+  sf_row_clear(&writer->row);
+  writer->part->first = row;
+  writer->part->key_count = 0;
+  writer->part->bytes.size = 0;
+  return SPANFILE_OK;
+}
+
+/* Whether a part is complete and the next one of the file. */
+static bool fits(const spanfile_writer *writer, const spanfile_writer *part) {
+  return !writer->part && part->part && part->y == part->end && part->row.count == 0 &&
+         writer->row.count == 0 && writer->y == part->part->first && writer->width == part->width &&
+         writer->height == part->height && writer->format == part->format;
+}
+
+spanfile_status spanfile_writer_join(spanfile_writer *writer, const spanfile_writer *part) {
   if (writer->status != SPANFILE_OK)
     return writer->status;
-  if (writer->y != writer->height || writer->row.count > 0)
+  if (part->status != SPANFILE_OK)
+    return fail(writer, part->status);
+  if (!fits(writer, part))
     return fail(writer, SPANFILE_BAD_ARGUMENT);
-  if (finish_index(writer, &root, &levels) && put_end(writer, root, levels))
-    (void)flush(writer);
+  const part_bytes *p = part->part;
+  for (uint32_t i = 0; i < p->key_count; i++) {
+    uint64_t from = p->key_offsets[i];
+    uint64_t to = i + 1 < p->key_count ? p->key_offsets[i + 1] : p->bytes.size;
+    if (!note_key(writer, p->key_rows[i]) || !put(writer, p->bytes.at + from, (size_t)(to - from)))
+      return writer->status;
+  }
+  writer->y = part->end;
+  return SPANFILE_OK;
+}
+
+/* ---------------------------------------------------------------- the end */
+
+spanfile_status spanfile_writer_finish(spanfile_writer *writer) {
+  if (writer->status != SPANFILE_OK)
+    return writer->status;
+  if (writer->part || writer->y != writer->height || writer->row.count > 0)
+    return fail(writer, SPANFILE_BAD_ARGUMENT);
+  if (!sf_output_end(writer->output, writer->height))
+    fail(writer, SPANFILE_WRITE_FAILED);
   writer->y = (uint64_t)writer->height + 1; /* nothing may follow */
   return writer->status;
 }
@@ -448,5 +433,9 @@ void spanfile_writer_destroy(spanfile_writer *writer) {
   sf_row_free(&memory, &writer->fitted);
   sf_release(&memory, writer->moves, writer->move_capacity * sizeof *writer->moves);
   sf_bytes_free(&memory, &writer->record);
+  if (writer->part)
+    sf_bytes_free(&memory, &writer->part->bytes);
+  sf_release(&memory, writer->part, sizeof *writer->part);
+  sf_output_destroy(&memory, writer->output);
   sf_release(&memory, writer, sizeof *writer);
 }

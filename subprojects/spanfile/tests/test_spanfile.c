@@ -91,7 +91,7 @@ static void test_counts(void) {
 }
 
 /* Any part of a row is that part of the row. */
-static void test_parts(void) {
+static void test_parts_of_rows(void) {
   picture p = random_picture(11, 300, 30);
   memory_file file = write_picture(&p, 1);
   spanfile_reader *reader = open_reader(&file);
@@ -107,6 +107,100 @@ static void test_parts(void) {
   }
   free(pixels);
   spanfile_reader_destroy(reader);
+  free(file.bytes);
+  free(p.pixels);
+}
+
+/* ---------------------------------------------------------------- parts of a file */
+
+static spanfile_writer_desc desc_of(const picture *p) {
+  return (spanfile_writer_desc){.width = p->width, .height = p->height, .format = p->format};
+}
+
+static void put_rows(spanfile_writer *writer, const picture *p, uint32_t first, uint32_t count) {
+  for (uint32_t y = first; y < p->height && y < first + count; y++) {
+    CHECK(spanfile_writer_pixels(writer, picture_row(p, y), p->width) == SPANFILE_OK);
+    CHECK(spanfile_writer_row(writer) == SPANFILE_OK);
+  }
+}
+
+static void put_part(spanfile_writer *part, const picture *p, uint32_t first) {
+  CHECK(spanfile_writer_begin_part(part, first) == SPANFILE_OK);
+  put_rows(part, p, first, SPANFILE_PART_ROWS);
+}
+
+/* Packed in any order, one after the other in one writer or each in its own, parts make the file
+ * that one writer makes. */
+static memory_file write_parts(const picture *p, bool has_own) {
+  enum { MOST = 20 };
+  memory_file file = {0};
+  spanfile_writer *writer = open_writer(p, &file), *parts[MOST] = {NULL};
+  spanfile_writer_desc desc = desc_of(p);
+  uint32_t count = (p->height - 1) / SPANFILE_PART_ROWS + 1;
+  for (uint32_t i = count; i-- > 0 && has_own;) {
+    CHECK(spanfile_writer_create_part(&desc, &parts[i]) == SPANFILE_OK);
+    put_part(parts[i], p, i * SPANFILE_PART_ROWS);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    spanfile_writer *part = parts[has_own ? i : 0];
+    if (!part)
+      CHECK(spanfile_writer_create_part(&desc, &part) == SPANFILE_OK);
+    parts[has_own ? i : 0] = part;
+    if (!has_own)
+      put_part(part, p, i * SPANFILE_PART_ROWS);
+    CHECK(spanfile_writer_join(writer, part) == SPANFILE_OK);
+  }
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+  for (uint32_t i = 0; i < count; i++)
+    spanfile_writer_destroy(parts[i]);
+  return file;
+}
+
+static void check_parts(const picture *p) {
+  memory_file whole = {0};
+  spanfile_writer *writer = open_writer(p, &whole);
+  put_rows(writer, p, 0, p->height);
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+  for (int i = 0; i < 2; i++) {
+    memory_file joined = write_parts(p, i == 1);
+    CHECK(whole.size == joined.size && memcmp(whole.bytes, joined.bytes, whole.size) == 0);
+    free(joined.bytes);
+  }
+  free(whole.bytes);
+}
+
+/* Pictures of one part and of many; rows of many bytes, so that parts have key rows of their own. */
+static void test_parts(void) {
+  for (uint64_t seed = 40; seed < 52; seed++) {
+    picture p = random_picture(seed, seed % 3 == 0 ? 4000 : 60, seed % 4 == 0 ? 100 : 3000);
+    check_parts(&p);
+    free(p.pixels);
+  }
+}
+
+static void test_parts_misuse(void) {
+  memory_file file = {0};
+  picture p = random_picture(44, 60, 3000);
+  spanfile_writer_desc desc = desc_of(&p);
+  spanfile_writer *writer = open_writer(&p, &file), *part;
+  CHECK(p.height > SPANFILE_PART_ROWS);
+  CHECK(spanfile_writer_create_part(&desc, &part) == SPANFILE_OK);
+  CHECK(spanfile_writer_begin_part(part, 1) == SPANFILE_BAD_ARGUMENT);
+  CHECK(spanfile_writer_begin_part(writer, 0) == SPANFILE_BAD_ARGUMENT);
+  spanfile_writer_destroy(writer);
+  free(file.bytes);
+  file = (memory_file){0};
+  writer = open_writer(&p, &file);
+  put_part(part, &p, SPANFILE_PART_ROWS);
+  CHECK(spanfile_writer_run(part, 1, 0) == SPANFILE_BAD_ARGUMENT); /* it is complete */
+  CHECK(spanfile_writer_join(writer, part) == SPANFILE_BAD_ARGUMENT);
+  put_part(part, &p, 0);
+  CHECK(spanfile_writer_finish(part) == SPANFILE_BAD_ARGUMENT);
+  CHECK(spanfile_writer_join(writer, part) == SPANFILE_BAD_ARGUMENT); /* errors stick */
+  spanfile_writer_destroy(part);
+  spanfile_writer_destroy(writer);
   free(file.bytes);
   free(p.pixels);
 }
@@ -507,7 +601,9 @@ int main(void) {
   test_halves();
   test_round_trips();
   test_counts();
+  test_parts_of_rows();
   test_parts();
+  test_parts_misuse();
   test_costs();
   test_bad_files();
   test_goes_on();
