@@ -203,7 +203,9 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
   int32_t first = number * grid->band_rows;
   int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
   bool is_flat = defocus->way == CS_DEFOCUS_EDGES || defocus->way == CS_DEFOCUS_KERNEL;
-  return is_flat ? cs_defocus_flat_fill(defocus, context, first, end, band)
+  const cs_defocus_flat flat = {grid, defocus->plans,
+                                defocus->way == CS_DEFOCUS_EDGES ? &defocus->edges : NULL};
+  return is_flat ? cs_defocus_flat_fill(&flat, context, first, end, band)
                  : sum_planes(defocus, context, first, end, band);
 }
 

@@ -15,7 +15,7 @@
  * the radius, from one pixel up, so the work falls as the radius grows.
  *
  * Flat art is blurred by its boundaries: through a kernel (kernel/), or under a wide Gaussian line
- * by line (edges.h). Where pictures and gradients vary between the boundaries, samples on a finer
+ * by line (lines.h). Where pictures and gradients vary between the boundaries, samples on a finer
  * grid are summed: sums.h for a Gaussian, slices.h for even kernels.
  */
 #ifndef CS_DEFOCUS_DEFOCUS_H

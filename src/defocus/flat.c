@@ -14,7 +14,7 @@ typedef struct plane {
 } plane;
 
 typedef struct filling {
-  const cs_defocus *defocus;
+  const cs_defocus_flat *flat;
   celspan_context *context;
   plane planes[2];
   int32_t groups;
@@ -23,19 +23,18 @@ typedef struct filling {
 /* ---------------------------------------------------------------- life */
 
 static celspan_status init_plane(filling *f, int k) {
-  const cs_defocus *defocus = f->defocus;
+  const cs_defocus_flat *flat = f->flat;
   cs_memory *memory = f->context->memory;
   plane *p = &f->planes[k];
-  int32_t columns = defocus->grid.columns;
+  int32_t columns = flat->grid->columns;
   cs_row_init(&p->row);
-  CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
+  CS_TRY(cs_row_maker_init(&p->maker, f->context, &flat->plans[k]));
   p->nodes = cs_mem_array(memory, (size_t)columns, sizeof *p->nodes);
   p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
   if (!p->nodes || !p->even)
     return cs_fail_memory(f->context);
-  return defocus->way == CS_DEFOCUS_EDGES
-             ? cs_defocus_lines_create(&defocus->edges, &p->maker, columns, &p->lines)
-             : CELSPAN_OK;
+  return flat->edges ? cs_defocus_lines_create(flat->edges, &p->maker, columns, &p->lines)
+                     : CELSPAN_OK;
 }
 
 static void finish_plane(filling *f, int k) {
@@ -43,7 +42,7 @@ static void finish_plane(filling *f, int k) {
   plane *p = &f->planes[k];
   cs_defocus_lines_free(p->lines);
   cs_row_finish(&p->row, memory);
-  cs_mem_free(memory, p->nodes, (size_t)f->defocus->grid.columns * sizeof *p->nodes);
+  cs_mem_free(memory, p->nodes, (size_t)f->flat->grid->columns * sizeof *p->nodes);
   cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
   cs_row_maker_finish(&p->maker);
 }
@@ -51,7 +50,7 @@ static void finish_plane(filling *f, int k) {
 /* ---------------------------------------------------------------- a row of nodes */
 
 static inline int32_t group_end(const filling *f, int32_t i) {
-  return i + 1 < f->groups ? (i + 1) * GROUP : f->defocus->grid.columns;
+  return i + 1 < f->groups ? (i + 1) * GROUP : f->flat->grid->columns;
 }
 
 /* Writes a stretch of one colour; of the groups that lie in it, no more than their ends. */
@@ -97,7 +96,7 @@ static void agree(const filling *f, plane *a, plane *b) {
 }
 
 static celspan_status make_nodes(filling *f, int32_t y) {
-  int planes = f->defocus->grid.planes;
+  int planes = f->flat->grid->planes;
   for (int k = 0; k < planes; k++) {
     plane *p = &f->planes[k];
     CS_TRY(p->lines ? cs_defocus_lines_row(p->lines, y, p->nodes, p->even) : filter_row(f, p, y));
@@ -111,11 +110,11 @@ static celspan_status make_nodes(filling *f, int32_t y) {
 
 /* Whether only the ends of straight runs of nodes are kept: nothing is interpolated between the
  * rows. */
-static bool is_thin(const cs_defocus *defocus) { return defocus->grid.pitch_y == 1; }
+static bool is_thin(const cs_defocus_flat *flat) { return flat->grid->pitch_y == 1; }
 
 /* Keeps all nodes of a row, as row k of the band. */
 static void keep_nodes(filling *f, int32_t k, cs_defocus_band *band) {
-  const cs_defocused *grid = &f->defocus->grid;
+  const cs_defocused *grid = f->flat->grid;
   size_t columns = (size_t)grid->columns, size = (size_t)grid->band_rows * columns;
   for (int i = 0; i < grid->planes; i++) {
     plane *p = &f->planes[i];
@@ -131,33 +130,32 @@ static celspan_status keep_vertices(filling *f, cs_defocus_band *band) {
   const plane *p = f->planes;
   cs_defocused_nodes nodes = {{(const float(*)[4])p[0].nodes, (const float(*)[4])p[1].nodes},
                               p[0].even};
-  return cs_defocus_band_add(&f->defocus->grid, f->context, &nodes, band);
+  return cs_defocus_band_add(f->flat->grid, f->context, &nodes, band);
 }
 
 static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defocus_band *band) {
-  const cs_defocus *defocus = f->defocus;
-  CS_TRY(is_thin(defocus) ? cs_defocus_band_begin(f->context, end - first, band)
-                          : cs_defocus_band_room(&defocus->grid, f->context, band));
-  for (int k = 0; k < defocus->grid.planes; k++)
+  const cs_defocus_flat *flat = f->flat;
+  CS_TRY(is_thin(flat) ? cs_defocus_band_begin(f->context, end - first, band)
+                       : cs_defocus_band_room(flat->grid, f->context, band));
+  for (int k = 0; k < flat->grid->planes; k++)
     CS_TRY(init_plane(f, k));
   for (int32_t y = first; y < end; y++) {
     CS_TRY(make_nodes(f, y));
-    if (is_thin(defocus))
+    if (is_thin(flat))
       CS_TRY(keep_vertices(f, band));
     else
       keep_nodes(f, y - first, band);
   }
-  if (is_thin(defocus))
-    cs_defocus_band_end(&defocus->grid, f->context->memory, band);
+  if (is_thin(flat))
+    cs_defocus_band_end(flat->grid, f->context->memory, band);
   return CELSPAN_OK;
 }
 
-celspan_status cs_defocus_flat_fill(const cs_defocus *defocus, celspan_context *context,
+celspan_status cs_defocus_flat_fill(const cs_defocus_flat *flat, celspan_context *context,
                                     int32_t first, int32_t end, cs_defocus_band *band) {
-  filling f = {
-      .defocus = defocus, .context = context, .groups = cs_defocused_groups(&defocus->grid)};
+  filling f = {.flat = flat, .context = context, .groups = cs_defocused_groups(flat->grid)};
   celspan_status status = fill_rows(&f, first, end, band);
-  for (int k = 0; k < defocus->grid.planes; k++)
+  for (int k = 0; k < flat->grid->planes; k++)
     finish_plane(&f, k);
   return status;
 }

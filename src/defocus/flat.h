@@ -11,11 +11,19 @@
 #ifndef CS_DEFOCUS_FLAT_H
 #define CS_DEFOCUS_FLAT_H
 
-#include "defocus/defocus.h"
+#include "defocus/edges.h"
+#include "row/row.h"
+#include "sample/defocused.h"
+
+typedef struct cs_defocus_flat {
+  const cs_defocused *grid;
+  const cs_plan *plans;          /* one a plane */
+  const cs_defocus_edges *edges; /* NULL: the plans have kernels */
+} cs_defocus_flat;
 
 /* Fills an empty band with the rows [first, end) of nodes. Errors: NO_MEMORY and those of the rows
  * of the plans. */
-CELSPAN_CHECKED celspan_status cs_defocus_flat_fill(const cs_defocus *defocus,
+CELSPAN_CHECKED celspan_status cs_defocus_flat_fill(const cs_defocus_flat *flat,
                                                     celspan_context *context, int32_t first,
                                                     int32_t end, cs_defocus_band *band);
 
