@@ -140,6 +140,8 @@ static celspan_status make_blocks(file_pass *pass) {
     CS_TRY(cs_store_create_block(pass->context, pass->entry, pass->level, pass->column + column,
                                  pass->row + row, &pass->blocks[i]));
   }
+  for (size_t i = 0; i < block_count(pass) && pass->level == 0; i++)
+    CS_TRY(cs_store_add_codes(pass->context, pass->blocks[i]));
   return CELSPAN_OK;
 }
 

@@ -51,6 +51,10 @@ static void destroy_store(cs_service *service) {
   cs_mem_free(store->memory, store, sizeof *store);
 }
 
+static void clear_block(cs_cache_entry *entry, cs_memory *memory) {
+  cs_mem_free(memory, ((cs_picture_block *)entry)->codes, CS_PICTURE_CODES_BYTES);
+}
+
 static celspan_status create_store(celspan_context *context, cs_service **out) {
   cs_picture_store *store = cs_mem_array(context->memory, 1, sizeof *store);
   if (!store)
@@ -58,6 +62,7 @@ static celspan_status create_store(celspan_context *context, cs_service **out) {
   store->memory = context->memory;
   store->blocks = (cs_cache){.memory = context->memory,
                              .entry_size = sizeof(cs_picture_block),
+                             .clear = clear_block,
                              .budget = context->root->picture_bytes};
   cs_cache_init(&store->blocks);
   store->surface_limit = SURFACES_LEAST;
@@ -108,6 +113,9 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 
 /* ---------------------------------------------------------------- blocks */
 
+/* Of level 0. */
+#define BLOCK_BYTES (sizeof(cs_picture_block) + CS_PICTURE_CODES_BYTES)
+
 /* By the hash, not the entry: blocks of a surface outlive an entry that was dropped. */
 static cs_cache_key key_of(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
   return (cs_cache_key){entry->hash.a, entry->hash.b,
@@ -127,7 +135,7 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
                                      int32_t column, int32_t row, cs_picture_block **out) {
   cs_cache_entry *cached;
   CS_TRY(cs_cache_create(&entry->store->blocks, context, key_of(entry, level, column, row),
-                         sizeof(cs_picture_block), &cached));
+                         level == 0 ? BLOCK_BYTES : sizeof(cs_picture_block), &cached));
   cs_picture_block *block = (cs_picture_block *)cached;
   block->store = entry->store;
   block->level = level;
@@ -135,6 +143,11 @@ celspan_status cs_store_create_block(celspan_context *context, cs_picture_entry 
   block->row = row;
   *out = block;
   return CELSPAN_OK;
+}
+
+celspan_status cs_store_add_codes(celspan_context *context, cs_picture_block *block) {
+  block->codes = cs_mem_array(block->store->memory, 1, CS_PICTURE_CODES_BYTES);
+  return block->codes ? CELSPAN_OK : cs_fail_memory(context);
 }
 
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned) {
@@ -180,8 +193,8 @@ static size_t blocks_across(int32_t size, int level) {
  * caller has locked `lock`. */
 static void plan_entry(cs_picture_store *store, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
-  size_t least = blocks_across(info->width, 0) * sizeof(cs_picture_block) * 5 / 4;
-  entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / sizeof(cs_picture_block);
+  size_t least = blocks_across(info->width, 0) * BLOCK_BYTES * 5 / 4;
+  entry->share = cs_cache_raise_budget(&store->blocks, least) / 2 / BLOCK_BYTES;
   entry->level_count = cs_mip_levels_count(info->width, info->height);
   while (entry->base < entry->level_count - 1 &&
          blocks_across(info->width, entry->base) * blocks_across(info->height, entry->base) >

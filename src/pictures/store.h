@@ -22,9 +22,10 @@
 #define CS_PICTURE_BLOCK 64
 /* Codes in a row of a block: those of its texels, and that of the texel right of the block. */
 #define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
-/* The size of a block's texels and their codes. */
+/* The sizes of a block's codes, and of its texels and codes. */
+#define CS_PICTURE_CODES_BYTES ((size_t)CS_PICTURE_BLOCK * 4 * CS_PICTURE_CODES_ROW)
 #define CS_PICTURE_BLOCK_BYTES                                                                     \
-  ((size_t)CS_PICTURE_BLOCK * (16 * CS_PICTURE_BLOCK + 4 * CS_PICTURE_CODES_ROW))
+  ((size_t)CS_PICTURE_BLOCK * 16 * CS_PICTURE_BLOCK + CS_PICTURE_CODES_BYTES)
 
 /* What all texels of a block that lie in the picture have in common. */
 typedef enum cs_picture_opacity {
@@ -49,8 +50,10 @@ typedef struct cs_picture_block {
   bool is_coded;
   /* Premultiplied linear RGBA, row-major; clear beyond the picture. */
   float texels[4 * CS_PICTURE_BLOCK * CS_PICTURE_BLOCK];
-  /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them. */
-  unsigned char codes[CS_PICTURE_BLOCK][4 * CS_PICTURE_CODES_ROW];
+  /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them; else
+   * NULL. A row of a frame is read from the codes of many blocks in turn, which is twice as quick
+   * where they lie close together: so they are apart from the texels. */
+  unsigned char (*codes)[4 * CS_PICTURE_CODES_ROW];
 } cs_picture_block;
 
 struct cs_picture_entry {
@@ -106,11 +109,15 @@ void cs_store_leave(cs_picture_entry *entry);
 /* Pins a block and returns it; NULL when it is not in the store. */
 cs_picture_block *cs_store_pin(const cs_picture_entry *entry, int level, int32_t column,
                                int32_t row);
-/* A new block, zeroed, not yet in the store, but counted. Errors: NO_MEMORY. */
+/* A new block, zeroed and without codes, not yet in the store, but counted. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
                                                      cs_picture_entry *entry, int level,
                                                      int32_t column, int32_t row,
                                                      cs_picture_block **out);
+/* Gives a new block room for its codes. Those of blocks that get it one after the other lie close
+ * together. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
+                                                  cs_picture_block *block);
 /* Puts the block into the store; one that is there already is returned instead. */
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
 /* Frees a block that was never inserted. NULL is ignored. */
