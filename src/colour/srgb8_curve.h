@@ -91,13 +91,22 @@ static inline cs_wide cs_srgb8_octave(cs_wide x) {
 #endif
 }
 
+/* a + b c, rounded once or twice: the curve is approximated, so either will do. */
+static inline cs_wide cs_srgb8_add(cs_wide a, cs_wide b, cs_wide c) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_fmadd_ps((__m512)b, (__m512)c, (__m512)a);
+#else
+  return a + b * c;
+#endif
+}
+
 /* 255 f(x): x * slope up to the knee, then the curve. */
 static inline cs_wide cs_srgb8_coded(cs_wide x, cs_wide slope, cs_wide knee) {
   cs_wide t = (cs_wide)(((cs_wide_int)x & 0x7fffff) | 0x3f800000) - 1.5f;
-  cs_wide power = cs_srgb8_powers[5] + t * cs_srgb8_powers[6];
-  for (int k = 4; k >= 0; k--)
-    power = cs_srgb8_powers[k] + t * power;
-  cs_wide curved = cs_srgb8_octave(x) * power - 255 * 0.055f;
+  cs_wide power = cs_wide_all(cs_srgb8_powers[6]);
+  for (int k = 5; k >= 0; k--)
+    power = cs_srgb8_add(cs_wide_all(cs_srgb8_powers[k]), t, power);
+  cs_wide curved = cs_srgb8_add(cs_wide_all(-255 * 0.055f), cs_srgb8_octave(x), power);
   return cs_srgb8_either(x, knee, x * slope, curved);
 }
 
