@@ -54,6 +54,18 @@ static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
   return cs_sampler_run(painter->blocks, &view->sampler, run, rgba);
 }
 
+/* The same, of pictures that are shown as they are. */
+static celspan_status sample_bare(cs_painter *painter, const cs_layer *layer, const cs_batch *batch,
+                                  cs_samples *out) {
+  const cs_image_view *view;
+  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  if (!batch->columns)
+    return cs_sampler_samples(painter->blocks, &view->sampler, run, out);
+  out->are_planes = false;
+  return sample_picture(painter, layer, batch, out->rgba);
+}
+
 static celspan_status sample_defocused(cs_painter *painter, const cs_layer *layer,
                                        const cs_batch *batch, samples *out) {
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
@@ -136,22 +148,17 @@ static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
 /* Programs of pictures alone: each is sampled only where it shines through those in front. */
 static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
                                 const cs_batch *batch, cs_over_bare *out) {
-  cs_over_bare_range *shown = &out->shown;
-  uint32_t i = 0;
-  *shown = (cs_over_bare_range){0, batch->count};
-  out->count = batch->count;
-  while (shown->first < shown->end) {
+  const cs_over_bare_range *shown = &out->shown;
+  cs_over_bare_begin(out, batch->count);
+  for (uint32_t i = 0; shown->first < shown->end; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     cs_batch part = {batch->columns ? batch->columns + shown->first : NULL,
                      batch->x0 + shown->first, shown->end - shown->first, batch->y};
-    CS_TRY(sample_picture(painter, layer, &part, out->rgba + shown->first));
+    CS_TRY(sample_bare(painter, layer, &part, &out->last));
     if (i + 1 == program->length)
       break;
-    *shown =
-        cs_over_bare_add(painter->isa, i == 0, (const float(*)[4])out->rgba, *shown, out->folded);
-    i++;
+    cs_over_bare_add(painter->isa, out);
   }
-  out->is_first = i == 0;
   return CELSPAN_OK;
 }
 

@@ -141,8 +141,8 @@ static int32_t smaller(int32_t a, int32_t b) { return a < b ? a : b; }
 /* The form in which a row of texels is copied. */
 typedef enum copied { LIGHT, CODES } copied;
 
-/* `count` texels from (x, y) on, which lie in one block. */
-static void copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
+/* `count` texels from (x, y) on, which lie in one block. Returns whether their codes are exact. */
+static bool copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t count, copied what,
                           unsigned char *out) {
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
@@ -161,11 +161,12 @@ static void copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t 
   /* The row below is fetched into the cache now, so that it is there in time. */
   for (size_t ahead = 0; ahead < size; ahead += 64)
     __builtin_prefetch(from + row + ahead);
+  return slot->codes;
 }
 
 /* `count` texels of row v, from column u on. The row and the columns need not be in the picture:
- * what lies beyond its edges is what the wrap mode says. */
-static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, copied what,
+ * what lies beyond its edges is what the wrap mode says. Returns whether all codes are exact. */
+static bool copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t count, copied what,
                         unsigned char *out) {
   const cs_sampler *s = run->sampler;
   const size_t size = what == CODES ? 4 : 4 * sizeof(float);
@@ -174,6 +175,7 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
     v = ((v % s->height) + s->height) % s->height;
   bool is_row_outside = v < 0 || v >= s->height;
   int32_t y = v < 0 ? 0 : v >= s->height ? s->height - 1 : (int32_t)v;
+  bool are_exact = true;
   for (int32_t done = 0, part; done < count; done += part, out += (size_t)part * size) {
     int64_t at = u + done;
     if (repeats)
@@ -187,14 +189,27 @@ static void copy_texels(const cs_sampling *run, int64_t u, int64_t v, int32_t co
     int32_t x = is_inside ? (int32_t)at : at < 0 ? 0 : s->width - 1;
     if (is_inside)
       part = smaller(smaller(CS_PICTURE_BLOCK - x % CS_PICTURE_BLOCK, s->width - x), count - done);
-    copy_in_block(run, x, y, part, what, out);
+    are_exact = copy_in_block(run, x, y, part, what, out) && are_exact;
   }
+  return are_exact;
 }
 
-static void copy_run(const cs_sampling *sampling, cs_run run, copied what, void *out) {
+static bool copy_run(const cs_sampling *sampling, cs_run run, copied what, void *out) {
   const double *m = sampling->sampler->m;
   int64_t u = run.x0 + (int64_t)rint(m[2]), v = (int64_t)floor(run.y + rint(m[5]));
-  copy_texels(sampling, u, v, run.x1 - run.x0, what, out);
+  return copy_texels(sampling, u, v, run.x1 - run.x0, what, out);
+}
+
+/* At most CS_SAMPLER_BATCH pixels as planes; false where their codes are not exact. */
+static bool copy_planes(const cs_sampling *sampling, cs_run run, float (*planes)[4]) {
+  unsigned char codes[4 * (CS_SAMPLER_BATCH + CS_SAMPLES_PLANE)];
+  int32_t count = run.x1 - run.x0;
+  memset(codes + 4 * (size_t)count, 0, 4 * CS_SAMPLES_PLANE);
+  if (!copy_run(sampling, run, CODES, codes) || !sampling->blocks->curve)
+    return false;
+  CS_WIDE_CHOOSE(sampling->sampler->isa, cs_sampler_decode_planes)
+  (sampling->blocks->curve, codes, count, planes);
+  return true;
 }
 
 celspan_status cs_sampler_codes(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
@@ -226,6 +241,18 @@ celspan_status cs_sampler_run(cs_block_cache *blocks, const cs_sampler *sampler,
     break;
   }
   return blocks->status;
+}
+
+celspan_status cs_sampler_samples(cs_block_cache *blocks, const cs_sampler *sampler, cs_run run,
+                                  cs_samples *out) {
+  cs_sampling sampling = {sampler, blocks};
+  blocks->status = CELSPAN_OK;
+  out->are_planes = false;
+  if (sampler->isa == CS_ISA_AVX512 && sampler->reads_codes)
+    out->are_planes = sampler->placement == CS_SAMPLER_COPY
+                          ? copy_planes(&sampling, run, out->rgba)
+                          : cs_sampler_taps_planes(&sampling, run, out->rgba);
+  return out->are_planes ? blocks->status : cs_sampler_run(blocks, sampler, run, out->rgba);
 }
 
 celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sampler *sampler,

@@ -18,6 +18,7 @@
 #define CS_SAMPLE_SAMPLER_H
 
 #include "sample/placement.h"
+#include "sample/samples.h"
 #include "span/run.h"
 
 /* Decides how samples are made. */
@@ -27,6 +28,9 @@ void cs_sampler_prepare(cs_sampler *sampler);
  * Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sampler_run(cs_block_cache *blocks, const cs_sampler *sampler,
                                               cs_run run, float (*rgba)[4]);
+/* The same of at most CS_SAMPLER_BATCH pixels, in planes where these are sooner made. */
+CELSPAN_CHECKED celspan_status cs_sampler_samples(cs_block_cache *blocks, const cs_sampler *sampler,
+                                                  cs_run run, cs_samples *out);
 /* The same of some columns of a row, ascending. */
 CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sampler *sampler,
                                              const int32_t *columns, int32_t count, double y,

@@ -32,6 +32,9 @@ typedef struct cs_sampler_tiles {
   int32_t column, row, columns;                 /* its first block, and its width in blocks */
   bool are_opaque;                              /* all that are touched */
   const unsigned char *codes[CS_SAMPLER_TILES]; /* of those that are touched */
+  /* Bytes from a quad's codes to those that the row after the next will read: they are fetched into
+   * the cache now, so that they are there in time. */
+  ptrdiff_t ahead;
 } cs_sampler_tiles;
 
 /* Quads clamped to the picture; a quad at an edge has the share 0 of the texels beyond it. */
@@ -69,14 +72,18 @@ CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
 CS_WIDE_DECLARE(uint32_t, cs_sampler_place_quads,
                 (const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                  const cs_sampler_tiles *tiles, cs_sampler_clamped *clamped));
-/* Mixes quads of codes. ahead: as for cs_sampler_mix_quads, in bytes. */
+/* Mixes quads of codes. In planes: only with cs_sampler_decodes, and `count` is of whole planes. */
 CS_WIDE_DECLARE(void, cs_sampler_mix_codes,
                 (const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
-                 const cs_sampler_clamped *clamped, int32_t count, ptrdiff_t ahead,
+                 const cs_sampler_clamped *clamped, int32_t count, bool are_planes,
                  float (*rgba)[4]));
 /* The texels of `count` codes that follow one another. */
 CS_WIDE_DECLARE(void, cs_sampler_decode_codes,
                 (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
                  float (*rgba)[4]));
+/* The same in planes: only with cs_sampler_decodes, and `count` is of whole planes. */
+CS_WIDE_DECLARE(void, cs_sampler_decode_planes,
+                (const cs_srgb8_curve *curve, const unsigned char *codes, int32_t count,
+                 float (*planes)[4]));
 
 #endif

@@ -195,7 +195,12 @@ BYTES static inline codes transpose(__m512i v0, __m512i v1, __m512i v2, __m512i 
                   _mm512_unpacklo_epi64(high, next_high), _mm512_unpackhi_epi64(high, next_high)}};
 }
 
-/* Stores sixteen pixels that are given channel by channel; lane 4 l + j is pixel 4 j + l. */
+static inline void store_planes(const fours *channels, float (*planes)[4]) {
+  for (int c = 0; c < 4; c++)
+    _mm512_storeu_ps(planes[4 * c], channels->of[c]);
+}
+
+/* Stores a plane's pixels one by one. */
 BYTES static inline void store_pixels(const fours *channels, float (*rgba)[4]) {
   codes pixels = transpose((__m512i)channels->of[0], (__m512i)channels->of[1],
                            (__m512i)channels->of[2], (__m512i)channels->of[3]);
@@ -231,6 +236,32 @@ BYTES void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const u
   }
 }
 
+/* Two permutations in one: the codes are put in the order of a plane, and their bytes together by
+ * channel, so that decode returns a register for each. */
+BYTES static inline void decode_plane(const tables *t, const unsigned char *from,
+                                      float (*planes)[4]) {
+  const __m512i quarter = _mm512_broadcast_i32x4(
+      _mm_setr_epi8(0, 16, 32, 48, 1, 17, 33, 49, 2, 18, 34, 50, 3, 19, 35, 51));
+  const __m512i lane =
+      _mm512_setr_epi64(0, 0, 0x0404040404040404, 0x0404040404040404, 0x0808080808080808,
+                        0x0808080808080808, 0x0c0c0c0c0c0c0c0c, 0x0c0c0c0c0c0c0c0c);
+  const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+  __m512i code = _mm512_loadu_si512(from);
+  fours made = decode(t, _mm512_permutexvar_epi8(_mm512_add_epi8(quarter, lane), code));
+  __m512 alpha = alphas(_mm512_permutexvar_epi32(apart, code));
+  for (int c = 0; c < 3; c++)
+    made.of[c] = _mm512_mul_ps(made.of[c], alpha);
+  made.of[3] = alpha;
+  store_planes(&made, planes);
+}
+
+BYTES void CS_WIDE(cs_sampler_decode_planes)(const cs_srgb8_curve *curve, const unsigned char *from,
+                                             int32_t count, float (*planes)[4]) {
+  tables t = load_tables(curve);
+  for (int32_t i = 0; i < count; i += CS_SAMPLES_PLANE)
+    decode_plane(&t, from + 4 * (size_t)i, planes + i);
+}
+
 /* ---- pixels that are mixed */
 
 /* The addresses of the upper or of the lower pairs of texels of some pixels. */
@@ -250,13 +281,15 @@ BYTES static inline void find_pairs(const cs_sampler_tiles *tiles, const int32_t
 /* The quads of four pixels. */
 BYTES static inline __m512i load_quads(const unsigned char *const *above,
                                        const unsigned char *const *below) {
-  __m128i quads[4];
-  for (int k = 0; k < 4; k++)
-    quads[k] = _mm_unpacklo_epi64(_mm_loadl_epi64((const void *)above[k]),
-                                  _mm_loadl_epi64((const void *)below[k]));
-  __m256i low = _mm256_inserti128_si256(_mm256_castsi128_si256(quads[0]), quads[1], 1);
-  __m256i high = _mm256_inserti128_si256(_mm256_castsi128_si256(quads[2]), quads[3], 1);
-  return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+  __m512i quads = _mm512_castsi128_si512(_mm_loadl_epi64((const void *)above[0]));
+  for (int k = 0; k < 4; k++) {
+    __m128i upper = _mm_loadl_epi64((const void *)above[k]);
+    __m128i lower = _mm_loadl_epi64((const void *)below[k]);
+    if (k > 0)
+      quads = _mm512_mask_broadcastq_epi64(quads, (__mmask8)(1 << 2 * k), upper);
+    quads = _mm512_mask_broadcastq_epi64(quads, (__mmask8)(2 << 2 * k), lower);
+  }
+  return quads;
 }
 
 /* One channel of sixteen quads, in the order in which decode returns a register for each texel of
@@ -277,7 +310,8 @@ static inline __m512 mix_texels(const fours *texels, __m512 across, __m512 down)
 }
 
 BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool are_opaque,
-                                     __m512 across, __m512 down, float (*rgba)[4]) {
+                                     __m512 across, __m512 down, bool are_planes,
+                                     float (*rgba)[4]) {
   /* In each 128 bits, byte 4 k + j is the first byte of dword j of register k; for k = 2 and 3 of
    * register k - 2, since channel_of applies the same bytes to the registers 2 and 3. */
   const __m512i red = _mm512_add_epi8(
@@ -296,12 +330,15 @@ BYTES static inline void mix_sixteen(const tables *t, const codes *quads, bool a
       light.of[k] = _mm512_mul_ps(light.of[k], alpha.of[k]);
     made.of[c] = mix_texels(&light, across, down);
   }
-  store_pixels(&made, rgba);
+  if (are_planes)
+    store_planes(&made, rgba);
+  else
+    store_pixels(&made, rgba);
 }
 
 BYTES void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
                                          const cs_sampler_clamped *clamped, int32_t count,
-                                         ptrdiff_t ahead, float (*rgba)[4]) {
+                                         bool are_planes, float (*rgba)[4]) {
   const __m512i apart = _mm512_setr_epi32(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
   const unsigned char *above[CS_SAMPLER_BATCH], *below[CS_SAMPLER_BATCH];
   tables t = load_tables(curve);
@@ -310,16 +347,16 @@ BYTES void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_s
   find_pairs(tiles, clamped->below, whole, below);
   for (int32_t i = 0; i < whole; i += TEXELS) {
     for (int k = 0; k < TEXELS; k += NEAR)
-      __builtin_prefetch(above[i + k] + ahead);
+      __builtin_prefetch(above[i + k] + tiles->ahead);
     codes quads = transpose(
         load_quads(above + i, below + i), load_quads(above + i + 4, below + i + 4),
         load_quads(above + i + 8, below + i + 8), load_quads(above + i + 12, below + i + 12));
     __m512 across = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->across + i));
     __m512 down = _mm512_permutexvar_ps(apart, _mm512_loadu_ps(clamped->down + i));
     if (tiles->are_opaque)
-      mix_sixteen(&t, &quads, true, across, down, rgba + i);
+      mix_sixteen(&t, &quads, true, across, down, are_planes, rgba + i);
     else
-      mix_sixteen(&t, &quads, false, across, down, rgba + i);
+      mix_sixteen(&t, &quads, false, across, down, are_planes, rgba + i);
   }
   mix_one_by_one(curve, tiles, clamped, whole, count, rgba);
 }
@@ -331,10 +368,15 @@ void CS_WIDE(cs_sampler_decode_codes)(const cs_srgb8_curve *curve, const unsigne
   decode_one_by_one(curve, codes, count, rgba);
 }
 
+void CS_WIDE(cs_sampler_decode_planes)(const cs_srgb8_curve *curve, const unsigned char *codes,
+                                       int32_t count, float (*planes)[4]) {
+  decode_one_by_one(curve, codes, count, planes);
+}
+
 void CS_WIDE(cs_sampler_mix_codes)(const cs_srgb8_curve *curve, const cs_sampler_tiles *tiles,
                                    const cs_sampler_clamped *clamped, int32_t count,
-                                   ptrdiff_t ahead, float (*rgba)[4]) {
-  (void)ahead;
+                                   bool are_planes, float (*rgba)[4]) {
+  (void)are_planes;
   mix_one_by_one(curve, tiles, clamped, 0, count, rgba);
 }
 

@@ -84,12 +84,12 @@ static bool find_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tile
 }
 
 static bool mix_tiles(const cs_sampling *run, uint32_t touched, cs_sampler_tiles *tiles,
-                      const cs_sampler_clamped *clamped, int32_t count, ptrdiff_t ahead,
+                      const cs_sampler_clamped *clamped, int32_t count, bool are_planes,
                       float (*rgba)[4]) {
   /* The second search fetches nothing, unless the cache cannot keep all these blocks at once. */
   if (!find_tiles(run, touched, tiles) && !find_tiles(run, touched, tiles))
     return false;
-  WIDE(run, cs_sampler_mix_codes)(run->blocks->curve, tiles, clamped, count, 4 * ahead, rgba);
+  WIDE(run, cs_sampler_mix_codes)(run->blocks->curve, tiles, clamped, count, are_planes, rgba);
   return true;
 }
 
@@ -101,7 +101,8 @@ static bool mix_coded(const cs_sampling *run, int32_t count, const places *at, f
   if (!cs_sampler_lay_tiles(run->sampler, &clamped, &tiles))
     return false;
   uint32_t touched = WIDE(run, cs_sampler_tile_quads)(run->sampler, &tiles, count, &clamped);
-  return mix_tiles(run, touched, &tiles, &clamped, count, at->ahead, rgba);
+  tiles.ahead = 4 * at->ahead;
+  return mix_tiles(run, touched, &tiles, &clamped, count, false, rgba);
 }
 
 /* Bounds of the quads of an affine map, of which the first and the last are the outermost; false if
@@ -124,7 +125,7 @@ static bool bound_quads(const cs_sampler *s, int32_t x0, int32_t count, double y
 }
 
 /* One tap a pixel of an affine map, all of them inside. */
-static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double y,
+static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double y, bool are_planes,
                        float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   cs_sampler_clamped clamped;
@@ -133,7 +134,8 @@ static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double
       !cs_sampler_lay_tiles(s, &clamped, &tiles))
     return false;
   uint32_t touched = WIDE(run, cs_sampler_place_quads)(s, x0, count, y, &tiles, &clamped);
-  return mix_tiles(run, touched, &tiles, &clamped, count, texels_ahead(s, 0, 0, 0, 1), rgba);
+  tiles.ahead = 4 * texels_ahead(s, 0, 0, 0, 1);
+  return mix_tiles(run, touched, &tiles, &clamped, count, are_planes, rgba);
 }
 
 /* Mixes the four texels of a level about each of some places. */
@@ -244,11 +246,21 @@ static void tap_plainly(const cs_sampling *run, int32_t x0, int32_t count, doubl
                         float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;
   double u[CS_SAMPLER_BATCH], v[CS_SAMPLER_BATCH];
-  if (tap_inside(run, x0, count, y, rgba))
+  if (tap_inside(run, x0, count, y, false, rgba))
     return;
   WIDE(run, cs_sampler_place_taps)(s, x0, count, y, u, v);
   const places at = {u, v, NULL, texels_ahead(s, 0, 0, 0, 1)};
   mix_places(run, 0, count, &at, rgba);
+}
+
+/* Whether a sample is one tap at its pixel's centre. */
+static bool is_one_tap(const cs_sampler *s) {
+  return s->placement == CS_SAMPLER_AFFINE && s->kernel == CS_SAMPLER_BILINEAR;
+}
+
+bool cs_sampler_taps_planes(const cs_sampling *run, cs_run pixels, float (*planes)[4]) {
+  int32_t count = (pixels.x1 - pixels.x0 + CS_SAMPLES_PLANE - 1) & -CS_SAMPLES_PLANE;
+  return is_one_tap(run->sampler) && tap_inside(run, pixels.x0, count, pixels.y, true, planes);
 }
 
 void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]) {
@@ -256,8 +268,7 @@ void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]
   const int32_t x0 = pixels.x0, count = pixels.x1 - pixels.x0;
   const double y = pixels.y;
   cs_sampler_centres centres;
-  bool is_plain = s->placement == CS_SAMPLER_AFFINE && s->kernel == CS_SAMPLER_BILINEAR &&
-                  s->wrap == CELSPAN_WRAP_CLAMP;
+  bool is_plain = is_one_tap(s) && s->wrap == CELSPAN_WRAP_CLAMP;
   for (int32_t done = 0; done < count; done += CS_SAMPLER_BATCH) {
     int32_t batch = count - done < CS_SAMPLER_BATCH ? count - done : CS_SAMPLER_BATCH;
     if (is_plain) {

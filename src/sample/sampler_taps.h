@@ -24,6 +24,8 @@
 #include "sample/sampler_texel.h"
 
 void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]);
+/* At most CS_SAMPLER_BATCH pixels as planes; false where they cannot be made so. */
+bool cs_sampler_taps_planes(const cs_sampling *run, cs_run pixels, float (*planes)[4]);
 
 /* Where the centres of a batch of pixels lie on the picture. */
 typedef struct cs_sampler_centres {

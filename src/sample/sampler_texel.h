@@ -17,13 +17,12 @@
 #include "base/vector.h"
 #include "pictures/mip_levels.h"
 #include "sample/placement.h"
+#include "sample/samples.h"
 #include "span/run.h"
 
 /* Places closer than this share of a texel count as one: matrices carry errors of rounding, and
  * pictures have up to 2^20 pixels on a side. */
 #define CS_SAMPLER_SAME 1e-6
-
-#define CS_SAMPLER_BATCH 256 /* pixels made at a time */
 
 typedef struct cs_sampling {
   const cs_sampler *sampler;

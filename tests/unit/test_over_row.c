@@ -84,26 +84,37 @@ static double by_hand_alpha(int i) {
   return 1 - (double)lights[0].keep * (double)lights[1].keep * mean;
 }
 
+/* The samples of a picture in the pixels that are shown; what lies beside them has no meaning. */
+static cs_samples shown_samples(const cs_over_bare *over, const float (*picture)[4],
+                                bool are_planes) {
+  cs_samples out = {.are_planes = are_planes};
+  memset(out.rgba, 0xff, sizeof out.rgba);
+  for (int32_t i = 0; i < over->shown.end - over->shown.first; i++)
+    for (int32_t c = 0; c < 4; c++) {
+      int32_t lane = 4 * (i % 4) + i / 4 % 4, plane = i / CS_SAMPLES_PLANE * CS_SAMPLES_PLANE;
+      float *at = are_planes ? out.rgba[plane] + 16 * c + lane : out.rgba[i] + c;
+      *at = picture[over->shown.first + i][c];
+    }
+  return out;
+}
+
 /* Pictures alone: what the general fold makes of them. */
 static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack *bare, cs_isa isa,
-                       int32_t count) {
+                       bool are_planes, int32_t count) {
   static cs_over_bare layers;
   static float wanted[CS_OVER_ROW_BATCH][4], made[CS_OVER_ROW_BATCH][4];
   static unsigned char codes[4 * CS_OVER_ROW_BATCH + 4];
   cs_over_row over;
   cs_arena_reset(arena);
   CHECK(cs_over_row_begin(context, arena, bare, CS_ISA_ANY, count, &over) == CELSPAN_OK);
-  layers.shown = (cs_over_bare_range){0, count};
-  layers.count = count;
+  cs_over_bare_begin(&layers, count);
   const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
   for (uint32_t i = 0; i < 2; i++) {
     CHECK(cs_over_row_move(&over, 5 - i) == CELSPAN_OK);
     CHECK(cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]) == CELSPAN_OK);
-    for (int32_t k = layers.shown.first; k < layers.shown.end; k++)
-      memcpy(layers.rgba[k], samples[i][k], sizeof *layers.rgba);
+    layers.last = shown_samples(&layers, samples[i], are_planes);
     if (i == 0)
-      layers.shown =
-          cs_over_bare_add(isa, true, (const float(*)[4])layers.rgba, layers.shown, layers.folded);
+      cs_over_bare_add(isa, &layers);
   }
   cs_over_row_end(&over, wanted);
   codes[4 * count] = 77;
@@ -117,7 +128,19 @@ static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack
   CHECK(codes[4 * count] == 77);
 }
 
-/* Where the first picture is opaque nothing of the second is asked for. */
+/* Where the first picture is opaque nothing of the second is asked for, but beside what is. */
+static void check_shown(cs_isa isa, int32_t count, int32_t opaque) {
+  static cs_over_bare over;
+  cs_over_bare_begin(&over, count);
+  over.last = shown_samples(&over, (const float(*)[4])rgba, false);
+  cs_over_bare_add(isa, &over);
+  cs_over_bare_range shown = over.shown;
+  if (opaque >= count)
+    CHECK(shown.first >= shown.end);
+  else
+    CHECK(shown.first <= opaque && shown.first > opaque - CS_SAMPLES_PLANE && shown.end == count);
+}
+
 static void test_bare(celspan_context *context, cs_arena *arena) {
   const cs_stack unlit = {.layers = all_layers, .layer_count = 6};
   const cs_stack lit = {
@@ -134,13 +157,11 @@ static void test_bare(celspan_context *context, cs_arena *arena) {
     }
     for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
       for (int32_t count = 1; count <= CS_OVER_ROW_BATCH; count += 51) {
-        check_bare(context, arena, &unlit, isa, count);
-        check_bare(context, arena, &lit, isa, count);
-        cs_over_bare_range all = {0, count};
-        float folded[CS_OVER_ROW_BATCH][4];
-        cs_over_bare_range left = cs_over_bare_add(isa, true, (const float(*)[4])rgba, all, folded);
-        CHECK(opaque < count ? left.first <= opaque && left.first > opaque - 4 && left.end == count
-                             : left.first >= left.end);
+        for (int planes = 0; planes <= (isa == CS_ISA_AVX512); planes++) {
+          check_bare(context, arena, &unlit, isa, planes, count);
+          check_bare(context, arena, &lit, isa, planes, count);
+        }
+        check_shown(isa, count, opaque);
       }
   }
 }

@@ -1,0 +1,24 @@
+/* Samples of some pixels of a row, in the order in which they are soonest made and read.
+ *
+ *     pixel by pixel   | r g b a | r g b a | r g b a | ...            pixels 0, 1, 2, ...
+ *
+ *     in planes        | r0 r4 r8 r12 r1 r5 .. r15 | g0 .. | b0 .. | a0 .. |       pixels 0 to 15
+ *                      | r16 ..                                                    16 to 31 ...
+ *
+ * Planes are what sixteen codes become when they are decoded in registers of 64 bytes, and what
+ * they are coded from: lane 4 l + j is pixel 4 j + l. Only AVX-512 makes and reads them.
+ */
+#ifndef CS_SAMPLE_SAMPLES_H
+#define CS_SAMPLE_SAMPLES_H
+
+#include <stdbool.h>
+
+#define CS_SAMPLER_BATCH 256 /* pixels made at a time, a multiple of those of a plane */
+#define CS_SAMPLES_PLANE 16  /* pixels */
+
+typedef struct cs_samples {
+  bool are_planes;
+  float rgba[CS_SAMPLER_BATCH][4]; /* or planes: the last ones may be of more pixels than asked */
+} cs_samples;
+
+#endif
