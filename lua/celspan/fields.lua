@@ -37,7 +37,7 @@ local function refuse_name(noun, name, names, level)
   table.sort(names)
   local hint = core.nearest(name, names)
   error(("%s has no '%s'%s"):format(noun, name, hint and ("; did you mean '%s'?"):format(hint)
-    or "; there are " .. table.concat(names, ", ")), level + 1)
+    or #names > 0 and "; there are " .. table.concat(names, ", ") or ""), level + 1)
 end
 
 --- The __index of a class whose values have `methods` and fields of their own. optional: the

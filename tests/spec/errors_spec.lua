@@ -281,6 +281,7 @@ describe("reading what is not there", function()
       function() return require "celspan.ease".name end },
     { "celspan.lips has no 'raed'; did you mean 'read'?",
       function() return require "celspan.lips".raed end },
+    { "celspan.keys has no 'foo'", function() return require "celspan.keys".foo end },
     { "a track of keys has no 'att'; did you mean 'at'?",
       function() return keys { { 0, 1 } }:att(0) end },
     { "a way has no 'lenght'; did you mean 'length'?", function() return way.lenght end },
