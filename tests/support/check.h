@@ -32,6 +32,22 @@ static inline int check_text(const char *a, const char *b, const char *file, int
   return check_record(a && b && strcmp(a, b) == 0, file, line, text);
 }
 
+/* Whether the thread sanitizer looks on. It makes a test ten times as long, and finds nothing in what
+ * one thread does alone: long tests leave most of that to the other builds. */
+static inline int check_is_for_threads(void) {
+#if defined(__SANITIZE_THREAD__)
+  return 1;
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  return 1;
+#else
+  return 0;
+#endif
+#else
+  return 0;
+#endif
+}
+
 /* Each is 1 when it passed, 0 when it failed. */
 #define CHECK(condition) check_record(!!(condition), __FILE__, __LINE__, #condition)
 #define CHECK_NEAR(a, b, tolerance)                                                                \

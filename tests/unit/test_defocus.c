@@ -457,13 +457,15 @@ static void check_memory(void) {
 }
 
 int main(void) {
-  check_memory();
-  check_bars();
   check_orders();
   check_kept();
+  check_brute_force();
+  if (check_is_for_threads())
+    return check_done();
+  check_memory();
+  check_bars();
   check_light();
   check_tiny();
-  check_brute_force();
   check_ramps();
   check_coarse();
   return check_done();

@@ -248,6 +248,8 @@ int main(void) {
   celspan_context_memory(context, &before, &peak, &allocations);
   for (int style = 0; style < 4; style++)
     for (int i = 0; i < 4; i++) {
+      if (check_is_for_threads() && i != style)
+        continue;
       check_frame(context, 1, 1, style, codings[i], NULL);
       check_frame(context, 1, 300, style, codings[i], "a title");
       check_frame(context, 300, 1, style, codings[i], "Titel mit \xc3\xa4");
@@ -258,7 +260,7 @@ int main(void) {
       else
         check_frame(context, 700, 1300, style, codings[i], NULL);
     }
-  for (int i = 0; i < 2; i++) {
+  for (int i = 0; i < (check_is_for_threads() ? 1 : 2); i++) {
     check_frame(context, 1000000, 12, 1, codings[i], NULL);
     check_frame(context, 1000000, 6, 3, codings[i], NULL);
     check_frame(context, 1000000, 1, 0, codings[i], NULL);
