@@ -73,3 +73,32 @@ void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_
     spread_span(span, x, stop, out + (x - samples->low));
   }
 }
+
+/* ---------------------------------------------------------------- tiles of nodes */
+
+/* The `count` nodes from x on of every row. */
+static void sum_tile(cs_defocus_samples *samples, const cs_defocus_tiles *tiles, int32_t x,
+                     int32_t count, float (*nodes)[4]) {
+  cs_v4 colour;
+  bool is_plain = cs_defocus_samples_are_plain(samples, &colour);
+  for (int32_t k = 0; k < samples->count && !is_plain; k++)
+    tiles->take_row(tiles->user, k);
+  for (int32_t y = 0; y < tiles->rows; y++) {
+    float(*row)[4] = nodes + (size_t)y * (size_t)tiles->columns + (size_t)x;
+    if (!is_plain)
+      tiles->sum_nodes(tiles->user, y, count, row);
+    for (int32_t k = 0; k < count && is_plain; k++)
+      cs_v4_store(row[k], colour);
+  }
+}
+
+void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles *tiles,
+                            float (*nodes)[4]) {
+  for (int32_t x = 0, count; x < tiles->columns; x += count) {
+    int32_t rest = tiles->columns - x;
+    count = rest < tiles->width ? rest : tiles->width;
+    cs_defocus_samples_move(samples, x * tiles->factor,
+                            (x + count) * tiles->factor + 2 * tiles->extent);
+    sum_tile(samples, tiles, x, count, nodes);
+  }
+}

@@ -33,6 +33,21 @@ void cs_defocus_samples_move(cs_defocus_samples *samples, int32_t low, int32_t h
 bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
 /* Whether all rows are one same colour under the tile; *out: that colour. */
 bool cs_defocus_samples_are_plain(const cs_defocus_samples *samples, cs_v4 *out);
+/* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from
+ * x * factor on, with `extent` of them on either side. */
+typedef struct cs_defocus_tiles {
+  int32_t columns, rows; /* of nodes */
+  int32_t width;         /* of a tile, in nodes, at most */
+  int32_t factor, extent;
+  void (*take_row)(void *user, int32_t k); /* row k of the samples under the tile */
+  /* Row y of the tile's nodes, `count` of them, when all rows of samples have been taken. */
+  void (*sum_nodes)(void *user, int32_t y, int32_t count, float (*nodes)[4]);
+  void *user;
+} cs_defocus_tiles;
+
+/* Sums all nodes; those of a tile that is plain get its colour. nodes: columns times rows. */
+void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles *tiles,
+                            float (*nodes)[4]);
 /* Row k under the tile, sample by sample. */
 void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
 

@@ -90,15 +90,14 @@ typedef struct summing {
   const cs_defocus_slices *slices;
   cs_isa isa;
   cs_defocus_samples samples; /* those under all nodes */
-  int32_t columns, band_rows;
-  int32_t x0, x1;  /* nodes of the tile */
-  cs_v4 *row;      /* samples of one row under the tile */
-  cs_v4 *sums;     /* by row: of the samples from the tile's left edge up to each */
-  float (*out)[4]; /* TILE nodes */
+  cs_v4 *row;                 /* samples of one row under the tile */
+  cs_v4 *sums;                /* by row: of the samples from the tile's left edge up to each */
+  float (*out)[4];            /* TILE nodes */
 } summing;
 
 /* The prefix sums of a row's samples from the tile's left edge on. */
-static void sum_samples(summing *s, int32_t k) {
+static void sum_samples(void *user, int32_t k) {
+  summing *s = user;
   size_t factor = (size_t)s->slices->factor, places = s->slices->places;
   size_t count = (size_t)(s->samples.high - s->samples.low);
   cs_v4 *first = s->sums + (size_t)k * s->slices->stride, sum = cs_v4_all(0), *row = s->row;
@@ -110,35 +109,12 @@ static void sum_samples(summing *s, int32_t k) {
     }
 }
 
-static void sum_nodes(summing *s, int32_t y, float (*nodes)[4]) {
+static void sum_nodes(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
+  summing *s = user;
   const cs_v4 *sums = s->sums + (size_t)(y * s->slices->factor) * s->slices->stride;
   CS_WIDE_CHOOSE(s->isa, cs_defocus_slices_sum)
   (s->slices->slices, s->slices->count, (const float *)sums, TILE, s->out[0]);
-  memcpy(nodes, s->out, (size_t)(s->x1 - s->x0) * sizeof *nodes);
-}
-
-static void sum_tile(summing *s, float (*nodes)[4]) {
-  size_t columns = (size_t)s->columns;
-  cs_v4 colour;
-  bool is_plain = cs_defocus_samples_are_plain(&s->samples, &colour);
-  for (int32_t k = 0; k < s->samples.count && !is_plain; k++)
-    sum_samples(s, k);
-  for (int32_t y = 0; y < s->band_rows; y++) {
-    float(*row)[4] = nodes + (size_t)y * columns + (size_t)s->x0;
-    if (!is_plain)
-      sum_nodes(s, y, row);
-    for (int32_t x = 0; x < s->x1 - s->x0 && is_plain; x++)
-      cs_v4_store(row[x], colour);
-  }
-}
-
-static void sum_tiles(summing *s, float (*nodes)[4]) {
-  int32_t factor = s->slices->factor;
-  for (s->x0 = 0; s->x0 < s->columns; s->x0 = s->x1) {
-    s->x1 = s->columns - s->x0 < TILE ? s->columns : s->x0 + TILE;
-    cs_defocus_samples_move(&s->samples, s->x0 * factor, s->x1 * factor + 2 * s->slices->extent_x);
-    sum_tile(s, nodes);
-  }
+  memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
 }
 
 celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_maker *maker,
@@ -146,8 +122,15 @@ celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_ma
                                       float (*nodes)[4]) {
   celspan_context *context = maker->context;
   cs_memory *memory = context->memory;
-  summing s = {
-      .slices = slices, .isa = maker->painter.isa, .columns = columns, .band_rows = end - first};
+  summing s = {.slices = slices, .isa = maker->painter.isa};
+  const cs_defocus_tiles tiles = {.columns = columns,
+                                  .rows = end - first,
+                                  .width = TILE,
+                                  .factor = slices->factor,
+                                  .extent = slices->extent_x,
+                                  .take_row = sum_samples,
+                                  .sum_nodes = sum_nodes,
+                                  .user = &s};
   int32_t rows = (end - first) * slices->factor + 2 * slices->extent_y;
   size_t samples = (size_t)(TILE * slices->factor + 2 * slices->extent_x + 1);
   size_t sums = (size_t)rows * slices->stride;
@@ -160,7 +143,7 @@ celspan_status cs_defocus_slices_fill(const cs_defocus_slices *slices, cs_row_ma
   if (status == CELSPAN_OK)
     status = cs_defocus_samples_make(&s.samples, maker, first * slices->factor);
   if (status == CELSPAN_OK)
-    sum_tiles(&s, nodes);
+    cs_defocus_samples_sum(&s.samples, &tiles, nodes);
   cs_defocus_samples_finish(&s.samples, memory);
   cs_mem_free(memory, s.row, samples * sizeof *s.row);
   cs_mem_free(memory, s.sums, sums * sizeof *s.sums);

@@ -103,12 +103,10 @@ typedef struct summing {
   const cs_defocus_sums *sums;
   cs_isa isa;
   cs_defocus_samples samples; /* those under all nodes */
-  int32_t columns, band_rows;
-  int32_t x0, x1;  /* nodes of the tile */
-  cs_v4 *row;      /* samples of one row under the tile, */
-  cs_v4 *placed;   /* and by their place within a node's width */
-  cs_v4 *across;   /* summed along the rows: TILE nodes a row */
-  float (*out)[4]; /* TILE nodes */
+  cs_v4 *row;                 /* samples of one row under the tile, */
+  cs_v4 *placed;              /* and by their place within a node's width */
+  cs_v4 *across;              /* summed along the rows: TILE nodes a row */
+  float (*out)[4];            /* TILE nodes */
 } summing;
 
 static void place_samples(summing *s, int32_t k) {
@@ -121,7 +119,8 @@ static void place_samples(summing *s, int32_t k) {
       first[place * places] = s->row[at];
 }
 
-static void sum_across(summing *s, int32_t k) {
+static void sum_across(void *user, int32_t k) {
+  summing *s = user;
   const cs_defocus_sums *sums = s->sums;
   cs_v4 colour, *out = s->across + (size_t)k * TILE;
   if (cs_defocus_samples_are_one(&s->samples, k, &colour)) {
@@ -135,37 +134,14 @@ static void sum_across(summing *s, int32_t k) {
    4 * place_of(sums, sums->extent_x + sums->factor / 2), TILE, (float *)out);
 }
 
-static void sum_down(summing *s, int32_t y, float (*nodes)[4]) {
+static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
+  summing *s = user;
   const cs_defocus_sums *sums = s->sums;
   size_t first = (size_t)(y * sums->factor), middle = (size_t)(sums->extent_y + sums->factor / 2);
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
   (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle, TILE,
    s->out[0]);
-  memcpy(nodes, s->out, (size_t)(s->x1 - s->x0) * sizeof *nodes);
-}
-
-static void sum_tile(summing *s, float (*nodes)[4]) {
-  size_t columns = (size_t)s->columns;
-  cs_v4 colour;
-  bool is_plain = cs_defocus_samples_are_plain(&s->samples, &colour);
-  for (int32_t k = 0; k < s->samples.count && !is_plain; k++)
-    sum_across(s, k);
-  for (int32_t y = 0; y < s->band_rows; y++) {
-    float(*row)[4] = nodes + (size_t)y * columns + (size_t)s->x0;
-    if (!is_plain)
-      sum_down(s, y, row);
-    for (int32_t x = 0; x < s->x1 - s->x0 && is_plain; x++)
-      cs_v4_store(row[x], colour);
-  }
-}
-
-static void sum_tiles(summing *s, float (*nodes)[4]) {
-  int32_t factor = s->sums->factor;
-  for (s->x0 = 0; s->x0 < s->columns; s->x0 = s->x1) {
-    s->x1 = s->columns - s->x0 < TILE ? s->columns : s->x0 + TILE;
-    cs_defocus_samples_move(&s->samples, s->x0 * factor, s->x1 * factor + 2 * s->sums->extent_x);
-    sum_tile(s, nodes);
-  }
+  memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
 }
 
 celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *maker,
@@ -173,9 +149,16 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
                                     float (*nodes)[4]) {
   celspan_context *context = maker->context;
   cs_memory *memory = context->memory;
-  summing s = {
-      .sums = sums, .isa = maker->painter.isa, .columns = columns, .band_rows = end - first};
-  int32_t rows = s.band_rows * sums->factor + 2 * sums->extent_y;
+  summing s = {.sums = sums, .isa = maker->painter.isa};
+  const cs_defocus_tiles tiles = {.columns = columns,
+                                  .rows = end - first,
+                                  .width = TILE,
+                                  .factor = sums->factor,
+                                  .extent = sums->extent_x,
+                                  .take_row = sum_across,
+                                  .sum_nodes = sum_down,
+                                  .user = &s};
+  int32_t rows = (end - first) * sums->factor + 2 * sums->extent_y;
   size_t samples = TILE * (size_t)sums->factor + 2 * (size_t)sums->extent_x;
   size_t placed = sums->places * (size_t)sums->factor, across = (size_t)rows * TILE;
   celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
@@ -188,7 +171,7 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   if (status == CELSPAN_OK)
     status = cs_defocus_samples_make(&s.samples, maker, first * sums->factor);
   if (status == CELSPAN_OK)
-    sum_tiles(&s, nodes);
+    cs_defocus_samples_sum(&s.samples, &tiles, nodes);
   cs_defocus_samples_finish(&s.samples, memory);
   cs_mem_free(memory, s.row, samples * sizeof *s.row);
   cs_mem_free(memory, s.placed, placed * sizeof *s.placed);
