@@ -6,6 +6,7 @@
 #include "paint/over_bare.h"
 #include "paint/over_row.h"
 #include "paint/shade.h"
+#include "paint/shown.h"
 
 #include <math.h>
 
@@ -199,12 +200,29 @@ celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *pro
 
 /* ---------------------------------------------------------------- runs */
 
-celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
-                                          cs_run run, float (*rgba)[4]) {
+celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *program, cs_run run,
+                                        float (*rgba)[4]) {
   for (int32_t x = run.x0; x < run.x1; x += CS_OVER_ROW_BATCH) {
     int32_t count = run.x1 - x < CS_OVER_ROW_BATCH ? run.x1 - x : CS_OVER_ROW_BATCH;
     cs_batch batch = {NULL, x, count, run.y};
     CS_TRY(cs_painter_batch_colours(painter, program, &batch, rgba + (x - run.x0)));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
+                                          cs_run run, float (*rgba)[4]) {
+  if (!cs_shown_varies(painter->stack, program))
+    return cs_painter_shown_colours(painter, program, run, rgba);
+  int32_t stride = cs_shown_stride(painter, program);
+  cs_shown *shown = &painter->shown[0];
+  for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {
+    int32_t left = x / stride * stride;
+    cs_run known = cs_run_between(run, left, left + stride);
+    CS_TRY(cs_shown_find(painter, program, known, shown));
+    end = known.x1 < run.x1 ? known.x1 : run.x1;
+    const cs_program visible = {shown->items, program->procedure_spans, shown->length};
+    CS_TRY(cs_painter_shown_colours(painter, &visible, cs_run_between(run, x, end), rgba));
   }
   return CELSPAN_OK;
 }

@@ -21,6 +21,11 @@ CELSPAN_CHECKED celspan_status cs_painter_program_colours(cs_painter *painter,
 
 /* ---- for the rest of the room */
 
+/* The same of a program of which all items show (shown.h). */
+CELSPAN_CHECKED celspan_status cs_painter_shown_colours(cs_painter *painter,
+                                                        const cs_program *program, cs_run run,
+                                                        float (*rgba)[4]);
+
 CELSPAN_CHECKED celspan_status cs_painter_batch_colours(cs_painter *painter,
                                                         const cs_program *program,
                                                         const cs_batch *batch, float (*rgba)[4]);

@@ -42,6 +42,9 @@ void cs_painter_finish(cs_painter *painter) {
     cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
   cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
   cs_gradient_tables_destroy(painter->gradients, memory);
+  for (int i = 0; i < 2; i++)
+    cs_mem_free(memory, painter->shown[i].items,
+                painter->shown[i].capacity * sizeof *painter->shown[i].items);
   cs_arena_finish(&painter->scratch, memory);
   *painter = (cs_painter){0};
 }

@@ -4,7 +4,8 @@
  *     cell: one colour ------------------------------------> one span
  *     cell: program (layers, front to back)
  *            |-- colours.h   samples, over_row --> pixels
- *            `-- run.h       a picture shows   --> pixels, or their codes
+ *            `-- run.h       what shows where  --> shown.h
+ *                            a picture shows   --> pixels, or their codes
  *                            formulas only     --> few linear spans (lines.h)
  *                            one defocused cel --> from node to node (defocused_run.h)
  *
@@ -30,6 +31,15 @@ typedef struct cs_image_view {
   cs_sampler sampler;
 } cs_image_view;
 
+/* What of a program shows over some columns: shown.h. */
+typedef struct cs_shown {
+  cs_item *items; /* those that are neither clear nor hidden there, front to back */
+  size_t capacity;
+  uint32_t length;
+  bool ends_opaque; /* nothing shines through them */
+  bool is_sure;     /* the same is known of every part of the columns */
+} cs_shown;
+
 typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
   const cs_composer *composer; /* borrowed: its cells are painted */
@@ -40,7 +50,8 @@ typedef struct cs_painter {
   cs_defocused_view *defocused;
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
   cs_arena scratch;                     /* of one run */
-  uint64_t evaluations;                 /* pixels whose colour has been computed */
+  cs_shown shown[2];    /* of the columns being painted, and of those right of them */
+  uint64_t evaluations; /* pixels whose colour has been computed */
 } cs_painter;
 
 /* composer: initialized, borrowed. The painter must not be moved.

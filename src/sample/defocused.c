@@ -381,6 +381,26 @@ size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint) 
   return low;
 }
 
+/* What a vertex lets through; lane 3 is 0. */
+static cs_v4 vertex_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                            size_t vertex) {
+  cs_v4 t = defocused->planes == 2
+                ? cs_defocused_value(defocused, view, vertex, 1)
+                : cs_v4_all(1 - cs_defocused_value(defocused, view, vertex, 0)[3]);
+  t[3] = 0;
+  return t;
+}
+
+cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                           cs_run run) {
+  double last = cs_defocused_at(defocused, run.x1 - 0.5);
+  size_t k = cs_defocused_find(view, cs_defocused_at(defocused, run.x0 + 0.5), 0);
+  cs_v4 most = vertex_through(defocused, view, k);
+  while (view->at[k] < last && k + 1 < view->count)
+    most = cs_v4_max(vertex_through(defocused, view, ++k), most);
+  return most;
+}
+
 void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
                         size_t *line, cs_v4 *s, cs_v4 *t) {
   double at = cs_defocused_at(defocused, x);

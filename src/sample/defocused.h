@@ -129,6 +129,9 @@ size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint);
 /* The paint at x, at the height of the view. *line: a hint, and the line that x is on. */
 void cs_defocused_paint(const cs_defocused *defocused, const cs_defocused_view *view, double x,
                         size_t *line, cs_v4 *s, cs_v4 *t);
+/* The most that each channel lets through anywhere in a run, at the height of the view. */
+cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                           cs_run run);
 /* The vertices inside a run, as places x along the row; at most as many as the limit says. Returns
  * how many. */
 size_t cs_defocused_breaks(const cs_defocused *defocused, const cs_defocused_view *view, cs_run run,
