@@ -58,7 +58,7 @@ celspan_status cs_defocus_lines_create(const cs_defocus_edges *edges, cs_row_mak
   f->row.near = cs_mem_array(memory, count, sizeof *f->row.near);
   f->row.steps = cs_mem_array(memory, count, sizeof *f->row.steps);
   f->row.below = cs_mem_array(memory, count, sizeof *f->row.below);
-  f->lines = cs_mem_array(memory, count * lines, sizeof *f->lines);
+  f->lines = cs_mem_resize(memory, NULL, 0, count * lines * sizeof *f->lines); /* not read unset */
   f->under = cs_mem_array(memory, lines, sizeof *f->under);
   f->shares = cs_mem_array(memory, 2 * (size_t)edges->extent_x + 2, sizeof *f->shares);
   bool is_whole =
@@ -156,11 +156,17 @@ static inline int32_t group_end(const cs_defocus_lines *f, int32_t i) {
  * place of the oldest one in the ring may be under way. */
 static void write_pending(cs_defocus_lines *f, int32_t i, int32_t number) {
   group *g = &f->groups[i];
+  const cs_v4 colour = g->colour;
   int32_t count = g->pending < f->line_count ? g->pending : f->line_count - 1;
+  int32_t first = i * GROUP, columns = group_end(f, i) - first;
   for (int32_t k = 1; k <= count; k++) {
-    cs_v4 *line = line_of(f, number - k);
-    for (int32_t p = i * GROUP; p < group_end(f, i); p++)
-      line[p] = g->colour;
+    cs_v4 *line = line_of(f, number - k) + first;
+    if (columns == GROUP) /* unrolled: what costs time here is the loop */
+      for (int32_t p = 0; p < GROUP; p++)
+        line[p] = colour;
+    else
+      for (int32_t p = 0; p < columns; p++)
+        line[p] = colour;
   }
   g->pending = 0;
 }

@@ -25,6 +25,7 @@ void CS_WIDE(cs_defocus_lines_spread)(const float *low, const float *high, float
   memcpy(&change, step, sizeof change);
   for (int32_t k = 0; k < count; k++)
     shares[k] = low[k] + t * (high[k] - low[k]);
+#pragma GCC unroll 4
   for (int32_t k = 0; k < count; k++) {
     memcpy(&sum, &near[k], sizeof sum);
     sum += shares[k] * change;

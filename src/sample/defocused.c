@@ -47,7 +47,8 @@ static inline bool is_constant(const node_row *row, int planes, int32_t i) {
 
 /* The last node of the even group that begins with node i; i where none does. */
 static inline int32_t even_end(const node_row *row, int32_t i) {
-  if (!row->even || i % CS_DEFOCUSED_GROUP != 0 || !row->even[i / CS_DEFOCUSED_GROUP])
+  if ((uint32_t)i % CS_DEFOCUSED_GROUP != 0 || !row->even ||
+      !row->even[(uint32_t)i / CS_DEFOCUSED_GROUP])
     return i;
   int32_t end = i + CS_DEFOCUSED_GROUP - 1;
   return end < row->last ? end : row->last;
@@ -129,6 +130,8 @@ static int32_t swing_end(const node_row *row, int32_t from) {
 
 /* By how much the sum of the nodes between two nodes grows when a line takes their place. */
 static cs_v4 light_added(const node_row *row, int plane, int32_t from, int32_t to) {
+  if (to - from == 1)
+    return cs_v4_all(0);
   const float(*nodes)[4] = row->planes[plane];
   cs_v4 sum = cs_v4_all(0), ends = cs_v4_load(nodes[from]) + cs_v4_load(nodes[to]);
   for (int32_t i = from + 1; i < to; i++)
@@ -149,12 +152,14 @@ static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t
   size_t planes = (size_t)row->plane_count;
   for (size_t p = 0; p < planes; p++) {
     cs_v4 owed = cs_v4_all(0); /* to be subtracted for the line that ends in the vertex */
+    bool moves_next = false;
     for (size_t k = first; k + 1 < polyline->count; k++) {
-      bool moves = !is_fixed(polyline, first, k);
+      bool moves = moves_next;
+      moves_next = !is_fixed(polyline, first, k + 1);
       cs_v4 added = polyline->constant[k - first]
                         ? cs_v4_all(0)
                         : light_added(row, (int)p, polyline->at[k], polyline->at[k + 1]);
-      cs_v4 here = is_fixed(polyline, first, k + 1) ? added : 0.5f * added;
+      cs_v4 here = moves_next ? 0.5f * added : added;
       if (moves) {
         float *value = polyline->values[k * planes + p];
         float wide = 0.5f * (float)(polyline->at[k + 1] - polyline->at[k - 1]);
