@@ -14,6 +14,7 @@
 #include "base/vector.h"
 #include "colour/paint.h"
 #include "scene/scene.h"
+#include "scene/texture.h"
 
 #define CS_STACK_NONE UINT32_MAX /* no group, no layer */
 /* Where lights multiply, level by level, they are held to this, so that all sums stay finite. */
@@ -74,6 +75,11 @@ typedef struct cs_image_layer {
   celspan_box box;                /* what the picture fills, own units */
   celspan_wrap wrap;
 } cs_image_layer;
+
+/* Whether nothing shines through the layer wherever it is present if its picture has no alpha. */
+static inline bool cs_image_layer_hides(const cs_image_layer *image) {
+  return image->texture->use == CELSPAN_PICTURE_PAINT && image->wrap != CELSPAN_WRAP_CLEAR;
+}
 
 typedef struct cs_procedure {
   const celspan_scanline_desc *desc; /* borrowed from the scene */

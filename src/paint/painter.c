@@ -66,8 +66,7 @@ static void prepare_view(const cs_painter *painter, const cs_image_layer *layer,
                                .wrap = layer->wrap,
                                .isa = painter->isa};
   cs_sampler_prepare(&view->sampler);
-  view->is_opaque = !info->has_alpha && texture->use == CELSPAN_PICTURE_PAINT &&
-                    layer->wrap != CELSPAN_WRAP_CLEAR;
+  view->is_opaque = !info->has_alpha && cs_image_layer_hides(layer);
   view->is_ready = true;
 }
 

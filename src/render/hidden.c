@@ -1,6 +1,7 @@
 #include "render/hidden.h"
 
 #include "compose/tree_certain.h"
+#include "render/through.h"
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
@@ -26,11 +27,11 @@ static void resolve(const void *user, size_t tree, const cs_cull_presence *prese
   cs_tree_certain(h->stack, &h->stack->trees[tree], presences, scratch, painted);
 }
 
-static void fill(hidden *h) {
+static void fill(celspan_context *context, hidden *h) {
   const cs_stack *stack = h->stack;
   for (size_t i = 0; i < stack->layer_count; i++) {
     const cs_layer *layer = &stack->layers[i];
-    h->layers[i] = (cs_cull_layer){.through = most_of(layer->t),
+    h->layers[i] = (cs_cull_layer){.through = most_of(cs_through_layer(context, stack, layer)),
                                    .winding_mask = stack->rules[i].winding_mask,
                                    .group = layer->group,
                                    .is_anywhere = layer->kind == CS_LAYER_SCANLINE};
@@ -85,7 +86,7 @@ celspan_status cs_hidden_cull(cs_compiler *c) {
   if ((!h.layers && layers > 0) || (!h.groups && groups > 0) || (!h.trees && trees > 0))
     status = cs_fail_memory(c->context);
   if (status == CELSPAN_OK) {
-    fill(&h);
+    fill(c->context, &h);
     status = cull(c, &h);
   }
   cs_mem_free(memory, h.layers, layers * sizeof *h.layers);

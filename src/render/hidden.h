@@ -3,6 +3,7 @@
  *   layer   the most that it lets through     a bound (render/through.h), the same that cuts the
  *                                             programs of the composer: where a tile is dead, the
  *                                             fold of colours has stopped before
+ *                                             (of a picture by its header, which is read for it)
  *   group   faded, or lit by a light with a shape
  *   tree    where its layers are certain to be painted (compose/tree_certain.h)
  */

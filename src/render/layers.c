@@ -94,7 +94,8 @@ static void count_outline(cs_compiler *c, const cs_outline *outline, const cs_la
     return;
   c->census.pieces += (double)outline->piece_count;
   c->census.rows += height;
-  c->census.depth += width * height / all * cs_through_halvings(layer->t);
+  cs_v4 through = cs_through_least(&c->plan->stack, layer);
+  c->census.depth += width * height / all * cs_through_halvings(through);
 }
 
 celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "geometry/matrix.h"
+#include "pictures/store.h"
 #include "scene/texture.h"
 
 /* Colours are asked for in the middle of a pixel that the layer only touches. */
@@ -60,6 +61,26 @@ cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible) 
     return clear;
   cs_v4 most = is_triangle ? triangle_through(shade, visible) : stops_through(shade->texture);
   return cs_v4_min(most * ROUNDING, clear);
+}
+
+cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer) {
+  bool hides = layer->kind == CS_LAYER_PICTURE && layer->role == CS_LAYER_PAINT &&
+               cs_image_layer_hides(&stack->images[layer->index]);
+  return hides ? cs_v4_all(1 - layer->fade) : layer->t;
+}
+
+static bool has_alpha(celspan_context *context, const cs_picture *picture) {
+  celspan_context branch; /* of an error that is none yet */
+  celspan_picture_info info;
+  cs_context_branch(&branch, context);
+  return cs_store_info(&branch, picture, &info) != CELSPAN_OK || info.has_alpha;
+}
+
+cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer) {
+  cs_v4 least = cs_through_least(stack, layer);
+  if (layer->kind != CS_LAYER_PICTURE || least[0] == layer->t[0])
+    return layer->t;
+  return has_alpha(context, stack->images[layer->index].texture->picture) ? layer->t : least;
 }
 
 double cs_through_halvings(cs_v4 t) {

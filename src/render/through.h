@@ -15,11 +15,17 @@
 #ifndef CS_RENDER_THROUGH_H
 #define CS_RENDER_THROUGH_H
 
-#include "compose/layer.h"
+#include "compose/stack.h"
 #include "geometry/boundary.h"
 
 /* Of a formula that is visible in a part of the frame, pixels. Lane 3 is 0. */
 cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
+
+/* The same of a layer that is painted, wherever it is present and fade included. A picture's header is
+ * read for it; one that cannot be read counts as clear, since it may be hidden itself. */
+cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer);
+/* The least that this may be, before a header is read. */
+cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer);
 
 /* How often what lets through at most `t` halves the light behind it, roughly; CS_THROUGH_OPAQUE
  * where that is so often or more. */

@@ -178,12 +178,31 @@ static celspan_frame_desc frame_of(celspan_rostrum *rostrum, celspan_exposure *e
   return desc;
 }
 
-/* A large shape that is nearly opaque or not: flat or a gradient. */
+/* A picture in memory, with a clear pixel or without alpha. */
+static celspan_texture *make_picture(bool has_alpha, celspan_picture_use use) {
+  unsigned char pixels[16] = {200, 90, 30, 255, 10, 90, 230, 0, 50, 90, 30, 255, 200, 10, 30, 255};
+  celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
+  celspan_picture_desc desc = {.wrap = CELSPAN_WRAP_REPEAT};
+  celspan_texture *texture = NULL;
+  surface.width = surface.height = 2;
+  surface.format = has_alpha ? CELSPAN_SURFACE_RGBA8 : CELSPAN_SURFACE_RGB8;
+  surface.pixels = pixels;
+  desc.use = use;
+  studio_check(&s, celspan_surface_create(s.context, &surface, &desc.surface));
+  studio_check(&s, celspan_texture_create_picture(s.context, &desc, &texture));
+  celspan_surface_unref(desc.surface);
+  s.textures[s.texture_count++] = texture;
+  return texture;
+}
+
+/* A large shape that is nearly opaque or not: flat, a gradient or a picture. */
 static celspan_object *random_leaf(void) {
   float least = random_below(&numbers, 3) == 0 ? 1 : random_below(&numbers, 2) ? 0.9f : 0.3f;
-  int kind = random_below(&numbers, 4);
-  celspan_texture *texture =
-      kind < 3 ? random_gradient(kind, least) : studio_paint(&s, random_paint(least));
+  int kind = random_below(&numbers, 5);
+  celspan_picture_use use = random_below(&numbers, 5) ? CELSPAN_PICTURE_PAINT : CELSPAN_PICTURE_GEL;
+  celspan_texture *texture = kind < 3    ? random_gradient(kind, least)
+                             : kind == 3 ? studio_paint(&s, random_paint(least))
+                                         : make_picture(least == 1, use);
   double x = random_between(&numbers, -SIDE / 2, SIDE / 2),
          width = random_between(&numbers, 60, SIDE);
   double y = random_between(&numbers, -SIDE / 2, SIDE / 2);
@@ -262,6 +281,33 @@ static void test_cull(void) {
   CHECK(culled > 40 && left_out > 1000);
 }
 
+/* Stripes behind a picture all over the frame: how many boundaries are left out. */
+static size_t left_out_behind(bool has_alpha, celspan_picture_use use, double fade) {
+  const celspan_antialias_mode none = CELSPAN_ANTIALIAS_NONE;
+  celspan_exposure exposure;
+  celspan_object *objects[12];
+  cs_frame frame;
+  for (int i = 0; i < 11; i++)
+    objects[i] = studio_rect(&s, 40 + 12 * i, 30, 8, 190, random_gradient(0, 0.3f));
+  objects[11] = studio_rect(&s, 0, 0, SIDE, SIDE, make_picture(has_alpha, use));
+  objects[11] = fade < 1 ? studio_fade(&s, objects[11], fade) : objects[11];
+  celspan_cel *cel = studio_cel(&s, CELSPAN_CEL_DESC, objects, 12);
+  celspan_rostrum *rostrum = studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+  celspan_frame_desc desc = frame_of(rostrum, &exposure, &none);
+  studio_check(&s, cs_frame_create(s.context, &desc, &frame));
+  size_t count = count_left_out(&frame.plans[0].cull);
+  cs_frame_free(&frame, s.context->memory);
+  studio_finish(&s);
+  return count;
+}
+
+static void test_pictures(void) {
+  CHECK(left_out_behind(false, CELSPAN_PICTURE_PAINT, 1) > 11);
+  CHECK(left_out_behind(false, CELSPAN_PICTURE_PAINT, 0.5) == 0);
+  CHECK(left_out_behind(false, CELSPAN_PICTURE_GEL, 1) == 0);
+  CHECK(left_out_behind(true, CELSPAN_PICTURE_PAINT, 1) == 0);
+}
+
 /* ---------------------------------------------------------------- programs */
 
 /* The length of the program behind a point where all layers of a rostrum are present. */
@@ -312,6 +358,7 @@ int main(void) {
   test_bounds();
   test_trees();
   test_cull();
+  test_pictures();
   test_programs();
   celspan_context_destroy(s.context);
   return check_done();
