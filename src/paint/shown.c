@@ -71,6 +71,8 @@ static uint32_t count_dear(const cs_stack *stack, const cs_program *program) {
 
 bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
   uint32_t defocused = 0;
+  if (stack->image_count == 0 && stack->defocused_count < 2)
+    return false;
   for (uint32_t i = 0; i < program->length; i++) {
     cs_layer_kind kind = kind_of(stack, program, i);
     if (kind == CS_LAYER_PICTURE || (kind == CS_LAYER_DEFOCUSED && ++defocused == 2))
