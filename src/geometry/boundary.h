@@ -20,7 +20,7 @@
  *   - Pieces left of `left` or right of `right` are replaced by vertical lines there; what lies
  *     wholly above `top` or below `bottom` is dropped.
  *   - Chords and arcs deviate from the curve by at most about CS_BOUNDARY_TOLERANCE pixels and keep
- *     the area left of it.
+ *     the area left of it: in any one pixel to less than 2/255 (tests/unit/test_polyline.c).
  */
 #ifndef CS_GEOMETRY_BOUNDARY_H
 #define CS_GEOMETRY_BOUNDARY_H
@@ -35,7 +35,7 @@ typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
   double left, right;  /* no vertex lies outside them */
   double sag;          /* the most that a chord of mean length is away from the curve */
-  double step;         /* 1 / chords: of the parameter from vertex to vertex */
+  double step;         /* of the parameter, from vertex to vertex */
   uint32_t point;      /* its degree + 1 points; none where there is but one chord */
   uint32_t chords;     /* a multiple of group */
   uint8_t group, half; /* in chords: a group, and its upper half (which may be all of it) */

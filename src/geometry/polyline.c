@@ -12,8 +12,11 @@
 #define ARC_CURVE 0.02
 /* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
 #define HALVES_LEAST 6
-/* Of chords of mean length: those that end at moved vertices are up to 1.5 times as long. */
+/* The sag of even chords of a middle length. */
 #define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
+/* How the number of chords follows from their length: see choose_chords. Measured. */
+#define CHORDS_MOST 2.2
+#define CHORDS_SHORT 1.64
 #define CHORD_LIMIT 1e9
 #define LEAP_MOST 8 /* groups */
 /* How much larger the second derivative may be between two samples of it. */
@@ -75,60 +78,49 @@ static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece 
   return cs_polyline_power(c, t);
 }
 
+static inline void put_point(cs_polyline_point p, int k, cs_polyline_points *points) {
+  points->x[k] = p.x;
+  points->y[k] = p.y;
+  points->slope_x[k] = p.slope_x;
+  points->slope_y[k] = p.slope_y;
+  points->bend_x[k] = p.bend_x;
+  points->bend_y[k] = p.bend_y;
+}
+
+/* The vertices of a piece that is not in powers. */
 static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
                           uint32_t first, uint32_t stride, cs_polyline_vertices *out) {
-  const cs_boundary_piece strided = cs_polyline_strided(piece, stride);
-  cs_polyline_seat seats[CS_POLYLINE_ROOM];
-  double t[CS_POLYLINE_ROOM + 2] = {0}; /* the ends have no neighbour and do not need one */
-  for (int k = 0; k <= piece->group; k++) {
-    double vertex = (double)first + (double)stride * k;
-    cs_polyline_point p = at(set, piece, vertex * piece->step);
-    seats[k] = cs_polyline_seat_of(piece, vertex, k, &p);
-    t[k + 1] = seats[k].t;
-  }
-  for (int k = 0; k <= piece->group; k++) {
-    double before = t[k + 1] - t[k], after = t[k + 2] - t[k + 1];
-    double share = cs_polyline_share(piece, k, before, after);
-    cs_polyline_point p = at(set, piece, seats[k].t);
-    celspan_point on = cs_polyline_place(&strided, 0, &seats[k], &p);
-    celspan_point beside = cs_polyline_place(&strided, share, &seats[k], &p);
-    out->on_x[k] = on.x;
-    out->on_y[k] = on.y;
-    out->x[k] = beside.x;
-    out->y[k] = beside.y;
-  }
+  cs_polyline_points points = {0};
+  cs_polyline_seats seats;
+  for (int k = 0; k <= piece->group; k++)
+    put_point(at(set, piece, cs_polyline_parameter(piece, first + stride * (uint32_t)k)), k,
+              &points);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_sit)(&points, piece, first, stride, &seats);
+  for (int k = 0; k <= piece->group; k++)
+    put_point(at(set, piece, seats.t[k + 1]), k, &points);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_place)(&points, piece, first, stride, &seats, out);
 }
 
 /* ---------------------------------------------------------------- groups */
 
-/* An end of the piece, exactly. */
-static void set_end(cs_polyline_vertices *v, int k, double x, double y) {
-  v->on_x[k] = v->x[k] = x;
-  v->on_y[k] = v->y[k] = y;
-}
-
-/* The vertices of a group, or every stride-th of a leap's; its ends on the curve. */
+/* The vertices of a group, or every stride-th of a leap's. */
 static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
                           uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
-  if (piece->degree > 1 && piece->is_power) {
-    double c[8];
+  double c[8];
+  if (piece->is_power) {
     load_powers(set, piece, c);
     CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
-  } else if (piece->degree > 1) {
+  } else {
     find_vertices(set, piece, first, stride, v);
   }
-  if (first == 0)
-    set_end(v, 0, piece->x0, piece->y0);
-  if (first + stride * piece->group == piece->chords)
-    set_end(v, piece->group, piece->x1, piece->y1);
 }
 
 /* The arc through vertices first and end that has the area of the chords between them. */
-static cs_polyline_arc fit_arc(const cs_polyline_vertices *v, int first, int end) {
-  double x = v->x[first], y = v->y[first], height = v->y[end] - y, width = v->x[end] - x;
+static cs_polyline_arc fit_arc(const double *vx, const double *vy, int first, int end) {
+  double x = vx[first], y = vy[first], height = vy[end] - y, width = vx[end] - x;
   double area = 0; /* twice that of the chords, left of them */
   for (int k = first; k < end; k++)
-    area += ((v->x[k] - x) + (v->x[k + 1] - x)) * (v->y[k + 1] - v->y[k]);
+    area += ((vx[k] - x) + (vx[k + 1] - x)) * (vy[k + 1] - vy[k]);
   double curve = 3 * (width * height - area) / (height * height * height);
   return (cs_polyline_arc){x, y, height, width / height, curve};
 }
@@ -141,10 +133,13 @@ static bool is_straight(const cs_polyline_arc *a) {
   return fabs(a->curve) <= ARC_CURVE * (gentlest > 1 ? gentlest : 1);
 }
 
-/* Adds one arc for the chords from vertex first to end, if it is near the curve. */
-static bool add_arc(const cs_polyline_vertices *v, int first, int end, cs_boundary_group *out) {
-  cs_polyline_arc a = fit_arc(v, first, end);
-  if (end - first < 2 || !(a.height > 0) || !is_straight(&a) ||
+/* Adds one arc for the chords from vertex first to end, if it is near the curve. x, y: the vertices. */
+static bool add_arc(const cs_polyline_vertices *v, const double *x, const double *y, int first,
+                    int end, cs_boundary_group *out) {
+  if (end - first < 2)
+    return false;
+  cs_polyline_arc a = fit_arc(x, y, first, end);
+  if (!(a.height > 0) || !is_straight(&a) ||
       CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_strays)(&a, v, first, end))
     return false;
   out->x[out->count] = a.x;
@@ -154,14 +149,13 @@ static bool add_arc(const cs_polyline_vertices *v, int first, int end, cs_bounda
   return true;
 }
 
-static void add_chords(const cs_polyline_vertices *v, int first, int end, cs_boundary_group *out) {
-  for (int k = first; k < end; k++) {
-    double height = v->y[k + 1] - v->y[k];
-    out->x[out->count] = v->x[k];
-    out->y[out->count] = v->y[k];
-    out->slope[out->count] = height > 0 ? (v->x[k + 1] - v->x[k]) / height : 0;
-    out->curve[out->count++] = 0;
-  }
+/* All chords of a group. */
+static void set_chords(const cs_polyline_vertices *v, int count, cs_boundary_group *out) {
+  memcpy(out->x, v->x, sizeof out->x);
+  memcpy(out->y, v->y, sizeof out->y);
+  memcpy(out->slope, v->slope, sizeof out->slope);
+  memset(out->curve, 0, sizeof out->curve);
+  out->count = (uint32_t)count;
 }
 
 static void end_group(const cs_polyline_vertices *v, int count, uint32_t first, uint32_t groups,
@@ -180,26 +174,47 @@ static bool try_leap(const cs_boundary_set *set, const cs_boundary_piece *piece,
   if (leap == 1 || (base + leap) * piece->group > piece->chords)
     return false;
   make_vertices(set, piece, base * piece->group, leap, &v);
-  if (!add_arc(&v, 0, piece->group, out))
+  if (v.is_bent_above || v.is_bent_below || !add_arc(&v, v.x, v.y, 0, piece->group, out))
     return false;
   end_group(&v, piece->group, base, leap, out);
   return true;
+}
+
+/* An arc for the whole group, or one for each half. */
+static bool try_arcs(const cs_polyline_vertices *v, int half, int count, cs_boundary_group *out) {
+  if (add_arc(v, v->x, v->y, 0, count, out))
+    return true;
+  return half < count && add_arc(v, v->halved_x, v->halved_y, 0, half, out) &&
+         add_arc(v, v->halved_x, v->halved_y, half, count, out);
+}
+
+/* The one chord of a piece. */
+static void set_line(const cs_boundary_piece *piece, cs_boundary_group *out) {
+  out->x[0] = piece->x0;
+  out->y[0] = piece->y0;
+  out->x[1] = piece->x1;
+  out->y[1] = piece->y1;
+  out->slope[0] = (piece->x1 - piece->x0) / (piece->y1 - piece->y0);
+  out->curve[0] = 0;
+  out->count = 1;
+  out->first = 0;
+  out->groups = 1;
 }
 
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
                        bool leaps, cs_boundary_group *out) {
   cs_polyline_vertices v;
   int half = piece->half, count = piece->group;
+  if (piece->chords == 1) {
+    set_line(piece, out);
+    return;
+  }
   out->count = 0;
   if (leaps && try_leap(set, piece, group, out))
     return;
   make_vertices(set, piece, group * piece->group, 1, &v);
-  if (!add_arc(&v, 0, count, out)) {
-    if (!add_arc(&v, 0, half, out))
-      add_chords(&v, 0, half, out);
-    if (half < count && !add_arc(&v, half, count, out))
-      add_chords(&v, half, count, out);
-  }
+  if (v.is_bent_above || v.is_bent_below || !try_arcs(&v, half, count, out))
+    set_chords(&v, count, out);
   end_group(&v, count, group, 1, out);
 }
 
@@ -209,7 +224,7 @@ celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_pi
     return (celspan_point){piece->x0, piece->y0};
   if (vertex == piece->chords)
     return (celspan_point){piece->x1, piece->y1};
-  cs_polyline_point p = at(set, piece, vertex * piece->step);
+  cs_polyline_point p = at(set, piece, cs_polyline_parameter(piece, vertex));
   return (celspan_point){p.x, p.y};
 }
 
@@ -267,10 +282,10 @@ static inline cs_hpoint *append_points(cs_boundary_set *set, int degree, cs_boun
 
 /* The error of an arc grows with the cube of its length, that of a chord with the square. So an arc
  * can replace more chords the more chords the piece has, in proportion to the third root. The
- * factor 110 was measured. */
+ * factor 40 was measured. */
 static uint8_t choose_leap(uint32_t chords) {
   uint32_t leap = 1;
-  while (leap < LEAP_MOST && 110 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)
+  while (leap < LEAP_MOST && 40 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)
     leap++;
   return (uint8_t)leap;
 }
@@ -281,25 +296,49 @@ static inline uint32_t ceiling(double x) {
   return (uint32_t)whole + (whole < x);
 }
 
-/* False: a single chord is near enough. */
-static inline bool choose_chords(double bend, cs_boundary_piece *piece) {
+/* A little more than the length of the control polygon. */
+static inline double length_of(const cs_pair *p, int degree) {
+  double length = 0;
+  for (int i = 0; i < degree; i++) {
+    cs_pair leg = p[i + 1] - p[i];
+    double x = fabs(leg[0]), y = fabs(leg[1]);
+    length += cs_number_most(x, y) + 0.5 * cs_number_least(x, y);
+  }
+  return length;
+}
+
+/* False: a single chord is near enough.
+ *
+ * What counts is the area between curve and polyline in a pixel, about where a vertex is displaced:
+ *
+ *       .-o-.         short chords: a pixel sees both sides of   .--.__o__.--.  long ones: it sees one
+ *      '     '        the curve, and they cancel each other      |    |  |   |
+ *     |       |                                                       pixel
+ *     pixel
+ *
+ * So chords shorter than about two pixels may have a larger sag, and longer ones must have a
+ * smaller one; by the square of the number of chords, sag x length / (length + CHORDS_SHORT) stays
+ * about the same. */
+static inline bool choose_chords(double bend, double length, cs_boundary_piece *piece) {
   if (!(bend > 8 * ONE_CHORD))
     return false;
-  double wanted = sqrt(bend / (8 * CHORD_SAG));
+  double even = sqrt(bend / (8 * CHORD_SAG));
+  double by_length = sqrt(CHORDS_MOST * length / (length + CHORDS_SHORT * even));
+  double wanted = even * by_length + 2 * CS_POLYLINE_LEAD;
   uint32_t chords = ceiling(cs_number_clamp(wanted, 2, CHORD_LIMIT));
   uint32_t groups = (chords + CS_BOUNDARY_GROUP - 1) / CS_BOUNDARY_GROUP;
   piece->group = (uint8_t)((chords + groups - 1) / groups);
   piece->half = piece->group >= HALVES_LEAST ? piece->group / 2 : piece->group;
   piece->chords = piece->group * groups;
   piece->leap = choose_leap(piece->chords);
-  piece->step = 1.0 / piece->chords;
+  piece->step = cs_polyline_step(piece->chords);
   piece->sag = bend * (1.0 / 8) * (piece->step * piece->step);
   return true;
 }
 
 static inline void fit_plain(cs_boundary_set *set, const cs_pair *points, int degree,
                              cs_boundary_piece *piece) {
-  if (!choose_chords(polynomial_bend(points, degree), piece))
+  if (!choose_chords(polynomial_bend(points, degree), length_of(points, degree), piece))
     return;
   piece->is_power = true;
   to_powers(points, degree, append_points(set, degree, piece));
@@ -318,17 +357,15 @@ celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
   int degree = curve->degree;
   cs_pair p[CS_BEZIER_DEGREE + 1];
   for (int i = 0; i <= degree; i++)
-    p[i] = cs_pair_load(&curve->points[i]);
-  double bend =
-      is_polynomial ? polynomial_bend(p, degree) / curve->points[0].w : rational_bend(curve);
-  if (!choose_chords(bend, piece))
+    p[i] = cs_pair_load(&curve->points[i]) / curve->points[i].w;
+  double bend = is_polynomial ? polynomial_bend(p, degree) : rational_bend(curve);
+  if (!choose_chords(bend, length_of(p, degree), piece))
     return CELSPAN_OK;
   CS_TRY(cs_polyline_reserve(context, set, (size_t)degree + 1));
   cs_hpoint *points = append_points(set, degree, piece);
   piece->is_power = is_polynomial && degree <= 3;
   for (int i = 0; i <= degree; i++) {
     points[i] = curve->points[i];
-    p[i] /= curve->points[i].w;
   }
   if (piece->is_power)
     to_powers(p, degree, points);

@@ -1,7 +1,8 @@
 /* The polyline of a monotone piece: what the sweep walks instead of the curve.
  *
- *      *                *  the border of two groups: it lies on the curve (.)
- *       \.              o  a vertex inside a group: it is displaced outwards from the curve
+ *      *                *  the border of two groups: on the curve (.), or displaced where no arc
+ *       \.                 can be near the curve, so that none ends there
+ *        \.             o  a vertex inside a group: it is displaced outwards from the curve
  *        \.
  *         .o            group 0: chords from vertex to vertex. Because the vertices are displaced,
  *         .|            the area left of the chords is the area left of the curve.
@@ -11,7 +12,7 @@
  *      *
  *       )               group 1: one arc, x as a polynomial of the second degree in y. It has the
  *       )               area of the chords and replaces them where it is near enough to the curve.
- *      *                A half of a group may be an arc too, while the other half is chords.
+ *      *                A group may be two arcs instead, one for each half.
  *     (
  *    (                  groups 2 and 3: a leap, one arc for several groups
  *    (

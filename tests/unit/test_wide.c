@@ -1,6 +1,7 @@
 /* The sweep's vector code gives the same bits under every set of instructions.
  */
 #include "area/edges.h"
+#include "geometry/polyline_vertex.h"
 #include "geometry/polyline_wide.h"
 #include "row/centre.h"
 #include "sweep/advance.h"
@@ -146,7 +147,7 @@ static cs_boundary_piece random_piece(test_random *random) {
   piece.group = (uint8_t)(1 + random_below(random, CS_BOUNDARY_GROUP));
   piece.half = piece.group > 5 ? piece.group / 2 : piece.group;
   piece.chords = 3u * piece.group;
-  piece.step = 1.0 / piece.chords;
+  piece.step = cs_polyline_step(piece.chords);
   return piece;
 }
 

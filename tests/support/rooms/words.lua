@@ -30,7 +30,7 @@ words.list = {
     places = { "span/", "area/", "kernel/", "row/", "paint/", "compose/", "scene/", "sample/",
                "defocus/", "render/", "output/", "bind/", "cli/", "geometry/nurbs", "deflate/", "oiio/plugin/" } },
   { word = "lane", means = "one number of a register",
-    places = { "base/wide", "base/vector", "colour/", "sweep/advance", "paint/", "sample/",
+    places = { "base/wide", "base/vector", "colour/", "geometry/polyline", "sweep/advance", "paint/", "sample/",
                "output/" } },
   { word = "knot", means = "a knot of a NURBS curve", places = { "geometry/", "scene/", "bind/" } },
   { word = "pen", means = "the current point of a path", places = { "geometry/" } },
