@@ -132,8 +132,8 @@ static inline masks are_bent(const spots *p) {
   return cross > BENT * (p->slope_y * p->slope_y) * wide;
 }
 
-/* p: at the even parameters. A seat is chosen so that the vertex lies near the whole height after it has been displaced.
- * Steps lower than a row have no whole heights to move to. */
+/* p: at the even parameters. A seat is chosen so that the vertex lies near the whole height after it
+ * has been displaced. Steps lower than a row have no whole heights to move to. */
 static inline void sit(const spots *p, const places *at, int k, cs_polyline_seats *out) {
   const lanes bias = (lanes){0} + 0x1.8p52; /* a sum with this is a whole number */
   const cs_boundary_piece *piece = at->piece;
