@@ -10,7 +10,8 @@ description = {
   detailed = [[
 Films described frame by frame in Lua and composed as spans of colour: paints and gels, cels under a
 camera, light from the front and from behind. The animation library is built into the module.
-Needs a C17 compiler, meson, ninja and zlib; for pictures a C++17 compiler and OpenImageIO.]],
+Needs a C17 compiler, meson, ninja and zlib; for pictures a C++17 compiler and OpenImageIO, for
+drawings and type expat, HarfBuzz, FriBidi and libunibreak.]],
   license = "MIT",
 }
 dependencies = {
@@ -24,10 +25,12 @@ build=${CELSPAN_BUILD:-build-rock}
 [ -f "$build/build.ninja" ] || meson setup "$build" --buildtype=release -Dtests=false
 ninja -C "$build"]],
   install_command = [[
-build=${CELSPAN_BUILD:-build-rock} pictures=src/oiio/celspan-picture.so
+build=${CELSPAN_BUILD:-build-rock}
 install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
 install -D -m 644 lua/celspan.d.lua "$(PREFIX)/annotations/celspan.d.lua" &&
-if [ -f "$build/$pictures" ]; then
-  install -D -m 755 "$build/$pictures" "$(LIBDIR)/celspan/celspan-picture.so"
-fi]],
+for module in oiio/celspan-picture.so art/celspan-art.so; do
+  if [ -f "$build/src/$module" ]; then
+    install -D -m 755 "$build/src/$module" "$(LIBDIR)/celspan/${module##*/}" || exit 1
+  fi
+done]],
 }

@@ -13,14 +13,15 @@
 #define PATH_SIZE 4096
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
- * installed library or program, a Lua module in the build tree, a test program. */
+ * installed library or program, a Lua module in the build tree, a test program. A folder that ends
+ * with a slash is followed by that of the module's sources. */
 static const char *const folders[] = {
-    "oiio",
-    "../oiio",
-    "src/oiio",
-    "../src/oiio",
+    "./",
+    "../",
+    "src/",
+    "../src/",
     "celspan",
-    "../../src/oiio",
+    "../../src/",
     "../lib/celspan",
     "../lib/x86_64-linux-gnu/celspan",
     "../lib64/celspan",
@@ -54,8 +55,11 @@ static bool own_folder(char path[PATH_SIZE]) {
   return slash;
 }
 
-static bool exists(char path[PATH_SIZE], const char *folder, const char *inner, const char *file) {
-  int size = snprintf(path, PATH_SIZE, "%s/%s%s%s", folder, inner, *inner ? "/" : "", file);
+static bool exists(char path[PATH_SIZE], const char *folder, const char *inner,
+                   const cs_module_desc *desc) {
+  size_t length = strlen(inner);
+  const char *last = length > 0 && inner[length - 1] == '/' ? desc->folder : "";
+  int size = snprintf(path, PATH_SIZE, "%s/%s%s/%s", folder, inner, last, desc->file);
   return size < PATH_SIZE && access(path, R_OK) == 0;
 }
 
@@ -68,9 +72,9 @@ static bool find(const cs_module_desc *desc, char path[PATH_SIZE]) {
   char own[PATH_SIZE];
   if (own_folder(own))
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
-      if (exists(path, own, folders[i], desc->file))
+      if (exists(path, own, folders[i], desc))
         return true;
-  return exists(path, CELSPAN_MODULE_FOLDER, "", desc->file);
+  return exists(path, CELSPAN_MODULE_FOLDER, "", desc);
 }
 
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,

@@ -12,6 +12,7 @@
 
 typedef struct cs_module_desc {
   const char *file;     /* "celspan-picture.so" */
+  const char *folder;   /* where its sources lie below src/: "oiio" */
   const char *override; /* the environment variable that names a file instead */
   const char *symbol;   /* a function without arguments that returns the table */
   const char *purpose;  /* for the message: "reading and writing pictures" */

@@ -15,6 +15,7 @@
 
 static const cs_module_desc picture_module = {
     .file = "celspan-picture.so",
+    .folder = "oiio",
     .override = "CELSPAN_PICTURE_MODULE",
     .symbol = "celspan_picture_module",
     .purpose = "reading and writing pictures",

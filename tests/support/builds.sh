@@ -25,11 +25,12 @@ absent() {
 
 # ------------------------------------------------------------ without Lua
 quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-  -Dpictures=disabled -Dtests=false
+  -Dpictures=disabled -Dart=disabled -Dtests=false
 quietly ninja -C "$tree/core"
 "$tree/core/examples/example_memory" | grep -q '#'
 absent "$tree/core" 'libcelspan_lua.a'
 absent "$tree/core" 'celspan.so'
+absent "$tree/core" 'celspan-art.so'
 
 # ------------------------------------------------------------ a subproject, without C++
 mkdir -p "$tree/outer/subprojects"

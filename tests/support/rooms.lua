@@ -12,6 +12,8 @@ local report = require "tests.support.rooms.report"
 local trees = require "tests.support.rooms.tree"
 
 local MOST_LINES, MOST_PARAMETERS = 40, 7
+-- Functions that a library calls with parameters of its choosing.
+local CALLED_BY_LIBRARIES = { ["art/xml.c"] = { on_entity = true } }
 
 -- ---------------------------------------------------------------- checks
 
@@ -22,7 +24,8 @@ local function check_functions(tree, fault)
     if one.lines > MOST_LINES then
       fault("%s has %d lines, more than %d", place, one.lines, MOST_LINES)
     end
-    if one.fn.parameters > MOST_PARAMETERS then
+    local given = CALLED_BY_LIBRARIES[one.file.path]
+    if one.fn.parameters > MOST_PARAMETERS and not (given and given[one.fn.name]) then
       fault("%s has %d parameters, more than %d", place, one.fn.parameters, MOST_PARAMETERS)
     end
   end
