@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/decimal.h"
 #include "base/elementary.h"
 #include "base/number.h"
 #include "geometry/outline.h"
@@ -60,79 +61,17 @@ static void skip_separator(reader *r) {
   }
 }
 
-/* value (0, or at least 1) * 10^exponent, with a single rounding as long as the power is exact (up
- * to 10^22). */
-static double scale_by_ten(double value, int64_t exponent) {
-  static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  for (; exponent < -22 && value > 0; exponent += 22)
-    value /= 1e22;
-  if (!(value > 0))
-    return 0;
-  if (exponent > 22)
-    return HUGE_VAL;
-  return exponent < 0 ? value / powers[-exponent] : value * powers[exponent];
-}
-
-/* The digits so far: the first nineteen fit the mantissa, the others only shift the point. */
-typedef struct decimal {
-  uint64_t mantissa;
-  int64_t exponent;
-  int digits;
-  bool is_given; /* there was a digit, even if 0 */
-} decimal;
-
-static void read_digits(reader *r, decimal *number, bool is_fraction) {
-  for (; is_digit(r->data[r->at]); r->at++) {
-    number->is_given = true;
-    if (number->digits == 19) {
-      number->exponent += !is_fraction;
-      continue;
-    }
-    number->mantissa = 10 * number->mantissa + (uint64_t)(r->data[r->at] - '0');
-    number->digits += number->mantissa > 0;
-    number->exponent -= is_fraction;
-  }
-}
-
-/* An exponent such as "e-3"; an e without digits after it is not consumed. */
-static void read_exponent(reader *r, decimal *number) {
-  const char *p = r->data + r->at;
-  if (*p != 'e' && *p != 'E')
-    return;
-  p++;
-  bool is_negative = *p == '-';
-  if (*p == '-' || *p == '+')
-    p++;
-  if (!is_digit(*p))
-    return;
-  int64_t exponent = 0;
-  for (; is_digit(*p); p++)
-    exponent = exponent < 1000000000 ? 10 * exponent + (*p - '0') : exponent;
-  number->exponent += is_negative ? -exponent : exponent;
-  r->at = (size_t)(p - r->data);
-}
-
 static celspan_status read_number(reader *r, double *out) {
+  double value;
   size_t begin = r->at;
-  bool is_negative = r->data[r->at] == '-';
-  if (is_negative || r->data[r->at] == '+')
-    r->at++;
-  decimal number = {0, 0, 0, false};
-  read_digits(r, &number, false);
-  if (r->data[r->at] == '.') {
-    r->at++;
-    read_digits(r, &number, true);
-  }
-  if (!number.is_given)
+  const char *end = cs_decimal_read(r->data + begin, &value);
+  if (!end)
     return expected(r, begin, "a number");
-  read_exponent(r, &number);
-  double value = scale_by_ten((double)number.mantissa, number.exponent);
+  r->at = (size_t)(end - r->data);
   if (!cs_number_is_sane(value))
     return cs_fail(r->context, CELSPAN_BAD_ARGUMENT,
                    "path data has a number beyond 1e12 at byte %zu", begin + 1);
-  *out = is_negative ? -value : value;
+  *out = value;
   return CELSPAN_OK;
 }
 
