@@ -6,6 +6,8 @@ return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
   { name = "moon", page = "README.md", frame = 40 },
   { name = "beta", page = "docs/guide.md" },
+  { name = "blending", page = "docs/guide.md" },
+  { name = "waving", script = "scripts/waving.lua", frame = 14, size = "640x400" },
   { name = "shapes", page = "docs/guide.md", size = "640x360" },
   { name = "gel", page = "docs/guide.md" },
   { name = "dusk", page = "docs/guide.md", frame = 36 },

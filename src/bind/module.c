@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bind/caller.h"
+#include "bind/drawing.h"
 #include "bind/files.h"
 #include "bind/host.h"
 #include "bind/random.h"
@@ -41,6 +42,7 @@ int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find}, {"nearest", nearest}, {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);
+  cs_drawing_open(L);
   return 1;
 }
 

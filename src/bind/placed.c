@@ -10,6 +10,7 @@
 #include "bind/numbers.h"
 #include "bind/shape.h"
 #include "bind/userdata.h"
+#include "geometry/matrix.h"
 
 #define PI 3.14159265358979323846
 
@@ -55,23 +56,11 @@ static int scale(lua_State *L) {
   return push_transformed(L, "scale", value, celspan_matrix_scaling_about(sx, sy, centre));
 }
 
-/* Quarter turns are exact: no rounded sine is in them. */
-static celspan_matrix rotation(double degrees, celspan_point centre) {
-  double turn = fmod(degrees, 360);
-  if (fmod(turn, 90) != 0)
-    return celspan_matrix_rotation(cs_placed_radians(degrees), centre);
-  static const double cosines[] = {1, 0, -1, 0};
-  int quarter = ((int)(turn / 90) + 4) % 4;
-  double c = cosines[quarter], s = cosines[(quarter + 3) % 4];
-  return (celspan_matrix){{c, -s, centre.x - c * centre.x + s * centre.y, s, c,
-                           centre.y - s * centre.x - c * centre.y, 0, 0, 1}};
-}
-
 static int rotate(lua_State *L) {
   const cs_userdata *value = self(L, "rotate");
   double degrees = cs_form_argument(L, 2, "rotate", "the angle in degrees");
   celspan_point centre = read_centre(L, 3, "rotate");
-  return push_transformed(L, "rotate", value, rotation(degrees, centre));
+  return push_transformed(L, "rotate", value, cs_matrix_turn(degrees, centre));
 }
 
 static int skew(lua_State *L) {

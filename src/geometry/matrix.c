@@ -1,7 +1,11 @@
 #include "geometry/matrix.h"
 
+#include <math.h>
+
 #include "base/elementary.h"
 #include "base/number.h"
+
+#define PI 3.14159265358979323846
 
 bool cs_matrix_is_sane(const celspan_matrix *matrix) {
   for (int i = 0; i < 9; i++)
@@ -44,6 +48,17 @@ celspan_matrix celspan_matrix_rotation(double radians, celspan_point centre) {
   return (celspan_matrix){{c, -s, centre.x - c * centre.x + s * centre.y, /* */
                            s, c, centre.y - s * centre.x - c * centre.y,  /* */
                            0, 0, 1}};
+}
+
+celspan_matrix cs_matrix_turn(double degrees, celspan_point centre) {
+  double turn = fmod(degrees, 360);
+  if (fmod(turn, 90) != 0)
+    return celspan_matrix_rotation(turn * (PI / 180), centre);
+  static const double cosines[] = {1, 0, -1, 0};
+  int quarter = ((int)(turn / 90) + 4) % 4;
+  double c = cosines[quarter], s = cosines[(quarter + 3) % 4];
+  return (celspan_matrix){{c, -s, centre.x - c * centre.x + s * centre.y, s, c,
+                           centre.y - s * centre.x - c * centre.y, 0, 0, 1}};
 }
 
 celspan_matrix celspan_matrix_skewing(double radians_x, double radians_y) {

@@ -35,5 +35,8 @@ static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
 /* The same map; an affine one with m8 < 0 gets all its signs changed, so that W > 0. */
 celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
+/* A rotation by degrees, clockwise on screen, about a centre; quarter turns are exact: no rounded
+ * sine is in them. */
+celspan_matrix cs_matrix_turn(double degrees, celspan_point centre);
 
 #endif

@@ -91,18 +91,18 @@ static celspan_status quarter(celspan_context *context, cs_outline *outline, dou
   return cs_outline_piece(context, outline, 2, points);
 }
 
-static celspan_status rounded(celspan_context *context, cs_outline *outline, double x, double y,
-                              double width, double height, double radius) {
-  double right = x + width, bottom = y + height;
-  CS_TRY(cs_outline_move(context, outline, at(x + radius, y)));
-  CS_TRY(cs_outline_line(context, outline, at(right - radius, y)));
-  CS_TRY(quarter(context, outline, right, y, right, y + radius));
-  CS_TRY(cs_outline_line(context, outline, at(right, bottom - radius)));
-  CS_TRY(quarter(context, outline, right, bottom, right - radius, bottom));
-  CS_TRY(cs_outline_line(context, outline, at(x + radius, bottom)));
-  CS_TRY(quarter(context, outline, x, bottom, x, bottom - radius));
-  CS_TRY(cs_outline_line(context, outline, at(x, y + radius)));
-  CS_TRY(quarter(context, outline, x, y, x + radius, y));
+celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
+                                  const celspan_box *box, double radius_x, double radius_y) {
+  double x = box->x, y = box->y, right = x + box->width, bottom = y + box->height;
+  CS_TRY(cs_outline_move(context, outline, at(x + radius_x, y)));
+  CS_TRY(cs_outline_line(context, outline, at(right - radius_x, y)));
+  CS_TRY(quarter(context, outline, right, y, right, y + radius_y));
+  CS_TRY(cs_outline_line(context, outline, at(right, bottom - radius_y)));
+  CS_TRY(quarter(context, outline, right, bottom, right - radius_x, bottom));
+  CS_TRY(cs_outline_line(context, outline, at(x + radius_x, bottom)));
+  CS_TRY(quarter(context, outline, x, bottom, x, bottom - radius_y));
+  CS_TRY(cs_outline_line(context, outline, at(x, y + radius_y)));
+  CS_TRY(quarter(context, outline, x, y, x + radius_x, y));
   return cs_outline_close(context, outline);
 }
 
@@ -110,7 +110,8 @@ celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline, do
                                double width, double height, double radius) {
   radius = fmin(radius, 0.5 * fmin(width, height));
   if (radius > 0)
-    return rounded(context, outline, x, y, width, height, radius);
+    return cs_outline_rounded(context, outline, &(celspan_box){x, y, width, height}, radius,
+                              radius);
   const celspan_point corners[4] = {
       {x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
   return cs_outline_polygon(context, outline, corners, 4);

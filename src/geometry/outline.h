@@ -56,6 +56,10 @@ CELSPAN_CHECKED celspan_status cs_outline_close(celspan_context *context, cs_out
 CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline,
                                                double x, double y, double width, double height,
                                                double radius);
+/* Its corners are quarters of an ellipse, whose radii are above 0 and at most half the sides. */
+CELSPAN_CHECKED celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
+                                                  const celspan_box *box, double radius_x,
+                                                  double radius_y);
 CELSPAN_CHECKED celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,
                                                   celspan_point centre, double radius_x,
                                                   double radius_y);

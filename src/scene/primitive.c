@@ -107,6 +107,20 @@ celspan_status celspan_object_create_path(celspan_context *context, const celspa
   return complete(context, data, cs_outline_path(context, &data->outline, desc->data), out);
 }
 
+celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline *outline,
+                                            celspan_rule rule, celspan_texture *texture,
+                                            celspan_object **out) {
+  cs_primitive_data *data;
+  celspan_status status = begin(context, "outline", rule, texture, &data);
+  if (status != CELSPAN_OK) {
+    cs_outline_finish(outline, context->memory);
+    return status;
+  }
+  data->outline = *outline;
+  cs_outline_init(outline);
+  return complete(context, data, CELSPAN_OK, out);
+}
+
 celspan_status celspan_object_create_scanline(celspan_context *context,
                                               const celspan_scanline_desc *desc,
                                               celspan_object **out) {

@@ -28,6 +28,13 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_wrap(celspan_context *context,
                                                       cs_primitive_data *data,
                                                       celspan_status status, celspan_object **out);
 
+/* A primitive with an outline of its own making, whose arrays are taken over (and freed on failure).
+ * Every coordinate of it passes cs_number_is_sane. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *context,
+                                                            cs_outline *outline, celspan_rule rule,
+                                                            celspan_texture *texture,
+                                                            celspan_object **out);
+
 /* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
  * frame's. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_check_placement(celspan_context *context,

@@ -35,8 +35,8 @@ setup(function()
   folder = os.tmpname()
   os.remove(folder)
   assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
-  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/demo/line.tsv %s/"):format(root, root,
-    folder)))
+  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/drawings %s/scripts/demo/line.tsv %s/")
+    :format(root, root, root, folder)))
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do
       if block.language == "lua" and block.name then
@@ -265,7 +265,7 @@ describe("the Lua reference", function()
   end)
 
   it("names the modules of the library and what they hold", function()
-    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "json" } do
+    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "svg", "json" } do
       local text = section("Module celspan." .. name)
       local module = require("celspan." .. name)
       for key, value in pairs(module) do

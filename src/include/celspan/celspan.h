@@ -548,6 +548,74 @@ CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box
  * bottom ones out. A scan-line procedure is not asked; its shape is its bounds. Shared read. */
 CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_point point);
 
+/* ---------------------------------------------------------------- drawings in SVG */
+
+/* A drawing that was read from an SVG file: one object, and its parts by name. Immutable and counted
+ * like a scene value. What is not drawn (see the reference, "svg") is told by _skipped, with its
+ * line. Blending is in linear light, as everywhere; colours and gradients are those a browser shows.
+ *
+ * Limits: a file of 256 MiB, 1,000,000 elements, nested 128 deep, 1,000,000 drawn when those of
+ * `use` count each time, 65,536 rules of style; no entities. */
+typedef struct celspan_svg celspan_svg;
+
+typedef struct celspan_svg_desc {
+  size_t struct_size; /* sizeof(celspan_svg_desc) */
+  const char *file;   /* read from the disc; NULL where there are bytes */
+  const void *bytes;  /* borrowed */
+  size_t size;
+  const char *name; /* for messages, of bytes; NULL: "the drawing" */
+} celspan_svg_desc;
+
+static inline celspan_svg_desc celspan_svg_desc_default(void) {
+  celspan_svg_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  return desc;
+}
+#define CELSPAN_SVG_DESC (celspan_svg_desc_default())
+
+/* A file that was read before and has not changed since is not read again.
+ * desc: borrowed      out: new
+ * Errors: INPUT with the file's line for what is missing, malformed or refused; LIMIT; NO_MEMORY;
+ * BAD_ARGUMENT for the description. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_read(celspan_context *context,
+                                                            const celspan_svg_desc *desc,
+                                                            celspan_svg **out);
+CELSPAN_API celspan_svg *celspan_svg_ref(celspan_svg *svg);
+CELSPAN_API void celspan_svg_unref(celspan_svg *svg);
+/* The whole drawing, from (0, 0) to its size, in px of the file; what lies beyond is drawn too.
+ * Borrowed from the drawing, as everything that the next four give. Shared read. */
+CELSPAN_API celspan_object *celspan_svg_object(const celspan_svg *svg);
+CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
+/* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in the
+ * drawing's units, with the transforms of what they are in, but without its clips and opacity. What
+ * only `use` shows is a part where it stands in the file. */
+CELSPAN_API size_t celspan_svg_part_count(const celspan_svg *svg);
+CELSPAN_API celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index,
+                                             const char **name);
+/* What was not drawn, in the order of the file. */
+CELSPAN_API size_t celspan_svg_skipped_count(const celspan_svg *svg);
+CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index, int32_t *line);
+
+/* Makes another object of a part: *out is new, and may be the part, counted once more. Called for
+ * every place where the part is drawn. */
+typedef celspan_status (*celspan_svg_change)(void *user, celspan_context *context,
+                                             celspan_object *part, celspan_object **out);
+typedef struct celspan_svg_changed {
+  const char *name; /* of a part */
+  celspan_svg_change change;
+  void *user;
+} celspan_svg_changed;
+
+/* The drawing with parts changed, inner ones first; the clips, the opacity and the order of what
+ * they are in stay, and so does the drawing itself.
+ * out: new      Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT for a name that is no part; those of the
+ * functions. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_with(celspan_context *context,
+                                                            const celspan_svg *svg,
+                                                            const celspan_svg_changed *changes,
+                                                            size_t change_count,
+                                                            celspan_svg **out);
+
 /* ---------------------------------------------------------------- cels and rostrum */
 
 typedef struct celspan_cel celspan_cel;

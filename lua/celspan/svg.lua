@@ -1,0 +1,79 @@
+--- Drawings from SVG files: one object, and its parts by name.
+--
+--   local art = assert(svg.read "hero.svg")
+--   art.object                      -- the whole, from (0, 0) to art.width, art.height
+--   art.parts.arm                   -- the element with this id, or with this label of Inkscape's
+--   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
+--
+-- A file is read once and kept from frame to frame until it changes, so that frame functions may
+-- read it.
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local svg = {}
+
+---@class celspan.svg.skipped
+---@field line integer Of the file
+---@field what string What is not drawn
+
+---@class celspan.svg.art
+---@field object celspan.object The whole drawing
+---@field width number In px of the file
+---@field height number
+---@field parts table<string, celspan.object> By id, else by Inkscape's label where it is the only one
+---@field skipped celspan.svg.skipped[] What was not drawn
+local Art = {}
+Art.__index = fields.reads("a drawing", Art)
+Art.__name = "celspan.svg"
+
+--- Drawings by the key of what the core keeps, as long as anybody holds them.
+local known = setmetatable({}, { __mode = "v" })
+
+local function wrap(drawing)
+  local key = drawing:key()
+  if known[key] then return known[key] end
+  local width, height = drawing:size()
+  local parts = drawing:parts()
+  setmetatable(parts, { __index = fields.reads("the drawing's list of parts", {}) })
+  known[key] = setmetatable({ object = drawing:object(), width = width, height = height,
+                              parts = parts, skipped = drawing:skipped(), __drawing = drawing },
+                            Art)
+  return known[key]
+end
+
+--- The drawing with other objects in the place of parts, inner ones first. Clips, opacity and order of
+--- what they are in are kept; a part that `use` shows is changed wherever it is shown.
+---@param changes table<string, fun(object: celspan.object): celspan.object>
+---@return celspan.svg.art
+function Art:with(changes)
+  if type(changes) ~= "table" then
+    error("svg: with takes a table of functions by part, got " .. fields.kind(changes), 2)
+  end
+  local names = {}
+  for name in pairs(self.parts) do names[#names + 1] = name end
+  table.sort(names)
+  for name, change in pairs(changes) do
+    if type(name) ~= "string" or rawget(self.parts, name) == nil then
+      local hint = type(name) == "string" and core.nearest(name, names)
+      error(("svg: the drawing has no part '%s'%s"):format(tostring(name),
+        hint and ("; did you mean '%s'?"):format(hint) or ""), 2)
+    end
+    if type(change) ~= "function" then
+      error(("svg: part '%s' must be given a function, got %s"):format(name, fields.kind(change)), 2)
+    end
+  end
+  return wrap(self.__drawing:with(changes))
+end
+
+---@param path string Relative to the caller's file, else to the script
+---@return celspan.svg.art? art
+---@return string? message
+function svg.read(path)
+  if type(path) ~= "string" then error("svg: read takes a file name, got " .. type(path), 2) end
+  local found_at, tried = core.find(path)
+  local drawing, message = core.read_svg(found_at)
+  if drawing then return wrap(drawing) end
+  return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+end
+
+return fields.seal("svg", svg)

@@ -1,0 +1,348 @@
+#include "svg/build.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "svg/clips.h"
+#include "svg/masks.h"
+#include "svg/paint.h"
+#include "svg/shapes.h"
+
+/* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
+#define DEFAULT_WIDTH 300
+#define DEFAULT_HEIGHT 150
+
+typedef struct builder {
+  cs_svg_reading *reading;
+  celspan_svg *art;
+  celspan_matrix root_matrix; /* user units of the outermost element to the drawing's */
+} builder;
+
+/* Adds what an element draws to `parent`. place: of what it is in. Recursion: at most CS_SVG_DEPTH
+ * elements deep, those of `use` counted. */
+static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
+                                  cs_svg_item *parent);
+
+static celspan_status add_children(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                   cs_svg_item *parent) {
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    CS_TRY(add_element(b, child, *place, parent));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- viewports */
+
+/* Moves *place into a viewport at (0, 0) of this size that shows `node`'s view box. */
+static void enter_viewport(const cs_svg_node *node, double width, double height,
+                           cs_svg_place *place) {
+  cs_svg_view_box box = {.is_given = false};
+  const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
+  if (value && cs_svg_parse_view_box(value, &box)) {
+    const char *aspect = cs_svg_node_value(node, CS_SVG_PRESERVE_ASPECT_RATIO);
+    place->matrix = celspan_matrix_then(cs_svg_fit(&box, width, height, aspect), place->matrix);
+  }
+  place->measure.width = box.is_given ? box.width : width;
+  place->measure.height = box.is_given ? box.height : height;
+}
+
+/* Where a nested svg element or a symbol is shown. sizes: the element whose width and height count
+ * before its own; NULL: none. */
+static celspan_status read_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
+                                    const cs_svg_measure *measure, celspan_box *out) {
+  celspan_context *context = b->reading->context;
+  const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
+  const cs_svg_node *wide = sizes && cs_svg_node_value(sizes, CS_SVG_WIDTH) ? sizes : node;
+  const cs_svg_node *high = sizes && cs_svg_node_value(sizes, CS_SVG_HEIGHT) ? sizes : node;
+  bool has_place = node->element == CS_SVG_ELEMENT_SVG;
+  *out = (celspan_box){0, 0, 0, 0};
+  if (has_place) {
+    CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, measure, &out->x));
+    CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, measure, &out->y));
+  }
+  CS_TRY(cs_svg_length_of(context, wide, CS_SVG_WIDTH, CS_SVG_AXIS_X, measure, whole, &out->width));
+  return cs_svg_length_of(context, high, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, measure, whole,
+                          &out->height);
+}
+
+/* Adds the content of a nested svg element or a symbol, whose style *place has. */
+static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
+                                   cs_svg_place *place, cs_svg_item *parent) {
+  celspan_box box;
+  CS_TRY(read_viewport(b, node, sizes, &place->measure, &box));
+  if (!(box.width > 0) || !(box.height > 0))
+    return CELSPAN_OK;
+  cs_svg_item *inside = parent;
+  if (!place->style.shows_overflow) {
+    CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &inside));
+    inside->has_clip = true;
+    CS_TRY(cs_svg_rectangle(b->reading, &box, &place->matrix, &inside->clip));
+  }
+  place->matrix = celspan_matrix_then(celspan_matrix_translation(box.x, box.y), place->matrix);
+  enter_viewport(node, box.width, box.height, place);
+  CS_TRY(add_children(b, node, place, inside));
+  return inside == parent ? CELSPAN_OK : cs_svg_item_compose(b->reading->context, inside);
+}
+
+/* ---------------------------------------------------------------- use */
+
+/* The drawing's units at the place where an element stands in the file: the transforms of what it is
+ * in. */
+static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_svg_place *root,
+                                celspan_matrix *out) {
+  celspan_matrix whole = celspan_matrix_identity();
+  cs_svg_style style;
+  for (; node && node->parent; node = node->parent) {
+    CS_TRY(cs_svg_style_in_file(b->reading, node, &style));
+    whole = celspan_matrix_then(whole, cs_svg_transform_of(&style, &root->measure));
+  }
+  *out = celspan_matrix_then(whole, b->root_matrix);
+  return CELSPAN_OK;
+}
+
+/* Notes in *place how far from its own place the element is shown. */
+static celspan_status note_moved(builder *b, const cs_svg_node *used, cs_svg_place *place) {
+  celspan_matrix home, back;
+  CS_TRY(find_home(b, used->parent, place, &home));
+  place->is_moved = celspan_matrix_inverse(home, &back);
+  if (place->is_moved)
+    place->moved = celspan_matrix_then(back, place->matrix);
+  place->is_moved = place->is_moved && celspan_matrix_inverse(place->moved, &back);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                               cs_svg_item *parent) {
+  celspan_context *context = b->reading->context;
+  const cs_svg_node *used = cs_svg_linked(b->reading, node);
+  cs_svg_place inner = *place;
+  double x, y;
+  if (!used)
+    return cs_svg_node_value(node, CS_SVG_HREF)
+               ? cs_svg_skip(b->reading, node, "use of what is not in the file")
+               : CELSPAN_OK;
+  if (cs_svg_is_open(place->open, used))
+    return cs_fail(context, CELSPAN_INPUT,
+                   "line %u: use goes in a circle: it is inside of what it "
+                   "shows",
+                   node->line);
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
+  inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
+  CS_TRY(note_moved(b, used, &inner));
+  inner.style.context_fill = place->style.fill;
+  inner.style.context_stroke = place->style.stroke;
+  inner.sizes = node;
+  return add_element(b, used, inner, parent);
+}
+
+/* ---------------------------------------------------------------- groups */
+
+static bool has_word(const char *list, const char *word) {
+  size_t size = strlen(word);
+  for (const char *at = cs_svg_skip_comma(list); *at; at = cs_svg_skip_comma(at)) {
+    size_t length = strcspn(at, ", \t\n\f\r");
+    if (strncmp(at, word, size) == 0 && (length == size || at[size] == '-'))
+      return true;
+    at += length;
+  }
+  return false;
+}
+
+/* Whether a child of `switch` is meant for this reader, whose language is English. */
+static bool passes_switch(const cs_svg_node *node) {
+  const char *extensions = cs_svg_node_value(node, CS_SVG_REQUIRED_EXTENSIONS);
+  const char *language = cs_svg_node_value(node, CS_SVG_SYSTEM_LANGUAGE);
+  return !(extensions && *cs_svg_skip_space(extensions)) && (!language || has_word(language, "en"));
+}
+
+static celspan_status add_switch(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                 cs_svg_item *parent) {
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    if (child->element != CS_SVG_ELEMENT_OTHER && passes_switch(child))
+      return add_element(b, child, *place, parent);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_shape(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_item *item) {
+  if (place->style.is_visible)
+    CS_TRY(cs_svg_paint_shape(b->reading, node, place, &item->own));
+  return CELSPAN_OK;
+}
+
+/* What is in the element, whose style *place has. sizes: see read_viewport. */
+static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
+                                  cs_svg_place *place, cs_svg_item *item) {
+  switch (node->element) {
+  case CS_SVG_ELEMENT_A:
+  case CS_SVG_ELEMENT_G:
+    return add_children(b, node, place, item);
+  case CS_SVG_ELEMENT_SVG:
+  case CS_SVG_ELEMENT_SYMBOL:
+    return add_viewport(b, node, sizes, place, item);
+  case CS_SVG_ELEMENT_SWITCH:
+    return add_switch(b, node, place, item);
+  case CS_SVG_ELEMENT_USE:
+    return add_used(b, node, place, item);
+  default:
+    return cs_svg_is_shape(node) ? add_shape(b, node, place, item)
+                                 : cs_svg_skip(b->reading, node, "%.50s", node->tag);
+  }
+}
+
+/* ---------------------------------------------------------------- elements */
+
+/* Elements that draw nothing by themselves, so that nobody misses them. */
+static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
+  switch (node->element) {
+  case CS_SVG_ELEMENT_CLIP_PATH:
+  case CS_SVG_ELEMENT_DEFS:
+  case CS_SVG_ELEMENT_DESC:
+  case CS_SVG_ELEMENT_FILTER:
+  case CS_SVG_ELEMENT_LINEAR_GRADIENT:
+  case CS_SVG_ELEMENT_MARKER:
+  case CS_SVG_ELEMENT_MASK:
+  case CS_SVG_ELEMENT_METADATA:
+  case CS_SVG_ELEMENT_PATTERN:
+  case CS_SVG_ELEMENT_RADIAL_GRADIENT:
+  case CS_SVG_ELEMENT_STOP:
+  case CS_SVG_ELEMENT_STYLE:
+  case CS_SVG_ELEMENT_TITLE:
+  case CS_SVG_ELEMENT_VIEW:
+    return true;
+  case CS_SVG_ELEMENT_SYMBOL:
+    return !sizes;
+  default:
+    return false;
+  }
+}
+
+/* What is done to all of the element at once. */
+static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                   cs_svg_item *item) {
+  const cs_svg_style *style = &place->style;
+  item->opacity = style->opacity;
+  if (style->has_clip_path)
+    CS_TRY(cs_svg_clip_make(b->reading, node, place, &item->clip, &item->has_clip));
+  if (style->has_mask)
+    CS_TRY(cs_svg_mask_make(b->reading, b->art, node, place, &item->mask));
+  if (style->has_filter)
+    CS_TRY(cs_svg_skip(b->reading, node, "filter of %.40s", node->tag));
+  if (style->has_blend)
+    CS_TRY(cs_svg_skip(b->reading, node, "mix-blend-mode of %.40s", node->tag));
+  return CELSPAN_OK;
+}
+
+static celspan_status name_item(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_item *item) {
+  celspan_context *context = b->reading->context;
+  const char *id = cs_svg_node_value(node, CS_SVG_ID);
+  const char *label = cs_svg_node_value(node, CS_SVG_LABEL);
+  if (id && *id)
+    CS_TRY(cs_svg_text_copy(context, b->art, id, &item->id));
+  if (label && *label)
+    CS_TRY(cs_svg_text_copy(context, b->art, label, &item->label));
+  item->is_moved = place->is_moved;
+  if (item->is_moved) {
+    item->moved = place->moved;
+    item->is_moved = celspan_matrix_inverse(item->moved, &item->back);
+  }
+  return CELSPAN_OK;
+}
+
+/* Counts an element against the limits. */
+static celspan_status count_element(builder *b, const cs_svg_node *node) {
+  cs_svg_reading *reading = b->reading;
+  if (++reading->drawn > CS_SVG_DRAWN)
+    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                   node->line, CS_SVG_DRAWN);
+  if (++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);
+  return CELSPAN_OK;
+}
+
+/* A singular transform draws nothing. */
+static bool is_regular(const celspan_matrix *matrix) {
+  celspan_matrix inverse;
+  return celspan_matrix_inverse(*matrix, &inverse);
+}
+
+static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
+                                  cs_svg_item *parent) {
+  const cs_svg_node *sizes = place.sizes;
+  const cs_svg_open open = {node, place.open};
+  place.sizes = NULL;
+  if (is_silent(node, sizes) || !passes_switch(node))
+    return CELSPAN_OK;
+  CS_TRY(count_element(b, node));
+  CS_TRY(cs_svg_enter(b->reading, node, &place));
+  place.open = &open;
+  if (place.style.is_displayed && is_regular(&place.matrix)) {
+    cs_svg_item *item;
+    CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+    CS_TRY(name_item(b, node, &place, item));
+    CS_TRY(read_effects(b, node, &place, item));
+    CS_TRY(add_content(b, node, sizes, &place, item));
+    CS_TRY(cs_svg_item_compose(b->reading->context, item));
+  }
+  b->reading->depth--;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+/* The size of the outermost element; per cents and none are of its view box. */
+static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_svg_view_box *box) {
+  const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
+  cs_svg_measure measure = {.width = box->is_given ? box->width : DEFAULT_WIDTH,
+                            .height = box->is_given ? box->height : DEFAULT_HEIGHT};
+  measure.font_size = measure.root_font_size = cs_svg_style_initial().font_size;
+  CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_WIDTH, CS_SVG_AXIS_X, &measure, whole,
+                          &b->art->width));
+  CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, whole,
+                          &b->art->height));
+  b->art->width = fmax(0, b->art->width);
+  b->art->height = fmax(0, b->art->height);
+  return CELSPAN_OK;
+}
+
+/* Moves *place into the outermost element. */
+static celspan_status enter_root(builder *b, const cs_svg_node *node, cs_svg_place *place) {
+  const celspan_svg *art = b->art;
+  *place = (cs_svg_place){.style = cs_svg_style_initial(), .matrix = celspan_matrix_identity()};
+  place->measure = (cs_svg_measure){.width = art->width,
+                                    .height = art->height,
+                                    .font_size = place->style.font_size,
+                                    .root_font_size = place->style.font_size};
+  CS_TRY(cs_svg_enter(b->reading, node, place));
+  place->measure.root_font_size = place->style.font_size;
+  enter_viewport(node, art->width, art->height, place);
+  b->root_matrix = place->matrix;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
+  builder b = {.reading = reading, .art = art};
+  const cs_svg_node *node = reading->document->root;
+  cs_svg_view_box box = {.is_given = false};
+  const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
+  cs_svg_place place;
+  const cs_svg_open open = {node, NULL};
+  if (value)
+    (void)cs_svg_parse_view_box(value, &box);
+  CS_TRY(read_size(&b, node, &box));
+  CS_TRY(enter_root(&b, node, &place));
+  place.open = &open;
+  CS_TRY(cs_svg_item_append(reading->context, art, NULL, &art->root));
+  CS_TRY(name_item(&b, node, &place, art->root));
+  CS_TRY(read_effects(&b, node, &place, art->root));
+  if (place.style.is_displayed && art->width > 0 && art->height > 0)
+    CS_TRY(add_children(&b, node, &place, art->root));
+  if (reading->document->sheet.omitted)
+    CS_TRY(cs_svg_skip(reading, &(cs_svg_node){.line = reading->document->sheet_line},
+                       "style: selectors or at-rules that do not count"));
+  CS_TRY(cs_svg_item_compose(reading->context, art->root));
+  return cs_svg_art_complete(reading->context, art);
+}

@@ -1,0 +1,211 @@
+#include "svg/clips.h"
+
+#include "scene/primitive_data.h"
+#include "svg/shapes.h"
+
+celspan_matrix cs_svg_box_matrix(const celspan_box *box) {
+  return (celspan_matrix){{box->width, 0, box->x, 0, box->height, box->y, 0, 0, 1}};
+}
+
+/* ---------------------------------------------------------------- objects */
+
+/* Moves an object that is given up; *out is new. */
+static celspan_status moved(celspan_context *context, celspan_object *object,
+                            const celspan_matrix *matrix, celspan_object **out) {
+  celspan_status status = celspan_object_transform(context, object, matrix, out);
+  celspan_object_unref(object);
+  return status;
+}
+
+celspan_status cs_svg_rectangle(cs_svg_reading *reading, const celspan_box *box,
+                                const celspan_matrix *matrix, celspan_object **out) {
+  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, NULL};
+  celspan_object *object;
+  CS_TRY(celspan_object_create_rect(reading->context, &desc, &object));
+  return moved(reading->context, object, matrix, out);
+}
+
+celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a, celspan_object *b,
+                                celspan_object **out) {
+  celspan_object *both[2] = {a, b};
+  celspan_status status = CELSPAN_OK;
+  *out = NULL;
+  if (a && b)
+    status = celspan_object_create_boolean(reading->context, CELSPAN_INTERSECTION, both, 2, out);
+  celspan_object_unref(a);
+  celspan_object_unref(b);
+  return status;
+}
+
+static celspan_status outline_object(cs_svg_reading *reading, const cs_svg_node *node,
+                                     const cs_svg_place *place, celspan_rule rule,
+                                     celspan_object **out) {
+  cs_outline outline;
+  bool is_broken;
+  celspan_object *object;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_svg_shape_outline(reading->context, node, &place->measure, &outline, &is_broken);
+  if (status != CELSPAN_OK) {
+    cs_outline_finish(&outline, reading->context->memory);
+    return status;
+  }
+  CS_TRY(cs_primitive_data_of_outline(reading->context, &outline, rule, NULL, &object));
+  return moved(reading->context, object, &place->matrix, out);
+}
+
+/* ---------------------------------------------------------------- children of clip paths */
+
+static celspan_status clip_by_own(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, celspan_object **object) {
+  celspan_object *clip;
+  bool is_clip;
+  if (!place->style.has_clip_path || !*object)
+    return CELSPAN_OK;
+  celspan_object *given_up = *object;
+  celspan_status status = cs_svg_clip_make(reading, node, place, &clip, &is_clip);
+  if (status != CELSPAN_OK || !is_clip)
+    return status;
+  *object = NULL;
+  return cs_svg_intersect(reading, given_up, clip, object);
+}
+
+/* Through `use` only a basic shape may be meant. */
+static celspan_status used_object(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, bool uses_fill_rule,
+                                  celspan_object **out) {
+  const cs_svg_node *used = cs_svg_linked(reading, node);
+  cs_svg_style style;
+  double x, y;
+  if (!used || !cs_svg_is_shape(used))
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
+  CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
+  cs_svg_place inner = *place;
+  inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
+  return cs_svg_shape_object(reading, used, inner, uses_fill_rule, out, &style);
+}
+
+celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *node,
+                                   cs_svg_place place, bool uses_fill_rule, celspan_object **out,
+                                   cs_svg_style *style) {
+  *out = NULL;
+  if (++reading->drawn > CS_SVG_DRAWN)
+    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                   node->line, CS_SVG_DRAWN);
+  CS_TRY(cs_svg_enter(reading, node, &place));
+  *style = place.style;
+  if (!place.style.is_displayed)
+    return CELSPAN_OK;
+  if (node->element == CS_SVG_ELEMENT_USE)
+    CS_TRY(used_object(reading, node, &place, uses_fill_rule, out));
+  else if (cs_svg_is_shape(node) && place.style.is_visible)
+    CS_TRY(outline_object(reading, node, &place,
+                          uses_fill_rule ? place.style.fill_rule : place.style.clip_rule, out));
+  celspan_status status = clip_by_own(reading, node, &place, out);
+  if (status != CELSPAN_OK) {
+    celspan_object_unref(*out);
+    *out = NULL;
+  }
+  return status;
+}
+
+/* ---------------------------------------------------------------- clip paths */
+
+/* Unites the children, in `place` of the clip path. *out: new; NULL when there are none. */
+static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node *clip,
+                                     const cs_svg_place *place, celspan_object **out) {
+  celspan_object **objects = NULL;
+  size_t count = 0, capacity = 0;
+  celspan_status status = CELSPAN_OK;
+  for (const cs_svg_node *child = clip->first; child && status == CELSPAN_OK; child = child->next) {
+    cs_svg_style style;
+    status = cs_mem_reserve(reading->context, (void **)&objects, &capacity, count + 1,
+                            sizeof(celspan_object *));
+    if (status == CELSPAN_OK)
+      status = cs_svg_shape_object(reading, child, *place, false, &objects[count], &style);
+    count += status == CELSPAN_OK && objects[count];
+    if (status == CELSPAN_OK && child->element == CS_SVG_ELEMENT_TEXT)
+      status = cs_svg_skip(reading, child, "text in clipPath");
+  }
+  if (status == CELSPAN_OK && count > 0)
+    status = celspan_object_create_boolean(reading->context, CELSPAN_UNION, objects, count, out);
+  for (size_t i = 0; i < count; i++)
+    celspan_object_unref(objects[i]);
+  cs_mem_free(reading->context->memory, objects, capacity * sizeof(celspan_object *));
+  return status;
+}
+
+/* The units of the clip path's content; its transform is in *place already. *is_sized: false when they
+ * are shares of a box that has no size. */
+static celspan_status find_units(cs_svg_reading *reading, const cs_svg_node *node,
+                                 const cs_svg_node *clip, const cs_svg_place *element,
+                                 cs_svg_place *place, bool *is_sized) {
+  const char *units = cs_svg_node_value(clip, CS_SVG_CLIP_PATH_UNITS);
+  cs_svg_place own = *element;
+  celspan_box box = {0, 0, 0, 0};
+  bool is_there = false;
+  *is_sized = true;
+  if (!units || !cs_svg_is_word(units, "objectBoundingBox"))
+    return CELSPAN_OK;
+  own.matrix = celspan_matrix_identity();
+  CS_TRY(cs_svg_box_of(reading, node, &own, &box, &is_there));
+  *is_sized = is_there && box.width > 0 && box.height > 0;
+  place->matrix = celspan_matrix_then(cs_svg_box_matrix(&box), place->matrix);
+  place->measure.width = place->measure.height = 1;
+  return CELSPAN_OK;
+}
+
+static celspan_status make_clip(cs_svg_reading *reading, const cs_svg_node *node,
+                                const cs_svg_node *clip, const cs_svg_place *element,
+                                celspan_object **out) {
+  const cs_svg_open open = {clip, element->open};
+  cs_svg_place place = *element;
+  bool is_sized;
+  place.open = &open;
+  if (clip->parent)
+    CS_TRY(cs_svg_style_in_file(reading, clip->parent, &place.style));
+  cs_svg_place outer = place;
+  CS_TRY(cs_svg_enter(reading, clip, &place));
+  CS_TRY(find_units(reading, node, clip, element, &place, &is_sized));
+  celspan_matrix ignored;
+  bool is_regular =
+      !place.style.transform || (cs_svg_parse_transform(place.style.transform, &ignored) &&
+                                 celspan_matrix_inverse(ignored, &ignored));
+  if (!is_sized || !is_regular)
+    return CELSPAN_OK;
+  CS_TRY(unite_children(reading, clip, &place, out));
+  outer.style = place.style; /* its own clip path lies in the element's units */
+  outer.matrix = element->matrix;
+  outer.measure = element->measure;
+  celspan_status status = clip_by_own(reading, node, &outer, out);
+  if (status != CELSPAN_OK) {
+    celspan_object_unref(*out);
+    *out = NULL;
+  }
+  return status;
+}
+
+celspan_status cs_svg_clip_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                const cs_svg_place *place, celspan_object **out, bool *is_clip) {
+  const cs_svg_node *clip = cs_svg_referred(reading, place->style.clip_path);
+  *out = NULL;
+  *is_clip = clip && clip->element == CS_SVG_ELEMENT_CLIP_PATH;
+  if (!*is_clip)
+    return place->style.clip_path.size > 0
+               ? cs_svg_skip(
+                     reading, node, "clip-path \"%.*s\", which is not there",
+                     (int)(place->style.clip_path.size < 30 ? place->style.clip_path.size : 30),
+                     place->style.clip_path.id)
+               : CELSPAN_OK;
+  *is_clip = !cs_svg_is_open(place->open, clip);
+  if (!*is_clip)
+    return cs_svg_skip(reading, clip, "clipPath that clips itself");
+  if (++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: clip paths refer to one another more than %d deep", clip->line,
+                   CS_SVG_DEPTH);
+  CS_TRY(make_clip(reading, node, clip, place, out));
+  reading->depth--;
+  return CELSPAN_OK;
+}

@@ -1,0 +1,33 @@
+/* Clip paths, and what else is taken of elements as mere shapes: boolean objects in the drawing's
+ * units, without paint.
+ *
+ *   clip path = union of its children, each inside its own clip path, inside the clip path's own
+ */
+#ifndef CS_SVG_CLIPS_H
+#define CS_SVG_CLIPS_H
+
+#include "svg/reading.h"
+
+/* The shape of a child of a clip path or mask: of a basic shape, or of one through `use`. *out:
+ * new; NULL for nothing. place: of the parent. rule: NULL for the element's clip-rule. style: what
+ * the element's style came to be. */
+CELSPAN_CHECKED celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   cs_svg_place place, bool uses_fill_rule,
+                                                   celspan_object **out, cs_svg_style *style);
+
+/* The clip path of an element at `place`. *out: new; NULL: everything is cut away. *is_clip: false
+ * when the reference leads to no clip path, and nothing is to be cut. */
+CELSPAN_CHECKED celspan_status cs_svg_clip_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                                const cs_svg_place *place, celspan_object **out,
+                                                bool *is_clip);
+
+/* A rectangle of user units as an object. */
+CELSPAN_CHECKED celspan_status cs_svg_rectangle(cs_svg_reading *reading, const celspan_box *box,
+                                                const celspan_matrix *matrix, celspan_object **out);
+/* The intersection of two objects, both of which are given up; NULL where either is. */
+CELSPAN_CHECKED celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a,
+                                                celspan_object *b, celspan_object **out);
+/* Units that are shares of a box, to user units. */
+celspan_matrix cs_svg_box_matrix(const celspan_box *box);
+
+#endif

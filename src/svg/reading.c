@@ -1,0 +1,217 @@
+#include "svg/reading.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "colour/transfer.h"
+#include "svg/shapes.h"
+
+celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, const char *format,
+                           ...) {
+  if (reading->skipped_count >= CS_SVG_SKIPPED)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(reading->context, (void **)&reading->skipped, &reading->skipped_capacity,
+                        reading->skipped_count + 1, sizeof *reading->skipped));
+  cs_svg_skipped *entry = &reading->skipped[reading->skipped_count++];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(entry->what, sizeof entry->what, format, arguments);
+  va_end(arguments);
+  entry->line = node->line;
+  return CELSPAN_OK;
+}
+
+bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node) {
+  for (; open; open = open->outer)
+    if (open->node == node)
+      return true;
+  return false;
+}
+
+const cs_svg_node *cs_svg_referred(const cs_svg_reading *reading, cs_svg_reference reference) {
+  return reference.size > 0 ? cs_svg_document_find(reading->document, reference.id, reference.size)
+                            : NULL;
+}
+
+const cs_svg_node *cs_svg_linked(const cs_svg_reading *reading, const cs_svg_node *node) {
+  const char *href = cs_svg_node_value(node, CS_SVG_HREF);
+  href = href ? cs_svg_skip_space(href) : "";
+  size_t size = strcspn(href, " \t\r\n");
+  return *href == '#' ? cs_svg_document_find(reading->document, href + 1, size - 1) : NULL;
+}
+
+/* ---------------------------------------------------------------- styles and transforms */
+
+/* Recursion: at most as deep as the document, CS_SVG_DEPTH. */
+celspan_status cs_svg_style_in_file(cs_svg_reading *reading, const cs_svg_node *node,
+                                    cs_svg_style *out) {
+  cs_svg_style above = cs_svg_style_initial();
+  if (node->parent)
+    CS_TRY(cs_svg_style_in_file(reading, node->parent, &above));
+  return cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
+                              out);
+}
+
+/* One value of transform-origin: a length, a percentage or a word. */
+static double take_origin(const char **text, cs_svg_axis axis, const cs_svg_measure *measure) {
+  static const struct {
+    const char *word;
+    double share;
+  } words[] = {{"left", 0}, {"top", 0}, {"center", 0.5}, {"right", 1}, {"bottom", 1}};
+  double size = axis == CS_SVG_AXIS_X ? measure->width : measure->height;
+  cs_svg_length length;
+  *text = cs_svg_skip_space(*text);
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (cs_svg_take_word(text, words[i].word))
+      return words[i].share * size;
+  return cs_svg_take_length(text, &length) ? cs_svg_resolve(length, axis, measure) : 0.5 * size;
+}
+
+static celspan_point origin_of(const char *text, const cs_svg_measure *measure) {
+  text = cs_svg_skip_space(text);
+  const char *at = text;
+  bool begins_with_y = cs_svg_take_word(&at, "top") || cs_svg_take_word(&at, "bottom");
+  celspan_point origin;
+  if (begins_with_y) {
+    origin.y = take_origin(&text, CS_SVG_AXIS_Y, measure);
+    origin.x = take_origin(&text, CS_SVG_AXIS_X, measure);
+  } else {
+    origin.x = take_origin(&text, CS_SVG_AXIS_X, measure);
+    origin.y = take_origin(&text, CS_SVG_AXIS_Y, measure);
+  }
+  return origin;
+}
+
+celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
+                                   const cs_svg_measure *measure) {
+  celspan_point origin = origin_of(text, measure);
+  matrix = celspan_matrix_then(celspan_matrix_translation(-origin.x, -origin.y), matrix);
+  return celspan_matrix_then(matrix, celspan_matrix_translation(origin.x, origin.y));
+}
+
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure) {
+  celspan_matrix matrix;
+  if (!style->transform || !cs_svg_parse_transform(style->transform, &matrix))
+    return celspan_matrix_identity();
+  return style->transform_origin ? cs_svg_about_origin(matrix, style->transform_origin, measure)
+                                 : matrix;
+}
+
+celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_place *place) {
+  const cs_svg_style above = place->style;
+  CS_TRY(cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
+                              &place->style));
+  if (node->element == CS_SVG_ELEMENT_SYMBOL)
+    place->style.transform = NULL; /* as most renderers have it */
+  place->measure.font_size = place->style.font_size;
+  if (place->style.transform && cs_svg_is_unfit(place->style.transform))
+    return cs_fail(reading->context, CELSPAN_INPUT, "line %u: transform is \"%.40s\"", node->line,
+                   place->style.transform);
+  place->matrix =
+      celspan_matrix_then(cs_svg_transform_of(&place->style, &place->measure), place->matrix);
+  for (int i = 0; i < 9; i++)
+    if (!cs_number_is_sane(place->matrix.m[i]))
+      return cs_fail(reading->context, CELSPAN_INPUT,
+                     "line %u: the transforms so far go beyond 1e12", node->line);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- colours */
+
+celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,
+                              double opacity) {
+  float rgb[3];
+  for (int c = 0; c < 3; c++) {
+    rgb[c] = (float)cs_number_clamp(colour->rgb[c], 0, 1);
+    if (!reading->is_coded)
+      rgb[c] = cs_number_clampf(cs_transfer_decode(CELSPAN_TRANSFER_SRGB, rgb[c]), 0, 1);
+  }
+  return celspan_paint_rgb(rgb[0], rgb[1], rgb[2],
+                           (float)cs_number_clamp(colour->alpha * opacity, 0, 1));
+}
+
+/* ---------------------------------------------------------------- boxes */
+
+static void add_box(const celspan_box *box, celspan_box *whole, bool *is_there) {
+  if (!*is_there) {
+    *whole = *box;
+    *is_there = true;
+    return;
+  }
+  double right = fmax(whole->x + whole->width, box->x + box->width);
+  double bottom = fmax(whole->y + whole->height, box->y + box->height);
+  whole->x = fmin(whole->x, box->x);
+  whole->y = fmin(whole->y, box->y);
+  whole->width = right - whole->x;
+  whole->height = bottom - whole->y;
+}
+
+static celspan_status add_shape_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                    const cs_svg_place *place, celspan_box *whole, bool *is_there) {
+  cs_outline outline;
+  celspan_box box;
+  bool is_broken;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_svg_shape_outline(reading->context, node, &place->measure, &outline, &is_broken);
+  if (status == CELSPAN_OK && cs_outline_bounds(&outline, &place->matrix, &box))
+    add_box(&box, whole, is_there);
+  cs_outline_finish(&outline, reading->context->memory);
+  return status;
+}
+
+/* Adds an element with its own transform, and what is in it. Recursion: CS_SVG_DEPTH. */
+static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                      cs_svg_place place, celspan_box *whole, bool *is_there) {
+  const cs_svg_open open = {node, place.open};
+  if (cs_svg_is_open(place.open, node) || ++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: elements refer to one another in a "
+                   "circle, or more than %d deep",
+                   node->line, CS_SVG_DEPTH);
+  if (++reading->drawn > CS_SVG_DRAWN)
+    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                   node->line, CS_SVG_DRAWN);
+  CS_TRY(cs_svg_enter(reading, node, &place));
+  place.open = &open;
+  if (place.style.is_displayed)
+    CS_TRY(cs_svg_box_of(reading, node, &place, whole, is_there));
+  reading->depth--;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_used_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                   const cs_svg_place *place, celspan_box *whole, bool *is_there) {
+  const cs_svg_node *used = cs_svg_linked(reading, node);
+  double x, y;
+  cs_svg_place inner = *place;
+  if (!used)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
+  CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
+  inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
+  return add_element_box(reading, used, inner, whole, is_there);
+}
+
+celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
+                             const cs_svg_place *place, celspan_box *out, bool *is_there) {
+  if (cs_svg_is_shape(node))
+    return add_shape_box(reading, node, place, out, is_there);
+  if (node->element == CS_SVG_ELEMENT_USE)
+    return add_used_box(reading, node, place, out, is_there);
+  switch (node->element) {
+  case CS_SVG_ELEMENT_A:
+  case CS_SVG_ELEMENT_G:
+  case CS_SVG_ELEMENT_SVG:
+  case CS_SVG_ELEMENT_SWITCH:
+  case CS_SVG_ELEMENT_SYMBOL:
+    for (const cs_svg_node *child = node->first; child; child = child->next)
+      CS_TRY(add_element_box(reading, child, *place, out, is_there));
+    return CELSPAN_OK;
+  default:
+    return CELSPAN_OK;
+  }
+}

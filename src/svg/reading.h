@@ -1,0 +1,84 @@
+/* What the reading of one file keeps at hand: the document, the limits that are being used up, and
+ * what was not drawn.
+ *
+ *   document --build.c--> items --art.c--> scene values
+ *                 |
+ *                 +-- shapes.c outlines   servers.c gradients   clips.c clip paths   masks.c masks
+ */
+#ifndef CS_SVG_READING_H
+#define CS_SVG_READING_H
+
+#include "svg/style.h"
+
+#define CS_SVG_DRAWN 1000000             /* elements drawn, those of `use` counted each time */
+#define CS_SVG_SELECTOR_TESTS 100000000u /* elements set against rules, in all */
+#define CS_SVG_SKIPPED 10000             /* entries; more are not told */
+
+typedef struct cs_svg_skipped {
+  uint32_t line;
+  char what[60];
+} cs_svg_skipped;
+
+typedef struct cs_svg_reading {
+  celspan_context *context;
+  cs_svg_document *document;
+  bool is_coded;  /* colours stay as they are coded, for comparisons with other renderers */
+  uint64_t tests; /* of selectors, that are left */
+  uint32_t drawn; /* elements so far */
+  uint32_t depth; /* elements being built, one inside the other */
+  cs_svg_skipped *skipped;
+  size_t skipped_count, skipped_capacity;
+} cs_svg_reading;
+
+/* Elements that are being built: what refers to one of them goes in a circle. */
+typedef struct cs_svg_open {
+  const cs_svg_node *node;
+  const struct cs_svg_open *outer;
+} cs_svg_open;
+
+/* Where an element is drawn, and how. */
+typedef struct cs_svg_place {
+  cs_svg_style style;
+  celspan_matrix matrix; /* user units to the drawing's */
+  cs_svg_measure measure;
+  bool is_moved;        /* a `use` shows it elsewhere than its own place: */
+  celspan_matrix moved; /* the drawing's units there to those here */
+  const cs_svg_open *open;
+  const cs_svg_node *sizes; /* the `use` that shows the element next entered; NULL: none */
+} cs_svg_place;
+
+/* Notes what is not drawn. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node,
+                                           const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node);
+
+/* The element that a reference means; NULL: there is none. */
+const cs_svg_node *cs_svg_referred(const cs_svg_reading *reading, cs_svg_reference reference);
+/* The element that its attribute href means; NULL: none. */
+const cs_svg_node *cs_svg_linked(const cs_svg_reading *reading, const cs_svg_node *node);
+
+/* The style that an element has where it stands in the file. */
+CELSPAN_CHECKED celspan_status cs_svg_style_in_file(cs_svg_reading *reading,
+                                                    const cs_svg_node *node, cs_svg_style *out);
+/* Moves *place into the element: its style, its transform. */
+CELSPAN_CHECKED celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node,
+                                            cs_svg_place *place);
+/* A transform about the origin that an attribute names: transform-origin. */
+celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *origin,
+                                   const cs_svg_measure *measure);
+/* An element's transform with its origin; the identity where there is none. */
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure);
+
+/* The paint of a colour: opacity multiplies its alpha. */
+celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,
+                              double opacity);
+
+/* The box around an element's outlines in the units of `place`, without lines and clips; false when
+ * there is none. Errors: those of cs_svg_shape_outline. */
+CELSPAN_CHECKED celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
+                                             const cs_svg_place *place, celspan_box *out,
+                                             bool *is_there);
+
+#endif

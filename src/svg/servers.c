@@ -1,0 +1,229 @@
+#include "svg/servers.h"
+
+#include <math.h>
+
+#include "base/number.h"
+#include "svg/shapes.h"
+#include "svg/stops.h"
+
+/* Templates that follow one another through href, at most. */
+#define TEMPLATES 32
+
+typedef struct gradient {
+  cs_svg_reading *reading;
+  const cs_svg_node *node;
+  const cs_svg_painted *shape;
+  bool is_radial;
+  bool is_in_box;         /* units are shares of the shape's box */
+  cs_svg_measure measure; /* of its lengths */
+  cs_svg_spread spread;
+  cs_svg_stops stops;
+  celspan_matrix matrix;
+  /* linear: from, to; radial: a circle of radius `outer` about `to`, 0 at the radius `inner` */
+  celspan_point from, to;
+  double inner, outer;
+} gradient;
+
+bool cs_svg_is_gradient(const cs_svg_node *node) {
+  return node->element == CS_SVG_ELEMENT_LINEAR_GRADIENT ||
+         node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
+}
+
+/* The element itself or the first of its templates that has the attribute; NULL: none. Geometry is
+ * inherited from gradients of the same kind alone. */
+static const cs_svg_node *owner_of(const gradient *g, cs_svg_name name, bool is_geometry) {
+  const cs_svg_node *node = g->node;
+  for (int i = 0; i < TEMPLATES && node && cs_svg_is_gradient(node); i++) {
+    bool fits = !is_geometry || node->element == g->node->element;
+    if (fits && cs_svg_node_value(node, name))
+      return node;
+    node = cs_svg_linked(g->reading, node);
+  }
+  return NULL;
+}
+
+static const cs_svg_node *owner_of_stops(const gradient *g) {
+  const cs_svg_node *node = g->node;
+  for (int i = 0; i < TEMPLATES && node && cs_svg_is_gradient(node); i++) {
+    for (const cs_svg_node *child = node->first; child; child = child->next)
+      if (child->element == CS_SVG_ELEMENT_STOP)
+        return node;
+    node = cs_svg_linked(g->reading, node);
+  }
+  return NULL;
+}
+
+static const char *text_of(const gradient *g, cs_svg_name name) {
+  const cs_svg_node *owner = owner_of(g, name, false);
+  return owner ? cs_svg_node_value(owner, name) : "";
+}
+
+/* per_cent: what the attribute is by default. */
+static celspan_status read_length(const gradient *g, cs_svg_name name, cs_svg_axis axis,
+                                  double per_cent, double *out) {
+  const cs_svg_node *owner = owner_of(g, name, true);
+  return cs_svg_length_of(g->reading->context, owner ? owner : g->node, name, axis, &g->measure,
+                          (cs_svg_length){per_cent, CS_SVG_UNIT_PERCENT}, out);
+}
+
+static celspan_status read_linear(gradient *g) {
+  CS_TRY(read_length(g, CS_SVG_X1, CS_SVG_AXIS_X, 0, &g->from.x));
+  CS_TRY(read_length(g, CS_SVG_Y1, CS_SVG_AXIS_Y, 0, &g->from.y));
+  CS_TRY(read_length(g, CS_SVG_X2, CS_SVG_AXIS_X, 100, &g->to.x));
+  return read_length(g, CS_SVG_Y2, CS_SVG_AXIS_Y, 0, &g->to.y);
+}
+
+static celspan_status read_radial(gradient *g) {
+  CS_TRY(read_length(g, CS_SVG_CX, CS_SVG_AXIS_X, 50, &g->to.x));
+  CS_TRY(read_length(g, CS_SVG_CY, CS_SVG_AXIS_Y, 50, &g->to.y));
+  CS_TRY(read_length(g, CS_SVG_R, CS_SVG_AXIS_BOTH, 50, &g->outer));
+  CS_TRY(read_length(g, CS_SVG_FR, CS_SVG_AXIS_BOTH, 0, &g->inner));
+  g->from = g->to;
+  if (owner_of(g, CS_SVG_FX, true))
+    CS_TRY(read_length(g, CS_SVG_FX, CS_SVG_AXIS_X, 50, &g->from.x));
+  if (owner_of(g, CS_SVG_FY, true))
+    CS_TRY(read_length(g, CS_SVG_FY, CS_SVG_AXIS_Y, 50, &g->from.y));
+  if (g->from.x != g->to.x || g->from.y != g->to.y)
+    CS_TRY(cs_svg_skip(g->reading, g->node, "focus of radialGradient"));
+  return CELSPAN_OK;
+}
+
+/* The gradient's units to the shape's. */
+static void read_matrix(gradient *g) {
+  celspan_matrix own;
+  const celspan_box *box = &g->shape->box;
+  g->matrix = celspan_matrix_identity();
+  if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &own))
+    g->matrix = own;
+  const char *origin = text_of(g, CS_SVG_TRANSFORM_ORIGIN);
+  if (*origin)
+    g->matrix = cs_svg_about_origin(g->matrix, origin, &g->measure);
+  if (g->is_in_box)
+    g->matrix = celspan_matrix_then(
+        g->matrix, (celspan_matrix){{box->width, 0, box->x, 0, box->height, box->y, 0, 0, 1}});
+}
+
+/* ---------------------------------------------------------------- spreading */
+
+static double distance(double x, double y) { return sqrt(x * x + y * y); }
+
+/* The least and the greatest place of the gradient, in periods, where the shape is. */
+static bool find_places(const gradient *g, double *least, double *most) {
+  celspan_matrix inverse;
+  const celspan_box *box = &g->shape->box;
+  if (!celspan_matrix_inverse(g->matrix, &inverse))
+    return false;
+  *least = g->is_radial ? -g->inner / (g->outer - g->inner) : HUGE_VAL;
+  *most = -HUGE_VAL;
+  double dx = g->to.x - g->from.x, dy = g->to.y - g->from.y;
+  for (int i = 0; i < 4; i++) {
+    double x = box->x + (i & 1) * box->width, y = box->y + (i >> 1) * box->height;
+    double u = inverse.m[0] * x + inverse.m[1] * y + inverse.m[2];
+    double v = inverse.m[3] * x + inverse.m[4] * y + inverse.m[5];
+    double at = g->is_radial
+                    ? (distance(u - g->to.x, v - g->to.y) - g->inner) / (g->outer - g->inner)
+                    : ((u - g->from.x) * dx + (v - g->from.y) * dy) / (dx * dx + dy * dy);
+    *least = fmin(*least, at);
+    *most = fmax(*most, at);
+  }
+  return cs_number_is_sane(*least) && cs_number_is_sane(*most);
+}
+
+static celspan_status spread(gradient *g) {
+  double least, most;
+  if (g->spread == CS_SVG_SPREAD_PAD || g->stops.count < 2 || !find_places(g, &least, &most))
+    return CELSPAN_OK;
+  double first = floor(fmin(least, 0)), last = ceil(fmax(most, 1));
+  if ((last - first) * (double)g->stops.count > CS_SVG_STOPS)
+    return cs_svg_skip(g->reading, g->node, "spreadMethod, repeated too often");
+  CS_TRY(cs_svg_stops_spread(g->reading, g->spread, (int)first, (int)last, &g->stops));
+  const celspan_point from = g->from, to = g->to;
+  const double inner = g->inner, step = g->outer - g->inner;
+  g->inner = inner + first * step;
+  g->outer = inner + last * step;
+  if (!g->is_radial) {
+    g->from = (celspan_point){from.x + first * (to.x - from.x), from.y + first * (to.y - from.y)};
+    g->to = (celspan_point){from.x + last * (to.x - from.x), from.y + last * (to.y - from.y)};
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- textures */
+
+/* Places counted from the centre instead of from the inner radius; what would lie before the centre
+ * is cut off. */
+static void begin_at_centre(gradient *g) {
+  size_t kept = 0;
+  for (size_t i = 0; i < g->stops.count; i++) {
+    celspan_stop stop = g->stops.items[i];
+    stop.at = (g->inner + stop.at * (g->outer - g->inner)) / g->outer;
+    if (stop.at < 0 && i + 1 < g->stops.count) {
+      const celspan_stop *next = &g->stops.items[i + 1];
+      double at = (g->inner + next->at * (g->outer - g->inner)) / g->outer;
+      if (at <= 0)
+        continue;
+      stop.paint = celspan_paint_mix(stop.paint, next->paint, (float)(-stop.at / (at - stop.at)));
+    }
+    stop.at = cs_number_clamp(stop.at, 0, 1);
+    g->stops.items[kept++] = stop;
+  }
+  g->stops.count = kept;
+}
+
+static celspan_status make_flat(gradient *g, cs_svg_server *out) {
+  CS_TRY(celspan_texture_create_paint(g->reading->context,
+                                      &g->stops.items[g->stops.count - 1].paint, &out->texture));
+  out->kind = CS_SVG_SERVER_FLAT;
+  return CELSPAN_OK;
+}
+
+static celspan_status make_texture(gradient *g, cs_svg_server *out) {
+  celspan_matrix inverse;
+  bool is_degenerate = g->is_radial ? g->outer == 0 : g->from.x == g->to.x && g->from.y == g->to.y;
+  if (g->stops.count == 1 || is_degenerate)
+    return make_flat(g, out);
+  if (!celspan_matrix_inverse(g->matrix, &inverse) ||
+      (g->is_radial && !(g->outer > g->inner && g->inner >= 0)))
+    return CELSPAN_OK;
+  CS_TRY(spread(g));
+  if (g->is_radial && g->inner != 0)
+    begin_at_centre(g);
+  out->matrix = g->matrix;
+  CS_TRY(g->is_radial
+             ? celspan_texture_create_radial(g->reading->context, g->to, g->outer, g->stops.items,
+                                             g->stops.count, &out->texture)
+             : celspan_texture_create_linear(g->reading->context, g->from, g->to, g->stops.items,
+                                             g->stops.count, &out->texture));
+  out->kind = CS_SVG_SERVER_GRADIENT;
+  return CELSPAN_OK;
+}
+
+static celspan_status make(gradient *g, cs_svg_server *out) {
+  const cs_svg_node *owner = owner_of_stops(g);
+  const char *spread_word = text_of(g, CS_SVG_SPREAD_METHOD);
+  if (!owner)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_stops_read(g->reading, owner, g->shape->opacity, &g->stops));
+  CS_TRY(g->is_radial ? read_radial(g) : read_linear(g));
+  read_matrix(g);
+  g->spread = cs_svg_is_word(spread_word, "reflect")  ? CS_SVG_SPREAD_REFLECT
+              : cs_svg_is_word(spread_word, "repeat") ? CS_SVG_SPREAD_REPEAT
+                                                      : CS_SVG_SPREAD_PAD;
+  return make_texture(g, out);
+}
+
+celspan_status cs_svg_server_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_painted *shape, cs_svg_server *out) {
+  gradient g = {.reading = reading, .node = node, .shape = shape};
+  *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
+  g.is_radial = node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
+  g.is_in_box = !cs_svg_is_word(text_of(&g, CS_SVG_GRADIENT_UNITS), "userSpaceOnUse");
+  g.measure = *shape->measure;
+  if (g.is_in_box)
+    g.measure.width = g.measure.height = 1;
+  if (g.is_in_box && !(shape->box.width > 0 && shape->box.height > 0))
+    return CELSPAN_OK;
+  celspan_status status = make(&g, out);
+  cs_svg_stops_finish(&g.stops, reading->context->memory);
+  return status;
+}

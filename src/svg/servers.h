@@ -1,0 +1,41 @@
+/* Gradients: from an element of the file to a texture for one shape.
+ *
+ *      gradient's own units --gradientTransform--> --objectBoundingBox--> user units of the shape
+ *
+ * The texture stays in the gradient's own units, where a circle is a circle; so the shape is brought
+ * there and taken back as an object. SVG interpolates colours as they are coded and with straight
+ * alpha; stops are added until what lies between two of them differs from that by less than 1/255.
+ */
+#ifndef CS_SVG_SERVERS_H
+#define CS_SVG_SERVERS_H
+
+#include "svg/reading.h"
+
+#define CS_SVG_STOPS 4096 /* of one texture */
+
+typedef enum cs_svg_server_kind {
+  CS_SVG_SERVER_NOTHING, /* nothing is painted */
+  CS_SVG_SERVER_FLAT,    /* one paint; the matrix is the identity */
+  CS_SVG_SERVER_GRADIENT
+} cs_svg_server_kind;
+
+typedef struct cs_svg_server {
+  cs_svg_server_kind kind;
+  celspan_texture *texture; /* new; NULL with NOTHING */
+  celspan_matrix matrix;    /* the texture's units to the shape's; not singular */
+} cs_svg_server;
+
+/* The shape that is painted. */
+typedef struct cs_svg_painted {
+  const cs_svg_node *node;
+  const cs_svg_measure *measure;
+  celspan_box box; /* of its outline, in its user units */
+  double opacity;
+} cs_svg_painted;
+
+bool cs_svg_is_gradient(const cs_svg_node *node);
+CELSPAN_CHECKED celspan_status cs_svg_server_make(cs_svg_reading *reading,
+                                                  const cs_svg_node *gradient,
+                                                  const cs_svg_painted *shape, cs_svg_server *out);
+
+#endif

@@ -1,0 +1,159 @@
+#include "svg/shapes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/number.h"
+
+static celspan_status unfit(celspan_context *context, const cs_svg_node *node, cs_svg_name name,
+                            const char *value) {
+  return cs_fail(context, CELSPAN_INPUT,
+                 "line %u: %s is \"%.40s\"; it must be a finite number within 1e12", node->line,
+                 cs_svg_name_text(name), value);
+}
+
+celspan_status cs_svg_length_of(celspan_context *context, const cs_svg_node *node, cs_svg_name name,
+                                cs_svg_axis axis, const cs_svg_measure *measure,
+                                cs_svg_length fallback, double *out) {
+  const char *value = cs_svg_node_value(node, name);
+  cs_svg_length length;
+  if (!value || !cs_svg_parse_length(value, &length)) {
+    if (value && cs_svg_is_unfit(value))
+      return unfit(context, node, name, value);
+    length = fallback;
+  }
+  double resolved = cs_svg_resolve(length, axis, measure);
+  if (!cs_number_is_sane(resolved))
+    return unfit(context, node, name, value ? value : "");
+  *out = resolved;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_number_of(celspan_context *context, const cs_svg_node *node, cs_svg_name name,
+                                cs_svg_axis axis, const cs_svg_measure *measure, double *out) {
+  return cs_svg_length_of(context, node, name, axis, measure,
+                          (cs_svg_length){0, CS_SVG_UNIT_NUMBER}, out);
+}
+
+/* ---------------------------------------------------------------- rectangles and ellipses */
+
+/* rx and ry: where only one is given the other is the same; below 0: not given. */
+static celspan_status read_radii(celspan_context *context, const cs_svg_node *node,
+                                 const cs_svg_measure *measure, double *rx, double *ry) {
+  const cs_svg_length none = {-1, CS_SVG_UNIT_NUMBER};
+  CS_TRY(cs_svg_length_of(context, node, CS_SVG_RX, CS_SVG_AXIS_X, measure, none, rx));
+  CS_TRY(cs_svg_length_of(context, node, CS_SVG_RY, CS_SVG_AXIS_Y, measure, none, ry));
+  if (*rx < 0)
+    *rx = *ry;
+  if (*ry < 0)
+    *ry = *rx;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_rect(celspan_context *context, const cs_svg_node *node,
+                               const cs_svg_measure *measure, cs_outline *outline) {
+  celspan_box box;
+  double rx, ry;
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, measure, &box.x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, measure, &box.y));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_WIDTH, CS_SVG_AXIS_X, measure, &box.width));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, measure, &box.height));
+  CS_TRY(read_radii(context, node, measure, &rx, &ry));
+  if (!(box.width > 0) || !(box.height > 0))
+    return CELSPAN_OK;
+  rx = fmin(rx, box.width / 2);
+  ry = fmin(ry, box.height / 2);
+  if (rx > 0 && ry > 0)
+    return cs_outline_rounded(context, outline, &box, rx, ry);
+  return cs_outline_rect(context, outline, box.x, box.y, box.width, box.height, 0);
+}
+
+static celspan_status add_ellipse(celspan_context *context, const cs_svg_node *node,
+                                  const cs_svg_measure *measure, cs_outline *outline) {
+  celspan_point centre;
+  double rx, ry;
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_CX, CS_SVG_AXIS_X, measure, &centre.x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_CY, CS_SVG_AXIS_Y, measure, &centre.y));
+  if (node->element == CS_SVG_ELEMENT_CIRCLE) {
+    CS_TRY(cs_svg_number_of(context, node, CS_SVG_R, CS_SVG_AXIS_BOTH, measure, &rx));
+    ry = rx;
+  } else {
+    CS_TRY(read_radii(context, node, measure, &rx, &ry));
+  }
+  if (!(rx > 0) || !(ry > 0))
+    return CELSPAN_OK;
+  return cs_outline_ellipse(context, outline, centre, rx, ry);
+}
+
+/* ---------------------------------------------------------------- points and paths */
+
+static celspan_status add_points(celspan_context *context, const cs_svg_node *node,
+                                 cs_outline *outline, bool *is_broken) {
+  const char *at = cs_svg_node_value(node, CS_SVG_POINTS);
+  bool is_first = true;
+  at = cs_svg_skip_space(at ? at : "");
+  while (*at) {
+    cs_hpoint point = {0, 0, 1};
+    const char *begin = at;
+    *is_broken = !cs_svg_take_number(&at, &point.x);
+    at = cs_svg_skip_comma(at);
+    *is_broken = *is_broken || !cs_svg_take_number(&at, &point.y);
+    if (*is_broken && cs_svg_is_unfit(begin))
+      return unfit(context, node, CS_SVG_POINTS, begin);
+    if (*is_broken)
+      break;
+    CS_TRY(is_first ? cs_outline_move(context, outline, point)
+                    : cs_outline_line(context, outline, point));
+    is_first = false;
+    at = cs_svg_skip_comma(at);
+  }
+  return is_first ? CELSPAN_OK : cs_outline_close(context, outline);
+}
+
+/* A path with a fault in its data is drawn up to the fault. Source: SVG 2, 9.5.4. */
+static celspan_status add_path(celspan_context *context, const cs_svg_node *node,
+                               cs_outline *outline, bool *is_broken) {
+  const char *data = cs_svg_node_value(node, CS_SVG_D);
+  if (!data || cs_svg_is_word(data, "none"))
+    return CELSPAN_OK;
+  celspan_status status = cs_outline_path(context, outline, data);
+  if (status != CELSPAN_BAD_ARGUMENT)
+    return status;
+  *is_broken = true;
+  return cs_outline_close(context, outline);
+}
+
+bool cs_svg_is_shape(const cs_svg_node *node) {
+  switch (node->element) {
+  case CS_SVG_ELEMENT_CIRCLE:
+  case CS_SVG_ELEMENT_ELLIPSE:
+  case CS_SVG_ELEMENT_LINE:
+  case CS_SVG_ELEMENT_PATH:
+  case CS_SVG_ELEMENT_POLYGON:
+  case CS_SVG_ELEMENT_POLYLINE:
+  case CS_SVG_ELEMENT_RECT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+celspan_status cs_svg_shape_outline(celspan_context *context, const cs_svg_node *node,
+                                    const cs_svg_measure *measure, cs_outline *outline,
+                                    bool *is_broken) {
+  *is_broken = false;
+  switch (node->element) {
+  case CS_SVG_ELEMENT_RECT:
+    return add_rect(context, node, measure, outline);
+  case CS_SVG_ELEMENT_CIRCLE:
+  case CS_SVG_ELEMENT_ELLIPSE:
+    return add_ellipse(context, node, measure, outline);
+  case CS_SVG_ELEMENT_POLYGON:
+  case CS_SVG_ELEMENT_POLYLINE:
+    return add_points(context, node, outline, is_broken);
+  case CS_SVG_ELEMENT_PATH:
+    return add_path(context, node, outline, is_broken);
+  default: /* a line has nothing inside */
+    return CELSPAN_OK;
+  }
+}

@@ -1,0 +1,30 @@
+/* Outlines of the basic shapes and of paths, in the user units of their element. */
+#ifndef CS_SVG_SHAPES_H
+#define CS_SVG_SHAPES_H
+
+#include "geometry/outline.h"
+#include "svg/document.h"
+#include "svg/values.h"
+
+/* A length of an attribute in user units; fallback where there is none that counts. Errors: INPUT
+ * for a number that is unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_length_of(celspan_context *context, const cs_svg_node *node,
+                                                cs_svg_name name, cs_svg_axis axis,
+                                                const cs_svg_measure *measure,
+                                                cs_svg_length fallback, double *out);
+/* The same for an attribute that is a number in user units, 0 by default. */
+CELSPAN_CHECKED celspan_status cs_svg_number_of(celspan_context *context, const cs_svg_node *node,
+                                                cs_svg_name name, cs_svg_axis axis,
+                                                const cs_svg_measure *measure, double *out);
+
+/* Whether the element is a path or a basic shape. */
+bool cs_svg_is_shape(const cs_svg_node *node);
+/* Appends the element's outline, all of whose contours are closed: nothing for a shape without a
+ * size. *is_broken: its data have a fault, and the outline is what comes before it. Errors:
+ * NO_MEMORY, LIMIT, INPUT for numbers that are unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_shape_outline(celspan_context *context,
+                                                    const cs_svg_node *node,
+                                                    const cs_svg_measure *measure,
+                                                    cs_outline *outline, bool *is_broken);
+
+#endif

@@ -1,0 +1,72 @@
+/* Values of attributes: numbers, lengths, lists, transforms, references, viewBox.
+ *
+ * A value that is not what it should be counts as if it were not given, as in browsers; one that is
+ * not finite or beyond 1e12 is unfit, and the file is refused.
+ */
+#ifndef CS_SVG_VALUES_H
+#define CS_SVG_VALUES_H
+
+#include "celspan/celspan.h"
+
+typedef enum cs_svg_unit {
+  CS_SVG_UNIT_NUMBER, /* px too: everything absolute is converted */
+  CS_SVG_UNIT_PERCENT,
+  CS_SVG_UNIT_EM,
+  CS_SVG_UNIT_EX,
+  CS_SVG_UNIT_REM
+} cs_svg_unit;
+
+typedef struct cs_svg_length {
+  double value;
+  cs_svg_unit unit;
+} cs_svg_length;
+
+/* What lengths are relative to. */
+typedef struct cs_svg_measure {
+  double width, height; /* of the nearest viewport, in user units */
+  double font_size;
+  double root_font_size;
+} cs_svg_measure;
+
+typedef enum cs_svg_axis { CS_SVG_AXIS_X, CS_SVG_AXIS_Y, CS_SVG_AXIS_BOTH } cs_svg_axis;
+
+/* What an attribute refers to: url(#id) and #id; size 0: nothing. Borrowed from the value. */
+typedef struct cs_svg_reference {
+  const char *id;
+  size_t size;
+} cs_svg_reference;
+
+typedef struct cs_svg_view_box {
+  bool is_given;
+  double x, y, width, height;
+} cs_svg_view_box;
+
+const char *cs_svg_skip_space(const char *text);
+/* Space and at most one comma. */
+const char *cs_svg_skip_comma(const char *text);
+
+/* Each reads what *text begins with and moves *text behind it; false, and nothing is moved, when
+ * there is no such thing or it is unfit. */
+bool cs_svg_take_number(const char **text, double *out);
+bool cs_svg_take_length(const char **text, cs_svg_length *out);
+bool cs_svg_take_reference(const char **text, cs_svg_reference *out);
+/* A word of letters and hyphens, as long as it is `word`. */
+bool cs_svg_take_word(const char **text, const char *word);
+
+/* The whole value. */
+bool cs_svg_parse_length(const char *text, cs_svg_length *out);
+bool cs_svg_parse_transform(const char *text, celspan_matrix *out);
+bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out);
+bool cs_svg_is_word(const char *text, const char *word);
+/* Whether a value that could not be read is a number that no value may be: NaN, infinite, beyond
+ * 1e12. */
+bool cs_svg_is_unfit(const char *text);
+
+double cs_svg_resolve(cs_svg_length length, cs_svg_axis axis, const cs_svg_measure *measure);
+
+/* The map from a view box to a viewport {0, 0, width, height}. aspect: the value of
+ * preserveAspectRatio, or NULL. */
+celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double height,
+                          const char *aspect);
+
+#endif

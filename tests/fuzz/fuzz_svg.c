@@ -1,0 +1,128 @@
+/* Any bytes as a drawing: no fault, no memory beyond a bound, nothing kept, every refusal with a
+ * sentence that names the drawing, and parts that can be changed.
+ *
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/svg_fuzzer.sh builds it); with
+ * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
+ * allocation can fail.
+ */
+#include <stdio.h>
+
+#include "tests/support/memory.h"
+
+#define MOST_BYTES ((size_t)512 << 20)
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static size_t fail_at, allocations;
+
+static void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+/* ---------------------------------------------------------------- memory */
+
+typedef struct meter {
+  memory_watch watch;
+  size_t peak;
+} meter;
+
+static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  if (m->watch.bytes + new_size > MOST_BYTES)
+    return NULL;
+  void *made = memory_watch_resize(&m->watch, block, old_size, new_size);
+  m->peak = m->watch.bytes > m->peak ? m->watch.bytes : m->peak;
+  return made;
+}
+
+/* ---------------------------------------------------------------- a drawing */
+
+static celspan_status turn(void *user, celspan_context *context, celspan_object *part,
+                           celspan_object **out) {
+  const celspan_matrix matrix = celspan_matrix_rotation(1, (celspan_point){1, 2});
+  (void)user;
+  return celspan_object_transform(context, part, &matrix, out);
+}
+
+static bool is_expected(celspan_status status) {
+  return status == CELSPAN_OK || status == CELSPAN_INPUT || status == CELSPAN_LIMIT ||
+         status == CELSPAN_NO_MEMORY;
+}
+
+/* Changes the first part. A transform may go beyond what is allowed. */
+static void change_part(celspan_context *context, const celspan_svg *svg) {
+  celspan_svg_changed changed = {NULL, turn, NULL};
+  celspan_svg *other = NULL;
+  if (celspan_svg_part_count(svg) == 0)
+    return;
+  celspan_svg_part(svg, 0, &changed.name);
+  celspan_status status = celspan_svg_with(context, svg, &changed, 1, &other);
+  demand(is_expected(status) || status == CELSPAN_BAD_ARGUMENT, "a change of another kind");
+  celspan_svg_unref(other);
+}
+
+static void check_drawing(celspan_context *context, const celspan_svg *svg) {
+  celspan_box box;
+  demand(celspan_svg_object(svg), "a drawing without an object");
+  (void)celspan_object_bounds(celspan_svg_object(svg), &box);
+  (void)celspan_object_contains(celspan_svg_object(svg), (celspan_point){1, 1});
+  for (size_t i = 0; i < celspan_svg_part_count(svg); i++) {
+    const char *name;
+    demand(celspan_svg_part(svg, i, &name) && *name, "a part without an object or a name");
+  }
+  for (size_t i = 0; i < celspan_svg_skipped_count(svg); i++) {
+    int32_t line;
+    demand(*celspan_svg_skipped(svg, i, &line) && line > 0, "a note without a line");
+  }
+  change_part(context, svg);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  meter m = {.watch.fail_at = fail_at};
+  celspan_context_desc context_desc = {
+      .struct_size = sizeof context_desc, .resize = metered, .resize_user = &m};
+  celspan_svg_desc desc = CELSPAN_SVG_DESC;
+  celspan_context *context = NULL;
+  desc.bytes = size > 0 ? (const void *)data : "";
+  desc.size = size;
+  desc.name = "fuzz.svg";
+  if (celspan_context_create(&context_desc, &context) == CELSPAN_OK) {
+    celspan_svg *svg = NULL;
+    celspan_status status = celspan_svg_read(context, &desc, &svg);
+    demand(is_expected(status), "a refusal of another kind");
+    if (status == CELSPAN_OK)
+      check_drawing(context, svg);
+    else if (status != CELSPAN_NO_MEMORY)
+      demand(strncmp(celspan_context_error(context), "fuzz.svg:", 9) == 0,
+             "a refusal without the drawing's name");
+    celspan_svg_unref(svg);
+    celspan_context_destroy(context);
+  }
+  allocations = m.watch.allocations;
+  demand(m.watch.blocks == 0 && m.watch.size_errors == 0, "memory is kept, or its size forgotten");
+  return 0;
+}
+
+#ifdef REPLAY_MAIN
+int main(int count, char **arguments) {
+  static uint8_t bytes[1 << 20];
+  size_t runs = 0;
+  for (int i = 1; i < count; i++) {
+    FILE *file = fopen(arguments[i], "rb");
+    demand(file, arguments[i]);
+    size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    fail_at = 0;
+    LLVMFuzzerTestOneInput(bytes, size);
+    size_t count_of_whole = allocations;
+    for (fail_at = 1; fail_at <= count_of_whole; fail_at++)
+      LLVMFuzzerTestOneInput(bytes, size);
+    runs += 1 + count_of_whole;
+  }
+  printf("%zu checks passed\n", runs);
+  return 0;
+}
+#endif

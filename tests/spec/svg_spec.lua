@@ -1,0 +1,369 @@
+-- Drawings from SVG: what is drawn, parts by name, parts changed, what is refused and where.
+local celspan = require "celspan"
+local svg = require "celspan.svg"
+local raised = require "tests.support.raised"
+
+local HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
+  .. 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="100" height="100"'
+local paths = {}
+
+--- A file of our own with this text.
+local function write(text)
+  local path = os.tmpname()
+  local file = assert(io.open(path, "wb"))
+  file:write(text)
+  file:close()
+  paths[#paths + 1] = path
+  return path
+end
+
+--- A drawing 100 by 100 with this in it.
+local function drawing(content, attributes)
+  return write(HEAD .. (attributes or "") .. ">" .. content .. "</svg>")
+end
+
+local function read(content, attributes) return assert(svg.read(drawing(content, attributes))) end
+
+--- What shows at a point, as eight-bit codes over nothing: "00ff00 255".
+local function at(object, x, y)
+  local rostrum = celspan.rostrum { celspan.cel { object } }
+  local r, g, b, a = celspan.probe(rostrum, x, y, { film = { 100, 100 } })
+  local function code(c)
+    c = a > 0 and c / a or 0
+    c = c <= 0.0031308 and 12.92 * c or 1.055 * c ^ (1 / 2.4) - 0.055
+    return math.floor(255 * math.min(1, math.max(0, c)) + 0.5)
+  end
+  return ("%02x%02x%02x %d"):format(code(r), code(g), code(b), math.floor(255 * a + 0.5))
+end
+
+local function refusal(text)
+  local path = write(text)
+  local art, message = svg.read(path)
+  assert.is_nil(art)
+  local place, sentence = message:match("^" .. path:gsub("%p", "%%%0") .. ":(%d*):? ?(.*)$")
+  return tonumber(place), sentence or message
+end
+
+local function in_svg(content) return HEAD .. ">\n" .. content .. "</svg>" end
+
+local _, missing = svg.read(drawing "")
+local has_module = not tostring(missing):find("celspan-art.so", 1, true)
+local it = has_module and it or pending
+
+after_each(function()
+  for i = #paths, 1, -1 do
+    os.remove(paths[i])
+    paths[i] = nil
+  end
+end)
+
+describe("a drawing", function()
+  it("is one object of the file's size", function()
+    local art = read '<rect width="50" height="100" fill="#0f0"/>'
+    assert.are.same({ 100, 100 }, { art.width, art.height })
+    assert.are.equal("00ff00 255", at(art.object, 25, 50))
+    assert.are.equal("000000 0", at(art.object, 75, 50))
+    assert.are.same({}, art.skipped)
+  end)
+
+  it("has basic shapes, exact circles and paths", function()
+    local art = read [[<circle cx="20" cy="20" r="10" fill="red"/>
+      <ellipse cx="50" cy="20" rx="10" ry="5" fill="rgb(0,0,255)"/>
+      <polygon points="70,10 90,10 80,30" fill="hsl(120, 100%, 50%)"/>
+      <rect x="10" y="40" width="20" height="20" rx="10"/>
+      <path d="M40 40 h20 v20 a10 10 0 0 1 -20 0 z" fill="white" fill-rule="evenodd"/>]]
+    assert.are.equal("ff0000 255", at(art.object, 27, 27))
+    assert.are.equal("000000 0", at(art.object, 27.1, 27.1))
+    assert.are.equal("0000ff 255", at(art.object, 59, 21))
+    assert.are.equal("00ff00 255", at(art.object, 80, 20))
+    assert.are.equal("000000 0", at(art.object, 11, 41))
+    assert.are.equal("000000 255", at(art.object, 20, 41))
+    assert.are.equal("ffffff 255", at(art.object, 50, 69.9))
+  end)
+
+  it("is fitted by its view box", function()
+    local art = read('<rect width="1" height="1"/>', ' viewBox="0 0 2 1"')
+    assert.are.equal("000000 255", at(art.object, 49, 74))
+    assert.are.equal("000000 0", at(art.object, 49, 76))
+    art = read('<rect width="1" height="1"/>',
+      ' viewBox="0 0 2 1" preserveAspectRatio="xMinYMin slice"')
+    assert.are.equal("000000 255", at(art.object, 99, 99))
+  end)
+
+  it("has groups whose opacity acts on all of them at once", function()
+    local art = read [[<g opacity="0.5"><rect width="60" height="60" fill="red"/>
+      <rect x="40" width="60" height="60" fill="blue"/></g>]]
+    assert.are.equal("ff0000 128", at(art.object, 20, 20))
+    assert.are.equal("0000ff 128", at(art.object, 50, 20))
+  end)
+
+  it("shows what use refers to, in the style of its place", function()
+    local art = read [[<defs><rect id="r" width="10" height="10"/>
+      <symbol id="s" viewBox="0 0 1 1"><rect width="2" height="1" fill="lime"/></symbol></defs>
+      <use xlink:href="#r" x="20" y="20" fill="red"/>
+      <use href="#s" x="50" y="50" width="10" height="10"/>]]
+    assert.are.equal("ff0000 255", at(art.object, 25, 25))
+    assert.are.equal("00ff00 255", at(art.object, 55, 55))
+    assert.are.equal("000000 0", at(art.object, 65, 55))
+    assert.are.equal("000000 0", at(art.object, 5, 5))
+  end)
+
+  it("has transforms of every kind, about any origin", function()
+    local art = read [[<g transform="translate(50 50) rotate(90)">
+      <rect width="40" height="10" transform="scale(0.5, 1) skewX(0)"/></g>
+      <rect x="10" y="10" width="10" height="10" transform="scale(2)" transform-origin="10 10"/>]]
+    assert.are.equal("000000 255", at(art.object, 45, 65))
+    assert.are.equal("000000 0", at(art.object, 45, 75))
+    assert.are.equal("000000 255", at(art.object, 29, 29))
+  end)
+
+  it("leaves out what is not displayed, not visible or not meant", function()
+    local art = read [[<rect width="10" height="10" display="none"/>
+      <g visibility="hidden"><rect x="20" width="10" height="10"/>
+      <rect x="40" width="10" height="10" visibility="visible"/></g>
+      <switch><rect x="60" width="10" height="10" systemLanguage="de" fill="red"/>
+      <rect x="60" width="10" height="10" fill="lime"/></switch>]]
+    assert.are.equal("000000 0", at(art.object, 5, 5))
+    assert.are.equal("000000 0", at(art.object, 25, 5))
+    assert.are.equal("000000 255", at(art.object, 45, 5))
+    assert.are.equal("00ff00 255", at(art.object, 65, 5))
+    assert.are.same({}, art.skipped)
+  end)
+end)
+
+describe("styles", function()
+  it("come from attributes, rules and style attributes, in that order", function()
+    local art = read [[<style>
+      rect { fill: red } .a { fill: lime } #one { fill: blue }
+      g > .b, svg .never .c { fill: #abc } g .c { fill: #112233 }
+      .i { fill: lime !important } </style>
+      <rect width="10" height="10" fill="black"/>
+      <rect x="20" width="10" height="10" class="x a"/>
+      <rect x="40" width="10" height="10" class="a" id="one"/>
+      <g><rect x="60" width="10" height="10" class="b"/><g><rect x="80" width="10" height="10" class="c"/></g></g>
+      <rect y="20" width="10" height="10" class="b" style="fill:white"/>
+      <rect y="20" x="20" width="10" height="10" class="i" style="fill:white"/>
+      <g color="#00f"><rect y="20" x="40" width="10" height="10" style="fill:currentColor"/></g>]]
+    local seen = {}
+    for i, place in ipairs { { 5, 5 }, { 25, 5 }, { 45, 5 }, { 65, 5 }, { 85, 5 }, { 5, 25 },
+                             { 25, 25 }, { 45, 25 } } do
+      seen[i] = at(art.object, place[1], place[2]):sub(1, 6)
+    end
+    assert.are.same({ "ff0000", "00ff00", "0000ff", "aabbcc", "112233", "ffffff", "00ff00", "0000ff" },
+      seen)
+  end)
+
+  it("tell of selectors that do not count", function()
+    local art = read '<style>rect:hover { fill: red } @import "x.css";</style><rect width="9" height="9"/>'
+    assert.are.equal("000000 255", at(art.object, 5, 5))
+    assert.are.equal(1, #art.skipped)
+    assert.is_truthy(art.skipped[1].what:find("style", 1, true))
+  end)
+end)
+
+describe("clip paths and masks", function()
+  it("cut by the union of their children, in either unit", function()
+    local art = read [[<clipPath id="c"><circle cx="50" cy="50" r="20"/><rect width="10" height="10"/></clipPath>
+      <clipPath id="b" clipPathUnits="objectBoundingBox"><rect width="0.5" height="1"/></clipPath>
+      <rect width="100" height="60" clip-path="url(#c)"/>
+      <g clip-path="url(#b)"><rect x="20" y="80" width="40" height="10"/></g>]]
+    assert.are.equal("000000 255", at(art.object, 50, 50))
+    assert.are.equal("000000 255", at(art.object, 5, 5))
+    assert.are.equal("000000 0", at(art.object, 20, 20))
+    assert.are.equal("000000 255", at(art.object, 39, 85))
+    assert.are.equal("000000 0", at(art.object, 41, 85))
+  end)
+
+  it("let through by luminance when they are flat", function()
+    local art = read [[<mask id="m"><rect width="100" height="100" fill="white"/>
+      <rect width="50" height="100" fill="#808080"/><rect width="100" height="10"/></mask>
+      <rect width="100" height="100" fill="red" mask="url(#m)"/>]]
+    assert.are.equal("ff0000 128", at(art.object, 25, 50))
+    assert.are.equal("ff0000 255", at(art.object, 75, 50))
+    assert.are.equal("000000 0", at(art.object, 75, 5))
+  end)
+
+  it("are told of when they are not flat", function()
+    local art = read [[<linearGradient id="g"><stop/><stop offset="1" stop-color="white"/></linearGradient>
+<mask id="m"><rect width="100" height="100" fill="url(#g)"/></mask>
+<rect width="100" height="100" mask="url(#m)"/>]]
+    assert.are.same({ { line = 2, what = "mask that is not flat" } }, art.skipped)
+  end)
+end)
+
+describe("gradients", function()
+  it("show between their stops what a browser shows", function()
+    local art = read [[<linearGradient id="g"><stop stop-color="#000"/><stop offset="1" stop-color="#fff"/>
+      </linearGradient><rect width="100" height="100" fill="url(#g)"/>]]
+    for x = 1, 99 do
+      local shown = tonumber(at(art.object, x, 50):sub(1, 2), 16)
+      assert.is_true(math.abs(shown - 2.55 * x) <= 1, x .. " " .. shown)
+    end
+  end)
+
+  it("fade with straight alpha", function()
+    local art = read [[<linearGradient id="g"><stop stop-color="#f00" stop-opacity="0"/>
+      <stop offset="1" stop-color="#00f"/></linearGradient><rect width="100" height="100" fill="url(#g)"/>]]
+    assert.are.equal("800080 128", at(art.object, 50, 50))
+  end)
+
+  it("are spread, turned, and inherited from templates", function()
+    local art = read [[<linearGradient id="t"><stop stop-color="red"/><stop offset="0.5" stop-color="red"/>
+      <stop offset="0.5" stop-color="lime"/></linearGradient>
+      <linearGradient id="r" href="#t" gradientUnits="userSpaceOnUse" x1="0" x2="20" spreadMethod="repeat"/>
+      <linearGradient id="f" href="#r" spreadMethod="reflect"/>
+      <linearGradient id="u" href="#t" gradientTransform="rotate(90)"/>
+      <radialGradient id="c" href="#t" gradientUnits="userSpaceOnUse" cx="50" cy="85" r="10" spreadMethod="repeat"/>
+      <rect width="100" height="20" fill="url(#r)"/><rect y="20" width="100" height="20" fill="url(#f)"/>
+      <rect y="40" width="100" height="20" fill="url(#u)"/><rect y="70" width="100" height="30" fill="url(#c)"/>]]
+    local seen = {}
+    for _, place in ipairs { { 5, 10 }, { 15, 10 }, { 85, 10 }, { 95, 10 }, { 25, 30 }, { 35, 30 }, { 5, 45 },
+                             { 95, 55 }, { 53, 85 }, { 57, 85 }, { 63, 85 }, { 67, 85 } } do
+      seen[#seen + 1] = at(art.object, place[1], place[2]):sub(1, 6) == "ff0000" and "r" or "g"
+    end
+    assert.are.equal("rgrggrrgrgrg", table.concat(seen))
+  end)
+end)
+
+describe("what is not drawn", function()
+  it("is told with its line, and the rest is drawn", function()
+    local art = read [[
+<filter id="f"/><pattern id="p"/>
+<rect width="50" height="100" filter="url(#f)"/>
+<rect x="50" width="50" height="100" fill="url(#p) red" style="mix-blend-mode: multiply"/>
+<text>hello</text>
+<foreignObject/>]]
+    local told = {}
+    for i, entry in ipairs(art.skipped) do told[i] = entry.line .. " " .. entry.what end
+    assert.are.same({ "2 filter of rect", "3 mix-blend-mode of rect", "3 pattern of rect", "4 text",
+                      "5 foreignObject" }, told)
+    assert.are.equal("000000 255", at(art.object, 25, 50))
+    assert.are.equal("ff0000 255", at(art.object, 75, 50))
+  end)
+end)
+
+describe("parts", function()
+  local content = [[<g transform="translate(10 10)"><g id="arm" opacity="0.5" inkscape:label="left arm">
+    <rect id="hand" width="10" height="10" fill="red"/></g>
+    <rect inkscape:label="twice" width="1" height="1"/><rect inkscape:label="twice" width="1" height="1"/></g>
+    <defs><circle id="dot" cx="0" cy="0" r="5"/></defs><use href="#dot" x="50" y="50"/><use href="#dot" x="80" y="50"/>]]
+
+  it("have the drawing's units", function()
+    local art = read(content)
+    assert.are.same({ 10, 10, 10, 10 }, { art.parts.hand:bounds() })
+    assert.are.equal("ff0000 128", at(art.parts["left arm"], 15, 15))
+    assert.are.equal("ff0000 255", at(art.parts.hand, 15, 15))
+    assert.is_nil(rawget(art.parts, "twice"))
+    assert.are.same({ -5, -5, 10, 10 }, { art.parts.dot:bounds() })
+    assert.are.equal("hand", art.parts.hand.name)
+  end)
+
+  it("are changed where they are, in what they are in", function()
+    local art = read(content)
+    local other = art:with {
+      hand = function(hand)
+        assert.are.same({ 10, 10, 10, 10 }, { hand:bounds() })
+        return hand:translate(0, 20)
+      end }
+    assert.are.equal("ff0000 128", at(other.object, 15, 35))
+    assert.are.equal("000000 255", at(other.object, 10.5, 10.5)) -- what lies under it
+    assert.are.equal("000000 0", at(other.object, 15, 15))
+    assert.are.equal("ff0000 128", at(art.object, 15, 15))
+    assert.are.same({ 10, 30, 10, 10 }, { other.parts.hand:bounds() })
+  end)
+
+  it("are changed wherever use shows them", function()
+    local art = read(content):with { dot = function(dot) return dot:scale(2) end }
+    assert.are.equal("000000 255", at(art.object, 59, 50))
+    assert.are.equal("000000 255", at(art.object, 89, 50))
+    assert.are.equal("000000 0", at(art.object, 5, 5))
+  end)
+
+  it("may be put in the place of one another, inner ones first", function()
+    local order = {}
+    local art = read(content):with {
+      arm = function(arm)
+        order[#order + 1] = "arm"
+        return arm:translate(40, 0)
+      end,
+      hand = function()
+        order[#order + 1] = "hand"
+        return celspan.rect { 10, 10, 10, 10, texture = "#0f0" }
+      end }
+    assert.are.same({ "hand", "arm" }, order)
+    assert.are.equal("00ff00 128", at(art.object, 55, 15))
+  end)
+
+  it("are named when they are not there", function()
+    local art = read(content)
+    assert.is_truthy(raised.message(function() art:with { hnad = function() end } end)
+      :find("the drawing has no part 'hnad'; did you mean 'hand'?", 1, true))
+    assert.is_truthy(raised.message(function() return art.parts.hnad end):find("'hand'", 1, true))
+    assert.is_truthy(raised.message(function() art:with { hand = 3 } end):find("must be given a function", 1, true))
+    assert.is_truthy(raised.message(function() art:with { hand = function() return 3 end } end)
+      :find("the function of part 'hand' must return an object, got number", 1, true))
+    assert.is_truthy(raised.message(function() art:with { hand = function() error "mine" end } end)
+      :find("mine", 1, true))
+    assert.is_truthy(raised.message(function() art.object:with { x = 1 } end):find("drawing", 1, true))
+  end)
+end)
+
+describe("reading", function()
+  it("gives the same drawing until the file changes", function()
+    local path = drawing '<rect width="10" height="10"/>'
+    local art = assert(svg.read(path))
+    assert.are.equal(art, assert(svg.read(path)))
+    local file = assert(io.open(path, "wb"))
+    file:write(HEAD, '><rect width="30" height="10"/></svg>')
+    file:close()
+    assert.are.equal("000000 255", at(assert(svg.read(path)).object, 25, 5))
+  end)
+
+  it("tells what is wrong, with the line", function()
+    local cases = {
+      { "", 1, "no element found" },
+      { "<html/>", 1, 'the document is "html"' },
+      { in_svg "<g>", 2, "mismatched tag" },
+      { in_svg "<rect width='nan' height='1'/>", 2, 'width is "nan"; it must be a finite number' },
+      { in_svg "<rect width='1e13' height='1'/>", 2, 'width is "1e13"' },
+      { in_svg "\n<g opacity='inf'/>", 3, 'opacity is "inf"' },
+      { in_svg "<use id='a' href='#a'/>", 2, "use goes in a circle" },
+      { in_svg "<g id='a'><use href='#b'/></g>\n<g id='b'><use href='#a'/></g>", 3, "use goes in a circle" },
+      { "<!DOCTYPE svg [<!ENTITY a 'b'>]>" .. in_svg "&a;", 1, "entities are not expanded" },
+      { in_svg(("<g>"):rep(10000) .. ("</g>"):rep(10000)), 2, "elements are nested more than 128 deep" },
+    }
+    for _, case in ipairs(cases) do
+      local line, sentence = refusal(case[1])
+      assert.are.equal(case[2], line, tostring(sentence))
+      assert.is_truthy(sentence:find(case[3], 1, true), sentence)
+    end
+    assert.is_truthy(select(2, svg.read "no_such.svg"):find "no_such.svg: No such file")
+    assert.is_truthy(select(2, svg.read "."):find "that is no file")
+  end)
+
+  it("ends when use grows without bound", function()
+    local content = { '<g id="a0"><rect width="1" height="1"/></g>' }
+    for i = 1, 30 do
+      content[#content + 1] = ('<g id="a%d"><use href="#a%d"/><use href="#a%d"/></g>'):format(i, i - 1, i - 1)
+    end
+    local _, sentence = refusal(in_svg("<defs>" .. table.concat(content) .. "</defs><use href='#a30'/>"))
+    assert.is_truthy(sentence:find("more than 1000000 elements are drawn", 1, true), sentence)
+  end)
+
+  it("takes a path of many points and every cut of a file", function()
+    local text = in_svg("<path d='M0 0" .. (" l1 1"):rep(200000) .. "'/>")
+    assert(svg.read(write(text)))
+    text = in_svg [[<style>.a{fill:red}</style><g class="a" opacity=".5"><path d="M0 0L1 1z"/></g>]]
+    for size = 0, #text - 1, 7 do
+      local art, message = svg.read(write(text:sub(1, size)))
+      assert.is_nil(art)
+      assert.is_string(message)
+    end
+  end)
+
+  it("draws a path up to a fault in its data", function()
+    local art = read '<path d="M0 0h50v50h-50z M60 0 h40 v40 q"/>'
+    assert.are.equal("000000 255", at(art.object, 25, 25))
+    assert.are.same({ { line = 1, what = "path from a fault in its data on" } }, art.skipped)
+  end)
+end)

@@ -1,0 +1,101 @@
+--- Drawings from SVG beside other renderers' pictures of them.
+--
+--   lua5.4 tests/svg/compare.lua FOLDER [SIDE] [NAME...]     with LUA_PATH and LUA_CPATH as for specs
+--
+-- FOLDER is that of the sample material. Colours are blended as they are coded, like there, by a
+-- switch that is there for this comparison alone. A drawing passes when less than 0.5 % of its pixels
+-- are off by more than 24 of 255; the others are listed with how much is off and what was skipped.
+-- The last line is "N of M drawings pass".
+local celspan = require "celspan"
+local core = require "celspan.core"
+
+local MOST_OFF, MOST_SHARE = 24, 0.005
+
+local function files_below(folder)
+  local list = {}
+  local find = assert(io.popen("cd '" .. folder .. "' && find . -name '*.svg' | LC_ALL=C sort"))
+  for line in find:lines() do list[#list + 1] = line:sub(3, -5) end
+  find:close()
+  return list
+end
+
+--- The picture of an object as codes, premultiplied, rows from the top.
+local function codes(object, w, h)
+  local rostrum = celspan.rostrum { celspan.cel { object } }
+  local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
+  return image:bytes { depth = 8, colour = "linear", alpha = "premultiplied" }
+end
+
+--- The share of the pixels of the first `rows` rows that are off, both over white.
+local function share_off(a, b, w, rows)
+  local off = 0
+  for y = 0, rows - 1 do
+    local at = y * w * 4
+    if a:sub(at + 1, at + w * 4) ~= b:sub(at + 1, at + w * 4) then
+      for x = at + 1, at + w * 4, 4 do
+        local r, g, blue, alpha = a:byte(x, x + 3)
+        local r2, g2, b2, alpha2 = b:byte(x, x + 3)
+        local shift = alpha2 - alpha
+        local most = math.max(math.abs(r - r2 + shift), math.abs(g - g2 + shift),
+          math.abs(blue - b2 + shift))
+        if most > MOST_OFF then off = off + 1 end
+      end
+    end
+  end
+  return off / (w * rows)
+end
+
+local function what_was_skipped(drawing)
+  local seen, list = {}, {}
+  for _, entry in ipairs(drawing:skipped()) do
+    if not seen[entry.what] then
+      seen[entry.what] = true
+      list[#list + 1] = entry.what
+    end
+  end
+  return #list > 0 and "skipped " .. table.concat(list, ", ") or "all was drawn"
+end
+
+--- Compares one drawing; gives whether it passes and why not. caption: rows at the bottom that do not
+--- count.
+local function compare(svg, png, caption)
+  local drawing, message = core.read_svg(svg, true)
+  if not drawing then return false, "refused: " .. message:gsub("^.*/", "") end
+  local reference = celspan.image { file = png, colour = "linear" }
+  local _, _, w, h = reference:bounds()
+  local width, height = drawing:size()
+  local sx, sy = width > 0 and w / width or 1, height > 0 and h / height or 1
+  local ours = codes(drawing:object():scale(sx, sy), w, h)
+  local share = share_off(ours, codes(reference, w, h), w, h - caption)
+  return share < MOST_SHARE, ("%.2f %% off, %s"):format(100 * share, what_was_skipped(drawing))
+end
+
+--- What belongs to features that are left out as such.
+local function is_left_out(name)
+  return name:find "^filters/" or name:find "pattern" or name:find "^painting/mix%-blend%-mode/"
+    or name:find "^masking/mask/"
+end
+
+local material = assert(arg[1], "the folder of the sample material is missing")
+local wanted = arg[2] and arg[2] ~= "all" and arg[2] or nil
+local passed, count = 0, 0
+for _, side in ipairs {
+  { folder = "svg-resvg", png = "%s.png", caption = 0, leaves_out = is_left_out },
+  { folder = "svg-w3c", png = "%s-ref.png", caption = 60, leaves_out = function() return false end },
+} do
+  local side_passed, side_count = 0, 0
+  for _, name in ipairs(files_below(material .. "/" .. side.folder)) do
+    if not side.leaves_out(name) and (not wanted or (side.folder .. "/" .. name):find(wanted)) then
+      local base = ("%s/%s/"):format(material, side.folder)
+      local ok, is_good, why = pcall(compare, base .. name .. ".svg",
+        base .. side.png:format(name), side.caption)
+      if not ok then is_good, why = false, is_good end
+      side_count = side_count + 1
+      side_passed = side_passed + (is_good and 1 or 0)
+      if not is_good then print(("%s/%s: %s"):format(side.folder, name, why)) end
+    end
+  end
+  print(("%s: %d of %d drawings pass"):format(side.folder, side_passed, side_count))
+  passed, count = passed + side_passed, count + side_count
+end
+print(("%d of %d drawings pass"):format(passed, count))
