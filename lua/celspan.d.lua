@@ -116,7 +116,8 @@ function celspan.linear(fields) end
 
 ---@class celspan.radial.fields
 ---@field centre celspan.point
----@field radius number Where 1 lies
+---@field radius number Of the circle where 1 lies
+---@field focus? celspan.point Where 0 lies; default: the centre
 ---@field [integer] table Stops {at, paint}, at ascending in 0..1
 
 ---@class celspan.radial: celspan.texture, celspan.radial.fields

@@ -54,13 +54,14 @@ static void create_linear(const cs_form *form, cs_userdata *value) {
 }
 
 static void create_radial(const cs_form *form, cs_userdata *value) {
-  celspan_point centre = cs_form_point(form, "centre");
+  celspan_point centre = cs_form_point(form, "centre"), focus = centre;
+  (void)cs_form_point_or(form, "focus", &focus);
   double radius = cs_form_number(form, "radius");
   int count = cs_form_length(form);
   celspan_stop *stops = read_stops(form, count);
   celspan_texture *texture = NULL;
-  cs_form_try(form, celspan_texture_create_radial(cs_host_context(form->L), centre, radius, stops,
-                                                  (size_t)count, &texture));
+  cs_form_try(form, celspan_texture_create_focal(cs_host_context(form->L), centre, radius, focus,
+                                                 stops, (size_t)count, &texture));
   value->handle = texture;
 }
 
@@ -100,7 +101,7 @@ static void create_picture(const cs_form *form, cs_userdata *value) {
 
 static const cs_field no_fields[] = {{0}};
 static const cs_field linear_fields[] = {{"from", NULL}, {"to", NULL}, {0}};
-static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {0}};
+static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {"focus", NULL}, {0}};
 static const cs_field picture_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"box", NULL}, {0}};
 
 static const cs_noun nouns[] = {

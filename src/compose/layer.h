@@ -66,7 +66,8 @@ typedef struct cs_shade {
   const celspan_texture *texture; /* borrowed from the scene */
   celspan_matrix inverse;         /* frame pixels to own units */
   double plane[7][3];
-  bool is_affine; /* and w above 0 everywhere */
+  double eccentricity; /* RADIAL: 0 without a focus; else see paint/shade.h */
+  bool is_affine;      /* and w above 0 everywhere */
 } cs_shade;
 
 typedef struct cs_image_layer {

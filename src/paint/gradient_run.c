@@ -10,7 +10,8 @@ typedef struct arc {
   cs_painter *painter;
   const cs_gradient_table *table;
   double u, v;       /* the values of the shade's planes at x = 0 */
-  double bend;       /* RADIAL: second derivative of the distance r along the row, times r cubed */
+  double bend;       /* RADIAL: second derivative of the distance r along the row, times r cubed,
+                        where r is `at` and, with a focus, what was taken off it */
   int32_t from, end; /* the columns of the run that are not yet written */
   const cs_gradient_table_section *section; /* between the current two cuts */
   double steepness; /* there: the greatest change of a channel from 0 to 1 along the gradient */
@@ -25,7 +26,13 @@ static double at_column(const arc *a, int32_t column) {
   if (shade->texture->kind == CS_TEXTURE_LINEAR)
     return u;
   double v = shade->plane[1][0] * x + a->v;
-  return sqrt(u * u + v * v);
+  return sqrt(u * u + v * v) - shade->eccentricity * u;
+}
+
+/* What is taken off the distance at a column, because of a focus. */
+static double taken_off(const arc *a, int32_t column) {
+  const cs_shade *shade = a->table->shade;
+  return shade->eccentricity * (shade->plane[0][0] * (column + 0.5) + a->u);
 }
 
 /* The colour of a column, by the current section even where rounding puts the column beyond its
@@ -52,7 +59,8 @@ static celspan_status test(cs_curve *curve, const cs_halving_point *first,
                            const cs_halving_point *last, bool *is_straight) {
   const arc *a = (const arc *)curve;
   double columns = last->column - first->column;
-  double near = cs_number_least(first->at, last->at);
+  double near = cs_number_least(first->at + taken_off(a, first->column),
+                                last->at + taken_off(a, last->column));
   double limit = CS_HALVING_TOLERANCE;
   *is_straight = true;
   if (columns < 2 || columns * columns * a->bend * a->steepness <= 8 * limit * near * near * near)
@@ -130,6 +138,42 @@ static celspan_status run_radial(arc *a) {
   return put_until(a, a->end);
 }
 
+/* Where a row with a focus enters and leaves the circle of a place along the stops: the ends of the
+ * interval where `at` is at most that. False when they do not meet. */
+static bool find_chord(const arc *a, double at, double *low, double *high) {
+  const cs_shade *shade = a->table->shade;
+  double su = shade->plane[0][0], sv = shade->plane[1][0], e = shade->eccentricity;
+  double speed = su * su * (1 - e * e) + sv * sv;
+  double b = a->u * su * (1 - e * e) + a->v * sv - at * e * su;
+  double c = a->u * a->u * (1 - e * e) + a->v * a->v - 2 * at * e * a->u - at * at;
+  double root = b * b - speed * c;
+  if (!(root > 0))
+    return false;
+  *low = (-b - sqrt(root)) / speed;
+  *high = (-b + sqrt(root)) / speed;
+  return true;
+}
+
+static celspan_status run_focal(arc *a) {
+  const celspan_texture *texture = texture_of(a);
+  const cs_shade *shade = a->table->shade;
+  double su = shade->plane[0][0], sv = shade->plane[1][0], e = shade->eccentricity;
+  double speed = su * su + sv * sv, cross = a->u * sv - a->v * su, low, high;
+  if (!(speed > 0))
+    return put_until(a, a->end);
+  a->bend = cross * cross;
+  for (size_t i = texture->stop_count; i-- > 0;)
+    if (find_chord(a, texture->stops[i].at, &low, &high))
+      CS_TRY(put_until(a, low));
+  /* Where `at` is least: beside the place that is nearest the focus. */
+  double beside = e * su * fabs(cross) / (speed * sqrt(speed - e * e * su * su));
+  CS_TRY(put_until(a, beside - (a->u * su + a->v * sv) / speed));
+  for (size_t i = 0; i < texture->stop_count; i++)
+    if (find_chord(a, texture->stops[i].at, &low, &high))
+      CS_TRY(put_until(a, high));
+  return put_until(a, a->end);
+}
+
 bool cs_gradient_run_fits(const cs_gradient_table *table) {
   return table && table->layer_count == 0 && table->shade->is_affine;
 }
@@ -144,5 +188,7 @@ celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *tab
            .v = q[1] * run.y + q[2],
            .from = run.x0,
            .end = run.x1};
-  return table->shade->texture->kind == CS_TEXTURE_LINEAR ? run_linear(&a) : run_radial(&a);
+  if (table->shade->texture->kind == CS_TEXTURE_LINEAR)
+    return run_linear(&a);
+  return table->shade->eccentricity > 0 ? run_focal(&a) : run_radial(&a);
 }

@@ -77,8 +77,27 @@ static void prepare_linear(cs_shade *shade) {
   set_plane(shade, 0, dx / length, dy / length, -(from->x * dx + from->y * dy) / length);
 }
 
+/* The legs lie along and across the way from the focus to the centre. */
+static void prepare_focal(cs_shade *shade, double distance) {
+  const celspan_texture *texture = shade->texture;
+  const celspan_point *centre = &texture->points[0], *offset = &texture->points[1];
+  double e = distance / texture->radius, rest = 1 - e * e;
+  double x = -offset->x / distance, y = -offset->y / distance;
+  double focus_x = centre->x + offset->x, focus_y = centre->y + offset->y;
+  double along = 1 / (texture->radius * rest), across = 1 / (texture->radius * sqrt(rest));
+  shade->eccentricity = e;
+  set_plane(shade, 0, x * along, y * along, -(focus_x * x + focus_y * y) * along);
+  set_plane(shade, 1, -y * across, x * across, (focus_x * y - focus_y * x) * across);
+}
+
 static void prepare_radial(cs_shade *shade) {
-  const celspan_point *centre = &shade->texture->points[0];
+  const celspan_point *centre = &shade->texture->points[0], *offset = &shade->texture->points[1];
+  double distance = sqrt(offset->x * offset->x + offset->y * offset->y);
+  shade->eccentricity = 0;
+  if (distance > 0) {
+    prepare_focal(shade, distance);
+    return;
+  }
   double share = 1 / shade->texture->radius;
   set_plane(shade, 0, share, 0, -centre->x * share);
   set_plane(shade, 1, 0, share, -centre->y * share);
@@ -184,6 +203,28 @@ static void break_radial(breaks *list, const celspan_texture *texture, const row
     add_break(list, -(bu * su + bv * sv) / (su * su + sv * sv));
 }
 
+/* The same with a focus: where P^2 + Q^2 = (at W + e P)^2 on planes over the frame, and where the sum
+ * is least. */
+static void break_focal(breaks *list, const cs_shade *shade, double y) {
+  const celspan_texture *texture = shade->texture;
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
+  double bp = p[1] * y + p[2], bq = q[1] * y + q[2], bw = m[7] * y + m[8], e = shade->eccentricity;
+  double speed = p[0] * p[0] + q[0] * q[0];
+  for (size_t i = 0; i < texture->stop_count; i++) {
+    double at = texture->stops[i].at;
+    double step = (shade->is_affine ? 0 : at * m[6]) + e * p[0];
+    double base = at * (shade->is_affine ? 1 : bw) + e * bp;
+    double a = speed - step * step, b = bp * p[0] + bq * q[0] - base * step;
+    double c = bp * bp + bq * bq - base * base, root = b * b - a * c;
+    if (a == 0 || root < 0)
+      continue;
+    add_break(list, (-b - sqrt(root)) / a);
+    add_break(list, (-b + sqrt(root)) / a);
+  }
+  if (speed > 0)
+    add_break(list, -(bp * p[0] + bq * q[0]) / speed);
+}
+
 size_t cs_shade_break_limit(const cs_shade *shade) {
   return shade->texture->kind == CS_TEXTURE_TRIANGLE ? 21 : 2 * shade->texture->stop_count + 2;
 }
@@ -196,6 +237,8 @@ size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *out) {
     break_triangle(&list, shade, &map);
   else if (shade->texture->kind == CS_TEXTURE_LINEAR)
     break_linear(&list, shade->texture, &map);
+  else if (shade->eccentricity > 0)
+    break_focal(&list, shade, run.y);
   else
     break_radial(&list, shade->texture, &map);
   return list.count;

@@ -10,6 +10,12 @@
  *                                          at = a x + b y + c              ' centre  '
  *                                                                            ` - . - `
  *
+ * A radial gradient with a focus has circles whose centres move from the focus to the centre while they
+ * grow from 0 to the radius. With p along the way from focus to centre, q across it, and e the focus's
+ * distance from the centre as a share of the radius,
+ *     at = sqrt(P^2 + Q^2) - e P    where P = p / (radius (1 - e^2)), Q = q / (radius sqrt(1 - e^2)),
+ * which solves |(p - at e radius, q)| = at radius. Without a focus e is 0. On a row `at` is convex.
+ *
  * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
  * row, so it may be cut into lines by comparing a few points.
  */
@@ -30,7 +36,7 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   double at = p[0] * x + (p[1] * y + p[2]);
   if (shade->texture->kind == CS_TEXTURE_RADIAL) {
     double v = q[0] * x + (q[1] * y + q[2]);
-    at = sqrt(at * at + v * v);
+    at = sqrt(at * at + v * v) - shade->eccentricity * at;
   }
   if (shade->is_affine)
     return at;

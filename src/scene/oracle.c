@@ -86,9 +86,14 @@ static double linear_parameter(const celspan_texture *texture, celspan_point at)
   return ((at.x - from.x) * dx + (at.y - from.y) * dy) / (dx * dx + dy * dy);
 }
 
+/* Circles of the radius t r about focus + t (centre - focus): the greater t whose circle goes through
+ * the point, which solves (r^2 - d^2) t^2 + 2 (p d) t - p^2 = 0. */
 static double radial_parameter(const celspan_texture *texture, celspan_point at) {
-  double dx = at.x - texture->points[0].x, dy = at.y - texture->points[0].y;
-  return sqrt(dx * dx + dy * dy) / texture->radius;
+  celspan_point centre = texture->points[0], offset = texture->points[1];
+  double px = at.x - centre.x - offset.x, py = at.y - centre.y - offset.y, r = texture->radius;
+  double rest = r * r - offset.x * offset.x - offset.y * offset.y;
+  double half = -(px * offset.x + py * offset.y);
+  return (sqrt(half * half + rest * (px * px + py * py)) - half) / rest;
 }
 
 /* ---------------------------------------------------------------- pictures */

@@ -9,6 +9,8 @@
 
 /* Twice the area of a triangle below this share of its longest side squared is rounding. */
 #define FLAT_TRIANGLE 1e-12
+/* A focus lies inside its circle: at most so far from the centre, as a share of the radius. */
+#define FOCUS_SHARE 0.9999
 
 static celspan_status create(celspan_context *context, cs_texture_kind kind,
                              celspan_texture **out) {
@@ -176,16 +178,33 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
   return finish(texture, out);
 }
 
+/* The way from the centre to the focus, which is held inside the circle. */
+static celspan_point focus_offset(celspan_point centre, double radius, celspan_point focus) {
+  celspan_point offset = {focus.x - centre.x, focus.y - centre.y};
+  double distance = sqrt(square(offset.x) + square(offset.y)), most = FOCUS_SHARE * radius;
+  double share = distance > most ? most / distance : 1;
+  return (celspan_point){share * offset.x, share * offset.y};
+}
+
 celspan_status celspan_texture_create_radial(celspan_context *context, celspan_point centre,
                                              double radius, const celspan_stop *stops,
                                              size_t stop_count, celspan_texture **out) {
+  return celspan_texture_create_focal(context, centre, radius, centre, stops, stop_count, out);
+}
+
+celspan_status celspan_texture_create_focal(celspan_context *context, celspan_point centre,
+                                            double radius, celspan_point focus,
+                                            const celspan_stop *stops, size_t stop_count,
+                                            celspan_texture **out) {
   CS_TRY(cs_check_point(context, "radial", "centre", 0, centre));
   CS_TRY(cs_check_size(context, "radial", "radius", radius));
+  CS_TRY(cs_check_point(context, "radial", "focus", 0, focus));
   CS_TRY(check_stops(context, "radial", stops, stop_count));
   celspan_texture *texture;
   CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
   if (texture->kind == CS_TEXTURE_RADIAL) {
     texture->points[0] = centre;
+    texture->points[1] = focus_offset(centre, radius, focus);
     texture->radius = radius;
   }
   return finish(texture, out);

@@ -32,7 +32,8 @@ struct celspan_texture {
   cs_mark mark;
   cs_texture_kind kind;
   cs_paint flat;           /* FLAT */
-  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre */
+  celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
+                              from it to the focus, less than the radius */
   double radius;           /* RADIAL */
   cs_paint corners[3];     /* TRIANGLE */
   cs_stop *stops;          /* LINEAR, RADIAL */

@@ -8,6 +8,8 @@
 
 /* Templates that follow one another through href, at most. */
 #define TEMPLATES 32
+/* How far from the centre a focus may lie, as a share of the radius. */
+#define FOCUS_SHARE 0.999
 
 typedef struct gradient {
   cs_svg_reading *reading;
@@ -19,7 +21,8 @@ typedef struct gradient {
   cs_svg_spread spread;
   cs_svg_stops stops;
   celspan_matrix matrix;
-  /* linear: from, to; radial: a circle of radius `outer` about `to`, 0 at the radius `inner` */
+  /* linear: from, to; radial: a circle of radius `outer` about `to`, and where 0 is one of radius
+   * `inner` about `from`; one of inner = 0 and from = to holds */
   celspan_point from, to;
   double inner, outer;
 } gradient;
@@ -73,6 +76,14 @@ static celspan_status read_linear(gradient *g) {
   return read_length(g, CS_SVG_Y2, CS_SVG_AXIS_Y, 0, &g->to.y);
 }
 
+/* A focus lies inside the circle; on its edge there would be no end to what it sends out. */
+static void hold_focus(gradient *g) {
+  double dx = g->from.x - g->to.x, dy = g->from.y - g->to.y;
+  double distance = sqrt(dx * dx + dy * dy), most = FOCUS_SHARE * g->outer;
+  if (distance > most && most >= 0)
+    g->from = (celspan_point){g->to.x + dx / distance * most, g->to.y + dy / distance * most};
+}
+
 static celspan_status read_radial(gradient *g) {
   CS_TRY(read_length(g, CS_SVG_CX, CS_SVG_AXIS_X, 50, &g->to.x));
   CS_TRY(read_length(g, CS_SVG_CY, CS_SVG_AXIS_Y, 50, &g->to.y));
@@ -83,8 +94,11 @@ static celspan_status read_radial(gradient *g) {
     CS_TRY(read_length(g, CS_SVG_FX, CS_SVG_AXIS_X, 50, &g->from.x));
   if (owner_of(g, CS_SVG_FY, true))
     CS_TRY(read_length(g, CS_SVG_FY, CS_SVG_AXIS_Y, 50, &g->from.y));
-  if (g->from.x != g->to.x || g->from.y != g->to.y)
-    CS_TRY(cs_svg_skip(g->reading, g->node, "focus of radialGradient"));
+  hold_focus(g);
+  if (g->inner != 0 && (g->from.x != g->to.x || g->from.y != g->to.y)) {
+    g->inner = 0;
+    return cs_svg_skip(g->reading, g->node, "radius of the focus of radialGradient");
+  }
   return CELSPAN_OK;
 }
 
@@ -105,7 +119,17 @@ static void read_matrix(gradient *g) {
 
 /* ---------------------------------------------------------------- spreading */
 
-static double distance(double x, double y) { return sqrt(x * x + y * y); }
+/* Where a point lies along a linear gradient, or between the circles of a radial one: the greater of
+ * the places whose circle goes through it. */
+static double place_of(const gradient *g, double x, double y) {
+  double dx = g->to.x - g->from.x, dy = g->to.y - g->from.y;
+  double px = x - g->from.x, py = y - g->from.y, along = px * dx + py * dy;
+  if (!g->is_radial)
+    return along / (dx * dx + dy * dy);
+  double step = g->outer - g->inner, rest = step * step - dx * dx - dy * dy;
+  double half = along + g->inner * step;
+  return (sqrt(half * half + rest * (px * px + py * py - g->inner * g->inner)) - half) / rest;
+}
 
 /* The least and the greatest place of the gradient, in periods, where the shape is. */
 static bool find_places(const gradient *g, double *least, double *most) {
@@ -115,14 +139,10 @@ static bool find_places(const gradient *g, double *least, double *most) {
     return false;
   *least = g->is_radial ? -g->inner / (g->outer - g->inner) : HUGE_VAL;
   *most = -HUGE_VAL;
-  double dx = g->to.x - g->from.x, dy = g->to.y - g->from.y;
   for (int i = 0; i < 4; i++) {
     double x = box->x + (i & 1) * box->width, y = box->y + (i >> 1) * box->height;
-    double u = inverse.m[0] * x + inverse.m[1] * y + inverse.m[2];
-    double v = inverse.m[3] * x + inverse.m[4] * y + inverse.m[5];
-    double at = g->is_radial
-                    ? (distance(u - g->to.x, v - g->to.y) - g->inner) / (g->outer - g->inner)
-                    : ((u - g->from.x) * dx + (v - g->from.y) * dy) / (dx * dx + dy * dy);
+    double at = place_of(g, inverse.m[0] * x + inverse.m[1] * y + inverse.m[2],
+                         inverse.m[3] * x + inverse.m[4] * y + inverse.m[5]);
     *least = fmin(*least, at);
     *most = fmax(*most, at);
   }
@@ -141,10 +161,8 @@ static celspan_status spread(gradient *g) {
   const double inner = g->inner, step = g->outer - g->inner;
   g->inner = inner + first * step;
   g->outer = inner + last * step;
-  if (!g->is_radial) {
-    g->from = (celspan_point){from.x + first * (to.x - from.x), from.y + first * (to.y - from.y)};
-    g->to = (celspan_point){from.x + last * (to.x - from.x), from.y + last * (to.y - from.y)};
-  }
+  g->from = (celspan_point){from.x + first * (to.x - from.x), from.y + first * (to.y - from.y)};
+  g->to = (celspan_point){from.x + last * (to.x - from.x), from.y + last * (to.y - from.y)};
   return CELSPAN_OK;
 }
 
@@ -190,8 +208,8 @@ static celspan_status make_texture(gradient *g, cs_svg_server *out) {
     begin_at_centre(g);
   out->matrix = g->matrix;
   CS_TRY(g->is_radial
-             ? celspan_texture_create_radial(g->reading->context, g->to, g->outer, g->stops.items,
-                                             g->stops.count, &out->texture)
+             ? celspan_texture_create_focal(g->reading->context, g->to, g->outer, g->from,
+                                            g->stops.items, g->stops.count, &out->texture)
              : celspan_texture_create_linear(g->reading->context, g->from, g->to, g->stops.items,
                                              g->stops.count, &out->texture));
   out->kind = CS_SVG_SERVER_GRADIENT;

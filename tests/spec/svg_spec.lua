@@ -225,6 +225,42 @@ describe("gradients", function()
   end)
 end)
 
+describe("a radial gradient with a focus", function()
+  local texture = celspan.radial { centre = { 50, 50 }, radius = 40, focus = { 26, 42 },
+    { 0, celspan.rgb(1, 0, 0) }, { 0.3, celspan.rgb(0, 1, 0, 0.5) }, { 1, celspan.rgb(0, 0, 1) } }
+  local scene = celspan.rostrum { antialias = "none",
+    celspan.cel { celspan.rect { 0, 0, 100, 100, texture = texture } } }
+
+  it("has circles that grow from the focus to the whole one", function()
+    local function red(x, y)
+      return (celspan.probe(scene, x, y, { film = { 100, 100 } }))
+    end
+    assert.is_true(red(26.0001, 42) > 0.999)
+    for turn = 0, 350, 10 do -- of the circle at 0.15: half of the way from red to green
+      local a = math.rad(turn)
+      local x, y = 26 + 0.15 * 24 + 6 * math.cos(a), 42 + 0.15 * 8 + 6 * math.sin(a)
+      assert.is_true(math.abs(red(x, y) - 0.5) < 1e-9, turn)
+    end
+  end)
+
+  it("is rendered as it is defined", function()
+    for _, turn in ipairs { 0, 33 } do
+      local turned = celspan.rostrum { antialias = "none",
+        celspan.cel { celspan.rect { 0, 0, 100, 100, texture = texture }:rotate(turn, 50, 50) } }
+      local image = assert(celspan.pixels(turned, { size = { 100, 100 } }))
+      for y = 0, 99, 3 do
+        for x = 0, 99 do
+          local shown, exact = { image:get(x, y) },
+            { celspan.probe(turned, x + 0.5, y + 0.5, { film = { 100, 100 } }) }
+          for c = 1, 4 do
+            assert.is_true(math.abs(shown[c] - exact[c]) <= 1.1 / 1023, x .. " " .. y .. " " .. turn)
+          end
+        end
+      end
+    end
+  end)
+end)
+
 describe("what is not drawn", function()
   it("is told with its line, and the rest is drawn", function()
     local art = read [[

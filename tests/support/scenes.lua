@@ -86,8 +86,9 @@ function maker:texture()
                                                               self:stops())
   end
   if kind == 3 then
-    return ("celspan.radial{ centre = %s, radius = %s, %s }"):format(
-      self:point_text(), self:number(1, 30), self:stops())
+    local centre, radius = self:point_text(), self:number(1, 30)
+    local focus = self.random:whole(1, 2) == 1 and "focus = " .. self:point_text() .. ", " or ""
+    return ("celspan.radial{ centre = %s, radius = %s, %s%s }"):format(centre, radius, focus, self:stops())
   end
   if kind == 4 and self.has_pictures then return self:picture() end
   return self:paint()

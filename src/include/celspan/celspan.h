@@ -273,6 +273,12 @@ celspan_texture_create_linear(celspan_context *context, celspan_point from, cels
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_radial(celspan_context *context, celspan_point centre, double radius,
                               const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+/* A radial gradient whose 0 lies at the focus: its circles grow from there to the whole one. A focus
+ * beyond the circle is held just inside of it. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_create_focal(celspan_context *context, celspan_point centre, double radius,
+                             celspan_point focus, const celspan_stop *stops, size_t stop_count,
+                             celspan_texture **out);
 /* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. A box
  * of no size draws nothing. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
