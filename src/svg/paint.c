@@ -48,6 +48,14 @@ static bool map_outline(cs_outline *outline, const celspan_matrix *matrix) {
   return true;
 }
 
+static bool is_identity(const celspan_matrix *matrix) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  for (int i = 0; i < 9; i++)
+    if (matrix->m[i] != identity.m[i])
+      return false;
+  return true;
+}
+
 /* An object of the outline, which is taken over, in the paint's units, brought to the drawing's. */
 static celspan_status place_outline(cs_svg_reading *reading, cs_outline *outline,
                                     const cs_svg_place *place, const cs_svg_server *server,
@@ -61,6 +69,10 @@ static celspan_status place_outline(cs_svg_reading *reading, cs_outline *outline
   celspan_object *object;
   CS_TRY(cs_primitive_data_of_outline(reading->context, outline, place->style.fill_rule,
                                       server->texture, &object));
+  if (is_identity(&matrix)) {
+    *out = object;
+    return CELSPAN_OK;
+  }
   celspan_status status = celspan_object_transform(reading->context, object, &matrix, out);
   celspan_object_unref(object);
   return status;
@@ -71,7 +83,8 @@ static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
   const celspan_matrix identity = celspan_matrix_identity();
   cs_svg_painted shape = {node, &place->measure, {0, 0, 0, 0}, place->style.fill_opacity};
   cs_svg_server server;
-  if (!cs_outline_bounds(outline, &identity, &shape.box))
+  if (outline->piece_count == 0 ||
+      (place->style.fill.has_server && !cs_outline_bounds(outline, &identity, &shape.box)))
     return CELSPAN_OK;
   CS_TRY(find_paint(reading, &place->style.fill, &place->style, &shape, &server));
   if (server.kind == CS_SVG_SERVER_NOTHING)
