@@ -354,6 +354,55 @@ function celspan.path(fields) end
 ---@return celspan.image
 function celspan.image(fields) end
 
+---@class celspan.text.common
+---@field font string|string[] Files; each letter is taken from the first font that has it
+---@field width? number Lines wrap, and align within at[1] .. at[1] + width
+---@field features? table<string, boolean|integer> Of OpenType: { liga = false, ss01 = true, salt = 2 }
+---@field variations? table<string, number> Axes of variable fonts: { wght = 700 }
+---@field language? string "en", "tr", "zh-Hant"
+
+---@class celspan.text.fields: celspan.text.common
+---@field [integer] string The text; \n breaks lines
+---@field size? number The em; default 48
+---@field at? number[] {x, y}: the first line's baseline; default {0, 0}
+---@field align? "left"|"centre"|"right" Default "left", in every script
+---@field leading? number From baseline to baseline, times size; default 1.2
+---@field tracking? number Thousandths of an em after each letter; default 0
+---@field direction? "auto"|"ltr"|"rtl" Default by the first letter of each line that was typed
+---@field texture? celspan.surface
+
+---@class celspan.text: celspan.object, celspan.text.common
+---@field [integer] string
+---@field size number
+---@field at? number[]
+---@field align "left"|"centre"|"right"
+---@field leading number
+---@field tracking number
+---@field direction? "auto"|"ltr"|"rtl"
+---@field texture celspan.surface
+
+--- Letters of a font as one primitive.
+---@param fields celspan.text.fields
+---@return celspan.text
+function celspan.text(fields) end
+
+--- A letter as an object; `with` makes it anew, as the letter of that index of the changed text.
+---@class celspan.glyph: celspan.text
+---@field index integer From 1
+
+---@class celspan.letter
+---@field object celspan.glyph It lies where the text has it
+---@field x number Its left end
+---@field y number Its baseline
+---@field advance number Its width, without tracking
+---@field text string
+---@field line integer From 1
+
+--- The same, letter by letter, in the order of reading.
+---@param fields celspan.text.fields
+---@return celspan.letter[]
+function celspan.glyphs(fields) end
+
 ---@class celspan.scanline.row
 ---@field x0 number The part that can be seen
 ---@field x1 number

@@ -39,6 +39,7 @@ end
 
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
+run("cp -r scripts/type", folder .. "/examples/")
 -- A script is given an absolute path, because it looks for files beside itself.
 local pwd = assert(io.popen "pwd"):read "l"
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts

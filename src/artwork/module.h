@@ -11,7 +11,7 @@
 #ifndef CS_ARTWORK_MODULE_H
 #define CS_ARTWORK_MODULE_H
 
-#include "celspan/celspan.h"
+#include "artwork/type.h"
 
 #define CS_ART_MODULE_VERSION 1u
 
@@ -41,6 +41,7 @@ typedef struct cs_art_module {
    * CANCELLED. */
   celspan_status (*parse_xml)(const char *bytes, size_t size, const cs_xml_handler *handler,
                               cs_art_failure *failure);
+  const cs_type_functions *type;
 } cs_art_module;
 
 /* The module's one symbol. */

@@ -28,12 +28,16 @@ static void set_presets(lua_State *L, const cs_noun *noun, int table) {
   }
 }
 
-/* Gives the value on top of the stack a copy of the table at `fields`, with the presets. */
-static void freeze(lua_State *L, const cs_noun *noun, int fields) {
+void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields) {
   cs_userdata_push_copy(L, fields, PRESETS);
   set_presets(L, noun, lua_gettop(L));
   if (noun->complete)
     noun->complete(L, lua_gettop(L));
+}
+
+/* Gives the value on top of the stack a copy of the table at `fields`, with the presets. */
+static void freeze(lua_State *L, const cs_noun *noun, int fields) {
+  cs_construct_push_fields(L, noun, fields);
   lua_setiuservalue(L, -2, 1);
 }
 

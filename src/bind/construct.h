@@ -10,6 +10,8 @@
 
 /* Checks, makes and pushes a value from the table at `fields`. */
 void cs_construct_value(lua_State *L, const cs_noun *noun, int fields);
+/* Pushes the fields that a value of the noun would keep that is made from the table at `fields`. */
+void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields);
 /* Pushes the constructor of a noun. */
 void cs_construct_push(lua_State *L, const cs_noun *noun);
 /* The method :with of every kind that has one. */

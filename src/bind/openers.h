@@ -10,6 +10,7 @@ void cs_open_texture(lua_State *L);
 void cs_open_object(lua_State *L);
 void cs_open_primitive(lua_State *L);
 void cs_open_scanline(lua_State *L);
+void cs_open_text(lua_State *L);
 void cs_open_boolean(lua_State *L);
 void cs_open_cel(lua_State *L);
 void cs_open_rostrum(lua_State *L);

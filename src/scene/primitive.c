@@ -3,17 +3,6 @@
 #include "scene/check.h"
 #include "scene/primitive_data.h"
 
-/* Sets the bounds, and wraps the data into an object. status: that of making the outline. */
-static celspan_status complete(celspan_context *context, cs_primitive_data *data,
-                               celspan_status status, celspan_object **out) {
-  const celspan_matrix identity = celspan_matrix_identity();
-  if (status == CELSPAN_OK && !cs_outline_bounds(&data->outline, &identity, &data->bounds))
-    data->bounds = (celspan_box){0, 0, 0, 0};
-  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
-  data->primitive_count = 1;
-  return cs_primitive_data_wrap(context, data, status, out);
-}
-
 static celspan_status begin(celspan_context *context, const char *noun, celspan_rule rule,
                             celspan_texture *texture, cs_primitive_data **out) {
   CS_TRY(cs_check_choice(context, noun, "rule", (unsigned)rule, CELSPAN_RULE_EVENODD + 1));
@@ -32,10 +21,10 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
   CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
   cs_primitive_data *data;
   CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
-  return complete(context, data,
-                  cs_outline_rect(context, &data->outline, desc->x, desc->y, desc->width,
-                                  desc->height, desc->radius),
-                  out);
+  return cs_primitive_data_complete(context, data,
+                                    cs_outline_rect(context, &data->outline, desc->x, desc->y,
+                                                    desc->width, desc->height, desc->radius),
+                                    out);
 }
 
 static celspan_status check_points(celspan_context *context, const char *noun,
@@ -52,9 +41,9 @@ static celspan_status create_polygon(celspan_context *context, const char *noun,
   CS_TRY(check_points(context, noun, desc->points, desc->point_count));
   cs_primitive_data *data;
   CS_TRY(begin(context, noun, desc->rule, desc->texture, &data));
-  return complete(context, data,
-                  cs_outline_polygon(context, &data->outline, desc->points, desc->point_count),
-                  out);
+  return cs_primitive_data_complete(
+      context, data, cs_outline_polygon(context, &data->outline, desc->points, desc->point_count),
+      out);
 }
 
 celspan_status celspan_object_create_polygon(celspan_context *context,
@@ -81,7 +70,7 @@ celspan_status celspan_object_create_ellipse(celspan_context *context,
   CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
   cs_primitive_data *data;
   CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &data));
-  return complete(
+  return cs_primitive_data_complete(
       context, data,
       cs_outline_ellipse(context, &data->outline, desc->centre, desc->radius_x, desc->radius_y),
       out);
@@ -95,7 +84,8 @@ celspan_status celspan_object_create_nurbs(celspan_context *context, const celsp
                          CELSPAN_NURBS_CLAMPED + 1));
   cs_primitive_data *data;
   CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &data));
-  return complete(context, data, cs_outline_nurbs(context, &data->outline, desc), out);
+  return cs_primitive_data_complete(context, data, cs_outline_nurbs(context, &data->outline, desc),
+                                    out);
 }
 
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
@@ -104,7 +94,8 @@ celspan_status celspan_object_create_path(celspan_context *context, const celspa
   CS_TRY(cs_check_given(context, "path", "d", desc->data));
   cs_primitive_data *data;
   CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
-  return complete(context, data, cs_outline_path(context, &data->outline, desc->data), out);
+  return cs_primitive_data_complete(context, data,
+                                    cs_outline_path(context, &data->outline, desc->data), out);
 }
 
 celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline *outline,
@@ -132,10 +123,10 @@ celspan_status celspan_object_create_scanline(celspan_context *context,
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &data));
   const celspan_box *box = &desc->bounds;
   celspan_object *object;
-  CS_TRY(
-      complete(context, data,
-               cs_outline_rect(context, &data->outline, box->x, box->y, box->width, box->height, 0),
-               &object));
+  CS_TRY(cs_primitive_data_complete(
+      context, data,
+      cs_outline_rect(context, &data->outline, box->x, box->y, box->width, box->height, 0),
+      &object));
   /* Not earlier: if no object is made, releasing `user` is left to the caller. */
   data->scanline = *desc;
   *out = object;

@@ -133,6 +133,16 @@ celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_dat
   return status;
 }
 
+celspan_status cs_primitive_data_complete(celspan_context *context, cs_primitive_data *data,
+                                          celspan_status status, celspan_object **out) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  if (status == CELSPAN_OK && !cs_outline_bounds(&data->outline, &identity, &data->bounds))
+    data->bounds = (celspan_box){0, 0, 0, 0};
+  data->is_empty = !(data->bounds.width > 0 && data->bounds.height > 0);
+  data->primitive_count = 1;
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
 celspan_status cs_primitive_data_check_placement(celspan_context *context,
                                                  const cs_primitive_data *data,
                                                  const celspan_matrix *matrix) {

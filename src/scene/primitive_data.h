@@ -34,6 +34,11 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *con
                                                             cs_outline *outline, celspan_rule rule,
                                                             celspan_texture *texture,
                                                             celspan_object **out);
+/* The same for data with an outline, whose bounds are found first. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *context,
+                                                          cs_primitive_data *data,
+                                                          celspan_status status,
+                                                          celspan_object **out);
 
 /* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
  * frame's. */

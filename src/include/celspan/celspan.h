@@ -505,6 +505,104 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
     celspan_context *context, const celspan_scanline_desc *desc, celspan_object **out);
 
+/* ---- text: outlines of the letters of fonts (TrueType, OpenType; the first one of a collection) */
+
+typedef struct celspan_font {
+  const char *file;  /* copied */
+  const char *tried; /* NULL, or where it was looked for in vain: told when `file` is not there
+                        either */
+} celspan_font;
+
+typedef struct celspan_feature { /* of OpenType, for the whole text */
+  const char *tag;               /* four printable characters: "liga", "ss01" */
+  uint32_t value;                /* 0: off, 1: on, or which of several alternates */
+} celspan_feature;
+
+typedef struct celspan_variation { /* an axis of variable fonts */
+  const char *tag;                 /* four printable characters: "wght", "wdth" */
+  double value;                    /* in the axis's own units; held to its range */
+} celspan_variation;
+
+typedef enum celspan_align {
+  CELSPAN_ALIGN_LEFT = 0, /* in every script */
+  CELSPAN_ALIGN_CENTRE,
+  CELSPAN_ALIGN_RIGHT
+} celspan_align;
+
+typedef enum celspan_direction {
+  CELSPAN_DIRECTION_AUTO = 0, /* of each line that was typed: by its first letter */
+  CELSPAN_DIRECTION_LTR,
+  CELSPAN_DIRECTION_RTL
+} celspan_direction;
+
+/* Lines end at each "\n", U+2028 and U+2029, and with a width where the language allows it before
+ * they are longer; a word that is longer than that sticks out. Spaces at a line's end count for
+ * nothing. Every letter is taken from the first font that has it. */
+typedef struct celspan_text_desc {
+  size_t struct_size;
+  const char *text; /* UTF-8 without other control characters, at most 100,000 characters */
+  size_t text_size; /* bytes */
+  const celspan_font *fonts;
+  size_t font_count;   /* 1..16 */
+  double size;         /* the em, in film units */
+  celspan_point at;    /* the first line's baseline */
+  celspan_align align; /* about at.x; with a width, within at.x .. at.x + width */
+  bool has_width;      /* lines wrap */
+  double width;        /* >= 0 */
+  double leading;      /* from baseline to baseline, times size */
+  double tracking;     /* thousandths of an em after each letter */
+  const celspan_feature *features;
+  size_t feature_count; /* at most 64 */
+  const celspan_variation *variations;
+  size_t variation_count; /* at most 64 */
+  const char *language;   /* a BCP 47 tag such as "tr"; NULL: none */
+  celspan_direction direction;
+  celspan_texture *texture; /* kept; NULL: opaque black */
+} celspan_text_desc;
+
+static inline celspan_text_desc celspan_text_desc_default(void) {
+  celspan_text_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.size = 48;
+  desc.leading = 1.2;
+  return desc;
+}
+#define CELSPAN_TEXT_DESC (celspan_text_desc_default())
+
+/* All letters as one primitive, filled by the non-zero rule. Fonts are read at once and kept in the
+ * context. Text without letters, and of size 0, draws nothing.
+ * desc: borrowed, but for the texture      out: new
+ * Errors: NO_MEMORY; INPUT for a font that is missing, cut or none at all, and where the art module
+ * is missing; BAD_ARGUMENT for numbers, for what is not UTF-8, for a character that no font has, for
+ * an axis that no font has, and for fonts of coloured glyphs; LIMIT for more than 100,000 characters,
+ * 16,777,216 points of outline, or 256 MiB of a font's file. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_context *context,
+                                                                      const celspan_text_desc *desc,
+                                                                      celspan_object **out);
+
+/* The same, letter by letter: what a reader takes for one, with its marks, or as a ligature. Line
+ * ends are no letters; spaces are, and draw nothing. */
+typedef struct celspan_glyph {
+  celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */
+  double x, y;            /* its left end, on the baseline */
+  double advance;         /* its width, without tracking */
+  const char *text;       /* its characters: text_size bytes of UTF-8, borrowed, without a zero */
+  size_t text_size;
+  int32_t line; /* from 1 */
+} celspan_glyph;
+
+typedef struct celspan_glyphs celspan_glyphs;
+
+/* In the order of reading. desc, Errors: as above; out: new. One thread at a time. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_glyphs_create(celspan_context *context,
+                                                                 const celspan_text_desc *desc,
+                                                                 celspan_glyphs **out);
+CELSPAN_API size_t celspan_glyphs_count(const celspan_glyphs *glyphs);
+/* index: below the count. Valid as long as the glyphs. */
+CELSPAN_API const celspan_glyph *celspan_glyphs_get(const celspan_glyphs *glyphs, size_t index);
+/* NULL is ignored. */
+CELSPAN_API void celspan_glyphs_destroy(celspan_glyphs *glyphs);
+
 typedef enum celspan_operator {
   CELSPAN_UNION = 0,    /* later over earlier */
   CELSPAN_INTERSECTION, /* where all are; later over earlier */
@@ -787,7 +885,7 @@ typedef struct celspan_fault {
   celspan_status status; /* INPUT, LIMIT, BAD_ARGUMENT; CALLBACK of a surface */
   const char *message;   /* borrowed for the call; it begins with the file, where there is one */
   size_t cel, primitive;
-  const char *cel_name, *name;       /* of the cel and of the object that is the primitive; "": none */
+  const char *cel_name, *name; /* of the cel and of the object that is the primitive; "": none */
   celspan_origin cel_origin, origin; /* where these were made */
 } celspan_fault;
 

@@ -1,0 +1,281 @@
+/* Text: celspan.text, one object; celspan.glyphs, an object a letter. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bind/construct.h"
+#include "bind/files.h"
+#include "bind/form.h"
+#include "bind/host.h"
+#include "bind/named.h"
+#include "bind/openers.h"
+#include "bind/userdata.h"
+
+#define HOLDER "celspan.letters"
+#define MOST_SETTINGS 65 /* one more than the core allows, so that it says so */
+#define MOST_FONTS 17
+
+/* ---------------------------------------------------------------- reading */
+
+static void read_string(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  int length = cs_form_length(form);
+  if (length != 1)
+    cs_form_fail(form, "takes one string, the text, got %d values", length);
+  cs_form_item(form, 1, LUA_TSTRING, "value", "a string, the text");
+  desc->text = lua_tolstring(L, -1, &desc->text_size); /* the table keeps it alive */
+  lua_pop(L, 1);
+}
+
+/* The font on top of the stack; what finding it pushes is left above it. */
+static celspan_font read_font(const cs_form *form) {
+  lua_State *L = form->L;
+  if (lua_type(L, -1) != LUA_TSTRING)
+    cs_form_fail(form, "field 'font' must be the name of a file, or a list of them, got %s",
+                 cs_userdata_type(L, -1));
+  const char *name = lua_tostring(L, -1);
+  if (strlen(name) != lua_rawlen(L, -1))
+    cs_form_fail(form, "field 'font' must not hold a zero byte");
+  celspan_font font = {0};
+  font.file = cs_files_find(L, name, &font.tried);
+  return font;
+}
+
+static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_font *fonts = cs_form_scratch(L, MOST_FONTS, sizeof *fonts);
+  desc->fonts = fonts;
+  luaL_checkstack(L, 3 * MOST_FONTS, "fonts");
+  lua_pushliteral(L, "font");
+  if (lua_rawget(L, form->table) == LUA_TNIL)
+    cs_form_fail(form, "field 'font' is missing: the file of a font, or a list of them");
+  int list = lua_gettop(L);
+  if (lua_type(L, list) != LUA_TTABLE) {
+    fonts[desc->font_count++] = read_font(form);
+    return;
+  }
+  lua_Integer count = (lua_Integer)lua_rawlen(L, list);
+  for (lua_Integer i = 1; i <= count && i <= MOST_FONTS; i++) {
+    lua_rawgeti(L, list, i);
+    fonts[desc->font_count++] = read_font(form);
+  }
+}
+
+/* Raises unless the value on top of the stack, below which is its name, is a table by name. */
+static bool get_settings(const cs_form *form, const char *field) {
+  lua_pushstring(form->L, field);
+  int type = lua_rawget(form->L, form->table);
+  if (type != LUA_TTABLE && type != LUA_TNIL)
+    cs_form_fail(form, "field '%s' must be a table by name, got %s", field,
+                 cs_userdata_type(form->L, -1));
+  return type == LUA_TTABLE;
+}
+
+static const char *setting_name(const cs_form *form, const char *field) {
+  lua_State *L = form->L;
+  if (lua_type(L, -2) != LUA_TSTRING)
+    cs_form_fail(form, "field '%s' is a table by name, such as { %s }, but has the key %s", field,
+                 field[0] == 'f' ? "liga = false" : "wght = 700", luaL_tolstring(L, -2, NULL));
+  return lua_tostring(L, -2);
+}
+
+/* true, false, or a whole number. */
+static uint32_t feature_value(const cs_form *form, const char *name) {
+  lua_State *L = form->L;
+  if (lua_isboolean(L, -1))
+    return (uint32_t)lua_toboolean(L, -1);
+  double number = lua_type(L, -1) == LUA_TNUMBER ? lua_tonumber(L, -1) : -1;
+  if (!(number >= 0 && number <= 65535) || number != floor(number))
+    cs_form_fail(form, "features: %s must be true, false or a whole number from 0 to 65535, got %s",
+                 name, luaL_tolstring(L, -1, NULL));
+  return (uint32_t)number;
+}
+
+static int compare_features(const void *a, const void *b) {
+  return strcmp(((const celspan_feature *)a)->tag, ((const celspan_feature *)b)->tag);
+}
+
+static int compare_variations(const void *a, const void *b) {
+  return strcmp(((const celspan_variation *)a)->tag, ((const celspan_variation *)b)->tag);
+}
+
+static void read_features(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_feature *features = cs_form_scratch(L, MOST_SETTINGS, sizeof *features);
+  if (!get_settings(form, "features"))
+    return;
+  int table = lua_gettop(L);
+  for (lua_pushnil(L); desc->feature_count < MOST_SETTINGS && lua_next(L, table); lua_pop(L, 1)) {
+    const char *name = setting_name(form, "features");
+    features[desc->feature_count++] = (celspan_feature){name, feature_value(form, name)};
+  }
+  lua_settop(L, table);
+  qsort(features, desc->feature_count, sizeof *features, compare_features);
+  desc->features = features;
+}
+
+static void read_variations(const cs_form *form, celspan_text_desc *desc) {
+  lua_State *L = form->L;
+  celspan_variation *variations = cs_form_scratch(L, MOST_SETTINGS, sizeof *variations);
+  if (!get_settings(form, "variations"))
+    return;
+  int table = lua_gettop(L);
+  for (lua_pushnil(L); desc->variation_count < MOST_SETTINGS && lua_next(L, table); lua_pop(L, 1)) {
+    const char *name = setting_name(form, "variations");
+    if (lua_type(L, -1) != LUA_TNUMBER)
+      cs_form_fail(form, "variations: %s must be a number, got %s", name, cs_userdata_type(L, -1));
+    variations[desc->variation_count++] = (celspan_variation){name, lua_tonumber(L, -1)};
+  }
+  lua_settop(L, table);
+  qsort(variations, desc->variation_count, sizeof *variations, compare_variations);
+  desc->variations = variations;
+}
+
+/* What it borrows from stays on the stack. */
+static celspan_text_desc read_text(const cs_form *form) {
+  static const char *const aligns[] = {"left", "centre", "right", NULL};
+  static const char *const directions[] = {"auto", "ltr", "rtl", NULL};
+  celspan_text_desc desc = CELSPAN_TEXT_DESC;
+  read_string(form, &desc);
+  desc.size = cs_form_number_or(form, "size", desc.size);
+  cs_form_point_or(form, "at", &desc.at);
+  desc.align = (celspan_align)cs_form_choice(form, "align", aligns);
+  desc.has_width = cs_form_has(form, "width");
+  desc.width = cs_form_number_or(form, "width", 0);
+  desc.leading = cs_form_number_or(form, "leading", desc.leading);
+  desc.tracking = cs_form_number_or(form, "tracking", 0);
+  desc.language = cs_form_text_or(form, "language", NULL);
+  desc.direction = (celspan_direction)cs_form_choice(form, "direction", directions);
+  read_fonts(form, &desc);
+  read_features(form, &desc);
+  read_variations(form, &desc);
+  desc.texture = cs_form_texture(form, "texture");
+  return desc;
+}
+
+/* ---------------------------------------------------------------- text */
+
+static void create_text(const cs_form *form, cs_userdata *value) {
+  celspan_text_desc desc = read_text(form);
+  celspan_object *object = NULL;
+  cs_form_try(form, celspan_object_create_text(cs_host_context(form->L), &desc, &object));
+  value->handle = object;
+}
+
+#define TEXT_FIELDS                                                                                \
+  {"font", NULL}, {"size", "48"}, {"at", NULL}, {"align", "left"}, {"width", NULL},                \
+      {"leading", "1.2"}, {"tracking", "0"}, {"features", NULL}, {"variations", NULL},             \
+      {"language", NULL}, {"direction", NULL}, {                                                   \
+    "texture", "#000000"                                                                           \
+  }
+static const cs_field text_fields[] = {TEXT_FIELDS, {0}};
+static const cs_field glyph_fields[] = {TEXT_FIELDS, {"index", NULL}, {0}};
+
+static const cs_noun noun_text = {.name = "text",
+                                  .kind = &cs_kind_object,
+                                  .list = CS_LIST_TUPLE,
+                                  .item = "string",
+                                  .fields = text_fields,
+                                  .create = create_text};
+static const cs_noun noun_glyphs = {
+    .name = "glyphs", .list = CS_LIST_TUPLE, .item = "string", .fields = text_fields};
+
+/* ---------------------------------------------------------------- glyphs */
+
+static int release(lua_State *L) {
+  celspan_glyphs **holder = lua_touserdata(L, 1);
+  celspan_glyphs_destroy(*holder);
+  *holder = NULL;
+  return 0;
+}
+
+/* Pushes what holds the letters until they are values. */
+static celspan_glyphs **push_letters(const cs_form *form) {
+  lua_State *L = form->L;
+  celspan_text_desc desc = read_text(form);
+  celspan_glyphs **holder = lua_newuserdatauv(L, sizeof *holder, 0);
+  *holder = NULL;
+  luaL_setmetatable(L, HOLDER);
+  cs_form_try(form, celspan_glyphs_create(cs_host_context(L), &desc, holder));
+  return holder;
+}
+
+/* One of the letters, made again by :with. */
+static void create_glyph(const cs_form *form, cs_userdata *value) {
+  int index = cs_form_integer_or(form, "index", 0);
+  const celspan_glyphs *letters = *push_letters(form);
+  size_t count = celspan_glyphs_count(letters);
+  if (index < 1 || (size_t)index > count)
+    cs_form_fail(form, "field 'index' must be from 1 to %d, the letters of the text, got %d",
+                 (int)count, index);
+  value->handle = celspan_object_ref(celspan_glyphs_get(letters, (size_t)index - 1)->object);
+}
+
+static const cs_noun noun_glyph = {.name = "glyph",
+                                   .kind = &cs_kind_object,
+                                   .list = CS_LIST_TUPLE,
+                                   .item = "string",
+                                   .fields = glyph_fields,
+                                   .create = create_glyph};
+
+/* Pushes a letter's object, whose fields are those at index `fields` and its place. */
+static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
+  cs_userdata *value = cs_userdata_push(L, &noun_glyph);
+  value->handle = celspan_object_ref(glyph->object);
+  lua_newtable(L);
+  for (lua_pushnil(L); lua_next(L, fields);) {
+    lua_pushvalue(L, -2);
+    lua_insert(L, -2);
+    lua_rawset(L, -4);
+  }
+  lua_pushinteger(L, index);
+  lua_setfield(L, -2, "index");
+  lua_setiuservalue(L, -2, 1);
+}
+
+static void push_glyph(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
+  lua_createtable(L, 0, 6);
+  push_object(L, fields, glyph, index);
+  lua_setfield(L, -2, "object");
+  lua_pushnumber(L, glyph->x);
+  lua_setfield(L, -2, "x");
+  lua_pushnumber(L, glyph->y);
+  lua_setfield(L, -2, "y");
+  lua_pushnumber(L, glyph->advance);
+  lua_setfield(L, -2, "advance");
+  lua_pushlstring(L, glyph->text, glyph->text_size);
+  lua_setfield(L, -2, "text");
+  lua_pushinteger(L, glyph->line);
+  lua_setfield(L, -2, "line");
+}
+
+static int glyphs(lua_State *L) {
+  lua_settop(L, 1);
+  cs_form form = cs_form_open(L, &noun_glyphs, 1);
+  celspan_context *context = cs_host_context(L);
+  cs_named_begin(L, context);
+  celspan_glyphs **holder = push_letters(&form);
+  cs_named_end(context);
+  cs_construct_push_fields(L, &noun_glyph, 1);
+  int fields = lua_gettop(L);
+  size_t count = celspan_glyphs_count(*holder);
+  lua_createtable(L, (int)count, 0);
+  for (size_t i = 0; i < count; i++) {
+    push_glyph(L, fields, celspan_glyphs_get(*holder, i), (lua_Integer)i + 1);
+    lua_rawseti(L, -2, (lua_Integer)i + 1);
+  }
+  celspan_glyphs_destroy(*holder);
+  *holder = NULL;
+  return 1;
+}
+
+void cs_open_text(lua_State *L) {
+  luaL_newmetatable(L, HOLDER);
+  lua_pushcfunction(L, release);
+  lua_setfield(L, -2, "__gc");
+  lua_pop(L, 1);
+  cs_construct_push(L, &noun_text);
+  lua_setfield(L, -2, noun_text.name);
+  lua_pushcfunction(L, glyphs);
+  lua_setfield(L, -2, noun_glyphs.name);
+}

@@ -1,0 +1,29 @@
+/* Files of fonts: read as a whole, and looked over before a library sees them.
+ *
+ *   0 or 1 'ttcf' --> offset of the first font
+ *   font: 'OTTO' or 0x00010000, count, then for each table: tag, checksum, offset, length
+ *
+ * INVARIANT: every table of a font that was accepted lies inside the file, and it has outlines, and
+ * no colours.
+ * Source: OpenType 1.9, "Organization of an OpenType Font" (all numbers are big-endian).
+ */
+#ifndef CS_TEXT_FONT_FILE_H
+#define CS_TEXT_FONT_FILE_H
+
+#include <sys/stat.h>
+
+#include "base/context.h"
+
+#define CS_FONT_FILE_BYTES ((size_t)256 << 20)
+
+/* Errors: INPUT when it is missing, unreadable or no file. */
+CELSPAN_CHECKED celspan_status cs_font_file_stat(celspan_context *context, const celspan_font *font,
+                                                 struct stat *out);
+/* *bytes: new, of `size` bytes, the size that was found above. Errors: NO_MEMORY, INPUT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_font_file_read(celspan_context *context, const char *file,
+                                                 size_t size, uint8_t **bytes);
+/* Errors: INPUT for what is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours. */
+CELSPAN_CHECKED celspan_status cs_font_file_check(celspan_context *context, const char *file,
+                                                  const uint8_t *bytes, size_t size);
+
+#endif

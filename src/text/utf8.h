@@ -1,0 +1,25 @@
+/* UTF-8 as characters.
+ *
+ * INVARIANT: what is decoded are Unicode scalar values, of which no control character but "\n".
+ */
+#ifndef CS_TEXT_UTF8_H
+#define CS_TEXT_UTF8_H
+
+#include "base/context.h"
+
+/* Appends nothing to the arrays beyond `size` items, which they have room for; a "\r" before a "\n"
+ * is left out.
+ * noun        for messages: "text"
+ * characters  of size items                  places  the byte that each begins at, from 0
+ * Errors: BAD_ARGUMENT naming the byte, counted from 1. */
+CELSPAN_CHECKED celspan_status cs_utf8_decode(celspan_context *context, const char *noun,
+                                              const char *bytes, size_t size, uint32_t *characters,
+                                              uint32_t *places, size_t *count);
+
+/* A character as UTF-8, ended by a zero. */
+typedef struct cs_utf8_text {
+  char text[5];
+} cs_utf8_text;
+cs_utf8_text cs_utf8_encode(uint32_t character);
+
+#endif
