@@ -69,16 +69,29 @@ celspan_status cs_order_end_line(const uint32_t *characters, size_t begin, size_
 
 /* ---------------------------------------------------------------- breaks */
 
-void cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
-                     uint8_t *breaks) {
+/* The library ends the process when it meets a regional indicator, of which flags are made, or
+ * U+FFFF: to it they are letters. */
+static uint32_t bearable(uint32_t character) {
+  bool is_known = character != 0xffff && (character < 0x1f1e6 || character > 0x1f1ff);
+  return is_known ? character : 'A';
+}
+
+celspan_status cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
+                               uint8_t *breaks) {
   /* The library makes an index of its tables, once. */
   static pthread_once_t once = PTHREAD_ONCE_INIT;
   pthread_once(&once, init_linebreak);
-  if (count == 0)
-    return;
-  set_linebreaks_utf32(characters, count, language, (char *)breaks);
+  utf32_t *letters = calloc(count > 0 ? count : 1, sizeof *letters);
+  if (!letters)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < count; i++)
+    letters[i] = bearable(characters[i]);
+  if (count > 0)
+    set_linebreaks_utf32(letters, count, language, (char *)breaks);
+  free(letters);
   for (size_t i = 0; i < count; i++)
     breaks[i] = breaks[i] == LINEBREAK_MUSTBREAK    ? CS_TYPE_MUST_BREAK
                 : breaks[i] == LINEBREAK_ALLOWBREAK ? CS_TYPE_MAY_BREAK
                                                     : CS_TYPE_NO_BREAK;
+  return CELSPAN_OK;
 }

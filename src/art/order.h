@@ -9,7 +9,7 @@ celspan_status cs_order_embeddings(const uint32_t *characters, size_t count,
                                    celspan_direction direction, uint8_t *embeddings, uint8_t *base);
 celspan_status cs_order_end_line(const uint32_t *characters, size_t begin, size_t end, uint8_t base,
                                  uint8_t *embeddings);
-void cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
-                     uint8_t *breaks);
+celspan_status cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
+                               uint8_t *breaks);
 
 #endif

@@ -83,8 +83,9 @@ typedef struct cs_type_functions {
    * NO_MEMORY. */
   celspan_status (*end_line)(const uint32_t *characters, size_t begin, size_t end, uint8_t base,
                              uint8_t *embeddings);
-  /* What may happen after each character. language: NULL, or a tag. */
-  void (*breaks)(const uint32_t *characters, size_t count, const char *language, uint8_t *breaks);
+  /* What may happen after each character. language: NULL, or a tag. Errors: NO_MEMORY. */
+  celspan_status (*breaks)(const uint32_t *characters, size_t count, const char *language,
+                           uint8_t *breaks);
   void (*scripts)(const uint32_t *characters, size_t count, uint32_t *scripts);
 } cs_type_functions;
 

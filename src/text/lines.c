@@ -81,12 +81,13 @@ static celspan_status place_letter(cs_layout *layout, size_t first, size_t end, 
   for (size_t i = first; i < end; i++) {
     const cs_text_shaped *shaped = &layout->shaped[i];
     double scale = scale_of(layout, shaped->font);
-    layout->glyphs[layout->glyph_count++] = (cs_text_glyph){
-        shaped->font, shaped->glyph.glyph, *x + (double)shaped->glyph.x_offset * scale,
-        -(double)shaped->glyph.y_offset * scale};
-    *x += (double)shaped->glyph.advance * scale;
+    layout->glyphs[layout->glyph_count++] =
+        (cs_text_glyph){shaped->font, shaped->glyph.glyph,
+                        *x + (letter->advance + (double)shaped->glyph.x_offset * scale),
+                        -(double)shaped->glyph.y_offset * scale};
+    letter->advance += (double)shaped->glyph.advance * scale;
   }
-  letter->advance = *x - letter->x;
+  *x += letter->advance;
   return CELSPAN_OK;
 }
 
@@ -233,7 +234,9 @@ celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t begin, size_t en
     return CELSPAN_OK;
   }
   measure(layout, begin, end);
-  layout->type->breaks(characters, end - begin, desc->language, layout->breaks + begin);
+  if (layout->type->breaks(characters, end - begin, desc->language, layout->breaks + begin) !=
+      CELSPAN_OK)
+    return cs_fail_memory(layout->context);
   while (begin < end)
     CS_TRY(wrap_line(layout, base, &begin, end));
   return CELSPAN_OK;

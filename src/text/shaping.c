@@ -2,22 +2,17 @@
 
 #include <string.h>
 
+#include "text/runs.h"
 #include "text/utf8.h"
 
 #define GLYPHS ((size_t)1 << 20)
-
-/* Characters of one line that are shaped together. */
-typedef struct run {
-  size_t begin, end;
-  uint8_t embedding;
-} run;
 
 /* ---------------------------------------------------------------- shaping a run */
 
 typedef struct shaping {
   cs_layout *layout;
   size_t line_begin, line_end;
-  const run *run;
+  const cs_text_run *run;
 } shaping;
 
 /* Glyphs of a part of a run by one font, before those that it lacks are taken from the next. */
@@ -190,52 +185,10 @@ static celspan_status make_part(part *p) {
   return complete(p, first);
 }
 
-/* ---------------------------------------------------------------- the order of runs */
+/* ---------------------------------------------------------------- a line */
 
-static size_t run_end(const cs_layout *layout, size_t begin, size_t end) {
-  size_t at = begin + 1;
-  while (at < end && layout->directions[at] == layout->directions[begin] &&
-         layout->scripts[at] == layout->scripts[begin])
-    at++;
-  return at;
-}
-
-static void reverse(run *runs, size_t begin, size_t end) {
-  for (; begin + 1 < end; begin++, end--) {
-    run other = runs[begin];
-    runs[begin] = runs[end - 1];
-    runs[end - 1] = other;
-  }
-}
-
-/* Rule L2 of the bidirectional algorithm (Unicode Standard Annex 9): from the highest embedding to
- * the lowest odd one, every sequence of runs that are at it or above is turned round. */
-static void reorder(run *runs, size_t count) {
-  unsigned highest = 0;
-  for (size_t i = 0; i < count; i++)
-    highest = runs[i].embedding > highest ? runs[i].embedding : highest;
-  for (unsigned embedding = highest; embedding >= 1; embedding--)
-    for (size_t i = 0; i < count; i++) {
-      size_t begin = i;
-      while (i < count && runs[i].embedding >= embedding)
-        i++;
-      reverse(runs, begin, i);
-    }
-}
-
-static size_t find_runs(const cs_layout *layout, size_t begin, size_t end, run *runs) {
-  size_t count = 0;
-  for (size_t at = begin; at < end; count++) {
-    size_t next = run_end(layout, at, end);
-    if (runs)
-      runs[count] = (run){at, next, layout->directions[at]};
-    at = next;
-  }
-  return count;
-}
-
-static celspan_status shape_runs(cs_layout *layout, const run *runs, size_t count, size_t begin,
-                                 size_t end) {
+static celspan_status shape_runs(cs_layout *layout, const cs_text_run *runs, size_t count,
+                                 size_t begin, size_t end) {
   for (size_t i = 0; i < count; i++) {
     shaping s = {layout, begin, end, &runs[i]};
     part whole = {&s, runs[i].begin, runs[i].end, 0, CELSPAN_OK};
@@ -246,14 +199,15 @@ static celspan_status shape_runs(cs_layout *layout, const run *runs, size_t coun
 
 celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end) {
   layout->shaped_count = 0;
-  size_t count = find_runs(layout, begin, end, NULL);
+  const uint8_t *embeddings = layout->directions;
+  size_t count = cs_runs_find(embeddings, layout->scripts, begin, end, NULL);
   if (count == 0)
     return CELSPAN_OK;
-  run *runs = cs_mem_array(layout->context->memory, count, sizeof *runs);
+  cs_text_run *runs = cs_mem_array(layout->context->memory, count, sizeof *runs);
   if (!runs)
     return cs_fail_memory(layout->context);
-  find_runs(layout, begin, end, runs);
-  reorder(runs, count);
+  cs_runs_find(embeddings, layout->scripts, begin, end, runs);
+  cs_runs_reorder(runs, count);
   celspan_status status = shape_runs(layout, runs, count, begin, end);
   cs_mem_free(layout->context->memory, runs, count * sizeof *runs);
   return status;

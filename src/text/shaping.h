@@ -1,8 +1,9 @@
-/* A line's characters as glyphs: runs of one direction and one script, put into the order in which
- * they are seen, and shaped one by one.
+/* A line's characters as glyphs: its runs shaped one by one, each letter by the first font that has
+ * it.
  *
- *   characters   a b c  ד ה 1 2 ו  d       embeddings  0 0 0 1 1 2 2 1 0
- *   runs         [abc] [דה] [12] [ו] [d]   reordered   [abc] [ו] [12] [דה] [d]
+ *   first font    A ? ? C ?      glyphs that are missing
+ *   second font     b ?   E      a letter is taken from one font, with its marks
+ *   third font        d
  */
 #ifndef CS_TEXT_SHAPING_H
 #define CS_TEXT_SHAPING_H

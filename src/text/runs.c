@@ -1,0 +1,37 @@
+#include "text/runs.h"
+
+size_t cs_runs_find(const uint8_t *embeddings, const uint32_t *scripts, size_t begin, size_t end,
+                    cs_text_run *runs) {
+  size_t count = 0;
+  for (size_t at = begin, next; at < end; at = next, count++) {
+    next = at + 1;
+    while (next < end && embeddings[next] == embeddings[at] && scripts[next] == scripts[at])
+      next++;
+    if (runs)
+      runs[count] = (cs_text_run){at, next, embeddings[at]};
+  }
+  return count;
+}
+
+static void reverse(cs_text_run *runs, size_t begin, size_t end) {
+  for (; begin + 1 < end; begin++, end--) {
+    cs_text_run other = runs[begin];
+    runs[begin] = runs[end - 1];
+    runs[end - 1] = other;
+  }
+}
+
+/* Rule L2 of the bidirectional algorithm (Unicode Standard Annex 9): from the highest embedding to
+ * the lowest odd one, every sequence of runs that are at it or above is turned round. */
+void cs_runs_reorder(cs_text_run *runs, size_t count) {
+  unsigned highest = 0;
+  for (size_t i = 0; i < count; i++)
+    highest = runs[i].embedding > highest ? runs[i].embedding : highest;
+  for (unsigned embedding = highest; embedding >= 1; embedding--)
+    for (size_t i = 0; i < count; i++) {
+      size_t begin = i;
+      while (i < count && runs[i].embedding >= embedding)
+        i++;
+      reverse(runs, begin, i);
+    }
+}

@@ -1,0 +1,455 @@
+-- Text: what is written, where it lies, what it is as a primitive, and what is refused. The font is
+-- one of our own, drawn by tests/support/block.lua, so that these run everywhere.
+local celspan = require "celspan"
+local block = require "tests.support.block"
+local truetype = require "tests.support.truetype"
+
+local FONT = "../../scripts/type/block.ttf"
+local PATH = "scripts/type/block.ttf"
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local bytes = file:read "a"
+  file:close()
+  return bytes
+end
+
+local function text(fields)
+  fields.font = fields.font or FONT
+  return celspan.text(fields)
+end
+
+local function glyphs(fields)
+  fields.font = fields.font or FONT
+  return celspan.glyphs(fields)
+end
+
+--- The texts of letters, joined by bars.
+local function spelled(letters)
+  local words = {}
+  for i, letter in ipairs(letters) do words[i] = letter.text end
+  return table.concat(words, "|")
+end
+
+--- The message of a call that is to fail.
+local function message_of(fields, constructor)
+  local is_made, message = pcall(constructor or text, fields)
+  assert.is_false(is_made)
+  return tostring(message)
+end
+
+--- The lines of a text, as they were read.
+local function lines_of(fields)
+  local lines = {}
+  for _, letter in ipairs(glyphs(fields)) do
+    lines[letter.line] = (lines[letter.line] or "") .. letter.text
+  end
+  return table.concat(lines, "/")
+end
+
+local function same_pixels(a, b)
+  local function bytes(object)
+    return celspan.pixels(celspan.rostrum { celspan.cel { object } },
+      { size = { 320, 120 }, film = { 640, 240 } }):bytes()
+  end
+  return bytes(a) == bytes(b)
+end
+
+local made = {}
+local function temporary(bytes)
+  local path = os.tmpname()
+  made[#made + 1] = path
+  block.write(path, bytes)
+  return path
+end
+
+teardown(function() for _, path in ipairs(made) do os.remove(path) end end)
+
+-- ---------------------------------------------------------------- the font
+
+describe("the font that ships", function()
+  it("is what its program makes", function()
+    assert.is_true(truetype.build(block.font()) == read(PATH))
+  end)
+end)
+
+-- ---------------------------------------------------------------- letters
+
+describe("letters", function()
+  it("lie side by side by their advances", function()
+    local letters = glyphs { "HI", size = 1000, at = { 100, 50 } }
+    assert.are.equal("H|I", spelled(letters))
+    assert.are.same({ 100, 620 }, { letters[1].x, letters[1].advance })
+    assert.are.same({ 720, 180, 50 }, { letters[2].x, letters[2].advance, letters[2].y })
+  end)
+
+  it("have the outline that the font has, upright", function()
+    -- I: a pen of half 44 from (90, 44) to (90, 656), y up
+    local x, y, w, h = text({ "I", size = 1000, at = { 0, 1000 } }):bounds()
+    assert.are.same({ 46, 300, 88, 700 }, { x, y, w, h })
+  end)
+
+  it("are kerned, unless that is switched off", function()
+    local function width(features)
+      local letters = glyphs { "AV", size = 1000, features = features }
+      return letters[2].x + letters[2].advance - letters[1].x
+    end
+    assert.are.equal(90, width { kern = false } - width {})
+  end)
+
+  it("become ligatures, which are one letter", function()
+    assert.are.equal("->|H", spelled(glyphs { "->H" }))
+    assert.are.equal("-|>|H", spelled(glyphs { "->H", features = { liga = false } }))
+    assert.are.equal("-|>|H", spelled(glyphs { "->H", features = { liga = 0 } }))
+  end)
+
+  it("keep their marks", function()
+    local letters = glyphs { "He\u{301}H", size = 1000 }
+    assert.are.equal("H|e\u{301}|H", spelled(letters))
+    local _, y = letters[2].object:bounds()
+    local _, bare = glyphs({ "e", size = 1000 })[1].object:bounds()
+    assert.is_true(y < bare)
+  end)
+
+  it("are as heavy as the variation says", function()
+    local function width(weight)
+      local _, _, w = text({ "I", size = 1000, variations = { wght = weight } }):bounds()
+      return w
+    end
+    assert.are.same({ 44, 88, 148 }, { width(200), width(400), width(900) })
+    assert.are.equal(118, width(650))
+    assert.are.equal(148, width(5000)) -- held to the range of the axis
+  end)
+
+  it("that overlap themselves are filled all over", function()
+    -- T: the middle of where its lines cross
+    assert.is_true(text({ "T", size = 1000, at = { 0, 1000 } }):contains(320, 344))
+    local b = text { "B", size = 1000, at = { 0, 1000 } }
+    assert.is_false(b:contains(250, 800)) -- its counter
+  end)
+
+  it("make the same picture together as the text", function()
+    local union = {}
+    local fields = { "Hi there,\nAVE ->", size = 80, at = { 20, 80 }, tracking = 40,
+      texture = celspan.linear { from = { 0, 0 }, to = { 600, 0 }, { 0, "#f00" }, { 1, "#00f" } } }
+    for i, letter in ipairs(glyphs(fields)) do union[i] = letter.object end
+    assert.is_true(same_pixels(text(fields), celspan.union(union)))
+  end)
+
+  it("can be changed one by one", function()
+    local letters = glyphs { "AB", size = 100, texture = "#f00" }
+    local blue = letters[2].object:with { texture = "#00f" }
+    assert.are.equal("#00f", blue.texture)
+    assert.are.equal(2, blue.index)
+    assert.are.same({ letters[2].object:bounds() }, { blue:bounds() })
+    assert.is_truthy(message_of({ "AB", index = 3 }, function()
+      return letters[2].object:with { "A" }
+    end):find("index", 1, true))
+  end)
+
+  it("come in the order of reading", function()
+    local letters = glyphs { "ab שלו cd", size = 100 }
+    assert.are.equal("a|b| |ש|ל|ו| |c|d", spelled(letters))
+    assert.is_true(letters[4].x > letters[5].x and letters[5].x > letters[6].x)
+    assert.is_true(letters[8].x > letters[4].x and letters[2].x < letters[6].x)
+  end)
+end)
+
+-- ---------------------------------------------------------------- lines
+
+describe("lines", function()
+  it("end where it says so, one under the other", function()
+    local letters = glyphs { "A\n\nB\r\nC", size = 100, leading = 1.5, at = { 0, 10 } }
+    assert.are.equal("A|B|C", spelled(letters))
+    local places = {}
+    for i, letter in ipairs(letters) do places[i] = { letter.line, letter.y } end
+    assert.are.same({ { 1, 10 }, { 3, 310 }, { 4, 460 } }, places)
+  end)
+
+  it("are aligned about their place", function()
+    local function ends(align, width, tracking)
+      local letters = glyphs { "HH ", size = 1000, at = { 100, 0 }, align = align, width = width,
+        tracking = tracking }
+      return { letters[1].x, letters[2].x + letters[2].advance }
+    end
+    assert.are.same({ 100, 1340 }, ends "left")
+    assert.are.same({ -520, 720 }, ends "centre")
+    assert.are.same({ -1140, 100 }, ends "right")
+    assert.are.same({ 100, 1340 }, ends("left", 2000))
+    assert.are.same({ 480, 1720 }, ends("centre", 2000))
+    assert.are.same({ 860, 2100 }, ends("right", 2000))
+    assert.are.same({ -620, 720 }, { ends("centre", nil, 100)[1] - 50, ends("centre", nil, 100)[2] - 50 })
+  end)
+
+  it("have left on the left in every script", function()
+    local letters = glyphs { "שלום", size = 1000, at = { 100, 0 } }
+    assert.are.equal(100, letters[4].x)
+    letters = glyphs { "שלום", size = 1000, at = { 100, 0 }, align = "right" }
+    assert.are.equal(100, letters[1].x + letters[1].advance)
+  end)
+
+  it("are led by the direction where nothing else does", function()
+    local function first(direction, words)
+      local letters = glyphs { words, size = 100, direction = direction }
+      return letters[1].x
+    end
+    assert.are.equal(0, first("ltr", "A."))
+    assert.is_true(first("rtl", ".A") > 0)
+    assert.are.equal(0, first("auto", "A."))
+    assert.are.equal(0, first(nil, ".A"))
+  end)
+
+  it("wrap before they are too long, and where they may", function()
+    local width = 62 + 52 + 2 * 62 -- of "HH HH" at size 100, without the gaps
+    assert.are.equal("HH HH /HH", lines_of { "HH HH HH", size = 100, width = 5 * 62 })
+    assert.are.equal("HH /HH /HH", lines_of { "HH HH HH", size = 100, width = width })
+    assert.are.equal("HH HH HH", lines_of { "HH HH HH", size = 100, width = 1e6 })
+    assert.are.equal("HHHH /H", lines_of { "HHHH H", size = 100, width = 70 })
+    assert.are.equal("一/二/三。", lines_of { "一二三。", size = 100, width = 100 })
+    assert.are.equal("H\u{a0}H /H", lines_of { "H\u{a0}H H", size = 100, width = 130 })
+  end)
+
+  it("that fit exactly are not wrapped", function()
+    local letters = glyphs { "AVE THE HH", size = 37.7 }
+    local width = letters[#letters].x + letters[#letters].advance
+    assert.are.equal("AVE THE HH", lines_of { "AVE THE HH", size = 37.7, width = width })
+    assert.are.equal("AVE THE /HH", lines_of { "AVE THE HH", size = 37.7, width = width - 0.01 })
+  end)
+
+  it("show a soft hyphen where they end at it, and nowhere else", function()
+    local function right(width)
+      local x, _, w = text({ "HH\u{ad}HH", size = 100, width = width }):bounds()
+      return x + w
+    end
+    assert.is_true(right(200) > 140) -- two letters are 124 wide; the hyphen comes after them
+    assert.are.equal("HH\u{ad}/HH", lines_of { "HH\u{ad}HH", size = 100, width = 200 })
+    assert.is_true(math.abs(right(1000) - (3 * 62 + 57.4)) < 1e-9)
+  end)
+
+  it("are spaced by the tracking, in their direction", function()
+    local letters = glyphs { "HH", size = 1000, tracking = 100 }
+    assert.are.equal(720, letters[2].x - letters[1].x)
+    assert.are.equal(620, letters[1].advance)
+    local plain = glyphs { "של", size = 1000 }
+    local spaced = glyphs { "של", size = 1000, tracking = 100 }
+    assert.are.equal(100, (spaced[1].x - spaced[2].x) - (plain[1].x - plain[2].x))
+  end)
+end)
+
+-- ---------------------------------------------------------------- fonts
+
+describe("fonts", function()
+  --- The font with a few of its glyphs alone.
+  local function part_of(characters)
+    local font = block.font()
+    for _, glyph in ipairs(font.glyphs) do
+      local kept = {}
+      for _, character in ipairs(glyph.characters) do
+        if characters:find(utf8.char(character), 1, true) then kept[#kept + 1] = character end
+      end
+      glyph.characters = kept
+    end
+    font.units = 500 -- letters are twice as large
+    return temporary(truetype.build(font))
+  end
+
+  it("stand in for one another, letter by letter", function()
+    local large = part_of "AB "
+    local letters = glyphs { "AHB", font = { large, FONT }, size = 100 }
+    assert.are.equal("A|H|B", spelled(letters))
+    assert.are.same({ 128, 62, 112 }, { letters[1].advance, letters[2].advance, letters[3].advance })
+    letters = glyphs { "אבג", font = { part_of "א", temporary(truetype.build((function()
+      local font = block.font()
+      font.glyphs[3].characters = { 0x5d1, 0x5d2 }
+      return font
+    end)())) }, size = 100 }
+    assert.are.equal("א|ב|ג", spelled(letters))
+    assert.is_true(letters[1].x > letters[2].x and letters[2].x > letters[3].x)
+  end)
+
+  it("give a letter and its marks together", function()
+    local letters = glyphs { "Ae\u{301}A", font = { part_of "Ae", FONT }, size = 100 }
+    assert.are.equal("A|e\u{301}|A", spelled(letters))
+    assert.is_true(math.abs(letters[2].advance - 44.6) < 1e-9)
+  end)
+
+  it("that changed are read anew", function()
+    local path = part_of "AB"
+    assert.are.equal(128, glyphs({ "A", font = path, size = 100 })[1].advance)
+    block.write(path)
+    assert.are.equal(64, glyphs({ "A", font = path, size = 100 })[1].advance)
+  end)
+
+  it("need not be there to be found beside the script that names them", function()
+    local message = message_of { "A", font = "no-such.ttf" }
+    assert.is_truthy(message:find("text: ", 1, true))
+    assert.is_truthy(message:find("tests/spec/no-such.ttf: No such file", 1, true), message)
+  end)
+
+  local bytes = read(PATH)
+  local broken = {
+    ["half of one"] = { bytes:sub(1, #bytes // 2), "the font is cut" },
+    ["its beginning"] = { bytes:sub(1, 200), "the font is cut" },
+    ["a few bytes"] = { bytes:sub(1, 8), "is not a TrueType or OpenType font" },
+    ["nothing"] = { "", "is not a TrueType or OpenType font" },
+    ["a picture"] = { "\137PNG\r\n\26\n" .. ("\0"):rep(100), "is not a TrueType or OpenType font" },
+    ["one packed for the web"] = { "wOF2" .. ("\0"):rep(100), "unpack it" },
+    ["a collection of none"] = { "ttcf\0\1\0\0" .. ("\0"):rep(8), "is not a TrueType" },
+    ["a collection that is cut"] = { "ttcf\0\1\0\0\0\0\0\1\0\0\1\0", "the font is cut" },
+  }
+  for name, case in pairs(broken) do
+    it("that are " .. name .. " are refused", function()
+      local path = temporary(case[1])
+      local message = message_of { "A", font = path }
+      assert.is_truthy(message:find(path, 1, true), message)
+      assert.is_truthy(message:find(case[2], 1, true), message)
+    end)
+  end
+
+  it("of coloured glyphs, and without outlines, are refused", function()
+    local tables = truetype.tables(block.font())
+    tables.COLR = "\0\0\0\0"
+    assert.is_truthy(message_of({ "A", font = temporary(truetype.join(tables)) })
+      :find("coloured glyphs", 1, true))
+    tables.COLR, tables.glyf = nil, nil
+    assert.is_truthy(message_of({ "A", font = temporary(truetype.join(tables)) })
+      :find("no outlines", 1, true))
+  end)
+
+  it("that are broken inside are drawn as far as they go, or refused", function()
+    local font = block.font()
+    for seed = 1, 60 do
+      local random = celspan.random(seed)
+      local damaged = bytes
+      for i = 1, 20 do
+        local at = random("place" .. i, 400, #bytes)
+        damaged = damaged:sub(1, at - 1) .. string.char(random("byte" .. i, 0, 255)) .. damaged:sub(at + 1)
+      end
+      local path = temporary(damaged)
+      local is_made, made_text = pcall(text, { "Hamburg -> שלום", font = path,
+        variations = seed % 2 == 0 and { wght = 700 } or nil })
+      assert.is_true(is_made or type(made_text) == "string")
+    end
+    assert.is_truthy(font)
+  end)
+
+  it("without an axis refuse its name", function()
+    local message = message_of { "A", variations = { wdth = 80 } }
+    assert.is_truthy(message:find('has no axis "wdth"', 1, true), message)
+  end)
+end)
+
+-- ---------------------------------------------------------------- a primitive like any other
+
+describe("text as a primitive", function()
+  it("takes part in booleans, and is probed as it is drawn", function()
+    local hole = celspan.rect { 0, 0, 640, 240, texture = "#fff" }
+      - text { "HOLE", size = 200, at = { 20, 200 } }
+    local rostrum = celspan.rostrum { celspan.cel { hole } }
+    local image = celspan.pixels(rostrum:with { antialias = "none" }, { size = { 640, 240 } })
+    local differing = 0
+    for y = 3, 239, 7 do
+      for x = 2, 639, 5 do
+        local _, _, _, drawn = image:get(x, y)
+        local _, _, _, probed = celspan.probe(rostrum, x + 0.5, y + 0.5, { film = { 640, 240 } })
+        differing = differing + (drawn ~= probed and 1 or 0)
+      end
+    end
+    assert.are.equal(0, differing)
+  end)
+
+  it("equals text that is made of the same, and no other", function()
+    local function name(fields)
+      local rostrum = celspan.rostrum { celspan.cel { text(fields) } }
+      return rostrum
+    end
+    assert.is_true(same_pixels(text { "A", at = { 50, 100 } }, text { "A", at = { 50, 100 } }))
+    assert.is_false(same_pixels(text { "A", at = { 50, 100 } }, text { "B", at = { 50, 100 } }))
+    assert.is_truthy(name { "A" })
+  end)
+
+  it("can be read and changed", function()
+    local hello = text { "Hello", at = { 3, 4 } }
+    assert.are.equal("Hello", hello[1])
+    assert.are.same({ 48, "left", 1.2, 0 }, { hello.size, hello.align, hello.leading, hello.tracking })
+    assert.are.same({ 3, 4 }, hello.at)
+    local other = hello:translate(10, 0):with { "Bye" }
+    assert.are.equal("Bye", other[1])
+    local x = other:bounds()
+    local plain = text({ "Bye", at = { 13, 4 } }):bounds()
+    assert.is_true(math.abs(x - plain) < 1e-9)
+    assert.are.equal('text{ size = 48, at = {3, 4}, leading = 1.2, tracking = 0 }', tostring(hello))
+  end)
+
+  it("may be nothing: no letters, spaces, no size", function()
+    for _, fields in ipairs { { "" }, { "   " }, { "\n\n" }, { "A", size = 0 } } do
+      local nothing = text(fields)
+      assert.is_false(same_pixels(nothing | text { "I", at = { 9, 99 } }, nothing))
+      local _, _, w, h = nothing:bounds()
+      assert.are.same({ 0, 0 }, { w or 0, h or 0 })
+    end
+    assert.are.same({}, glyphs { "" })
+    assert.are.equal(" |A", spelled(glyphs { " A", size = 0 }))
+  end)
+end)
+
+-- ---------------------------------------------------------------- bad input
+
+describe("bad text is refused:", function()
+  local cases = {
+    { "no text", {}, "takes one string, the text, got 0 values" },
+    { "two texts", { "a", "b" }, "got 2 values" },
+    { "a number", { 5 }, "value 1 must be a string, the text, got number" },
+    { "a cut character", { "ab\xe2\x82" }, "what begins at byte 3 (0xe2) is not UTF-8" },
+    { "a byte that begins none", { "\xff" }, "what begins at byte 1 (0xff) is not UTF-8" },
+    { "an overlong one", { "a\xc0\x80" }, "byte 2 (0xc0) is not UTF-8" },
+    { "a surrogate", { "\xed\xa0\x80" }, "byte 1 (0xed) is not UTF-8" },
+    { "a zero", { "a\0b" }, "control character U+0000 at byte 2" },
+    { "a tab", { "a\tb" }, "control character U+0009 at byte 2" },
+    { "a lone return", { "a\rb" }, "control character U+000D at byte 2" },
+    { "a character that is nowhere", { "Aж" }, 'block.ttf has no glyph for "ж" (U+0436) at byte 2' },
+    { "a million characters", { ("a"):rep(1000000) }, "more than 100000 characters" },
+    { "a size below 0", { "a", size = -1 }, "size is -1; it must be 0 or more" },
+    { "a size that is no number", { "a", size = 0 / 0 }, "size" },
+    { "an endless width", { "a", width = math.huge }, "width" },
+    { "a width below 0", { "a", width = -5 }, "width is -5; it must be 0 or more" },
+    { "a place of one number", { "a", at = { 1 } }, "at" },
+    { "another align", { "a", align = "justify" }, '"left", "centre" or "right", got "justify"' },
+    { "another direction", { "a", direction = "up" }, '"auto", "ltr" or "rtl", got "up"' },
+    { "features in a list", { "a", features = { "liga" } }, "a table by name" },
+    { "a feature's value", { "a", features = { liga = -1 } }, "liga must be true, false or a whole" },
+    { "a feature's name", { "a", features = { ligatures = true } }, 'got "ligatures"' },
+    { "an axis's value", { "a", variations = { wght = "bold" } }, "wght must be a number" },
+    { "an axis without a number", { "a", variations = { wght = 0 / 0 } }, "wght" },
+    { "a language", { "a", language = "no such thing" }, "language is a tag such as" },
+    { "a font that is a number", { "a", font = 3 }, "field 'font' must be the name of a file" },
+    { "no fonts", { "a", font = {} }, "font is missing" },
+    { "seventeen fonts", { "a", font = (function()
+      local list = {}
+      for i = 1, 17 do list[i] = FONT end
+      return list
+    end)() }, "17 fonts; at most 16 are allowed" },
+    { "a folder", { "a", font = "../../scripts" }, "a font is a file, and this is none" },
+    { "an unknown field", { "a", sise = 3 }, "size" },
+  }
+  for _, case in ipairs(cases) do
+    it(case[1], function()
+      local message = message_of(case[2])
+      assert.is_truthy(message:find(case[3], 1, true), message)
+      assert.is_truthy(message:find("tests/spec/text_spec.lua:", 1, true), message)
+      local letters = message_of(case[2], glyphs)
+      assert.is_truthy(letters:find(case[3], 1, true), letters)
+    end)
+  end
+
+  it("no font", function()
+    local _, message = pcall(celspan.text, { "a" })
+    assert.is_truthy(tostring(message):find("field 'font' is missing", 1, true))
+  end)
+
+  it("and a hundred thousand characters are taken", function()
+    local words = ("Hamburg AVE "):rep(100000 // 12)
+    local letters = lines_of { words, size = 10, width = 400 }
+    assert.is_true(#letters > #words)
+  end)
+end)
