@@ -15,6 +15,8 @@ return {
   { name = "postcards", page = "docs/guide.md", frame = 1 },
   { name = "soft", page = "docs/guide.md", frame = 6 },
   { name = "gradients", page = "docs/guide.md" },
+  { name = "poster", page = "docs/guide.md" },
+  { name = "title", script = "scripts/title.lua", frame = 34, size = "640x360" },
   { name = "exposures", page = "docs/guide.md" },
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide.md", frame = 10 },

@@ -68,21 +68,35 @@ local function compare(exposures, traits, case)
   return nil, POINTS, excused
 end
 
+--- All cases of such scenes: failures as text, points tried, points excused by whether edges are curved.
+local function try(count, options)
+  local failures, tried, excused = {}, 0, { [true] = 0, [false] = 0 }
+  for case = ONLY or 1, ONLY or count do
+    local script, traits = scenes.script(case, options)
+    if ONLY then print(script) end
+    local failure, points, near = compare(scenes.load(script):at(1), traits, case)
+    tried = tried + points
+    excused[traits.is_curved] = excused[traits.is_curved] + near
+    if failure then failures[#failures + 1] = ("CASE=%d: %s"):format(case, failure) end
+  end
+  return table.concat(failures, "\n"), tried, excused
+end
+
 describe("the oracle", function()
   it("agrees with the spans of random scenes at pixel centres", function()
-    local failures, tried, excused = {}, 0, { [true] = 0, [false] = 0 }
-    for case = ONLY or 1, ONLY or COUNT do
-      local script, traits = scenes.script(case)
-      if ONLY then print(script) end
-      local failure, points, near = compare(scenes.load(script):at(1), traits, case)
-      tried = tried + points
-      excused[traits.is_curved] = excused[traits.is_curved] + near
-      if failure then failures[#failures + 1] = ("CASE=%d: %s"):format(case, failure) end
-    end
-    assert.are.equal("", table.concat(failures, "\n"))
+    local failures, tried, excused = try(COUNT)
+    assert.are.equal("", failures)
     if ONLY then return end
     -- A curve 60 pixels long passes within 0.03 of about 4 centres; most miss by far less.
     assert.is_true(excused[true] < tried / 500, excused[true] .. " points near curves were excused")
     assert.is_true(excused[false] < tried / 5000, excused[false] .. " points were excused")
+  end)
+
+  local is_there = pcall(celspan.text, { "", font = "../../scripts/type/block.ttf" })
+  local with_type = is_there and it or pending
+  with_type("agrees with the spans of random scenes of letters", function()
+    local failures, tried, excused = try(COUNT // 4, { has_text = true })
+    assert.are.equal("", failures)
+    assert.is_true(ONLY or excused[true] < tried / 250, excused[true] .. " points were excused")
   end)
 end)

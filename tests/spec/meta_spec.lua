@@ -56,11 +56,16 @@ local samples = {
   polygon = { { 0, 0 }, { 1, 0 }, { 0, 1 } }, path = { d = "M0 0L1 0L0 1" },
   nurbs = { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } },
   image = { file = "x.png", w = 1, h = 1 },
-  text = { "x", font = "../../scripts/type/block.ttf" },
   scanline = { bounds = { 0, 0, 1, 1 }, spans = function() end },
   union = { dot }, intersection = { dot }, difference = { dot }, xor = { dot },
   cel = { dot }, rostrum = { cel }, film = { frame = function() return celspan.rostrum {} end },
 }
+
+-- Built without the libraries for type, there is no text to look at.
+local letter = { "x", font = "../../scripts/type/block.ttf" }
+local _, fault = pcall(celspan.text, letter)
+local has_type = not tostring(fault):find("celspan-art.so", 1, true)
+samples.text = has_type and letter or nil
 
 --- The fields that a constructor says it has, when it is given one that cannot be.
 local function fields_of(constructor)
@@ -89,7 +94,7 @@ describe("the annotations", function()
     for name in pairs(celspan) do
       local is_value = name ~= "render" and name ~= "pixels" and name ~= "spans" and name ~= "glyphs"
       if is_value and fields_of(name)() then
-        assert.is_truthy(samples[name], name)
+        assert.is_truthy(samples[name] or name == "text" and not has_type, name)
       end
     end
   end)

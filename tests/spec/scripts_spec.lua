@@ -37,20 +37,26 @@ end
 local has_pictures = not run("convert no-such.png no-such-either.png 2>&1; true")
   :find("celspan-picture.so", 1, true)
 
-local function reads_pictures(path)
+--- Whether a script calls one of two functions.
+local function calls(path, one, other)
   local file = assert(io.open(path))
   local text = file:read("a")
   file:close()
-  return text:find("celspan.image", 1, true) or text:find("celspan.picture", 1, true)
+  return text:find("celspan." .. one, 1, true) or text:find("celspan." .. other, 1, true)
 end
+
+-- Built without the libraries for type, there are no letters.
+local has_type = not run("check scripts/title.lua 2>&1; true"):find("celspan-art.so", 1, true)
 
 describe("the scripts that ship", function()
   it("are the demo and one for each feature", function()
-    assert.is_true(#scripts() >= 13)
+    assert.is_true(#scripts() >= 15)
   end)
 
   for _, path in ipairs(scripts()) do
-    local test = (has_pictures or not reads_pictures(path)) and it or pending
+    local can_be_made = (has_pictures or not calls(path, "image", "picture"))
+      and (has_type or not calls(path, "text", "glyphs"))
+    local test = can_be_made and it or pending
 
     test(path .. " makes pictures, the same whenever it is asked", function()
       local count = tonumber(assert(run("info '" .. path .. "'")):match("frames%s+(%d+)"))

@@ -237,6 +237,24 @@ function maker:scanline()
     :format(self:number(-5, 5), self:number(-5, 5), w, h, table.concat(spans, ", "))
 end
 
+local letters = { "A", "g", "O", "S", "W", "8", "R", "->", "e\u{301}", "ש", "ל", "三", " " }
+
+--- A few letters of the font that ships, large enough to be seen.
+function maker:text()
+  self.traits.is_curved = true
+  local words = {}
+  for i = 1, self.random:whole(1, 4) do words[i] = self.random:pick(letters) end
+  local fields = {}
+  if self.random:once(3) then fields[#fields + 1] = ", width = " .. self:number(0, 40) end
+  if self.random:once(3) then fields[#fields + 1] = ", tracking = " .. self:number(-300, 300) end
+  if self.random:once(2) then
+    fields[#fields + 1] = (", variations = { wght = %s }"):format(self:number(200, 900))
+  end
+  return ("celspan.text{ %q, font = \"../../scripts/type/block.ttf\", size = %s, at = %s, align = %q%s, texture = %s }")
+    :format(table.concat(words), self:number(4, 40), self:point_text(),
+      self.random:pick { "left", "centre", "right" }, table.concat(fields), self:texture())
+end
+
 --- Now and then one that was there before: coincident edges.
 function maker:primitive()
   if #self.made > 0 and self.random:once(6) then return self.random:pick(self.made) end
@@ -245,6 +263,7 @@ function maker:primitive()
 end
 
 function maker:fresh()
+  if self.has_text and self.random:once(2) then return self:text() end
   if self.is_upright and self.random:once(3) then return self:scanline() end
   local kinds = { "rect", "triangle", "polygon", "polygon", "path" }
   if not self.is_straight then
@@ -424,14 +443,15 @@ local function start(seed, options)
     random = random, traits = traits, made = {},
     is_straight = random:once(2) or options.is_straight, is_upright = options.has_rows ~= false and random:once(4),
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
-    has_pictures = options.has_pictures ~= false, level = 0, lights = 1, brightest = 1,
+    has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0, lights = 1, brightest = 1,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
   }, maker)
 end
 
 --- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
--- scan-lines), has_pictures = false, is_straight (no curves), is_plain (no lights with a shape, no compositions inside
+-- scan-lines), has_pictures = false, has_text (every second primitive is text), is_straight (no
+-- curves), is_plain (no lights with a shape, no compositions inside
 -- others).
 function scenes.script(seed, options)
   local self = start(seed, options or {})

@@ -1,0 +1,48 @@
+-- Rolling credits: two columns that meet in the middle, one right-aligned and one left-aligned, roll
+-- up the frame and fade at its ends. The text is made once; a frame only moves it.
+local celspan = require "celspan"
+
+local FPS = 24
+local WIDTH, HEIGHT = 960, 540
+local SIZE, LEADING = 32, 1.6
+local FONT = "type/block.ttf"
+
+local credits = {
+  { "written by", "Ada Quill" }, { "drawn by", "Bruno Nib\nCleo Pastel" },
+  { "inked by", "Dora Blot" }, { "painted by", "Emil Gouache\nFay Ochre\nGus Umber" },
+  { "backgrounds", "Hana Wash" }, { "photographed by", "Ivo Rostrum" },
+  { "music", "Juno Reed\nKarl Brass" }, { "thanks to", "all who lent us\ntheir pencils" },
+}
+
+--- One column: the text, and how many lines it has.
+local function column(text, x, align, texture)
+  return celspan.text { text, font = FONT, size = SIZE, leading = LEADING, at = { x, 0 },
+    align = align, texture = texture, variations = { wght = align == "left" and 600 or 400 } }
+end
+
+local roles, names = {}, {}
+for i, credit in ipairs(credits) do
+  local _, breaks = credit[2]:gsub("\n", "")
+  names[i] = credit[2] .. "\n"
+  roles[i] = credit[1] .. ("\n"):rep(breaks + 1)
+end
+local roll = column(table.concat(roles, "\n"), WIDTH / 2 - 20, "right", "#8fa3b8")
+  | column(table.concat(names, "\n"), WIDTH / 2 + 20, "left", "#f6ead2")
+local _, top, _, height = roll:bounds()
+
+--- Darkness that hides the ends of the roll.
+local function shade(y, height_of_it, from, to)
+  return celspan.rect { 0, y, WIDTH, height_of_it,
+    texture = celspan.linear { from = { 0, y }, to = { 0, y + height_of_it }, { 0, from }, { 1, to } } }
+end
+local dark, none = "#10151c", "#10151c00"
+local shades = celspan.cel { shade(0, 110, dark, none), shade(HEIGHT - 110, 110, none, dark) }
+local ground = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = celspan.radial {
+  centre = { WIDTH / 2, HEIGHT / 2 }, radius = WIDTH / 2, { 0, "#1d2936" }, { 1, dark } } } }
+
+return celspan.film { title = "Rolling credits", size = { WIDTH, HEIGHT }, fps = FPS, frames = 10 * FPS,
+  frame = function(f)
+    local from, to = HEIGHT - top, -top - height
+    local rolled = roll:translate(0, from + (to - from) * f.progress)
+    return celspan.rostrum { ground, celspan.cel { rolled }, shades }
+  end }
