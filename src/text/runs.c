@@ -1,14 +1,27 @@
 #include "text/runs.h"
 
-size_t cs_runs_find(const uint8_t *embeddings, const uint32_t *scripts, size_t begin, size_t end,
-                    cs_text_run *runs) {
+/* The time that shaping takes grows with the square of the marks of one letter. */
+#define LONGEST 4096
+
+/* Where the run that begins there ends. */
+static size_t run_end(const cs_run_characters *text, size_t begin, size_t end) {
+  size_t at = begin + 1, most = end - begin < LONGEST ? end : begin + LONGEST;
+  while (at < most && text->embeddings[at] == text->embeddings[begin] &&
+         text->scripts[at] == text->scripts[begin])
+    at++;
+  if (at < most || at == end)
+    return at;
+  while (at > begin && text->characters[at - 1] != ' ')
+    at--;
+  return at > begin ? at : most;
+}
+
+size_t cs_runs_find(const cs_run_characters *text, size_t begin, size_t end, cs_text_run *runs) {
   size_t count = 0;
   for (size_t at = begin, next; at < end; at = next, count++) {
-    next = at + 1;
-    while (next < end && embeddings[next] == embeddings[at] && scripts[next] == scripts[at])
-      next++;
+    next = run_end(text, at, end);
     if (runs)
-      runs[count] = (cs_text_run){at, next, embeddings[at]};
+      runs[count] = (cs_text_run){at, next, text->embeddings[at]};
   }
   return count;
 }

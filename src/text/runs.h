@@ -16,10 +16,16 @@ typedef struct cs_text_run {
   uint8_t embedding;
 } cs_text_run;
 
-/* The runs of characters begin .. end - 1, in their order; the answer is how many. runs: NULL, or
- * room for them. */
-size_t cs_runs_find(const uint8_t *embeddings, const uint32_t *scripts, size_t begin, size_t end,
-                    cs_text_run *runs);
+/* What is known of each character of a text. */
+typedef struct cs_run_characters {
+  const uint32_t *characters, *scripts;
+  const uint8_t *embeddings;
+} cs_run_characters;
+
+/* The runs of characters begin .. end - 1, in their order; the answer is how many. A long run is cut
+ * after a space, or where there is none for long, anywhere.
+ * runs: NULL, or room for them */
+size_t cs_runs_find(const cs_run_characters *text, size_t begin, size_t end, cs_text_run *runs);
 /* Puts them into the order in which they are seen, from left to right. */
 void cs_runs_reorder(cs_text_run *runs, size_t count);
 

@@ -199,14 +199,14 @@ static celspan_status shape_runs(cs_layout *layout, const cs_text_run *runs, siz
 
 celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end) {
   layout->shaped_count = 0;
-  const uint8_t *embeddings = layout->directions;
-  size_t count = cs_runs_find(embeddings, layout->scripts, begin, end, NULL);
+  const cs_run_characters text = {layout->characters, layout->scripts, layout->directions};
+  size_t count = cs_runs_find(&text, begin, end, NULL);
   if (count == 0)
     return CELSPAN_OK;
   cs_text_run *runs = cs_mem_array(layout->context->memory, count, sizeof *runs);
   if (!runs)
     return cs_fail_memory(layout->context);
-  cs_runs_find(embeddings, layout->scripts, begin, end, runs);
+  cs_runs_find(&text, begin, end, runs);
   cs_runs_reorder(runs, count);
   celspan_status status = shape_runs(layout, runs, count, begin, end);
   cs_mem_free(layout->context->memory, runs, count * sizeof *runs);

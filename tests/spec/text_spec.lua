@@ -452,6 +452,19 @@ describe("bad text is refused:", function()
     assert.is_truthy(tostring(message):find("field 'font' is missing", 1, true))
   end)
 
+  it("and long lines are the same as short ones", function()
+    local words = ("Hamburg AVE "):rep(1000) -- more than is shaped at a time
+    local letters, few = glyphs { words, size = 10 }, glyphs { "Hamburg AVE ", size = 10 }
+    assert.are.equal(12000, #letters)
+    local _, width = few[12].x, few[12].x + few[12].advance
+    for i = 1, #letters, 1111 do
+      local place = few[(i - 1) % 12 + 1].x + width * ((i - 1) // 12)
+      assert.is_true(math.abs(letters[i].x - place) < 1e-6)
+    end
+    local one = glyphs { "e" .. ("\u{301}"):rep(9999), size = 10 }
+    assert.is_true(#one >= 1 and #one[1].text > 100)
+  end)
+
   it("and a hundred thousand characters are taken", function()
     local words = ("Hamburg AVE "):rep(100000 // 12)
     local letters = lines_of { words, size = 10, width = 400 }
