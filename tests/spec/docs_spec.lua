@@ -296,7 +296,7 @@ describe("the C reference", function()
 
   it("shows what stands in the example programs", function()
     local programs = markdown.read "examples/memory.c" .. markdown.read "examples/embed.c"
-      .. markdown.read "examples/surface.c" .. markdown.read "examples/host.c"
+      .. markdown.read "examples/surface.c" .. markdown.read "examples/letters.c" .. markdown.read "examples/host.c"
     for _, block in ipairs(markdown.blocks "docs/c.md") do
       if block.language == "c" then
         assert.is_truthy(programs:find(block.text, 1, true), "docs/c.md:" .. block.line)
