@@ -76,7 +76,7 @@ typedef struct request {
 
 static celspan_status open_font(celspan_context *context, const request *wanted, cs_font *font) {
   const cs_art_module *module;
-  CS_TRY(cs_artwork_module(context, "text", &module));
+  CS_TRY(cs_artwork_module(context, "setting type", &module));
   font->size = wanted->size;
   CS_TRY(cs_font_file_read(context, wanted->file, wanted->size, &font->bytes));
   CS_TRY(cs_font_file_check(context, wanted->file, font->bytes, font->size));
