@@ -270,6 +270,9 @@ describe("fonts", function()
     end)())) }, size = 100 }
     assert.are.equal("א|ב|ג", spelled(letters))
     assert.is_true(letters[1].x > letters[2].x and letters[2].x > letters[3].x)
+    letters = glyphs { "שול", font = { part_of "ל", FONT }, size = 100 }
+    assert.are.equal("ש|ו|ל", spelled(letters))
+    assert.are.same({ 62, 24, 96 }, { letters[1].advance, letters[2].advance, letters[3].advance })
   end)
 
   it("give a letter and its marks together", function()
@@ -408,6 +411,8 @@ describe("bad text is refused:", function()
     { "a cut character", { "ab\xe2\x82" }, "what begins at byte 3 (0xe2) is not UTF-8" },
     { "a byte that begins none", { "\xff" }, "what begins at byte 1 (0xff) is not UTF-8" },
     { "an overlong one", { "a\xc0\x80" }, "byte 2 (0xc0) is not UTF-8" },
+    { "an overlong one of three bytes", { "\xe0\x81\x81" }, "byte 1 (0xe0) is not UTF-8" },
+    { "one beyond the last", { "\xf4\x90\x80\x80" }, "byte 1 (0xf4) is not UTF-8" },
     { "a surrogate", { "\xed\xa0\x80" }, "byte 1 (0xed) is not UTF-8" },
     { "a zero", { "a\0b" }, "control character U+0000 at byte 2" },
     { "a tab", { "a\tb" }, "control character U+0009 at byte 2" },
