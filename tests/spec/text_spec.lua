@@ -476,3 +476,41 @@ describe("bad text is refused:", function()
     assert.is_true(#letters > #words)
   end)
 end)
+
+-- ---------------------------------------------------------------- the command line
+
+describe("the command line", function()
+  local BINARY = os.getenv "CELSPAN" or "build/celspan"
+
+  --- The exit code and messages of a check of a script that sets this text.
+  local function check(fields, environment)
+    local script = temporary(('local celspan = require "celspan"\nreturn celspan.rostrum { celspan.cel { '
+      .. "celspan.text { %s } } }"):format(fields))
+    local pipe = assert(io.popen(("%s '%s' check '%s' 2>&1"):format(environment or "", BINARY, script)))
+    local message = pipe:read "a"
+    local _, _, code = pipe:close()
+    return code or 0, message
+  end
+
+  local font = ("font = %q"):format((assert(io.popen "pwd"):read "l") .. "/" .. PATH)
+
+  it("ends with 4 without a font, and with 3 without a letter", function()
+    assert.are.equal(0, (check('"A", ' .. font)))
+    assert.are.equal(4, (check '"A", font = "no-such.ttf"'))
+    assert.are.equal(3, (check('"ж", ' .. font)))
+  end)
+
+  it("says which module is missing", function()
+    local code, message = check('"A", ' .. font, "CELSPAN_ART_MODULE=/nowhere/art.so")
+    assert.are.equal(4, code)
+    assert.is_truthy(message:find("setting type needs the module celspan-art.so", 1, true), message)
+  end)
+
+  it("does not load it for a film without text", function()
+    local code = check('"A", ' .. font, "CELSPAN_ART_MODULE=/nowhere/art.so")
+    local script = temporary 'local celspan = require "celspan"\nreturn celspan.rostrum {}'
+    assert.are.equal(4, code)
+    assert.is_true(os.execute(("CELSPAN_ART_MODULE=/nowhere/art.so '%s' check '%s' >/dev/null 2>&1")
+      :format(BINARY, script)))
+  end)
+end)
