@@ -42,6 +42,7 @@ run("mkdir -p", folder .. "/examples", parts)
 run("cp -r scripts/type", folder .. "/examples/")
 -- A script is given an absolute path, because it looks for files beside itself.
 local pwd = assert(io.popen "pwd"):read "l"
+run("ln -sfn", pwd .. "/scripts/paintings", folder .. "/examples/paintings")
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts
 for _, picture in ipairs(list) do
   for _, part in ipairs(picture.parts or {}) do

@@ -9,6 +9,7 @@
 #include "bind/drawing.h"
 #include "bind/files.h"
 #include "bind/host.h"
+#include "bind/painting.h"
 #include "bind/random.h"
 #include "bind/suggest.h"
 #include "celspan/lua.h"
@@ -39,7 +40,12 @@ static int nearest(lua_State *L) {
 }
 
 int luaopen_celspan_core(lua_State *L) {
-  static const luaL_Reg functions[] = {{"find", find}, {"nearest", nearest}, {NULL, NULL}};
+  static const luaL_Reg functions[] = {{"find", find},
+                                       {"nearest", nearest},
+                                       {"painting", cs_painting_read},
+                                       {"folder", cs_painting_folder},
+                                       {"within", cs_painting_within},
+                                       {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);
   cs_drawing_open(L);

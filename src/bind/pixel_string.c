@@ -87,9 +87,7 @@ static bool is_same(const celspan_surface_desc *a, const celspan_surface_desc *b
          a->format == b->format && a->alpha == b->alpha;
 }
 
-/* Makes and pushes the box of the string at index `string`. */
-static box *push_box(const cs_form *form, const celspan_surface_desc *desc, int string) {
-  lua_State *L = form->L;
+static box *push_empty_box(lua_State *L, const celspan_surface_desc *desc) {
   box *b = lua_newuserdatauv(L, sizeof *b, 1);
   *b = (box){NULL, *desc};
   if (luaL_newmetatable(L, "celspan.surface")) {
@@ -97,14 +95,39 @@ static box *push_box(const cs_form *form, const celspan_surface_desc *desc, int 
     lua_setfield(L, -2, "__gc");
   }
   lua_setmetatable(L, -2);
+  return b;
+}
+
+void cs_pixel_string_push_surface(lua_State *L, celspan_surface *surface) {
+  const celspan_surface_desc none = CELSPAN_SURFACE_DESC;
+  push_empty_box(L, &none)->surface = celspan_surface_ref(surface);
+}
+
+/* Makes and pushes the box of the string at index `string`. */
+static box *push_box(const cs_form *form, const celspan_surface_desc *desc, int string) {
+  lua_State *L = form->L;
+  box *b = push_empty_box(L, desc);
   lua_pushvalue(L, string);
   lua_setiuservalue(L, -2, 1);
   cs_form_try(form, celspan_surface_create(cs_host_context(L), desc, &b->surface));
   return b;
 }
 
+/* The surface that stands in the field `pixels`, kept by the fields of the value; NULL: a string
+ * stands there. */
+static celspan_surface *find_surface(const cs_form *form) {
+  lua_pushliteral(form->L, "pixels");
+  lua_rawget(form->L, form->table);
+  const box *b = luaL_testudata(form->L, -1, "celspan.surface");
+  lua_pop(form->L, 1);
+  return b ? b->surface : NULL;
+}
+
 celspan_surface *cs_pixel_string_surface(const cs_form *form, int holder) {
   lua_State *L = form->L;
+  celspan_surface *given = find_surface(form);
+  if (given)
+    return given;
   celspan_surface_desc desc = read(form);
   int string = lua_gettop(L);
   push_table(L, &surfaces_key, "v");
@@ -124,7 +147,7 @@ celspan_surface *cs_pixel_string_surface(const cs_form *form, int holder) {
 
 void cs_pixel_string_complete(lua_State *L, int fields) {
   lua_pushliteral(L, "pixels");
-  bool has_pixels = lua_rawget(L, fields) != LUA_TNIL;
+  bool has_pixels = lua_rawget(L, fields) == LUA_TSTRING;
   lua_pushliteral(L, "format");
   bool has_format = lua_rawget(L, fields) != LUA_TNIL;
   lua_pop(L, 2);

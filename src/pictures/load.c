@@ -73,11 +73,12 @@ static void cover_fitting(file_pass *pass, int32_t row) {
 }
 
 /* The picture does not fit: a window of as many columns of blocks as one pass may make. A surface
- * can be asked for any part at no extra cost, so its windows are narrow. */
+ * can be asked for any part at no extra cost, so its windows are narrow, unless it is a reader. */
 static void cover_window(file_pass *pass, int32_t column, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   int32_t columns = columns_of(entry, pass->level);
-  size_t share = entry->surface && entry->share > SURFACE_COLUMNS ? SURFACE_COLUMNS : entry->share;
+  bool is_narrow = entry->surface && !entry->header.is_sequential;
+  size_t share = is_narrow && entry->share > SURFACE_COLUMNS ? SURFACE_COLUMNS : entry->share;
   int32_t window = least(columns, share < 1 ? 1 : (int64_t)share);
   pass->column = column / window * window;
   pass->columns = least(window, columns - pass->column);

@@ -63,8 +63,8 @@ static celspan_status check(celspan_context *context, const celspan_surface_desc
 
 /* ---------------------------------------------------------------- making */
 
-static cs_hash hash_of(const celspan_surface_desc *desc) {
-  cs_hash hash = cs_hash_begin(0x73757266u);
+static cs_hash hash_of(const celspan_surface_desc *desc, bool is_reader) {
+  cs_hash hash = cs_hash_begin(is_reader ? 0x72646572u : 0x73757266u);
   cs_hash_word(&hash, (uint64_t)desc->width);
   cs_hash_word(&hash, (uint64_t)desc->height);
   cs_hash_word(&hash, desc->format);
@@ -104,8 +104,8 @@ static bool copy_pixels(celspan_surface *surface) {
   return copy;
 }
 
-celspan_status celspan_surface_create(celspan_context *context, const celspan_surface_desc *desc,
-                                      celspan_surface **out) {
+static celspan_status create(celspan_context *context, const celspan_surface_desc *desc,
+                             bool is_reader, celspan_surface **out) {
   CS_TRY(check(context, desc));
   celspan_surface *surface = cs_mem_array(context->memory, 1, sizeof *surface);
   if (!surface)
@@ -118,9 +118,20 @@ celspan_status celspan_surface_create(celspan_context *context, const celspan_su
     celspan_surface_unref(surface);
     return cs_fail_memory(context);
   }
-  surface->hash = hash_of(&surface->desc);
+  surface->hash = hash_of(&surface->desc, is_reader);
+  surface->is_reader = is_reader;
   *out = surface;
   return CELSPAN_OK;
+}
+
+celspan_status celspan_surface_create(celspan_context *context, const celspan_surface_desc *desc,
+                                      celspan_surface **out) {
+  return create(context, desc, false, out);
+}
+
+celspan_status cs_surface_create_reader(celspan_context *context, const celspan_surface_desc *desc,
+                                        celspan_surface **out) {
+  return create(context, desc, true, out);
 }
 
 celspan_surface *celspan_surface_ref(celspan_surface *surface) {
@@ -153,6 +164,7 @@ void cs_surface_describe(const celspan_surface *surface, cs_picture_header *out)
       .alpha = surface->desc.alpha == CELSPAN_ALPHA_PREMULTIPLIED ? CS_PICTURE_ALPHA_CODED
                                                                   : CS_PICTURE_ALPHA_STRAIGHT,
       .bits = shape->bits,
+      .is_sequential = surface->is_reader,
   };
   snprintf(out->info.format, sizeof out->info.format, "memory");
   snprintf(out->info.colour, sizeof out->info.colour, "%s", shape->bits ? "srgb" : "linear");
@@ -213,6 +225,8 @@ static celspan_status read_filled(celspan_context *context, const celspan_surfac
   context->error[0] = 0;
   celspan_status status =
       desc->fill(desc->user, context, r, codes, (size_t)r->width * shape->size, &rows);
+  if (status != CELSPAN_OK && surface->is_reader)
+    return status;
   if (status != CELSPAN_OK) {
     char own[sizeof context->error];
     snprintf(own, sizeof own, "%s", context->error);

@@ -10,6 +10,9 @@
  * INVARIANT: a surface has pixels or a fill function, and a stride of its rows; its values never
  * change, or its key promises that they do not. Its hash is that of its content, or of its key.
  *
+ * A reader is a surface whose fill function reads a file of a format of ours: it is asked for its rows
+ * from top to bottom as far as that can be, and its failures keep their status and sentence.
+ *
  * Threads: only the count of references changes. A buffer is read by all. A fill function is called
  * while the entry of its picture is locked for reading (pictures/store.h): by one thread at a time
  * for equal pictures, by several where its surface is shown in different ways. A frame that shows
@@ -28,7 +31,13 @@ struct celspan_surface {
   cs_hash hash;
   celspan_surface_desc desc; /* pixels: the copy, unless there is a release function */
   size_t copied;             /* bytes of the copy */
+  bool is_reader;            /* its hash differs from that of a host's surface of the same key */
 };
+
+/* As celspan_surface_create, with a fill function that any thread may call: a reader. */
+CELSPAN_CHECKED celspan_status cs_surface_create_reader(celspan_context *context,
+                                                        const celspan_surface_desc *desc,
+                                                        celspan_surface **out);
 
 /* What a picture module tells of a file. */
 void cs_surface_describe(const celspan_surface *surface, cs_picture_header *out);

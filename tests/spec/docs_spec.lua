@@ -35,8 +35,8 @@ setup(function()
   folder = os.tmpname()
   os.remove(folder)
   assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
-  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/drawings %s/scripts/type %s/scripts/demo/line.tsv %s/")
-    :format(root, root, root, root, folder)))
+  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/drawings %s/scripts/type %s/scripts/paintings "
+    .. "%s/scripts/demo/line.tsv %s/"):format(root, root, root, root, root, folder)))
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do
       if block.language == "lua" and block.name then
@@ -265,7 +265,8 @@ describe("the Lua reference", function()
   end)
 
   it("names the modules of the library and what they hold", function()
-    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "svg", "json" } do
+    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "svg", "layers",
+                            "oca", "json" } do
       local text = section("Module celspan." .. name)
       local module = require("celspan." .. name)
       for key, value in pairs(module) do
@@ -297,6 +298,7 @@ describe("the C reference", function()
   it("shows what stands in the example programs", function()
     local programs = markdown.read "examples/memory.c" .. markdown.read "examples/embed.c"
       .. markdown.read "examples/surface.c" .. markdown.read "examples/letters.c" .. markdown.read "examples/host.c"
+      .. markdown.read "examples/painting.c"
     for _, block in ipairs(markdown.blocks "docs/c.md") do
       if block.language == "c" then
         assert.is_truthy(programs:find(block.text, 1, true), "docs/c.md:" .. block.line)

@@ -1,0 +1,377 @@
+--- Layered paintings as objects and cels, layer by layer.
+--
+--   local tree = assert(layers.read "forest.kra")      -- .ora .kra .psd, an OCA folder, a folder of
+--   tree:find("far/hills").object                      -- numbered pictures
+--   celspan.rostrum(tree:cels { front = { 1, 0.9, 0.8 } })
+--
+-- A tree is a list of layers and groups, rearmost first. Pixels are read when they are first seen.
+-- `skipped` tells what is not shown as in the program that the painting was made with.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local oca = require "celspan.oca"
+
+local layers = {}
+
+---@class celspan.layers.entry
+---@field name string
+---@field object celspan.object The picture where it lies in the painting, without opacity; of a group what is visible in it
+---@field x number Of its left edge, in pixels of the painting
+---@field y number Of its top edge
+---@field opacity number 0..1
+---@field visible boolean
+---@field blend string "normal", "multiply", "add", "screen", ...; of a group also "pass-through"
+---@field children? celspan.layers.entry[] Of a group: rearmost first
+local Entry = { __name = "celspan.layers.entry" }
+Entry.__index = fields.reads("a layer", {}, { children = true })
+
+---@class celspan.layers.tree
+---@field width? number
+---@field height? number
+---@field skipped { layer: string, what: string }[]
+local Tree = { __name = "celspan.layers.tree" }
+local methods = {}
+Tree.__index = fields.reads("a tree of layers", methods, { width = true, height = true })
+
+--- What a layer is made of beside its entry: for cels, and out of the sight of scripts.
+local sources = setmetatable({}, { __mode = "k" })
+
+--- Blend modes that need no note; "pass-through" is that of groups.
+local plain = { normal = true, ["pass-through"] = true }
+local shown = { normal = true, multiply = true, add = true }
+
+-- ---------------------------------------------------------------- entries
+
+--- The object of a layer as it is painted among others in one cel.
+local function painted(entry)
+  local object = entry.object
+  local source = sources[entry]
+  if entry.blend == "multiply" and source.picture then
+    object = celspan.image(source.image("gel")):named(source.name)
+  end
+  return entry.opacity < 1 and object:fade(entry.opacity) or object
+end
+
+local function visible_objects(children)
+  local list = {}
+  for _, child in ipairs(children) do
+    if child.visible then list[#list + 1] = painted(child) end
+  end
+  return list
+end
+
+--- A name that values take: not empty.
+local function name_of(text, kind) return text ~= "" and text or kind end
+
+--- given: name, x, y, opacity, visible, blend; children, or picture, the fields of an image, with x
+--- and y; or neither: a layer that is empty.
+local function make_entry(given)
+  local source = { name = name_of(given.name, given.children and "group" or "layer"),
+                   picture = given.picture }
+  function source.image(use)
+    local image = { as = use }
+    for name, value in pairs(given.picture) do image[name] = value end
+    return image
+  end
+  local object
+  if given.children then
+    object = celspan.union(visible_objects(given.children))
+  elseif given.picture then
+    object = celspan.image(source.image("paint"))
+  else
+    object = given.object or celspan.union {}
+  end
+  local entry = setmetatable({ name = given.name, object = object:named(source.name), x = given.x,
+    y = given.y, opacity = given.opacity, visible = given.visible, blend = given.blend,
+    children = given.children }, Entry)
+  sources[entry] = source
+  return entry
+end
+
+-- ---------------------------------------------------------------- what is skipped
+
+--- Notes on blend modes that are shown as normal, for the layers of a list. path: of the group;
+--- is_faded: it is in a group that is shown as one picture.
+local function note_blends(list, path, is_faded, skipped)
+  for _, entry in ipairs(list) do
+    local here = path .. entry.name
+    local blend = entry.blend
+    local known = entry.children and plain or shown
+    local what
+    if not known[blend] then
+      what = ('blend mode "%s": it is shown as normal'):format(blend)
+    elseif is_faded and blend == "multiply" then
+      what = 'blend mode "multiply" in a group with opacity: right where the group covers what is '
+        .. "behind it"
+    elseif is_faded and blend == "add" then
+      what = 'blend mode "add" in a group with opacity: it is shown as normal'
+    end
+    if what then skipped[#skipped + 1] = { layer = here, what = what } end
+    if entry.children then
+      note_blends(entry.children, here .. "/", is_faded or entry.opacity < 1, skipped)
+    end
+  end
+end
+
+local function make_tree(list, width, height, skipped)
+  local tree = { width = width, height = height, skipped = skipped }
+  for i, entry in ipairs(list) do tree[i] = entry end
+  note_blends(list, "", false, skipped)
+  return setmetatable(tree, Tree)
+end
+
+-- ---------------------------------------------------------------- paintings
+
+--- The path of each layer of a painting, "group/layer".
+local function paths_of(flat)
+  local paths = {}
+  for i = #flat, 1, -1 do -- groups come after what is in them
+    local parent = flat[i].parent
+    paths[i] = parent and paths[parent] .. "/" .. flat[i].name or flat[i].name
+  end
+  return paths
+end
+
+local function from_painting(path)
+  local painting, message = core.painting(path)
+  if not painting then return nil, message end
+  local flat, children, list = painting.layers, {}, {}
+  for i, layer in ipairs(flat) do
+    local picture = layer.pixels and { pixels = layer.pixels, x = layer.x, y = layer.y,
+                                       w = layer.width, h = layer.height }
+    local entry = make_entry { name = layer.name, x = layer.x, y = layer.y, picture = picture,
+      opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
+      children = layer.group and (children[i] or {}) or nil }
+    local siblings = list
+    if layer.parent then
+      siblings = children[layer.parent] or {}
+      children[layer.parent] = siblings
+    end
+    siblings[#siblings + 1] = entry
+  end
+  local skipped, paths = {}, paths_of(flat)
+  for i, note in ipairs(painting.notes) do
+    skipped[i] = { layer = paths[note.layer], what = note.what }
+  end
+  return make_tree(list, painting.width, painting.height, skipped)
+end
+
+-- ---------------------------------------------------------------- folders
+
+--- What pictures end with; others in a folder of them are skipped.
+local endings = {}
+for ending in ("png jpg jpeg tif tiff exr tga dpx cin webp bmp gif jp2 hdr"):gmatch "%a+%d?" do
+  endings[ending] = true
+end
+
+--- "b10" after "b9": runs of digits count as numbers.
+local function natural_key(name)
+  return (name:lower():gsub("%d+", function(digits)
+    local number = digits:gsub("^0+", "")
+    return ("%03d"):format(#number) .. number
+  end))
+end
+
+local function sort_naturally(names)
+  local keys = {}
+  for _, name in ipairs(names) do keys[name] = natural_key(name) end
+  table.sort(names, function(a, b)
+    if keys[a] ~= keys[b] then return keys[a] < keys[b] end
+    return a < b
+  end)
+end
+
+--- What a function answers, or nil and the message of the error that it raised, without its line.
+local function caught(make)
+  local good, value = pcall(make)
+  if good then return value end
+  return nil, (tostring(value):gsub("^[^\n]-:%d+: ", "", 1))
+end
+
+local function from_folder(path, names)
+  local list, skipped = {}, {}
+  sort_naturally(names)
+  for _, name in ipairs(names) do
+    local base, ending = name:match "^(.*)%.(%w+)$"
+    local file = path .. "/" .. name
+    if not base or not endings[ending:lower()] then
+      skipped[#skipped + 1] = { layer = name, what = "no picture: it is left out" }
+    elseif not core.within(path, name) then
+      return nil, ("%s: %s lies outside the folder"):format(path, name)
+    else
+      local entry, message = caught(function()
+        return make_entry { name = base, x = 0, y = 0, opacity = 1, visible = true,
+          blend = "normal", picture = { file = file, x = 0, y = 0 } }
+      end)
+      if not entry then return nil, message end
+      list[#list + 1] = entry
+    end
+  end
+  if #list == 0 then return nil, path .. ": the folder holds no pictures" end
+  return make_tree(list, nil, nil, skipped)
+end
+
+--- The document of an OCA folder among its files.
+local function find_document(names)
+  table.sort(names)
+  for _, name in ipairs(names) do
+    if name:match "%.oca$" then return name end
+  end
+  for _, name in ipairs(names) do
+    if name:match "%.json$" and not name:match "_meta%.json$" then return name end
+  end
+end
+
+local function from_oca(folder, document)
+  local read, message = oca.read(folder, document)
+  if not read then return nil, message end
+  local function build(list)
+    local entries = {}
+    for i, layer in ipairs(list) do
+      if layer.children then layer.children = build(layer.children) end
+      entries[i] = make_entry(layer)
+    end
+    return entries
+  end
+  local entries
+  entries, message = caught(function() return build(read.layers) end)
+  if not entries then return nil, message end
+  return make_tree(entries, read.width, read.height, read.skipped)
+end
+
+-- ---------------------------------------------------------------- the module
+
+local function is_there(path)
+  local file = io.open(path, "rb")
+  if file then file:close() end
+  return file ~= nil
+end
+
+local function read_any(path)
+  local names, message = core.folder(path)
+  if names then
+    local document = find_document(names)
+    if document then return from_oca(path, document) end
+    return from_folder(path, names)
+  end
+  if message:find "limit" then return nil, message end
+  if path:match "%.oca$" then
+    local folder, document = path:match "^(.*)/([^/]*)$"
+    return from_oca(folder or ".", document or path)
+  end
+  return from_painting(path)
+end
+
+---@param path string Relative to the caller's file, else to the script
+---@return celspan.layers.tree? tree
+---@return string? message
+function layers.read(path)
+  if type(path) ~= "string" then
+    error("layers: read takes the name of a file or folder, got " .. fields.kind(path), 2)
+  end
+  local found_at, tried = core.find(path)
+  local tree, message = read_any(found_at)
+  if not tree and tried and not is_there(found_at) then
+    message = ("%s; nor is it there: %s"):format(message, tried)
+  end
+  return tree, message
+end
+
+-- ---------------------------------------------------------------- finding
+
+local function find(list, path)
+  for _, entry in ipairs(list) do
+    if entry.name == path then return entry end
+  end
+  for _, entry in ipairs(list) do
+    local inside = entry.name .. "/"
+    if entry.children and path:sub(1, #inside) == inside then
+      local found = find(entry.children, path:sub(#inside + 1))
+      if found then return found end
+    end
+  end
+end
+
+--- The layer or group of that path, "group/layer"; the rearmost where several have it.
+---@param path string
+---@return celspan.layers.entry? entry
+function methods:find(path)
+  if type(path) ~= "string" then
+    error("layers: find takes a path like \"group/layer\", got " .. fields.kind(path), 2)
+  end
+  return find(self, path)
+end
+
+-- ---------------------------------------------------------------- cels
+
+local known = { only = "table", front = "any", back = "any", viewport = "table", defocus = "any",
+                opacity = "number" }
+
+--- The cel that adds the light of a picture to what is behind it.
+local function light_cel(entry, source, options)
+  local picture = source.picture
+  local x, y, w, h = entry.object:bounds()
+  local texture = celspan.picture { file = picture.file, pixels = picture.pixels,
+    box = { x, y, w, h } }
+  return celspan.cel { back = { texture = texture, gain = entry.opacity * (options.opacity or 1),
+    on = "cel" }, viewport = options.viewport }:named(source.name)
+end
+
+local function cel_of(entry, options)
+  local source = sources[entry]
+  if entry.blend == "add" and source.picture then return light_cel(entry, source, options) end
+  local object = entry.object
+  if entry.blend == "multiply" and source.picture then
+    object = celspan.image(source.image("gel")):named(source.name)
+  end
+  return celspan.cel { object, front = options.front, back = options.back,
+    viewport = options.viewport, defocus = options.defocus,
+    opacity = entry.opacity * (options.opacity or 1) }:named(source.name)
+end
+
+--- Whether the layers of a group are cels of their own.
+local function is_open(entry) return entry.children and entry.opacity == 1 end
+
+--- chosen: entries of which the cels are wanted, as keys; nil: all that are visible.
+local function add_cels(list, chosen, options, cels)
+  for _, entry in ipairs(list) do
+    local is_chosen = chosen and chosen[entry]
+    local is_wanted = is_chosen or not chosen and entry.visible
+    if is_wanted and is_open(entry) then
+      add_cels(entry.children, nil, options, cels)
+    elseif is_wanted then
+      cels[#cels + 1] = cel_of(entry, options)
+    elseif chosen and entry.children then
+      add_cels(entry.children, chosen, options, cels)
+    end
+  end
+end
+
+--- The entries that `only` names, as keys.
+local function choose(tree, only)
+  local chosen = {}
+  for i, path in ipairs(only) do
+    local entry = type(path) == "string" and find(tree, path) or nil
+    if not entry then
+      error(("layers: only[%d] must be the path of a layer, got %s"):format(i,
+        type(path) == "string" and ("%q"):format(path) or fields.kind(path)), 3)
+    end
+    chosen[entry] = true
+  end
+  return chosen
+end
+
+--- A cel for each layer that is visible, rearmost first. A group with opacity is one cel. `only`
+--- names layers and groups, which are then taken whether they are visible or not, and no others;
+--- the other fields go to each cel.
+---@param options? { only?: string[], front?: any, back?: any, viewport?: number[], defocus?: any, opacity?: number }
+---@return celspan.cel[] cels
+function methods:cels(options)
+  options = options or {}
+  fields.check("layers: cels", options, known)
+  local cels = {}
+  add_cels(self, options.only and choose(self, options.only), options, cels)
+  return cels
+end
+
+return fields.seal("layers", layers)

@@ -1,0 +1,191 @@
+--- OCA, Open Cel Animation: a folder of pictures and a JSON document that tells how they lie on each
+--- other, rearmost first.
+--
+--   oca.read(folder, document) -> { width =, height =, layers = {...}, skipped = {...} } | nil, message
+--
+-- A layer: name, x, y, opacity, visible, blend, and picture (the fields of an image) or children. A
+-- layer of several drawings becomes a group of them, of which the first is visible.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local json = require "celspan.json"
+
+local oca = {}
+
+--- Layers and drawings of a document at most.
+oca.most_layers = 65536
+
+local function fail(...) error({ message = string.format(...) }, 0) end
+
+-- ---------------------------------------------------------------- values
+
+local words = { number = "number", string = "string", boolean = "boolean", table = "list" }
+
+--- A value of an object of the document, or its default. what: the object, for messages.
+local function value_of(object, what, name, default)
+  local value = object[name]
+  if value == nil or value == json.null then return default end
+  local wanted = type(default)
+  if type(value) ~= wanted then
+    fail("%s: %s must be a %s, got %s", what, name, words[wanted], fields.kind(value))
+  end
+  return value
+end
+
+local function number_of(object, what, name, default, least, most)
+  local number = value_of(object, what, name, default)
+  if not (number >= least and number <= most) then
+    fail("%s: %s is %s; it must be a number from %.10g to %.10g", what, name, fields.shown(number),
+      least, most)
+  end
+  return number
+end
+
+--- The corner and size of something whose centre is told.
+local function place_of(object, what, width, height)
+  local w = number_of(object, what, "width", width, 1, 1048576)
+  local h = number_of(object, what, "height", height, 1, 1048576)
+  local centre = value_of(object, what, "position", {})
+  local x = number_of(centre, what .. ": position", 1, width / 2, -1e9, 1e9)
+  local y = number_of(centre, what .. ": position", 2, height / 2, -1e9, 1e9)
+  return x - w / 2, y - h / 2, w, h
+end
+
+--- The file of a drawing, which must lie in the folder.
+local function file_of(state, what, name)
+  local path = name:gsub("\\", "/")
+  local is_outside = path:find "^/" or path:find "^%a:" or ("/" .. path .. "/"):find("/../", 1, true)
+  if is_outside or path:find "%z" then
+    fail("%s: fileName is %q; it must lie in the folder", what, name)
+  end
+  local found = core.within(state.folder, path)
+  if not found then
+    fail("%s: fileName is %q, which is not in the folder", what, name)
+  end
+  return found
+end
+
+local blends = { passthrough = "pass-through", linear_dodge = "add", plus = "add" }
+
+local function blend_of(layer, what)
+  local word = value_of(layer, what, "blendingMode", "normal"):lower()
+  return blends[word] or (word:gsub("[_ ]", "-"))
+end
+
+local function count_layer(state, what)
+  state.count = state.count + 1
+  if state.count > oca.most_layers then
+    fail("%s: there are more than %d layers and drawings, which is the limit", what,
+      oca.most_layers)
+  end
+end
+
+-- ---------------------------------------------------------------- layers
+
+--- The drawings of a layer that are not empty, in order.
+local function read_drawings(state, layer, path, what)
+  local list = {}
+  for i, frame in ipairs(value_of(layer, what, "frames", {})) do
+    local here = ("%s: frame %d"):format(what, i)
+    if type(frame) ~= "table" then fail("%s must be an object, got %s", here, fields.kind(frame)) end
+    count_layer(state, here)
+    local name = value_of(frame, here, "name", "")
+    local file = value_of(frame, here, "fileName", "")
+    if file ~= "" and name ~= "_blank" then
+      local x, y, w, h = place_of(frame, here, state.width, state.height)
+      list[#list + 1] = { name = name, x = x, y = y, visible = #list == 0, blend = "normal",
+        opacity = number_of(frame, here, "opacity", 1, 0, 1),
+        picture = { file = file_of(state, here, file), x = x, y = y, w = w, h = h } }
+    end
+  end
+  if #list > 1 then
+    state.skipped[#state.skipped + 1] = { layer = path,
+      what = ("%d drawings: the first is visible"):format(#list) }
+  end
+  return list
+end
+
+local read_layers
+
+local function read_layer(state, layer, folder, what)
+  if type(layer) ~= "table" then fail("%s must be an object, got %s", what, fields.kind(layer)) end
+  count_layer(state, what)
+  local name = value_of(layer, what, "name", "")
+  local path = folder .. name
+  local out = { name = name, x = 0, y = 0, blend = blend_of(layer, what),
+    opacity = number_of(layer, what, "opacity", 1, 0, 1),
+    visible = value_of(layer, what, "visible", true)
+      and not value_of(layer, what, "reference", false) }
+  if value_of(layer, what, "inheritAlpha", false) then
+    state.skipped[#state.skipped + 1] = { layer = path,
+      what = "alpha is inherited from the layers below: it is shown whole" }
+  end
+  if value_of(layer, what, "type", "paintlayer") == "grouplayer" then
+    if value_of(layer, what, "passThrough", false) then out.blend = "pass-through" end
+    out.children = read_layers(state, value_of(layer, what, "childLayers", {}), path .. "/",
+      what .. ": ")
+    return out
+  end
+  local drawings = read_drawings(state, layer, path, what)
+  if #drawings > 1 then
+    out.children = drawings
+  elseif #drawings == 1 then
+    out.x, out.y, out.picture = drawings[1].x, drawings[1].y, drawings[1].picture
+    out.opacity = out.opacity * drawings[1].opacity
+  end
+  return out
+end
+
+function read_layers(state, list, folder, what)
+  local out = {}
+  for i, layer in ipairs(list) do
+    out[i] = read_layer(state, layer, folder, ("%slayer %d"):format(what, i))
+  end
+  return out
+end
+
+--- The ground of the document as a layer, where it has one.
+local function background(document, width, height)
+  local colour = value_of(document, "the document", "backgroundColor", {})
+  local codes = {}
+  for i = 1, 4 do
+    codes[i] = math.floor(255 * number_of(colour, "backgroundColor", i, 0, 0, 1e9) + 0.5)
+    codes[i] = math.min(255, codes[i])
+  end
+  if codes[4] == 0 then return nil end
+  return { name = "background", x = 0, y = 0, opacity = 1, visible = true, blend = "normal",
+    object = celspan.rect { 0, 0, width, height,
+      texture = ("#%02x%02x%02x%02x"):format(codes[1], codes[2], codes[3], codes[4]) } }
+end
+
+local function read_document(folder, text)
+  local document, problem = json.decode(text)
+  if document == nil then fail("%s", problem) end
+  if type(document) ~= "table" then fail("the document must be an object") end
+  local state = { folder = folder, count = 0, skipped = {},
+    width = number_of(document, "the document", "width", 1920, 1, 1048576),
+    height = number_of(document, "the document", "height", 1080, 1, 1048576) }
+  local list = value_of(document, "the document", "layers", {})
+  local read = read_layers(state, list, "", "")
+  local ground = background(document, state.width, state.height)
+  if ground then table.insert(read, 1, ground) end
+  return { width = state.width, height = state.height, layers = read, skipped = state.skipped }
+end
+
+---@param folder string
+---@param document string The name of the JSON document in it
+---@return table? read
+---@return string? message
+function oca.read(folder, document)
+  local path = folder .. "/" .. document
+  local file, message = io.open(path, "rb")
+  if not file then return nil, message end
+  local text = file:read(json.most_bytes + 1)
+  file:close()
+  local good, read = pcall(read_document, folder, text or "")
+  if good then return read end
+  if type(read) ~= "table" then error(read, 0) end
+  return nil, ("%s: %s"):format(path, read.message)
+end
+
+return fields.seal("oca", oca)

@@ -1,0 +1,70 @@
+#include "painting/input.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+celspan_status cs_input_fail(celspan_context *context, const cs_input *input, int64_t offset,
+                             celspan_status status, const char *format, ...) {
+  char sentence[CS_ERROR_SIZE / 2], place[32] = "";
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(sentence, sizeof sentence, format, arguments);
+  va_end(arguments);
+  if (offset >= 0)
+    snprintf(place, sizeof place, "byte %lld: ", (long long)offset);
+  return cs_fail(context, status, "%s: %s%s", input->path, place, sentence);
+}
+
+static celspan_status check_facts(celspan_context *context, cs_input *input) {
+  struct stat found;
+  if (fstat(input->descriptor, &found) != 0 || !S_ISREG(found.st_mode))
+    return cs_input_fail(context, input, -1, CELSPAN_INPUT,
+                         "is not a file; a painting must be one");
+  int64_t time = (int64_t)found.st_mtim.tv_sec * 1000000000 + found.st_mtim.tv_nsec;
+  if (input->is_known && (input->size != (int64_t)found.st_size || input->time != time ||
+                          input->number != (uint64_t)found.st_ino))
+    return cs_input_fail(context, input, -1, CELSPAN_INPUT, "changed while it was in use");
+  input->is_known = true;
+  input->size = (int64_t)found.st_size;
+  input->time = time;
+  input->number = (uint64_t)found.st_ino;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_input_open(celspan_context *context, cs_input *input) {
+  /* NONBLOCK: opening a pipe that nobody writes to must not wait. */
+  input->descriptor = open(input->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (input->descriptor < 0)
+    return cs_input_fail(context, input, -1, CELSPAN_INPUT, "cannot be opened: %s",
+                         strerror(errno));
+  celspan_status status = check_facts(context, input);
+  if (status != CELSPAN_OK)
+    cs_input_close(input);
+  return status;
+}
+
+void cs_input_close(cs_input *input) { close(input->descriptor); }
+
+celspan_status cs_input_read(celspan_context *context, const cs_input *input, int64_t offset,
+                             void *bytes, size_t size) {
+  size_t done = 0;
+  while (done < size) {
+    ssize_t got =
+        pread(input->descriptor, (char *)bytes + done, size - done, offset + (int64_t)done);
+    if (got < 0 && errno == EINTR)
+      continue;
+    if (got < 0)
+      return cs_input_fail(context, input, offset, CELSPAN_INPUT, "cannot be read: %s",
+                           strerror(errno));
+    if (got == 0)
+      return cs_input_fail(context, input, offset + (int64_t)done, CELSPAN_INPUT,
+                           "the file ends here; %zu more bytes are missing", size - done);
+    done += (size_t)got;
+  }
+  return CELSPAN_OK;
+}

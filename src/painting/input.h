@@ -1,0 +1,34 @@
+/* The file of a painting, or the part of one: bytes at offsets.
+ *
+ * INVARIANT: what was opened is a regular file, and as long as `is_known` it is the same, unchanged
+ * file each time it is opened. It is open between cs_input_open and cs_input_close only, so that a
+ * painting of a thousand layers needs no descriptor while none of them is read.
+ *
+ * An input is used by one thread at a time.
+ */
+#ifndef CS_PAINTING_INPUT_H
+#define CS_PAINTING_INPUT_H
+
+#include "base/context.h"
+
+typedef struct cs_input {
+  const char *path; /* borrowed */
+  int descriptor;   /* while it is open */
+  bool is_known;    /* the facts below are those of the file as it was first opened */
+  int64_t size;
+  int64_t time; /* nanoseconds */
+  uint64_t number;
+} cs_input;
+
+/* Errors: INPUT, with the path. */
+CELSPAN_CHECKED celspan_status cs_input_open(celspan_context *context, cs_input *input);
+void cs_input_close(cs_input *input);
+/* Exactly `size` bytes at `offset`. Errors: INPUT, with the byte at which the file ends. */
+CELSPAN_CHECKED celspan_status cs_input_read(celspan_context *context, const cs_input *input,
+                                             int64_t offset, void *bytes, size_t size);
+/* Records "path: byte N: sentence", and returns status. offset < 0: without the byte. */
+celspan_status cs_input_fail(celspan_context *context, const cs_input *input, int64_t offset,
+                             celspan_status status, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
+
+#endif

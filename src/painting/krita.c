@@ -1,0 +1,154 @@
+#include "painting/krita.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "painting/krita_tiles.h"
+
+static bool is(const char *text, const char *word) { return text && strcmp(text, word) == 0; }
+
+static celspan_status note(cs_document *document, const char *sentence) {
+  return cs_contents_note(document->context, document->painting,
+                          cs_contents_last(document->painting), "%s", sentence);
+}
+
+static celspan_status start_image(cs_document *document) {
+  const char *name = cs_document_text(document, "name");
+  snprintf(document->folder, sizeof document->folder, "%s", name ? name : "");
+  return cs_document_size(document, "width", "height");
+}
+
+/* ---------------------------------------------------------------- layers */
+
+static celspan_status read_common(cs_document *document, cs_contents_layer *layer) {
+  double opacity = 255;
+  const char *blend = cs_document_text(document, "compositeop");
+  layer->is_visible = !is(cs_document_text(document, "visible"), "0");
+  CS_TRY(cs_document_number(document, "opacity", 0, 255, &opacity));
+  layer->opacity = opacity / 255;
+  if (blend)
+    cs_document_blend(blend, layer->blend);
+  if (is(cs_document_text(document, "passthrough"), "1") && layer->is_group)
+    strcpy(layer->blend, "pass-through");
+  CS_TRY(cs_document_whole(document, "x", &layer->x));
+  return cs_document_whole(document, "y", &layer->y);
+}
+
+/* Krita tells which channels a layer changes, alpha last: "1110" keeps to what lies under it. */
+static celspan_status note_channels(cs_document *document) {
+  const char *flags = cs_document_text(document, "channelflags");
+  if (!flags || !strchr(flags, '0'))
+    return CELSPAN_OK;
+  return note(document, flags[strlen(flags) - 1] == '0'
+                            ? "alpha is inherited from the layers below: it is shown whole"
+                            : "some channels are switched off: it is shown whole");
+}
+
+/* The member of a layer: where the image's name tells, or in whatever folder it lies. */
+static const cs_zip_member *find_member(const cs_document *document, const char *name) {
+  char path[640];
+  snprintf(path, sizeof path, "%s/layers/%.300s", document->folder, name);
+  const cs_zip_member *found = cs_zip_find(document->zip, path);
+  size_t folder = strlen(document->folder), size = strlen(path) - folder;
+  for (size_t i = 0; i < document->zip->count && !found; i++) {
+    const char *other = document->zip->members[i].name;
+    if (strlen(other) >= size && strcmp(other + strlen(other) - size, path + folder) == 0)
+      found = &document->zip->members[i];
+  }
+  return found;
+}
+
+/* What Krita takes where there is no tile. */
+static celspan_status read_default(cs_document *document, const char *name,
+                                   cs_krita_tiles_form *form) {
+  char member_name[320];
+  unsigned char *bytes;
+  size_t size;
+  snprintf(member_name, sizeof member_name, "%.300s.defaultpixel", name);
+  const cs_zip_member *member = find_member(document, member_name);
+  if (!member)
+    return CELSPAN_OK;
+  CS_TRY(cs_zip_load(document->context, document->input, member, 64, &bytes, &size));
+  if (size == (size_t)form->pixel_size)
+    memcpy(form->beyond, bytes, size);
+  cs_mem_free(document->context->memory, bytes, size + 1);
+  return CELSPAN_OK;
+}
+
+static celspan_status read_pixels(cs_document *document, cs_contents_layer *layer) {
+  const char *name = cs_document_text(document, "filename");
+  const char *space = cs_document_text(document, "colorspacename");
+  cs_krita_tiles_form form = {.width = document->painting->width,
+                              .height = document->painting->height};
+  if (!name || !cs_document_is_inside(name) || strchr(name, '/'))
+    return cs_document_fail(document, CELSPAN_INPUT,
+                            "filename is \"%.200s\"; it must name a layer of the archive",
+                            name ? name : "");
+  if (!cs_krita_tiles_form_of(space ? space : "RGBA", &form))
+    return cs_contents_note(document->context, document->painting,
+                            cs_contents_last(document->painting),
+                            "pixels in the colour space %.40s: it is empty", space);
+  const cs_zip_member *member = find_member(document, name);
+  if (!member)
+    return cs_document_fail(document, CELSPAN_INPUT,
+                            "filename is \"%.200s\", which is not in the archive", name);
+  CS_TRY(read_default(document, name, &form));
+  int32_t x = layer->x, y = layer->y;
+  form.x = -x;
+  form.y = -y;
+  cs_rows_source *source = NULL;
+  CS_TRY(cs_krita_tiles_create(document->context, document->input, member, &form, &source));
+  if (!source)
+    return CELSPAN_OK;
+  cs_contents_set_pixels(layer, x + form.x, y + form.y, source);
+  return cs_contents_check_corner(document->context, document->input, "a layer", layer->x,
+                                  layer->y);
+}
+
+static celspan_status start_layer(cs_document *document) {
+  const char *type = cs_document_text(document, "nodetype");
+  cs_contents_layer *layer;
+  bool is_group = is(type, "grouplayer");
+  CS_TRY(cs_document_add(document, true, &layer)); /* it may have masks: closed with its element */
+  layer->is_group = is_group;
+  CS_TRY(read_common(document, layer));
+  if (is_group) {
+    layer->x = layer->y = 0;
+    return note_channels(document);
+  }
+  if (type && !is(type, "paintlayer"))
+    return cs_contents_note(document->context, document->painting,
+                            cs_contents_last(document->painting), "a %.60s: it is empty", type);
+  CS_TRY(read_pixels(document, layer));
+  if (cs_document_text(document, "keyframes"))
+    CS_TRY(note(document, "animation: its first drawing is shown"));
+  return note_channels(document);
+}
+
+static celspan_status start_mask(cs_document *document) {
+  const char *type = cs_document_text(document, "nodetype");
+  if (document->group == CS_CONTENTS_NONE)
+    return CELSPAN_OK; /* a selection of the whole painting */
+  return cs_contents_note(document->context, document->painting, document->group,
+                          "a %.60s: it changes nothing here", type ? type : "mask");
+}
+
+static celspan_status start(cs_document *document, const char *name) {
+  if (is(name, "IMAGE"))
+    return start_image(document);
+  if (is(name, "layer"))
+    return document->has_size
+               ? start_layer(document)
+               : cs_document_fail(document, CELSPAN_INPUT, "a layer comes before the image");
+  return is(name, "mask") ? start_mask(document) : CELSPAN_OK;
+}
+
+static celspan_status end(cs_document *document, const char *name) {
+  if (is(name, "layer"))
+    cs_document_close_group(document);
+  return CELSPAN_OK;
+}
+
+/* A group is a layer and the list in it. */
+const cs_document_format cs_krita_format = {"maindoc.xml", "reading Krita files", start, end,
+                                            2 * CS_CONTENTS_DEPTH + 16};

@@ -1,0 +1,419 @@
+--- Writes layered paintings for tests: OpenRaster, Krita and Photoshop files, as strings.
+--
+--   paintings.openraster { w = 64, h = 48, layers = { {...}, ... } }     rearmost first, in all three
+--   paintings.krita { ... }     paintings.psd { ... }
+--
+-- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner), and
+-- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
+-- alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
+-- "predicted" (Photoshop); depth = 8 or 16; grey.
+local paintings = {}
+
+-- ---------------------------------------------------------------- sums
+
+local crc_table = {}
+for i = 0, 255 do
+  local c = i
+  for _ = 1, 8 do c = c & 1 == 1 and 0xEDB88320 ~ (c >> 1) or c >> 1 end
+  crc_table[i] = c
+end
+
+function paintings.crc32(text)
+  local c = 0xFFFFFFFF
+  for i = 1, #text do c = crc_table[(c ~ text:byte(i)) & 255] ~ (c >> 8) end
+  return c ~ 0xFFFFFFFF
+end
+
+local function adler32(text)
+  local a, b = 1, 0
+  for i = 1, #text do
+    a = (a + text:byte(i)) % 65521
+    b = (b + a) % 65521
+  end
+  return b << 16 | a
+end
+
+--- A deflate stream of stored blocks.
+function paintings.deflate(text)
+  local out = {}
+  for at = 1, math.max(1, #text), 65535 do
+    local piece = text:sub(at, at + 65534)
+    local is_last = at + 65535 > #text
+    out[#out + 1] = string.pack("<BI2I2", is_last and 1 or 0, #piece, ~#piece & 0xFFFF) .. piece
+  end
+  return table.concat(out)
+end
+
+function paintings.zlib(text)
+  return "\x78\x01" .. paintings.deflate(text) .. string.pack(">I4", adler32(text))
+end
+
+-- ---------------------------------------------------------------- archives
+
+--- members: { name =, data =, deflate =, and what a damaged archive tells instead: size, packed,
+--- method, flags }. comment: behind the table.
+function paintings.zip(members, comment)
+  local out, entries, at = {}, {}, 0
+  for _, member in ipairs(members) do
+    local data = member.deflate and paintings.deflate(member.data) or member.data
+    local method = member.method or (member.deflate and 8 or 0)
+    local facts = string.pack("<I2I2I2I2I4I4I4I2", member.flags or 0, method, 0, 0,
+      member.sum or paintings.crc32(member.data), member.packed or #data,
+      member.size or #member.data, #member.name)
+    local header = "PK\3\4" .. string.pack("<I2", 20) .. facts .. string.pack("<I2", 0)
+      .. member.name
+    entries[#entries + 1] = "PK\1\2" .. string.pack("<I2I2", 20, 20) .. facts
+      .. string.pack("<I2I2I2I2I4I4", 0, 0, 0, 0, 0, member.at or at) .. member.name
+    out[#out + 1] = header .. data
+    at = at + #header + #data
+  end
+  local table_text = table.concat(entries)
+  return table.concat(out) .. table_text .. "PK\5\6"
+    .. string.pack("<I2I2I2I2I4I4I2", 0, 0, #members, #members, #table_text, at, #(comment or ""))
+    .. (comment or "")
+end
+
+-- ---------------------------------------------------------------- PNG
+
+local function chunk(kind, data)
+  return string.pack(">I4", #data) .. kind .. data
+    .. string.pack(">I4", paintings.crc32(kind .. data))
+end
+
+--- An RGBA PNG of a layer, or one of the given colour type with rows of its own.
+function paintings.png(layer)
+  local depth = layer.depth or 8
+  local format = depth == 16 and ">I2I2I2I2" or "BBBB"
+  local rows = {}
+  for y = 0, layer.h - 1 do
+    local row = {}
+    for x = 0, layer.w - 1 do row[#row + 1] = string.pack(format, layer.pixel(x, y)) end
+    rows[#rows + 1] = "\0" .. table.concat(row)
+  end
+  return paintings.png_of(layer.w, layer.h, depth, 6, table.concat(rows))
+end
+
+--- rows: filtered, each with its filter's byte. more: chunks before the data.
+function paintings.png_of(w, h, depth, colour, rows, more, interlaced)
+  return "\x89PNG\r\n\x1a\n"
+    .. chunk("IHDR", string.pack(">I4I4BBBBB", w, h, depth, colour, 0, 0, interlaced or 0))
+    .. (more or "") .. chunk("IDAT", paintings.zlib(rows)) .. chunk("IEND", "")
+end
+
+paintings.chunk = chunk
+
+-- ---------------------------------------------------------------- XML
+
+local function escaped(text)
+  return (tostring(text):gsub("[&<>\"]", { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;",
+    ['"'] = "&quot;" }))
+end
+
+local function attributes(list)
+  local out = {}
+  for i = 1, #list, 2 do
+    if list[i + 1] ~= nil then out[#out + 1] = (' %s="%s"'):format(list[i], escaped(list[i + 1])) end
+  end
+  return table.concat(out)
+end
+
+--- Foremost first: the order of both formats.
+local function from_top(list)
+  local out = {}
+  for i = #list, 1, -1 do out[#out + 1] = list[i] end
+  return out
+end
+
+-- ---------------------------------------------------------------- OpenRaster
+
+local function openraster_layers(list, members)
+  local out = {}
+  for _, layer in ipairs(from_top(list)) do
+    local common = attributes { "name", layer.name, "opacity", layer.opacity, "visibility",
+      layer.visible == false and "hidden" or nil, "composite-op", layer.blend,
+      "isolation", layer.isolation } .. (layer.attributes or "")
+    if layer.layers then
+      out[#out + 1] = "<stack" .. common .. ">" .. openraster_layers(layer.layers, members)
+        .. "</stack>"
+    else
+      local name = ("data/layer%d.png"):format(#members)
+      members[#members + 1] = { name = name, data = layer.png or paintings.png(layer),
+        deflate = layer.deflate }
+      out[#out + 1] = "<layer" .. attributes { "x", layer.x, "y", layer.y, "src",
+        layer.src or name } .. common .. "/>"
+    end
+  end
+  return table.concat(out, "\n")
+end
+
+function paintings.openraster(painting)
+  local members = { { name = "mimetype", data = "image/openraster" } }
+  local stack = ('<?xml version="1.0" encoding="UTF-8"?>\n<image w="%d" h="%d">\n<stack>\n%s\n'
+    .. "</stack>\n</image>\n"):format(painting.w, painting.h,
+      openraster_layers(painting.layers, members))
+  members[#members + 1] = { name = "stack.xml", data = stack, deflate = true }
+  return paintings.zip(members)
+end
+
+-- ---------------------------------------------------------------- Krita
+
+--- How many bytes from `at` on are those `back` bytes before them.
+local function match_length(text, at, back)
+  local count = 0
+  while count < 264 and at + count <= #text and at > back
+      and text:byte(at + count) == text:byte(at + count - back) do count = count + 1 end
+  return count
+end
+
+--- LZF: copies from a few distances, else literals.
+function paintings.lzf(text)
+  local out, at, literals = {}, 1, {}
+  local function flush()
+    if #literals > 0 then out[#out + 1] = string.char(#literals - 1) .. table.concat(literals) end
+    literals = {}
+  end
+  while at <= #text do
+    local best, distance = 0, 0
+    for _, back in ipairs { 1, 3, 64, 300 } do
+      local count = match_length(text, at, back)
+      if count > best then best, distance = count, back end
+    end
+    if best >= 3 then
+      flush()
+      local high, low = (distance - 1) >> 8, (distance - 1) & 255
+      out[#out + 1] = best < 9 and string.char((best - 2) << 5 | high, low)
+        or string.char(7 << 5 | high, best - 9, low)
+      at = at + best
+    else
+      literals[#literals + 1] = text:sub(at, at)
+      if #literals == 32 then flush() end
+      at = at + 1
+    end
+  end
+  flush()
+  return table.concat(out)
+end
+
+local function krita_pixel(layer, x, y)
+  local r, g, b, a = layer.pixel(x, y)
+  local one = layer.depth == 16 and "I2" or "B"
+  if layer.grey then return string.pack("<" .. one .. one, r, a) end
+  return string.pack("<" .. one:rep(4), b, g, r, a)
+end
+
+local function krita_tile(layer, column, row)
+  local pixels = {}
+  local clear = ("\0"):rep((layer.grey and 2 or 4) * (layer.depth == 16 and 2 or 1))
+  for y = 64 * row, 64 * row + 63 do
+    for x = 64 * column, 64 * column + 63 do
+      pixels[#pixels + 1] = x < layer.w and y < layer.h and krita_pixel(layer, x, y) or clear
+    end
+  end
+  if layer.lzf == false then return "\0" .. table.concat(pixels) end
+  local planes = {}
+  for byte = 1, #clear do
+    local plane = {}
+    for i, pixel in ipairs(pixels) do plane[i] = pixel:sub(byte, byte) end
+    planes[byte] = table.concat(plane)
+  end
+  local packed = paintings.lzf(table.concat(planes))
+  return #packed < #clear * 4096 and "\1" .. packed or "\0" .. table.concat(pixels)
+end
+
+--- Tiles from the layer's corner on; tile_x, tile_y: where that corner is in the layer's own units.
+function paintings.krita_tiles(layer)
+  local tiles = {}
+  for row = 0, (layer.h + 63) // 64 - 1 do
+    for column = 0, (layer.w + 63) // 64 - 1 do
+      local data = krita_tile(layer, column, row)
+      tiles[#tiles + 1] = ("%d,%d,LZF,%d\n"):format(64 * column + (layer.tile_x or 0),
+        64 * row + (layer.tile_y or 0), #data) .. data
+    end
+  end
+  return ("VERSION 2\nTILEWIDTH 64\nTILEHEIGHT 64\nPIXELSIZE %d\nDATA %d\n"):format(
+    (layer.grey and 2 or 4) * (layer.depth == 16 and 2 or 1), #tiles) .. table.concat(tiles)
+end
+
+local function krita_layers(list, members)
+  local out = {}
+  for _, layer in ipairs(from_top(list)) do
+    local file = ("layer%d"):format(#members + 1)
+    local space = (layer.grey and "GRAYA" or "RGBA") .. (layer.depth == 16
+      and (layer.grey and "U16" or "16") or "")
+    local common = attributes { "name", layer.name, "filename", file, "visible",
+      layer.visible == false and 0 or 1, "opacity", math.floor(255 * (layer.opacity or 1) + 0.5),
+      "compositeop", layer.blend or "normal", "colorspacename", layer.space or space, "x",
+      (layer.x or 0) - (layer.tile_x or 0), "y", (layer.y or 0) - (layer.tile_y or 0), "nodetype",
+      layer.kind or (layer.layers and "grouplayer" or "paintlayer") } .. (layer.attributes or "")
+    if layer.layers then
+      out[#out + 1] = "<layer" .. common .. "><layers>" .. krita_layers(layer.layers, members)
+        .. "</layers></layer>"
+    else
+      members[#members + 1] = { name = "forest/layers/" .. file, deflate = layer.deflate,
+        data = layer.tiles or (layer.pixel and paintings.krita_tiles(layer) or "") }
+      if layer.beyond then
+        members[#members + 1] = { name = "forest/layers/" .. file .. ".defaultpixel",
+          data = layer.beyond }
+      end
+      out[#out + 1] = "<layer" .. common .. ">" .. (layer.inside or "") .. "</layer>"
+    end
+  end
+  return table.concat(out, "\n")
+end
+
+function paintings.krita(painting)
+  local members = { { name = "mimetype", data = "application/x-krita" } }
+  local list = krita_layers(painting.layers, members)
+  members[#members + 1] = { name = "maindoc.xml", deflate = true,
+    data = '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE DOC PUBLIC "-//KDE//DTD krita 2.0//EN"'
+      .. ' "http://www.calligra.org/DTD/krita-2.0.dtd">\n<DOC xmlns="http://www.calligra.org/DTD/krita"'
+      .. (' syntaxVersion="2">\n<IMAGE name="forest" width="%d" height="%d" colorspacename="RGBA">\n'
+        ):format(painting.w, painting.h) .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
+  return paintings.zip(members)
+end
+
+-- ---------------------------------------------------------------- Photoshop
+
+local function packbits(row)
+  local out, at = {}, 1
+  while at <= #row do
+    local run = 1
+    while run < 128 and row:byte(at + run) == row:byte(at) do run = run + 1 end
+    if run >= 2 then
+      out[#out + 1] = string.char(257 - run) .. row:sub(at, at)
+      at = at + run
+    else
+      local stop = at
+      while stop < #row and stop - at < 127 and row:byte(stop + 1) ~= row:byte(stop + 2) do
+        stop = stop + 1
+      end
+      out[#out + 1] = string.char(stop - at) .. row:sub(at, stop)
+      at = stop + 1
+    end
+  end
+  return table.concat(out)
+end
+
+local function predicted(row, depth)
+  local size, out, last = depth // 8, {}, 0
+  local format = ">I" .. size
+  for at = 1, #row, size do
+    local value = string.unpack(format, row, at)
+    out[#out + 1] = string.pack(format, (value - last) & ((1 << depth) - 1))
+    last = value
+  end
+  return table.concat(out)
+end
+
+--- A channel: rows of numbers as the file has them.
+local function psd_channel(layer, w, h, depth, value_at)
+  local format, rows = depth == 16 and ">I2" or "B", {}
+  for y = 0, h - 1 do
+    local row = {}
+    for x = 0, w - 1 do row[#row + 1] = string.pack(format, value_at(x, y)) end
+    rows[#rows + 1] = table.concat(row)
+  end
+  local packing = layer.packing or "raw"
+  if packing == "raw" then return "\0\0" .. table.concat(rows) end
+  if packing == "zip" then return "\0\2" .. paintings.zlib(table.concat(rows)) end
+  if packing == "predicted" then
+    for y, row in ipairs(rows) do rows[y] = predicted(row, depth) end
+    return "\0\3" .. paintings.zlib(table.concat(rows))
+  end
+  local sizes = {}
+  for y, row in ipairs(rows) do
+    rows[y] = packbits(row)
+    sizes[y] = string.pack(">I2", #rows[y])
+  end
+  return "\0\1" .. table.concat(sizes) .. table.concat(rows)
+end
+
+local function tag(key, data)
+  if #data % 2 == 1 then data = data .. "\0" end
+  return "8BIM" .. key .. string.pack(">I4", #data) .. data
+end
+
+local function utf16(text)
+  local out, count = {}, 0
+  for _, code in utf8.codes(text) do
+    out[#out + 1] = string.pack(">I2", code)
+    count = count + 1
+  end
+  return string.pack(">I4", count) .. table.concat(out)
+end
+
+local function psd_mask(mask)
+  if not mask then return string.pack(">I4", 0) end
+  return string.pack(">I4i4i4i4i4BBI2", 20, mask.y, mask.x, mask.y + mask.h, mask.x + mask.w,
+    mask.beyond or 0, mask.off and 2 or 0, 0)
+end
+
+--- Appends the record of a layer to `records` and its channels to `data`.
+local function psd_layer(layer, painting, records, data)
+  local channels, ids = {}, {}
+  local function add(id, channel)
+    ids[#ids + 1] = string.pack(">i2I4", id, #channel)
+    channels[#channels + 1] = channel
+  end
+  local depth = painting.depth or 8
+  local w, h = layer.w or 0, layer.h or 0
+  if layer.pixel then
+    add(-1, layer.alpha or psd_channel(layer, w, h, depth, function(x, y)
+      return (select(4, layer.pixel(x, y)))
+    end))
+    for c = 1, painting.grey and 1 or 3 do
+      add(c - 1, psd_channel(layer, w, h, depth, function(x, y)
+        return (select(c, layer.pixel(x, y)))
+      end))
+    end
+  end
+  local mask = layer.mask
+  if mask then add(-2, psd_channel(layer, mask.w, mask.h, depth, mask.value)) end
+  local name = layer.name:sub(1, 255)
+  local short = string.char(#name) .. name
+  short = short .. ("\0"):rep(-#short % 4)
+  local extra = psd_mask(mask) .. string.pack(">I4", 0) .. short .. tag("luni", utf16(layer.name))
+    .. (layer.divider and tag("lsct", string.pack(">I4", layer.divider) .. "8BIM"
+      .. (layer.blend or "pass")) or "") .. (layer.tags or "")
+  records[#records + 1] = string.pack(">i4i4i4i4I2", layer.y or 0, layer.x or 0, (layer.y or 0) + h,
+    (layer.x or 0) + w, #ids) .. table.concat(ids) .. "8BIM"
+    .. (layer.divider and "norm" or layer.blend or "norm")
+    .. string.pack("BBBB", math.floor(255 * (layer.opacity or 1) + 0.5), layer.clipped and 1 or 0,
+      layer.visible == false and 2 or 0, 0) .. string.pack(">I4", #extra) .. extra
+  data[#data + 1] = table.concat(channels)
+end
+
+local function psd_list(list, painting, records, data)
+  for _, layer in ipairs(list) do
+    if layer.layers then
+      psd_layer({ name = "</Layer group>", divider = 3 }, painting, records, data)
+      psd_list(layer.layers, painting, records, data)
+      psd_layer({ name = layer.name, divider = 1, blend = layer.blend, opacity = layer.opacity,
+        visible = layer.visible, mask = layer.mask }, painting, records, data)
+    else
+      psd_layer(layer, painting, records, data)
+    end
+  end
+end
+
+paintings.tag = tag
+
+--- mode: 3 RGB; merged: what follows the layers.
+function paintings.psd(painting)
+  local records, data = {}, {}
+  psd_list(painting.layers or {}, painting, records, data)
+  local info = string.pack(">i2", -#records) .. table.concat(records) .. table.concat(data)
+  info = info .. ("\0"):rep(#info % 2)
+  local is_deep = painting.depth == 16
+  local section = is_deep and string.pack(">I4I4", 0, 0) .. tag("Lr16", info)
+    or string.pack(">I4", #info) .. info .. string.pack(">I4", 0)
+  if #records == 0 then section = "" end
+  local channels = painting.channels or (painting.grey and 1 or 3)
+  return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", 1, 0, 0, channels, painting.h, painting.w,
+      painting.depth or 8, painting.mode or (painting.grey and 1 or 3))
+    .. string.pack(">I4I4I4", 0, 0, #section) .. section
+    .. (painting.merged or "\0\0" .. ("\0"):rep(channels * painting.w * painting.h
+      * ((painting.depth or 8) // 8)))
+end
+
+return paintings
