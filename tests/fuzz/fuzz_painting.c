@@ -1,0 +1,212 @@
+/* Any bytes as a layered painting: no fault, no memory beyond a bound, nothing kept, and every
+ * refusal with a sentence. One target for each way in, chosen by FUZZ_KIND:
+ *
+ *   zip, psd   the bytes are the file
+ *   ora, kra   the file is an archive made around them: two bytes tell how many of the next ones are
+ *              stack.xml (maindoc.xml); what follows is the picture "a.png" (the tiles "f/layers/a")
+ *
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); else its own
+ * main runs the files that it is given, and each once more for every allocation, which then fails.
+ */
+#include <stdio.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "pictures/surface.h"
+#include "tests/support/memory.h"
+
+#define ZIP 1
+#define PSD 2
+#define ORA 3
+#define KRA 4
+
+#define MOST_BYTES ((size_t)256 << 20)
+#define MOST_PIXELS ((int64_t)1 << 18)
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+/* ---------------------------------------------------------------- the file */
+
+static int descriptor = -1;
+static size_t written;
+
+static void put(const void *bytes, size_t size) {
+  demand(write(descriptor, bytes, size) == (ssize_t)size, "the file cannot be written");
+  written += size;
+}
+
+#if FUZZ_KIND == ORA || FUZZ_KIND == KRA
+static void put_number(uint32_t number, size_t bytes) { put(&number, bytes); }
+
+typedef struct member {
+  const char *name;
+  const uint8_t *bytes;
+  size_t size, at;
+} member;
+
+static void put_facts(const member *m) {
+  put_number(0, 4); /* flags, method: stored */
+  put_number(0, 4);
+  put_number((uint32_t)crc32_z(0, m->bytes, m->size), 4);
+  put_number((uint32_t)m->size, 4);
+  put_number((uint32_t)m->size, 4);
+  put_number((uint32_t)strlen(m->name), 2);
+}
+
+static void put_archive(member *members, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    members[i].at = written;
+    put("PK\3\4\24", 6);
+    put_facts(&members[i]);
+    put_number(0, 2);
+    put(members[i].name, strlen(members[i].name));
+    put(members[i].bytes, members[i].size);
+  }
+  size_t table = written;
+  for (size_t i = 0; i < count; i++) {
+    put("PK\1\2\24\0\24", 8);
+    put_facts(&members[i]);
+    for (int k = 0; k < 6; k++)
+      put_number(0, 2);
+    put_number((uint32_t)members[i].at, 4);
+    put(members[i].name, strlen(members[i].name));
+  }
+  size_t end = written;
+  put("PK\5\6\0\0\0", 8);
+  put_number((uint32_t)count, 2);
+  put_number((uint32_t)count, 2);
+  put_number((uint32_t)(end - table), 4);
+  put_number((uint32_t)table, 4);
+  put_number(0, 2);
+}
+
+static void put_file(const uint8_t *data, size_t size) {
+  size_t told = size >= 2 ? (size_t)data[0] | (size_t)data[1] << 8 : 0;
+  const uint8_t *bytes = data + (size >= 2 ? 2 : 0);
+  size_t left = size >= 2 ? size - 2 : 0, document = told < left ? told : left;
+  member members[] = {
+      {FUZZ_KIND == ORA ? "stack.xml" : "maindoc.xml", bytes, document, 0},
+      {FUZZ_KIND == ORA ? "a.png" : "f/layers/a", bytes + document, left - document, 0},
+      {"f/layers/a.defaultpixel", (const uint8_t *)"\1\2\3\377", 4, 0}};
+  put_archive(members, FUZZ_KIND == ORA ? 2 : 3);
+}
+#else
+static void put_file(const uint8_t *data, size_t size) { put(data, size); }
+#endif
+
+/* ---------------------------------------------------------------- what is done with it */
+
+static size_t fail_at;     /* the allocation of this number fails; 0: none */
+static size_t allocations; /* of the latest run */
+
+static bool is_expected(celspan_status status) {
+  return status == CELSPAN_INPUT || status == CELSPAN_LIMIT ||
+         (status == CELSPAN_NO_MEMORY && fail_at > 0);
+}
+
+/* As the store of pictures does: strips from top to bottom, and one of them once more. */
+static void read_pixels(celspan_context *context, const celspan_painting_layer *layer) {
+  int32_t strip = layer->height < 64 ? layer->height : 64;
+  if ((int64_t)layer->width * layer->height > MOST_PIXELS || (int64_t)layer->width * strip > 65536)
+    return;
+  float *rgba = malloc((size_t)layer->width * (size_t)strip * 4 * sizeof *rgba);
+  celspan_status status = CELSPAN_OK;
+  for (int32_t y = 0; y + strip <= layer->height && status == CELSPAN_OK; y += strip) {
+    const celspan_rectangle rectangle = {0, y, layer->width, strip};
+    status = cs_surface_read(context, layer->surface, &rectangle, rgba);
+  }
+  const celspan_rectangle first = {layer->width / 2, 0, 1, 1};
+  if (status == CELSPAN_OK)
+    status = cs_surface_read(context, layer->surface, &first, rgba);
+  demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a failure has no sentence");
+  demand(status == CELSPAN_OK || is_expected(status), "a failure of another kind");
+  free(rgba);
+}
+
+static void check_layers(celspan_context *context, const celspan_painting *painting) {
+  size_t count = celspan_painting_layer_count(painting), at;
+  celspan_painting_layer layer;
+  for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
+    demand(layer.parent > i && layer.parent <= count, "a group comes before what is in it");
+    demand(layer.opacity >= 0 && layer.opacity <= 1, "an opacity beyond 0 to 1");
+    demand(!layer.surface || !layer.is_group, "a group has pixels");
+    if (layer.surface && i < 16)
+      read_pixels(context, &layer);
+  }
+  for (size_t i = 0; celspan_painting_note_at(painting, i, &at); i++)
+    demand(at < count, "a note on no layer");
+}
+
+typedef struct meter {
+  memory_watch watch;
+  size_t peak;
+} meter;
+
+static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  void *out = memory_watch_resize(&m->watch, block, old_size, new_size);
+  m->peak = m->watch.bytes > m->peak ? m->watch.bytes : m->peak;
+  return out;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  char path[64];
+  if (descriptor < 0)
+    descriptor = memfd_create("painting", 0);
+  demand(descriptor >= 0 && ftruncate(descriptor, 0) == 0 && lseek(descriptor, 0, SEEK_SET) == 0,
+         "the file cannot be made");
+  written = 0;
+  put_file(data, size);
+  snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
+  meter m = {{.fail_at = fail_at}, 0};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = metered;
+  desc.resize_user = &m;
+  celspan_context *context = NULL;
+  if (celspan_context_create(&desc, &context) == CELSPAN_OK) {
+    celspan_painting *painting = NULL;
+    celspan_status status = celspan_painting_read(context, path, &painting);
+    if (status == CELSPAN_OK)
+      check_layers(context, painting);
+    else
+      demand(is_expected(status), "a refusal of another kind");
+    if (status == CELSPAN_INPUT || status == CELSPAN_LIMIT)
+      demand(strncmp(celspan_context_error(context), path, strlen(path)) == 0,
+             "a refusal without the file's name");
+    celspan_painting_unref(painting);
+    celspan_context_destroy(context);
+  }
+  allocations = m.watch.allocations;
+  demand(m.watch.blocks == 0 && m.watch.size_errors == 0, "memory is kept, or its size forgotten");
+  demand(m.peak <= MOST_BYTES, "memory that nothing pays for");
+  return 0;
+}
+
+#ifdef REPLAY_MAIN
+int main(int count, char **arguments) {
+  static uint8_t bytes[1 << 20];
+  size_t runs = 0;
+  for (int i = 1; i < count; i++) {
+    FILE *file = fopen(arguments[i], "rb");
+    demand(file, arguments[i]);
+    size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    fail_at = 0;
+    LLVMFuzzerTestOneInput(bytes, size);
+    size_t count_of_whole = allocations;
+    for (fail_at = 1; fail_at <= count_of_whole; fail_at++)
+      LLVMFuzzerTestOneInput(bytes, size);
+    runs += 1 + count_of_whole;
+  }
+  printf("%zu checks passed\n", runs);
+  return 0;
+}
+#endif
