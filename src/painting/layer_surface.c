@@ -64,20 +64,29 @@ static celspan_status read_rows(reading *r, celspan_context *context,
   return CELSPAN_OK;
 }
 
+static celspan_status read_rectangle(reading *r, celspan_context *context,
+                                     const celspan_rectangle *rectangle, void *destination,
+                                     size_t stride) {
+  CS_TRY(cs_input_open(context, &r->input));
+  celspan_status status = read_rows(r, context, rectangle, destination, stride);
+  if (status != CELSPAN_OK || r->next == r->source->height)
+    stop(r);
+  cs_input_close(&r->input);
+  return status;
+}
+
+/* What stays from one call to the next lies in the surface's memory, whatever context asks. */
 static celspan_status fill(void *user, celspan_context *context, const celspan_rectangle *rectangle,
                            void *destination, size_t stride, int32_t *rows) {
   reading *r = user;
+  celspan_context own;
+  cs_context_branch(&own, context);
+  own.memory = r->memory;
   pthread_mutex_lock(&r->lock);
-  celspan_status status = cs_input_open(context, &r->input);
-  if (status == CELSPAN_OK) {
-    status = read_rows(r, context, rectangle, destination, stride);
-    if (status != CELSPAN_OK || r->next == r->source->height)
-      stop(r);
-    cs_input_close(&r->input);
-  }
+  celspan_status status = read_rectangle(r, &own, rectangle, destination, stride);
   pthread_mutex_unlock(&r->lock);
   *rows = status == CELSPAN_OK ? rectangle->height : 0;
-  return status;
+  return status == CELSPAN_OK ? status : cs_fail(context, status, "%s", own.error);
 }
 
 /* ---------------------------------------------------------------- life */

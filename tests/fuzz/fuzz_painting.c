@@ -131,6 +131,21 @@ static void read_pixels(celspan_context *context, const celspan_painting_layer *
   free(rgba);
 }
 
+/* Begins in a context that is gone when the pixels are gone on with. */
+static void read_in_two_contexts(celspan_context *context, const celspan_painting_layer *layer) {
+  celspan_context *other = NULL;
+  float rgba[4];
+  const celspan_rectangle first = {0, 0, 1, 1}, last = {0, layer->height - 1, 1, 1};
+  if (layer->height > 1024 || layer->width > 1024)
+    return;
+  demand(celspan_context_create(NULL, &other) == CELSPAN_OK, "no other context");
+  celspan_status status = cs_surface_read(other, layer->surface, &first, rgba);
+  celspan_context_destroy(other);
+  if (status == CELSPAN_OK)
+    status = cs_surface_read(context, layer->surface, &last, rgba);
+  demand(status == CELSPAN_OK || is_expected(status), "a failure of another kind");
+}
+
 static void check_layers(celspan_context *context, const celspan_painting *painting) {
   size_t count = celspan_painting_layer_count(painting), at;
   celspan_painting_layer layer;
@@ -138,8 +153,10 @@ static void check_layers(celspan_context *context, const celspan_painting *paint
     demand(layer.parent > i && layer.parent <= count, "a group comes before what is in it");
     demand(layer.opacity >= 0 && layer.opacity <= 1, "an opacity beyond 0 to 1");
     demand(!layer.surface || !layer.is_group, "a group has pixels");
-    if (layer.surface && i < 16)
+    if (layer.surface && i < 16) {
       read_pixels(context, &layer);
+      read_in_two_contexts(context, &layer);
+    }
   }
   for (size_t i = 0; celspan_painting_note_at(painting, i, &at); i++)
     demand(at < count, "a note on no layer");
