@@ -98,6 +98,19 @@ local function layer_of(fields)
   return layer
 end
 
+-- Built without expat or OpenImageIO, there are formats that cannot be read.
+local function lacks(module, path)
+  local tree, message = layers.read(path)
+  return not tree and message:find(module, 1, true) ~= nil
+end
+
+if lacks("celspan-art.so", "../../scripts/paintings/valley.ora") then
+  describe("layers", function()
+    it("are read through the art module", function() pending "it was not built" end)
+  end)
+  return
+end
+
 -- ---------------------------------------------------------------- trees
 
 --- The same painting in a format: what a tree of it must be.
@@ -457,8 +470,11 @@ end)
 
 local function png(layer) return paintings.png(layer) end
 
+local lacks_pictures = lacks("celspan-picture.so", "../../scripts/pictures")
+local it_reads_pictures = lacks_pictures and pending or it
+
 describe("a folder of pictures", function()
-  it("is a list of them by their numbers", function()
+  it_reads_pictures("is a list of them by their numbers", function()
     local dot = png { w = 2, h = 2, pixel = flat(10, 20, 30) }
     local folder = write_folder { ["b10.png"] = dot, ["b9.png"] = dot, ["a1.PNG"] = dot,
       ["notes.txt"] = "no" }
@@ -469,7 +485,7 @@ describe("a folder of pictures", function()
       { layer = "sub", what = "no picture: it is left out" } }, tree.skipped)
   end)
 
-  it("is refused when there are none, or one of them is damaged or a link out of it", function()
+  it_reads_pictures("is refused when there are none, or one of them is damaged or a link out of it", function()
     local _, message = layers.read(write_folder { ["notes.txt"] = "no" })
     assert.matches("the folder holds no pictures", message)
     _, message = layers.read(write_folder { ["a.png"] = "no picture" })
@@ -503,7 +519,7 @@ describe("an OCA folder", function()
     drawing:format("s1", [[sub\\one.png]], 0.5), drawing:format("m1", "sub/one.png", 1),
     drawing:format("m2", "sub/two.png", 1))
 
-  it("is a tree, of which a layer of several drawings is a group", function()
+  it_reads_pictures("is a tree, of which a layer of several drawings is a group", function()
     local tree = assert(layers.read(oca_folder(document)))
     assert.are.equal("background 0,0 1.00 normal; still 8,10 0.25 multiply; "
       .. "group 0,0 1.00 pass-through hidden [moves 0,0 1.00 add [m1 8,10 1.00 normal; "
@@ -838,7 +854,7 @@ describe("Photoshop documents of the material", function()
 end)
 
 describe("folders of pictures of the material", function()
-  if not material then
+  if not material or lacks_pictures then
     it("are read", function() pending "CELSPAN_MATERIAL names no folder" end)
     return
   end
