@@ -240,6 +240,12 @@ function placed:with(changes) end
 ---@operator band(celspan.object): celspan.boolean
 ---@operator bxor(celspan.object): celspan.boolean
 ---@operator sub(celspan.object): celspan.boolean
+local object = {}
+
+--- The stroke of a primitive's outline, with the primitive's transform and fade.
+---@param style? celspan.stroke.style
+---@return celspan.stroke
+function object:stroke(style) end
 
 ---@class celspan.rect.fields
 ---@field [integer] number x, y, width, height
@@ -333,6 +339,41 @@ function celspan.nurbs(fields) end
 ---@param fields celspan.path.fields
 ---@return celspan.path
 function celspan.path(fields) end
+
+---@class celspan.stroke.style
+---@field width? number Default 1; of points without one
+---@field cap? "butt"|"round"|"square" Default "butt"
+---@field join? "miter"|"round"|"bevel" Default "miter"
+---@field miter? number Default 4: the longest miter, in widths
+---@field dash? number[] Lengths drawn and left out in turn
+---@field dash_offset? number Default 0
+---@field taper? number[] {begin, end}: lengths over which the width grows from 0 and falls to 0
+---@field from? number Default 0: where drawing begins, in shares of the whole length
+---@field to? number Default 1
+---@field texture? celspan.surface
+
+---@class celspan.stroke.fields: celspan.stroke.style
+---@field points? number[][] {x, y} or {x, y, width}
+---@field degree? integer 1..15, default 1: of the spline through the points
+---@field closed? boolean Whether the points come back to the first
+---@field d? string SVG path data; Z closes a subpath
+---@field outline? celspan.object A primitive, in its own units
+
+---@class celspan.stroke: celspan.object, celspan.stroke.fields
+---@field width number
+---@field cap "butt"|"round"|"square"
+---@field join "miter"|"round"|"bevel"
+---@field miter number
+---@field dash_offset number
+---@field degree integer
+---@field from number
+---@field to number
+---@field texture celspan.surface
+
+--- A line with a width: of points, d and outline, one is given.
+---@param fields celspan.stroke.fields
+---@return celspan.stroke
+function celspan.stroke(fields) end
 
 ---@class celspan.image.fields: celspan.picture.common
 ---@field x? number Default 0

@@ -21,6 +21,7 @@ return {
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide.md", frame = 10 },
   { name = "primitives", script = "scripts/primitives.lua", frame = 9, size = "720x360" },
+  { name = "strokes", script = "scripts/strokes.lua", frame = 36, size = "720x405" },
   { name = "booleans", script = "scripts/booleans.lua", frame = 24, size = "720x240" },
   { name = "lights_and_gels", script = "scripts/lights_and_gels.lua", frame = 40,
     size = "480x270" },

@@ -81,11 +81,11 @@ static void set_reading(lua_State *L) {
 }
 
 int luaopen_celspan(lua_State *L) {
-  static void (*const openers[])(
-      lua_State *) = {cs_open_paint,    cs_open_texture, cs_open_object,  cs_open_primitive,
-                      cs_open_scanline, cs_open_text,    cs_open_rostrum, cs_open_boolean,
-                      cs_open_cel, /* operators: of objects and rostrums */
-                      cs_open_film,     cs_open_render,  cs_open_pixels,  cs_open_spans};
+  static void (*const openers[])(lua_State *) = {
+      cs_open_paint,   cs_open_texture,  cs_open_object, cs_open_primitive,
+      cs_open_stroke,  cs_open_scanline, cs_open_text,   cs_open_rostrum,
+      cs_open_boolean, cs_open_cel, /* operators: of objects and rostrums */
+      cs_open_film,    cs_open_render,   cs_open_pixels, cs_open_spans};
   luaL_checkversion(L);
   cs_host_open(L, NULL);
   lua_createtable(L, 0, 32);

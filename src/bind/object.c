@@ -3,6 +3,7 @@
 #include "bind/named.h"
 #include "bind/openers.h"
 #include "bind/placed.h"
+#include "bind/stroke.h"
 #include "bind/userdata.h"
 
 static void unref(void *handle) { celspan_object_unref(handle); }
@@ -40,4 +41,12 @@ const cs_kind cs_kind_object = {.name = "celspan.object",
                                 .contains = contains,
                                 .push_field = cs_named_push_field};
 
-void cs_open_object(lua_State *L) { cs_userdata_register(L, &cs_kind_object, cs_placed_methods); }
+/* The methods of everything that has a place, and one more. */
+#define MOST_METHODS 16
+
+void cs_open_object(lua_State *L) {
+  luaL_Reg methods[MOST_METHODS] = {{"stroke", cs_stroke_method}};
+  for (int i = 0; cs_placed_methods[i].name; i++)
+    methods[i + 1] = cs_placed_methods[i];
+  cs_userdata_register(L, &cs_kind_object, methods);
+}

@@ -9,6 +9,7 @@ void cs_open_paint(lua_State *L);
 void cs_open_texture(lua_State *L);
 void cs_open_object(lua_State *L);
 void cs_open_primitive(lua_State *L);
+void cs_open_stroke(lua_State *L);
 void cs_open_scanline(lua_State *L);
 void cs_open_text(lua_State *L);
 void cs_open_boolean(lua_State *L);

@@ -33,8 +33,23 @@ static void append_point(cs_outline *outline, cs_hpoint point) {
   outline->points[outline->point_count++] = point;
 }
 
+/* A contour without pieces vanishes. */
+static bool drop_empty(cs_outline *outline) {
+  size_t count = outline->contour_count;
+  if (count == 0 || outline->contours[count - 1] != outline->piece_count)
+    return false;
+  outline->contour_count--;
+  outline->point_count--;
+  return true;
+}
+
 celspan_status cs_outline_move(celspan_context *context, cs_outline *outline, cs_hpoint to) {
   CS_TRY(cs_outline_close(context, outline));
+  return cs_outline_begin(context, outline, to);
+}
+
+celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline, cs_hpoint to) {
+  drop_empty(outline);
   CS_TRY(reserve_points(context, outline, 1));
   CS_TRY(cs_mem_reserve(context, (void **)&outline->contours, &outline->contour_capacity,
                         outline->contour_count + 1, sizeof *outline->contours));
@@ -63,14 +78,9 @@ celspan_status cs_outline_line(celspan_context *context, cs_outline *outline, cs
 }
 
 celspan_status cs_outline_close(celspan_context *context, cs_outline *outline) {
-  if (outline->contour_count == 0)
+  if (outline->contour_count == 0 || drop_empty(outline))
     return CELSPAN_OK;
   size_t first_piece = outline->contours[outline->contour_count - 1];
-  if (first_piece == outline->piece_count) {
-    outline->contour_count--;
-    outline->point_count--;
-    return CELSPAN_OK;
-  }
   cs_hpoint first = outline->points[outline->starts[first_piece]];
   cs_hpoint *last = &outline->points[outline->point_count - 1];
   if (last->x != first.x || last->y != first.y || last->w != first.w)

@@ -47,6 +47,9 @@ CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outl
                                                cs_hpoint to);
 CELSPAN_CHECKED celspan_status cs_outline_line(celspan_context *context, cs_outline *outline,
                                                cs_hpoint to);
+/* As move, but the contour before is left open: for lines, which need not come back. */
+CELSPAN_CHECKED celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline,
+                                                cs_hpoint to);
 /* points: degree homogeneous points after the current one. */
 CELSPAN_CHECKED celspan_status cs_outline_piece(celspan_context *context, cs_outline *outline,
                                                 int degree, const cs_hpoint *points);
@@ -71,6 +74,16 @@ CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_out
 /* Errors: BAD_ARGUMENT naming the offset and what was expected. */
 CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
                                                const char *data);
+/* The contours that path data close with Z, ascending; finish frees them. */
+typedef struct cs_outline_closed {
+  uint32_t *contours;
+  size_t count, capacity;
+} cs_outline_closed;
+void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
+/* Path data as lines: a subpath that Z does not close stays open, and Z without a command before it
+ * makes a line of no length. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
+                                                    cs_outline_closed *closed, const char *data);
 
 /* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
  * front of it. */

@@ -23,6 +23,7 @@
 typedef struct reader {
   celspan_context *context;
   cs_outline *outline;
+  cs_outline_closed *closed; /* NULL: every contour is closed */
   const char *data;
   size_t at;
   celspan_point pen, start; /* start: of the subpath */
@@ -92,7 +93,8 @@ static celspan_status begin_drawing(reader *r) {
   if (r->is_drawing)
     return CELSPAN_OK;
   r->is_drawing = true;
-  return cs_outline_move(r->context, r->outline, plain(r->start));
+  return r->closed ? cs_outline_begin(r->context, r->outline, plain(r->start))
+                   : cs_outline_move(r->context, r->outline, plain(r->start));
 }
 
 /* points: the `degree` points after the pen, the last of which becomes the pen. */
@@ -235,6 +237,19 @@ static celspan_status move_pen(reader *r, celspan_point to) {
   return CELSPAN_OK;
 }
 
+/* Z: of a line, it is kept which contour was closed. */
+static celspan_status close_subpath(reader *r) {
+  cs_outline_closed *closed = r->closed;
+  if (closed) {
+    if (!r->is_drawing || r->pen.x != r->start.x || r->pen.y != r->start.y)
+      CS_TRY(draw(r, 1, &r->start));
+    CS_TRY(cs_mem_reserve(r->context, (void **)&closed->contours, &closed->capacity,
+                          closed->count + 1, sizeof *closed->contours));
+    closed->contours[closed->count++] = (uint32_t)r->outline->contour_count - 1;
+  }
+  return move_pen(r, r->start);
+}
+
 static celspan_status execute(reader *r, char command, const double *arguments,
                               const celspan_point *points) {
   switch (command) {
@@ -251,7 +266,7 @@ static celspan_status execute(reader *r, char command, const double *arguments,
   case 'A':
     return draw_arc(r, arguments, points[0]);
   case 'Z':
-    return move_pen(r, r->start);
+    return close_subpath(r);
   default:
     return draw(r, 1, points);
   }
@@ -302,10 +317,25 @@ static celspan_status read_command(reader *r) {
   return CELSPAN_OK;
 }
 
+static celspan_status read_all(reader *r) {
+  skip_space(r);
+  while (r->data[r->at] != 0)
+    CS_TRY(read_command(r));
+  return CELSPAN_OK;
+}
+
 celspan_status cs_outline_path(celspan_context *context, cs_outline *outline, const char *data) {
   reader r = {.context = context, .outline = outline, .data = data};
-  skip_space(&r);
-  while (r.data[r.at] != 0)
-    CS_TRY(read_command(&r));
+  CS_TRY(read_all(&r));
   return cs_outline_close(context, outline);
+}
+
+celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
+                                    cs_outline_closed *closed, const char *data) {
+  reader r = {.context = context, .outline = outline, .closed = closed, .data = data};
+  return read_all(&r);
+}
+
+void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory) {
+  cs_mem_free(memory, closed->contours, closed->capacity * sizeof *closed->contours);
 }

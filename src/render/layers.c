@@ -7,6 +7,7 @@
 #include "paint/shade.h"
 #include "render/through.h"
 #include "scene/texture.h"
+#include "stroke/outliner.h"
 
 void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   cs_paint faded = cs_paint_fade(paint, fade);
@@ -111,6 +112,20 @@ celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
   return cs_boundary_add(c->boundaries, outline, matrix, index);
 }
 
+/* The outline of a stroke is made for what the frame shows of it. facing: the matrix. */
+static celspan_status add_stroke(cs_compiler *c, const cs_primitive_data *data,
+                                 const celspan_matrix *facing, uint32_t index) {
+  const cs_stroke_view view = {
+      .matrix = *facing, .frame = c->frame, .tolerance = CS_STROKE_TOLERANCE};
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_stroke_outline(c->context, data->stroke, &view, &outline);
+  if (status == CELSPAN_OK)
+    status = cs_layers_add_outline(c, &outline, &data->bounds, facing, index);
+  cs_outline_finish(&outline, c->context->memory);
+  return status;
+}
+
 static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data, double fade,
                                   const celspan_matrix *matrix) {
   uint32_t index;
@@ -125,6 +140,8 @@ static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data,
   if (!cs_boundary_around_box(&data->bounds, &facing, &place.visible))
     place.visible = c->frame;
   CS_TRY(cs_layers_fill(c, layer, &place));
+  if (data->stroke)
+    return add_stroke(c, data, &facing, index);
   return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
 }
 

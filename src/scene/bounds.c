@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "scene/primitive_data.h"
+#include "stroke/outliner.h"
 
 static celspan_box around(celspan_box a, celspan_box b) {
   double x = fmin(a.x, b.x), y = fmin(a.y, b.y);
@@ -44,8 +45,28 @@ static bool list_common(celspan_object *const *objects, size_t count, const cels
   return count > 0;
 }
 
+/* Without memory for its outline, the box that holds it, which is larger. */
+static bool stroke_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
+                          celspan_box *out) {
+  celspan_context context = {.memory = data->memory};
+  const celspan_box *around = &data->stroke->around;
+  cs_outline outline;
+  cs_outline_init(&outline);
+  bool is_made = cs_stroke_outline_fine(&context, data->stroke, &outline) == CELSPAN_OK;
+  if (!is_made) {
+    cs_outline_finish(&outline, data->memory);
+    is_made = cs_outline_rect(&context, &outline, around->x, around->y, around->width,
+                              around->height, 0) == CELSPAN_OK;
+  }
+  bool is_seen = is_made && cs_outline_bounds(&outline, matrix, out);
+  cs_outline_finish(&outline, data->memory);
+  return is_seen;
+}
+
 static bool data_bounds(const cs_primitive_data *data, const celspan_matrix *matrix,
                         celspan_box *out) {
+  if (data->stroke)
+    return stroke_bounds(data, matrix, out);
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_outline_bounds(&data->outline, matrix, out);
   switch (data->op) {

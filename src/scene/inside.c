@@ -86,7 +86,7 @@ static bool inside_object(const celspan_object *object, const celspan_matrix *pa
     return false;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return cs_inside_own_point(&whole, point, &own) &&
-           cs_inside_outline(&data->outline, data->rule, own);
+           cs_inside_primitive(data, own);
   size_t present = 0;
   bool first = false;
   for (size_t i = 0; i < data->operand_count; i++) {

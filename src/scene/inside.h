@@ -25,6 +25,16 @@ bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, cels
  * and bottom ones are out. */
 bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_point point);
 
+/* Whether a point is inside a stroke: on a spoke, in a cap or in a join. Edges are in. */
+bool cs_inside_stroke(const cs_stroke *stroke, celspan_point point);
+
+/* Whether a point of its own units is inside a primitive, a rostrum's frame or a procedure's
+ * bounds. */
+static inline bool cs_inside_primitive(const cs_primitive_data *data, celspan_point point) {
+  return data->stroke ? cs_inside_stroke(data->stroke, point)
+                      : cs_inside_outline(&data->outline, data->rule, point);
+}
+
 /* Whether a boolean object is present at a point where `present` of its operands are present.
  * first: whether the first operand is one of them. */
 static inline bool cs_inside_is_present(celspan_operator op, size_t present, size_t operand_count,

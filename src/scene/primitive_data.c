@@ -35,6 +35,9 @@ void cs_primitive_data_unref(cs_primitive_data *data) {
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE && data->scanline.release)
     data->scanline.release(data->scanline.user);
   cs_outline_finish(&data->outline, memory);
+  if (data->stroke)
+    cs_stroke_finish(data->stroke, memory);
+  cs_mem_free(memory, data->stroke, sizeof *data->stroke);
   celspan_texture_unref(data->texture);
   cs_operands_finish(&data->view);
   celspan_rostrum_unref(data->rostrum);
@@ -68,6 +71,10 @@ static cs_hash hash_primitive(const cs_primitive_data *data) {
   cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
   cs_hash_word(&hash, data->kind);
   hash_outline(&hash, &data->outline);
+  if (data->stroke) {
+    hash_outline(&hash, &data->stroke->line);
+    cs_stroke_hash(&hash, data->stroke);
+  }
   cs_hash_word(&hash, data->rule);
   if (data->texture)
     cs_hash_hash(&hash, data->texture->hash);

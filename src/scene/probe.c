@@ -51,7 +51,7 @@ static celspan_status primitive_present(const probe_call *probe, const cs_primit
   celspan_point own;
   cs_oracle_paint unused;
   *out = cs_inside_own_point(matrix, probe->point, &own) &&
-         cs_inside_outline(&data->outline, data->rule, own);
+         cs_inside_primitive(data, own);
   return *out && data->kind == CS_PRIMITIVE_DATA_SCANLINE
              ? cs_oracle_primitive(probe->context, data, own, out, &unused)
              : CELSPAN_OK;

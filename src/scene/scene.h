@@ -20,6 +20,7 @@
 #include "scene/light.h"
 #include "scene/operands.h"
 #include "scene/texture.h"
+#include "stroke/stroke.h"
 
 #define CS_SCENE_DEPTH 128
 #define CS_SCENE_PRIMITIVES 16777216 /* in one object, every level counted */
@@ -38,10 +39,11 @@ typedef struct cs_primitive_data {
   cs_hash hash;
   cs_primitive_data_kind kind;
   cs_outline outline; /* OUTLINE; SCANLINE: its bounds; ROSTRUM: its frame */
+  cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
   celspan_rule rule;
-  celspan_texture *texture;       /* OUTLINE; never NULL */
-  celspan_box bounds;             /* all but BOOLEAN: tight, own units */
-  bool is_empty;                  /* nothing to draw: no contour, or an operator without operands */
+  celspan_texture *texture; /* OUTLINE; never NULL */
+  celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
+  bool is_empty;      /* nothing to draw: no contour, or an operator without operands */
   celspan_scanline_desc scanline; /* SCANLINE */
   celspan_operator op;            /* BOOLEAN */
   cs_operands view;               /* BOOLEAN: keeps the operands */

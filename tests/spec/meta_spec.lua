@@ -58,7 +58,7 @@ local samples = {
   image = { file = "x.png", w = 1, h = 1 },
   scanline = { bounds = { 0, 0, 1, 1 }, spans = function() end },
   union = { dot }, intersection = { dot }, difference = { dot }, xor = { dot },
-  cel = { dot }, rostrum = { cel }, film = { frame = function() return celspan.rostrum {} end },
+  stroke = { d = "M0 0H9" }, cel = { dot }, rostrum = { cel }, film = { frame = function() return celspan.rostrum {} end },
 }
 
 -- Built without the libraries for type, there is no text to look at.

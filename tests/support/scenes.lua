@@ -216,6 +216,42 @@ function maker:path()
                                                           self:texture())
 end
 
+--- A line: through points, along path data or round a shape, with all that a line may have.
+function maker:stroke()
+  local fields, kind = {}, self.random:whole(1, 3)
+  local function add(format, ...) fields[#fields + 1] = format:format(...) end
+  if not self.is_straight then self.traits.is_curved = true end
+  if kind == 1 then
+    local points = {}
+    for i = 1, self.random:whole(1, 6) do
+      local x, y = self:point()
+      -- Where widths change, the ends of straight lines have arcs.
+      points[i] = self.is_straight and ("{%s, %s}"):format(x, y)
+        or ("{%s, %s, %s}"):format(x, y, self:number(0, 12))
+    end
+    add("points = {%s}, width = %s", table.concat(points, ", "), self:number(0, 12))
+    if not self.is_straight then add("degree = %d", self.random:whole(1, 4)) end
+    if self.random:once(3) then add "closed = true" end
+  else
+    local letters = self.is_straight and { "L", "H", "V" } or { "L", "H", "C", "S", "Q", "T", "A" }
+    local words = { ("M%s %s"):format(self:point()) }
+    for _ = 1, self.random:whole(1, 4) do words[#words + 1] = self:segment(self.random:pick(letters)) end
+    if self.random:once(3) then words[#words + 1] = "Z" end
+    add("d = %q", table.concat(words, " "))
+    add("width = %s", self:number(0, kind == 2 and 3 or 16))
+  end
+  local joins = self.is_straight and { "miter", "bevel" } or { "miter", "round", "bevel" }
+  local caps = self.is_straight and { "butt", "square" } or { "butt", "round", "square" }
+  add("join = %q, cap = %q", self.random:pick(joins), self.random:pick(caps))
+  if self.random:once(3) then
+    add("dash = {%s, %s}, dash_offset = %s", self:number(3, 12), self:number(1, 8), self:number(-9, 9))
+  elseif not self.is_straight and self.random:once(3) then
+    add("taper = {%s, %s}", self:number(1, 20), self:number(0, 20))
+  end
+  if self.random:once(4) then add("from = %s, to = %s", self:number(0, 0.5), self:number(0.4, 1)) end
+  return ("celspan.stroke{ %s, texture = %s }"):format(table.concat(fields, ", "), self:texture())
+end
+
 --- Spans that move with the row: one flat, one of two paints, one of several.
 function maker:scanline()
   self.traits.has_rows = true
@@ -265,9 +301,10 @@ end
 function maker:fresh()
   if self.has_text and self.random:once(2) then return self:text() end
   if self.is_upright and self.random:once(3) then return self:scanline() end
-  local kinds = { "rect", "triangle", "polygon", "polygon", "path" }
+  local kinds = { "rect", "triangle", "polygon", "polygon", "path", "stroke" }
   if not self.is_straight then
-    kinds = { "rect", "triangle", "circle", "ellipse", "polygon", "nurbs", "nurbs", "path", "path" }
+    kinds = { "rect", "triangle", "circle", "ellipse", "polygon", "nurbs", "nurbs", "path", "path",
+              "stroke", "stroke" }
   end
   return self[self.random:pick(kinds)](self)
 end

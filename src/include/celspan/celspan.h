@@ -484,6 +484,56 @@ typedef struct celspan_path_desc {
   celspan_texture *texture;
 } celspan_path_desc;
 
+typedef enum celspan_stroke_cap {
+  CELSPAN_CAP_BUTT = 0,
+  CELSPAN_CAP_ROUND,
+  CELSPAN_CAP_SQUARE
+} celspan_stroke_cap;
+
+typedef enum celspan_stroke_join {
+  CELSPAN_JOIN_MITER = 0,
+  CELSPAN_JOIN_ROUND,
+  CELSPAN_JOIN_BEVEL
+} celspan_stroke_join;
+
+/* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
+ * disc of that width which is taken along the line, caps and joins have the width there, and a
+ * smooth point has no join. The outline is made for every frame anew, as fine as that needs.
+ * Lengths are measured in the stroke's own units, along the line. */
+typedef struct celspan_stroke_desc {
+  size_t struct_size;          /* sizeof(celspan_stroke_desc) */
+  const celspan_point *points; /* of a spline, clamped or, when closed, periodic; copied */
+  const double *widths;        /* one for each point; NULL: all `width`; copied */
+  size_t point_count;
+  int degree;              /* of the spline, 1..15, held to point_count - 1; 1 */
+  bool closed;             /* the points' */
+  const char *data;        /* SVG path data; Z closes a subpath; copied */
+  celspan_object *outline; /* a primitive with an outline, whose transform and fade do not matter;
+                            * borrowed */
+  double width;            /* 1 */
+  celspan_stroke_cap cap;
+  celspan_stroke_join join;
+  double miter;         /* limit: length of a miter by the width, 1 or more; 4 */
+  const double *dashes; /* lengths drawn and left out in turn, twice over if their number is odd;
+                          * their sum is above 0; copied; NULL: none */
+  size_t dash_count;    /* at most 1,000,000 dashes in one stroke */
+  double dash_offset;   /* how far into the dashes every subpath begins */
+  double taper[2];      /* lengths over which what is drawn of a subpath grows from 0 and falls to
+                          * 0, scaled down together when it is shorter; not with dashes; 0 0 */
+  double from, to;      /* the part of the whole length that is drawn, held to 0..1; 0 and 1 */
+  celspan_texture *texture;
+} celspan_stroke_desc;
+
+static inline celspan_stroke_desc celspan_stroke_desc_default(void) {
+  celspan_stroke_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.degree = 1;
+  desc.width = desc.to = 1;
+  desc.miter = 4;
+  return desc;
+}
+#define CELSPAN_STROKE_DESC celspan_stroke_desc_default()
+
 typedef enum celspan_fit {
   CELSPAN_FIT_FILL = 0,
   CELSPAN_FIT_CONTAIN,
@@ -542,6 +592,15 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_nurbs(
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_path(celspan_context *context,
                                                                       const celspan_path_desc *desc,
                                                                       celspan_object **out);
+/* Errors: also LIMIT, for too many dashes. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_stroke(
+    celspan_context *context, const celspan_stroke_desc *desc, celspan_object **out);
+/* The stroke of a primitive's outline, with the primitive's transform and fade, so that its width
+ * is scaled with it. desc->outline is not used. Errors: as above. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_stroke(celspan_context *context,
+                                                                 celspan_object *object,
+                                                                 const celspan_stroke_desc *desc,
+                                                                 celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
     celspan_context *context, const celspan_image_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(

@@ -57,7 +57,6 @@ words.list = {
   { word = "palette", say = "gradient table" },
   { word = "ramp", means = "a share that grows evenly from column to column",
     places = { "area/direct", "kernel/" } },
-  { word = "stroke", means = "a line with a width", places = { "svg/" } },
   { word = "fragment", say = "segment" },
   { word = "cluster", say = "local sweep" },
   { word = "meeting", say = "intersection" },

@@ -1,0 +1,220 @@
+#include "stroke/curve.h"
+
+#include <math.h>
+#include <string.h>
+
+#define POINT 1e-13 /* of the coordinates: a line that is no longer is a point */
+
+/* ---------------------------------------------------------------- parts */
+
+void cs_curve_load_line(const cs_outline *line, size_t piece, double begin, double end,
+                        cs_bezier *out) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  cs_bezier rest;
+  cs_bezier_load(line, piece, &identity, out);
+  if (end < 1)
+    cs_bezier_split(out, end, out, &rest);
+  if (begin > 0)
+    cs_bezier_split(out, end > 0 ? begin / end : 0, &rest, out);
+}
+
+void cs_curve_cut_polynomial(double *c, int degree, double begin, double end) {
+  if (end < 1)
+    for (int level = 1; level <= degree; level++)
+      for (int i = degree; i >= level; i--)
+        c[i] = c[i - 1] + end * (c[i] - c[i - 1]);
+  double share = end > 0 ? begin / end : 0;
+  if (begin > 0)
+    for (int level = 1; level <= degree; level++)
+      for (int i = 0; i <= degree - level; i++)
+        c[i] += share * (c[i + 1] - c[i]);
+}
+
+void cs_curve_load(const cs_stroke *stroke, size_t piece, double begin, double end, cs_curve *out) {
+  cs_curve_load_line(&stroke->line, piece, begin, end, &out->line);
+  out->radius_degree = stroke->radius_degrees[piece];
+  memcpy(out->radius, stroke->radii + stroke->radius_starts[piece],
+         ((size_t)out->radius_degree + 1) * sizeof *out->radius);
+  cs_curve_cut_polynomial(out->radius, out->radius_degree, begin, end);
+}
+
+void cs_curve_reverse(cs_curve *curve) {
+  cs_bezier_reverse(&curve->line);
+  for (int i = 0, j = curve->radius_degree; i < j; i++, j--) {
+    double swapped = curve->radius[i];
+    curve->radius[i] = curve->radius[j];
+    curve->radius[j] = swapped;
+  }
+}
+
+static cs_hpoint middle(cs_hpoint a, cs_hpoint b) {
+  return (cs_hpoint){0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)};
+}
+
+/* Sums of two are the same in either order, so this is symmetric; cs_bezier_split is not. */
+static void halve_line(const cs_bezier *line, cs_bezier *low, cs_bezier *high) {
+  int degree = line->degree;
+  cs_bezier_copy(line, high);
+  low->degree = degree;
+  low->points[0] = high->points[0];
+  for (int level = 1; level <= degree; level++) {
+    for (int i = 0; i <= degree - level; i++)
+      high->points[i] = middle(high->points[i], high->points[i + 1]);
+    low->points[level] = high->points[0];
+  }
+}
+
+void cs_curve_halve(const cs_curve *curve, cs_curve *low, cs_curve *high) {
+  int degree = curve->radius_degree;
+  halve_line(&curve->line, &low->line, &high->line);
+  low->radius_degree = high->radius_degree = degree;
+  memcpy(high->radius, curve->radius, ((size_t)degree + 1) * sizeof *high->radius);
+  low->radius[0] = high->radius[0];
+  for (int level = 1; level <= degree; level++) {
+    for (int i = 0; i <= degree - level; i++)
+      high->radius[i] = 0.5 * (high->radius[i] + high->radius[i + 1]);
+    low->radius[level] = high->radius[0];
+  }
+}
+
+/* ---------------------------------------------------------------- places */
+
+static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
+  return (cs_hpoint){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
+}
+
+void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
+                      celspan_point *velocity) {
+  cs_hpoint work[CS_BEZIER_DEGREE + 1];
+  int degree = line->degree;
+  for (int i = 0; i <= degree; i++)
+    work[i] = line->points[i];
+  for (int level = degree; level > 1; level--)
+    for (int i = 0; i < level; i++)
+      work[i] = between(work[i], work[i + 1], t);
+  cs_hpoint a = work[0], b = work[1], at = between(a, b, t);
+  point->x = at.x / at.w;
+  point->y = at.y / at.w;
+  velocity->x = degree * ((b.x - a.x) - point->x * (b.w - a.w)) / at.w;
+  velocity->y = degree * ((b.y - a.y) - point->y * (b.w - a.w)) / at.w;
+}
+
+cs_curve_place cs_curve_at(const cs_curve *curve, double t) {
+  cs_curve_place place;
+  double work[CS_STROKE_RADIUS_DEGREE + 1];
+  int degree = curve->radius_degree;
+  cs_curve_line_at(&curve->line, t, &place.point, &place.velocity);
+  place.radius = curve->radius[0];
+  place.growth = 0;
+  if (degree == 0)
+    return place;
+  for (int i = 0; i <= degree; i++)
+    work[i] = curve->radius[i];
+  for (int level = degree; level > 1; level--)
+    for (int i = 0; i < level; i++)
+      work[i] += t * (work[i + 1] - work[i]);
+  place.growth = degree * (work[1] - work[0]);
+  place.radius = fmax(0, work[0] + t * (work[1] - work[0]));
+  return place;
+}
+
+static celspan_point project(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
+
+static double extent_of(const cs_bezier *line, double *size) {
+  celspan_point first = project(line->points[0]);
+  double extent = 0;
+  for (int i = 1; i <= line->degree; i++) {
+    celspan_point p = project(line->points[i]);
+    extent = fmax(extent, fmax(fabs(p.x - first.x), fabs(p.y - first.y)));
+  }
+  *size = fabs(first.x) + fabs(first.y);
+  return extent;
+}
+
+bool cs_curve_is_point(const cs_bezier *line) {
+  double size, extent = extent_of(line, &size);
+  return !(extent > POINT * size);
+}
+
+celspan_point cs_curve_departure(const cs_bezier *line) {
+  double size, extent = extent_of(line, &size);
+  celspan_point first = project(line->points[0]);
+  for (int i = 1; i <= line->degree; i++) {
+    celspan_point p = project(line->points[i]);
+    double x = p.x - first.x, y = p.y - first.y, length = sqrt(x * x + y * y);
+    if (length > 1e-9 * extent)
+      return (celspan_point){x / length, y / length};
+  }
+  return (celspan_point){1, 0};
+}
+
+bool cs_curve_is_straight(const cs_bezier *line) {
+  return line->degree == 1 && line->points[0].w == line->points[1].w;
+}
+
+/* ---------------------------------------------------------------- lengths */
+
+#define LENGTH_DEPTH 30
+#define LENGTH_ERROR 1e-11 /* of the polygon, for every halving alike */
+
+static double speed(const cs_bezier *line, double t) {
+  celspan_point point, velocity;
+  cs_curve_line_at(line, t, &point, &velocity);
+  return sqrt(velocity.x * velocity.x + velocity.y * velocity.y);
+}
+
+/* Gauss and Legendre's rule with five places. */
+static double gauss(const cs_bezier *line, double begin, double end) {
+  static const double places[] = {0.53846931010568309, 0.90617984593866399};
+  static const double weights[] = {0.47862867049936647, 0.23692688505618909};
+  double centre = 0.5 * (begin + end), half = 0.5 * (end - begin);
+  double sum = 0.56888888888888889 * speed(line, centre);
+  for (int i = 0; i < 2; i++)
+    sum += weights[i] *
+           (speed(line, centre - half * places[i]) + speed(line, centre + half * places[i]));
+  return half * sum;
+}
+
+static double measure(const cs_bezier *line, double begin, double end, double whole, double error,
+                      int depth) {
+  double centre = 0.5 * (begin + end);
+  double low = gauss(line, begin, centre), high = gauss(line, centre, end);
+  if (depth == LENGTH_DEPTH || fabs(low + high - whole) <= error)
+    return low + high;
+  return measure(line, begin, centre, low, error, depth + 1) +
+         measure(line, centre, end, high, error, depth + 1);
+}
+
+double cs_curve_length(const cs_bezier *line, double begin, double end) {
+  if (!(end > begin))
+    return 0;
+  double polygon = 0;
+  for (int i = 0; i < line->degree; i++) {
+    celspan_point a = project(line->points[i]), b = project(line->points[i + 1]);
+    polygon += sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+  }
+  if (cs_curve_is_straight(line))
+    return (end - begin) * polygon;
+  return measure(line, begin, end, gauss(line, begin, end), LENGTH_ERROR * polygon, 0);
+}
+
+/* Newton's steps inside a bracket that they make smaller, and halvings where they leave it. */
+double cs_curve_parameter(const cs_bezier *line, double whole, double length) {
+  if (!(length > 0) || !(length < whole))
+    return length > 0 ? 1 : 0;
+  double low = 0, high = 1, t = length / whole;
+  if (cs_curve_is_straight(line))
+    return t;
+  double at = cs_curve_length(line, 0, t);
+  for (int i = 0; i < 60 && fabs(at - length) > LENGTH_ERROR * whole; i++) {
+    if (at < length)
+      low = t;
+    else
+      high = t;
+    double pace = speed(line, t), next = pace > 0 ? t + (length - at) / pace : low;
+    next = next > low && next < high ? next : 0.5 * (low + high);
+    at += next > t ? cs_curve_length(line, t, next) : -cs_curve_length(line, next, t);
+    t = next;
+  }
+  return t;
+}

@@ -1,0 +1,47 @@
+/* A piece of a line with its radius, or a part of one: what strokes are measured and outlined by.
+ *
+ * Invariant: splitting at 1/2 gives the same bits for a curve and for its reversed copy.
+ */
+#ifndef CS_STROKE_CURVE_H
+#define CS_STROKE_CURVE_H
+
+#include "geometry/bezier.h"
+#include "stroke/stroke.h"
+
+typedef struct cs_curve {
+  cs_bezier line;
+  int radius_degree;
+  double radius[CS_STROKE_RADIUS_DEGREE + 1];
+} cs_curve;
+
+/* A place of a curve. velocity, growth: of point and radius by the parameter. */
+typedef struct cs_curve_place {
+  celspan_point point, velocity;
+  double radius, growth;
+} cs_curve_place;
+
+/* The part of piece `piece` between two parameters, begin <= end. */
+void cs_curve_load(const cs_stroke *stroke, size_t piece, double begin, double end, cs_curve *out);
+void cs_curve_load_line(const cs_outline *line, size_t piece, double begin, double end,
+                        cs_bezier *out);
+void cs_curve_reverse(cs_curve *curve);
+void cs_curve_halve(const cs_curve *curve, cs_curve *low, cs_curve *high);
+/* The part of a Bernstein polynomial between two parameters, in place. */
+void cs_curve_cut_polynomial(double *coefficients, int degree, double begin, double end);
+cs_curve_place cs_curve_at(const cs_curve *curve, double t);
+/* A place of the line alone. */
+void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
+                      celspan_point *velocity);
+/* The direction, of length 1, in which the line leaves its first point; in any case a direction. */
+celspan_point cs_curve_departure(const cs_bezier *line);
+/* Whether the line is straight with constant speed, but for rounding. */
+bool cs_curve_is_straight(const cs_bezier *line);
+/* Whether all of the line is one point, but for rounding. */
+bool cs_curve_is_point(const cs_bezier *line);
+
+/* The length of a line between two parameters, right within 1e-10 of that of its polygon. */
+double cs_curve_length(const cs_bezier *line, double begin, double end);
+/* The parameter at which the length from 0 is `length`; whole: that up to 1. */
+double cs_curve_parameter(const cs_bezier *line, double whole, double length);
+
+#endif

@@ -1,0 +1,34 @@
+/* Building the line of a stroke: pieces with their radii.
+ *
+ *   points, widths --> spline --\
+ *   path data      --> subpaths ---> raw line --> pieces with a length --> parts (parts.h)
+ *   a primitive    --> outline  --/
+ */
+#ifndef CS_STROKE_LINE_H
+#define CS_STROKE_LINE_H
+
+#include "stroke/curve.h"
+
+/* A line as it is given. Pieces of `widths`, where it has any, are those of the line: their x is the
+ * width. */
+typedef struct cs_stroke_raw {
+  cs_outline line, widths;
+  cs_outline_closed closed; /* contours */
+  double width;             /* without widths */
+} cs_stroke_raw;
+
+/* Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. finish frees it, also after an error. */
+CELSPAN_CHECKED celspan_status cs_stroke_raw_init(celspan_context *context, cs_stroke_raw *raw,
+                                                  const celspan_stroke_desc *desc,
+                                                  const cs_outline *outline);
+void cs_stroke_raw_finish(cs_stroke_raw *raw, cs_memory *memory);
+
+/* Appends a piece to the line of the stroke, from where it ends; is_first: a contour begins with
+ * it. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_stroke_append(celspan_context *context, cs_stroke *stroke,
+                                                const cs_curve *curve, bool is_first);
+/* Appends a contour of the raw line without the pieces that are points. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_stroke_append_contour(celspan_context *context, cs_stroke *stroke,
+                                                        const cs_stroke_raw *raw, size_t contour);
+
+#endif

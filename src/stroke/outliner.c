@@ -1,0 +1,304 @@
+#include "stroke/outliner.h"
+
+#include "geometry/matrix.h"
+#include "stroke/corner.h"
+
+#define DEPTH 8   /* halvings of a piece that is larger than the frame */
+#define PLACES 16 /* of a piece, at which it is looked whether discs are inside their neighbours */
+#define ROOT_DEPTH 60
+
+/* A stretch of the line between two parameters of a piece. */
+typedef struct stretch {
+  size_t piece;
+  double begin, end;
+  cs_spoke first, last;
+  bool is_swallowed; /* every disc is inside its neighbour */
+  bool is_cut;       /* what comes before it cannot be seen */
+} stretch;
+
+typedef struct outliner {
+  const cs_stroke *stroke;
+  const cs_stroke_view *view;
+  cs_side side;
+  stretch *stretches; /* of one part */
+  size_t count, capacity;
+  double extent;
+  bool is_all_visible; /* all of the stroke is in the frame */
+  bool is_cut;         /* something was hidden since the last stretch */
+} outliner;
+
+/* ---------------------------------------------------------------- stretches */
+
+static celspan_status append_stretch(outliner *o, stretch s) {
+  CS_TRY(cs_mem_reserve(o->side.context, (void **)&o->stretches, &o->capacity, o->count + 1,
+                        sizeof *o->stretches));
+  s.is_cut = o->is_cut;
+  o->is_cut = false;
+  o->stretches[o->count++] = s;
+  return CELSPAN_OK;
+}
+
+static bool is_swallowed_at(const cs_curve *curve, double t) {
+  cs_curve_place place = cs_curve_at(curve, t);
+  return fabs(place.growth) > 0 &&
+         place.growth * place.growth >= cs_spoke_dot(place.velocity, place.velocity);
+}
+
+/* The parameter between two at which discs begin or cease to be inside their neighbours. */
+static double find_change(const cs_curve *curve, double from, double to) {
+  bool before = is_swallowed_at(curve, from);
+  for (int i = 0; i < ROOT_DEPTH; i++) {
+    double middle = 0.5 * (from + to);
+    if (is_swallowed_at(curve, middle) == before)
+      from = middle;
+    else
+      to = middle;
+  }
+  return 0.5 * (from + to);
+}
+
+/* base: the stretch that the curve is; from, to: of its own parameter. */
+static celspan_status add_part(outliner *o, const stretch *base, const cs_curve *curve, double from,
+                               double to) {
+  stretch s = *base;
+  double length = base->end - base->begin;
+  s.begin = from > 0 ? base->begin + from * length : base->begin;
+  s.end = to < 1 ? base->begin + to * length : base->end;
+  s.first = cs_spoke_at(curve, from);
+  s.last = cs_spoke_at(curve, to);
+  s.is_swallowed = curve->radius_degree > 0 && is_swallowed_at(curve, 0.5 * (from + to));
+  return append_stretch(o, s);
+}
+
+/* Divides a stretch where discs begin or cease to be inside their neighbours. */
+static celspan_status add_visible(outliner *o, const stretch *base, const cs_curve *curve) {
+  double from = 0;
+  for (int i = 0; curve->radius_degree > 0 && i < PLACES; i++) {
+    double low = (i + 0.25) / PLACES, high = (i + 1.25) / PLACES;
+    high = i + 1 == PLACES ? 1 - 1e-9 : high;
+    low = i == 0 ? 1e-9 : low;
+    if (is_swallowed_at(curve, low) == is_swallowed_at(curve, high))
+      continue;
+    double to = find_change(curve, low, high);
+    CS_TRY(add_part(o, base, curve, from, to));
+    from = to;
+  }
+  return add_part(o, base, curve, from, 1);
+}
+
+/* The box that holds all that a curve may contribute; with extent 0, the line alone. */
+static celspan_box box_of(const cs_curve *curve, double extent) {
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, radius = 0;
+  for (int i = 0; i <= curve->line.degree; i++) {
+    cs_hpoint p = curve->line.points[i];
+    left = fmin(left, p.x / p.w);
+    right = fmax(right, p.x / p.w);
+    top = fmin(top, p.y / p.w);
+    bottom = fmax(bottom, p.y / p.w);
+  }
+  for (int i = 0; i <= curve->radius_degree; i++)
+    radius = fmax(radius, curve->radius[i]);
+  radius *= extent;
+  return (celspan_box){left - radius, top - radius, right - left + 2 * radius,
+                       bottom - top + 2 * radius};
+}
+
+/* Adds what can be seen of a curve, between two parameters of a piece. */
+static celspan_status add_curve(outliner *o, const stretch *base, const cs_curve *curve,
+                                int depth) {
+  if (!o->is_all_visible) {
+    celspan_box box = box_of(curve, o->extent), line = box_of(curve, 0);
+    if (cs_stroke_view_hides(o->view, &box)) {
+      o->is_cut = true;
+      return CELSPAN_OK;
+    }
+    if (depth < DEPTH && !cs_curve_is_straight(&curve->line) &&
+        cs_stroke_view_is_exceeded(o->view, &line)) {
+      double middle = 0.5 * (base->begin + base->end);
+      stretch half = {.piece = base->piece, .begin = base->begin, .end = middle};
+      cs_curve low, high;
+      cs_curve_halve(curve, &low, &high);
+      CS_TRY(add_curve(o, &half, &low, depth + 1));
+      half = (stretch){.piece = base->piece, .begin = middle, .end = base->end};
+      return add_curve(o, &half, &high, depth + 1);
+    }
+  }
+  return add_visible(o, base, curve);
+}
+
+static celspan_status add_stretches(outliner *o, const cs_stroke_part *part) {
+  o->count = 0;
+  o->is_cut = false;
+  for (size_t i = 0; i < part->count; i++) {
+    const stretch base = {.piece = cs_stroke_piece(o->stroke, part, i),
+                          .begin = i == 0 ? part->begin : 0,
+                          .end = i + 1 == part->count ? part->end : 1};
+    if (!(base.begin < base.end))
+      continue;
+    cs_curve curve;
+    cs_curve_load(o->stroke, base.piece, base.begin, base.end, &curve);
+    CS_TRY(add_curve(o, &base, &curve, 0));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- sides */
+
+static celspan_status follow(outliner *o, const stretch *s) {
+  cs_side *side = &o->side;
+  if (s->is_swallowed) { /* both sides go along its chord, so that it has no area */
+    CS_TRY(cs_side_go(side, side->is_turned ? s->last.centre : s->first.centre));
+    return cs_side_go(side, side->is_turned ? s->first.centre : s->last.centre);
+  }
+  cs_curve curve;
+  cs_curve_load(o->stroke, s->piece, s->begin, s->end, &curve);
+  if (!side->is_turned)
+    return cs_side_follow(side, &curve, &s->first, &s->last);
+  cs_spoke first = cs_spoke_turned(&s->last), last = cs_spoke_turned(&s->first);
+  cs_curve_reverse(&curve);
+  return cs_side_follow(side, &curve, &first, &last);
+}
+
+static celspan_status turn(outliner *o, const stretch *a, const stretch *b) {
+  cs_spoke in = o->side.is_turned ? cs_spoke_turned(&b->first) : a->last;
+  cs_spoke out = o->side.is_turned ? cs_spoke_turned(&a->last) : b->first;
+  return cs_corner_turn(&o->side, o->stroke, &in, &out);
+}
+
+/* The right side of stretches [begin, end), on the way there or back. */
+static celspan_status add_side(outliner *o, size_t begin, size_t end, bool is_turned) {
+  o->side.is_turned = is_turned;
+  for (size_t i = begin; i < end; i++) {
+    size_t at = is_turned ? end - 1 - (i - begin) : i;
+    if (i > begin)
+      CS_TRY(is_turned ? turn(o, &o->stretches[at], &o->stretches[at + 1])
+                       : turn(o, &o->stretches[at - 1], &o->stretches[at]));
+    CS_TRY(follow(o, &o->stretches[at]));
+  }
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- runs */
+
+static celspan_status add_ring(outliner *o) {
+  for (int back = 0; back < 2; back++) {
+    CS_TRY(add_side(o, 0, o->count, back == 1));
+    CS_TRY(turn(o, &o->stretches[o->count - 1], &o->stretches[0]));
+    CS_TRY(cs_side_close(&o->side));
+  }
+  return cs_corner_turn_more(&o->side, o->stroke, &o->stretches[o->count - 1].last,
+                             &o->stretches[0].first);
+}
+
+static celspan_status add_end(outliner *o, const cs_spoke *end, bool is_cut) {
+  return is_cut ? cs_corner_cut(&o->side, end) : cs_corner_cap(&o->side, o->stroke, end);
+}
+
+/* Stretches [begin, end), which follow each other. */
+static celspan_status add_run(outliner *o, size_t begin, size_t end, bool is_cut_before,
+                              bool is_cut_after) {
+  const cs_spoke *last = &o->stretches[end - 1].last;
+  cs_spoke first = cs_spoke_turned(&o->stretches[begin].first);
+  CS_TRY(add_side(o, begin, end, false));
+  CS_TRY(add_end(o, last, is_cut_after));
+  CS_TRY(add_side(o, begin, end, true));
+  CS_TRY(add_end(o, &first, is_cut_before));
+  CS_TRY(cs_side_close(&o->side));
+  if (!is_cut_after)
+    CS_TRY(cs_corner_cap_more(&o->side, o->stroke, last));
+  return is_cut_before ? CELSPAN_OK : cs_corner_cap_more(&o->side, o->stroke, &first);
+}
+
+static celspan_status add_turns(outliner *o, size_t begin, size_t end) {
+  for (size_t i = begin + 1; i < end; i++)
+    CS_TRY(cs_corner_turn_more(&o->side, o->stroke, &o->stretches[i - 1].last,
+                               &o->stretches[i].first));
+  return CELSPAN_OK;
+}
+
+static void reverse(stretch *stretches, size_t count) {
+  for (size_t i = 0, j = count; i + 1 < j; i++) {
+    stretch swapped = stretches[i];
+    stretches[i] = stretches[--j];
+    stretches[j] = swapped;
+  }
+}
+
+/* Brings a closed part into the order that begins after something that is hidden. */
+static void begin_at_cut(outliner *o) {
+  size_t first = 0;
+  o->stretches[0].is_cut |= o->is_cut;
+  while (first < o->count && !o->stretches[first].is_cut)
+    first++;
+  if (first == 0 || first == o->count)
+    return;
+  reverse(o->stretches, first);
+  reverse(o->stretches + first, o->count - first);
+  reverse(o->stretches, o->count);
+  o->is_cut = true;
+}
+
+static celspan_status add_part_runs(outliner *o, const cs_stroke_part *part) {
+  if (part->is_closed) {
+    begin_at_cut(o);
+    if (!o->stretches[0].is_cut) {
+      CS_TRY(add_turns(o, 0, o->count));
+      return add_ring(o);
+    }
+  }
+  for (size_t begin = 0, end; begin < o->count; begin = end) {
+    end = begin + 1;
+    while (end < o->count && !o->stretches[end].is_cut)
+      end++;
+    CS_TRY(add_turns(o, begin, end));
+    CS_TRY(add_run(o, begin, end, o->stretches[begin].is_cut,
+                   end < o->count || o->is_cut || part->is_closed));
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status add_dot(outliner *o, const cs_stroke_part *part) {
+  cs_curve curve;
+  cs_curve_load(o->stroke, part->first, 0, 1, &curve);
+  cs_spoke place = cs_spoke_at(&curve, part->begin);
+  place = cs_spoke_make(place.centre, place.radius, place.tangent, 0);
+  return cs_corner_dot(&o->side, o->stroke, &place);
+}
+
+static celspan_status add_parts(outliner *o) {
+  for (size_t i = 0; i < o->stroke->part_count; i++) {
+    const cs_stroke_part *part = &o->stroke->parts[i];
+    if (part->count == 1 && part->begin == part->end) {
+      CS_TRY(add_dot(o, part));
+      continue;
+    }
+    CS_TRY(add_stretches(o, part));
+    if (o->count > 0)
+      CS_TRY(add_part_runs(o, part));
+  }
+  return cs_side_add_folds(&o->side);
+}
+
+/* ---------------------------------------------------------------- public */
+
+celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
+                                 const cs_stroke_view *view, cs_outline *outline) {
+  outliner o = {.stroke = stroke, .view = view, .extent = cs_stroke_extent(stroke)};
+  o.is_all_visible = cs_stroke_view_holds(view, &stroke->around);
+  if (cs_stroke_view_hides(view, &stroke->around))
+    return CELSPAN_OK;
+  cs_side_init(&o.side, context, view, outline);
+  celspan_status status = add_parts(&o);
+  cs_mem_free(context->memory, o.stretches, o.capacity * sizeof *o.stretches);
+  cs_side_finish(&o.side);
+  return status;
+}
+
+celspan_status cs_stroke_outline_fine(celspan_context *context, const cs_stroke *stroke,
+                                      cs_outline *outline) {
+  const celspan_box *box = &stroke->around;
+  const cs_stroke_view view = {.matrix = celspan_matrix_identity(),
+                               .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
+                               .tolerance = 0x1p-27 * fmax(box->width, box->height)};
+  return cs_stroke_outline(context, stroke, &view, outline);
+}

@@ -1,0 +1,67 @@
+/* Strokes: a line and a radius along it, and the parts of it that are drawn.
+ *
+ *        spoke                    c(t): the line; r(t): half the width there
+ *      \   |  r                   two spokes leave every place, to the points where the disc of
+ *    ---o--+------- side          that radius touches its neighbours' envelope. They stand at a
+ *          |                      right angle to the line where the width is constant, and lean
+ *    ------*------> line          towards where it is less.
+ *          |
+ *    ---o--+------- side          A point is in a stroke iff a spoke of a drawn part reaches over
+ *      /   |                      it, or it is in the shape of a cap or of a join (outliner.h).
+ *
+ * Invariants: the line's pieces have a length, but for a contour that is a single point. Piece i
+ * has the radius sum of radii[radius_starts[i] + j] * Bernstein polynomial j of degree
+ * radius_degrees[i] at the piece's own parameter; radii are 0 or more. Contours are left open unless
+ * a part says that it is closed. Parts begin and end inside one contour, count at least one piece,
+ * and go over the contour's end only where it is closed. A part that begins where it ends, of one
+ * piece, is a dot.
+ */
+#ifndef CS_STROKE_STROKE_H
+#define CS_STROKE_STROKE_H
+
+#include "base/hash.h"
+#include "geometry/outline.h"
+
+#define CS_STROKE_RADIUS_DEGREE 20 /* of a width, and of the way along a piece (taper.c) */
+#define CS_STROKE_DASHES 1000000   /* the most in one stroke */
+
+typedef struct cs_stroke_part {
+  uint32_t contour;  /* whose pieces these are */
+  uint32_t first;    /* piece in which it begins */
+  uint32_t count;    /* of pieces */
+  double begin, end; /* parameters, in the first and in the last piece */
+  bool is_closed;    /* its end is its beginning: it has no caps */
+} cs_stroke_part;
+
+typedef struct cs_stroke {
+  cs_outline line;
+  double *radii;
+  uint32_t *radius_starts;
+  uint8_t *radius_degrees;
+  cs_stroke_part *parts;
+  size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
+  size_t part_count, part_capacity;
+  celspan_stroke_cap cap;
+  celspan_stroke_join join;
+  double miter;       /* as SVG's miter limit */
+  double largest;     /* radius */
+  celspan_box around; /* nothing of the stroke is outside it; not tight */
+} cs_stroke;
+
+/* Makes a stroke of a description whose numbers have been checked. outline: what desc->outline is
+ * made of; NULL without it. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts; LIMIT
+ * for more dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
+CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
+                                              const celspan_stroke_desc *desc,
+                                              const cs_outline *outline);
+void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
+void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
+
+/* How far beyond the line a stroke may extent, in radii: spokes, caps and joins. */
+double cs_stroke_extent(const cs_stroke *stroke);
+/* The pieces of a contour: [*begin, *end). */
+void cs_stroke_contour(const cs_outline *line, size_t contour, size_t *begin, size_t *end);
+/* Piece `i` of a part, which may go over the end of its contour. */
+size_t cs_stroke_piece(const cs_stroke *stroke, const cs_stroke_part *part, size_t i);
+
+#endif

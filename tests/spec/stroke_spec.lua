@@ -1,0 +1,164 @@
+-- Strokes as scripts see them: what they cover, their fields and their faults.
+local celspan = require "celspan"
+
+local function covers(stroke, points)
+  for _, p in ipairs(points) do
+    assert.are.equal(p[3], stroke:contains(p[1], p[2]), ("at %g, %g"):format(p[1], p[2]))
+  end
+end
+
+local function fault(fields)
+  local good, message = pcall(celspan.stroke, fields)
+  assert.is_false(good)
+  return message
+end
+
+describe("a stroke", function()
+  it("is as wide as it is told, with the caps it is told", function()
+    local line = { points = { { 10, 10 }, { 30, 10 } }, width = 4 }
+    for cap, ends in pairs { butt = { false, false }, round = { true, false }, square = { true, true } } do
+      line.cap = cap
+      covers(celspan.stroke(line), {
+        { 20, 11.9, true }, { 20, 12.1, false }, { 20, 8.1, true }, { 9, 10, ends[1] },
+        { 31.9, 11.9, ends[2] }, { 7.9, 10, false }, { 10.1, 11.9, true } })
+    end
+  end)
+
+  it("has the joins that it is told", function()
+    local corner = { points = { { 0, 0 }, { 20, 0 }, { 20, 20 } }, width = 4 }
+    local inside = { miter = { true, true }, round = { true, false }, bevel = { false, false } }
+    for join, points in pairs(inside) do
+      corner.join = join
+      covers(celspan.stroke(corner), { { 21.3, -1.3, points[1] }, { 21.9, -1.9, points[2] },
+                                       { 20.9, -0.9, true } })
+    end
+    corner.join, corner.miter = "miter", 1.2
+    covers(celspan.stroke(corner), { { 21.3, -1.3, false } })
+  end)
+
+  it("takes its widths from its points", function()
+    local cone = celspan.stroke { points = { { 0, 0, 0 }, { 100, 0, 20 } } }
+    covers(cone, { { 50, 4.9, true }, { 50, 5.1, false }, { 100, 9.9, true } })
+    assert.is_true(celspan.stroke { points = { { 0, 0, 2 }, { 1, 0, 30 } }, cap = "round" }:contains(1, 14))
+  end)
+
+  it("has dashes where they are by its length", function()
+    local line = celspan.stroke { d = "M0 0H100", width = 2, dash = { 10, 5 }, dash_offset = 3 }
+    covers(line, { { 6.9, 0, true }, { 7.1, 0, false }, { 11.9, 0, false }, { 12.1, 0, true },
+                   { 21.9, 0, true }, { 22.1, 0, false } })
+    -- A quarter of a circle of radius 40 is 62.83 long: the second dash begins after 31.42 at 45 degrees.
+    local arc = celspan.stroke { d = "M40 0A40 40 0 0 1 0 40", width = 2,
+                                 dash = { 10, math.pi * 10 - 10 } }
+    local function at(length) return 40 * math.cos(length / 40), 40 * math.sin(length / 40) end
+    for length, drawn in pairs { [9.99] = true, [10.01] = false, [31.40] = false, [31.43] = true,
+                                 [41.40] = true, [41.43] = false } do
+      local x, y = at(length)
+      assert.are.equal(drawn, arc:contains(x, y), length)
+    end
+  end)
+
+  it("draws a part of its length, and tapers it", function()
+    local line = celspan.stroke { points = { { 0, 0 }, { 50, 0 }, { 100, 0 } }, width = 10, from = 0.2, to = 0.6,
+                                  taper = { 10, 20 } }
+    -- The sides are tangents of the discs: 5 tan(asin(1/2)) = 2.887, 10 tan(asin(1/4)) = 2.582.
+    covers(line, { { 19.9, 0, false }, { 25, 2.85, true }, { 25, 2.92, false }, { 35, 4.9, true },
+                   { 50, 2.55, true }, { 50, 2.61, false }, { 60.1, 0, false } })
+    assert.is_nil(celspan.stroke { d = "M0 0H9", from = 0.5, to = 0.5 }:bounds())
+  end)
+
+  it("goes round a primitive where that stands", function()
+    local ring = celspan.circle { centre = { 0, 0 }, radius = 10 }:scale(2):translate(50, 50):fade(0.5)
+      :stroke { width = 2, texture = "#ff0000" }
+    covers(ring, { { 70, 50, true }, { 71.9, 50, true }, { 72.1, 50, false }, { 67.9, 50, false },
+                   { 50, 50, false } })
+    local x, y, w, h = ring:bounds()
+    for i, pair in ipairs { { x, 28 }, { y, 28 }, { w, 44 }, { h, 44 } } do
+      assert.is_near(pair[2], pair[1], 1e-5, i)
+    end
+    local _, _, _, a = celspan.probe(celspan.rostrum { celspan.cel { ring } }, 70, 50)
+    assert.is_near(0.5, a, 1e-6)
+    covers(ring:with { width = 4 }, { { 73.9, 50, true }, { 74.1, 50, false } })
+  end)
+
+  it("is a dot where its line has no length", function()
+    for cap, inside in pairs { butt = { false, false }, round = { true, false }, square = { true, true } } do
+      for _, line in ipairs { { points = { { 5, 5 } } }, { d = "M5 5Z" }, { d = "M5 5L5 5" } } do
+        line.width, line.cap = 4, cap
+        covers(celspan.stroke(line), { { 5, 6, inside[1] }, { 6.9, 6.9, inside[2] } })
+      end
+    end
+  end)
+
+  it("is closed with a join, and its last dash goes on in its first", function()
+    local square = { d = "M0 0H40V40H0Z", width = 4 }
+    covers(celspan.stroke(square), { { -1.9, -1.9, true }, { 20, 20, false } })
+    square.d = "M0 0H40V40H0V0"
+    covers(celspan.stroke(square), { { -1.9, -1.9, false } })
+    square.d, square.dash, square.dash_offset = "M0 0H40V40H0Z", { 30, 10 }, 15
+    covers(celspan.stroke(square), { { -1.9, -1.9, true } })
+  end)
+
+  it("tells what is wrong with it", function()
+    local line = { { 0, 0 }, { 9, 0 } }
+    for message, fields in pairs {
+      ["give one of 'points', 'd' and 'outline'"] = { width = 3 },
+      ["give only one of 'points', 'd' and 'outline'"] = { points = line, d = "M0 0" },
+      ["width is %-1; it must be 0 or more"] = { points = line, width = -1 },
+      ["points%[2%]%.width is %-4"] = { points = { { 0, 0 }, { 1, 1, -4 } } },
+      ["'width' must be a finite number, got nan"] = { points = line, width = 0 / 0 },
+      ["dash is empty"] = { points = line, dash = {} },
+      ["the lengths of dash are all 0"] = { points = line, dash = { 0, 0 } },
+      ["dash%[2%] is %-1"] = { points = line, dash = { 1, -1 } },
+      ["dashes; at most 1000000 are allowed"] = { points = { { 0, 0 }, { 1e9, 0 } }, dash = { 1 } },
+      ["field 'cap' must be"] = { points = line, cap = "flat" },
+      ["miter is 0.5"] = { points = line, miter = 0.5 },
+      ["degree is 16"] = { points = line, degree = 16 },
+      ["taper%[2%] is %-3"] = { points = line, taper = { 0, -3 } },
+      ["'closed' must be true or false"] = { points = line, closed = "yes" },
+      ["path data ends at byte"] = { d = "M0 0L" },
+      ["the outline must be that of a primitive; a boolean object has none"] =
+        { outline = celspan.union { celspan.rect { 0, 0, 1, 1 } } },
+      ["unknown field 'widht'"] = { points = line, widht = 3 },
+    } do
+      assert.matches(message, fault(fields))
+    end
+  end)
+
+  it("of very many points is drawn, or refused with the limit", function()
+    local points = {}
+    for i = 1, 100001 do points[i] = { i, i % 7 } end
+    assert.is_true(celspan.stroke { points = points, width = 2 }:contains(50000, 50000 % 7))
+    assert.matches("there are 100001 points", fault { points = points, degree = 3 })
+  end)
+end)
+
+describe("strokes that abut", function()
+  --- The least alpha in a box that is covered, of a film 64 x 64.
+  local function least(art, x0, y0, x1, y1)
+    local image = assert(celspan.pixels(celspan.rostrum { celspan.cel(art) }, { size = { 64, 64 } }))
+    local found = 1
+    for y = y0, y1 do
+      for x = x0, x1 do found = math.min(found, (select(4, image:get(x, y)))) end
+    end
+    return found
+  end
+
+  it("leak nothing beside a fill of the same edge", function()
+    local edge = { { -35.1, -80 }, { 80.1, 145 } }
+    local a, b = edge[1], edge[2]
+    local length = math.sqrt((b[1] - a[1]) ^ 2 + (b[2] - a[2]) ^ 2)
+    local nx, ny = -(b[2] - a[2]) / length * 200, (b[1] - a[1]) / length * 200
+    local art = {
+      celspan.polygon { a, b, { b[1] + nx, b[2] + ny }, { a[1] + nx, a[2] + ny } },
+      celspan.stroke { points = { { a[1] - nx / 2, a[2] - ny / 2 }, { b[1] - nx / 2, b[2] - ny / 2 } }, width = 200 } }
+    assert.is_true(least(art, 0, 0, 63, 63) > 1 - 1e-6)
+  end)
+
+  it("leak nothing between their own parts, in tight bends neither", function()
+    local bend = celspan.stroke { d = "M-40 20 C 90 -10 90 80 10 44 S 10 20 80 60", width = 90, cap = "round", join = "round" }
+    assert.is_true(least({ bend }, 8, 8, 56, 56) > 1 - 1e-6)
+    local wave = {}
+    for i = 0, 8 do wave[#wave + 1] = { -20 + 13 * i, 32 + (i % 2) * 9, 60 + 20 * (i % 3) } end
+    assert.is_true(least({ celspan.stroke { points = wave, degree = 2 } }, 10, 20, 54, 44) > 1 - 1e-6)
+  end)
+end)

@@ -1,0 +1,250 @@
+/* Strokes: the curves that are handed to the sweep against the probe's own arithmetic.
+ *
+ * CELSPAN_STROKES=n tries n strokes instead of 400; CASE=n tries that one alone. Each is seen at 1,024
+ * and at 1,048,576 pixels a side, at POINTS points each: half of them anywhere, half near an edge.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "celspan/celspan.h"
+#include "scene/inside.h"
+#include "stroke/outliner.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+#define SIDE 100.0 /* film units */
+#define POINTS 250
+#define EDGE 0.01 /* pixels */
+
+/* ---------------------------------------------------------------- random strokes */
+
+typedef struct sketch {
+  celspan_stroke_desc desc;
+  celspan_point points[12];
+  double widths[12], dashes[4];
+  char data[1024];
+} sketch;
+
+static double random_coordinate(test_random *random) {
+  double any = random_between(random, -10, 110);
+  return random_below(random, 4) == 0 ? floor(any / 10) * 10 : any;
+}
+
+static void random_path(test_random *random, sketch *s) {
+  static const char letters[] = "LLCCSQTAHV";
+  size_t at =
+      (size_t)snprintf(s->data, sizeof s->data, "M%.4f %.4f", random_coordinate(random), 50.0);
+  for (int i = 1 + random_below(random, 4); i > 0; i--) {
+    char letter = letters[random_below(random, 10)];
+    int pairs = letter == 'C' ? 3 : letter == 'S' || letter == 'Q' ? 2 : 1;
+    double rx = random_between(random, 1, 40), ry = random_between(random, 1, 40);
+    at += (size_t)snprintf(s->data + at, sizeof s->data - at, "%c", letter);
+    if (letter == 'A')
+      at += (size_t)snprintf(s->data + at, sizeof s->data - at, "%.4f %.4f 30 1 0 ", rx, ry);
+    for (int k = 0; k < pairs; k++) {
+      double x = random_coordinate(random), y = random_coordinate(random);
+      bool is_single = letter == 'H' || letter == 'V';
+      at += is_single ? (size_t)snprintf(s->data + at, sizeof s->data - at, "%.4f ", x)
+                      : (size_t)snprintf(s->data + at, sizeof s->data - at, "%.4f %.4f ", x, y);
+    }
+    if (random_below(random, 5) == 0)
+      at += (size_t)snprintf(s->data + at, sizeof s->data - at, "Z");
+  }
+  s->desc.data = s->data;
+}
+
+static void random_points(test_random *random, sketch *s) {
+  int count = 1 + random_below(random, 8);
+  double widest = random_between(random, 0, 40);
+  for (int i = 0; i < count; i++) {
+    double x = random_coordinate(random), y = random_coordinate(random);
+    s->points[i] = (celspan_point){x, y};
+    if (i > 0 && random_below(random, 12) == 0)
+      s->points[i] = s->points[i - 1];
+    s->widths[i] = random_below(random, 6) == 0 ? 0 : random_between(random, 0, widest);
+  }
+  s->desc.points = s->points;
+  s->desc.point_count = (size_t)count;
+  s->desc.widths = random_below(random, 3) > 0 ? s->widths : NULL;
+  s->desc.degree = 1 + random_below(random, 4);
+  s->desc.closed = random_below(random, 3) == 0;
+}
+
+static void random_sketch(test_random *random, sketch *s) {
+  *s = (sketch){.desc = CELSPAN_STROKE_DESC};
+  if (random_below(random, 2) == 0)
+    random_path(random, s);
+  else
+    random_points(random, s);
+  bool is_wide = random_below(random, 3) == 0;
+  s->desc.width = random_between(random, 0, is_wide ? 60 : 8);
+  s->desc.cap = (celspan_stroke_cap)random_below(random, 3);
+  s->desc.join = (celspan_stroke_join)random_below(random, 3);
+  s->desc.miter = random_between(random, 1, 6);
+  if (random_below(random, 3) == 0) {
+    s->desc.dashes = s->dashes;
+    s->desc.dash_count = 1 + (size_t)random_below(random, 4);
+    for (size_t i = 0; i < s->desc.dash_count; i++)
+      s->dashes[i] = random_below(random, 5) == 0 && i > 0 ? 0 : random_between(random, 2, 30);
+    s->desc.dash_offset = random_between(random, -40, 40);
+  }
+  if (random_below(random, 3) == 0) {
+    s->desc.taper[0] = random_between(random, 0, 60);
+    s->desc.taper[1] = random_below(random, 2) == 0 ? 0 : random_between(random, 0, 60);
+  }
+  if (random_below(random, 3) == 0) {
+    s->desc.from = random_between(random, -0.2, 0.6);
+    s->desc.to = random_between(random, 0.4, 1.2);
+  }
+}
+
+/* ---------------------------------------------------------------- the oracle */
+
+typedef struct trial {
+  const cs_stroke *stroke;
+  cs_outline outline;
+  celspan_matrix matrix, inverse;
+  double side;
+} trial;
+
+static bool sees(const trial *t, double x, double y, bool *is_inside) {
+  celspan_point own;
+  if (!cs_inside_own_point(&t->matrix, (celspan_point){x, y}, &own))
+    return false;
+  *is_inside = cs_inside_stroke(t->stroke, own);
+  return true;
+}
+
+/* Whether some point nearer than EDGE is as the outline says. */
+static bool is_near_edge(const trial *t, double x, double y, bool drawn) {
+  static const double shares[] = {1, 0.6, 0.25};
+  for (int i = 0; i < 16; i++)
+    for (int k = 0; k < 3; k++) {
+      double angle = i * 0.39269908169872414, radius = shares[k] * EDGE;
+      bool is_inside;
+      if (sees(t, x + radius * cos(angle), y + radius * sin(angle), &is_inside) &&
+          is_inside == drawn)
+        return true;
+    }
+  return false;
+}
+
+static celspan_point random_place(const trial *t, test_random *random) {
+  if (random_below(random, 2) == 0 || t->outline.piece_count == 0)
+    return random_point(random, 0, t->side, 0, t->side);
+  size_t piece = random_bits(random) % t->outline.piece_count;
+  const cs_hpoint *p = t->outline.points + t->outline.starts[piece];
+  double share = random_between(random, 0, 1), angle = random_between(random, 0, 6.2831853);
+  double away = pow(10, random_between(random, -2, 1));
+  int degree = t->outline.degrees[piece];
+  celspan_point at = {p[0].x + share * (p[degree].x - p[0].x),
+                      p[0].y + share * (p[degree].y - p[0].y)};
+  if (degree == 3) {
+    double s = 1 - share, a = s * s * s, b = 3 * s * s * share, c = 3 * s * share * share,
+           d = share * share * share;
+    at = (celspan_point){a * p[0].x + b * p[1].x + c * p[2].x + d * p[3].x,
+                         a * p[0].y + b * p[1].y + c * p[2].y + d * p[3].y};
+  }
+  const double *m = t->matrix.m;
+  double w = m[6] * at.x + m[7] * at.y + m[8];
+  return (celspan_point){(m[0] * at.x + m[1] * at.y + m[2]) / w + away * cos(angle),
+                         (m[3] * at.x + m[4] * at.y + m[5]) / w + away * sin(angle)};
+}
+
+static int try_points(const trial *t, test_random *random, int points) {
+  int wrong = 0;
+  for (int i = 0; i < points; i++) {
+    celspan_point at = random_place(t, random), own;
+    bool inside;
+    if (at.x < 0 || at.y < 0 || at.x > t->side || at.y > t->side || !sees(t, at.x, at.y, &inside) ||
+        !cs_inside_own_point(&t->matrix, at, &own))
+      continue;
+    bool drawn = cs_inside_outline(&t->outline, CELSPAN_RULE_NONZERO, own);
+    if (drawn != inside && !is_near_edge(t, at.x, at.y, drawn)) {
+      if (wrong++ == 0)
+        fprintf(stderr, "  at %.4f, %.4f of %.0f (own %.6f, %.6f): drawn %d\n", at.x, at.y, t->side,
+                own.x, own.y, drawn);
+    }
+  }
+  return wrong;
+}
+
+static void print_sketch(const sketch *s) {
+  const celspan_stroke_desc *d = &s->desc;
+  fprintf(stderr,
+          "  cap %d join %d miter %g width %g degree %d closed %d from %g to %g taper %g %g",
+          d->cap, d->join, d->miter, d->width, d->degree, d->closed, d->from, d->to, d->taper[0],
+          d->taper[1]);
+  for (size_t i = 0; i < d->dash_count; i++)
+    fprintf(stderr, " dash %g", d->dashes[i]);
+  fprintf(stderr, " offset %g\n  %s\n", d->dash_offset, d->data ? d->data : "");
+  for (size_t i = 0; i < d->point_count; i++)
+    fprintf(stderr, "  {%.4f, %.4f, %.4f}", d->points[i].x, d->points[i].y,
+            d->widths ? d->widths[i] : d->width);
+  fprintf(stderr, "\n");
+}
+
+/* How a stroke is placed: as it is, turned, or in perspective. */
+static celspan_matrix random_placement(test_random *random, double side) {
+  celspan_matrix scale = celspan_matrix_scaling(side / SIDE, side / SIDE);
+  int kind = random_below(random, 4);
+  if (kind == 1)
+    return celspan_matrix_then((celspan_matrix){{0.8, -0.5, 20, 0.3, 1.4, -10, 0, 0, 1}}, scale);
+  if (kind == 2)
+    return celspan_matrix_then((celspan_matrix){{1, 0.2, -5, 0.1, 1.1, 0,
+                                                 random_between(random, -0.008, 0.012), 0.004, 1}},
+                               scale);
+  return scale;
+}
+
+static bool try_stroke(celspan_context *context, int number, double side, size_t *pieces) {
+  test_random random = {(uint64_t)number};
+  sketch s;
+  random_sketch(&random, &s);
+  celspan_object *object = NULL;
+  if (celspan_object_create_stroke(context, &s.desc, &object) != CELSPAN_OK) {
+    fprintf(stderr, "case %d: %s\n", number, celspan_context_error(context));
+    return false;
+  }
+  trial t = {.stroke = object->data->stroke, .side = side};
+  t.matrix = random_placement(&random, side);
+  const cs_stroke_view view = {
+      .matrix = t.matrix, .frame = {0, side, 0, side}, .tolerance = CS_STROKE_TOLERANCE};
+  cs_outline_init(&t.outline);
+  celspan_status status = cs_stroke_outline(context, t.stroke, &view, &t.outline);
+  int wrong = status == CELSPAN_OK ? try_points(&t, &random, POINTS) : 1;
+  *pieces += t.outline.piece_count;
+  if (wrong > 0) {
+    fprintf(stderr, "CASE=%d: %d points are wrong at %.0f pixels a side, %zu pieces\n", number,
+            wrong, side, t.outline.piece_count);
+    print_sketch(&s);
+  }
+  cs_outline_finish(&t.outline, object->memory);
+  celspan_object_unref(object);
+  return wrong == 0;
+}
+
+static void test_outlines(celspan_context *context) {
+  const char *only = getenv("CASE"), *asked = getenv("CELSPAN_STROKES");
+  int first = only ? atoi(only) : 1, count = asked ? atoi(asked) : 400;
+  int last = only ? first : count, bad = 0;
+  size_t small = 0, large = 0;
+  for (int i = first; i <= last; i++) {
+    bad += !try_stroke(context, i, 1024, &small);
+    bad += !try_stroke(context, i, 1048576, &large);
+  }
+  CHECK(bad == 0);
+  printf("%d strokes: %zu curves at 1,024 pixels a side, %zu at 1,048,576\n", last - first + 1,
+         small, large);
+}
+
+int main(void) {
+  celspan_context *context = NULL;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  test_outlines(context);
+  celspan_context_destroy(context);
+  return check_done();
+}
