@@ -5,14 +5,14 @@
 void cs_busy_init(cs_busy *busy, const cs_row_tools *tools, const cs_boundary_set *set) {
   *busy = (cs_busy){.tools = *tools};
   cs_descent_init(&busy->descent, set);
-  cs_meeting_init(&busy->meeting, tools, &busy->descent.units, &busy->columns);
+  cs_mixer_init(&busy->mixer, tools, &busy->descent.units, &busy->columns);
 }
 
 void cs_busy_finish(cs_busy *busy, cs_memory *memory) {
   cs_descent_finish(&busy->descent, memory);
   if (busy->columns.width > 0)
     cs_columns_finish(&busy->columns, memory);
-  cs_meeting_finish(&busy->meeting, memory);
+  cs_mixer_finish(&busy->mixer, memory);
   *busy = (cs_busy){0};
 }
 
@@ -41,7 +41,7 @@ static inline void find_cell(row_walk *w) {
 static inline celspan_status pass(row_walk *w, const cs_unit *unit) {
   if (unit->y0 == 0)
     cs_composer_cross(w->composer, unit->layer, unit->direction);
-  return unit->y0 > 0 || unit->y1 < 1 ? cs_meeting_pass(&w->busy->meeting, unit) : CELSPAN_OK;
+  return unit->y0 > 0 || unit->y1 < 1 ? cs_mixer_pass(&w->busy->mixer, unit) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- gaps */
@@ -68,16 +68,16 @@ static celspan_status draw_program(row_walk *w, int32_t to) {
 
 /* Columns in which the row changes at some height, alike in all of them. */
 static celspan_status draw_mixed(row_walk *w, int32_t to) {
-  cs_meeting *meeting = &w->busy->meeting;
+  cs_mixer *mixer = &w->busy->mixer;
   while (w->writer.from < to) {
     cs_v4 colour;
-    CS_TRY(cs_meeting_colour(meeting, w->writer.from, &w->cell, 0, &colour));
-    if (meeting->varies) { /* it is another colour in each column */
+    CS_TRY(cs_mixer_colour(mixer, w->writer.from, &w->cell, 0, &colour));
+    if (mixer->varies) { /* it is another colour in each column */
       rest_writer(w);
       int32_t column = w->writer.from;
       CS_TRY(resume_writer(w, column, (size_t)(to - column) + spans_left(w)));
     }
-    cs_row_writer_to(&w->writer, meeting->varies ? w->writer.from + 1 : to, colour);
+    cs_row_writer_to(&w->writer, mixer->varies ? w->writer.from + 1 : to, colour);
   }
   return CELSPAN_OK;
 }
@@ -87,7 +87,7 @@ static celspan_status draw_gap(row_walk *w, int32_t to) {
   if (to <= w->writer.from)
     return CELSPAN_OK;
   find_cell(w);
-  if (cs_meeting_has_events(&w->busy->meeting, &w->cell))
+  if (cs_mixer_has_events(&w->busy->mixer, &w->cell))
     return draw_mixed(w, to);
   if (w->cell.length > 0)
     return draw_program(w, to);
@@ -109,9 +109,9 @@ static const cs_cell *find_right(row_walk *w, uint32_t index, const cs_unit *uni
 }
 
 /* A column of which a list has the units. */
-static celspan_status draw_meeting(row_walk *w, uint32_t head, int32_t column) {
+static celspan_status draw_shared(row_walk *w, uint32_t head, int32_t column) {
   cs_v4 colour;
-  CS_TRY(cs_meeting_colour(&w->busy->meeting, column, &w->cell, head, &colour));
+  CS_TRY(cs_mixer_colour(&w->busy->mixer, column, &w->cell, head, &colour));
   cs_row_writer_to(&w->writer, column + 1, colour);
   return CELSPAN_OK;
 }
@@ -121,7 +121,7 @@ static celspan_status draw_alone(row_walk *w, uint32_t head, const cs_unit *unit
   const cs_node *node = &w->busy->columns.nodes[head];
   const cs_cell *right = find_right(w, node->unit, unit);
   if (w->cell.length > 0 || right->length > 0)
-    return draw_meeting(w, head, column);
+    return draw_shared(w, head, column);
   cs_v4d step = cs_v4d_step(w->cell.colour, right->colour);
   cs_v4d all = cs_v4d_add(cs_v4_wide(w->cell.colour), cs_v4d_scale(node->area, step));
   cs_row_writer_to(&w->writer, column + 1, cs_v4_bounded(cs_v4_narrow(all)));
@@ -189,10 +189,10 @@ static celspan_status draw_column(row_walk *w, int32_t column) {
   if (are_beside(w, head, column))
     return leave_all(w, head, column);
   find_cell(w);
-  if (columns->nodes[head].next == 0 && w->busy->meeting.event_count == 0 && unit->y0 == 0 &&
+  if (columns->nodes[head].next == 0 && w->busy->mixer.event_count == 0 && unit->y0 == 0 &&
       unit->y1 == 1)
     return draw_one(w, head, unit, column);
-  CS_TRY(draw_meeting(w, head, column));
+  CS_TRY(draw_shared(w, head, column));
   return leave_all(w, head, column);
 }
 
@@ -226,8 +226,8 @@ celspan_status cs_busy_row(cs_busy *busy, int32_t y, cs_row *out) {
     CS_TRY(cs_columns_init(context, &busy->columns, busy->tools.width));
   CS_TRY(cs_descent_row(context, &busy->descent, y));
   CS_TRY(cs_columns_list(context, &busy->columns, &busy->descent.units));
-  busy->meeting.event_count = 0;
-  busy->meeting.centre = y + 0.5;
+  busy->mixer.event_count = 0;
+  busy->mixer.centre = y + 0.5;
   row_walk walk = {.busy = busy,
                    .composer = busy->tools.composer,
                    .out = out,

@@ -7,7 +7,7 @@
  *     |    |   |\   |    |//|    |    |
  *       gap  one  one gap several gap       gap       the cell at the state of the composer
  *                                           one       two cells, mixed by the exact area
- *                                           several   a meeting (meeting.h)
+ *                                           several   the mixer (mixer.h)
  *
  * The composer's state is that at the top of the row, to the right of all units that have been
  * passed.
@@ -21,14 +21,14 @@
 #include "area/row_tools.h"
 #include "busy/columns.h"
 #include "busy/descent.h"
-#include "busy/meeting.h"
+#include "busy/mixer.h"
 #include "span/row_writer.h"
 
 typedef struct cs_busy {
   cs_row_tools tools; /* borrowed; the cells and boundaries in order are not used */
   cs_descent descent;
   cs_columns columns; /* without storage until the first row */
-  cs_meeting meeting;
+  cs_mixer mixer;
 } cs_busy;
 
 void cs_busy_init(cs_busy *busy, const cs_row_tools *tools, const cs_boundary_set *set);

@@ -109,7 +109,7 @@ celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline
   }
   data->outline = *outline;
   cs_outline_init(outline);
-  return complete(context, data, CELSPAN_OK, out);
+  return cs_primitive_data_complete(context, data, CELSPAN_OK, out);
 }
 
 celspan_status celspan_object_create_scanline(celspan_context *context,

@@ -1,4 +1,4 @@
-/* Meetings: the colour of a pixel in which several units lie.
+/* The mixer: the colour of a pixel in which several units lie.
  *
  *       0  +--\---------/-+      A unit divides the pixel: right of it, at its heights, its layer has
  *          |   \ a     /  |      one winding more (or less) than left of it. Between the heights
@@ -25,8 +25,8 @@
  * exactly; a pixel is a function of its units, the events and the state of the composer, not of
  * their order; the composer is left in the state in which it was found.
  */
-#ifndef CS_BUSY_MEETING_H
-#define CS_BUSY_MEETING_H
+#ifndef CS_BUSY_MIXER_H
+#define CS_BUSY_MIXER_H
 
 #include "area/row_tools.h"
 #include "busy/columns.h"
@@ -49,7 +49,7 @@ typedef struct cs_side {
   double area;      /* 0..y1 - y0 */
 } cs_side;
 
-typedef struct cs_meeting {
+typedef struct cs_mixer {
   cs_composer *composer;     /* borrowed; at the state left of the pixel, at the top of the row */
   cs_painter *painter;       /* borrowed */
   const cs_units *units;     /* borrowed: of the row */
@@ -70,22 +70,22 @@ typedef struct cs_meeting {
   size_t height_count, height_capacity;
   struct cs_present *present; /* of the slab, from left to right */
   size_t present_capacity;
-} cs_meeting;
+} cs_mixer;
 
-void cs_meeting_init(cs_meeting *meeting, const cs_row_tools *tools, const cs_units *units,
-                     const cs_columns *columns);
-void cs_meeting_finish(cs_meeting *meeting, cs_memory *memory);
+void cs_mixer_init(cs_mixer *mixer, const cs_row_tools *tools, const cs_units *units,
+                   const cs_columns *columns);
+void cs_mixer_finish(cs_mixer *mixer, cs_memory *memory);
 
 /* A unit has been passed that does not begin at the top of the row or does not end at its foot.
  * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_meeting_pass(cs_meeting *meeting, const cs_unit *unit);
+CELSPAN_CHECKED celspan_status cs_mixer_pass(cs_mixer *mixer, const cs_unit *unit);
 /* Whether any event is seen where a cell is. */
-bool cs_meeting_has_events(const cs_meeting *meeting, const cs_cell *cell);
+bool cs_mixer_has_events(const cs_mixer *mixer, const cs_cell *cell);
 
 /* The colour of a pixel, premultiplied. cell: the one at the state of the composer; head: the list
  * of the units in the pixel, or 0.
  * Errors: NO_MEMORY, those of painting; what composing meets is in composer->failure. */
-CELSPAN_CHECKED celspan_status cs_meeting_colour(cs_meeting *meeting, int32_t column,
-                                                 const cs_cell *cell, uint32_t head, cs_v4 *colour);
+CELSPAN_CHECKED celspan_status cs_mixer_colour(cs_mixer *mixer, int32_t column, const cs_cell *cell,
+                                               uint32_t head, cs_v4 *colour);
 
 #endif

@@ -1,4 +1,4 @@
-#include "busy/meeting.h"
+#include "busy/mixer.h"
 
 #include "area/edges.h"
 #include "paint/colours.h"
@@ -23,90 +23,89 @@ typedef struct slab {
   double top, foot;
 } slab;
 
-void cs_meeting_init(cs_meeting *meeting, const cs_row_tools *tools, const cs_units *units,
-                     const cs_columns *columns) {
-  *meeting = (cs_meeting){
+void cs_mixer_init(cs_mixer *mixer, const cs_row_tools *tools, const cs_units *units,
+                   const cs_columns *columns) {
+  *mixer = (cs_mixer){
       .composer = tools->composer, .painter = tools->painter, .units = units, .columns = columns};
 }
 
-void cs_meeting_finish(cs_meeting *meeting, cs_memory *memory) {
-  cs_mem_free(memory, meeting->events, meeting->event_capacity * sizeof *meeting->events);
-  cs_mem_free(memory, meeting->sides, meeting->capacity * sizeof *meeting->sides);
-  cs_mem_free(memory, meeting->heights, meeting->height_capacity * sizeof *meeting->heights);
-  cs_mem_free(memory, meeting->present, meeting->present_capacity * sizeof *meeting->present);
-  *meeting = (cs_meeting){0};
+void cs_mixer_finish(cs_mixer *mixer, cs_memory *memory) {
+  cs_mem_free(memory, mixer->events, mixer->event_capacity * sizeof *mixer->events);
+  cs_mem_free(memory, mixer->sides, mixer->capacity * sizeof *mixer->sides);
+  cs_mem_free(memory, mixer->heights, mixer->height_capacity * sizeof *mixer->heights);
+  cs_mem_free(memory, mixer->present, mixer->present_capacity * sizeof *mixer->present);
+  *mixer = (cs_mixer){0};
 }
 
 /* ---------------------------------------------------------------- events */
 
-static celspan_status add_event(cs_meeting *meeting, double y, uint32_t layer, int32_t change) {
-  for (size_t i = 0; i < meeting->event_count; i++) {
-    cs_event *event = &meeting->events[i];
+static celspan_status add_event(cs_mixer *mixer, double y, uint32_t layer, int32_t change) {
+  for (size_t i = 0; i < mixer->event_count; i++) {
+    cs_event *event = &mixer->events[i];
     if (event->layer == layer && event->y == y) {
       event->change += change;
       if (event->change == 0)
-        *event = meeting->events[--meeting->event_count];
+        *event = mixer->events[--mixer->event_count];
       return CELSPAN_OK;
     }
   }
-  CS_TRY(cs_mem_reserve(meeting->composer->context, (void **)&meeting->events,
-                        &meeting->event_capacity, meeting->event_count + 1,
-                        sizeof *meeting->events));
-  meeting->events[meeting->event_count++] = (cs_event){y, layer, change};
+  CS_TRY(cs_mem_reserve(mixer->composer->context, (void **)&mixer->events, &mixer->event_capacity,
+                        mixer->event_count + 1, sizeof *mixer->events));
+  mixer->events[mixer->event_count++] = (cs_event){y, layer, change};
   return CELSPAN_OK;
 }
 
-celspan_status cs_meeting_pass(cs_meeting *meeting, const cs_unit *unit) {
+celspan_status cs_mixer_pass(cs_mixer *mixer, const cs_unit *unit) {
   if (unit->y0 > 0)
-    CS_TRY(add_event(meeting, unit->y0, unit->layer, unit->direction));
-  return unit->y1 < 1 ? add_event(meeting, unit->y1, unit->layer, -unit->direction) : CELSPAN_OK;
+    CS_TRY(add_event(mixer, unit->y0, unit->layer, unit->direction));
+  return unit->y1 < 1 ? add_event(mixer, unit->y1, unit->layer, -unit->direction) : CELSPAN_OK;
 }
 
 /* Whether a layer is seen where `cover` hides all behind it. */
-static inline bool is_seen(uint32_t layer, uint32_t cover) {
+static inline bool is_visible(uint32_t layer, uint32_t cover) {
   return cover == CS_STACK_NONE || layer >= cover;
 }
 
-bool cs_meeting_has_events(const cs_meeting *meeting, const cs_cell *cell) {
-  for (size_t i = 0; i < meeting->event_count; i++)
-    if (is_seen(meeting->events[i].layer, cell->cover))
+bool cs_mixer_has_events(const cs_mixer *mixer, const cs_cell *cell) {
+  for (size_t i = 0; i < mixer->event_count; i++)
+    if (is_visible(mixer->events[i].layer, cell->cover))
       return true;
   return false;
 }
 
 /* ---------------------------------------------------------------- parts of the pixel */
 
-static celspan_status colour_of(cs_meeting *meeting, const cs_cell *cell, cs_v4 *colour) {
+static celspan_status colour_of(cs_mixer *mixer, const cs_cell *cell, cs_v4 *colour) {
   *colour = cell->colour;
   if (cell->length == 0)
     return CELSPAN_OK;
-  const cs_run run = {meeting->column, meeting->column + 1, meeting->centre};
+  const cs_run run = {mixer->column, mixer->column + 1, mixer->centre};
   float rgba[1][4];
-  meeting->varies = true;
-  CS_TRY(cs_painter_colours(meeting->painter, cell, run, rgba));
+  mixer->varies = true;
+  CS_TRY(cs_painter_colours(mixer->painter, cell, run, rgba));
   *colour = cs_v4_load(rgba[0]);
   return CELSPAN_OK;
 }
 
 /* A part of the pixel shows the cell at the state of the composer. */
-static celspan_status add_part(cs_meeting *meeting, double share) {
-  if (share == 0 || cs_set_hash_same(meeting->hash, meeting->composer->hash))
+static celspan_status add_part(cs_mixer *mixer, double share) {
+  if (share == 0 || cs_set_hash_same(mixer->hash, mixer->composer->hash))
     return CELSPAN_OK;
   cs_cell cell;
   cs_v4 colour;
-  cs_composer_cell(meeting->composer, &cell);
-  CS_TRY(colour_of(meeting, &cell, &colour));
-  cs_v4d step = cs_v4d_step(meeting->base, colour);
-  meeting->sum = cs_v4d_add(meeting->sum, cs_v4d_scale(share, step));
+  cs_composer_cell(mixer->composer, &cell);
+  CS_TRY(colour_of(mixer, &cell, &colour));
+  cs_v4d step = cs_v4d_step(mixer->base, colour);
+  mixer->sum = cs_v4d_add(mixer->sum, cs_v4d_scale(share, step));
   return CELSPAN_OK;
 }
 
-static inline void cross(cs_meeting *meeting, const cs_side *side) {
-  cs_composer_cross(meeting->composer, side->layer, side->change);
+static inline void cross(cs_mixer *mixer, const cs_side *side) {
+  cs_composer_cross(mixer->composer, side->layer, side->change);
 }
 
-static inline void cross_back(cs_meeting *meeting, const cs_side *side) {
-  cs_composer_cross(meeting->composer, side->layer, -side->change);
+static inline void cross_back(cs_mixer *mixer, const cs_side *side) {
+  cs_composer_cross(mixer->composer, side->layer, -side->change);
 }
 
 /* ---------------------------------------------------------------- places on units */
@@ -129,7 +128,7 @@ static inline const celspan_point *piece_below(const celspan_point *piece, doubl
 }
 
 /* The area of a side in a slab of the pixel. */
-static double area_in(const cs_meeting *meeting, const cs_side *side, const slab *in) {
+static double area_in(const cs_mixer *mixer, const cs_side *side, const slab *in) {
   if (!side->points)
     return in->foot - in->top;
   if (side->y0 == in->top && side->y1 == in->foot)
@@ -139,7 +138,7 @@ static double area_in(const cs_meeting *meeting, const cs_side *side, const slab
   for (double y = in->top, end; y < in->foot; y = end) {
     piece = piece_below(piece, y);
     end = piece[1].y < in->foot ? piece[1].y : in->foot;
-    area += cs_edges_cover(x_at(piece, y), x_at(piece, end), end - y, meeting->column);
+    area += cs_edges_cover(x_at(piece, y), x_at(piece, end), end - y, mixer->column);
   }
   return area;
 }
@@ -162,7 +161,7 @@ static bool is_left(const cs_present *a, const cs_present *b, const slab *in) {
 }
 
 /* The height inside a slab at which two units cross first; the foot of the slab: there is none. */
-static double find_crossing(const cs_present *a, const cs_present *b, const slab *in) {
+static double find_intersection(const cs_present *a, const cs_present *b, const slab *in) {
   const celspan_point *pa = a->side->points, *pb = b->side->points;
   double last = 0; /* how far they were apart when they were last apart */
   for (double y = in->top, end; y < in->foot; y = end) {
@@ -240,7 +239,7 @@ static double area_right_of(const lines *l, double height, int32_t column) {
 }
 
 /* The area right of all units of a set, in a slab. */
-static double area_right_of_set(const cs_meeting *meeting, const cs_present *tangle, unsigned set,
+static double area_right_of_set(const cs_mixer *mixer, const cs_present *tangle, unsigned set,
                                 const slab *in) {
   const celspan_point *pieces[TANGLE];
   int count = 0;
@@ -259,7 +258,7 @@ static double area_right_of_set(const cs_meeting *meeting, const cs_present *tan
       l.x0[i] = x_at(pieces[i], y);
       l.x1[i] = x_at(pieces[i], end);
     }
-    area += area_right_of(&l, end - y, meeting->column);
+    area += area_right_of(&l, end - y, mixer->column);
     y = end;
   }
   return area;
@@ -276,36 +275,36 @@ static void separate(double *areas, int count) {
 
 /* Adds the parts of a tangle that are not right of all of it, and crosses it. *rest: the area right
  * of all units further left; becomes what of it is right of the tangle, too. */
-static celspan_status add_tangle(cs_meeting *meeting, const cs_present *tangle, int count,
+static celspan_status add_tangle(cs_mixer *mixer, const cs_present *tangle, int count,
                                  const slab *in, double *rest) {
   double areas[1 << TANGLE];
   unsigned all = (1u << count) - 1, at = 0;
   areas[0] = *rest;
   for (unsigned set = 1; set <= all; set++)
-    areas[set] = set & (set - 1) ? area_right_of_set(meeting, tangle, set, in)
+    areas[set] = set & (set - 1) ? area_right_of_set(mixer, tangle, set, in)
                                  : tangle[__builtin_ctz(set)].right;
   *rest = areas[all];
   separate(areas, count);
   for (unsigned step = 0; step <= all; step++) { /* in Gray's order: one crossing from set to set */
     unsigned set = step ^ step >> 1, change = set ^ at;
     if (change != 0)
-      (set & change ? cross : cross_back)(meeting, tangle[__builtin_ctz(change)].side);
+      (set & change ? cross : cross_back)(mixer, tangle[__builtin_ctz(change)].side);
     at = set;
     if (set != all)
-      CS_TRY(add_part(meeting, areas[set]));
+      CS_TRY(add_part(mixer, areas[set]));
   }
   for (int i = 0; i < count; i++)
     if (!(at >> i & 1))
-      cross(meeting, tangle[i].side);
+      cross(mixer, tangle[i].side);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- one and two */
 
-static celspan_status mix_one(cs_meeting *meeting, const cs_side *a) {
-  cross(meeting, a);
-  celspan_status status = add_part(meeting, a->area);
-  cross_back(meeting, a);
+static celspan_status mix_one(cs_mixer *mixer, const cs_side *a) {
+  cross(mixer, a);
+  celspan_status status = add_part(mixer, a->area);
+  cross_back(mixer, a);
   return status;
 }
 
@@ -315,7 +314,7 @@ static inline bool is_beside(const cs_side *a, const cs_side *b) {
 }
 
 /* The area that lies on both sides. */
-static double area_of_both(const cs_meeting *meeting, const cs_side *a, const cs_side *b) {
+static double area_of_both(const cs_mixer *mixer, const cs_side *a, const cs_side *b) {
   if (is_beside(a, b))
     return b->area;
   if (is_beside(b, a))
@@ -323,44 +322,44 @@ static double area_of_both(const cs_meeting *meeting, const cs_side *a, const cs
   const slab shared = {a->y0 > b->y0 ? a->y0 : b->y0, a->y1 < b->y1 ? a->y1 : b->y1};
   if (shared.foot <= shared.top)
     return 0;
-  cs_present pair[2] = {{a, area_in(meeting, a, &shared), 0}, {b, area_in(meeting, b, &shared), 0}};
+  cs_present pair[2] = {{a, area_in(mixer, a, &shared), 0}, {b, area_in(mixer, b, &shared), 0}};
   if (is_before(&pair[1], &pair[0])) {
     cs_present first = pair[1];
     pair[1] = pair[0];
     pair[0] = first;
   }
   return is_left(&pair[0], &pair[1], &shared) ? pair[1].right
-                                              : area_right_of_set(meeting, pair, 3, &shared);
+                                              : area_right_of_set(mixer, pair, 3, &shared);
 }
 
-static celspan_status mix_two(cs_meeting *meeting, const cs_side *a, const cs_side *b) {
-  double both = area_of_both(meeting, a, b);
-  cross(meeting, a);
-  celspan_status status = add_part(meeting, a->area - both);
-  cross(meeting, b);
+static celspan_status mix_two(cs_mixer *mixer, const cs_side *a, const cs_side *b) {
+  double both = area_of_both(mixer, a, b);
+  cross(mixer, a);
+  celspan_status status = add_part(mixer, a->area - both);
+  cross(mixer, b);
   if (status == CELSPAN_OK)
-    status = add_part(meeting, both);
-  cross_back(meeting, a);
+    status = add_part(mixer, both);
+  cross_back(mixer, a);
   if (status == CELSPAN_OK)
-    status = add_part(meeting, b->area - both);
-  cross_back(meeting, b);
+    status = add_part(mixer, b->area - both);
+  cross_back(mixer, b);
   return status;
 }
 
 /* ---------------------------------------------------------------- slabs */
 
 /* Puts the sides of a slab in order; their number. */
-static size_t order_slab(cs_meeting *meeting, const slab *in) {
+static size_t order_slab(cs_mixer *mixer, const slab *in) {
   size_t count = 0;
-  for (size_t i = 0; i < meeting->count; i++) {
-    const cs_side *side = &meeting->sides[i];
+  for (size_t i = 0; i < mixer->count; i++) {
+    const cs_side *side = &mixer->sides[i];
     if (side->y0 > in->top || side->y1 < in->foot)
       continue;
-    cs_present present = {side, area_in(meeting, side, in), 0};
+    cs_present present = {side, area_in(mixer, side, in), 0};
     size_t k = count++;
-    for (; k > 0 && is_before(&present, &meeting->present[k - 1]); k--)
-      meeting->present[k] = meeting->present[k - 1];
-    meeting->present[k] = present;
+    for (; k > 0 && is_before(&present, &mixer->present[k - 1]); k--)
+      mixer->present[k] = mixer->present[k - 1];
+    mixer->present[k] = present;
   }
   return count;
 }
@@ -391,7 +390,7 @@ static void find_tangles(cs_present *present, size_t count, const slab *in) {
 static void find_cut(const cs_present *tangle, size_t count, const slab *in, double *cut) {
   double middle = 0.5 * (in->top + in->foot);
   for (size_t i = 1; i < count; i++) {
-    double crossing = find_crossing(&tangle[i - 1], &tangle[i], in);
+    double crossing = find_intersection(&tangle[i - 1], &tangle[i], in);
     if (crossing < in->foot && fabs(crossing - middle) < fabs(*cut - middle))
       *cut = crossing;
   }
@@ -411,8 +410,8 @@ static double find_large(const cs_present *present, size_t count, const slab *in
 
 /* Adds the parts between the sides of a slab, from left to right. Tangles that are too large are
  * taken as if nothing crossed in them. */
-static celspan_status add_parts(cs_meeting *meeting, size_t count, const slab *in) {
-  const cs_present *present = meeting->present;
+static celspan_status add_parts(cs_mixer *mixer, size_t count, const slab *in) {
+  const cs_present *present = mixer->present;
   double rest = in->foot - in->top;
   celspan_status status = CELSPAN_OK;
   size_t first = 0;
@@ -422,59 +421,59 @@ static celspan_status add_parts(cs_meeting *meeting, size_t count, const slab *i
       end++;
     if (end < count && present[end].first == first)
       end = first + 1;
-    status = add_tangle(meeting, present + first, (int)(end - first), in, &rest);
+    status = add_tangle(mixer, present + first, (int)(end - first), in, &rest);
   }
   if (status == CELSPAN_OK)
-    status = add_part(meeting, rest);
+    status = add_part(mixer, rest);
   while (first-- > 0)
-    cross_back(meeting, present[first].side);
+    cross_back(mixer, present[first].side);
   return status;
 }
 
-static celspan_status mix_slab(cs_meeting *meeting, const slab *in, int cuts) {
-  size_t count = order_slab(meeting, in);
-  find_tangles(meeting->present, count, in);
-  double cut = cuts > 0 ? find_large(meeting->present, count, in) : in->foot;
+static celspan_status mix_slab(cs_mixer *mixer, const slab *in, int cuts) {
+  size_t count = order_slab(mixer, in);
+  find_tangles(mixer->present, count, in);
+  double cut = cuts > 0 ? find_large(mixer->present, count, in) : in->foot;
   if (cut == in->foot)
-    return add_parts(meeting, count, in);
+    return add_parts(mixer, count, in);
   const slab above = {in->top, cut}, below = {cut, in->foot};
-  CS_TRY(mix_slab(meeting, &above, cuts - 1));
-  return mix_slab(meeting, &below, cuts - 1);
+  CS_TRY(mix_slab(mixer, &above, cuts - 1));
+  return mix_slab(mixer, &below, cuts - 1);
 }
 
-static void put_height(cs_meeting *meeting, double y) {
-  size_t k = meeting->height_count;
-  while (k > 0 && meeting->heights[k - 1] > y)
+static void put_height(cs_mixer *mixer, double y) {
+  size_t k = mixer->height_count;
+  while (k > 0 && mixer->heights[k - 1] > y)
     k--;
-  if (k > 0 && meeting->heights[k - 1] == y)
+  if (k > 0 && mixer->heights[k - 1] == y)
     return;
-  memmove(meeting->heights + k + 1, meeting->heights + k,
-          (meeting->height_count - k) * sizeof *meeting->heights);
-  meeting->heights[k] = y;
-  meeting->height_count++;
+  memmove(mixer->heights + k + 1, mixer->heights + k,
+          (mixer->height_count - k) * sizeof *mixer->heights);
+  mixer->heights[k] = y;
+  mixer->height_count++;
 }
 
-static celspan_status find_heights(cs_meeting *meeting) {
-  celspan_context *context = meeting->composer->context;
-  CS_TRY(cs_mem_reserve(context, (void **)&meeting->heights, &meeting->height_capacity,
-                        2 * meeting->count + 2, sizeof *meeting->heights));
-  CS_TRY(cs_mem_reserve(context, (void **)&meeting->present, &meeting->present_capacity,
-                        meeting->count, sizeof *meeting->present));
-  meeting->heights[0] = 0;
-  meeting->heights[1] = 1;
-  meeting->height_count = 2;
-  for (size_t i = 0; i < meeting->count; i++) {
-    put_height(meeting, meeting->sides[i].y0);
-    put_height(meeting, meeting->sides[i].y1);
+static celspan_status find_heights(cs_mixer *mixer) {
+  celspan_context *context = mixer->composer->context;
+  CS_TRY(cs_mem_reserve(context, (void **)&mixer->heights, &mixer->height_capacity,
+                        2 * mixer->count + 2, sizeof *mixer->heights));
+  CS_TRY(cs_mem_reserve(context, (void **)&mixer->present, &mixer->present_capacity, mixer->count,
+                        sizeof *mixer->present));
+  mixer->heights[0] = 0;
+  mixer->heights[1] = 1;
+  mixer->height_count = 2;
+  for (size_t i = 0; i < mixer->count; i++) {
+    put_height(mixer, mixer->sides[i].y0);
+    put_height(mixer, mixer->sides[i].y1);
   }
   return CELSPAN_OK;
 }
 
-static celspan_status mix_slabs(cs_meeting *meeting) {
-  CS_TRY(find_heights(meeting));
-  for (size_t i = 1; i < meeting->height_count; i++) {
-    const slab whole = {meeting->heights[i - 1], meeting->heights[i]};
-    CS_TRY(mix_slab(meeting, &whole, CUTS));
+static celspan_status mix_slabs(cs_mixer *mixer) {
+  CS_TRY(find_heights(mixer));
+  for (size_t i = 1; i < mixer->height_count; i++) {
+    const slab whole = {mixer->heights[i - 1], mixer->heights[i]};
+    CS_TRY(mix_slab(mixer, &whole, CUTS));
   }
   return CELSPAN_OK;
 }
@@ -482,76 +481,76 @@ static celspan_status mix_slabs(cs_meeting *meeting) {
 /* ---------------------------------------------------------------- pixels */
 
 /* A layer covers what is behind it only where it is all over the pixel. */
-static uint32_t find_cover(const cs_meeting *meeting, uint32_t cover, uint32_t head) {
-  for (uint32_t k = head; k != 0; k = meeting->columns->nodes[k].next)
-    if (meeting->units->units[meeting->columns->nodes[k].unit].layer == cover)
+static uint32_t find_cover(const cs_mixer *mixer, uint32_t cover, uint32_t head) {
+  for (uint32_t k = head; k != 0; k = mixer->columns->nodes[k].next)
+    if (mixer->units->units[mixer->columns->nodes[k].unit].layer == cover)
       return CS_STACK_NONE;
-  for (size_t i = 0; i < meeting->event_count; i++)
-    if (meeting->events[i].layer == cover)
+  for (size_t i = 0; i < mixer->event_count; i++)
+    if (mixer->events[i].layer == cover)
       return CS_STACK_NONE;
   return cover;
 }
 
-static void put_unit(cs_meeting *meeting, const cs_unit *unit, double area) {
-  meeting->sides[meeting->count++] = (cs_side){.points = cs_units_points(meeting->units, unit),
-                                               .count = unit->count,
-                                               .layer = unit->layer,
-                                               .change = unit->direction,
-                                               .y0 = unit->y0,
-                                               .y1 = unit->y1,
-                                               .low = unit->low,
-                                               .high = unit->high,
-                                               .area = area};
+static void put_unit(cs_mixer *mixer, const cs_unit *unit, double area) {
+  mixer->sides[mixer->count++] = (cs_side){.points = cs_units_points(mixer->units, unit),
+                                           .count = unit->count,
+                                           .layer = unit->layer,
+                                           .change = unit->direction,
+                                           .y0 = unit->y0,
+                                           .y1 = unit->y1,
+                                           .low = unit->low,
+                                           .high = unit->high,
+                                           .area = area};
 }
 
-static void put_event(cs_meeting *meeting, const cs_event *event) {
-  meeting->sides[meeting->count++] = (cs_side){.layer = event->layer,
-                                               .change = event->change,
-                                               .y0 = event->y,
-                                               .y1 = 1,
-                                               .low = -INFINITY,
-                                               .high = -INFINITY,
-                                               .area = 1 - event->y};
+static void put_event(cs_mixer *mixer, const cs_event *event) {
+  mixer->sides[mixer->count++] = (cs_side){.layer = event->layer,
+                                           .change = event->change,
+                                           .y0 = event->y,
+                                           .y1 = 1,
+                                           .low = -INFINITY,
+                                           .high = -INFINITY,
+                                           .area = 1 - event->y};
 }
 
 /* The units and events of the pixel that are not hidden. */
-static celspan_status gather(cs_meeting *meeting, uint32_t head) {
-  size_t most = meeting->event_count;
-  for (uint32_t k = head; k != 0; k = meeting->columns->nodes[k].next)
+static celspan_status collect(cs_mixer *mixer, uint32_t head) {
+  size_t most = mixer->event_count;
+  for (uint32_t k = head; k != 0; k = mixer->columns->nodes[k].next)
     most++;
-  CS_TRY(cs_mem_reserve(meeting->composer->context, (void **)&meeting->sides, &meeting->capacity,
-                        most, sizeof *meeting->sides));
-  meeting->count = 0;
-  for (uint32_t k = head; k != 0; k = meeting->columns->nodes[k].next) {
-    const cs_node *node = &meeting->columns->nodes[k];
-    const cs_unit *unit = &meeting->units->units[node->unit];
-    if (is_seen(unit->layer, meeting->cover))
-      put_unit(meeting, unit, node->area);
+  CS_TRY(cs_mem_reserve(mixer->composer->context, (void **)&mixer->sides, &mixer->capacity, most,
+                        sizeof *mixer->sides));
+  mixer->count = 0;
+  for (uint32_t k = head; k != 0; k = mixer->columns->nodes[k].next) {
+    const cs_node *node = &mixer->columns->nodes[k];
+    const cs_unit *unit = &mixer->units->units[node->unit];
+    if (is_visible(unit->layer, mixer->cover))
+      put_unit(mixer, unit, node->area);
   }
-  for (size_t i = 0; i < meeting->event_count; i++)
-    if (is_seen(meeting->events[i].layer, meeting->cover))
-      put_event(meeting, &meeting->events[i]);
+  for (size_t i = 0; i < mixer->event_count; i++)
+    if (is_visible(mixer->events[i].layer, mixer->cover))
+      put_event(mixer, &mixer->events[i]);
   return CELSPAN_OK;
 }
 
-static celspan_status mix(cs_meeting *meeting) {
-  const cs_side *sides = meeting->sides;
-  return meeting->count == 0   ? CELSPAN_OK
-         : meeting->count == 1 ? mix_one(meeting, &sides[0])
-         : meeting->count == 2 ? mix_two(meeting, &sides[0], &sides[1])
-                               : mix_slabs(meeting);
+static celspan_status mix(cs_mixer *mixer) {
+  const cs_side *sides = mixer->sides;
+  return mixer->count == 0   ? CELSPAN_OK
+         : mixer->count == 1 ? mix_one(mixer, &sides[0])
+         : mixer->count == 2 ? mix_two(mixer, &sides[0], &sides[1])
+                             : mix_slabs(mixer);
 }
 
-celspan_status cs_meeting_colour(cs_meeting *meeting, int32_t column, const cs_cell *cell,
-                                 uint32_t head, cs_v4 *colour) {
-  meeting->column = column;
-  meeting->hash = meeting->composer->hash;
-  meeting->varies = false;
-  meeting->sum = cs_v4_wide(cs_v4_all(0));
-  meeting->cover = find_cover(meeting, cell->cover, head);
-  CS_TRY(colour_of(meeting, cell, &meeting->base));
-  CS_TRY(gather(meeting, head));
-  CS_TRY(mix(meeting));
-  *colour = cs_v4_bounded(cs_v4_narrow(cs_v4d_add(cs_v4_wide(meeting->base), meeting->sum)));
+celspan_status cs_mixer_colour(cs_mixer *mixer, int32_t column, const cs_cell *cell, uint32_t head,
+                               cs_v4 *colour) {
+  mixer->column = column;
+  mixer->hash = mixer->composer->hash;
+  mixer->varies = false;
+  mixer->sum = cs_v4_wide(cs_v4_all(0));
+  mixer->cover = find_cover(mixer, cell->cover, head);
+  CS_TRY(colour_of(mixer, cell, &mixer->base));
+  CS_TRY(collect(mixer, head));
+  CS_TRY(mix(mixer));
+  *colour = cs_v4_bounded(cs_v4_narrow(cs_v4d_add(cs_v4_wide(mixer->base), mixer->sum)));
   return CELSPAN_OK;
 }
