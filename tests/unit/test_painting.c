@@ -104,7 +104,7 @@ static void check_frame(const char *path, size_t budget, int workers) {
   celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {NULL};
+  celspan_painting_layer layer = {0};
   size_t bytes, peak;
   uint64_t allocations;
   desc.picture_bytes = budget;
@@ -127,7 +127,7 @@ static void check_frame(const char *path, size_t budget, int workers) {
 static void check_failure(const char *path) {
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {NULL};
+  celspan_painting_layer layer = {0};
   unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
