@@ -140,7 +140,8 @@ static void move_line(cs_layout *layout, size_t letter, size_t glyph, double dx)
 
 /* Shapes characters as a line of their own. A soft hyphen at its end becomes a hyphen. */
 static celspan_status shape_line(cs_layout *layout, uint8_t base, size_t begin, size_t end) {
-  memcpy(layout->directions + begin, layout->embeddings + begin, end - begin);
+  if (end > begin)
+    memcpy(layout->directions + begin, layout->embeddings + begin, end - begin);
   if (layout->type->end_line(layout->characters, begin, end, base, layout->directions) !=
       CELSPAN_OK)
     return cs_fail_memory(layout->context);
