@@ -2,8 +2,9 @@
 
 #include "base/number.h"
 
-/* Following a chain costs the sweep little, beginning and ending it much: where a chain is followed
- * through fewer rows than this on the average, it costs less to put nothing in order. */
+/* Following a chain through a row costs the sweep little, beginning and ending it much; without an
+ * order it is the other way round. Rows are busy where chains are followed through fewer rows than
+ * this on the average. */
 #define ROWS_A_CHAIN 100
 
 static size_t word_count(const cs_kind *kind) { return (kind->count + 63) / 64; }

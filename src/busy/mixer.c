@@ -1,27 +1,12 @@
 #include "busy/mixer.h"
 
-#include "area/edges.h"
 #include "paint/colours.h"
 
-/* Units in one tangle: the areas right of all sets of them are measured one by one. Where there are
- * more, the slab is cut where two of them cross, and so on, so often at most. */
-#define TANGLE 4
+#include <math.h>
+
+/* Where a tangle has more than CS_SIDE_TANGLE sides, the slab is cut where two of them cross, and so
+ * on, so often at most. */
 #define CUTS 32
-/* Units that cross by less than this, in pixels, are taken as if they only touched: it is far less
- * than any colour shows, and far more than the errors of rounding. */
-#define TOUCHING 0x1p-20
-
-/* A side in a slab, and the area right of it there. */
-typedef struct cs_present {
-  const cs_side *side;
-  double right;
-  size_t first; /* the number of the leftmost side of its tangle */
-} cs_present;
-
-/* A part of the pixel's height through which all units go that are in it. */
-typedef struct slab {
-  double top, foot;
-} slab;
 
 void cs_mixer_init(cs_mixer *mixer, const cs_row_tools *tools, const cs_units *units,
                    const cs_columns *columns) {
@@ -108,161 +93,7 @@ static inline void cross_back(cs_mixer *mixer, const cs_side *side) {
   cs_composer_cross(mixer->composer, side->layer, -side->change);
 }
 
-/* ---------------------------------------------------------------- places on units */
-
-/* x at a height of the piece that begins at a point. */
-static inline double x_at(const celspan_point *above, double y) {
-  const celspan_point *below = above + 1;
-  if (y == above->y)
-    return above->x;
-  if (y == below->y)
-    return below->x;
-  return above->x + (y - above->y) * ((below->x - above->x) / (below->y - above->y));
-}
-
-/* The piece of a unit that goes on below a height. */
-static inline const celspan_point *piece_below(const celspan_point *piece, double y) {
-  while (piece[1].y <= y)
-    piece++;
-  return piece;
-}
-
-/* The area of a side in a slab of the pixel. */
-static double area_in(const cs_mixer *mixer, const cs_side *side, const slab *in) {
-  if (!side->points)
-    return in->foot - in->top;
-  if (side->y0 == in->top && side->y1 == in->foot)
-    return side->area;
-  double area = 0;
-  const celspan_point *piece = side->points;
-  for (double y = in->top, end; y < in->foot; y = end) {
-    piece = piece_below(piece, y);
-    end = piece[1].y < in->foot ? piece[1].y : in->foot;
-    area += cs_edges_cover(x_at(piece, y), x_at(piece, end), end - y, mixer->column);
-  }
-  return area;
-}
-
-/* Whether one side is nowhere right of another one in a slab, as far as the pixel shows. */
-static bool is_left(const cs_present *a, const cs_present *b, const slab *in) {
-  if (a->right >= in->foot - in->top || b->right <= 0 || a->side->high <= b->side->low)
-    return true;
-  const celspan_point *pa = a->side->points, *pb = b->side->points;
-  for (double y = in->top, end; y < in->foot; y = end) {
-    pa = piece_below(pa, y);
-    pb = piece_below(pb, y);
-    end = pa[1].y < pb[1].y ? pa[1].y : pb[1].y;
-    end = end < in->foot ? end : in->foot;
-    double before = x_at(pa, y) - x_at(pb, y), after = x_at(pa, end) - x_at(pb, end);
-    if (before > TOUCHING || after > TOUCHING)
-      return false;
-  }
-  return true;
-}
-
-/* The height inside a slab at which two units cross first; the foot of the slab: there is none. */
-static double find_intersection(const cs_present *a, const cs_present *b, const slab *in) {
-  const celspan_point *pa = a->side->points, *pb = b->side->points;
-  double last = 0; /* how far they were apart when they were last apart */
-  for (double y = in->top, end; y < in->foot; y = end) {
-    pa = piece_below(pa, y);
-    pb = piece_below(pb, y);
-    end = pa[1].y < pb[1].y ? pa[1].y : pb[1].y;
-    end = end < in->foot ? end : in->foot;
-    double before = x_at(pa, y) - x_at(pb, y), after = x_at(pa, end) - x_at(pb, end);
-    last = before != 0 ? before : last;
-    if (last * after < 0) {
-      double at = before == 0 ? y : y + (end - y) * (before / (before - after));
-      at = cs_edges_round(at);
-      return at > in->top ? at : in->foot;
-    }
-  }
-  return in->foot;
-}
-
-/* In order from left to right: by area, then by anything that tells apart what is not the same. */
-static bool is_before(const cs_present *a, const cs_present *b) {
-  if (a->right != b->right || !a->side->points || !b->side->points)
-    return a->right > b->right;
-  uint32_t count = a->side->count < b->side->count ? a->side->count : b->side->count;
-  int order = memcmp(a->side->points, b->side->points, count * sizeof *a->side->points);
-  return order != 0 ? order < 0 : a->side->count < b->side->count;
-}
-
 /* ---------------------------------------------------------------- tangles */
-
-/* Straight lines between two heights. */
-typedef struct lines {
-  double x0[TANGLE], x1[TANGLE];
-  int count;
-} lines;
-
-static inline double x_between(const lines *l, int i, double part) {
-  return part >= 1 ? l->x1[i] : l->x0[i] + part * (l->x1[i] - l->x0[i]);
-}
-
-/* The share of the height, after `part`, at which another line overtakes the rightmost one; 1 when
- * none does. *by: which. */
-static double find_overtaking(const lines *l, int rightmost, double part, int *by) {
-  double earliest = 1;
-  for (int i = 0; i < l->count; i++) {
-    double before = l->x0[rightmost] - l->x0[i], after = l->x1[rightmost] - l->x1[i];
-    if (after >= 0 || before <= after)
-      continue;
-    double share = before / (before - after);
-    share = share > part ? share : part;
-    if (share < earliest) {
-      earliest = share;
-      *by = i;
-    }
-  }
-  return earliest;
-}
-
-/* The area right of all lines: right of the rightmost one at each height. */
-static double area_right_of(const lines *l, double height, int32_t column) {
-  int rightmost = 0;
-  for (int i = 1; i < l->count; i++)
-    if (l->x0[i] > l->x0[rightmost] ||
-        (l->x0[i] == l->x0[rightmost] && l->x1[i] > l->x1[rightmost]))
-      rightmost = i;
-  double area = 0;
-  for (double part = 0; part < 1;) {
-    int by = rightmost;
-    double end = find_overtaking(l, rightmost, part, &by);
-    area += cs_edges_cover(x_between(l, rightmost, part), x_between(l, rightmost, end),
-                           height * (end - part), column);
-    rightmost = by;
-    part = end;
-  }
-  return area;
-}
-
-/* The area right of all units of a set, in a slab. */
-static double area_right_of_set(const cs_mixer *mixer, const cs_present *tangle, unsigned set,
-                                const slab *in) {
-  const celspan_point *pieces[TANGLE];
-  int count = 0;
-  for (int i = 0; set >> i; i++)
-    if (set >> i & 1)
-      pieces[count++] = tangle[i].side->points;
-  double area = 0;
-  for (double y = in->top; y < in->foot;) {
-    lines l = {.count = count};
-    double end = in->foot;
-    for (int i = 0; i < count; i++) {
-      pieces[i] = piece_below(pieces[i], y);
-      end = pieces[i][1].y < end ? pieces[i][1].y : end;
-    }
-    for (int i = 0; i < count; i++) {
-      l.x0[i] = x_at(pieces[i], y);
-      l.x1[i] = x_at(pieces[i], end);
-    }
-    area += area_right_of(&l, end - y, mixer->column);
-    y = end;
-  }
-  return area;
-}
 
 /* areas[set]: of what lies right of all units of the set, becomes that of what lies right of just
  * these. */
@@ -276,12 +107,12 @@ static void separate(double *areas, int count) {
 /* Adds the parts of a tangle that are not right of all of it, and crosses it. *rest: the area right
  * of all units further left; becomes what of it is right of the tangle, too. */
 static celspan_status add_tangle(cs_mixer *mixer, const cs_present *tangle, int count,
-                                 const slab *in, double *rest) {
-  double areas[1 << TANGLE];
+                                 const cs_slab *in, double *rest) {
+  double areas[1 << CS_SIDE_TANGLE];
   unsigned all = (1u << count) - 1, at = 0;
   areas[0] = *rest;
   for (unsigned set = 1; set <= all; set++)
-    areas[set] = set & (set - 1) ? area_right_of_set(mixer, tangle, set, in)
+    areas[set] = set & (set - 1) ? cs_side_area_right(mixer->column, tangle, set, in)
                                  : tangle[__builtin_ctz(set)].right;
   *rest = areas[all];
   separate(areas, count);
@@ -319,17 +150,19 @@ static double area_of_both(const cs_mixer *mixer, const cs_side *a, const cs_sid
     return b->area;
   if (is_beside(b, a))
     return a->area;
-  const slab shared = {a->y0 > b->y0 ? a->y0 : b->y0, a->y1 < b->y1 ? a->y1 : b->y1};
+  const cs_slab shared = {a->y0 > b->y0 ? a->y0 : b->y0, a->y1 < b->y1 ? a->y1 : b->y1};
   if (shared.foot <= shared.top)
     return 0;
-  cs_present pair[2] = {{a, area_in(mixer, a, &shared), 0}, {b, area_in(mixer, b, &shared), 0}};
-  if (is_before(&pair[1], &pair[0])) {
+  cs_present pair[2] = {{a, cs_side_area(mixer->column, a, &shared), 0},
+                        {b, cs_side_area(mixer->column, b, &shared), 0}};
+  if (cs_side_is_before(&pair[1], &pair[0])) {
     cs_present first = pair[1];
     pair[1] = pair[0];
     pair[0] = first;
   }
-  return is_left(&pair[0], &pair[1], &shared) ? pair[1].right
-                                              : area_right_of_set(mixer, pair, 3, &shared);
+  return cs_side_is_left(&pair[0], &pair[1], &shared)
+             ? pair[1].right
+             : cs_side_area_right(mixer->column, pair, 3, &shared);
 }
 
 static celspan_status mix_two(cs_mixer *mixer, const cs_side *a, const cs_side *b) {
@@ -349,15 +182,15 @@ static celspan_status mix_two(cs_mixer *mixer, const cs_side *a, const cs_side *
 /* ---------------------------------------------------------------- slabs */
 
 /* Puts the sides of a slab in order; their number. */
-static size_t order_slab(cs_mixer *mixer, const slab *in) {
+static size_t order_slab(cs_mixer *mixer, const cs_slab *in) {
   size_t count = 0;
   for (size_t i = 0; i < mixer->count; i++) {
     const cs_side *side = &mixer->sides[i];
     if (side->y0 > in->top || side->y1 < in->foot)
       continue;
-    cs_present present = {side, area_in(mixer, side, in), 0};
+    cs_present present = {side, cs_side_area(mixer->column, side, in), 0};
     size_t k = count++;
-    for (; k > 0 && is_before(&present, &mixer->present[k - 1]); k--)
+    for (; k > 0 && cs_side_is_before(&present, &mixer->present[k - 1]); k--)
       mixer->present[k] = mixer->present[k - 1];
     mixer->present[k] = present;
   }
@@ -366,16 +199,16 @@ static size_t order_slab(cs_mixer *mixer, const slab *in) {
 
 /* Whether a side crosses any of those from first to end - 1, which are left of it on the whole. */
 static bool is_tangled(const cs_present *present, size_t first, size_t end, size_t side,
-                       const slab *in) {
+                       const cs_slab *in) {
   for (size_t i = end; i-- > first;)
-    if (!is_left(&present[i], &present[side], in))
+    if (!cs_side_is_left(&present[i], &present[side], in))
       return true;
   return false;
 }
 
 /* Finds the tangles of a slab. A side that is right of all of a tangle is right of all before that
  * tangle, too; but one that joins a tangle may cross what is before it. */
-static void find_tangles(cs_present *present, size_t count, const slab *in) {
+static void find_tangles(cs_present *present, size_t count, const cs_slab *in) {
   for (size_t side = 0; side < count; side++) {
     size_t first = side, before;
     while (first > 0 &&
@@ -387,10 +220,10 @@ static void find_tangles(cs_present *present, size_t count, const slab *in) {
 }
 
 /* The crossing of neighbours in a tangle that is nearest to the middle of its slab. */
-static void find_cut(const cs_present *tangle, size_t count, const slab *in, double *cut) {
+static void find_cut(const cs_present *tangle, size_t count, const cs_slab *in, double *cut) {
   double middle = 0.5 * (in->top + in->foot);
   for (size_t i = 1; i < count; i++) {
-    double crossing = find_intersection(&tangle[i - 1], &tangle[i], in);
+    double crossing = cs_side_intersection(&tangle[i - 1], &tangle[i], in);
     if (crossing < in->foot && fabs(crossing - middle) < fabs(*cut - middle))
       *cut = crossing;
   }
@@ -398,11 +231,11 @@ static void find_cut(const cs_present *tangle, size_t count, const slab *in, dou
 
 /* Where a tangle of a slab is too large: the height of a crossing in it, at which its slab is cut;
  * the foot of the slab if there is none. */
-static double find_large(const cs_present *present, size_t count, const slab *in) {
+static double find_large(const cs_present *present, size_t count, const cs_slab *in) {
   double cut = in->foot;
   for (size_t end = count, first; end > 0; end = first) {
     first = present[end - 1].first;
-    if (end - first > TANGLE)
+    if (end - first > CS_SIDE_TANGLE)
       find_cut(present + first, end - first, in, &cut);
   }
   return cut;
@@ -410,14 +243,14 @@ static double find_large(const cs_present *present, size_t count, const slab *in
 
 /* Adds the parts between the sides of a slab, from left to right. Tangles that are too large are
  * taken as if nothing crossed in them. */
-static celspan_status add_parts(cs_mixer *mixer, size_t count, const slab *in) {
+static celspan_status add_parts(cs_mixer *mixer, size_t count, const cs_slab *in) {
   const cs_present *present = mixer->present;
   double rest = in->foot - in->top;
   celspan_status status = CELSPAN_OK;
   size_t first = 0;
   for (size_t end; status == CELSPAN_OK && first < count; first = end) {
     end = first + 1;
-    while (end < count && present[end].first == first && end - first < TANGLE)
+    while (end < count && present[end].first == first && end - first < CS_SIDE_TANGLE)
       end++;
     if (end < count && present[end].first == first)
       end = first + 1;
@@ -430,13 +263,13 @@ static celspan_status add_parts(cs_mixer *mixer, size_t count, const slab *in) {
   return status;
 }
 
-static celspan_status mix_slab(cs_mixer *mixer, const slab *in, int cuts) {
+static celspan_status mix_slab(cs_mixer *mixer, const cs_slab *in, int cuts) {
   size_t count = order_slab(mixer, in);
   find_tangles(mixer->present, count, in);
   double cut = cuts > 0 ? find_large(mixer->present, count, in) : in->foot;
   if (cut == in->foot)
     return add_parts(mixer, count, in);
-  const slab above = {in->top, cut}, below = {cut, in->foot};
+  const cs_slab above = {in->top, cut}, below = {cut, in->foot};
   CS_TRY(mix_slab(mixer, &above, cuts - 1));
   return mix_slab(mixer, &below, cuts - 1);
 }
@@ -472,7 +305,7 @@ static celspan_status find_heights(cs_mixer *mixer) {
 static celspan_status mix_slabs(cs_mixer *mixer) {
   CS_TRY(find_heights(mixer));
   for (size_t i = 1; i < mixer->height_count; i++) {
-    const slab whole = {mixer->heights[i - 1], mixer->heights[i]};
+    const cs_slab whole = {mixer->heights[i - 1], mixer->heights[i]};
     CS_TRY(mix_slab(mixer, &whole, CUTS));
   }
   return CELSPAN_OK;

@@ -30,6 +30,7 @@
 
 #include "area/row_tools.h"
 #include "busy/columns.h"
+#include "busy/side.h"
 
 /* At this height of the row, and everywhere below it, the winding of a layer is another one. */
 typedef struct cs_event {
@@ -37,17 +38,6 @@ typedef struct cs_event {
   uint32_t layer;
   int32_t change;
 } cs_event;
-
-/* What lies right of a unit at its heights, or below an event. */
-typedef struct cs_side {
-  const celspan_point *points; /* of a unit; NULL: an event */
-  uint32_t count;
-  uint32_t layer;
-  int32_t change;   /* of its winding, from outside to inside */
-  double y0, y1;    /* its heights */
-  double low, high; /* of a unit: the least and the greatest x */
-  double area;      /* 0..y1 - y0 */
-} cs_side;
 
 typedef struct cs_mixer {
   cs_composer *composer;     /* borrowed; at the state left of the pixel, at the top of the row */
@@ -68,7 +58,7 @@ typedef struct cs_mixer {
   size_t count, capacity;
   double *heights; /* where units begin or end, in order; 0 first, 1 last */
   size_t height_count, height_capacity;
-  struct cs_present *present; /* of the slab, from left to right */
+  cs_present *present; /* of the slab, from left to right */
   size_t present_capacity;
 } cs_mixer;
 

@@ -3,6 +3,7 @@
 --   lua5.4 tests/fuzz/make_corpus.lua [FOLDER]      from the root of the tree; tests/fuzz/corpus
 package.path = "./?.lua;" .. package.path
 local paintings = require "tests.support.paintings"
+local stored = require "tests.support.stored"
 
 local folder = arg[1] or "tests/fuzz/corpus"
 
@@ -37,7 +38,7 @@ local stack = '<image w="8" h="8"><stack><layer src="a.png" x="%d" opacity="0.5"
 write("ora", "rgba8", around(stack:format(3, "plus"), paintings.png(layer())))
 write("ora", "rgba16", around(stack:format(-3, "multiply"), paintings.png(layer { depth = 16 })))
 write("ora", "indexed", around(stack:format(0, "screen"), paintings.png_of(4, 2, 2, 3,
-  "\0\x1b\1\x1b", paintings.chunk("PLTE", ("\1\2\3"):rep(4)) .. paintings.chunk("tRNS", "\1\2"))))
+  "\0\x1b\1\x1b", stored.chunk("PLTE", ("\1\2\3"):rep(4)) .. stored.chunk("tRNS", "\1\2"))))
 write("ora", "grey", around(stack:format(0, "x"), paintings.png_of(3, 4, 8, 0,
   "\1\1\2\3\2\1\2\3\3\1\2\3\4\1\2\3")))
 

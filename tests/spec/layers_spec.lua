@@ -3,6 +3,7 @@ local celspan = require "celspan"
 local layers = require "celspan.layers"
 local merged = require "tests.support.merged"
 local paintings = require "tests.support.paintings"
+local stored = require "tests.support.stored"
 local raised = require "tests.support.raised"
 
 local material = os.getenv "CELSPAN_MATERIAL"
@@ -203,13 +204,13 @@ describe("the pixels of a layer", function()
       { colour = 4, depth = 8, rows = rows, h = 5,
         want = { [0] = "10 10 10 255", "10 10 10 255", "11 11 11 255", "11 11 11 255",
           "12 12 12 255" } },
-      { colour = 3, depth = 2, rows = "\0\x1b\0", h = 1, more = paintings.chunk("PLTE",
-        "\1\2\3\4\5\6\7\8\9\10\11\12") .. paintings.chunk("tRNS", "\255\0\128"), w = 4,
+      { colour = 3, depth = 2, rows = "\0\x1b\0", h = 1, more = stored.chunk("PLTE",
+        "\1\2\3\4\5\6\7\8\9\10\11\12") .. stored.chunk("tRNS", "\255\0\128"), w = 4,
         want = { [0] = "1 2 3 255" }, last = "10 11 12 255" },
-      { colour = 0, depth = 4, rows = "\0\x3f\xf0", h = 1, more = paintings.chunk("tRNS", "\0\15"),
+      { colour = 0, depth = 4, rows = "\0\x3f\xf0", h = 1, more = stored.chunk("tRNS", "\0\15"),
         want = { [0] = "51 51 51 255" }, last = "0 0 0 0" },
       { colour = 2, depth = 8, rows = "\0\1\2\3\4\5\6\7\8\9", h = 1,
-        more = paintings.chunk("tEXt", "a\0b"), want = { [0] = "1 2 3 255" }, last = "7 8 9 255" },
+        more = stored.chunk("tEXt", "a\0b"), want = { [0] = "1 2 3 255" }, last = "7 8 9 255" },
     }
     for _, kind in ipairs(kinds) do
       local w = kind.w or 3
@@ -756,7 +757,7 @@ describe("a Photoshop document", function()
     seen("\0\1" .. string.pack(">I2I2", 2, 3) .. "\253\7\5\7\7", "a packed row has another length")
     seen("\0\1" .. string.pack(">I2I2", 2, 90) .. "\253\7", "a packed row ends too early")
     seen("\0\0\1\2\3\4\5", "a channel ends too early: 3 of 4 bytes are missing")
-    seen("\0\2" .. paintings.zlib "\1\2\3\4\5", "a channel ends too early")
+    seen("\0\2" .. stored.zlib "\1\2\3\4\5", "a channel ends too early")
     seen("\0\2no zlib", "compressed data is damaged")
   end)
 end)

@@ -1,5 +1,6 @@
 -- Pictures from memory: pixels in a string, the same as those pixels in a file, to the bit.
 local celspan = require "celspan"
+local stored = require "tests.support.stored"
 local prng = require "tests.support.prng"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
@@ -11,40 +12,6 @@ setup(function() bench = workbench.new() end)
 teardown(function() bench:remove() end)
 
 -- ---------------------------------------------------------------- PNG, written here
-
-local checksums = {}
-for n = 0, 255 do
-  local c = n
-  for _ = 1, 8 do c = c & 1 == 1 and 0xedb88320 ~ (c >> 1) or c >> 1 end
-  checksums[n] = c
-end
-
-local function crc(text)
-  local c = 0xffffffff
-  for i = 1, #text do c = checksums[(c ~ text:byte(i)) & 255] ~ (c >> 8) end
-  return c ~ 0xffffffff
-end
-
-local function adler(text)
-  local a, b = 1, 0
-  for i = 1, #text do
-    a = (a + text:byte(i)) % 65521
-    b = (b + a) % 65521
-  end
-  return b << 16 | a
-end
-
-local function stored(text)
-  local parts = { "\x78\x01" }
-  for at = 1, #text, 65535 do
-    local piece = text:sub(at, at + 65534)
-    parts[#parts + 1] = ("<BI2I2"):pack(at + 65535 > #text and 1 or 0, #piece, ~#piece & 0xffff)
-    parts[#parts + 1] = piece
-  end
-  return table.concat(parts) .. (">I4"):pack(adler(text))
-end
-
-local function chunk(kind, data) return (">I4"):pack(#data) .. kind .. data .. (">I4"):pack(crc(kind .. data)) end
 
 local formats = {
   rgba8 = { size = 4, depth = 8, kind = 6 },
@@ -64,8 +31,8 @@ local function png(pixels, format)
     rows[y + 1] = "\0" .. line
   end
   return "\x89PNG\r\n\x1a\n"
-    .. chunk("IHDR", (">I4I4BBBBB"):pack(WIDTH, HEIGHT, formats[format].depth, formats[format].kind, 0, 0, 0))
-    .. chunk("IDAT", stored(table.concat(rows))) .. chunk("IEND", "")
+    .. stored.chunk("IHDR", (">I4I4BBBBB"):pack(WIDTH, HEIGHT, formats[format].depth, formats[format].kind, 0, 0, 0))
+    .. stored.chunk("IDAT", stored.zlib(table.concat(rows))) .. stored.chunk("IEND", "")
 end
 
 local function noise(format, seed)

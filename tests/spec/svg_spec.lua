@@ -2,19 +2,16 @@
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local raised = require "tests.support.raised"
+local workbench = require "tests.support.workbench"
 
 local HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" '
   .. 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="100" height="100"'
-local paths = {}
+local bench, count = workbench.new(), 0
 
 --- A file of our own with this text.
 local function write(text)
-  local path = os.tmpname()
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  paths[#paths + 1] = path
-  return path
+  count = count + 1
+  return bench:write(("drawing-%d.svg"):format(count), text)
 end
 
 --- A drawing 100 by 100 with this in it.
@@ -50,12 +47,7 @@ local _, missing = svg.read(drawing "")
 local has_module = not tostring(missing):find("celspan-art.so", 1, true)
 local it = has_module and it or pending
 
-after_each(function()
-  for i = #paths, 1, -1 do
-    os.remove(paths[i])
-    paths[i] = nil
-  end
-end)
+teardown(function() bench:remove() end)
 
 describe("a drawing", function()
   it("is one object of the file's size", function()

@@ -7,46 +7,9 @@
 -- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
 -- alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
 -- "predicted" (Photoshop); depth = 8 or 16; grey.
+local stored = require "tests.support.stored"
+
 local paintings = {}
-
--- ---------------------------------------------------------------- sums
-
-local crc_table = {}
-for i = 0, 255 do
-  local c = i
-  for _ = 1, 8 do c = c & 1 == 1 and 0xEDB88320 ~ (c >> 1) or c >> 1 end
-  crc_table[i] = c
-end
-
-function paintings.crc32(text)
-  local c = 0xFFFFFFFF
-  for i = 1, #text do c = crc_table[(c ~ text:byte(i)) & 255] ~ (c >> 8) end
-  return c ~ 0xFFFFFFFF
-end
-
-local function adler32(text)
-  local a, b = 1, 0
-  for i = 1, #text do
-    a = (a + text:byte(i)) % 65521
-    b = (b + a) % 65521
-  end
-  return b << 16 | a
-end
-
---- A deflate stream of stored blocks.
-function paintings.deflate(text)
-  local out = {}
-  for at = 1, math.max(1, #text), 65535 do
-    local piece = text:sub(at, at + 65534)
-    local is_last = at + 65535 > #text
-    out[#out + 1] = string.pack("<BI2I2", is_last and 1 or 0, #piece, ~#piece & 0xFFFF) .. piece
-  end
-  return table.concat(out)
-end
-
-function paintings.zlib(text)
-  return "\x78\x01" .. paintings.deflate(text) .. string.pack(">I4", adler32(text))
-end
 
 -- ---------------------------------------------------------------- archives
 
@@ -55,10 +18,10 @@ end
 function paintings.zip(members, comment)
   local out, entries, at = {}, {}, 0
   for _, member in ipairs(members) do
-    local data = member.deflate and paintings.deflate(member.data) or member.data
+    local data = member.deflate and stored.deflate(member.data) or member.data
     local method = member.method or (member.deflate and 8 or 0)
     local facts = string.pack("<I2I2I2I2I4I4I4I2", member.flags or 0, method, 0, 0,
-      member.sum or paintings.crc32(member.data), member.packed or #data,
+      member.sum or stored.crc32(member.data), member.packed or #data,
       member.size or #member.data, #member.name)
     local header = "PK\3\4" .. string.pack("<I2", 20) .. facts .. string.pack("<I2", 0)
       .. member.name
@@ -74,11 +37,6 @@ function paintings.zip(members, comment)
 end
 
 -- ---------------------------------------------------------------- PNG
-
-local function chunk(kind, data)
-  return string.pack(">I4", #data) .. kind .. data
-    .. string.pack(">I4", paintings.crc32(kind .. data))
-end
 
 --- An RGBA PNG of a layer, or one of the given colour type with rows of its own.
 function paintings.png(layer)
@@ -96,11 +54,9 @@ end
 --- rows: filtered, each with its filter's byte. more: chunks before the data.
 function paintings.png_of(w, h, depth, colour, rows, more, interlaced)
   return "\x89PNG\r\n\x1a\n"
-    .. chunk("IHDR", string.pack(">I4I4BBBBB", w, h, depth, colour, 0, 0, interlaced or 0))
-    .. (more or "") .. chunk("IDAT", paintings.zlib(rows)) .. chunk("IEND", "")
+    .. stored.chunk("IHDR", string.pack(">I4I4BBBBB", w, h, depth, colour, 0, 0, interlaced or 0))
+    .. (more or "") .. stored.chunk("IDAT", stored.zlib(rows)) .. stored.chunk("IEND", "")
 end
-
-paintings.chunk = chunk
 
 -- ---------------------------------------------------------------- XML
 
@@ -315,10 +271,10 @@ local function psd_channel(layer, w, h, depth, value_at)
   end
   local packing = layer.packing or "raw"
   if packing == "raw" then return "\0\0" .. table.concat(rows) end
-  if packing == "zip" then return "\0\2" .. paintings.zlib(table.concat(rows)) end
+  if packing == "zip" then return "\0\2" .. stored.zlib(table.concat(rows)) end
   if packing == "predicted" then
     for y, row in ipairs(rows) do rows[y] = predicted(row, depth) end
-    return "\0\3" .. paintings.zlib(table.concat(rows))
+    return "\0\3" .. stored.zlib(table.concat(rows))
   end
   local sizes = {}
   for y, row in ipairs(rows) do
