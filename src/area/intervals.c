@@ -2,9 +2,8 @@
  * merged. The file is long because every row calls it, and its steps are inlined into one. */
 #include "area/intervals.h"
 
+#include "base/sort.h"
 #include "sweep/pieces.h"
-
-#include <stdlib.h>
 
 static void *allocate(const cs_intervals *b, size_t count, size_t size) {
   return cs_arena_take(b->context, b->arena, count * size);
@@ -202,16 +201,15 @@ static celspan_status add_groups(cs_intervals *b) {
 
 /* ---------------------------------------------------------------- begins and ends at one height */
 
-static int compare_events(const void *p, const void *q) {
-  const cs_interval_event *a = p, *b = q;
+static inline bool event_is_before(const cs_interval_event *a, const cs_interval_event *b) {
   if (a->y != b->y)
-    return a->y < b->y ? -1 : 1;
+    return a->y < b->y;
   if (a->layer != b->layer)
-    return a->layer < b->layer ? -1 : 1;
-  if (a->begin != b->begin)
-    return a->begin < b->begin ? -1 : 1;
-  return a->is_end - b->is_end;
+    return a->layer < b->layer;
+  return a->begin != b->begin ? a->begin < b->begin : a->is_end < b->is_end;
 }
+
+CS_SORT_DEFINE(sort_events, cs_interval_event, event_is_before)
 
 /* The first boundary whose x at the top of the row is greater than `x`. */
 static size_t find_place(const cs_active *active, double x) {
@@ -286,8 +284,7 @@ static celspan_status join_ends(cs_intervals *b, const cs_interval_event *events
 
 /* Adds the intervals of begins and ends: one for all of a layer at one height. */
 static celspan_status add_events(cs_intervals *b) {
-  if (b->event_count > 1)
-    qsort(b->events, b->event_count, sizeof *b->events, compare_events);
+  sort_events(b->events, b->event_count);
   for (size_t first = 0, end; first < b->event_count; first = end) {
     const cs_interval_event *e = &b->events[first];
     cs_extent r = e->extent;
@@ -304,12 +301,13 @@ static celspan_status add_events(cs_intervals *b) {
   return CELSPAN_OK;
 }
 
-static int compare_intervals(const void *p, const void *q) {
-  const cs_interval *a = p, *b = q;
+static inline bool interval_is_before(const cs_interval *a, const cs_interval *b) {
   if (a->low != b->low)
-    return a->low < b->low ? -1 : 1;
-  return (a->high > b->high) - (a->high < b->high);
+    return a->low < b->low;
+  return a->high != b->high ? a->high < b->high : a->last_low < b->last_low;
 }
+
+CS_SORT_DEFINE(sort_intervals, cs_interval, interval_is_before)
 
 static bool belong_together(const cs_interval *last, const cs_interval *next) {
   if (next->low < last->high || next->events.low <= last->events.high)
@@ -328,8 +326,7 @@ static void join(cs_interval *last, const cs_interval *next) {
  * interval; one that has grown may then extend to the one before it. */
 static void merge_intervals(cs_intervals *b) {
   size_t kept = 0;
-  if (b->count > 1)
-    qsort(b->intervals, b->count, sizeof *b->intervals, compare_intervals);
+  sort_intervals(b->intervals, b->count);
   for (size_t i = 0; i < b->count; i++) {
     b->intervals[kept++] = b->intervals[i];
     while (kept > 1 && belong_together(&b->intervals[kept - 2], &b->intervals[kept - 1])) {
@@ -445,12 +442,11 @@ static celspan_status add_procedures(cs_intervals *b) {
   return CELSPAN_OK;
 }
 
-static int compare_begin_order(const void *p, const void *q) {
-  const cs_interval_begin *a = p, *b = q;
-  if (a->low != b->low)
-    return a->low < b->low ? -1 : 1;
-  return (a->begin > b->begin) - (a->begin < b->begin);
+static inline bool begin_is_before(const cs_interval_begin *a, const cs_interval_begin *b) {
+  return a->low != b->low ? a->low < b->low : a->begin < b->begin;
 }
+
+CS_SORT_DEFINE(sort_begins, cs_interval_begin, begin_is_before)
 
 /* Lists the begins from left to right, in which order the walk along the row asks for them. */
 static celspan_status order_begins(cs_intervals *b) {
@@ -459,8 +455,7 @@ static celspan_status order_begins(cs_intervals *b) {
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < b->begin_count; k++)
     b->begin_order[k] = (cs_interval_begin){b->begin_intervals[k].low, k};
-  if (b->begin_count > 1)
-    qsort(b->begin_order, b->begin_count, sizeof *b->begin_order, compare_begin_order);
+  sort_begins(b->begin_order, b->begin_count);
   return CELSPAN_OK;
 }
 
@@ -479,14 +474,13 @@ celspan_status cs_intervals_find(cs_intervals *b) {
   return begins > 0 ? order_begins(b) : CELSPAN_OK;
 }
 
-static int compare_begins(const void *p, const void *q) {
-  const cs_member *a = p, *b = q;
+static inline bool member_is_before(const cs_member *a, const cs_member *b) {
   if (a->points[0].y != b->points[0].y)
-    return a->points[0].y < b->points[0].y ? -1 : 1;
-  if (a->points[0].x != b->points[0].x)
-    return a->points[0].x < b->points[0].x ? -1 : 1;
-  return (a->order > b->order) - (a->order < b->order);
+    return a->points[0].y < b->points[0].y;
+  return a->points[0].x != b->points[0].x ? a->points[0].x < b->points[0].x : a->order < b->order;
 }
+
+CS_SORT_DEFINE(sort_members, cs_member, member_is_before)
 
 celspan_status cs_intervals_pick_begins(cs_intervals *b, const cs_interval *interval,
                                         cs_member **begins, size_t *count) {
@@ -502,7 +496,6 @@ celspan_status cs_intervals_pick_begins(cs_intervals *b, const cs_interval *inte
     return CELSPAN_NO_MEMORY;
   for (size_t k = 0; k < *count; k++)
     (*begins)[k] = b->begins[b->begin_order[first + k].begin];
-  if (*count > 1)
-    qsort(*begins, *count, sizeof **begins, compare_begins);
+  sort_members(*begins, *count);
   return CELSPAN_OK;
 }

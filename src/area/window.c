@@ -9,12 +9,12 @@
 
 #include "area/direct.h"
 #include "base/number.h"
+#include "base/sort.h"
 #include "paint/colours.h"
 #include "paint/run.h"
 #include "sweep/pieces.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define TILE 256 /* pixels summed at a time */
 #define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
@@ -174,13 +174,12 @@ static uint32_t find_cell(mixture *m, const cs_cell *cell) {
   return (uint32_t)m->cell_count++;
 }
 
-static int compare_edges(const void *p, const void *q) {
-  const cs_window_segment *a = ((const cell_edge *)p)->segment,
-                          *b = ((const cell_edge *)q)->segment;
-  if (a->first != b->first)
-    return a->first < b->first ? -1 : 1;
-  return (a > b) - (a < b);
+static inline bool edge_is_before(const cell_edge *a, const cell_edge *b) {
+  return a->segment->first != b->segment->first ? a->segment->first < b->segment->first
+                                                : a->segment < b->segment;
 }
+
+CS_SORT_DEFINE(sort_edges, cell_edge, edge_is_before)
 
 static celspan_status begin_mixture(cs_window *window, mixture *m) {
   celspan_context *context = window->composer->context;
@@ -196,8 +195,7 @@ static celspan_status begin_mixture(cs_window *window, mixture *m) {
     uint32_t left = find_cell(m, f->left);
     m->edges[i] = (cell_edge){f, left, find_cell(m, f->right)};
   }
-  if (count > 1)
-    qsort(m->edges, count, sizeof *m->edges, compare_edges);
+  sort_edges(m->edges, count);
   return CELSPAN_OK;
 }
 

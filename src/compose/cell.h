@@ -21,7 +21,6 @@ typedef struct cs_cell {
   cs_set_hash hash; /* of the layers present */
   uint32_t program; /* index of the first item among the composer's */
   uint32_t length;  /* items; 0: one colour everywhere */
-  uint32_t cover;   /* a layer present that hides all behind it, or CS_STACK_NONE */
 } cs_cell;
 
 /* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */

@@ -25,28 +25,11 @@ static celspan_status make_table(cs_composer *composer) {
   return has_table ? cs_over_table_init(composer->table, composer->context, stack) : CELSPAN_OK;
 }
 
-/* Whether a layer hides all behind it, whatever else is present. */
-static bool is_cover(const cs_layer *layer) {
-  return layer->role == CS_LAYER_PAINT && layer->group == CS_STACK_NONE &&
-         cs_over_is_opaque(layer->t);
-}
-
-static void find_covers(const cs_stack *stack, uint64_t *covers) {
-  for (size_t layer = 0; layer < stack->layer_count; layer++)
-    covers[layer / 64] |= (uint64_t)is_cover(&stack->layers[layer]) << (layer % 64);
-  for (size_t tree = 0; tree < stack->tree_count;
-       tree++) /* what is present there may not be painted */
-    for (size_t layer = stack->trees[tree].first; layer < stack->trees[tree].end; layer++)
-      covers[layer / 64] &= ~((uint64_t)1 << (layer % 64));
-}
-
 celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                 const cs_stack *stack, cs_image_opacity opacity) {
   *composer = (cs_composer){.context = context, .stack = stack, .opacity = opacity};
   size_t words = cs_stack_words(stack), filled = cs_set_filled_count(words);
   CS_TRY(allocate(composer, &composer->set, words, sizeof(uint64_t)));
-  CS_TRY(allocate(composer, &composer->covers, words, sizeof(uint64_t)));
-  find_covers(stack, composer->covers);
   CS_TRY(allocate(composer, &composer->contributing, words, sizeof(uint64_t)));
   CS_TRY(allocate(composer, &composer->filled, filled, sizeof(uint8_t)));
   CS_TRY(allocate(composer, &composer->presences, stack->layer_count, sizeof(cs_presence)));
@@ -66,7 +49,6 @@ void cs_composer_finish(cs_composer *composer) {
   const cs_stack *stack = composer->stack;
   size_t words = cs_stack_words(stack);
   cs_mem_free(memory, composer->set, words * sizeof(uint64_t));
-  cs_mem_free(memory, composer->covers, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->contributing, words * sizeof(uint64_t));
   cs_mem_free(memory, composer->filled, cs_set_filled_count(words) * sizeof(uint8_t));
   cs_mem_free(memory, composer->presences, stack->layer_count * sizeof(cs_presence));
@@ -256,19 +238,9 @@ void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t proc
     composer->procedure_span_of[layer] = procedure_span;
 }
 
-/* The frontmost layer present that covers. */
-static uint32_t find_cover(const cs_composer *composer) {
-  for (size_t word = cs_stack_words(composer->stack); word-- > 0;) {
-    uint64_t bits = composer->filled[word] ? composer->set[word] & composer->covers[word] : 0;
-    if (bits != 0)
-      return (uint32_t)word * 64 + 63 - (uint32_t)__builtin_clzll(bits);
-  }
-  return CS_STACK_NONE;
-}
-
 /* Composes the cell at the place of the walk. */
 static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
-  *out = (cs_cell){.colour = cs_v4_all(0), .hash = composer->hash, .cover = find_cover(composer)};
+  *out = (cs_cell){.colour = cs_v4_all(0), .hash = composer->hash};
   celspan_status status = compose(composer, out);
   if (status != CELSPAN_OK && composer->failure == CELSPAN_OK)
     composer->failure = status;

@@ -48,7 +48,6 @@ typedef struct cs_composer {
   cs_image_opacity opacity;
   uint64_t *set;               /* layers present at the place of the walk */
   uint8_t *filled;             /* of its words: see set.h */
-  uint64_t *covers;            /* layers that hide all behind them wherever they are present */
   uint64_t *contributing;      /* scratch */
   cs_presence *presences;      /* one a layer */
   uint32_t *procedure_span_of; /* a layer's span there; NULL without scan-line layers */

@@ -1,8 +1,7 @@
 #include "compose/procedures.h"
 
 #include "base/number.h"
-
-#include <stdlib.h>
+#include "base/sort.h"
 
 void cs_procedures_init(cs_procedures *procedures, cs_composer *composer, cs_arena *arena,
                         int32_t width, int32_t margin) {
@@ -113,16 +112,13 @@ celspan_status cs_procedures_collect(cs_procedures *procedures, double height,
   return CELSPAN_OK;
 }
 
-static int compare_edges(const void *p, const void *q) {
-  const cs_procedure_edge *a = p, *b = q;
+static inline bool edge_is_before(const cs_procedure_edge *a, const cs_procedure_edge *b) {
   if (a->x != b->x)
-    return a->x < b->x ? -1 : 1;
-  if (a->direction != b->direction) /* where one span ends and the next begins: end first */
-    return a->direction < b->direction ? -1 : 1;
-  return (a->span > b->span) - (a->span < b->span);
+    return a->x < b->x;
+  /* where one span ends and the next begins: end first */
+  return a->direction != b->direction ? a->direction < b->direction : a->span < b->span;
 }
 
-void cs_procedures_sort(cs_procedure_edges *edges) {
-  if (edges->count > 1)
-    qsort(edges->edges, edges->count, sizeof *edges->edges, compare_edges);
-}
+CS_SORT_DEFINE(sort_edges, cs_procedure_edge, edge_is_before)
+
+void cs_procedures_sort(cs_procedure_edges *edges) { sort_edges(edges->edges, edges->count); }

@@ -1,9 +1,10 @@
 #include "geometry/boundary.h"
 
+#include "base/sort.h"
+#include "geometry/matrix.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "geometry/matrix.h"
 
 void cs_boundary_init(cs_boundary_set *set) { memset(set, 0, sizeof *set); }
 
@@ -34,7 +35,7 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
 /* ---------------------------------------------------------------- order */
 
 /* A strict order: no two chains share a first piece, and pieces are numbered as they are added. */
-static bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
+static inline bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
   if (a->y0 != b->y0)
     return a->y0 < b->y0;
   if (a->x0 != b->x0)
@@ -42,30 +43,6 @@ static bool is_before(const cs_boundary_chain *a, const cs_boundary_chain *b) {
   return a->layer != b->layer ? a->layer < b->layer : a->piece < b->piece;
 }
 
-/* Brings a heap in order whose root alone may be out of place. Most roots came from the bottom and
- * go back there: so the way down to a leaf is made without asking, and the root comes up from it. */
-static void sift_down(cs_boundary_chain *chains, size_t root, size_t count) {
-  cs_boundary_chain moved = chains[root];
-  size_t hole = root;
-  for (size_t child; (child = 2 * hole + 1) < count; hole = child) {
-    child += child + 1 < count && is_before(&chains[child], &chains[child + 1]);
-    chains[hole] = chains[child];
-  }
-  for (size_t parent; hole > root && is_before(&chains[parent = (hole - 1) / 2], &moved);
-       hole = parent)
-    chains[hole] = chains[parent];
-  chains[hole] = moved;
-}
+CS_SORT_DEFINE(sort_chains, cs_boundary_chain, is_before)
 
-/* A heap sort: in place, without memory of its own, n log n always. */
-void cs_boundary_sort(cs_boundary_set *set) {
-  cs_boundary_chain *chains = set->chains;
-  for (size_t i = set->chain_count / 2; i-- > 0;)
-    sift_down(chains, i, set->chain_count);
-  for (size_t i = set->chain_count; i-- > 1;) {
-    cs_boundary_chain largest = chains[0];
-    chains[0] = chains[i];
-    chains[i] = largest;
-    sift_down(chains, 0, i);
-  }
-}
+void cs_boundary_sort(cs_boundary_set *set) { sort_chains(set->chains, set->chain_count); }

@@ -57,8 +57,9 @@ static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double
                              (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
 }
 
-void cs_polyline_powers_of(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                           double c[8]) {
+/* 4 coefficients of x and 4 of y of a piece in powers. */
+static inline void load_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
+                               double c[8]) {
   const cs_hpoint *p = set->points + piece->point;
   const cs_hpoint cubic = piece->degree == 3 ? p[3] : (cs_hpoint){0};
   for (int i = 0; i < 3; i++) {
@@ -69,12 +70,11 @@ void cs_polyline_powers_of(const cs_boundary_set *set, const cs_boundary_piece *
   c[7] = cubic.y;
 }
 
-cs_polyline_point cs_polyline_at(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                                 double t) {
+static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece *piece, double t) {
   double c[8];
   if (!piece->is_power)
     return at_rational(set->points + piece->point, piece->degree, t);
-  cs_polyline_powers_of(set, piece, c);
+  load_powers(set, piece, c);
   return cs_polyline_power(c, t);
 }
 
@@ -93,12 +93,11 @@ static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
   cs_polyline_points points = {0};
   cs_polyline_seats seats;
   for (int k = 0; k <= piece->group; k++)
-    put_point(
-        cs_polyline_at(set, piece, cs_polyline_parameter(piece, first + stride * (uint32_t)k)), k,
-        &points);
+    put_point(at(set, piece, cs_polyline_parameter(piece, first + stride * (uint32_t)k)), k,
+              &points);
   CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_sit)(&points, piece, first, stride, &seats);
   for (int k = 0; k <= piece->group; k++)
-    put_point(cs_polyline_at(set, piece, seats.t[k + 1]), k, &points);
+    put_point(at(set, piece, seats.t[k + 1]), k, &points);
   CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_place)(&points, piece, first, stride, &seats, out);
 }
 
@@ -109,7 +108,7 @@ static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
                           uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
   double c[8];
   if (piece->is_power) {
-    cs_polyline_powers_of(set, piece, c);
+    load_powers(set, piece, c);
     CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
   } else {
     find_vertices(set, piece, first, stride, v);
@@ -225,7 +224,7 @@ celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_pi
     return (celspan_point){piece->x0, piece->y0};
   if (vertex == piece->chords)
     return (celspan_point){piece->x1, piece->y1};
-  cs_polyline_point p = cs_polyline_at(set, piece, cs_polyline_parameter(piece, vertex));
+  cs_polyline_point p = at(set, piece, cs_polyline_parameter(piece, vertex));
   return (celspan_point){p.x, p.y};
 }
 

@@ -28,7 +28,6 @@
 
 #include "geometry/boundary.h"
 #include "geometry/plain.h"
-#include "geometry/polyline_vertex.h"
 
 /* Chooses the chords of a piece whose ends and limits in x are set, and which is one chord until
  * then; stores the points that its vertices are made from. curve: in the direction of the piece, with weights that are > 0 and
@@ -46,11 +45,6 @@ static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context
   return cs_mem_reserve(context, (void **)&set->points, &set->point_capacity,
                         set->point_count + points, sizeof *set->points);
 }
-/* 4 coefficients of x and 4 of y of a piece that is_power. */
-void cs_polyline_powers_of(const cs_boundary_set *set, const cs_boundary_piece *piece, double c[8]);
-/* The curve at a parameter from 0, its top, to 1. */
-cs_polyline_point cs_polyline_at(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                                 double t);
 /* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
  * if one arc is near enough to all of it. */
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,

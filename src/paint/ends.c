@@ -1,9 +1,8 @@
 #include "paint/ends.h"
 
 #include "base/number.h"
+#include "base/sort.h"
 #include "paint/gradient_table.h"
-
-#include <stdlib.h>
 
 typedef struct finder {
   cs_painter *painter;
@@ -78,10 +77,9 @@ static void merge(cs_ends *list, size_t count) {
   list->columns = merged;
 }
 
-static int compare_columns(const void *a, const void *b) {
-  int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;
-  return (p > q) - (p < q);
-}
+static inline bool is_before(const int32_t *a, const int32_t *b) { return *a < *b; }
+
+CS_SORT_DEFINE(sort_columns, int32_t, is_before)
 
 static celspan_status add_formula(const finder *f, cs_item item, cs_ends *list) {
   size_t count;
@@ -93,8 +91,7 @@ static celspan_status add_formula(const finder *f, cs_item item, cs_ends *list) 
   CS_TRY(find_breaks(f, item, breaks, &count));
   for (size_t i = 0; i < count; i++)
     columns[i] = cs_number_first_centre(breaks[i]);
-  if (count > 1)
-    qsort(columns, count, sizeof *columns, compare_columns);
+  sort_columns(columns, count);
   merge(list, count);
   return CELSPAN_OK;
 }

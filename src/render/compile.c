@@ -7,8 +7,6 @@
 #include "render/lights.h"
 #include "render/objects.h"
 
-#include <math.h>
-
 /* ---------------------------------------------------------------- defocused cels */
 
 static celspan_status append_defocused(cs_compiler *c, const cs_defocus_cel *place,
@@ -122,15 +120,8 @@ static celspan_status compile_rostrum(cs_compiler *c, const celspan_rostrum *ros
   CS_TRY(compile_film(c, rostrum, &film));
   reverse_lights(&c->plan->stack);
   cs_boundary_sort(&c->plan->boundaries);
-  if (c->plan->antialias == CELSPAN_ANTIALIAS_AREA)
-    CS_TRY(cs_kind_find(c->context, &c->plan->boundaries, c->plan->height, &c->plan->kind));
   return cs_hidden_cull(c);
 }
-
-/* The kind of a row is that of its whole part of the frame, so outlines are left out by such parts:
- * down to the beginning of one, up to the end of one. */
-static double part_before(double row) { return floor(row / CS_KIND_ROWS) * CS_KIND_ROWS; }
-static double part_after(double row) { return ceil(row / CS_KIND_ROWS) * CS_KIND_ROWS; }
 
 static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_context *context,
                   cs_plan *plan, int32_t first_row, int32_t end_row) {
@@ -139,9 +130,8 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .plan = plan,
                      .boundaries = boundaries,
                      .frame = {-margin, plan->width + margin, -margin, plan->height + margin},
-                     /* a pixel more, against rounding */
-                     .first_height = part_before(first_row - margin) - 1,
-                     .end_height = part_after(end_row + margin) + 1,
+                     .first_height = first_row - margin - 1, /* a pixel more, against rounding */
+                     .end_height = end_row + margin + 1,
                      .group = CS_STACK_NONE,
                      .compile_nested = compile_film};
   cs_boundary_init(&plan->boundaries);

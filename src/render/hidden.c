@@ -69,7 +69,7 @@ static celspan_status cull(cs_compiler *c, const hidden *h) {
 /* A chain costs the cull about as much as the sweep pays for it in some tens of rows, so it pays
  * where chains are long, and layers so deep that many tiles die. */
 static bool pays(const cs_compiler *c) {
-  return !cs_kind_are_busy(&c->plan->kind) && c->plan->stack.layer_count >= LAYERS_LEAST &&
+  return c->plan->stack.layer_count >= LAYERS_LEAST &&
          c->census.rows >= ROWS_LEAST * c->census.pieces && c->census.depth >= DEPTH_LEAST;
 }
 

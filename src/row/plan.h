@@ -8,7 +8,6 @@
 #ifndef CS_ROW_PLAN_H
 #define CS_ROW_PLAN_H
 
-#include "busy/kind.h"
 #include "compose/stack.h"
 #include "kernel/kernel.h"
 #include "sweep/cull.h"
@@ -19,7 +18,6 @@ typedef struct cs_plan {
   cs_stack stack;
   cs_boundary_set boundaries;
   cs_cull cull;
-  cs_kind kind;          /* of the rows: under antialias "area" */
   int32_t width, height; /* pixels */
   int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;

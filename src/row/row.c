@@ -48,7 +48,6 @@ celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_context *context,
                         &maker->procedures, &maker->arena,   plan->width};
   cs_centre_init(&maker->centre, &tools);
   cs_area_init(&maker->area, &tools);
-  cs_busy_init(&maker->busy, &tools, &plan->boundaries);
   return plan->kernel ? cs_filter_init(&maker->filter, plan->kernel, &maker->painter, plan->width,
                                        retain, maker)
                       : CELSPAN_OK;
@@ -59,7 +58,6 @@ void cs_row_maker_finish(cs_row_maker *maker) {
     return;
   cs_memory *memory = maker->context->memory;
   cs_filter_finish(&maker->filter, memory);
-  cs_busy_finish(&maker->busy, memory);
   cs_area_finish(&maker->area, memory);
   cs_procedures_finish(&maker->procedures, memory);
   cs_arena_finish(&maker->arena, memory);
@@ -130,22 +128,6 @@ celspan_status cs_row_retain(cs_row_maker *maker, int32_t y, cs_retained_row *re
   return maker->composer.failure;
 }
 
-static bool is_busy(const cs_row_maker *maker, int32_t y) {
-  return cs_kind_is_busy(&maker->plan->kind, y) && !cs_procedures_meet(&maker->procedures, y);
-}
-
-/* A busy row needs no boundaries in order, and no cells between them. */
-static celspan_status make_busy_row(cs_row_maker *maker, int32_t y, cs_row *out) {
-  if (maker->row != CS_ROW_NONE) {
-    cs_cells_walk_home(&maker->cells, &maker->composer);
-    cs_cells_forget(&maker->cells);
-    maker->row = CS_ROW_NONE;
-  }
-  cs_composer_begin_row(&maker->composer);
-  CS_TRY(cs_busy_row(&maker->busy, y, out));
-  return maker->composer.failure;
-}
-
 static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
   if (maker->plan->antialias == CELSPAN_ANTIALIAS_NONE) {
     CS_TRY(begin_row(maker, y));
@@ -154,8 +136,6 @@ static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
   cs_row_clear(out);
   if (maker->plan->kernel) /* it begins each row under the kernel by itself */
     return cs_filter_row(&maker->filter, y, out);
-  if (is_busy(maker, y))
-    return make_busy_row(maker, y, out);
   CS_TRY(begin_row(maker, y));
   CS_TRY(cs_area_row(&maker->area, y, out));
   return maker->composer.failure;

@@ -9,7 +9,6 @@
 #define CS_ROW_ROW_H
 
 #include "area/area.h"
-#include "busy/busy.h"
 #include "kernel/filter.h"
 #include "row/centre.h"
 #include "row/plan.h"
@@ -29,8 +28,7 @@ typedef struct cs_row_maker {
   int32_t row;    /* the row at whose height the boundaries are; NONE: at none yet */
   /* the three filters */
   cs_centre centre;
-  cs_area area; /* of calm rows */
-  cs_busy busy;
+  cs_area area;
   cs_filter filter;
 } cs_row_maker;
 

@@ -41,12 +41,6 @@ end
 
 -- ---------------------------------------------------------------- boolean algebra
 
--- Rows with scan-line primitives are summed in another way than busy rows without, with other chords
--- for curves: so scenes have either no such rows or no curves.
-local function rows_or_curves(case)
-  return case % 2 == 0 and { has_rows = false } or { is_straight = true }
-end
-
 --- Where an object is, in white.
 local function presence(shape)
   local white = celspan.rect { -9, -9, 99, 99, texture = "#fff" }
@@ -76,9 +70,8 @@ describe("boolean algebra", function()
   for _, law in ipairs(laws) do
     it(law[1], function()
       each_case(function(case)
-        local options = rows_or_curves(case)
-        local a, traits = object(3 * case, options)
-        local b, c = object(3 * case + 1, options), object(3 * case + 2, options)
+        local a, traits = object(3 * case)
+        local b, c = object(3 * case + 1), object(3 * case + 2)
         local left, right = law[2](a, b, c, celspan.rect { -99, -99, 299, 299 })
         local film = { traits.width, traits.height }
         for antialias, tolerance in pairs { none = 0, area = AREA } do
@@ -113,7 +106,7 @@ describe("a cel that cannot be seen", function()
   local function compare(make)
     each_case(function(case)
       compare_with(make, case, case % 2 == 0 and { is_flat = true, has_rows = false }
-                                or { has_rows = true, is_plain = true, is_straight = true })
+                                or { has_rows = true, is_plain = true })
       compare_with(make, case, { has_rows = false })
     end)
   end

@@ -478,7 +478,7 @@ local function start(seed, options)
   traits.size = { math.ceil(traits.width * scale), math.ceil(traits.height * scale) }
   return setmetatable({
     random = random, traits = traits, made = {},
-    is_straight = random:once(2) or options.is_straight, is_upright = options.has_rows ~= false and random:once(4),
+    is_straight = random:once(2), is_upright = options.has_rows ~= false and random:once(4),
     is_flat = options.is_flat, is_single = options.is_single, is_plain = options.is_plain,
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0, lights = 1, brightest = 1,
     most = random:pick { 1, 1, 3 }, depth = random:pick { 0, 1, 2, 4 },
@@ -487,8 +487,8 @@ end
 
 --- Half of all scenes have straight edges alone; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
--- scan-lines), has_pictures = false, has_text (every second primitive is text), is_straight (no
--- curves), is_plain (no lights with a shape, no compositions inside
+-- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no lights
+-- with a shape, no compositions inside
 -- others).
 function scenes.script(seed, options)
   local self = start(seed, options or {})
