@@ -176,15 +176,71 @@ static celspan_status find_in_step(cs_intersections *m, celspan_context *context
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- steps */
-
-/* x of an edge at a height of its segment. At the segment's foot it is exactly that of the end;
- * whether it is the foot can hardly be foreseen, so the division is always made. */
-static inline double edge_x(const cs_active_edge *edge, double y) {
-  const celspan_point *a = &edge->points[edge->at - 1], *b = &edge->points[edge->at];
-  double x = a->x + (b->x - a->x) * ((y - a->y) / (b->y - a->y));
-  return y >= b->y ? b->x : x;
+/* x at a height of the segment that ends at a point. At the point it is exactly that of the point;
+ * whether it is there can hardly be foreseen, so the division is always made. */
+static inline double segment_x(const celspan_point *end, double y) {
+  const celspan_point *from = end - 1;
+  double x = from->x + (end->x - from->x) * ((y - from->y) / (end->y - from->y));
+  return y >= end->y ? end->x : x;
 }
+
+/* ---------------------------------------------------------------- slabs without any */
+
+/* How far an edge reaches to both sides between two heights, and where it ends. */
+typedef struct reach {
+  double low, high, foot;
+  uint32_t at; /* the segment of the foot */
+} reach;
+
+static inline reach find_reach(const cs_active_edge *edge, double x, double y0, double y1) {
+  reach r = {x, x, 0, edge->at};
+  r.at += edge->points[r.at].y <= y0;
+  for (; edge->points[r.at].y < y1; r.at++) {
+    double vertex = edge->points[r.at].x;
+    r.low = vertex < r.low ? vertex : r.low;
+    r.high = vertex > r.high ? vertex : r.high;
+  }
+  r.foot = segment_x(edge->points + r.at, y1);
+  r.low = r.foot < r.low ? r.foot : r.low;
+  r.high = r.foot > r.high ? r.foot : r.high;
+  return r;
+}
+
+/* Whether the left of two neighbours is right of the other one at any vertex below y0, or at y1. */
+static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, double y0,
+                     double y1) {
+  const celspan_point *a = left->points + left->at, *b = right->points + right->at;
+  for (double y = y0; y < y1;) {
+    a += a->y <= y;
+    b += b->y <= y;
+    y = a->y < b->y ? a->y : b->y;
+    y = y < y1 ? y : y1;
+    if (segment_x(a, y) > segment_x(b, y))
+      return true;
+  }
+  return false;
+}
+
+/* Goes down to y1 at once where no two neighbours cross on the way, which is nearly always so;
+ * false: some do, and nothing is changed. */
+static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
+  double high = -INFINITY;
+  for (size_t i = 0; i < count; i++) {
+    reach r = find_reach(&m->edges[i], m->foot[i], y0, y1);
+    if (r.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
+      return false;
+    high = r.high;
+    m->top[i] = r.foot; /* kept here until it is known that nothing crosses */
+    m->last[i] = r.at;
+  }
+  for (size_t i = 0; i < count; i++) {
+    m->foot[i] = m->top[i];
+    m->edges[i].at = m->last[i];
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------- steps */
 
 /* Moves on to the segments that go on below y, where a step has ended. Returns where the first of
  * them ends, or y1. */
@@ -209,11 +265,14 @@ celspan_status cs_intersections_find(cs_intersections *m, celspan_context *conte
     m->order[i] = (uint32_t)i;
     m->first[i] = CS_INTERSECTIONS_NONE;
   }
+  if (go_straight(m, count, y0, y1))
+    return CELSPAN_OK;
   for (double y = y0, end; y < y1; y = end) {
     end = begin_step(m, count, y, y1);
     for (size_t place = 0; place < count; place++) {
+      const cs_active_edge *edge = &m->edges[m->order[place]];
       m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
-      m->foot[place] = edge_x(&m->edges[m->order[place]], end);
+      m->foot[place] = segment_x(edge->points + edge->at, end);
     }
     CS_TRY(find_in_step(m, context, count, y, end));
   }
