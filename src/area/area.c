@@ -40,6 +40,7 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
   cs_edges_finish(&area->edges, memory);
   cs_window_finish(&area->target.window, memory);
   cs_local_sweep_finish(&area->sweep, memory);
+  cs_dense_finish(&area->dense, memory);
   *area = (cs_area){0};
 }
 
@@ -98,12 +99,19 @@ static celspan_status walk_alone(row_walk *w, size_t end, double next) {
 
 /* ---------------------------------------------------------------- intervals */
 
-static double least_x(const cs_member *members, size_t count, double least) {
+static void add_extent(const cs_member *members, size_t count, cs_extent *extent) {
   for (size_t j = 0; j < count; j++)
     for (uint32_t k = 0; k < members[j].point_count; k++)
-      if (members[j].points[k].x < least)
-        least = members[j].points[k].x;
-  return least;
+      cs_extent_add(extent, members[j].points[k].x);
+}
+
+/* How far the members of the sweep extend in the frame. */
+static cs_extent find_extent(const cs_area *area) {
+  const cs_local_sweep *sweep = &area->sweep;
+  cs_extent extent = cs_extent_nowhere();
+  add_extent(sweep->entering, sweep->count, &extent);
+  add_extent(sweep->begins, sweep->begin_count, &extent);
+  return (cs_extent){fmin(extent.low, area->tools.width), fmax(extent.high, 0)};
 }
 
 /* Brings the composer to the left of an interval, and the target to its least x. */
@@ -130,11 +138,15 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
     CS_TRY(cs_intervals_member(w->intervals, i, member));
     member->right = &w->cells[i + 1];
   }
-  double least = least_x(sweep->entering, sweep->count, area->tools.width);
-  least = least_x(sweep->begins, sweep->begin_count, least);
-  CS_TRY(begin_item(area, &w->cells[low], low, least));
-  CS_TRY(cs_local_sweep_replay(sweep));
-  CS_TRY(cs_commit_sweep(&area->commit, sweep, low, high));
+  cs_extent extent = find_extent(area);
+  CS_TRY(begin_item(area, &w->cells[low], low, extent.low));
+  double shown = fmin(extent.high, area->tools.width) - fmax(extent.low, 0);
+  if (cs_dense_suits(sweep->count + sweep->begin_count, shown)) {
+    CS_TRY(cs_dense_draw(&area->dense, sweep, &w->cells[high]));
+  } else {
+    CS_TRY(cs_local_sweep_replay(sweep));
+    CS_TRY(cs_commit_sweep(&area->commit, sweep, low, high));
+  }
   cs_window_end_item(&area->target.window, &w->cells[high]);
   return CELSPAN_OK;
 }
@@ -234,7 +246,10 @@ static int count_slabs(const cs_area *area, int32_t y) {
   const cs_active *active = area->tools.active;
   size_t events = cs_intervals_count_begins(active, y + 1.0);
   int slabs = 1;
-  if (events + active->count <= ROW_EVENTS || cs_procedures_meet(area->tools.procedures, y))
+  size_t most = (size_t)(2 * CS_DENSE_A_PIXEL) * (size_t)area->tools.width;
+  bool is_dense = events + active->count > most; /* then most of them are in dense intervals */
+  if (events + active->count <= ROW_EVENTS || is_dense ||
+      cs_procedures_meet(area->tools.procedures, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;

@@ -10,6 +10,7 @@
 #define CS_AREA_AREA_H
 
 #include "area/commit.h"
+#include "area/dense.h"
 #include "area/edges.h"
 #include "area/local_sweep.h"
 #include "area/row_tools.h"
@@ -19,6 +20,7 @@ typedef struct cs_area {
   cs_edges edges;     /* of the row being made */
   cs_target target;   /* receives the segments of the row */
   cs_local_sweep sweep;
+  cs_dense dense;
   cs_commit commit; /* the order and cells that the row leaves for the next one */
 } cs_area;
 

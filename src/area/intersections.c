@@ -1,5 +1,6 @@
 #include "area/intersections.h"
 
+#include "area/extent.h"
 #include "base/vector.h"
 
 #include <math.h>
@@ -186,24 +187,21 @@ static inline double segment_x(const celspan_point *end, double y) {
 
 /* ---------------------------------------------------------------- slabs without any */
 
-/* How far an edge reaches to both sides between two heights, and where it ends. */
-typedef struct reach {
-  double low, high, foot;
-  uint32_t at; /* the segment of the foot */
-} reach;
+/* The way of an edge from a height, where it is at x, to a lower one. */
+typedef struct way {
+  cs_extent extent;
+  double foot; /* x at the lower height */
+  uint32_t at; /* the segment on which that is */
+} way;
 
-static inline reach find_reach(const cs_active_edge *edge, double x, double y0, double y1) {
-  reach r = {x, x, 0, edge->at};
-  r.at += edge->points[r.at].y <= y0;
-  for (; edge->points[r.at].y < y1; r.at++) {
-    double vertex = edge->points[r.at].x;
-    r.low = vertex < r.low ? vertex : r.low;
-    r.high = vertex > r.high ? vertex : r.high;
-  }
-  r.foot = segment_x(edge->points + r.at, y1);
-  r.low = r.foot < r.low ? r.foot : r.low;
-  r.high = r.foot > r.high ? r.foot : r.high;
-  return r;
+static inline way find_way(const cs_active_edge *edge, double x, double y0, double y1) {
+  way w = {{x, x}, 0, edge->at};
+  w.at += edge->points[w.at].y <= y0;
+  for (; edge->points[w.at].y < y1; w.at++)
+    cs_extent_add(&w.extent, edge->points[w.at].x);
+  w.foot = segment_x(edge->points + w.at, y1);
+  cs_extent_add(&w.extent, w.foot);
+  return w;
 }
 
 /* Whether the left of two neighbours is right of the other one at any vertex below y0, or at y1. */
@@ -226,12 +224,12 @@ static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, do
 static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
   double high = -INFINITY;
   for (size_t i = 0; i < count; i++) {
-    reach r = find_reach(&m->edges[i], m->foot[i], y0, y1);
-    if (r.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
+    way w = find_way(&m->edges[i], m->foot[i], y0, y1);
+    if (w.extent.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
       return false;
-    high = r.high;
-    m->top[i] = r.foot; /* kept here until it is known that nothing crosses */
-    m->last[i] = r.at;
+    high = w.extent.high;
+    m->top[i] = w.foot; /* kept here until it is known that nothing crosses */
+    m->last[i] = w.at;
   }
   for (size_t i = 0; i < count; i++) {
     m->foot[i] = m->top[i];

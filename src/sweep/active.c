@@ -1,10 +1,17 @@
 #include "sweep/active.h"
 
+#include "base/sort.h"
 #include "sweep/order.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
+
+/* Chains that begin together are inserted one by one up to this number; and so are boundaries that
+ * have changed places, while not more than this number of others is moved for each boundary. Beyond
+ * it all are sorted at once. */
+#define MANY_BEGIN 64
+#define MOVED_EACH 16
 
 /* The arrays that are kept in order, one item a boundary. Whoever adds such an array to cs_active
  * adds it here. x_next is not listed, because every row computes it again. */
@@ -187,20 +194,63 @@ static size_t find_place(const cs_active *active, size_t i) {
   return low;
 }
 
-/* Sorts the order at the current height, which is nearly sorted. */
-static void sort(cs_active *active, cs_change *change) {
+/* A boundary by what its place in the order depends on. */
+typedef struct key {
+  double x, slope;
+  uint32_t chain, index;
+} key;
+
+static inline bool key_is_before(const key *a, const key *b) {
+  return a->x != b->x ? a->x < b->x : cs_order_is_right(b->slope, b->chain, a->slope, a->chain);
+}
+
+CS_SORT_DEFINE(sort_keys, key, key_is_before)
+
+static void find_keys(const cs_active *active, key *keys) {
+  for (size_t i = 0; i < active->count; i++)
+    keys[i] = (key){active->x[i], slope_at(active, i), active->walks[active->slot[i]].chain,
+                    (uint32_t)i};
+}
+
+/* Sorts the order at the current height, wherever the boundaries are in it. */
+static celspan_status sort_all(celspan_context *context, cs_active *active, cs_change *change) {
+  size_t count = active->count, size = sizeof(key) + sizeof(uint64_t) + sizeof(uint32_t);
+  key *keys = count < 2 ? NULL : cs_mem_array(context->memory, count, size);
+  *change = cs_change_all;
+  if (count < 2)
+    return CELSPAN_OK;
+  if (!keys)
+    return cs_fail_memory(context);
+  uint64_t *room = (uint64_t *)(keys + count);
+  uint32_t *places = (uint32_t *)(room + count);
+  find_keys(active, keys);
+  sort_keys(keys, count);
+  for (size_t i = 0; i < count; i++)
+    places[i] = keys[i].index;
+  cs_active_permute(active, 0, count, places, room);
+  cs_mem_free(context->memory, keys, count * size);
+  return CELSPAN_OK;
+}
+
+/* Sorts the order at the current height, which is nearly sorted: by insertion, as long as that moves
+ * few boundaries. */
+static celspan_status sort(celspan_context *context, cs_active *active, cs_change *change) {
   const double *x = active->x;
+  size_t moved = 0, most = MOVED_EACH * active->count;
   if (CS_WIDE_CHOOSE(active->isa, cs_advance_rises)(x, active->count))
-    return;
+    return CELSPAN_OK;
   for (size_t i = 1; i < active->count; i++) {
     if (x[i - 1] < x[i]) /* where x is equal, slopes and chains decide */
       continue;
     size_t to = find_place(active, i);
     if (to == i)
       continue;
+    if ((moved += i - to) > most)
+      return sort_all(context, active, change);
     insert_boundary(active, to, i);
     *change = cs_change_join(*change, (cs_change){to, active->count - (i + 1)});
   }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- heights */
@@ -220,21 +270,33 @@ static int32_t tile_row_of(const cs_active *active, double y) {
   return active->cull->tile_rows > 0 ? cs_cull_row(active->cull, y) : 0;
 }
 
-/* Inserts the chains that begin at or above y. */
+/* Whether so many chains begin at or above y that they are not inserted one by one. */
+static bool do_many_begin(const cs_active *active, double y) {
+  size_t last = active->next + MANY_BEGIN;
+  return last < active->set->chain_count && active->set->chains[last].y0 <= y;
+}
+
+static void insert_last(cs_active *active, cs_change *change) {
+  size_t last = active->count - 1, place = find_place(active, last);
+  if (place < last)
+    insert_boundary(active, place, last);
+  *change = cs_change_join(*change, (cs_change){place, last - place});
+}
+
+/* Takes in the chains that begin at or above y. */
 static celspan_status begin_chains(celspan_context *context, cs_active *active, double y,
                                    cs_change *change) {
   const cs_boundary_chain *chains = active->set->chains;
+  bool many = do_many_begin(active, y);
   for (; active->next < active->set->chain_count && chains[active->next].y0 <= y; active->next++) {
     uint32_t chain = (uint32_t)active->next;
     if (y < chains[chain].y1 && cs_cull_keeps(active->cull, chain, active->tile_row)) {
       CS_TRY(append(context, active, chain, y));
-      size_t last = active->count - 1, place = find_place(active, last);
-      if (place < last)
-        insert_boundary(active, place, last);
-      *change = cs_change_join(*change, (cs_change){place, last - place});
+      if (!many)
+        insert_last(active, change);
     }
   }
-  return CELSPAN_OK;
+  return many ? sort_all(context, active, change) : CELSPAN_OK;
 }
 
 celspan_status cs_active_start(celspan_context *context, cs_active *active, double y) {
@@ -396,7 +458,7 @@ static celspan_status settle_events(celspan_context *context, cs_active *active,
     active->rises = false;
   }
   if (!active->rises)
-    sort(active, change);
+    CS_TRY(sort(context, active, change));
   CS_TRY(begin_chains(context, active, active->y, change));
   active->calm_until = find_calm(active);
   return CELSPAN_OK;
