@@ -141,7 +141,7 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   cs_extent extent = find_extent(area);
   CS_TRY(begin_item(area, &w->cells[low], low, extent.low));
   double shown = fmin(extent.high, area->tools.width) - fmax(extent.low, 0);
-  if (cs_dense_suits(sweep->count + sweep->begin_count, shown)) {
+  if (cs_dense_suits(sweep->count, shown)) {
     CS_TRY(cs_dense_draw(&area->dense, sweep, &w->cells[high]));
   } else {
     CS_TRY(cs_local_sweep_replay(sweep));
@@ -247,7 +247,7 @@ static int count_slabs(const cs_area *area, int32_t y) {
   size_t events = cs_intervals_count_begins(active, y + 1.0);
   int slabs = 1;
   size_t most = (size_t)(2 * CS_DENSE_A_PIXEL) * (size_t)area->tools.width;
-  bool is_dense = events + active->count > most; /* then most of them are in dense intervals */
+  bool is_dense = active->count > most; /* then most of them are in dense intervals */
   if (events + active->count <= ROW_EVENTS || is_dense ||
       cs_procedures_meet(area->tools.procedures, y))
     return 1;

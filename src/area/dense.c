@@ -6,7 +6,7 @@
 
 #define SUB_ROWS 64     /* in a whole row */
 #define PARTS 256    /* of a pixel's width */
-#define LEAST 256    /* boundaries of a dense interval */
+#define LEAST 2048   /* boundaries of a dense interval */
 #define DIGIT_BITS 11 /* in sorting */
 #define DIGIT (1 << DIGIT_BITS)
 

@@ -36,7 +36,8 @@ typedef struct cs_dense {
 } cs_dense;
 
 void cs_dense_finish(cs_dense *dense, cs_memory *memory);
-/* Whether members that lie within an extent, in pixels, are dense. */
+/* Whether members at the top of a row that lie within an extent, in pixels, are dense. What only
+ * begins in the row is not counted: it is replayed exactly, however small and regular it is. */
 bool cs_dense_suits(size_t members, double extent);
 /* Draws the members of a sweep, and those that begin, from sweep->y0 to sweep->y1. The composer is
  * left of them all, and is there again afterwards. right: the cell right of them all.

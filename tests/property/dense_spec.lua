@@ -2,7 +2,7 @@
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
 
-local SIDE, FINE = 12, 8 -- pixels a side; and the factor of the exact picture
+local SIDE, FINE = 6, 32 -- pixels a side; and the factor of the exact picture
 
 --- A polygon of so many random points, which crosses itself everywhere.
 local function scribble(count, seed)
@@ -53,19 +53,19 @@ end
 
 describe("dense pixels", function()
   it("show the mean of what lies in them", function()
-    for seed = 1, 4 do
-      compare(celspan.rostrum { back = "#fff", scribble(900 * seed, seed) }, "scribble")
-      compare(celspan.rostrum { squares(3000 * seed, seed) }, "squares")
+    for seed = 1, 2 do
+      compare(celspan.rostrum { back = "#fff", scribble(6500 + 1000 * seed, seed) }, "scribble")
+      compare(celspan.rostrum { squares(9000 * seed, seed) }, "squares")
     end
   end)
 
   it("are the same in any crop", function()
-    local rostrum = celspan.rostrum { scribble(3000, 7) }
+    local rostrum = celspan.rostrum { scribble(9000, 7) }
     local whole = shot(rostrum, SIDE)
-    local part = shot(rostrum, SIDE, { crop = { 2, 5, 7, 4 } })
+    local part = shot(rostrum, SIDE, { crop = { 2, 1, 3, 4 } })
     for y = 0, 3 do
-      for x = 0, 6 do
-        assert.are.same({ whole:get(x + 2, y + 5) }, { part:get(x, y) })
+      for x = 0, 2 do
+        assert.are.same({ whole:get(x + 2, y + 1) }, { part:get(x, y) })
       end
     end
   end)
@@ -73,7 +73,7 @@ describe("dense pixels", function()
   it("leave no gap where all is covered", function()
     local random = prng.new(3)
     local objects = { celspan.rect { -1, -1, SIDE + 2, SIDE + 2, texture = "#000" } } -- behind all
-    for i = 2, 2000 do
+    for i = 2, 40000 do
       local y = SIDE * random:between(0, 1)
       objects[i] = celspan.rect { -1, y, SIDE + 2, 0.4, texture = "#000" }
     end
