@@ -15,7 +15,7 @@
 /* The sag of even chords of a middle length. */
 #define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
 /* How the number of chords follows from their length: see choose_chords. Measured. */
-#define CHORDS_MOST 2.2
+#define CHORDS_MOST 2.45
 #define CHORDS_SHORT 1.64
 #define CHORD_LIMIT 1e9
 #define LEAP_MOST 8 /* groups */
