@@ -514,6 +514,7 @@ function celspan.cel(fields) end
 ---@field texture celspan.surface
 ---@field gain? number 0 or more, default 1
 ---@field on? "frame"|"cel" In film units on the frame (default), or in the cel's units, moving with it
+---@field matte? number 0..1, default 1: as a back light, what its beta is multiplied by to be the matte
 
 --- With a size it is an object too; transforms and fades give that object.
 ---@class celspan.rostrum: celspan.placed, celspan.rostrum.fields

@@ -307,14 +307,14 @@ end
 local known = { only = "table", front = "any", back = "any", viewport = "table", defocus = "any",
                 opacity = "number" }
 
---- The cel that adds the light of a picture to what is behind it.
+--- The cel that adds the light of a picture to what is behind it, of which the alpha stays.
 local function light_cel(entry, source, options)
   local picture = source.picture
   local x, y, w, h = entry.object:bounds()
   local texture = celspan.picture { file = picture.file, pixels = picture.pixels,
     box = { x, y, w, h } }
   return celspan.cel { back = { texture = texture, gain = entry.opacity * (options.opacity or 1),
-    on = "cel" }, viewport = options.viewport }:named(source.name)
+    on = "cel", matte = 0 }, viewport = options.viewport }:named(source.name)
 end
 
 local function cel_of(entry, options)

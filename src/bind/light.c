@@ -2,10 +2,10 @@
 
 #include "bind/userdata.h"
 
-static const cs_field fields[] = {{"texture", NULL}, {"gain", "1"}, {"on", "frame"}, {0}};
+static const cs_field fields[] = {{"texture", NULL}, {"gain", "1"}, {"on", "frame"}, {"matte", "1"}, {0}};
 static const cs_noun noun = {.name = "light", .fields = fields};
 
-/* { texture =, gain =, on = } on top of the stack. light: what it is called, "cel: front". */
+/* { texture =, gain =, on =, matte = } on top of the stack. light: what it is called, "cel: front". */
 static void read_shape(lua_State *L, const char *light, celspan_light_texture *out) {
   static const char *const places[] = {"frame", "cel", NULL};
   cs_noun named = noun;
@@ -13,6 +13,7 @@ static void read_shape(lua_State *L, const char *light, celspan_light_texture *o
   cs_form form = cs_form_open(L, &named, -1);
   out->gain = cs_form_number_or(&form, "gain", 1);
   out->on = (celspan_light_place)cs_form_choice(&form, "on", places);
+  out->matte = cs_form_number_or(&form, "matte", 1);
   out->texture = cs_form_texture(&form, "texture");
   if (!out->texture)
     cs_form_fail(&form, "field 'texture' is missing");

@@ -34,8 +34,8 @@ static celspan_light back_of(const cs_request *request, const celspan_rostrum *r
 static celspan_status make_lamp(celspan_context *context, const cs_light *light,
                                 celspan_cel **out) {
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
-  desc.back_texture =
-      (celspan_light_texture){.texture = light->texture, .gain = light->gain, .on = light->on};
+  desc.back_texture = (celspan_light_texture){
+      .texture = light->texture, .gain = light->gain, .on = light->on, .matte = light->matte};
   return celspan_cel_create(context, &desc, out);
 }
 

@@ -45,13 +45,13 @@ static celspan_status add_film_outline(cs_compiler *c, const cs_compiler_film *f
   return status;
 }
 
-/* A layer of a light with a shape. front: what its pigments are multiplied by. */
+/* A layer of a light with a shape. front: what its pigments are multiplied by. fade: of its paint. */
 static celspan_status append_shape(cs_compiler *c, const cs_light *light,
                                    const cs_compiler_film *film, const celspan_matrix *inverse,
-                                   cs_v4 front, uint32_t *index) {
+                                   cs_v4 front, double fade, uint32_t *index) {
   const cs_layers_texture place = {
       light->texture, {0, 0, film->width, film->height}, false, *inverse, c->frame};
-  CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, index));
+  CS_TRY(cs_layers_append(c, fade, CELSPAN_RULE_NONZERO, index));
   cs_layer *layer = &c->plan->stack.layers[*index];
   layer->front = front;
   return cs_layers_fill(c, layer, &place);
@@ -66,18 +66,18 @@ float cs_lights_keep(const celspan_rostrum *rostrum) {
   return keep;
 }
 
-/* Its pigments are not lit, so that only its T counts, which is 1 - beta. */
+/* Its pigments are not lit, so that only its T counts, which is 1 - matte * beta. */
 static celspan_status add_matte(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                 const cs_light *back, const cs_compiler_film *film) {
   celspan_matrix inverse;
   bool found;
   uint32_t layer;
-  if (!back->texture)
+  if (!back->texture || back->matte == 0)
     return CELSPAN_OK;
   CS_TRY(find_inverse(c, rostrum, index, back, film, &inverse, &found));
   if (!found)
     return CELSPAN_OK;
-  CS_TRY(append_shape(c, back, film, &inverse, cs_v4_all(0), &layer));
+  CS_TRY(append_shape(c, back, film, &inverse, cs_v4_all(0), back->matte, &layer));
   return add_film_outline(c, film, layer);
 }
 
@@ -129,7 +129,7 @@ celspan_status cs_lights_add_back(cs_compiler *c, const celspan_rostrum *rostrum
   CS_TRY(find_inverse(c, rostrum, index, &light, film, &inverse, &found));
   if (!found)
     return CELSPAN_OK;
-  CS_TRY(append_shape(c, &light, film, &inverse, under_shine(film, grey(light.gain)), &layer));
+  CS_TRY(append_shape(c, &light, film, &inverse, under_shine(film, grey(light.gain)), 1, &layer));
   cs_layer *added = &c->plan->stack.layers[layer];
   if (added->kind != CS_LAYER_FLAT) {
     added->role = CS_LAYER_BACK;
@@ -159,7 +159,8 @@ celspan_status cs_lights_light_group(cs_compiler *c, const cs_lights_front *fron
   uint32_t index;
   if (c->fades_out)
     return CELSPAN_OK;
-  CS_TRY(append_shape(c, &front->light, film, &front->inverse, grey(front->light.gain), &index));
+  CS_TRY(append_shape(c, &front->light, film, &front->inverse, grey(front->light.gain), 1,
+                      &index));
   stack->layers[index].role = CS_LAYER_FRONT;
   stack->groups[c->group].light = index;
   stack->groups[c->group].has_light = true;

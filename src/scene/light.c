@@ -11,15 +11,19 @@ static celspan_status check(celspan_context *context, const cs_light_desc *desc)
     return cs_check_light(context, desc->noun, desc->field, &desc->flat);
   CS_TRY(cs_check_item(context, (cs_check_field){desc->noun, desc->field, 0, "gain"}, shape->gain,
                        0, CS_NUMBER_LIMIT));
+  CS_TRY(cs_check_item(context, (cs_check_field){desc->noun, desc->field, 0, "matte"}, shape->matte,
+                       0, 1));
   return cs_check_item(context, (cs_check_field){desc->noun, desc->field, 0, "on"}, shape->on, 0,
                        CELSPAN_LIGHT_ON_CEL);
 }
 
 /* What a texture of one paint shines with. */
-static celspan_light flat_of(const celspan_texture *texture, double gain) {
+static celspan_light flat_of(const celspan_texture *texture, const celspan_light_texture *shape) {
   const cs_paint *paint = &texture->flat;
-  return (celspan_light){(float)(gain * (double)paint->s[0]), (float)(gain * (double)paint->s[1]),
-                         (float)(gain * (double)paint->s[2]), paint->beta};
+  return (celspan_light){(float)(shape->gain * (double)paint->s[0]),
+                         (float)(shape->gain * (double)paint->s[1]),
+                         (float)(shape->gain * (double)paint->s[2]),
+                         (float)(shape->matte * (double)paint->beta)};
 }
 
 celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc, cs_light *out) {
@@ -31,10 +35,14 @@ celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc
   }
   celspan_texture *texture;
   CS_TRY(cs_texture_create_light(context, shape->texture, &texture));
-  *out = (cs_light){.is_given = true, .texture = texture, .gain = shape->gain, .on = shape->on};
+  *out = (cs_light){.is_given = true,
+                    .texture = texture,
+                    .gain = shape->gain,
+                    .on = shape->on,
+                    .matte = shape->matte};
   if (texture->kind != CS_TEXTURE_FLAT)
     return CELSPAN_OK;
-  *out = (cs_light){.is_given = true, .flat = flat_of(texture, shape->gain)};
+  *out = (cs_light){.is_given = true, .flat = flat_of(texture, shape)};
   celspan_texture_unref(texture);
   return CELSPAN_OK;
 }
@@ -54,6 +62,7 @@ void cs_light_hash(cs_hash *hash, const cs_light *light) {
   cs_hash_hash(hash, light->texture->hash);
   cs_hash_number(hash, light->gain);
   cs_hash_word(hash, light->on);
+  cs_hash_number(hash, light->matte);
 }
 
 cs_light cs_light_scale(const cs_light *light, double brightness) {

@@ -1,7 +1,7 @@
 /* A light of a cel or a rostrum: one colour everywhere, or a texture.
  *
  *     flat          r, g, b; and the matte a of a back light
- *     texture       gain * beta * pigment at each point; its beta is the matte
+ *     texture       gain * beta * pigment at each point; the matte is matte * beta
  *
  *         on = FRAME                             on = CEL
  *      +------------------+                   +------------------+
@@ -24,6 +24,7 @@ typedef struct cs_light {
   celspan_texture *texture; /* NULL: flat */
   double gain;              /* of the texture; else 0 */
   celspan_light_place on;   /* likewise */
+  double matte;             /* likewise: what the texture's beta is multiplied by */
 } cs_light;
 
 /* What a description says of one light. */

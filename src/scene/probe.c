@@ -170,7 +170,7 @@ static celspan_status sample_texture(const probe_call *probe, const cs_light *li
       !(own.x >= 0 && own.x < film.width && own.y >= 0 && own.y < film.height))
     return CELSPAN_OK;
   CS_TRY(cs_oracle_texture(probe->context, texture, &film, own, &shade));
-  out->matte = shade.beta;
+  out->matte = light->matte * shade.beta;
   for (int c = 0; c < 3; c++)
     out->rgb[c] = light->gain * shade.s[c];
   return CELSPAN_OK;

@@ -271,6 +271,27 @@ describe("a light with a shape", function()
     assert.near(0, a, 1e-6)
   end)
 
+  it("may have a matte of its own, by which its beta is multiplied", function()
+    local beam = celspan.linear { from = { 0, 0 }, to = { 80, 0 }, { 0, celspan.rgb(1, 0.8, 0.6, 0) },
+                                  { 1, celspan.rgb(1, 0.8, 0.6, 1) } }
+    for _, texture in ipairs { beam, celspan.rgb(1, 0.8, 0.6, 0.5) } do
+      for _, matte in ipairs { 0, 0.25, 1 } do
+        local behind = celspan.cel { celspan.rect { 0, 0, 80, 60, texture = celspan.rgb(0.2, 0.2, 0.2, 0.5) } }
+        local rostrum = celspan.rostrum { behind, celspan.cel { back = { texture = texture, gain = 2, matte = matte } } }
+        local beta = texture == beam and 39.5 / 80 or 0.5
+        local expected = { 0.1 + 2 * beta, 0.1 + 1.6 * beta, 0.1 + 1.2 * beta, 1 - 0.5 * (1 - matte * beta) }
+        local probed, shown = { celspan.probe(rostrum, 39.5, 30.5, { film = { 80, 60 } }) }, { pixels(rostrum):get(39, 30) }
+        for c = 1, 4 do
+          assert.near(expected[c], probed[c], 1e-6)
+          assert.near(expected[c], shown[c], 1e-3)
+        end
+      end
+    end
+    assert.matches("cel: back.matte is 2; it must be between 0 and 1", raised(function()
+      return celspan.cel { back = { texture = beam, matte = 2 } }
+    end), 1, true)
+  end)
+
   it("of a rostrum lies on each cel that takes it", function()
     local front = { texture = slope, on = "cel" }
     local rostrum = celspan.rostrum { front = front, celspan.cel { celspan.rect { 0, 0, 80, 30, texture = "#fff" } }:translate(10, 0),

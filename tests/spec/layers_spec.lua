@@ -402,6 +402,16 @@ describe("the cels of a tree", function()
       probe(cels, 23, 8))
   end)
 
+  it("add light to what is translucent, and leave its alpha", function()
+    local tree = assert(layers.read(write(paintings.openraster { w = 40, h = 30, layers = {
+      { name = "ground", x = 0, y = 0, w = 20, h = 30, pixel = flat(200, 100, 50, 51) },
+      { name = "glow", x = 0, y = 0, w = 40, h = 30, blend = "svg:plus",
+        pixel = flat(128, 255, 64, 204) } } })))
+    near({ 0.2 * linear(200) + 0.8 * linear(128), 0.2 * linear(100) + 0.8,
+      0.2 * linear(50) + 0.8 * linear(64), 0.2 }, probe(tree:cels(), 10, 15))
+    near({ 0.8 * linear(128), 0.8, 0.8 * linear(64), 0 }, probe(tree:cels(), 30, 15))
+  end)
+
   it("in a group with opacity are one picture, mixed once", function()
     local group = { name = "both", opacity = 0.5, layers = {
       { name = "a", x = 0, y = 0, w = 40, h = 30, pixel = flat(255, 0, 0) },

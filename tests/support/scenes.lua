@@ -399,12 +399,12 @@ function maker:light(most)
   return table.concat(values, ", ")
 end
 
---- A light with a shape, on the frame or on the cel.
-function maker:light_shape(places)
+--- A light with a shape, on the frame or on the cel. has_matte: one from behind.
+function maker:light_shape(places, has_matte)
   local gain = self.random:between(0, 2)
   self.lights = self.lights + math.max(1, gain)
-  return ("{ texture = %s, gain = %s, on = %q }"):format(self:texture(), text_of(gain),
-                                                        self.random:pick(places))
+  return ("{ texture = %s, gain = %s, on = %q%s }"):format(self:texture(), text_of(gain),
+    self.random:pick(places), has_matte and gain > 1 and ", matte = " .. text_of(gain - 1) or "")
 end
 
 local anywhere, on_frame = { "frame", "frame", "cel" }, { "frame" }
@@ -415,7 +415,7 @@ function maker:front(most)
 end
 
 function maker:back(places)
-  if not self.is_plain and self.random:once(3) then return self:light_shape(places) end
+  if not self.is_plain and self.random:once(3) then return self:light_shape(places, true) end
   return ("{%s, %s}"):format(self:light(1), self:share())
 end
 

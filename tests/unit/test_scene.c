@@ -383,7 +383,7 @@ static bool same_hash(const celspan_rostrum *a, const celspan_rostrum *b) {
 }
 
 /* A scene in which `change` 0 is the scene itself and every other number changes one thing. */
-#define CHANGES 24
+#define CHANGES 26
 static celspan_rostrum *scene(studio *s, int change) {
   celspan_paint paint = celspan_paint_rgb(change == 1 ? 0.5f : 0.25f, 0, 0, 1);
   celspan_stop stops[2] = {{0, red}, {change == 2 ? 0.75 : 1, celspan_paint_clear()}};
@@ -410,6 +410,8 @@ static celspan_rostrum *scene(studio *s, int change) {
   cel.defocus_radius = change == 16 ? 2 : 1;
   cel.defocus_kernel = change == 17 ? CELSPAN_DEFOCUS_DISC : CELSPAN_DEFOCUS_GAUSSIAN;
   cel.opacity = change == 18 ? 0.5 : 1;
+  cel.front_texture.texture = change >= 25 ? linear : NULL;
+  cel.front_texture.matte = change == 26 ? 0.5 : 1;
   celspan_cel *cels[] = {studio_cel(s, cel, &both, 1), studio_cel(s, CELSPAN_CEL_DESC, NULL, 0)};
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   desc.brightness = change == 19 ? 2 : 1;
@@ -746,13 +748,18 @@ static void test_failing_allocations(void) {
 static void test_light_doors(studio *s) {
   celspan_texture *texture = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
-  desc.front_texture = (celspan_light_texture){texture, -1, CELSPAN_LIGHT_ON_FRAME};
+  desc.front_texture = (celspan_light_texture){texture, -1, CELSPAN_LIGHT_ON_FRAME, 1};
   refuse_cel(s, desc, "cel: front.gain is -1; it must be 0 or more");
   desc.front_texture.gain = 1;
   desc.front_texture.on = (celspan_light_place)7;
   refuse_cel(s, desc, "cel: front.on is 7; it must be between 0 and 1");
+  desc.front_texture.on = CELSPAN_LIGHT_ON_CEL;
+  desc.front_texture.matte = 1.5;
+  refuse_cel(s, desc, "cel: front.matte is 1.5; it must be between 0 and 1");
+  desc.front_texture.matte = NAN;
+  refuse_cel(s, desc, "cel: front.matte must be a finite number, got nan");
   celspan_rostrum_desc rostrum_desc = CELSPAN_ROSTRUM_DESC;
-  rostrum_desc.back_texture = (celspan_light_texture){texture, 1, CELSPAN_LIGHT_ON_CEL};
+  rostrum_desc.back_texture = (celspan_light_texture){texture, 1, CELSPAN_LIGHT_ON_CEL, 1};
   refuse_rostrum(s, rostrum_desc,
                  "rostrum: back cannot lie on the cel, because it belongs to none; it lies on the "
                  "frame");

@@ -191,8 +191,9 @@ typedef struct celspan_light {
 } celspan_light;
 
 /* A light with a shape, instead of one colour everywhere: at each point it is gain * beta * pigment
- * of its texture there, and as a back light its matte is beta. Media are not used. Beyond a picture
- * there is no light; a picture without a box lies on the film's frame. */
+ * of its texture there, and as a back light its matte is matte * beta: with a matte of 0 it adds light
+ * to what is behind and leaves its alpha. Media are not used. Beyond a picture there is no light; a
+ * picture without a box lies on the film's frame. */
 typedef enum celspan_light_place {
   CELSPAN_LIGHT_ON_FRAME = 0, /* film units after the viewport: the camera moves it */
   CELSPAN_LIGHT_ON_CEL        /* the cel's own units: it moves with the cel */
@@ -202,6 +203,7 @@ typedef struct celspan_light_texture {
   struct celspan_texture *texture; /* kept; NULL: none, so the plain light counts */
   double gain;                     /* >= 0 */
   celspan_light_place on;
+  double matte; /* 0..1; the descriptions of cels and rostrums begin with 1; unused in front */
 } celspan_light_texture;
 
 /* ---------------------------------------------------------------- textures
@@ -852,6 +854,7 @@ static inline celspan_cel_desc celspan_cel_desc_default(void) {
   desc.struct_size = sizeof desc;
   desc.opacity = 1;
   desc.front_texture.gain = desc.back_texture.gain = 1;
+  desc.front_texture.matte = desc.back_texture.matte = 1;
   return desc;
 }
 #define CELSPAN_CEL_DESC (celspan_cel_desc_default())
@@ -938,6 +941,7 @@ static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {
   desc.struct_size = sizeof desc;
   desc.brightness = 1;
   desc.front_texture.gain = desc.back_texture.gain = 1;
+  desc.front_texture.matte = desc.back_texture.matte = 1;
   return desc;
 }
 #define CELSPAN_ROSTRUM_DESC (celspan_rostrum_desc_default())
