@@ -1,11 +1,12 @@
-/* celspan info SCRIPT|FILE: a film, a picture or a span file in figures, one "name value" a line.
- * Which of them it is, its content tells. */
+/* celspan info SCRIPT|FILE: a film, a picture, artwork or a span file in figures, one "name value" a
+ * line. Which of them it is, its content tells. */
 #include <inttypes.h>
 #include <stdio.h>
 
 #include "base/context.h"
 #include "base/hash_table.h"
 #include "bind/lua_text.h"
+#include "cli/artwork_info.h"
 #include "cli/interrupt.h"
 #include "cli/names.h"
 #include "cli/picture_info.h"
@@ -109,11 +110,7 @@ static cs_exit inform_spans(celspan_context *context, const char *path) {
   return cs_report_failure(context, status, NULL);
 }
 
-cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
-  if (cs_span_reader_accepts(request->operands[0]))
-    return inform_spans(context, request->operands[0]);
-  if (!cs_lua_text_accepts(request->operands[0]))
-    return cs_picture_info_print(context, request->operands[0]);
+static cs_exit inform_script(celspan_context *context, const cs_request *request) {
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, &script);
   totals s = {.names.context = context};
@@ -125,4 +122,22 @@ cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
   cs_hash_table_finish(&s.scenes, context);
   cs_script_close(&script);
   return outcome;
+}
+
+/* A Photoshop document is a picture with subimages for `layer`, and a painting with more of it. */
+static cs_exit inform_artwork(celspan_context *context, const char *path, cs_artwork kind) {
+  cs_exit outcome = kind == CS_ARTWORK_PSD ? cs_picture_info_print(context, path) : CS_EXIT_OK;
+  return outcome == CS_EXIT_OK ? cs_artwork_info_print(context, path, kind) : outcome;
+}
+
+cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
+  const char *path = request->operands[0];
+  cs_artwork kind = cs_artwork_info_kind(path);
+  if (kind != CS_ARTWORK_NONE)
+    return inform_artwork(context, path, kind);
+  if (cs_span_reader_accepts(path))
+    return inform_spans(context, path);
+  if (!cs_lua_text_accepts(path))
+    return cs_picture_info_print(context, path);
+  return inform_script(context, request);
 }

@@ -59,13 +59,20 @@ static cs_exit open_state(cs_script *script) {
   return CS_EXIT_INTERNAL;
 }
 
-cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out) {
+cs_exit cs_script_start(celspan_context *context, cs_script *out) {
   *out = (cs_script){.context = context};
   cs_exit outcome = open_state(out);
   if (outcome != CS_EXIT_OK)
     return outcome;
   running = out->L;
   cs_interrupt_call(interrupt_script);
+  return CS_EXIT_OK;
+}
+
+cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out) {
+  cs_exit outcome = cs_script_start(context, out);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
   celspan_status status =
       cs_lua_script_run(out->L, request->operands[0], (int)request->script_argument_count,
                         (const char *const *)request->script_arguments);

@@ -580,6 +580,66 @@ describe("the command line", function()
         .. "subimage 2 size 85x46 channels 4 depth 8 layer \u{421}\u{43b}\u{43e}\u{439}\n", 1, true), out)
     end)
 
+    describe("but artwork", function()
+      local paintings = require "tests.support.paintings"
+      local is_read = pcall(function()
+        assert(require "celspan.layers".read "scripts/paintings/valley.ora")
+      end)
+      local it_reads_artwork = is_read and it or pending
+
+      local function dot(x, y) return x * 80, y * 80, 0, 255 end
+
+      it_reads_artwork("tells of the layers of an archive, and of what is skipped", function()
+        local path = write("a.ora", paintings.openraster { w = 20, h = 10, layers = {
+          { name = "ground", x = 0, y = 0, w = 3, h = 2, pixel = dot },
+          { name = "far\tgroup", opacity = 0.5, visible = false, layers = {
+            { name = "haze", x = 4, y = 5, w = 2, h = 2, blend = "svg:screen", pixel = dot } } } } })
+        assert.same({ 0, "format painting\ncanvas 20x10\nlayers 2\ngroups 1\n"
+          .. "layer size 3x2 at 0,0 blend normal opacity 1 visible yes name ground\n"
+          .. "layer size 2x2 at 4,5 blend screen opacity 1 visible yes name far group/haze\n"
+          .. "group blend normal opacity 0.5 visible no name far group\n"
+          .. "skipped far group/haze: blend mode \"screen\": it is shown as normal\n", "" },
+          { celspan("info " .. path) })
+      end)
+
+      it_reads_pictures("tells of a Photoshop document as a picture and as a painting", function()
+        local psd = paintings.psd { w = 20, h = 10, layers = {
+          { name = "ink", x = 1, y = 2, w = 3, h = 2, pixel = dot, blend = "mul " } } }
+        local code, out, err = celspan("info " .. write("a.psd", psd))
+        assert.equal(0, code, err)
+        assert.truthy(out:find("^format psd\nsize 20x10\n"), out)
+        assert.truthy(out:find("\ncanvas 20x10\nlayers 1\ngroups 0\n"
+          .. "layer size 3x2 at 1,2 blend multiply opacity 1 visible yes name ink\n$"), out)
+        local material = os.getenv "CELSPAN_MATERIAL"
+        if not material then return pending "CELSPAN_MATERIAL is not set" end
+        code, out, err = celspan("info " .. material .. "/psd/colormodes/4x4_8bit_cmyk.psd")
+        assert.equal(0, code, err)
+        assert.truthy(out:find("\nlayers unread: [^\n]*is a Photoshop document in CMYK colour[^\n]*\n$"), out)
+      end)
+
+      it_reads_artwork("tells of the parts of a drawing", function()
+        local svg = write("a.svg", '\n<svg xmlns="http://www.w3.org/2000/svg" width="40" height="30">'
+          .. '<rect id="hat" x="3" y="4" width="10" height="5"/>\n<foreignObject width="4" height="4"/></svg>')
+        local code, out, err = celspan("info " .. svg)
+        assert.equal(0, code, err)
+        assert.truthy(out:find("^format svg\nsize 40x30\nparts %d\n"), out)
+        assert.truthy(out:find("\npart size 10x5 at 3,4 name hat\n", 1, true), out)
+        assert.truthy(out:find "\nskipped line 3: [^\n]+\n$", out)
+      end)
+
+      it("says what is wrong with it", function()
+        local function refused(path, pattern)
+          local code, out, err = celspan("info " .. path)
+          assert.same({ 4, "" }, { code, out })
+          assert.truthy(err:find(pattern), err)
+        end
+        refused(write("b.ora", "PK\3\4 and no more"), "b%.ora: ")
+        refused(write("b.svg", "<svg"), "b%.svg")
+        shell("mkdir -p " .. folder .. "/empty")
+        refused(folder .. "/empty", "the folder holds no pictures")
+      end)
+    end)
+
     --- An OpenEXR file of one pixel, all 1, with these channels of half floats.
     local function exr(channels)
       local function attribute(name, kind, value)
