@@ -401,6 +401,7 @@ function celspan.image(fields) end
 ---@field features? table<string, boolean|integer> Of OpenType: { liga = false, ss01 = true, salt = 2 }
 ---@field variations? table<string, number> Axes of variable fonts: { wght = 700 }
 ---@field language? string "en", "tr", "zh-Hant"
+---@field face? integer Of files that are collections (.ttc, .otc): which of their fonts; default 1
 
 ---@class celspan.text.fields: celspan.text.common
 ---@field [integer] string The text; \n breaks lines
@@ -414,6 +415,7 @@ function celspan.image(fields) end
 
 ---@class celspan.text: celspan.object, celspan.text.common
 ---@field [integer] string
+---@field face integer
 ---@field size number
 ---@field at? number[]
 ---@field align "left"|"centre"|"right"

@@ -78,14 +78,14 @@ static void close_font(cs_type_font *font) {
   free(font);
 }
 
-static celspan_status open_font(const void *bytes, size_t size, const celspan_variation *variations,
-                                size_t variation_count, cs_type_font_info *info,
-                                cs_type_font **out) {
+static celspan_status open_font(const void *bytes, size_t size, uint32_t index,
+                                const celspan_variation *variations, size_t variation_count,
+                                cs_type_font_info *info, cs_type_font **out) {
   cs_type_font *made = calloc(1, sizeof *made);
   if (!made)
     return CELSPAN_NO_MEMORY;
   hb_blob_t *blob = hb_blob_create(bytes, (unsigned)size, HB_MEMORY_MODE_READONLY, NULL, NULL);
-  hb_face_t *face = hb_face_create(blob, 0);
+  hb_face_t *face = hb_face_create(blob, index);
   made->font = hb_font_create(face);
   made->functions = create_functions();
   *info = (cs_type_font_info){hb_face_get_upem(face), hb_face_get_glyph_count(face), 0};

@@ -63,10 +63,12 @@ typedef struct cs_type_outliner {
 enum { CS_TYPE_NO_BREAK = 0, CS_TYPE_MAY_BREAK, CS_TYPE_MUST_BREAK };
 
 typedef struct cs_type_functions {
-  /* bytes: borrowed until close; a font that was found sound (text/font_file.h). variations: at
-   * most 64; values are held to the range of their axes. Errors: NO_MEMORY. */
-  celspan_status (*open)(const void *bytes, size_t size, const celspan_variation *variations,
-                         size_t variation_count, cs_type_font_info *info, cs_type_font **out);
+  /* bytes: borrowed until close; a font that was found sound (text/font_file.h). face: of a
+   * collection, else 0. variations: at most 64; values are held to the range of their axes.
+   * Errors: NO_MEMORY. */
+  celspan_status (*open)(const void *bytes, size_t size, uint32_t face,
+                         const celspan_variation *variations, size_t variation_count,
+                         cs_type_font_info *info, cs_type_font **out);
   void (*close)(cs_type_font *font);
   /* Calls `take` for each glyph, from left to right, until it answers false; characters descend
    * where the run is leftward. Glyphs that belong together name the same character.

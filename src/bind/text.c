@@ -61,6 +61,14 @@ static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
   }
 }
 
+/* Which font of collections; in Lua from 1. */
+static uint32_t read_face(const cs_form *form) {
+  int face = cs_form_integer_or(form, "face", 1);
+  if (face < 1)
+    cs_form_fail(form, "field 'face' must be 1 or more, got %d", face);
+  return (uint32_t)face - 1;
+}
+
 /* Raises unless the value on top of the stack, below which is its name, is a table by name. */
 static bool get_settings(const cs_form *form, const char *field) {
   lua_pushstring(form->L, field);
@@ -147,6 +155,7 @@ static celspan_text_desc read_text(const cs_form *form) {
   desc.language = cs_form_text_or(form, "language", NULL);
   desc.direction = (celspan_direction)cs_form_choice(form, "direction", directions);
   read_fonts(form, &desc);
+  desc.face = read_face(form);
   read_features(form, &desc);
   read_variations(form, &desc);
   desc.texture = cs_form_texture(form, "texture");
@@ -165,7 +174,7 @@ static void create_text(const cs_form *form, cs_userdata *value) {
 #define TEXT_FIELDS                                                                                \
   {"font", NULL}, {"size", "48"}, {"at", NULL}, {"align", "left"}, {"width", NULL},                \
       {"leading", "1.2"}, {"tracking", "0"}, {"features", NULL}, {"variations", NULL},             \
-      {"language", NULL}, {"direction", NULL}, {                                                   \
+      {"language", NULL}, {"direction", NULL}, {"face", "1"}, {                                    \
     "texture", "#000000"                                                                           \
   }
 static const cs_field text_fields[] = {TEXT_FIELDS, {0}};

@@ -79,11 +79,13 @@ static celspan_status open_font(celspan_context *context, const request *wanted,
   CS_TRY(cs_artwork_module(context, "setting type", &module));
   font->size = wanted->size;
   CS_TRY(cs_font_file_read(context, wanted->file, wanted->size, &font->bytes));
-  CS_TRY(cs_font_file_check(context, wanted->file, font->bytes, font->size));
+  const celspan_text_desc *desc = wanted->desc;
+  CS_TRY(cs_font_file_check(context, wanted->file, font->bytes, font->size, desc->face));
+  uint32_t face = cs_font_file_is_collection(font->bytes, font->size) ? desc->face : 0;
   font->type = module->type;
   cs_type_font *opened;
-  if (font->type->open(font->bytes, font->size, wanted->desc->variations,
-                       wanted->desc->variation_count, &font->info, &opened) != CELSPAN_OK)
+  if (font->type->open(font->bytes, font->size, face, desc->variations, desc->variation_count,
+                       &font->info, &opened) != CELSPAN_OK)
     return cs_fail_memory(context);
   font->font = opened;
   pthread_mutex_init(&font->lock, NULL);
@@ -99,7 +101,8 @@ static celspan_status make_font(void *user, celspan_context *context, cs_cache_e
   return open_font(context, wanted, (cs_font *)entry);
 }
 
-/* Two fonts are the same when their files, and what is known of them, are, and their variations. */
+/* Two fonts are the same when their files, and what is known of them, are, and their faces and
+ * variations. */
 static cs_cache_key key_of(const request *wanted, const struct stat *found) {
   cs_hash hash = cs_hash_begin(0);
   cs_hash_text(&hash, wanted->file);
@@ -107,6 +110,7 @@ static cs_cache_key key_of(const request *wanted, const struct stat *found) {
   cs_hash_word(&hash, (uint64_t)found->st_dev);
   cs_hash_word(&hash, (uint64_t)found->st_mtim.tv_sec);
   cs_hash_word(&hash, (uint64_t)found->st_mtim.tv_nsec);
+  cs_hash_word(&hash, wanted->desc->face);
   for (size_t i = 0; i < wanted->desc->variation_count; i++) {
     cs_hash_text(&hash, wanted->desc->variations[i].tag);
     cs_hash_number(&hash, wanted->desc->variations[i].value);

@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -91,19 +92,31 @@ static celspan_status fail_cut(const font_bytes *font, size_t wanted) {
                  font->size, wanted);
 }
 
-static celspan_status find_directory(font_bytes *font) {
+bool cs_font_file_is_collection(const uint8_t *bytes, size_t size) {
+  return size >= 4 && memcmp(bytes, "ttcf", 4) == 0;
+}
+
+/* In a collection, a table of offsets from byte 12 on leads to the directories of its fonts. */
+static celspan_status find_face(font_bytes *font, uint32_t face) {
+  uint32_t count = number_at(font, 8);
+  if (count == 0)
+    return fail_format(font);
+  if (face >= count)
+    return cs_fail(font->context, CELSPAN_BAD_ARGUMENT,
+                   "%s: face %" PRIu64 " is none of the collection's, which are 1 to %" PRIu32,
+                   font->file, (uint64_t)face + 1, count);
+  size_t entry = 12 + 4 * (size_t)face;
+  if (entry + 4 > font->size)
+    return fail_cut(font, entry + 4);
+  font->directory = number_at(font, entry);
+  return font->directory > font->size - 12 ? fail_cut(font, font->directory + 12) : CELSPAN_OK;
+}
+
+static celspan_status find_directory(font_bytes *font, uint32_t face) {
   if (font->size < 12)
     return fail_format(font);
-  bool is_collection = number_at(font, 0) == CS_TYPE_TAG('t', 't', 'c', 'f');
-  if (is_collection) {
-    if (font->size < 16)
-      return fail_cut(font, 16);
-    if (number_at(font, 8) == 0)
-      return fail_format(font);
-    font->directory = number_at(font, 12);
-    if (font->directory > font->size - 12)
-      return fail_cut(font, font->directory + 12);
-  }
+  if (cs_font_file_is_collection(font->bytes, font->size))
+    CS_TRY(find_face(font, face));
   uint32_t kind = number_at(font, font->directory);
   bool is_known = kind == 0x00010000 || kind == CS_TYPE_TAG('O', 'T', 'T', 'O') ||
                   kind == CS_TYPE_TAG('t', 'r', 'u', 'e');
@@ -124,9 +137,9 @@ static bool is_among(uint32_t tag, const uint32_t *tags) {
 }
 
 celspan_status cs_font_file_check(celspan_context *context, const char *file, const uint8_t *bytes,
-                                  size_t size) {
+                                  size_t size, uint32_t face) {
   font_bytes font = {context, file, bytes, size, 0};
-  CS_TRY(find_directory(&font));
+  CS_TRY(find_directory(&font, face));
   size_t count = number_at(&font, font.directory + 4) >> 16, end = font.directory + 12 + 16 * count;
   if (end > size)
     return fail_cut(&font, end);

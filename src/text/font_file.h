@@ -22,8 +22,11 @@ CELSPAN_CHECKED celspan_status cs_font_file_stat(celspan_context *context, const
 /* *bytes: new, of `size` bytes, the size that was found above. Errors: NO_MEMORY, INPUT, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_font_file_read(celspan_context *context, const char *file,
                                                  size_t size, uint8_t **bytes);
-/* Errors: INPUT for what is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours. */
+/* face: of a collection, which has others too; any number for a file of one font.
+ * Errors: INPUT for what is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours, and a
+ * face that the collection does not have. */
 CELSPAN_CHECKED celspan_status cs_font_file_check(celspan_context *context, const char *file,
-                                                  const uint8_t *bytes, size_t size);
+                                                  const uint8_t *bytes, size_t size, uint32_t face);
+bool cs_font_file_is_collection(const uint8_t *bytes, size_t size);
 
 #endif

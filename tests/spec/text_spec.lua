@@ -386,7 +386,7 @@ describe("text as a primitive", function()
     local x = other:bounds()
     local plain = text({ "Bye", at = { 13, 4 } }):bounds()
     assert.is_true(math.abs(x - plain) < 1e-9)
-    assert.are.equal('text{ size = 48, at = {3, 4}, leading = 1.2, tracking = 0 }', tostring(hello))
+    assert.are.equal('text{ size = 48, at = {3, 4}, leading = 1.2, tracking = 0, face = 1 }', tostring(hello))
   end)
 
   it("may be nothing: no letters, spaces, no size", function()
@@ -512,5 +512,44 @@ describe("the command line", function()
     assert.are.equal(4, code)
     assert.is_true(os.execute(("CELSPAN_ART_MODULE=/nowhere/art.so '%s' check '%s' >/dev/null 2>&1")
       :format(BINARY, script)))
+  end)
+end)
+
+describe("a collection of fonts", function()
+  local there = pcall(celspan.text, { "A", font = "../../scripts/type/block.ttf" })
+  local it_sets_type = there and it or pending
+
+  --- The project's font, `count` times under one header; faces share its tables.
+  local function collection(count)
+    local file = assert(io.open("scripts/type/block.ttf", "rb"))
+    local font = file:read "a"
+    file:close()
+    local head = 12 + 4 * count
+    local tables = string.unpack(">I2", font, 5)
+    local out = { font:sub(1, 12) }
+    for i = 0, tables - 1 do
+      local tag, sum, at, size = string.unpack(">c4I4I4I4", font, 13 + 16 * i)
+      out[#out + 1] = string.pack(">c4I4I4I4", tag, sum, at + head, size)
+    end
+    return "ttcf" .. string.pack(">I4I4", 0x10000, count) .. string.pack(">I4", head):rep(count)
+      .. table.concat(out) .. font:sub(13 + 16 * tables)
+  end
+
+  it_sets_type("gives the face that is asked for, and names those that it has", function()
+    local path = os.tmpname()
+    local file = assert(io.open(path, "wb"))
+    file:write(collection(2))
+    file:close()
+    local plain = { celspan.text { "Again", font = "../../scripts/type/block.ttf" }:bounds() }
+    for face = 1, 2 do
+      assert.are.same(plain, { celspan.text { "Again", font = path, face = face }:bounds() })
+    end
+    local good, refusal = pcall(celspan.text, { "Again", font = path, face = 3 })
+    assert.is_false(good)
+    assert.matches("face 3 is none of the collection's, which are 1 to 2", refusal, 1, true)
+    good, refusal = pcall(celspan.text, { "Again", font = path, face = 0 })
+    assert.is_false(good)
+    assert.matches("field 'face' must be 1 or more, got 0", refusal, 1, true)
+    os.remove(path)
   end)
 end)

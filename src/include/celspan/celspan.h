@@ -608,7 +608,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
     celspan_context *context, const celspan_scanline_desc *desc, celspan_object **out);
 
-/* ---- text: outlines of the letters of fonts (TrueType, OpenType; the first one of a collection) */
+/* ---- text: outlines of the letters of fonts (TrueType, OpenType, collections of them) */
 
 typedef struct celspan_font {
   const char *file;  /* copied */
@@ -661,6 +661,7 @@ typedef struct celspan_text_desc {
   const char *language;   /* a BCP 47 tag such as "tr"; NULL: none */
   celspan_direction direction;
   celspan_texture *texture; /* kept; NULL: opaque black */
+  uint32_t face;            /* of fonts that are collections: which of theirs, from 0 */
 } celspan_text_desc;
 
 static inline celspan_text_desc celspan_text_desc_default(void) {
