@@ -30,8 +30,8 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   local time = f.middle
   local travel = 240 * pan(f.progress)
   local function window(depth) return { travel * depth, 0, f.width, f.height } end
-  local function plane(depth, front, ...)
-    return celspan.cel { celspan.union { ... }, front = front, viewport = window(depth) }
+  local function plane(name, depth, front, ...)
+    return celspan.cel { celspan.union { ... }, front = front, viewport = window(depth) }:named(name)
   end
   local function light(distance) return palette.lights[distance]:at(time) end
 
@@ -43,33 +43,35 @@ return celspan.film { title = "The lamplighter", frames = 240, frame = function(
   local meadow = celspan.union { landscape.meadow, landscape.branch }
 
   local painted = celspan.rostrum {
-    sky.air(time), sky.stars(time, cue.stars), halo, disc, sky.clouds(time),
-    flock.draw(time, -150 + 330 * time, 330 - 22 * time),
-    plane(0.1, light "far", landscape.mountains),
-    plane(0.2, light "far", landscape.hills),
-    plane(0.3, light "middle", landscape.lake),
-    plane(0.42, light "middle", landscape.poplars, landscape.slope, village.houses, village.panes),
-    plane(0.65, light "near", landscape.oaks, landscape.near),
-    plane(1, light "near", landscape.ground),
-    plane(1, light "figure", stand(figure)),
-    plane(1, grey(0.5 + flame), stand(glass)),
-    plane(1, light "figure", stand(frame)),
-    plane(1.5, light "near", meadow),
-    celspan.cel { name:translate(330, 330), front = grey(1.2) },
+    sky.air(time):named "air", sky.stars(time, cue.stars):named "stars", halo:named "halo",
+    disc:named "sun", sky.clouds(time):named "clouds",
+    flock.draw(time, -150 + 330 * time, 330 - 22 * time):named "birds",
+    plane("mountains", 0.1, light "far", landscape.mountains),
+    plane("hills", 0.2, light "far", landscape.hills),
+    plane("lake", 0.3, light "middle", landscape.lake),
+    plane("village", 0.42, light "middle", landscape.poplars, landscape.slope, village.houses,
+      village.panes),
+    plane("oaks", 0.65, light "near", landscape.oaks, landscape.near),
+    plane("ground", 1, light "near", landscape.ground),
+    plane("lamplighter", 1, light "figure", stand(figure)),
+    plane("flame", 1, grey(0.5 + flame), stand(glass)),
+    plane("lantern", 1, light "figure", stand(frame)),
+    plane("meadow", 1.5, light "near", meadow),
+    celspan.cel { name:translate(330, 330), front = grey(1.2) }:named "title",
   }
   if flame == 0 then return painted end
 
   local gels, card, halos = village.light_box(time, cue.houses, window(0.42))
   local lantern = { texture = palette.lamplight(1500 + wick[1], 946 + wick[2], 900), on = "cel" }
-  local function lamplit(gain, art)
+  local function lamplit(name, gain, art)
     lantern.gain = gain * flame
-    return plane(1, lantern, art)
+    return plane(name, 1, lantern, art)
   end
   local lit = celspan.rostrum {
-    gels, card, halos,
-    lamplit(1.5, landscape.ground), lamplit(1.7, stand(figure)), plane(1, grey(0), stand(glass)),
-    lamplit(1, stand(frame)),
-    plane(1.5, grey(0), meadow),
+    gels:named "gels", card:named "card", halos:named "halos",
+    lamplit("ground", 1.5, landscape.ground), lamplit("lamplighter", 1.7, stand(figure)),
+    plane("flame", 1, grey(0), stand(glass)), lamplit("lantern", 1, stand(frame)),
+    plane("meadow", 1.5, grey(0), meadow),
   }
   return { { painted, 1 }, { lit, 1 } }
 end }

@@ -93,9 +93,10 @@ function character.draw(time, shape)
   local holding, gx, gy = arm(1, 30 + sway * 1.5, 44 + sway * 2)
   local glass, frame, flame = lantern(gx, gy, 5 * math.sin(time * 2.6))
   local head = face.draw(time, shape)
-    :rotate(2.4 * math.sin(time * 2.3) - 2):translate(sway * 2, -392 + sway)
+    :rotate(2.4 * math.sin(time * 2.3) - 2):translate(sway * 2, -392 + sway):named "head"
   local figure = celspan.union {
-    tail(time, 0, 250, 40), tail(time, 1.3, 200, 96), holding, body, story, head, collar }
+    tail(time, 0, 250, 40), tail(time, 1.3, 200, 96), holding:named "lantern arm", body,
+    story:named "telling arm", head, collar }
   return figure, glass, frame, flame
 end
 

@@ -69,10 +69,11 @@ function face.draw(time, shape)
   local openness, lift = lids(time), brows:at(time)
   return celspan.union {
     back_hair, skull, cheeks,
-    nose:translate(dx, dy), eye(-47, dx, dy, openness), eye(29, dx, dy, openness),
-    mouths[shape]:translate(-9 + dx * 0.7, 42 + dy * 0.5),
-    fringe, brow(-47 + dx, lift, 3), brow(29 + dx, lift, -3),
-    hat(time),
+    nose:translate(dx, dy):named "nose",
+    eye(-47, dx, dy, openness):named "left eye", eye(29, dx, dy, openness):named "right eye",
+    mouths[shape]:translate(-9 + dx * 0.7, 42 + dy * 0.5):named "mouth",
+    fringe, brow(-47 + dx, lift, 3):named "left brow", brow(29 + dx, lift, -3):named "right brow",
+    hat(time):named "hat",
   }
 end
 

@@ -10,6 +10,7 @@
 #include "bind/files.h"
 #include "bind/host.h"
 #include "bind/painting.h"
+#include "bind/parts.h"
 #include "bind/random.h"
 #include "bind/suggest.h"
 #include "celspan/lua.h"
@@ -43,6 +44,7 @@ int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
                                        {"painting", cs_painting_read},
+                                       {"parts", cs_parts_list},
                                        {"folder", cs_painting_folder},
                                        {"within", cs_painting_within},
                                        {NULL, NULL}};

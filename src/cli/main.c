@@ -66,6 +66,18 @@ static const cs_verb VERBS[] = {
      "that\n"
      "was stopped goes on where it was.\n",
      cs_verb_tiles},
+    {CS_VERB_SHEET, "sheet", "FILE|SCRIPT", 1, 1,
+     "Prints an exposure sheet as text, converts it, or writes the sheet of a film.",
+     "A FILE is an exposure sheet: XDTS, the CSV of TVPaint, Krita or Clip Studio, an OCA folder, or "
+     "the\n"
+     "text that is printed; what ends in .lua is a script. The sheet of a film has a row for each "
+     "cel and\n"
+     "object with a name, and for cels without one by their places. Drawings are numbered as they "
+     "appear;\n"
+     "|  the drawing above goes on      -  nothing is there\n"
+     "/m  its placement, fade, viewport or lights changed      /p  a procedure draws it: not "
+     "compared\n",
+     cs_verb_sheet},
 };
 
 enum { VERB_COUNT = sizeof VERBS / sizeof VERBS[0] };

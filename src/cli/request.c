@@ -25,6 +25,8 @@ static const option OPTIONS[] = {
      "the folder for the pyramid and its page; made when it is missing"},
     {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_argument_text,
      "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames"},
+    {"-o", "OUT", "the name of a file", CS_VERB_SHEET, FIELD(output), cs_argument_text,
+     "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"},
     {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45", CS_VERB_RENDER | CS_VERB_CHECK,
      FIELD(frames), cs_argument_text, "the frames, such as 1-10,20-30:2,45; default: all"},
     {"--frame", "N", "the number of one frame", CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES,

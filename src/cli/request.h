@@ -52,8 +52,9 @@ typedef enum cs_verb_set {
   CS_VERB_CONVERT = 1 << 5,
   CS_VERB_COMPARE = 1 << 6,
   CS_VERB_TILES = 1 << 7,
-  CS_VERBS_WITH_SCRIPT =
-      CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES
+  CS_VERB_SHEET = 1 << 8,
+  CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
+                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET
 } cs_verb_set;
 
 typedef struct cs_verb {

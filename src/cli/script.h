@@ -17,7 +17,8 @@ typedef struct cs_script {
   cs_film_frame frame;      /* that frame; owned */
 } cs_script;
 
-/* Opens a state without a script. OK, or reported; either way *out may be closed. */
+/* Makes the Lua state of a verb that runs celspan's own modules and no script. OK, or reported;
+ * either way *out may be closed. */
 cs_exit cs_script_start(celspan_context *context, cs_script *out);
 /* Runs the script of the request. OK, or reported; either way *out may be closed. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out);

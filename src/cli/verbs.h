@@ -14,5 +14,6 @@ cs_exit cs_verb_probe(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_convert(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_compare(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request);
 
 #endif

@@ -17,21 +17,41 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
   return cs_check_share(context, "cel", "opacity", desc->opacity);
 }
 
+static void hash_objects(cs_hash *hash, const celspan_cel *cel) {
+  cs_hash_word(hash, cel->object_count);
+  for (size_t i = 0; i < cel->object_count; i++)
+    cs_hash_hash(hash, cel->objects[i]->hash);
+}
+
+static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
+  cs_value_hash_matrix(hash, &cel->matrix);
+  cs_hash_word(hash, cel->front.is_given);
+  cs_light_hash(hash, &cel->front);
+  cs_light_hash(hash, &cel->back);
+  cs_hash_word(hash, cel->has_viewport);
+  cs_value_hash_box(hash, &cel->viewport);
+  cs_hash_number(hash, cel->defocus_radius);
+  cs_hash_word(hash, cel->defocus_kernel);
+  cs_hash_number(hash, cel->opacity);
+}
+
 static cs_hash hash_cel(const celspan_cel *cel) {
   cs_hash hash = cs_hash_begin(CS_VALUE_CEL);
-  cs_hash_word(&hash, cel->object_count);
-  for (size_t i = 0; i < cel->object_count; i++)
-    cs_hash_hash(&hash, cel->objects[i]->hash);
-  cs_value_hash_matrix(&hash, &cel->matrix);
-  cs_hash_word(&hash, cel->front.is_given);
-  cs_light_hash(&hash, &cel->front);
-  cs_light_hash(&hash, &cel->back);
-  cs_hash_word(&hash, cel->has_viewport);
-  cs_value_hash_box(&hash, &cel->viewport);
-  cs_hash_number(&hash, cel->defocus_radius);
-  cs_hash_word(&hash, cel->defocus_kernel);
-  cs_hash_number(&hash, cel->opacity);
+  hash_objects(&hash, cel);
+  hash_placement(&hash, cel);
   return cs_hash_end(hash);
+}
+
+bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2], uint64_t placement[2]) {
+  cs_hash objects = cs_hash_begin(CS_VALUE_DATA), rest = cs_hash_begin(CS_VALUE_CEL);
+  hash_objects(&objects, cel);
+  hash_placement(&rest, cel);
+  cs_value_hash_give(cs_hash_end(objects), drawing);
+  cs_value_hash_give(cs_hash_end(rest), placement);
+  for (size_t i = 0; i < cel->object_count; i++)
+    if (cel->objects[i]->data->has_procedure)
+      return false;
+  return true;
 }
 
 /* A new cel with the fields of `fields`, and with references of its own to lights and objects. mark:

@@ -179,6 +179,15 @@ celspan_status celspan_object_fade(celspan_context *context, celspan_object *obj
                        cs_mark_keep(object->mark), out);
 }
 
+bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2], uint64_t placement[2]) {
+  cs_hash rest = cs_hash_begin(CS_VALUE_OBJECT);
+  cs_value_hash_matrix(&rest, &object->matrix);
+  cs_hash_number(&rest, object->fade);
+  cs_value_hash_give(object->data->hash, drawing);
+  cs_value_hash_give(cs_hash_end(rest), placement);
+  return !object->data->has_procedure;
+}
+
 celspan_status celspan_object_named(celspan_context *context, celspan_object *object,
                                     const char *name, celspan_object **out) {
   CS_TRY(cs_check_given(context, "named", "the object", object));

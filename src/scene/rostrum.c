@@ -206,8 +206,7 @@ void celspan_rostrum_unref(celspan_rostrum *rostrum) {
 }
 
 void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]) {
-  out[0] = rostrum->hash.a;
-  out[1] = rostrum->hash.b;
+  cs_value_hash_give(rostrum->hash, out);
 }
 
 /* ---------------------------------------------------------------- camera and lights */

@@ -30,3 +30,8 @@ void cs_value_hash_light(cs_hash *hash, const celspan_light *light) {
   cs_hash_number(hash, (double)light->b);
   cs_hash_number(hash, (double)light->a);
 }
+
+void cs_value_hash_give(cs_hash hash, uint64_t out[2]) {
+  out[0] = hash.a;
+  out[1] = hash.b;
+}

@@ -34,5 +34,7 @@ void cs_value_hash_box(cs_hash *hash, const celspan_box *box);
 void cs_value_hash_matrix(cs_hash *hash, const celspan_matrix *matrix);
 void cs_value_hash_paint(cs_hash *hash, const cs_paint *paint);
 void cs_value_hash_light(cs_hash *hash, const celspan_light *light);
+/* A hash as the two words that hosts are given. */
+void cs_value_hash_give(cs_hash hash, uint64_t out[2]);
 
 #endif

@@ -755,6 +755,12 @@ CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box
 /* Whether the point is inside the shape, whatever its paint: left and top edges are in, right and
  * bottom ones out. A scan-line procedure is not asked; its shape is its bounds. Shared read. */
 CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_point point);
+/* What an object shows in two halves, each 128 bits that are equal for equal content in every process:
+ * drawing, all but its outermost transform and fade, and placement, those two. Exposure sheets tell
+ * with them whether a drawing changed or only moved. false: the object holds a scan-line procedure,
+ * which cannot be compared, and `drawing` differs from object to object. Shared read. */
+CELSPAN_API bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2],
+                                     uint64_t placement[2]);
 
 /* ---------------------------------------------------------------- drawings in SVG */
 
@@ -883,6 +889,10 @@ CELSPAN_API void celspan_cel_unref(celspan_cel *cel);
 /* In the cel's units after its own transform, before the viewport. Shared read. */
 CELSPAN_API bool celspan_cel_bounds(const celspan_cel *cel, celspan_box *out);
 CELSPAN_API bool celspan_cel_contains(const celspan_cel *cel, celspan_point point);
+/* The same of a cel: drawing, its objects as they lie in it; placement, its transform, viewport,
+ * lights, defocus and opacity. */
+CELSPAN_API bool celspan_cel_hash(const celspan_cel *cel, uint64_t drawing[2],
+                                  uint64_t placement[2]);
 
 typedef enum celspan_antialias_mode {
   CELSPAN_ANTIALIAS_AREA = 0, /* the exact mean over each pixel */

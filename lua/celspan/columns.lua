@@ -1,0 +1,99 @@
+--- Columns of exposure sheets: what sheet.lua and the readers and writers of its formats share.
+--
+--   column.at      { 1, 5, 9 }              frames of change, ascending, from 1
+--   column.names   { "A1", "A2", false }    the drawing from there on; false: none
+--   column.marks   { [3] = { inbetween = true } }
+--
+-- INVARIANT: neighbours in `names` differ, so that a column has one form only.
+local columns = {}
+
+--- Sheets beyond these are refused.
+columns.most_frames = 10000000
+columns.most_layers = 65536
+
+--- The marks that a frame may have, with their letters in text.
+columns.marks = { { "inbetween", "i" }, { "reverse", "r" }, { "key", "k" }, { "reference", "f" },
+                  { "moved", "m" }, { "procedure", "p" } }
+
+function columns.new(name) return { name = name, at = {}, names = {}, marks = {} } end
+
+--- Appends a change; frames ascend. Of changes on one frame the last counts.
+function columns.add(column, frame, name)
+  local at, names = column.at, column.names
+  local count = #at
+  if at[count] == frame then
+    at[count], names[count] = nil, nil
+    count = count - 1
+  end
+  -- nothing is what a column begins with
+  if (names[count] or false) ~= name then at[count + 1], names[count + 1] = frame, name end
+end
+
+function columns.mark(column, frame, mark)
+  local set = column.marks[frame]
+  if not set then
+    set = {}
+    column.marks[frame] = set
+  end
+  set[mark] = true
+end
+
+--- The place of the change that holds at a frame; 0 before the first.
+function columns.find(column, frame)
+  local low, high = 0, #column.at
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if column.at[middle] <= frame then low = middle else high = middle - 1 end
+  end
+  return low
+end
+
+--- Sorts by `frame`, and leaves those of one frame in their order.
+function columns.sort(list)
+  local place, is_sorted = {}, true
+  for i, item in ipairs(list) do
+    place[item] = i
+    is_sorted = is_sorted and (i == 1 or list[i - 1].frame <= item.frame)
+  end
+  if is_sorted then return list end
+  table.sort(list, function(a, b)
+    if a.frame ~= b.frame then return a.frame < b.frame end
+    return place[a] < place[b]
+  end)
+  return list
+end
+
+--- What a reader raises: its message becomes that of read.
+function columns.fail(...) error({ message = string.format(...) }, 0) end
+
+--- Raises unless the text is UTF-8 without zero bytes. what: it is called so.
+function columns.check_text(text, what)
+  if not utf8.len(text) then columns.fail("%s is not UTF-8", what) end
+  if text:find "%z" then columns.fail("%s holds a zero byte", what) end
+  return text
+end
+
+--- The lines of a text, whatever ends them.
+function columns.lines(text)
+  local list = {}
+  for line in text:gsub("^\239\187\191", ""):gsub("\r\n?", "\n"):gmatch "([^\n]*)\n?" do
+    list[#list + 1] = line
+  end
+  while list[#list] == "" do list[#list] = nil end
+  return list
+end
+
+--- The frames of a sheet: those that were told, and those that changes and notes need.
+function columns.length(told, list, notes)
+  local frames = told
+  for _, column in ipairs(list) do
+    local count = #column.at
+    -- a last change to nothing ends the drawing before it
+    local last = count > 0 and column.at[count] - (column.names[count] and 0 or 1) or 0
+    frames = math.max(frames, last)
+  end
+  for _, note in ipairs(notes) do frames = math.max(frames, note.from) end
+  return frames
+end
+
+return columns

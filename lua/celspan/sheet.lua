@@ -1,0 +1,559 @@
+--- Exposure sheets: which drawing each layer shows at each frame.
+--
+--   local s = assert(sheet.read "shot.xdts")           -- .xdts, .csv, .txt, an OCA folder
+--   s:at("body", 12)                                   -- "3", or nil: nothing is there
+--   s:drawing("body", f, "drawings/body_####.png")     -- the picture of that drawing
+--
+-- Frames count from 1. A drawing holds until the next one. Layers are rearmost first.
+local celspan = require "celspan"
+local columns = require "celspan.columns"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local sheet_csv = require "celspan.sheet_csv"
+local sheet_oca = require "celspan.sheet_oca"
+local sheet_text = require "celspan.sheet_text"
+local xdts = require "celspan.xdts"
+
+local sheet = {}
+
+--- Longer files are refused.
+sheet.most_bytes = 256 * 1024 * 1024
+
+---@class celspan.sheet
+---@field name string
+---@field scene string
+---@field cut string
+---@field fps number
+---@field frames integer
+---@field layers string[] Rearmost first
+---@field notes celspan.sheet.note[] In order of their first frames
+---@field looks table[] Of each layer what its file says beside: opacity, blend, visible
+---@field width? integer
+---@field height? integer
+local Sheet = { __name = "celspan.sheet" }
+local methods = {}
+Sheet.__index = fields.reads("a sheet", methods, { width = true, height = true })
+
+---@class celspan.sheet.note
+---@field kind string "dialogue", "camera", or "field N" for what the file keeps in field N
+---@field column string The name of its column
+---@field from integer
+---@field to integer
+---@field speaker? string Of dialogue
+---@field text string
+
+--- The columns of each sheet: out of the sight of scripts, who could break their invariant.
+local stores = setmetatable({}, { __mode = "k" })
+
+-- ---------------------------------------------------------------- making
+
+local function check_names(list)
+  local known = {}
+  for i, column in ipairs(list) do
+    columns.check_text(column.name, ("the name of layer %d"):format(i))
+    for _, name in ipairs(column.names) do
+      if name and not known[name] then
+        columns.check_text(name, ("layer %q: a drawing's name"):format(column.name))
+        if name == "" then columns.fail("layer %q: a drawing's name is empty", column.name) end
+        known[name] = true
+      end
+    end
+  end
+end
+
+local function check_notes(notes, frames)
+  for i, note in ipairs(notes) do
+    note.frame = note.from
+    note.to = math.min(note.to or frames, frames)
+    for _, field in ipairs { "kind", "column", "text", "speaker" } do
+      if note[field] then columns.check_text(note[field], ("note %d: its %s"):format(i, field)) end
+    end
+  end
+  columns.sort(notes)
+  for _, note in ipairs(notes) do note.frame = nil end
+end
+
+--- The sheet of what a reader found. Raises { message = }.
+local function finish(found)
+  if not (found.fps > 0 and found.fps <= 1000) then
+    columns.fail("it has %s frames a second; it must be above 0 and at most 1000",
+      fields.shown(found.fps))
+  end
+  if not (found.frames >= 1 and found.frames <= columns.most_frames) then
+    columns.fail("it has %d frames; it must be 1 to %d", found.frames, columns.most_frames)
+  end
+  check_names(found.layers)
+  check_notes(found.notes, found.frames)
+  local made = { fps = found.fps, frames = found.frames, layers = {}, looks = {},
+                 notes = found.notes, width = found.width, height = found.height }
+  for _, field in ipairs { "name", "scene", "cut" } do
+    made[field] = columns.check_text(found[field] or "", "its " .. field)
+  end
+  for i, column in ipairs(found.layers) do
+    made.layers[i], made.looks[i] = column.name, column.look or {}
+  end
+  setmetatable(made, Sheet)
+  stores[made] = found.layers
+  return made
+end
+
+--- What a reader or writer gives, or nil and the message that it raised.
+local function caught(work, ...)
+  local good, value = pcall(work, ...)
+  if good then return value end
+  if type(value) ~= "table" then error(value, 0) end
+  return nil, value.message
+end
+
+-- ---------------------------------------------------------------- new
+
+local known_fields = { name = "string", scene = "string", cut = "string", fps = "number",
+                       frames = "number", layers = "table", drawings = "table", marks = "table",
+                       notes = "table", width = "number", height = "number" }
+
+--- A table from frames as a list in their order: { frame =, value = }.
+local function by_frame(given, what)
+  local list = {}
+  for frame, value in pairs(given) do
+    if math.type(frame) ~= "integer" or frame < 1 or frame > columns.most_frames then
+      columns.fail("%s: a frame must be a whole number from 1 to %d, got %s", what,
+        columns.most_frames, fields.shown(frame))
+    end
+    list[#list + 1] = { frame = frame, value = value }
+  end
+  return columns.sort(list)
+end
+
+local function fill_column(column, drawings, marks)
+  local what = ("drawings of %q"):format(column.name)
+  for _, entry in ipairs(by_frame(drawings, what)) do
+    if type(entry.value) ~= "string" and entry.value ~= false then
+      columns.fail("%s: frame %d must be a name, or false for nothing, got %s", what, entry.frame,
+        fields.kind(entry.value))
+    end
+    columns.add(column, entry.frame, entry.value)
+  end
+  local known = {}
+  for _, mark in ipairs(columns.marks) do known[mark[1]] = true end
+  what = ("marks of %q"):format(column.name)
+  for _, entry in ipairs(by_frame(marks, what)) do
+    if not known[entry.value] then
+      columns.fail("%s: frame %d must be inbetween, reverse, key, reference, moved or procedure",
+        what, entry.frame)
+    end
+    columns.mark(column, entry.frame, entry.value)
+  end
+end
+
+local function fill_notes(given, list)
+  for i, note in ipairs(given) do
+    local what = ("notes[%d]"):format(i)
+    if type(note) ~= "table" then columns.fail("%s must be a table, got %s", what, fields.kind(note)) end
+    local copy = {}
+    for field, wanted in pairs { kind = "string", column = "string", text = "string",
+                                 speaker = "string", from = "number", to = "number" } do
+      local value = note[field]
+      local may_miss = field == "speaker" or field == "to"
+      if type(value) ~= wanted and not (value == nil and may_miss) then
+        columns.fail("%s: %s must be a %s, got %s", what, field, wanted, fields.kind(value))
+      end
+      copy[field] = value
+    end
+    local from, to = math.tointeger(copy.from), math.tointeger(copy.to or copy.from)
+    if not from or not to or from < 1 or to < from or to > columns.most_frames then
+      columns.fail("%s: from and to must be whole numbers, 1 or more, in order", what)
+    end
+    copy.from, copy.to = from, to
+    list[i] = copy
+  end
+end
+
+local function make(given)
+  local list, notes, places = {}, {}, {}
+  for i, name in ipairs(given.layers or {}) do
+    if type(name) ~= "string" then
+      columns.fail("layers[%d] must be a name, got %s", i, fields.kind(name))
+    end
+    if places[name] then columns.fail("layers[%d]: %q is there twice", i, name) end
+    list[i], places[name] = columns.new(name), i
+  end
+  for _, field in ipairs { "drawings", "marks" } do
+    for name, value in pairs(given[field] or {}) do
+      if not places[name] or type(value) ~= "table" then
+        columns.fail("%s: %s must be a layer, with a table from frames", field, tostring(name))
+      end
+    end
+  end
+  for i, column in ipairs(list) do
+    fill_column(column, (given.drawings or {})[column.name] or {},
+      (given.marks or {})[column.name] or {})
+    list[i] = column
+  end
+  fill_notes(given.notes or {}, notes)
+  local frames = math.tointeger(given.frames or 1)
+  if not frames then columns.fail("frames must be a whole number") end
+  return finish { name = given.name, scene = given.scene, cut = given.cut, fps = given.fps or 24,
+    frames = columns.length(frames, list, notes), layers = list, notes = notes,
+    width = given.width, height = given.height }
+end
+
+---@class celspan.sheet.fields
+---@field name? string
+---@field scene? string
+---@field cut? string
+---@field fps? number Default 24
+---@field frames? integer Default: as many as the drawings need
+---@field layers? string[] Rearmost first
+---@field drawings? table<string, table<integer, string|false>> Of a layer: from the frame on, the drawing; false: nothing
+---@field marks? table<string, table<integer, string>>
+---@field notes? celspan.sheet.note[]
+---@field width? integer
+---@field height? integer
+
+---@param given celspan.sheet.fields
+---@return celspan.sheet
+function sheet.new(given)
+  fields.check("sheet", given, known_fields)
+  local made, message = caught(make, given)
+  return made or error("sheet: " .. message, 2)
+end
+
+-- ---------------------------------------------------------------- reading
+
+local function decode(text, path, which)
+  local start = text:gsub("^\239\187\191", "", 1)
+  if xdts.accepts(start) then return finish(xdts.decode(start, which)) end
+  if sheet_text.accepts(start) then return finish(sheet_text.decode(start)) end
+  if start:find "^%s*{" then return finish(sheet_oca.decode(start)) end
+  if sheet_csv.accepts(start) or path:lower():find "%.csv$" then
+    return finish(sheet_csv.decode(start))
+  end
+  columns.fail("it is none of XDTS, the CSV of TVPaint, Krita or Clip Studio, OCA, or celspan's "
+    .. "text, which begins with \"celspan sheet 1\"")
+end
+
+--- The document of an OCA folder.
+local function document_in(path, names)
+  table.sort(names)
+  for _, pattern in ipairs { "%.oca$", "%.json$" } do
+    for _, name in ipairs(names) do
+      if name:match(pattern) and not name:match "_meta%.json$" then return path .. "/" .. name end
+    end
+  end
+end
+
+local function read_whole(path)
+  local names = core.folder(path)
+  if names then
+    local document = document_in(path, names)
+    if not document then return nil, path .. ": the folder holds no OCA document" end
+    path = document
+  end
+  local file, message = io.open(path, "rb")
+  local text = file and file:read(sheet.most_bytes + 1)
+  if file then file:close() end
+  if not file then return nil, message end
+  text = text or ""
+  if #text > sheet.most_bytes then
+    return nil, ("%s: it has more than %d bytes, which is the limit"):format(path, sheet.most_bytes)
+  end
+  return text
+end
+
+---@param path string Relative to the caller's file, else to the script
+---@param options? { table?: integer|string } Of an XDTS the table, by number or name; default 1
+---@return celspan.sheet? sheet
+---@return string? message
+function sheet.read(path, options)
+  if type(path) ~= "string" then
+    error("sheet: read takes the name of a file or folder, got " .. fields.kind(path), 2)
+  end
+  options = options or {}
+  fields.check("sheet: read", options, { table = "any" })
+  local found_at, tried = core.find(path)
+  local text, message = read_whole(found_at)
+  if not text then return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message end
+  local made
+  made, message = caught(decode, text, path, options.table or 1)
+  if not made then return nil, ("%s: %s"):format(path, message) end
+  return made
+end
+
+-- ---------------------------------------------------------------- asking
+
+local function place_of(self, layer, method)
+  if math.type(layer) == "integer" and self.layers[layer] then return layer end
+  for i, name in ipairs(self.layers) do
+    if name == layer then return i end
+  end
+  local hint = type(layer) == "string" and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
+  error(("sheet: %s: there is no layer %s%s"):format(method,
+    type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
+    hint and ("; did you mean %q?"):format(hint) or ""), 3)
+end
+
+local function column_of(self, layer, method)
+  local store = stores[self] or error("sheet: " .. method .. ": call it as a method of a sheet", 3)
+  return store[place_of(self, layer, method)]
+end
+
+local function check_frame(frame, method)
+  if not fields.is_finite(frame) then
+    error(("sheet: %s takes a frame's number, a finite number, got %s"):format(method,
+      fields.shown(frame)), 3)
+  end
+  return math.floor(frame)
+end
+
+--- The name of the drawing that a layer shows at a frame; nil: none, or outside the sheet.
+---@param layer string|integer
+---@param frame integer From 1
+---@return string? drawing
+function methods:at(layer, frame)
+  local column = column_of(self, layer, "at")
+  frame = check_frame(frame, "at")
+  if frame < 1 or frame > self.frames then return nil end
+  return column.names[columns.find(column, frame)] or nil
+end
+
+--- The marks of a layer at a frame, as keys: inbetween, reverse, key, reference, moved, procedure.
+---@param layer string|integer
+---@param frame integer
+---@return table<string, true> marks
+function methods:marks(layer, frame)
+  local column = column_of(self, layer, "marks")
+  local marks = {}
+  for mark in pairs(column.marks[check_frame(frame, "marks")] or {}) do marks[mark] = true end
+  return marks
+end
+
+--- The changes of a layer in order: { { frame =, drawing = }, ... }; drawing is nil for none.
+---@param layer string|integer
+---@return { frame: integer, drawing?: string }[] changes
+function methods:changes(layer)
+  local column, list = column_of(self, layer, "changes"), {}
+  for i, frame in ipairs(column.at) do
+    list[i] = { frame = frame, drawing = column.names[i] or nil }
+  end
+  return list
+end
+
+--- The notes that cover a frame.
+---@param frame integer
+---@return celspan.sheet.note[] notes
+function methods:notes_at(frame)
+  frame = check_frame(frame, "notes_at")
+  local list = {}
+  for _, note in ipairs(self.notes) do
+    if note.from <= frame and frame <= note.to then list[#list + 1] = note end
+  end
+  return list
+end
+
+-- ---------------------------------------------------------------- drawings
+
+--- A name as it may stand in the name of a file; raises where it leads elsewhere.
+local function safe_name(name, level)
+  local path = name:gsub("\\", "/")
+  if path:find "^/" or path:find "^%a:" or path:find "%c" or ("/" .. path .. "/"):find("/../", 1, true) then
+    error(("sheet: drawing: %q cannot be part of a file's name"):format(name), level + 1)
+  end
+  return path
+end
+
+--- "A7b" of layer "A" with "hand_####.png": hand_0007b.png.
+local function by_pattern(name, layer, pattern, level)
+  local before, star, after = pattern:match "^(.*)(%*)([^*]*)$"
+  if star then return before .. safe_name(name, level + 1) .. after end
+  local first, last = pattern:find "#+[^#]*$"
+  if not first then
+    error(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern), level + 1)
+  end
+  last = pattern:find("[^#]", first) or #pattern + 1
+  local start, digits, letter = name:match "^(.-)(%d+)(%a?)$"
+  if not digits or start ~= "" and start:gsub("[ _.-]$", "") ~= layer then
+    error(("sheet: drawing: %q has no number, for %q; a * takes the name as it stands")
+      :format(name, pattern), level + 1)
+  end
+  digits = digits:gsub("^0+(%d)", "%1")
+  return pattern:sub(1, first - 1) .. ("0"):rep(last - first - #digits) .. digits .. letter
+    .. pattern:sub(last)
+end
+
+local function missing(name, layer, frame, where, level)
+  error(("sheet: drawing: layer %q shows %q at frame %d, and there is none of that name in %s")
+    :format(layer, name, frame, where), level + 1)
+end
+
+local function from_tree(tree, name, layer, frame, level)
+  local entry = tree:find(layer .. "/" .. name) or tree:find(name) or tree:find(layer)
+  return entry and entry.object or missing(name, layer, frame, "the layers", level + 1)
+end
+
+local function from_table(list, name, layer, frame, level)
+  local found = rawget(list, name)
+  if found == nil then found = rawget(list, math.tointeger(tonumber(name)) or name) end
+  if found == nil then missing(name, layer, frame, "the table", level + 1) end
+  return found
+end
+
+--- The sheet's frame at a time in seconds; what is a hair short of it counts as there.
+local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 1 end
+
+--- The object of the drawing that a layer shows at a frame; nil: none.
+---@param layer string|integer
+---@param f celspan.frame|integer The film's frame, or one of the sheet, from 1
+---@param drawings table|string|fun(name: string): celspan.object A table by name, "hand_####.png", "hand_*.png", layers, or a function
+---@return celspan.object? object
+function methods:drawing(layer, f, drawings)
+  local place = place_of(self, layer, "drawing")
+  local name_of_layer = self.layers[place]
+  local frame = f
+  if type(f) == "userdata" then frame = frame_at(self, f.time) end
+  frame = check_frame(frame, "drawing")
+  local name = self:at(place, frame)
+  if not name then return nil end
+  local kind = type(drawings)
+  if kind == "function" then return drawings(name) end
+  if kind == "string" then return celspan.image { file = by_pattern(name, name_of_layer, drawings, 2) } end
+  if kind ~= "table" then
+    error("sheet: drawing: drawings must be a table, a pattern, layers or a function, got "
+      .. fields.kind(drawings), 2)
+  end
+  if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
+    return from_tree(drawings, name, name_of_layer, frame, 2)
+  end
+  return from_table(drawings, name, name_of_layer, frame, 2)
+end
+
+-- ---------------------------------------------------------------- writing
+
+--- What the writers take.
+local function plain(self)
+  return { name = self.name, scene = self.scene, cut = self.cut, fps = self.fps,
+           frames = self.frames, width = self.width, height = self.height, notes = self.notes,
+           layers = stores[self] }
+end
+
+--- The sheet as plain text.
+---@return string text
+function methods:text() return sheet_text.encode(plain(self)) end
+
+local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.encode }
+
+--- Writes the sheet: .xdts, .csv (TVPaint, Krita) or .txt.
+---@param path string Relative to the current folder
+---@return true? done
+---@return string? message
+function methods:write(path)
+  if type(path) ~= "string" then
+    error("sheet: write takes the name of a file, got " .. fields.kind(path), 2)
+  end
+  local encode = writers[(path:match "%.(%w+)$" or ""):lower()]
+  if not encode then
+    return nil, ("%s: sheets are written as .xdts, .csv or .txt"):format(path)
+  end
+  local text = encode(plain(self))
+  local part = path .. ".part"
+  local file, message = io.open(part, "wb")
+  if not file then return nil, message end
+  local good, problem = file:write(text)
+  local closed, unclosed = file:close()
+  if not good or not closed then
+    os.remove(part)
+    return nil, ("%s: %s"):format(path, problem or unclosed)
+  end
+  good, problem = os.rename(part, path)
+  if not good then os.remove(part) end
+  return good, problem
+end
+
+-- ---------------------------------------------------------------- the sheet of a film
+
+--- The label of each part of a frame: its name, where two kinds share it with the kind.
+local function column_for(state, part)
+  local column = state.by_key[part.kind .. " " .. part.name]
+  if column then return column end
+  local name = part.name
+  if state.taken[name] then name = ("%s (%s)"):format(name, part.kind) end
+  column = columns.new(name)
+  column.numbers, column.count = {}, 0
+  state.taken[name] = true
+  state.by_key[part.kind .. " " .. part.name] = column
+  state.layers[#state.layers + 1] = column
+  return column
+end
+
+--- A drawing is numbered when it is first met, and found again by what it shows.
+local function number_of(column, drawing)
+  local number = column.numbers[drawing]
+  if not number then
+    column.count = column.count + 1
+    number = tostring(column.count)
+    column.numbers[drawing] = number
+  end
+  return number
+end
+
+--- What a frame shows under each name: a part that occurs several times, in two exposures say, is
+--- one, with each different drawing and placement counted once.
+local function merge_parts(list)
+  local order, by_key = {}, {}
+  for _, part in ipairs(list) do
+    local key = part.kind .. " " .. part.name
+    local one = by_key[key]
+    if not one then
+      one = { kind = part.kind, name = part.name, drawing = "", placement = "", known = {} }
+      by_key[key], order[#order + 1] = one, one
+    end
+    for _, half in ipairs { "drawing", "placement" } do
+      local hash = part[half]
+      if not one.known[half .. hash] then
+        one.known[half .. hash], one[half] = true, one[half] .. hash
+      end
+    end
+    one.procedure = one.procedure or part.procedure
+  end
+  return order
+end
+
+local function add_part(column, part, frame)
+  if part.procedure then
+    columns.add(column, frame, column.names[#column.names] or "procedure")
+    columns.mark(column, frame, "procedure")
+  else
+    columns.add(column, frame, number_of(column, part.drawing))
+  end
+  if column.met == frame - 1 and column.placement ~= part.placement then
+    columns.mark(column, frame, "moved")
+  end
+  column.placement, column.met = part.placement, frame
+end
+
+local function add_frame(state, list, frame)
+  for _, part in ipairs(merge_parts(list)) do add_part(column_for(state, part), part, frame) end
+  for _, column in ipairs(state.layers) do
+    if column.met ~= frame then columns.add(column, frame, false) end
+  end
+end
+
+--- The sheet of a film: a row for each named cel and each named object, and for unnamed cels by
+--- their places. Drawings are numbered as they first appear; `moved` marks the frames on which
+--- the placement changes: transform, fade, viewport, lights, defocus.
+---@param film celspan.film
+---@return celspan.sheet
+function sheet.of(film)
+  if not tostring(film):find "^film" then
+    error("sheet: of takes a film, got " .. fields.kind(film), 2)
+  end
+  local state = { layers = {}, by_key = {}, taken = {} }
+  local count = film.frames
+  for index = 1, count do
+    add_frame(state, core.parts(film:at(film.first + index - 1)), index)
+  end
+  local made, message = caught(finish, { name = film.title, fps = film.fps, frames = count,
+    layers = state.layers, notes = {}, width = film.size[1], height = film.size[2] })
+  return made or error("sheet: " .. message, 2)
+end
+
+return fields.seal("sheet", sheet)

@@ -1,0 +1,114 @@
+--- The exposures of an OCA document: which drawing each layer shows at each frame.
+--
+-- A drawing lasts as long as its duration, and nothing is shown until the next one begins; a layer
+-- that is not animated shows its first drawing throughout. Drawings have the names that
+-- layers.read gives them, and layers their paths, "group/layer".
+local columns = require "celspan.columns"
+local fields = require "celspan.fields"
+local json = require "celspan.json"
+
+local sheet_oca = {}
+
+local words = { table = "list" }
+
+local function get(object, what, name, default)
+  local value = object[name]
+  if value == nil or value == json.null then return default end
+  if type(value) ~= type(default) then
+    columns.fail("%s: %s must be a %s, got %s", what, name,
+      words[type(default)] or type(default), fields.kind(value))
+  end
+  return value
+end
+
+local function number_of(object, what, name, default, least, most)
+  local number = get(object, what, name, default)
+  if not (number >= least and number <= most) then
+    columns.fail("%s: %s is %s; it must be a number from %.10g to %.10g", what, name,
+      fields.shown(number), least, most)
+  end
+  return number
+end
+
+--- A number of frames; programs write them as floats too.
+local function frame_of(object, what, name, default, least)
+  local number = number_of(object, what, name, default, least, columns.most_frames)
+  return math.tointeger(math.floor(number + 0.5))
+end
+
+--- The name of a drawing, or false for an empty one.
+local function drawing_of(frame, what)
+  local name, file = get(frame, what, "name", ""), get(frame, what, "fileName", "")
+  if file == "" or name == "_blank" then return false end
+  if name ~= "" then return name end
+  return file:gsub("\\", "/"):match "[^/]*$":gsub("%.%w+$", "")
+end
+
+local function read_frames(column, layer, what, start)
+  local list = {}
+  for i, frame in ipairs(get(layer, what, "frames", {})) do
+    local here = ("%s: frame %d"):format(what, i)
+    if type(frame) ~= "table" then
+      columns.fail("%s must be an object, got %s", here, fields.kind(frame))
+    end
+    list[i] = { frame = frame_of(frame, here, "frameNumber", 0, -columns.most_frames) - start + 1,
+                length = frame_of(frame, here, "duration", 1, 0), name = drawing_of(frame, here) }
+  end
+  columns.sort(list)
+  if not get(layer, what, "animated", true) then
+    if list[1] then columns.add(column, 1, list[1].name) end
+    return
+  end
+  for i, entry in ipairs(list) do
+    local stop, following = entry.frame + entry.length, list[i + 1]
+    if stop > 1 and entry.length > 0 then
+      columns.add(column, math.max(1, entry.frame), entry.name)
+      if not following or following.frame > stop then columns.add(column, stop, false) end
+    end
+  end
+end
+
+local function read_layers(state, list, folder, where)
+  for i, layer in ipairs(list) do
+    local what = ("%slayer %d"):format(where, i)
+    if type(layer) ~= "table" then
+      columns.fail("%s must be an object, got %s", what, fields.kind(layer))
+    end
+    local path = folder .. get(layer, what, "name", "")
+    if get(layer, what, "type", "paintlayer") == "grouplayer" then
+      read_layers(state, get(layer, what, "childLayers", {}), path .. "/", what .. ": ")
+    else
+      if #state.layers == columns.most_layers then
+        columns.fail("%s: there are more than %d layers, which is the limit", what,
+          columns.most_layers)
+      end
+      local column = columns.new(path)
+      column.look = { opacity = number_of(layer, what, "opacity", 1, 0, 1),
+        blend = get(layer, what, "blendingMode", "normal"),
+        visible = get(layer, what, "visible", true) and not get(layer, what, "reference", false) }
+      state.layers[#state.layers + 1] = column
+      read_frames(column, layer, what, state.start)
+    end
+  end
+end
+
+--- Raises { message = }.
+function sheet_oca.decode(text)
+  local document, problem = json.decode(text)
+  if document == nil then columns.fail("%s", problem) end
+  if type(document) ~= "table" or type(document.layers) ~= "table" then
+    columns.fail("it is no OCA document: it has no list of layers")
+  end
+  local what = "the document"
+  local start = frame_of(document, what, "startTime", 0, -columns.most_frames)
+  local stop = frame_of(document, what, "endTime", 240, -columns.most_frames)
+  local state = { layers = {}, start = start }
+  read_layers(state, document.layers, "", "")
+  return { name = get(document, what, "name", ""), layers = state.layers, notes = {},
+           fps = number_of(document, what, "frameRate", 24, 1e-3, 1000),
+           width = number_of(document, what, "width", 1920, 1, 1048576) // 1 | 0,
+           height = number_of(document, what, "height", 1080, 1, 1048576) // 1 | 0,
+           frames = columns.length(math.max(1, stop - start), state.layers, {}) }
+end
+
+return fields.seal("sheet_oca", sheet_oca)

@@ -1,0 +1,104 @@
+/* celspan sheet FILE|SCRIPT: an exposure sheet as text or converted, or the sheet of a film.
+ *
+ * The work is that of the Lua module celspan.sheet, called with celspan's rules for scripts. */
+#include <lauxlib.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "bind/lua_error.h"
+#include "cli/script.h"
+#include "cli/verbs.h"
+
+typedef struct job {
+  const cs_request *request;
+  bool is_script;
+  cs_exit outcome;
+} job;
+
+static bool ends_with(const char *path, const char *ending) {
+  size_t length = strlen(path), tail = strlen(ending);
+  return length > tail && strcasecmp(path + length - tail, ending) == 0;
+}
+
+/* Pushes the sheet; false: it is reported why there is none. Raises. */
+static bool push_sheet(lua_State *L, job *j) {
+  lua_getglobal(L, "require");
+  lua_pushliteral(L, "celspan.sheet");
+  lua_call(L, 1, 1);
+  lua_getfield(L, -1, j->is_script ? "of" : "read");
+  if (j->is_script)
+    lua_pushvalue(L, CS_SCRIPT_FILM);
+  else
+    lua_pushstring(L, j->request->operands[0]);
+  lua_call(L, 1, 2);
+  if (!lua_isnil(L, -2)) {
+    lua_pop(L, 1);
+    return true;
+  }
+  cs_report_error("%s", lua_tostring(L, -1));
+  j->outcome = CS_EXIT_INPUT;
+  return false;
+}
+
+/* The sheet on top of the stack, to standard output. Raises. */
+static void print_sheet(lua_State *L) {
+  lua_getfield(L, -1, "text");
+  lua_pushvalue(L, -2);
+  lua_call(L, 1, 1);
+  size_t size;
+  const char *text = lua_tolstring(L, -1, &size);
+  fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
+}
+
+static void write_sheet(lua_State *L, job *j) {
+  lua_getfield(L, -1, "write");
+  lua_pushvalue(L, -2);
+  lua_pushstring(L, j->request->output);
+  lua_call(L, 2, 2);
+  if (lua_toboolean(L, -2))
+    return;
+  cs_report_error("%s", lua_tostring(L, -1));
+  j->outcome = CS_EXIT_OUTPUT;
+}
+
+/* [film,] light userdata: the job. Runs protected. */
+static int run(lua_State *L) {
+  job *j = lua_touserdata(L, -1);
+  if (!push_sheet(L, j))
+    return 0;
+  if (j->request->output && strcmp(j->request->output, "-") != 0)
+    write_sheet(L, j);
+  else
+    print_sheet(L);
+  return 0;
+}
+
+static cs_exit call(cs_script *script, job *j) {
+  lua_State *L = script->L;
+  cs_lua_error_push_handler(L, "", run);
+  int handler = lua_gettop(L);
+  lua_pushcfunction(L, run);
+  if (j->is_script)
+    lua_pushvalue(L, CS_SCRIPT_FILM);
+  lua_pushlightuserdata(L, j);
+  int outcome = lua_pcall(L, j->is_script ? 2 : 1, 0, handler);
+  if (outcome == LUA_OK)
+    return j->outcome;
+  return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
+}
+
+cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request) {
+  const char *out = request->output;
+  if (out && strcmp(out, "-") != 0 && !ends_with(out, ".xdts") && !ends_with(out, ".csv") &&
+      !ends_with(out, ".txt"))
+    return cs_report_usage("-o: '%s' must end in .xdts, .csv or .txt", out);
+  job j = {.request = request, .is_script = ends_with(request->operands[0], ".lua")};
+  cs_script script;
+  cs_exit outcome = j.is_script ? cs_script_open(context, request, &script)
+                                : cs_script_start(context, &script);
+  if (outcome == CS_EXIT_OK)
+    outcome = call(&script, &j);
+  cs_script_close(&script);
+  return outcome;
+}
