@@ -73,6 +73,14 @@ local function check_notes(notes, frames)
   for _, note in ipairs(notes) do note.frame = nil end
 end
 
+--- Leaves out what a column says beyond the end of the sheet: the change that closes it.
+local function trim(column, frames)
+  for i = #column.at, 1, -1 do
+    if column.at[i] <= frames then break end
+    column.at[i], column.names[i] = nil, nil
+  end
+end
+
 --- The sheet of what a reader found. Raises { message = }.
 local function finish(found)
   if not (found.fps > 0 and found.fps <= 1000) then
@@ -84,13 +92,17 @@ local function finish(found)
   end
   check_names(found.layers)
   check_notes(found.notes, found.frames)
-  local made = { fps = found.fps, frames = found.frames, layers = {}, looks = {},
-                 notes = found.notes, width = found.width, height = found.height }
+  local made = { fps = math.tointeger(found.fps) or found.fps, frames = found.frames, layers = {}, looks = {},
+                 notes = found.notes }
+  if found.width and found.height then
+    made.width, made.height = found.width // 1 | 0, found.height // 1 | 0
+  end
   for _, field in ipairs { "name", "scene", "cut" } do
     made[field] = columns.check_text(found[field] or "", "its " .. field)
   end
   for i, column in ipairs(found.layers) do
     made.layers[i], made.looks[i] = column.name, column.look or {}
+    trim(column, found.frames)
   end
   setmetatable(made, Sheet)
   stores[made] = found.layers
@@ -192,6 +204,12 @@ local function make(given)
   fill_notes(given.notes or {}, notes)
   local frames = math.tointeger(given.frames or 1)
   if not frames then columns.fail("frames must be a whole number") end
+  for _, field in ipairs { "width", "height" } do
+    local size = given[field] or 1
+    if size < 1 or size > 1048576 or size ~= math.floor(size) then
+      columns.fail("%s must be a whole number from 1 to 1048576", field)
+    end
+  end
   return finish { name = given.name, scene = given.scene, cut = given.cut, fps = given.fps or 24,
     frames = columns.length(frames, list, notes), layers = list, notes = notes,
     width = given.width, height = given.height }
@@ -281,7 +299,8 @@ end
 
 -- ---------------------------------------------------------------- asking
 
-local function place_of(self, layer, method)
+--- level: of the function that users call, as for error.
+local function place_of(self, layer, method, level)
   if math.type(layer) == "integer" and self.layers[layer] then return layer end
   for i, name in ipairs(self.layers) do
     if name == layer then return i end
@@ -289,12 +308,12 @@ local function place_of(self, layer, method)
   local hint = type(layer) == "string" and core.nearest(layer, { table.unpack(self.layers, 1, 100) })
   error(("sheet: %s: there is no layer %s%s"):format(method,
     type(layer) == "string" and ("%q"):format(layer) or fields.shown(layer),
-    hint and ("; did you mean %q?"):format(hint) or ""), 3)
+    hint and ("; did you mean %q?"):format(hint) or ""), level + 1)
 end
 
 local function column_of(self, layer, method)
   local store = stores[self] or error("sheet: " .. method .. ": call it as a method of a sheet", 3)
-  return store[place_of(self, layer, method)]
+  return store[place_of(self, layer, method, 3)]
 end
 
 local function check_frame(frame, method)
@@ -406,7 +425,7 @@ local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 
 ---@param drawings table|string|fun(name: string): celspan.object A table by name, "hand_####.png", "hand_*.png", layers, or a function
 ---@return celspan.object? object
 function methods:drawing(layer, f, drawings)
-  local place = place_of(self, layer, "drawing")
+  local place = place_of(self, layer, "drawing", 2)
   local name_of_layer = self.layers[place]
   local frame = f
   if type(f) == "userdata" then frame = frame_at(self, f.time) end
@@ -421,9 +440,9 @@ function methods:drawing(layer, f, drawings)
       .. fields.kind(drawings), 2)
   end
   if (getmetatable(drawings) or {}).__name == "celspan.layers.tree" then
-    return from_tree(drawings, name, name_of_layer, frame, 2)
+    return (from_tree(drawings, name, name_of_layer, frame, 2)) -- no tail calls: levels count
   end
-  return from_table(drawings, name, name_of_layer, frame, 2)
+  return (from_table(drawings, name, name_of_layer, frame, 2))
 end
 
 -- ---------------------------------------------------------------- writing

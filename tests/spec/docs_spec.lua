@@ -265,7 +265,7 @@ describe("the Lua reference", function()
   end)
 
   it("names the modules of the library and what they hold", function()
-    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "svg", "layers",
+    for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "layers",
                             "oca", "json" } do
       local text = section("Module celspan." .. name)
       local module = require("celspan." .. name)
