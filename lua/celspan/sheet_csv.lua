@@ -114,28 +114,40 @@ local function read_frame(layers, cells, number)
   if #cells - 1 > #layers then
     columns.fail("line %d has %d cells; there are %d layers", number, #cells - 1, #layers)
   end
-  return math.tointeger(frame) + 1, number
+  return math.tointeger(frame) + 1
+end
+
+--- The rows of frames in order, { frame =, cells = }; what a row repeats, it shares with the one
+--- before.
+local function read_frames(lines, layers)
+  local list, repeated, cells = {}, nil, nil
+  for number = 4, #lines do
+    local line = lines[number]
+    local digits, tail = line:match "^(#%d+)()"
+    local is_repeated = digits and line:sub(tail) == repeated
+    if is_repeated then
+      list[#list + 1] = { frame = read_frame(layers, { digits }, number), cells = cells }
+    elseif line:find "%S" then
+      local row = split(line, number)
+      if not read_row(layers, row, number) then
+        list[#list + 1] = { frame = read_frame(layers, row, number), cells = row }
+        cells, repeated = row, digits and line:sub(tail)
+      end
+    end
+  end
+  return columns.sort(list)
 end
 
 local function decode_tvpaint(lines)
   local head = read_head(lines)
-  local layers, list = {}, {}
-  for number = 4, #lines do
-    local line = lines[number]
-    if line:find "%S" then
-      local cells = split(line, number)
-      if not read_row(layers, cells, number) then
-        local frame = read_frame(layers, cells, number)
-        list[#list + 1] = { frame = frame, cells = cells }
-      end
-    end
-  end
-  columns.sort(list)
+  local layers = {}
+  local list, before = read_frames(lines, layers), nil
   for _, row in ipairs(list) do
-    for i, column in ipairs(layers) do
+    for i, column in ipairs(row.cells ~= before and layers or {}) do
       local name = row.cells[i + 1]
       columns.add(column, row.frame, name ~= nil and name ~= "" and name or false)
     end
+    before = row.cells
   end
   local told = math.tointeger(number_of(head, "frame count", 0, columns.most_frames, 0) // 1)
   local last = #list > 0 and list[#list].frame or 0

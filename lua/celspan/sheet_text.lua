@@ -123,21 +123,28 @@ local function read_frame(state, line, number)
     columns.fail("line %d: frame %d follows frame %d; frames ascend", number, frame, state.last)
   end
   state.last = frame
+  -- most lines of a long sheet say that everything goes on
+  if line:sub(rest) == state.hold then return end
+  local is_hold = true
   if line:find('["/]', rest) then
     for place, word in ipairs(read_words(line:sub(rest), number)) do
-      i = place
+      i, is_hold = place, false
       if layers[i] then read_cell(layers[i], frame, word, number) end
     end
   else
     local add = columns.add
     for text in line:gmatch("%S+", rest) do
       i = i + 1
-      if text ~= "|" and layers[i] then add(layers[i], frame, text ~= "-" and text or false) end
+      if text ~= "|" then
+        is_hold = false
+        if layers[i] then add(layers[i], frame, text ~= "-" and text or false) end
+      end
     end
   end
   if i ~= #layers then
     columns.fail("line %d has %d cells; there are %d layers", number, i, #layers)
   end
+  if is_hold then state.hold = line:sub(rest) end
 end
 
 local function whole(word, what, number, most)
