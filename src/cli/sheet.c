@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "bind/lua_error.h"
+#include "cli/lines.h"
 #include "cli/script.h"
 #include "cli/verbs.h"
 
@@ -51,7 +52,17 @@ static void print_sheet(lua_State *L) {
   fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
 }
 
+/* Makes the folders that OUT names; where that fails, so does writing, with a message. */
+static void make_folders(lua_State *L, const char *path) {
+  size_t size = strlen(path) + 1;
+  char *copy = lua_newuserdatauv(L, size, 0);
+  memcpy(copy, path, size);
+  cs_lines_make_folders(copy);
+  lua_pop(L, 1);
+}
+
 static void write_sheet(lua_State *L, job *j) {
+  make_folders(L, j->request->output);
   lua_getfield(L, -1, "write");
   lua_pushvalue(L, -2);
   lua_pushstring(L, j->request->output);
@@ -95,8 +106,8 @@ cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request) {
     return cs_report_usage("-o: '%s' must end in .xdts, .csv or .txt", out);
   job j = {.request = request, .is_script = ends_with(request->operands[0], ".lua")};
   cs_script script;
-  cs_exit outcome = j.is_script ? cs_script_open(context, request, &script)
-                                : cs_script_start(context, &script);
+  cs_exit outcome =
+      j.is_script ? cs_script_open(context, request, &script) : cs_script_start(context, &script);
   if (outcome == CS_EXIT_OK)
     outcome = call(&script, &j);
   cs_script_close(&script);

@@ -661,7 +661,8 @@ describe("celspan sheet", function()
     assert.are.equal(4, code)
     assert.is_truthy(err:find("line 2: fps must be a number", 1, true), err)
     assert.are.equal(2, (run(write("a.txt", "celspan sheet 1\n") .. " -o " .. folder .. "/a.doc")))
-    assert.are.equal(5, (run(folder .. "/a.txt -o " .. folder .. "/none/a.csv")))
+    assert.are.equal(5, (run(folder .. "/a.txt -o " .. folder .. "/a.txt/a.csv")))
+    assert.are.equal(0, (run(folder .. "/a.txt -o " .. folder .. "/new/folder/a.csv")))
     code, _, err = run(write("bad.lua", [[
 local celspan = require "celspan"
 return celspan.film { frames = 2, frame = function(f)
