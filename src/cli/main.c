@@ -68,7 +68,8 @@ static const cs_verb VERBS[] = {
      cs_verb_tiles},
     {CS_VERB_SHEET, "sheet", "FILE|SCRIPT", 1, 1,
      "Prints an exposure sheet as text, converts it, or writes the sheet of a film.",
-     "A FILE is an exposure sheet: XDTS, the CSV of TVPaint, Krita or Clip Studio, an OCA folder, or "
+     "A FILE is an exposure sheet: XDTS, the CSV of TVPaint, Krita or Clip Studio, an OCA folder, "
+     "or "
      "the\n"
      "text that is printed; what ends in .lua is a script. The sheet of a film has a row for each "
      "cel and\n"
