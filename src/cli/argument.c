@@ -77,6 +77,30 @@ cs_argument_outcome cs_argument_count(const char *text, void *field) {
   return CS_ARGUMENT_READ;
 }
 
+cs_argument_outcome cs_argument_every(const char *text, void *field) {
+  int32_t value = 0;
+  if (!read_integers(text, 0, 1, INT32_MAX, &value, 1))
+    return CS_ARGUMENT_BAD;
+  *(cs_given_integer *)field = (cs_given_integer){true, value};
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_grid(const char *text, void *field) {
+  int32_t grid[2];
+  if (!read_integers(text, 'x', 1, 100, grid, 2))
+    return CS_ARGUMENT_BAD;
+  memcpy(field, grid, sizeof grid);
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_onion(const char *text, void *field) {
+  int32_t onion[2];
+  if (!read_integers(text, ',', 0, 16, onion, 2) || onion[0] + onion[1] == 0)
+    return CS_ARGUMENT_BAD;
+  memcpy(field, onion, sizeof onion);
+  return CS_ARGUMENT_READ;
+}
+
 cs_argument_outcome cs_argument_workers(const char *text, void *field) {
   return read_integers(text, 0, 1, 1024, field, 1) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
 }

@@ -79,6 +79,21 @@ static const cs_verb VERBS[] = {
      "/m  its placement, fade, viewport or lights changed      /p  a procedure draws it: not "
      "compared\n",
      cs_verb_sheet},
+    {CS_VERB_CONTACT, "contact", "SCRIPT -o SHEET", 1, 1,
+     "Makes a sheet of frames side by side, each with its number.",
+     "Without --every the frames are thinned until they fit on one page. With it, SHEET needs a\n"
+     "number such as sheet.####.png when there are more frames than cells.\n",
+     cs_verb_contact},
+    {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
+     "Runs specs in busted, with the assertions of celspan.spec.",
+     "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. Each\n"
+     "file is run in a process of its own, several at a time. Exit code 1 when a test failed, 5 when\n"
+     "busted is not installed.\n",
+     cs_verb_test},
+    {CS_VERB_INIT, "init", "NAME", 1, 1,
+     "Lays out a film: script, sheet, spec, settings for editors, a page that tells about it.",
+     "NAME is a folder, new or empty. The film renders and its tests pass as they are.\n",
+     cs_verb_init},
 };
 
 enum { VERB_COUNT = sizeof VERBS / sizeof VERBS[0] };

@@ -10,7 +10,7 @@
 #include "cli/argument.h"
 #include "cli/report.h"
 
-#define CS_OPERANDS_MAX 3
+#define CS_OPERANDS_MAX 1024
 
 typedef struct cs_request {
   const char *operands[CS_OPERANDS_MAX]; /* borrowed from argv, as are all texts here */
@@ -41,6 +41,10 @@ typedef struct cs_request {
   cs_given_integer tile, overlap, tile_limit;
   int32_t levels[2]; /* first and last, both included; last -1: not given */
   bool skips_empty, is_fresh;
+  const char *only;       /* NULL: not given */
+  int32_t grid[2];        /* columns and rows; 0 0: not given */
+  cs_given_integer every; /* 1 or more */
+  int32_t onion[2];       /* frames before and after; both 0: not given */
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -53,8 +57,11 @@ typedef enum cs_verb_set {
   CS_VERB_COMPARE = 1 << 6,
   CS_VERB_TILES = 1 << 7,
   CS_VERB_SHEET = 1 << 8,
+  CS_VERB_TEST = 1 << 9,
+  CS_VERB_INIT = 1 << 10,
+  CS_VERB_CONTACT = 1 << 11,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
-                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET
+                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT
 } cs_verb_set;
 
 typedef struct cs_verb {

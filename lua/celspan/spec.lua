@@ -1,0 +1,476 @@
+--- Assertions about films for busted: what a frame, a point, a cel, a row shows.
+--
+--   require "celspan.spec"                         -- they are luassert's from then on
+--   assert.frame(film, 12).looks_like "walk.png"
+--   assert.point(film, 1, 320, 200).shows "#ffe9c2"
+--   assert.cel(film, 24, "hand").is_visible()      assert.cel(film, 24, "hand").is_not.visible()
+--   assert.cel(film, 1, "sky").covers(0.5)
+--   assert.frames(film, 1, 25).look_alike()
+--   assert.row(film, 1, 0).holds { single = 1, array = 0 }
+--
+-- The first word says what is asked about, the last one what is claimed; `is_not`, before either of
+-- them, negates. Words that luassert has for its own are no claims, so that a claim is never mistaken
+-- for a filling word that passes whatever it is given.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local difference = require "celspan.difference"
+local fields = require "celspan.fields"
+
+local spec = {}
+
+local has_luassert, luassert = pcall(require, "luassert")
+if not has_luassert then
+  error("celspan.spec adds assertions to luassert, which is not installed: install busted (Debian's "
+    .. "package lua-busted) and run specs with `celspan test`", 0)
+end
+local say = require "say"
+
+-- ---------------------------------------------------------------- the spec
+
+--- Whether a level is neither of this library nor of luassert: the spec's own.
+local function is_foreign(info)
+  return info.currentline > 0 and not info.source:find "^@celspan/"
+    and not info.source:find "[/\\]luassert[/\\]"
+end
+
+--- The level of the spec's line, as error() counts it in the function that asks, and its source.
+local function spec_level()
+  local level = 2
+  while true do
+    local info = debug.getinfo(level, "Sl")
+    if not info then return 1, "" end
+    if is_foreign(info) then return level - 1, info.source end
+    level = level + 1
+  end
+end
+
+local function refuse(message)
+  error(message, (spec_level()))
+end
+
+--- A difference of one code of 8 bits, with room for the rounding of the division.
+local ONE_CODE = 1 / 255 + 1e-9
+
+-- ---------------------------------------------------------------- what is asked about
+
+local film_metatable = getmetatable(celspan.film { frame = function() return celspan.rostrum {} end })
+local rostrum_metatable = getmetatable(celspan.rostrum {})
+
+--- A film, also of a rostrum.
+local function film_of(word, what)
+  if getmetatable(what) == film_metatable then return what end
+  if getmetatable(what) == rostrum_metatable then
+    return celspan.film { size = what.size, frame = function() return what end }
+  end
+  refuse(("%s takes a film first, got %s"):format(word, fields.kind(what)))
+end
+
+local function check_frame(word, film, frame)
+  local last = film.first + film.frames - 1
+  if math.type(frame) ~= "integer" and not (fields.is_finite(frame) and frame % 1 == 0) then
+    refuse(("%s takes the number of a frame, got %s"):format(word, fields.shown(frame)))
+  end
+  if frame < film.first or frame > last then
+    refuse(("%s: frame %d: the film has frames %d to %d"):format(word, frame, film.first, last))
+  end
+end
+
+local function check_number(word, name, value)
+  if not fields.is_finite(value) then
+    refuse(("%s: %s must be a finite number, got %s"):format(word, name, fields.shown(value)))
+  end
+end
+
+--- word -> function(arguments): checks what the word is given and gives the subject.
+local subjects = {}
+
+local function subject_of(word, arguments)
+  local film = film_of(word, arguments[1])
+  check_frame(word, film, arguments[2])
+  return { word = word, film = film, frame = arguments[2] }
+end
+
+function subjects.frame(arguments) return subject_of("frame", arguments) end
+
+function subjects.point(arguments)
+  local subject = subject_of("point", arguments)
+  subject.x, subject.y = arguments[3], arguments[4]
+  check_number("point", "x", subject.x)
+  check_number("point", "y", subject.y)
+  return subject
+end
+
+function subjects.cel(arguments)
+  local subject = subject_of("cel", arguments)
+  subject.name = arguments[3]
+  if type(subject.name) ~= "string" then
+    refuse("cel takes the name of a cel third, got " .. fields.shown(subject.name))
+  end
+  return subject
+end
+
+function subjects.frames(arguments)
+  local subject = subject_of("frames", arguments)
+  if arguments.n < 3 then refuse("frames takes a film and two frames or more") end
+  subject.frames = {}
+  for i = 2, arguments.n do
+    check_frame("frames", subject.film, arguments[i])
+    subject.frames[i - 1] = arguments[i]
+  end
+  return subject
+end
+
+function subjects.row(arguments)
+  local subject = subject_of("row", arguments)
+  local y, height = arguments[3], subject.film.size[2]
+  if not fields.is_finite(y) or y % 1 ~= 0 or y < 0 or y >= height then
+    refuse(("row: y must be a whole number from 0 to %d, got %s"):format(height - 1, fields.shown(y)))
+  end
+  subject.y = math.tointeger(y)
+  return subject
+end
+
+-- ---------------------------------------------------------------- looking
+
+--- The value, or the message raised at the spec's line.
+local function need(value, message)
+  if value == nil then refuse(message) end
+  return value
+end
+
+local function pixels_of(what, options)
+  local image, message = celspan.pixels(what, options)
+  return need(image, message)
+end
+
+local function frame_pixels(subject)
+  return pixels_of(subject.film, { frame = subject.frame })
+end
+
+--- The exposures of a frame, each {rostrum, weight}.
+local function exposures_of(subject)
+  local made = subject.film:at(subject.frame)
+  if getmetatable(made) == rostrum_metatable then return { { made, 1 } } end
+  local list = {}
+  for i, exposure in ipairs(made) do
+    local is_bare = getmetatable(exposure) == rostrum_metatable
+    list[i] = is_bare and { exposure, 1 } or { exposure[1], exposure[2] or 1 }
+  end
+  return list
+end
+
+--- The cels of a rostrum for which `keeps` is true, and all names.
+local function sort_cels(rostrum, keeps, names)
+  local kept = {}
+  for _, cel in ipairs { table.unpack(rostrum) } do
+    if cel.name then names[cel.name] = true end
+    local own = keeps(cel)
+    if own then kept[#kept + 1] = own end
+  end
+  return kept
+end
+
+--- Raises unless a cel of the frame has the name; the message lists those that are there.
+local function need_name(subject, names)
+  if names[subject.name] then return end
+  local list = {}
+  for name in pairs(names) do list[#list + 1] = name end
+  table.sort(list)
+  local hint = core.nearest(subject.name, list)
+  refuse(("frame %d has no cel named %q%s"):format(subject.frame, subject.name,
+    hint and ("; did you mean %q?"):format(hint)
+      or #list > 0 and "; there are " .. table.concat(list, ", ")
+      or "; give it one with cel:named(" .. ("%q"):format(subject.name) .. ")"))
+end
+
+--- The frame with the cels that `keep` gives back for each of its own. more: fields that change.
+local function changed_frame(subject, keep, more)
+  local names, list = {}, {}
+  for i, exposure in ipairs(exposures_of(subject)) do
+    local changes = { table.unpack(sort_cels(exposure[1], keep, names)) }
+    for name, value in pairs(more) do changes[name] = value end
+    if #changes == 0 then changes[1] = celspan.cel {} end
+    list[i] = { exposure[1]:with(changes), exposure[2] }
+  end
+  need_name(subject, names)
+  return list
+end
+
+-- ---------------------------------------------------------------- pictures
+
+--- "spec/walk.png" -> "spec/walk.actual.png"
+local function beside(path, what)
+  return (path:gsub("(%.[^./]*)$", "." .. what .. ".png"))
+end
+
+--- A relative name is relative to the spec.
+local function file_beside_spec(name)
+  local _, source = spec_level()
+  local folder = name:sub(1, 1) ~= "/" and source:match "^@(.*/)" or ""
+  return folder .. name
+end
+
+local function exists(path)
+  local file = io.open(path, "rb")
+  if file then file:close() end
+  return file ~= nil
+end
+
+--- A path as a shell takes it.
+local function quoted(path)
+  return path:find "^[%w_./-]+$" and path or "'" .. path:gsub("'", "'\\''") .. "'"
+end
+
+--- Writes the frame beside the picture; gives the words that say how to accept it.
+local function write_actual(path, image)
+  local actual = beside(path, "actual")
+  need(image:write(actual), ("%s cannot be written"):format(actual))
+  local is_png = path:lower():find "%.png$"
+  return ("  it shows       %s\n  to accept it   %s %s %s"):format(actual,
+    is_png and "mv" or "celspan convert", quoted(actual), quoted(path))
+end
+
+local function write_difference(path, found, image)
+  local shown = beside(path, "difference")
+  local done, message = celspan.render(difference.picture(found, image), shown,
+    { size = { image.width, image.height } })
+  need(done, message)
+  return ("  where          %s"):format(shown)
+end
+
+--- The same file from the root: pictures are else looked for beside the Lua file that names them.
+local function from_root(path)
+  return path:sub(1, 1) == "/" and path or require "lfs".currentdir() .. "/" .. path
+end
+
+--- A picture file as an image of its own size.
+local function read_picture(path)
+  local made, drawn = pcall(celspan.image, { file = from_root(path) })
+  if not made then refuse(drawn) end
+  local _, _, width, height = drawn:bounds()
+  local rostrum = celspan.rostrum { antialias = "none", celspan.cel { drawn } }
+  return pixels_of(rostrum, { size = { math.tointeger(width), math.tointeger(height) } })
+end
+
+local function forget(path)
+  os.remove(beside(path, "actual"))
+  os.remove(beside(path, "difference"))
+end
+
+-- ---------------------------------------------------------------- claims
+
+--- What a claim answers: whether it holds, and what to say when it was to hold, or was not to.
+local claims = {}
+
+local function tolerance_of(word, given)
+  if given == nil then return ONE_CODE end
+  if not fields.is_finite(given) or given < 0 or given > 1 then
+    refuse(("%s: tolerance must be a number from 0 to 1, got %s"):format(word, fields.shown(given)))
+  end
+  return given + 1e-9
+end
+
+local function code(value) return ("%.4g"):format(value * 255) end
+
+--- What is wrong with a picture of the same size.
+local function tell_difference(subject, name, found, tolerance, image)
+  return ("frame %d does not look like %s: %d of %d pixels differ by more than %s codes of 8 bits;\n"
+    .. "  most by %s codes, at x %d, y %d, channel %s"):format(subject.frame, name, found.count,
+    image.width * image.height, code(tolerance), code(found.largest), found.x, found.y, found.channel)
+end
+
+function claims.looks_like(subject, arguments)
+  local name, options = arguments[1], arguments[2] or {}
+  if type(name) ~= "string" then
+    refuse("looks_like takes the name of a picture, got " .. fields.shown(name))
+  end
+  fields.check("looks_like", options, { tolerance = "number" }, spec_level() + 1)
+  local tolerance = tolerance_of("looks_like", options.tolerance)
+  local path, image = file_beside_spec(name), frame_pixels(subject)
+  if not exists(path) then
+    refuse(("frame %d cannot be compared: there is no %s yet\n%s"):format(subject.frame, path,
+      write_actual(path, image)))
+  end
+  local picture = read_picture(path)
+  if picture.width ~= image.width or picture.height ~= image.height then
+    return false, function()
+      return ("frame %d does not look like %s: it is %d x %d pixels, the picture is %d x %d\n%s")
+        :format(subject.frame, path, image.width, image.height, picture.width, picture.height,
+          write_actual(path, image))
+    end
+  end
+  local found = difference.of(image, picture, tolerance)
+  if found.count > 0 then
+    return false, function()
+      return table.concat({ tell_difference(subject, path, found, tolerance, image),
+        write_difference(path, found, image), write_actual(path, image) }, "\n")
+    end
+  end
+  forget(path)
+  return true, ("frame %d looks like %s, and it should not: no pixel differs by more than %s codes of "
+    .. "8 bits"):format(subject.frame, path, code(tolerance))
+end
+
+--- "#rrggbb", or with its alpha "#rrggbbaa", and the four codes, of a linear premultiplied colour.
+local function coded(r, g, b, a)
+  local one = pixels_of(celspan.rostrum { antialias = "none", celspan.cel { celspan.rect { 0, 0, 1, 1,
+    texture = a > 0 and celspan.rgb(math.min(1, r / a), math.min(1, g / a), math.min(1, b / a), a)
+      or celspan.clear } } }, { size = { 1, 1 } })
+  local red, green, blue, alpha = ("<ffff"):unpack(one:bytes { depth = "float", colour = "srgb",
+    alpha = "straight" })
+  local function byte(value) return math.floor(value * 255 + 0.5) end
+  local text = ("#%02x%02x%02x"):format(byte(red), byte(green), byte(blue))
+  return alpha > 1 - 0.5 / 255 and text or text .. ("%02x"):format(byte(alpha)),
+    { red, green, blue, alpha }
+end
+
+--- What a paint shows before nothing, under a white light.
+local function shown_by(paint)
+  local made, drawn = pcall(celspan.rect, { 0, 0, 1, 1, texture = paint })
+  if not made then
+    refuse(("shows takes a colour or a paint, got %s"):format(type(paint) == "string"
+      and ("%q"):format(paint) or fields.shown(paint)))
+  end
+  return celspan.probe(celspan.rostrum { celspan.cel { drawn } }, 0.5, 0.5, { film = { 1, 1 } })
+end
+
+function claims.shows(subject, arguments)
+  local tolerance = tolerance_of("shows", arguments[2])
+  local wanted, wanted_codes = coded(shown_by(arguments[1]))
+  local r, g, b, a = celspan.probe(subject.film, subject.x, subject.y, { frame = subject.frame })
+  need(r, g)
+  local found, codes = coded(r, g, b, a)
+  local most = 0
+  for i = 1, 4 do
+    local is_nothing = i < 4 and (codes[4] == 0 or wanted_codes[4] == 0)
+    most = is_nothing and most or math.max(most, math.abs(codes[i] - wanted_codes[i]))
+  end
+  local place = ("frame %d shows %s at %.14g, %.14g"):format(subject.frame, found, subject.x, subject.y)
+  if most > tolerance then
+    return false, ("%s, not %s: they are %s codes of 8 bits apart, and %s pass"):format(place, wanted,
+      code(most), code(tolerance))
+  end
+  return true, place .. ", and it should not"
+end
+
+function claims.visible(subject, _)
+  local function others(cel) return cel.name ~= subject.name and cel or nil end
+  local without = changed_frame(subject, others, {})
+  local size = subject.film.size
+  local rest = pixels_of(without, { size = size })
+  local whole = frame_pixels(subject)
+  local floats = { depth = "float", colour = "linear", alpha = "premultiplied" }
+  if whole:bytes(floats) == rest:bytes(floats) then
+    return false, ("cel %q is not visible in frame %d: the frame is the same without it"):format(
+      subject.name, subject.frame)
+  end
+  return true, ("cel %q is visible in frame %d, and it should not be: the frame is another without it")
+    :format(subject.name, subject.frame)
+end
+
+--- The mean matte of the cel, without its back light: an image shrunk to one pixel would do, but its
+--- sum is exact.
+local function matte_of(subject)
+  local function alone(cel)
+    return cel.name == subject.name and cel:with { back = { 0, 0, 0, 0 } } or nil
+  end
+  local image = pixels_of(changed_frame(subject, alone, { back = { 0, 0, 0, 0 } }),
+    { size = subject.film.size })
+  local bytes, sum = image:bytes { depth = 8, colour = "linear", alpha = "straight" }, 0
+  for alpha in bytes:gmatch "...(.)" do sum = sum + alpha:byte() end
+  return sum / 255 / (image.width * image.height)
+end
+
+function claims.covers(subject, arguments)
+  local share = arguments[1]
+  if not fields.is_finite(share) or share < 0 or share > 1 then
+    refuse("covers takes a share of the frame, a number from 0 to 1, got " .. fields.shown(share))
+  end
+  local found = matte_of(subject)
+  local place = ("cel %q covers %.4g of frame %d"):format(subject.name, found, subject.frame)
+  if found < share then return false, ("%s, not %.4g of it or more"):format(place, share) end
+  return true, ("%s, and it should cover less than %.4g"):format(place, share)
+end
+
+function claims.look_alike(subject, _)
+  local function image_of(frame) return pixels_of(subject.film, { frame = frame }) end
+  local first = image_of(subject.frames[1])
+  for i = 2, #subject.frames do
+    local found = difference.of(first, image_of(subject.frames[i]), ONE_CODE)
+    if found.count > 0 then
+      return false, ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes of "
+        .. "8 bits, at x %d, y %d, channel %s"):format(subject.frames[1], subject.frames[i], found.count,
+        first.width * first.height, code(found.largest), found.x, found.y, found.channel)
+    end
+  end
+  return true, ("frames %s look alike, and they should not"):format(table.concat(subject.frames, ", "))
+end
+
+local span_kinds = { "single", "gradient", "array" }
+
+function claims.holds(subject, arguments)
+  local wanted = arguments[1]
+  fields.check("holds", wanted, { single = "number", gradient = "number", array = "number" },
+    spec_level() + 1)
+  if next(wanted) == nil then
+    refuse("holds takes counts of spans: single =, gradient =, array =")
+  end
+  local y = subject.y
+  local rows = need(celspan.spans(subject.film, { frame = subject.frame, rows = { y, y } }), nil)
+  local found, is_so, told, asked = { single = 0, gradient = 0, array = 0 }, true, {}, {}
+  for _, span in ipairs(rows[y]) do found[span.kind] = found[span.kind] + 1 end
+  for _, kind in ipairs(span_kinds) do
+    if wanted[kind] then
+      is_so = is_so and found[kind] == wanted[kind]
+      asked[#asked + 1] = ("%s = %.14g"):format(kind, wanted[kind])
+    end
+    told[#told + 1] = ("%s = %d"):format(kind, found[kind])
+  end
+  local place = ("row %d of frame %d holds spans { %s }"):format(y, subject.frame, table.concat(told, ", "))
+  if is_so then return true, place .. ", and it should not" end
+  return false, ("%s, not { %s }"):format(place, table.concat(asked, ", "))
+end
+
+-- ---------------------------------------------------------------- luassert
+
+--- Which claims can be made of what.
+local about = { looks_like = "frame", shows = "point", visible = "cel", covers = "cel",
+                look_alike = "frames", holds = "row" }
+local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name",
+                frames = "film, m, n", row = "film, n, y" }
+
+say:set("assertion.celspan", "%s")
+
+for word, read in pairs(subjects) do
+  luassert:register("modifier", word, function(state, arguments)
+    if not arguments then
+      refuse(("write assert.%s(%s).claim(...): %s takes them itself"):format(word, takes[word], word))
+    end
+    rawset(state, "celspan", read(arguments))
+    return state
+  end)
+end
+
+--- The message goes into the place of the arguments, which are not shown otherwise.
+local function set_message(arguments, message)
+  if type(message) == "function" then message = message() end
+  for i = 1, arguments.n do arguments[i] = nil end
+  arguments[1], arguments.n, arguments.nofmt = message, 1, { true }
+end
+
+for word, claim in pairs(claims) do
+  luassert:register("assertion", word, function(state, arguments)
+    local subject = rawget(state, "celspan")
+    if not subject or subject.word ~= about[word] then
+      refuse(("%s is said of a %s: assert.%s(%s).%s(...)"):format(word, about[word], about[word],
+        takes[about[word]], word))
+    end
+    local holds, message = claim(subject, arguments)
+    if holds ~= rawget(state, "mod") then set_message(arguments, message) end
+    return holds
+  end, "assertion.celspan", "assertion.celspan")
+end
+
+spec.assert = luassert
+
+return fields.seal("spec", spec)
