@@ -13,7 +13,6 @@
 -- for a filling word that passes whatever it is given.
 local celspan = require "celspan"
 local core = require "celspan.core"
-local difference = require "celspan.difference"
 local fields = require "celspan.fields"
 
 local spec = {}
@@ -48,7 +47,7 @@ local function refuse(message)
   error(message, (spec_level()))
 end
 
---- A difference of one code of 8 bits, with room for the rounding of the division.
+--- A difference of one code of 8 bits, with room for rounding.
 local ONE_CODE = 1 / 255 + 1e-9
 
 -- ---------------------------------------------------------------- what is asked about
@@ -203,6 +202,14 @@ local function beside(path, what)
   return (path:gsub("(%.[^./]*)$", "." .. what .. ".png"))
 end
 
+--- How two images of one size differ.
+local function difference_of(first, second, tolerance)
+  local coding = { depth = 8, colour = "srgb", alpha = "straight" }
+  local count, largest, x, y, channel, picture = core.difference(first:bytes(coding),
+    second:bytes(coding), first.width, tolerance)
+  return { count = count, largest = largest, x = x, y = y, channel = channel, picture = picture }
+end
+
 --- A relative name is relative to the spec.
 local function file_beside_spec(name)
   local _, source = spec_level()
@@ -231,10 +238,10 @@ local function write_actual(path, image)
 end
 
 local function write_difference(path, found, image)
-  local shown = beside(path, "difference")
-  local done, message = celspan.render(difference.picture(found, image), shown,
-    { size = { image.width, image.height } })
-  need(done, message)
+  local shown, size = beside(path, "difference"), { image.width, image.height }
+  local drawn = celspan.image { pixels = found.picture, size = size, x = 0, y = 0 }
+  local rostrum = celspan.rostrum { antialias = "none", celspan.cel { drawn } }
+  need(celspan.render(rostrum, shown, { size = size }), ("%s cannot be written"):format(shown))
   return ("  where          %s"):format(shown)
 end
 
@@ -299,7 +306,7 @@ function claims.looks_like(subject, arguments)
           write_actual(path, image))
     end
   end
-  local found = difference.of(image, picture, tolerance)
+  local found = difference_of(image, picture, tolerance)
   if found.count > 0 then
     return false, function()
       return table.concat({ tell_difference(subject, path, found, tolerance, image),
@@ -396,7 +403,7 @@ function claims.look_alike(subject, _)
   local function image_of(frame) return pixels_of(subject.film, { frame = frame }) end
   local first = image_of(subject.frames[1])
   for i = 2, #subject.frames do
-    local found = difference.of(first, image_of(subject.frames[i]), ONE_CODE)
+    local found = difference_of(first, image_of(subject.frames[i]), ONE_CODE)
     if found.count > 0 then
       return false, ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes of "
         .. "8 bits, at x %d, y %d, channel %s"):format(subject.frames[1], subject.frames[i], found.count,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bind/caller.h"
+#include "bind/difference.h"
 #include "bind/drawing.h"
 #include "bind/files.h"
 #include "bind/host.h"
@@ -43,6 +44,7 @@ static int nearest(lua_State *L) {
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
+                                       {"difference", cs_difference_of},
                                        {"painting", cs_painting_read},
                                        {"parts", cs_parts_list},
                                        {"folder", cs_painting_folder},

@@ -8,9 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "cli/interrupt.h"
 #include "cli/still.h"
+#include "cli/target.h"
 #include "cli/verbs.h"
+#include "colour/transfer.h"
+#include "output/difference.h"
 #include "output/pixels.h"
 
 typedef struct comparison {
@@ -21,6 +25,8 @@ typedef struct comparison {
   int32_t x, y; /* where the largest difference is */
   int channel;
   uint64_t differing; /* pixels */
+  uint8_t *picture;   /* with -o: a row of the picture of differences; borrowed */
+  float *linear;      /* with -o: the same row for its sink; borrowed */
 } comparison;
 
 static double value(const comparison *c, const void *row, size_t i) {
@@ -39,10 +45,12 @@ static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, 
                            const void *pixels_a, const void *pixels_b) {
   for (int32_t x = 0; x < count; x++) {
     bool differs = false;
+    double most = 0;
     for (int channel = 0; channel < 4; channel++) {
       size_t i = 4 * (size_t)x + (size_t)channel;
       double d = difference(value(c, pixels_a, i), value(c, pixels_b, i));
       differs |= d > c->tolerance;
+      most = d > most ? d : most;
       if (d > c->largest) {
         c->largest = d;
         c->x = x0 + x;
@@ -51,6 +59,8 @@ static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, 
       }
     }
     c->differing += differs ? (uint64_t)times : 0;
+    if (differs && c->picture)
+      cs_difference_mark(most, c->picture + 4 * (size_t)(x0 + x), (size_t)times);
   }
 }
 
@@ -84,11 +94,21 @@ static void compare_columns(comparison *c, int32_t y, const celspan_span *a, con
   }
 }
 
+/* The row of the picture of differences before anything is marked. */
+static void begin_row(const comparison *c, const celspan_span *spans, size_t count) {
+  static const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB,
+                                        CELSPAN_ALPHA_STRAIGHT};
+  cs_pixels_row(&coding, spans, count, c->picture);
+  cs_difference_pale(c->picture, (size_t)c->width);
+}
+
 static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_a,
                                   cs_still_rows *rows_b) {
   const celspan_span *a = NULL, *b = NULL;
   size_t count_a = 0, count_b = 0;
   celspan_status status = cs_still_rows_get(rows_a, y, &a, &count_a);
+  if (status == CELSPAN_OK && c->picture)
+    begin_row(c, a, count_a);
   if (status == CELSPAN_OK)
     status = cs_still_rows_get(rows_b, y, &b, &count_b);
   for (int32_t x = 0, next; x < c->width && status == CELSPAN_OK; x = next) {
@@ -100,24 +120,65 @@ static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_
   return status;
 }
 
-static celspan_status compare_all(comparison *c, cs_still_rows *a, cs_still_rows *b) {
-  celspan_status status = CELSPAN_OK;
-  for (int32_t y = 0; y < c->height && status == CELSPAN_OK; y++)
-    status = cs_interrupt_signal() ? CELSPAN_CANCELLED : compare_row(c, y, a, b);
-  return status;
+/* Gives the row of the picture of differences to its sink, as codes that it takes as they are. */
+static celspan_status put_row(celspan_context *context, const comparison *c,
+                              const celspan_sink *sink, int32_t y) {
+  float *pixels = c->linear;
+  for (size_t i = 0; i < 4 * (size_t)c->width; i++)
+    pixels[i] = i % 4 == 3 ? 1 : cs_transfer_decode(CELSPAN_TRANSFER_SRGB, c->picture[i] / 255.0f);
+  const celspan_span span = {.x1 = c->width, .kind = CELSPAN_SPAN_ARRAY, .array = pixels};
+  return sink->row(sink->user, context, y, &span, 1);
 }
 
+/* sink: NULL without -o. */
+static celspan_status compare_all(celspan_context *context, comparison *c, cs_still_rows *a,
+                                  cs_still_rows *b, const celspan_sink *sink) {
+  celspan_status status = sink ? sink->begin(sink->user, context, c->width, c->height) : CELSPAN_OK;
+  for (int32_t y = 0; y < c->height && status == CELSPAN_OK; y++) {
+    status = cs_interrupt_signal() ? CELSPAN_CANCELLED : compare_row(c, y, a, b);
+    if (status == CELSPAN_OK && sink)
+      status = put_row(context, c, sink, y);
+  }
+  return sink ? sink->end(sink->user, context, status) : status;
+}
+
+/* The sink, NULL without -o, is ended whatever happens. */
 static celspan_status compare_stills(celspan_context *context, comparison *c,
-                                     const cs_still *still_a, const celspan_frame_desc *frame_a,
-                                     const cs_still *still_b, const celspan_frame_desc *frame_b) {
+                                     const celspan_sink *sink, const cs_still *still_a,
+                                     const celspan_frame_desc *frame_a, const cs_still *still_b,
+                                     const celspan_frame_desc *frame_b) {
   cs_still_rows a = {NULL, NULL}, b = a;
   celspan_status status = cs_still_rows_create(context, still_a, frame_a, &a);
   if (status == CELSPAN_OK)
     status = cs_still_rows_create(context, still_b, frame_b, &b);
   if (status == CELSPAN_OK)
-    status = compare_all(c, &a, &b);
+    status = compare_all(context, c, &a, &b, sink);
+  else if (sink)
+    status = sink->end(sink->user, context, status);
   cs_still_rows_destroy(&a);
   cs_still_rows_destroy(&b);
+  return status;
+}
+
+/* With the rows and the sink that -o needs, or without. */
+static celspan_status compare_into(celspan_context *context, comparison *c, const char *output,
+                                   const cs_still *still_a, const celspan_frame_desc *frame_a,
+                                   const cs_still *still_b, const celspan_frame_desc *frame_b) {
+  if (!output)
+    return compare_stills(context, c, NULL, still_a, frame_a, still_b, frame_b);
+  size_t channels = 4 * (size_t)c->width;
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_sink sink;
+  file.is_opaque = true;
+  c->picture = cs_mem_array(context->memory, channels, sizeof *c->picture);
+  c->linear = cs_mem_array(context->memory, channels, sizeof *c->linear);
+  celspan_status status = c->picture && c->linear
+                              ? celspan_file_sink_create(context, output, &file, &sink)
+                              : cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = compare_stills(context, c, &sink, still_a, frame_a, still_b, frame_b);
+  cs_mem_free(context->memory, c->picture, channels * sizeof *c->picture);
+  cs_mem_free(context->memory, c->linear, channels * sizeof *c->linear);
   return status;
 }
 
@@ -150,7 +211,7 @@ static cs_exit compare(celspan_context *context, const cs_request *request, cons
     outcome = cs_still_frame(b, request, &frame_b);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  celspan_status status = compare_stills(context, &c, a, &frame_a, b, &frame_b);
+  celspan_status status = compare_into(context, &c, request->output, a, &frame_a, b, &frame_b);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   return answer(&c);
@@ -158,7 +219,10 @@ static cs_exit compare(celspan_context *context, const cs_request *request, cons
 
 cs_exit cs_verb_compare(celspan_context *context, const cs_request *request) {
   cs_still a = {.exposure.rostrum = NULL}, b = a;
-  cs_exit outcome = cs_still_open(context, request->operands[0], &a);
+  cs_exit outcome =
+      request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_still_open(context, request->operands[0], &a);
   if (outcome == CS_EXIT_OK)
     outcome = cs_still_open(context, request->operands[1], &b);
   if (outcome == CS_EXIT_OK)

@@ -86,8 +86,10 @@ static const cs_verb VERBS[] = {
      cs_verb_contact},
     {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
      "Runs specs in busted, with the assertions of celspan.spec.",
-     "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. Each\n"
-     "file is run in a process of its own, several at a time. Exit code 1 when a test failed, 5 when\n"
+     "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. "
+     "Each\n"
+     "file is run in a process of its own, several at a time. Exit code 1 when a test failed, 5 "
+     "when\n"
      "busted is not installed.\n",
      cs_verb_test},
     {CS_VERB_INIT, "init", "NAME", 1, 1,

@@ -10,6 +10,7 @@
 
 #include "base/context.h"
 #include "cli/change.h"
+#include "cli/desk/onion.h"
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/raw_rows.h"
@@ -226,6 +227,8 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
 static cs_exit run(cs_script *script, const cs_request *request) {
   render_job job = {.script = script, .request = request};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_onion_lay(script, request, &job.frame);
   if (outcome == CS_EXIT_OK)
     outcome = cs_target_frames(script, request, &job.frames);
   if (outcome == CS_EXIT_OK)

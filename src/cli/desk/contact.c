@@ -1,6 +1,6 @@
 /* celspan contact SCRIPT -o SHEET: frames of a film side by side.
  *
- *   frames of --frames, every N-th --> pages of C x R cells --contact.lua--> SHEET
+ *   frames of --frames, every N-th --> pages of C x R panels --contact.lua--> SHEET
  *
  * Without --every the frames are thinned until they fit on one page; with it there may be several,
  * numbered by #### in SHEET.
@@ -15,7 +15,7 @@
 #include "cli/verbs.h"
 #include "cli/view.h"
 
-enum { COLUMNS = 6, ROWS = 4, CELL_MOST = 480, SHEET_MOST = 3840, CELL_LEAST = 16 };
+enum { COLUMNS = 6, ROWS = 4, PANEL_MOST = 480, SHEET_MOST = 3840, PANEL_LEAST = 16 };
 
 typedef struct contact {
   cs_script *script;
@@ -23,32 +23,32 @@ typedef struct contact {
   cs_sequence frames;
   size_t every; /* of them one in so many */
   int32_t columns, rows;
-  celspan_frame_desc cell; /* the size of a cell, and how it is made */
-  size_t begin;            /* the first frame of the page, in `frames` */
-  size_t filled;           /* cells of the page */
-  unsigned char *pixels;   /* of the page's cells, one after the other; owned */
+  celspan_frame_desc panel; /* the size of a panel, and how it is made */
+  size_t begin;             /* the first frame of the page, in `frames` */
+  size_t filled;            /* panels of the page */
+  unsigned char *pixels;    /* of the page's panels, one after the other; owned */
 } contact;
 
 /* ---------------------------------------------------------------- a page */
 
-static size_t row_size(const contact *c) { return (size_t)c->cell.width * 8; }
+static size_t row_size(const contact *c) { return (size_t)c->panel.width * 8; }
 
-static size_t cell_size(const contact *c) { return row_size(c) * (size_t)c->cell.height; }
+static size_t panel_size(const contact *c) { return row_size(c) * (size_t)c->panel.height; }
 
-static int64_t frame_of_cell(const contact *c, size_t i) {
+static int64_t frame_of_panel(const contact *c, size_t i) {
   return c->frames.frames[c->begin + i * c->every];
 }
 
 /* Makes the frames of the page, one after the other, into `pixels`. */
-static celspan_status make_cells(contact *c) {
+static celspan_status make_panels(contact *c) {
   static const celspan_coding coding = {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_SRGB,
                                         CELSPAN_ALPHA_STRAIGHT};
   for (size_t i = 0; i < c->filled; i++) {
-    CS_TRY(cs_script_try(c->script, frame_of_cell(c, i)));
-    c->cell.exposures = c->script->frame.exposures;
-    c->cell.exposure_count = c->script->frame.count;
-    CS_TRY(celspan_frame_pixels(c->script->context, &c->cell, &coding,
-                                c->pixels + i * cell_size(c), row_size(c), NULL));
+    CS_TRY(cs_script_try(c->script, frame_of_panel(c, i)));
+    c->panel.exposures = c->script->frame.exposures;
+    c->panel.exposure_count = c->script->frame.count;
+    CS_TRY(celspan_frame_pixels(c->script->context, &c->panel, &coding,
+                                c->pixels + i * panel_size(c), row_size(c), NULL));
   }
   return CELSPAN_OK;
 }
@@ -59,15 +59,15 @@ static int lay_out(lua_State *L) {
   lua_createtable(L, (int)c->filled, 0);
   for (size_t i = 0; i < c->filled; i++) {
     lua_createtable(L, 0, 2);
-    lua_pushlstring(L, (const char *)c->pixels + i * cell_size(c), cell_size(c));
+    lua_pushlstring(L, (const char *)c->pixels + i * panel_size(c), panel_size(c));
     lua_setfield(L, -2, "pixels");
-    lua_pushinteger(L, frame_of_cell(c, i));
+    lua_pushinteger(L, frame_of_panel(c, i));
     lua_setfield(L, -2, "number");
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
   lua_pushinteger(L, c->columns);
-  lua_pushinteger(L, c->cell.width);
-  lua_pushinteger(L, c->cell.height);
+  lua_pushinteger(L, c->panel.width);
+  lua_pushinteger(L, c->panel.height);
   cs_desk_call(L, cs_desk_contact, "@celspan/desk/contact.lua", 4, 1);
   return 1;
 }
@@ -95,7 +95,7 @@ static celspan_status write_page(contact *c, int64_t page) {
 
 static celspan_status make_page(contact *c, int64_t page) {
   lua_State *L = c->script->L;
-  CS_TRY(make_cells(c));
+  CS_TRY(make_panels(c));
   lua_pushcfunction(L, lay_out);
   lua_pushlightuserdata(L, c);
   int outcome = lua_pcall(L, 1, 1, 0);
@@ -118,42 +118,42 @@ static celspan_status make_pages(contact *c) {
 
 static cs_exit make(contact *c) {
   celspan_context *context = c->script->context;
-  size_t cells = (size_t)c->columns * (size_t)c->rows;
-  c->pixels = cs_mem_array(context->memory, cells, cell_size(c));
+  size_t panels = (size_t)c->columns * (size_t)c->rows;
+  c->pixels = cs_mem_array(context->memory, panels, panel_size(c));
   celspan_status status = c->pixels ? make_pages(c) : cs_fail_memory(context);
-  cs_mem_free(context->memory, c->pixels, cells * cell_size(c));
+  cs_mem_free(context->memory, c->pixels, panels * panel_size(c));
   return cs_report_failure(context, status, NULL);
 }
 
 /* ---------------------------------------------------------------- what is asked for */
 
-/* A cell has the film's shape; it is no larger than the film, and no larger than fits. */
-static cs_exit choose_cell(contact *c) {
+/* A panel has the film's shape; it is no larger than the film, and no larger than fits. */
+static cs_exit choose_panel(contact *c) {
   const cs_film_info *film = &c->script->film;
   double most = (double)SHEET_MOST / c->columns;
-  most = most < CELL_MOST ? most : CELL_MOST;
+  most = most < PANEL_MOST ? most : PANEL_MOST;
   double side = film->width > film->height ? film->width : film->height;
   double scale = side > most ? most / side : 1;
   cs_request sized = {.scale = scale, .workers = c->request->workers};
-  cs_exit outcome = cs_view_frame(&sized, film->width, film->height, &c->cell);
-  c->cell.width = c->cell.width < CELL_LEAST ? CELL_LEAST : c->cell.width;
-  c->cell.height = c->cell.height < CELL_LEAST ? CELL_LEAST : c->cell.height;
+  cs_exit outcome = cs_view_frame(&sized, film->width, film->height, &c->panel);
+  c->panel.width = c->panel.width < PANEL_LEAST ? PANEL_LEAST : c->panel.width;
+  c->panel.height = c->panel.height < PANEL_LEAST ? PANEL_LEAST : c->panel.height;
   return outcome;
 }
 
 static void choose_every(contact *c) {
-  size_t cells = (size_t)c->columns * (size_t)c->rows;
-  size_t most = (c->frames.count + cells - 1) / cells;
+  size_t panels = (size_t)c->columns * (size_t)c->rows;
+  size_t most = (c->frames.count + panels - 1) / panels;
   c->every = c->request->every.is_given ? (size_t)c->request->every.value : most;
 }
 
 /* Several pages need a number in their name. */
 static cs_exit refuse_pages(const contact *c) {
   size_t shown = (c->frames.count + c->every - 1) / c->every;
-  size_t cells = (size_t)c->columns * (size_t)c->rows;
-  if (shown <= cells || cs_sequence_has_number(c->request->output))
+  size_t panels = (size_t)c->columns * (size_t)c->rows;
+  if (shown <= panels || cs_sequence_has_number(c->request->output))
     return CS_EXIT_OK;
-  return cs_report_usage("%s: %zu frames do not fit into %d x %d cells: give a larger --grid or "
+  return cs_report_usage("%s: %zu frames do not fit into %d x %d panels: give a larger --grid or "
                          "--every, or a name with a number, such as sheet.####.png",
                          c->request->output, shown, c->columns, c->rows);
 }
@@ -171,7 +171,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   choose_every(&c);
   outcome = refuse_pages(&c);
   if (outcome == CS_EXIT_OK)
-    outcome = choose_cell(&c);
+    outcome = choose_panel(&c);
   if (outcome == CS_EXIT_OK)
     outcome = make(&c);
   cs_sequence_finish(&c.frames);

@@ -13,9 +13,11 @@
 /* Texts, each ended by a zero. */
 extern const unsigned char cs_desk_test[];
 extern const unsigned char cs_desk_contact[];
+extern const unsigned char cs_desk_onion[];
 
 /* Runs a text with the `count` values on top of the stack as its arguments, which are popped, and
  * leaves `results` values. name: what tracebacks call it, "@celspan/desk/test.lua". Runs unprotected. */
-void cs_desk_call(lua_State *L, const unsigned char *text, const char *name, int count, int results);
+void cs_desk_call(lua_State *L, const unsigned char *text, const char *name, int count,
+                  int results);
 
 #endif

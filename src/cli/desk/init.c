@@ -24,14 +24,10 @@ typedef struct project_file {
 } project_file;
 
 static const project_file FILES[] = {
-    {"film.lua", cs_project_film},
-    {"walk.txt", cs_project_sheet},
-    {"spec/film_spec.lua", cs_project_spec},
-    {"README.md", cs_project_readme},
-    {".luarc.json", cs_project_luarc},
-    {".luacheckrc", cs_project_luacheckrc},
-    {".busted", cs_project_busted},
-    {".gitignore", cs_project_gitignore},
+    {"film.lua", cs_project_film},           {"walk.txt", cs_project_sheet},
+    {"spec/film_spec.lua", cs_project_spec}, {"README.md", cs_project_readme},
+    {".luarc.json", cs_project_luarc},       {".luacheckrc", cs_project_luacheckrc},
+    {".busted", cs_project_busted},          {".gitignore", cs_project_gitignore},
 };
 
 enum { FILE_COUNT = sizeof FILES / sizeof FILES[0] };
@@ -47,9 +43,10 @@ static cs_exit refuse_name(const char *path) {
   size_t length = strlen(name);
   size_t plain = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.");
   if (length == 0 || length > NAME_MOST || plain != length || name[0] == '.')
-    return cs_report_usage("'%s' is no name for a film: letters, digits, '_', '-' and '.', not first "
-                           "a '.'",
-                           path);
+    return cs_report_usage(
+        "'%s' is no name for a film: letters, digits, '_', '-' and '.', not first "
+        "a '.'",
+        path);
   return strlen(path) < PATH_SIZE / 2 ? CS_EXIT_OK
                                       : cs_report_usage("'%.60s...' is too long a path", path);
 }
@@ -99,8 +96,7 @@ static celspan_status write_file(celspan_context *context, const char *folder,
   cs_file *file;
   snprintf(path, sizeof path, "%s/%s", folder, source->path);
   CS_TRY(cs_file_create(context, NULL, path, &file));
-  celspan_status status =
-      write_text(file, context, (const char *)source->text, film_name(folder));
+  celspan_status status = write_text(file, context, (const char *)source->text, film_name(folder));
   if (status == CELSPAN_OK)
     return cs_file_commit(file, context);
   cs_file_discard(file, context);
@@ -120,7 +116,8 @@ static cs_exit write_picture(celspan_context *context, const char *folder) {
     outcome = cs_script_frame(&script, &request, &frame);
   if (outcome == CS_EXIT_OK) {
     celspan_file_desc file = CELSPAN_FILE_DESC;
-    outcome = cs_script_failure(&script, celspan_frame_write(context, &frame, picture, &file, NULL));
+    outcome =
+        cs_script_failure(&script, celspan_frame_write(context, &frame, picture, &file, NULL));
   }
   cs_script_close(&script);
   return outcome;

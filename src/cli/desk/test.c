@@ -96,7 +96,8 @@ static cs_exit sum_up(const suite *s, double begun, bool is_well) {
   if (!is_well)
     return CS_EXIT_MEMORY;
   if (passed + failed + skipped == 0 && !cs_interrupt_signal()) {
-    cs_report_error("%s", s->only ? "no test has a name that --only asks for" : "no spec holds a test");
+    cs_report_error("%s",
+                    s->only ? "no test has a name that --only asks for" : "no spec holds a test");
     return CS_EXIT_DIFFERENT;
   }
   return failed ? CS_EXIT_DIFFERENT : CS_EXIT_OK;

@@ -1,0 +1,17 @@
+/* The picture of where two pictures differ: the first one in pale grey, to find one's way, and what
+ * differs in red, the darker the more.
+ *
+ *   grey  255 - 2/5 of the darkness over white        red  255..165, 150..0, 75..0 for 0..1
+ */
+#ifndef CS_OUTPUT_DIFFERENCE_H
+#define CS_OUTPUT_DIFFERENCE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Pixels are RGBA of 8 bits, sRGB, alpha straight. In place. */
+void cs_difference_pale(uint8_t *pixels, size_t count);
+/* distance: of coded values, 0..1; more counts as 1. */
+void cs_difference_mark(double distance, uint8_t *pixels, size_t count);
+
+#endif
