@@ -153,7 +153,7 @@ static cs_exit refuse_pages(const contact *c) {
   size_t panels = (size_t)c->columns * (size_t)c->rows;
   if (shown <= panels || cs_sequence_has_number(c->request->output))
     return CS_EXIT_OK;
-  return cs_report_usage("%s: %zu frames do not fit into %d x %d panels: give a larger --grid or "
+  return cs_report_usage("%s: %zu frames do not fit into a grid of %d x %d: give a larger --grid or "
                          "--every, or a name with a number, such as sheet.####.png",
                          c->request->output, shown, c->columns, c->rows);
 }

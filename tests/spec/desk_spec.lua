@@ -1,0 +1,301 @@
+-- The animator's desk: test, init, contact, onion skin and pictures of differences.
+local celspan = require "celspan"
+local workbench = require "tests.support.workbench"
+
+local BINARY = workbench.binary
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+
+local function run(arguments) return bench:shell(("cd %s && %s %s"):format(bench.folder, BINARY, arguments)) end
+
+--- The colour of a pixel's centre in a picture of the folder: linear, premultiplied.
+local function pixel(name, x, y)
+  local image = celspan.image { file = bench.folder .. "/" .. name, x = 0, y = 0 }
+  return celspan.probe(celspan.rostrum { celspan.cel { image } }, x + 0.5, y + 0.5,
+    { film = { 64, 64 } })
+end
+
+local function size_of(name)
+  local _, out = run("info " .. name)
+  return out:match "size (%d+x%d+)"
+end
+
+local FILM = [[
+local celspan = require "celspan"
+return celspan.film { size = { 40, 20 }, frames = 12, frame = function(f)
+  local ground = celspan.cel { celspan.rect { 0, 0, 40, 20, texture = "#fff" } }
+  local ball = celspan.cel { celspan.rect { 3 * f.index, 0, 3, 20, texture = "#000" } }
+  return celspan.rostrum { ground, ball }
+end }
+]]
+
+local SPEC = [[
+require "celspan.spec"
+local film = require "film"
+describe("the film", function()
+  it("begins at the left", function() assert.point(film, 1, 1, 10).shows "#000" end)
+  it("is not there any more", function() assert.point(film, 5, 1, 10).is_not.shows "#000" end)
+end)
+]]
+
+describe("celspan test", function()
+  it("runs every spec of the folder in Lua 5.4 and sums up", function()
+    bench:write("film.lua", FILM)
+    bench:shell("mkdir -p " .. bench.folder .. "/spec/deeper")
+    bench:write("spec/film_spec.lua", SPEC)
+    bench:write("spec/deeper/version_spec.lua", [[
+      it("is Lua 5.4", function() assert.equal("Lua 5.4", _VERSION) end)
+      pending "is for later"]])
+    bench:write("spec/helper.lua", "error 'not a spec'")
+    local code, out, err = run "test"
+    assert.equal(0, code, out .. err)
+    assert.truthy(out:find("spec/deeper/version_spec.lua: 1 passed, 0 failed, 1 skipped\n", 1, true), out)
+    assert.truthy(out:find("spec/film_spec.lua: 2 passed, 0 failed, 0 skipped\n", 1, true), out)
+    assert.truthy(out:find("\n3 passed, 0 failed, 1 skipped in 2 spec files, ", 1, true), out)
+    assert.equal("", err)
+  end)
+
+  it("prints the same, in the order of the list, on any number of workers", function()
+    bench:write("slow_spec.lua", [[
+      it("takes its time", function() local n = 0 for i = 1, 3e6 do n = n + i end end)]])
+    bench:write("quick_spec.lua", [[it("fails", function() assert.is_true(false) end)]])
+    local function printed(workers)
+      local code, out = run("test slow_spec.lua quick_spec.lua --workers " .. workers)
+      assert.equal(1, code)
+      return (out:gsub("[%d.]+ seconds", ""))
+    end
+    local one = printed(1)
+    assert.truthy(one:find("^slow_spec.lua: 1 passed"), one)
+    assert.equal(one, printed(2))
+  end)
+
+  it("ends with 1 and tells test, place and message of what failed", function()
+    bench:write("film.lua", FILM)
+    bench:write("bad_spec.lua", (SPEC:gsub("is_not%.", "")))
+    local code, out = run "test bad_spec.lua"
+    assert.equal(1, code)
+    assert.truthy(out:find("failed: the film is not there any more (bad_spec.lua:5)\n"
+      .. "    frame 5 shows #ffffff at 1, 10, not #000000", 1, true), out)
+    assert.truthy(out:find("bad_spec.lua: 1 passed, 1 failed, 0 skipped\n", 1, true), out)
+  end)
+
+  it("counts a spec that cannot be loaded, that ends its process, or that is ended", function()
+    bench:write("a_spec.lua", "it(")
+    bench:write("b_spec.lua", [[it("stops", function() os.exit(3) end)]])
+    bench:write("c_spec.lua", [[it("dies", function() os.execute("kill -9 $PPID") end)]])
+    bench:write("d_spec.lua", [[it("passes", function() end)]])
+    local code, out = run "test ."
+    assert.equal(1, code)
+    assert.truthy(out:find("a_spec.lua:1: ", 1, true), out)
+    assert.truthy(out:find("failed: ./b_spec.lua ended before its tests did, with exit code 3", 1, true), out)
+    assert.truthy(out:find("failed: ./c_spec.lua was ended by signal 9", 1, true), out)
+    assert.truthy(out:find("1 passed, 3 failed, 0 skipped in 4 spec files", 1, true), out)
+  end)
+
+  it("runs the tests that --only asks for, and fails when there are none", function()
+    bench:write("film.lua", FILM)
+    bench:write("film_spec.lua", SPEC)
+    local code, out = run "test film_spec.lua --only 'at the left'"
+    assert.equal(0, code)
+    assert.truthy(out:find("1 passed, 0 failed", 1, true), out)
+    local none, _, err = run "test film_spec.lua --only nothing"
+    assert.equal(1, none)
+    assert.truthy(err:find("no test has a name that --only asks for", 1, true), err)
+  end)
+
+  it("says what a test prints, under the name of its spec", function()
+    bench:write("talk_spec.lua", [[it("talks", function() print "good evening" end)]])
+    local _, out = run "test talk_spec.lua"
+    assert.truthy(out:find("printed by talk_spec.lua:\ngood evening\n", 1, true), out)
+  end)
+
+  it("ends with 4 where there is no spec", function()
+    for arguments, said in pairs { ["test"] = "spec: cannot be opened", ["test no.lua"] = "no.lua: cannot be opened",
+                                   ["test ."] = "no file in it ends in _spec.lua" } do
+      local code, _, err = run(arguments)
+      assert.equal(4, code, err)
+      assert.truthy(err:find(said, 1, true), err)
+    end
+  end)
+
+  it("ends with 5 and the name of the package where busted is missing", function()
+    bench:write("film_spec.lua", SPEC)
+    local code, _, err = bench:shell(("cd %s && LUA_PATH_5_4='./none/?.lua' %s test film_spec.lua")
+      :format(bench.folder, BINARY))
+    assert.equal(5, code, err)
+    assert.truthy(err:find("lua-busted", 1, true), err)
+  end)
+end)
+
+describe("celspan init", function()
+  -- The film reads an exposure sheet.
+  local has_sheets = pcall(require, "celspan.sheet")
+  local it_reads_sheets = has_sheets and it or pending
+
+  it_reads_sheets("lays out a film that renders and whose tests pass", function()
+    local code, out, err = run "init walk"
+    assert.equal(0, code, err)
+    assert.truthy(out:find("cd walk", 1, true))
+    for _, name in ipairs { "film.lua", "walk.txt", "spec/film_spec.lua", "spec/frame1.png", "README.md",
+                            ".luarc.json", ".luacheckrc", ".busted" } do
+      assert.truthy(bench:read(bench.folder .. "/walk/" .. name), name)
+    end
+    assert.truthy(bench:read(bench.folder .. "/walk/README.md"):find("^# walk\n"))
+    local checked, _, faults = run "check walk/film.lua"
+    assert.equal(0, checked, faults)
+    local tested, told = bench:shell(("cd %s/walk && %s test"):format(bench.folder, BINARY))
+    assert.equal(0, tested, told)
+    assert.truthy(told:find("5 passed, 0 failed, 0 skipped", 1, true), told)
+    local rendered = run "render walk/film.lua --scale 0.1 --progress none -o out/####.png"
+    assert.equal(0, rendered)
+  end)
+
+  it("replaces nothing", function()
+    bench:shell("mkdir " .. bench.folder .. "/walk")
+    bench:write("walk/film.lua", "mine")
+    local code, _, err = run "init walk"
+    assert.equal(5, code)
+    assert.truthy(err:find("walk: there is something in it already", 1, true), err)
+    assert.equal("mine", bench:read(bench.folder .. "/walk/film.lua"))
+  end)
+
+  it("refuses names that are none", function()
+    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'" } do
+      local code, _, err = run("init " .. name)
+      assert.equal(2, code, name)
+      assert.truthy(err:find("is no name for a film", 1, true), err)
+    end
+    assert.equal(2, (run "init"))
+  end)
+end)
+
+describe("celspan contact", function()
+  before_each(function() bench:write("film.lua", FILM) end)
+
+  it("lays all frames of a short film side by side", function()
+    local code, _, err = run "contact film.lua -o sheet.png"
+    assert.equal(0, code, err)
+    assert.equal("324x100", size_of "sheet.png") -- 6 and 2 frames of 40 x 20, 12 and 24 pixels apart
+    local black, white = pixel("sheet.png", 13, 20), pixel("sheet.png", 13 + 52, 20)
+    assert.is_true(black < 0.01 and white > 0.99) -- the first frame begins at the left, the second does not
+    assert.is_true(pixel("sheet.png", 12 + 52 + 4, 20) < 0.01)
+  end)
+
+  it("thins a film until it fits, or takes every N-th frame, or those of --frames", function()
+    run "contact film.lua -o four.png --grid 2x2"
+    run "contact film.lua -o three.png --grid 3x4 --every 4"
+    run "contact film.lua -o two.png --frames 3-4"
+    assert.equal("116x100", size_of "four.png")
+    assert.equal("168x56", size_of "three.png")
+    assert.equal("116x56", size_of "two.png")
+    assert.is_true(pixel("three.png", 12 + 52 + 13, 20) < 0.01) -- frame 5 is the second
+    assert.is_true(pixel("two.png", 12 + 7, 20) < 0.01)
+  end)
+
+  it("writes a number under each frame", function()
+    run "contact film.lua -o sheet.png --frames 8"
+    local darkest = 1
+    for x = 12, 24 do
+      for y = 38, 50 do darkest = math.min(darkest, (pixel("sheet.png", x, y))) end
+    end
+    assert.is_true(darkest < 0.3)
+  end)
+
+  it("makes pages where they have a number, and else refuses more than fit", function()
+    local code = run "contact film.lua -o page.##.png --grid 2x2 --every 1"
+    assert.equal(0, code)
+    assert.equal("116x100", size_of "page.03.png")
+    assert.equal(4, (run "info page.04.png"))
+    local refused, _, err = run "contact film.lua -o page.png --grid 2x2 --every 1"
+    assert.equal(2, refused)
+    assert.truthy(err:find("12 frames do not fit into a grid of 2 x 2", 1, true), err)
+  end)
+
+  it("ends as render does", function()
+    bench:write("bad.lua", (FILM:gsub("%-%- ", ""):gsub("3 %* f%.index", "f.nothing")))
+    bench:write("missing.lua", (FILM:gsub('celspan.rect { 3 %* f.index.-}', 'celspan.image { file = "no.png", w = 1, h = 1 }')))
+    assert.equal(3, (run "contact bad.lua -o sheet.png"))
+    assert.equal(4, (run "contact missing.lua -o sheet.png"))
+    assert.equal(4, (run "contact no.lua -o sheet.png"))
+    assert.equal(2, (run "contact film.lua"))
+    assert.equal(2, (run "contact film.lua -o sheet.png --grid 0x3"))
+    assert.equal(2, (run "contact film.lua -o sheet.xyz"))
+    assert.equal(5, (run "contact film.lua -o /dev/null/sheet.png"))
+  end)
+end)
+
+describe("render --onion", function()
+  before_each(function() bench:write("film.lua", FILM) end)
+
+  it("lays frames before in red and frames after in green over the frame, fading by half", function()
+    local code, _, err = run "render film.lua --frames 6 --onion 2,1 -o onion.png"
+    assert.equal(0, code, err)
+    local function at(frame) return pixel("onion.png", 3 * (frame - 1) + 1, 10) end
+    local r, g, b = at(5)
+    assert.is_true(r > 0.6 and g < 0.65 and b < 0.65 and r > g + 0.1)
+    local far_r, far_g = at(4)
+    assert.is_true(far_r - far_g < r - g and far_r > far_g) -- half as strong
+    local after_r, after_g = at(7)
+    assert.is_true(after_g > after_r + 0.1)
+    assert.is_true(at(6) < 0.01) -- the frame itself
+    for _, frame in ipairs { 1, 2, 3, 8, 9 } do
+      local other_r, other_g, other_b = at(frame)
+      assert.is_true(other_r > 0.99 and other_g > 0.99 and other_b > 0.99) -- the ground is in all of them
+    end
+  end)
+
+  it("leaves out what is before the first frame and after the last", function()
+    run "render film.lua --frames 1,12 --onion 3,3 -o onion.##.png"
+    local r, g = pixel("onion.01.png", 4, 10)
+    assert.is_true(g > r)
+    local last_r, last_g = pixel("onion.12.png", 31, 10)
+    assert.is_true(last_r > last_g)
+  end)
+
+  it("keeps frames where they are under a camera, and in any size", function()
+    bench:write("camera.lua", (FILM:gsub("{ ground, ball }", "{ ground, ball, camera = { width = 20 } }")))
+    assert.equal(0, (run "render camera.lua --frames 6 --onion 1,0 --size 64x32 -o camera.png"))
+    -- frame 5's ball is at 12..15 of the film, and the camera sees 10..30
+    local r, g = pixel("camera.png", math.floor((13.5 - 10) * 64 / 20), 16)
+    assert.is_true(r > g + 0.1)
+    assert.is_true(pixel("camera.png", math.floor((16.5 - 10) * 64 / 20), 16) < 0.01)
+  end)
+
+  it("is the same on any number of workers, and refuses what it cannot do", function()
+    local _, one = run "render film.lua --onion 2,2 --hash --workers 1"
+    local _, four = run "render film.lua --onion 2,2 --hash --workers 4"
+    assert.equal(one, four)
+    for _, wrong in ipairs { "2", "0,0", "-1,2", "2,99" } do
+      assert.equal(2, (run("render film.lua --hash --onion=" .. wrong)))
+    end
+    assert.equal(2, (run "render film.lua --hash --onion 1,1 --cel ball"))
+  end)
+end)
+
+describe("compare -o", function()
+  it("shows where two pictures differ", function()
+    bench:write("film.lua", FILM)
+    run "render film.lua --frames 1,3 -o f.#.png"
+    local code, out = run "compare f.1.png f.3.png -o difference.png"
+    assert.equal(1, code)
+    assert.truthy(out:find("pixels_differing 120 ", 1, true), out)
+    local r, g = pixel("difference.png", 1, 10)
+    assert.is_true(r > 3 * g)
+    local red, green = pixel("difference.png", 7, 10)
+    assert.is_true(red > 3 * green)
+    local pale, same = pixel("difference.png", 4, 10)
+    assert.is_true(pale == same and pale > 0.9)
+  end)
+
+  it("is pale where nothing differs by more than --fail", function()
+    bench:write("film.lua", FILM)
+    run "render film.lua --frames 1,3 -o f.#.png"
+    assert.equal(0, (run "compare f.1.png f.3.png -o difference.png --fail 1"))
+    local r, g, b = pixel("difference.png", 1, 10)
+    assert.is_true(r == g and g == b and r < 0.5)
+    assert.equal(2, (run "compare f.1.png f.3.png -o difference.xyz"))
+    assert.equal(5, (run "compare f.1.png f.3.png -o /dev/null/difference.png"))
+  end)
+end)
