@@ -17,6 +17,25 @@ local fields = require "celspan.fields"
 
 local spec = {}
 
+---@class celspan.spec.frame
+---@field looks_like fun(png: string, options?: { tolerance?: number }) Relative to the spec; tolerance 0..1, default 1/255
+---@class celspan.spec.point
+---@field shows fun(colour: celspan.colour, tolerance?: number)
+---@class celspan.spec.cel
+---@field is_visible fun()
+---@field covers fun(share: number) At least, 0..1
+---@class celspan.spec.frames
+---@field look_alike fun()
+---@class celspan.spec.row
+---@field holds fun(counts: { single?: integer, gradient?: integer, array?: integer })
+
+---@class luassert.internal
+---@field frame fun(film: celspan.film|celspan.rostrum, n: integer): celspan.spec.frame
+---@field point fun(film: celspan.film|celspan.rostrum, n: integer, x: number, y: number): celspan.spec.point
+---@field cel fun(film: celspan.film|celspan.rostrum, n: integer, name: string): celspan.spec.cel
+---@field frames fun(film: celspan.film|celspan.rostrum, m: integer, n: integer, ...: integer): celspan.spec.frames
+---@field row fun(film: celspan.film|celspan.rostrum, n: integer, y: integer): celspan.spec.row
+
 local has_luassert, luassert = pcall(require, "luassert")
 if not has_luassert then
   error("celspan.spec adds assertions to luassert, which is not installed: install busted (Debian's "

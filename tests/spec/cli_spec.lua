@@ -94,7 +94,7 @@ describe("the command line", function()
       local code, page, err = celspan("--man")
       assert.same({ 0, "" }, { code, err })
       local sections, options = sections_of(page), 0
-      for verb in select(2, celspan("help")):gmatch "\n  (%l+) +[%u|]" do
+      for verb in select(2, celspan("help")):gmatch "\n  (%l+) +[%u|%[]" do
         local _, help = celspan("help " .. verb)
         local section, count = sections[help:match "^[^\n]+"] or "", 0
         for option in (help:match "\nOptions(\n.*)$" or ""):gmatch "\n  (%-[^\n]-)  " do

@@ -7,6 +7,7 @@ local BINARY = workbench.binary
 local bench
 
 before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
 
 local function run(arguments) return bench:shell(("cd %s && %s %s"):format(bench.folder, BINARY, arguments)) end
 

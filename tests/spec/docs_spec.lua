@@ -4,6 +4,7 @@
 --              -- name.lua          its file name, else example.lua
 --              -- error: TEXT       it must fail, and TEXT must be in the message
 --              --> TEXT             (anywhere) a line that it prints
+--            what is named *_spec.lua is a spec, and passes
 --   ```sh    commands: those that begin with `celspan` are run, in a folder that holds the examples
 --   ```c     a part of one of the programs in examples/
 local celspan = require "celspan"
@@ -98,6 +99,11 @@ describe("the examples of", function()
             assert.are.equal(0, code, message)
           end
         end)
+      elseif block.language == "lua" and (block.name or ""):find "_spec$" then
+        it(place(page, block) .. " pass", function()
+          local code, printed, message = run("celspan test " .. write_example(block))
+          assert.are.equal(0, code, printed .. message)
+        end)
       elseif block.language == "lua" then
         it(place(page, block) .. " run", function()
           local path = write_example(block)
@@ -140,7 +146,7 @@ describe("the command line's page", function()
 
   it("names every verb and option that the program knows, and no other", function()
     local known = {}
-    for verb in output_of(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z]" do
+    for verb in output_of(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z%[]" do
       assert.is_truthy(text:find("\n## " .. verb .. "\n", 1, true) or verb == "help", verb)
       for option in output_of(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
         known[option] = true
@@ -266,7 +272,7 @@ describe("the Lua reference", function()
 
   it("names the modules of the library and what they hold", function()
     for _, name in ipairs { "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "layers",
-                            "oca", "json" } do
+                            "oca", "json", "spec" } do
       local text = section("Module celspan." .. name)
       local module = require("celspan." .. name)
       for key, value in pairs(module) do

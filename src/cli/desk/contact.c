@@ -153,9 +153,10 @@ static cs_exit refuse_pages(const contact *c) {
   size_t panels = (size_t)c->columns * (size_t)c->rows;
   if (shown <= panels || cs_sequence_has_number(c->request->output))
     return CS_EXIT_OK;
-  return cs_report_usage("%s: %zu frames do not fit into a grid of %d x %d: give a larger --grid or "
-                         "--every, or a name with a number, such as sheet.####.png",
-                         c->request->output, shown, c->columns, c->rows);
+  return cs_report_usage(
+      "%s: %zu frames do not fit into a grid of %d x %d: give a larger --grid or "
+      "--every, or a name with a number, such as sheet.####.png",
+      c->request->output, shown, c->columns, c->rows);
 }
 
 static cs_exit run(cs_script *script, const cs_request *request) {
