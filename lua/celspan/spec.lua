@@ -442,7 +442,8 @@ function claims.holds(subject, arguments)
     refuse("holds takes counts of spans: single =, gradient =, array =")
   end
   local y = subject.y
-  local rows = need(celspan.spans(subject.film, { frame = subject.frame, rows = { y, y } }), nil)
+  local rows, message = celspan.spans(subject.film, { frame = subject.frame, rows = { y, y } })
+  need(rows, message)
   local found, is_so, told, asked = { single = 0, gradient = 0, array = 0 }, true, {}, {}
   for _, span in ipairs(rows[y]) do found[span.kind] = found[span.kind] + 1 end
   for _, kind in ipairs(span_kinds) do

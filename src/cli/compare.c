@@ -1,4 +1,5 @@
-/* celspan compare A B: whether two pictures show the same, row by row, span by span.
+/* celspan compare A B: whether two pictures, or two films as numbered pictures, show the same, row by
+ * row, span by span.
  *
  * Coded values are compared: sRGB, straight, at 16 bits when both pictures hold integers and as
  * floats when one of them does not.
@@ -191,8 +192,8 @@ static cs_exit answer(const comparison *c) {
   return c->differing ? CS_EXIT_DIFFERENT : CS_EXIT_OK;
 }
 
-static cs_exit compare(celspan_context *context, const cs_request *request, const cs_still *a,
-                       const cs_still *b) {
+static cs_exit compare(celspan_context *context, const cs_request *request, const char *output,
+                       const cs_still *a, const cs_still *b) {
   if (a->info.width != b->info.width || a->info.height != b->info.height) {
     printf("sizes_differ %dx%d %dx%d\n", a->info.width, a->info.height, b->info.width,
            b->info.height);
@@ -211,23 +212,117 @@ static cs_exit compare(celspan_context *context, const cs_request *request, cons
     outcome = cs_still_frame(b, request, &frame_b);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  celspan_status status = compare_into(context, &c, request->output, a, &frame_a, b, &frame_b);
+  celspan_status status = compare_into(context, &c, output, a, &frame_a, b, &frame_b);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   return answer(&c);
 }
 
-cs_exit cs_verb_compare(celspan_context *context, const cs_request *request) {
+/* ---------------------------------------------------------------- files */
+
+/* Two files. output: NULL without -o. */
+static cs_exit compare_files(celspan_context *context, const cs_request *request,
+                             const char *path_a, const char *path_b, const char *output) {
   cs_still a = {.exposure.rostrum = NULL}, b = a;
-  cs_exit outcome =
-      request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
+  cs_exit outcome = cs_still_open(context, path_a, &a);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_still_open(context, request->operands[0], &a);
+    outcome = cs_still_open(context, path_b, &b);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_still_open(context, request->operands[1], &b);
-  if (outcome == CS_EXIT_OK)
-    outcome = compare(context, request, &a, &b);
+    outcome = compare(context, request, output, &a, &b);
   cs_still_close(&a);
   cs_still_close(&b);
   return outcome;
+}
+
+enum { PATH_SIZE = 4096 };
+
+/* A frame of two films. */
+static cs_exit compare_frame(celspan_context *context, const cs_request *request, int64_t number) {
+  char paths[3][PATH_SIZE];
+  const char *patterns[] = {request->operands[0], request->operands[1], request->output};
+  for (size_t i = 0; i < 3 && patterns[i]; i++) {
+    celspan_status status = cs_sequence_name(context, patterns[i], number, paths[i], PATH_SIZE);
+    if (status != CELSPAN_OK)
+      return cs_report_failure(context, status, NULL);
+  }
+  printf("frame %" PRId64 " ", number);
+  return compare_files(context, request, paths[0], paths[1], request->output ? paths[2] : NULL);
+}
+
+static bool has_frame(const cs_sequence *frames, int64_t number) {
+  for (size_t i = 0; i < frames->count; i++)
+    if (frames->frames[i] == number)
+      return true;
+  return false;
+}
+
+/* Tells the frames that only one of the films has. */
+static cs_exit tell_missing(const cs_sequence *frames, const cs_sequence *others,
+                            const char *pattern) {
+  cs_exit outcome = CS_EXIT_OK;
+  for (size_t i = 0; i < frames->count; i++) {
+    if (has_frame(others, frames->frames[i]))
+      continue;
+    printf("frame %" PRId64 " only_in %s\n", frames->frames[i], pattern);
+    outcome = CS_EXIT_DIFFERENT;
+  }
+  return outcome;
+}
+
+/* All frames that both have, and then those that one of them lacks. An error ends the comparison. */
+static cs_exit compare_films(celspan_context *context, const cs_request *request,
+                             const cs_sequence *a, const cs_sequence *b) {
+  bool differs = false;
+  for (size_t i = 0; i < a->count; i++) {
+    if (!has_frame(b, a->frames[i]))
+      continue;
+    cs_exit outcome = compare_frame(context, request, a->frames[i]);
+    if (outcome != CS_EXIT_OK && outcome != CS_EXIT_DIFFERENT)
+      return outcome;
+    differs |= outcome == CS_EXIT_DIFFERENT;
+  }
+  differs |= tell_missing(a, b, request->operands[0]) != CS_EXIT_OK;
+  differs |= tell_missing(b, a, request->operands[1]) != CS_EXIT_OK;
+  return differs ? CS_EXIT_DIFFERENT : CS_EXIT_OK;
+}
+
+static cs_exit list_films(celspan_context *context, const cs_request *request,
+                          cs_sequence films[2]) {
+  for (size_t i = 0; i < 2; i++) {
+    celspan_status status = cs_sequence_list(context, request->operands[i], &films[i]);
+    if (status != CELSPAN_OK)
+      return cs_report_failure(context, status, NULL);
+    if (films[i].count == 0) {
+      cs_report_error("%s: there is no file of that pattern", request->operands[i]);
+      return CS_EXIT_INPUT;
+    }
+  }
+  return CS_EXIT_OK;
+}
+
+static cs_exit compare_patterns(celspan_context *context, const cs_request *request) {
+  cs_sequence films[2] = {{0}, {0}};
+  cs_exit outcome = CS_EXIT_OK;
+  if (request->output && !cs_sequence_has_number(request->output))
+    return cs_report_usage(
+        "%s: the differences of several frames need a number in the name, such as "
+        "difference.####.png",
+        request->output);
+  outcome = list_films(context, request, films);
+  if (outcome == CS_EXIT_OK)
+    outcome = compare_films(context, request, &films[0], &films[1]);
+  cs_sequence_finish(&films[0]);
+  cs_sequence_finish(&films[1]);
+  return outcome;
+}
+
+cs_exit cs_verb_compare(celspan_context *context, const cs_request *request) {
+  const char *a = request->operands[0], *b = request->operands[1];
+  cs_exit outcome =
+      request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  if (cs_sequence_has_number(a) && cs_sequence_has_number(b))
+    return compare_patterns(context, request);
+  return compare_files(context, request, a, b, request->output);
 }

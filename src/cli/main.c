@@ -53,10 +53,11 @@ static const cs_verb VERBS[] = {
     {CS_VERB_CONVERT, "convert", "IN OUT", 2, 2, "Converts any picture to any other.", NULL,
      cs_verb_convert},
     {CS_VERB_COMPARE, "compare", "A B", 2, 2,
-     "Compares two pictures: exit 0 when they show the same, 1 when not.",
+     "Compares two pictures or films: exit 0 when they show the same, 1 when not.",
      "Prints the largest difference of coded values (0..1: sRGB, alpha straight), where it is, "
      "and\n"
-     "how many pixels differ by more than --fail.\n",
+     "how many pixels differ by more than --fail. A and B may be patterns such as shot.####.png:\n"
+     "then there is a line for each frame.\n",
      cs_verb_compare},
     {CS_VERB_TILES, "tiles", "SCRIPT|FILE -o DIR", 1, 1,
      "Cuts a frame or a picture into tiles to be explored in a browser.",

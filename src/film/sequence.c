@@ -1,5 +1,7 @@
 #include "film/sequence.h"
 
+#include <dirent.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,4 +209,43 @@ celspan_status cs_sequence_name(celspan_context *context, const char *pattern, i
     return celspan_context_fail(context, CELSPAN_BAD_ARGUMENT,
                                 "the file name \"%.80s...\" is too long", pattern);
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- files that are there */
+
+enum { PATH_SIZE = 4096 };
+
+/* Adds the number of a file if its name is the one that the pattern gives to that number. */
+static celspan_status add_file(reader *r, const char *pattern, const char *name, cs_sequence *out) {
+  char expected[PATH_SIZE];
+  if (!cs_sequence_matches(pattern, name))
+    return CELSPAN_OK;
+  int64_t number = strtoll(name + find_number_field(pattern).start, NULL, 10);
+  celspan_status status = cs_sequence_name(r->context, pattern, number, expected, sizeof expected);
+  if (status != CELSPAN_OK || strcmp(expected, name) != 0)
+    return status;
+  return append(r, out, number, number, 1);
+}
+
+celspan_status cs_sequence_list(celspan_context *context, const char *pattern, cs_sequence *out) {
+  const char *slash = strrchr(pattern, '/'), *name = slash ? slash + 1 : pattern;
+  char path[PATH_SIZE];
+  int length = snprintf(path, sizeof path, "%.*s", (int)(name - pattern), pattern);
+  DIR *folder = length < PATH_SIZE ? opendir(length ? path : ".") : NULL;
+  if (!folder)
+    return celspan_context_fail(context, CELSPAN_INPUT, "%s: its folder cannot be read: %s",
+                                pattern, strerror(length < PATH_SIZE ? errno : ENAMETOOLONG));
+  reader r = {context, pattern, pattern};
+  cs_sequence sequence = {0};
+  celspan_status status = CELSPAN_OK;
+  for (struct dirent *entry; status == CELSPAN_OK && (entry = readdir(folder));)
+    status = add_file(&r, name, entry->d_name, &sequence);
+  closedir(folder);
+  if (sequence.count > 0)
+    qsort(sequence.frames, sequence.count, sizeof *sequence.frames, compare);
+  if (status == CELSPAN_OK)
+    *out = sequence;
+  else
+    cs_sequence_finish(&sequence);
+  return status;
 }

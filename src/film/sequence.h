@@ -34,6 +34,14 @@ CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
 bool cs_sequence_has_number(const char *pattern);
 /* Whether a name could be that of a frame of the pattern; both without their folder. */
 bool cs_sequence_matches(const char *pattern, const char *name);
+/* The numbers of the files of a pattern that are there, ascending. out: new, perhaps empty. Errors:
+ * INPUT when the folder cannot be read, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const char *pattern,
+                                                cs_sequence *out);
+/* The numbers of the files of a pattern that are there, ascending. out: new, perhaps empty. Errors:
+ * INPUT when the folder cannot be read, LIMIT, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const char *pattern,
+                                                cs_sequence *out);
 /* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into `size` bytes. */
 CELSPAN_CHECKED celspan_status cs_sequence_name(celspan_context *context, const char *pattern,
                                                 int64_t frame, char *name, size_t size);

@@ -299,4 +299,21 @@ describe("compare -o", function()
     assert.equal(2, (run "compare f.1.png f.3.png -o difference.xyz"))
     assert.equal(5, (run "compare f.1.png f.3.png -o /dev/null/difference.png"))
   end)
+
+  it("compares films frame by frame", function()
+    bench:write("film.lua", FILM)
+    bench:write("other.lua", (FILM:gsub("3 %* f.index", "f.number == 2 and 30 or 3 * f.index")))
+    run "render film.lua --frames 1-4 -o a.##.png"
+    run "render other.lua --frames 1-3 -o b/%d.png"
+    local code, out, err = run "compare a.##.png b/%d.png -o difference.#.png"
+    assert.equal(1, code, err)
+    assert.truthy(out:find("^frame 1 largest_difference 0 pixels_differing 0 pixels 800\n"
+      .. "frame 2 largest_difference 1 x 3 y 0 channel r pixels_differing 120 pixels 800\n"
+      .. "frame 3 largest_difference 0 pixels_differing 0 pixels 800\nframe 4 only_in a.##.png\n$"), out)
+    assert.is_truthy(bench:read "difference.2.png")
+    assert.equal(0, (run "compare a.##.png a.##.png"))
+    assert.equal(2, (run "compare a.##.png b/%d.png -o difference.png"))
+    assert.equal(4, (run "compare a.##.png none.#.png"))
+    assert.equal(4, (run "compare a.##.png none/#.png"))
+  end)
 end)

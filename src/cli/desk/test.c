@@ -59,17 +59,22 @@ static void wait_for_one(suite *s) {
     s->running = 0;
 }
 
-static void stop_all(const suite *s) {
-  for (size_t i = 0; i < s->started; i++)
-    if (!s->has_ended[i])
-      kill(s->runs[i].process, SIGTERM);
+static const suite *running; /* the one that a signal ends */
+
+/* Runs in the signal handler: kill(2) is safe there. */
+static void stop_all(void) {
+  for (size_t i = 0; i < running->started; i++)
+    if (!running->has_ended[i] && running->runs[i].process > 0)
+      kill(running->runs[i].process, SIGTERM);
 }
 
 /* false: a process could not be started, which is reported. */
 static bool run_all(suite *s, size_t workers) {
-  bool is_stopped = false, is_well = true;
-  while (s->running > 0 || (s->started < s->count && is_well && !is_stopped)) {
-    if (s->started < s->count && s->running < workers && is_well && !is_stopped) {
+  bool is_well = true;
+  running = s;
+  cs_interrupt_call(stop_all);
+  while (s->running > 0 || (s->started < s->count && is_well && !cs_interrupt_signal())) {
+    if (s->started < s->count && s->running < workers && is_well && !cs_interrupt_signal()) {
       is_well = cs_spec_run_start(&s->runs[s->started], s->context, s->only);
       s->started += is_well;
       s->running += is_well;
@@ -77,10 +82,8 @@ static bool run_all(suite *s, size_t workers) {
     }
     wait_for_one(s);
     tell_ended(s);
-    if (cs_interrupt_signal() && !is_stopped)
-      stop_all(s);
-    is_stopped = cs_interrupt_signal() != 0;
   }
+  cs_interrupt_call(NULL);
   return is_well;
 }
 
