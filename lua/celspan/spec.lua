@@ -9,8 +9,8 @@
 --   assert.row(film, 1, 0).holds { single = 1, array = 0 }
 --
 -- The first word says what is asked about, the last one what is claimed; `is_not`, before either of
--- them, negates. Words that luassert has for its own are no claims, so that a claim is never mistaken
--- for a filling word that passes whatever it is given.
+-- them, negates. Words that luassert has for its own are no claims, so that a claim is never
+-- mistaken for a filling word that passes whatever it is given.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -18,7 +18,7 @@ local fields = require "celspan.fields"
 local spec = {}
 
 ---@class celspan.spec.frame
----@field looks_like fun(png: string, options?: { tolerance?: number }) Relative to the spec; tolerance 0..1, default 1/255
+---@field looks_like fun(png: string, options?: { tolerance?: number }) Tolerance 0..1, default 1/255
 ---@class celspan.spec.point
 ---@field shows fun(colour: celspan.colour, tolerance?: number)
 ---@class celspan.spec.cel
@@ -38,8 +38,8 @@ local spec = {}
 
 local has_luassert, luassert = pcall(require, "luassert")
 if not has_luassert then
-  error("celspan.spec adds assertions to luassert, which is not installed: install busted (Debian's "
-    .. "package lua-busted) and run specs with `celspan test`", 0)
+  error("celspan.spec adds assertions to luassert, which is not installed: install busted "
+    .. "(Debian's package lua-busted) and run specs with `celspan test`", 0)
 end
 local say = require "say"
 
@@ -71,8 +71,9 @@ local ONE_CODE = 1 / 255 + 1e-9
 
 -- ---------------------------------------------------------------- what is asked about
 
-local film_metatable = getmetatable(celspan.film { frame = function() return celspan.rostrum {} end })
-local rostrum_metatable = getmetatable(celspan.rostrum {})
+local nothing = celspan.rostrum {}
+local film_metatable = getmetatable(celspan.film { frame = function() return nothing end })
+local rostrum_metatable = getmetatable(nothing)
 
 --- A film, also of a rostrum.
 local function film_of(word, what)
@@ -142,7 +143,8 @@ function subjects.row(arguments)
   local subject = subject_of("row", arguments)
   local y, height = arguments[3], subject.film.size[2]
   if not fields.is_finite(y) or y % 1 ~= 0 or y < 0 or y >= height then
-    refuse(("row: y must be a whole number from 0 to %d, got %s"):format(height - 1, fields.shown(y)))
+    refuse(("row: y must be a whole number from 0 to %d, got %s"):format(height - 1,
+      fields.shown(y)))
   end
   subject.y = math.tointeger(y)
   return subject
@@ -300,9 +302,10 @@ local function code(value) return ("%.4g"):format(value * 255) end
 
 --- What is wrong with a picture of the same size.
 local function tell_difference(subject, name, found, tolerance, image)
-  return ("frame %d does not look like %s: %d of %d pixels differ by more than %s codes of 8 bits;\n"
-    .. "  most by %s codes, at x %d, y %d, channel %s"):format(subject.frame, name, found.count,
-    image.width * image.height, code(tolerance), code(found.largest), found.x, found.y, found.channel)
+  return ("frame %d does not look like %s: %d of %d pixels differ by more than %s codes of 8 "
+    .. "bits;\n  most by %s codes, at x %d, y %d, channel %s"):format(subject.frame, name, found.count,
+    image.width * image.height, code(tolerance), code(found.largest), found.x, found.y,
+    found.channel)
 end
 
 function claims.looks_like(subject, arguments)
@@ -333,15 +336,17 @@ function claims.looks_like(subject, arguments)
     end
   end
   forget(path)
-  return true, ("frame %d looks like %s, and it should not: no pixel differs by more than %s codes of "
-    .. "8 bits"):format(subject.frame, path, code(tolerance))
+  return true, ("frame %d looks like %s, and it should not: no pixel differs by more than %s codes "
+    .. "of 8 bits"):format(subject.frame, path, code(tolerance))
 end
 
 --- "#rrggbb", or with its alpha "#rrggbbaa", and the four codes, of a linear premultiplied colour.
 local function coded(r, g, b, a)
-  local one = pixels_of(celspan.rostrum { antialias = "none", celspan.cel { celspan.rect { 0, 0, 1, 1,
-    texture = a > 0 and celspan.rgb(math.min(1, r / a), math.min(1, g / a), math.min(1, b / a), a)
-      or celspan.clear } } }, { size = { 1, 1 } })
+  local paint = a > 0 and celspan.rgb(math.min(1, r / a), math.min(1, g / a), math.min(1, b / a), a)
+    or celspan.clear
+  local drawn = celspan.rect { 0, 0, 1, 1, texture = paint }
+  local one = pixels_of(celspan.rostrum { antialias = "none", celspan.cel { drawn } },
+    { size = { 1, 1 } })
   local red, green, blue, alpha = ("<ffff"):unpack(one:bytes { depth = "float", colour = "srgb",
     alpha = "straight" })
   local function byte(value) return math.floor(value * 255 + 0.5) end
@@ -371,10 +376,11 @@ function claims.shows(subject, arguments)
     local is_nothing = i < 4 and (codes[4] == 0 or wanted_codes[4] == 0)
     most = is_nothing and most or math.max(most, math.abs(codes[i] - wanted_codes[i]))
   end
-  local place = ("frame %d shows %s at %.14g, %.14g"):format(subject.frame, found, subject.x, subject.y)
+  local place = ("frame %d shows %s at %.14g, %.14g"):format(subject.frame, found, subject.x,
+    subject.y)
   if most > tolerance then
-    return false, ("%s, not %s: they are %s codes of 8 bits apart, and %s pass"):format(place, wanted,
-      code(most), code(tolerance))
+    return false, ("%s, not %s: they are %s codes of 8 bits apart, and %s pass"):format(place,
+      wanted, code(most), code(tolerance))
   end
   return true, place .. ", and it should not"
 end
@@ -390,12 +396,11 @@ function claims.visible(subject, _)
     return false, ("cel %q is not visible in frame %d: the frame is the same without it"):format(
       subject.name, subject.frame)
   end
-  return true, ("cel %q is visible in frame %d, and it should not be: the frame is another without it")
-    :format(subject.name, subject.frame)
+  return true, ("cel %q is visible in frame %d, and it should not be: the frame is another without "
+    .. "it"):format(subject.name, subject.frame)
 end
 
---- The mean matte of the cel, without its back light: an image shrunk to one pixel would do, but its
---- sum is exact.
+--- The mean matte of the cel, without its back light.
 local function matte_of(subject)
   local function alone(cel)
     return cel.name == subject.name and cel:with { back = { 0, 0, 0, 0 } } or nil
@@ -424,12 +429,14 @@ function claims.look_alike(subject, _)
   for i = 2, #subject.frames do
     local found = difference_of(first, image_of(subject.frames[i]), ONE_CODE)
     if found.count > 0 then
-      return false, ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes of "
-        .. "8 bits, at x %d, y %d, channel %s"):format(subject.frames[1], subject.frames[i], found.count,
-        first.width * first.height, code(found.largest), found.x, found.y, found.channel)
+      return false, ("frames %d and %d do not look alike: %d of %d pixels differ;\n  most by %s codes "
+        .. "of 8 bits, at x %d, y %d, channel %s"):format(subject.frames[1], subject.frames[i],
+        found.count, first.width * first.height, code(found.largest), found.x, found.y,
+        found.channel)
     end
   end
-  return true, ("frames %s look alike, and they should not"):format(table.concat(subject.frames, ", "))
+  return true, ("frames %s look alike, and they should not"):format(
+    table.concat(subject.frames, ", "))
 end
 
 local span_kinds = { "single", "gradient", "array" }
@@ -453,7 +460,8 @@ function claims.holds(subject, arguments)
     end
     told[#told + 1] = ("%s = %d"):format(kind, found[kind])
   end
-  local place = ("row %d of frame %d holds spans { %s }"):format(y, subject.frame, table.concat(told, ", "))
+  local place = ("row %d of frame %d holds spans { %s }"):format(y, subject.frame,
+    table.concat(told, ", "))
   if is_so then return true, place .. ", and it should not" end
   return false, ("%s, not { %s }"):format(place, table.concat(asked, ", "))
 end
@@ -471,7 +479,8 @@ say:set("assertion.celspan", "%s")
 for word, read in pairs(subjects) do
   luassert:register("modifier", word, function(state, arguments)
     if not arguments then
-      refuse(("write assert.%s(%s).claim(...): %s takes them itself"):format(word, takes[word], word))
+      refuse(("write assert.%s(%s).claim(...): %s takes them itself"):format(word, takes[word],
+        word))
     end
     rawset(state, "celspan", read(arguments))
     return state

@@ -32,7 +32,8 @@ end
 local function walker(u)
   local bob = -4 * math.abs(math.sin(2 * math.pi * u))
   local far = (u + 0.5) % 1
-  local body = celspan.path { texture = coat, d = "M-13 -98 Q 0 -106 13 -98 L 24 -40 Q 0 -32 -24 -40 Z" }
+  local body = celspan.path { texture = coat,
+    d = "M-13 -98 Q 0 -106 13 -98 L 24 -40 Q 0 -32 -24 -40 Z" }
   local head = celspan.circle { centre = { 3, -118 }, radius = 19, texture = "#f6cfae" }
   local nose = celspan.ellipse { centre = { 22, -114 }, radii = { 6, 4.5 }, texture = "#f0b08e" }
   local hat = celspan.path { texture = "#3f7d8c",
