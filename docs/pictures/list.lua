@@ -1,6 +1,8 @@
 -- The pictures of the documentation: what each is a frame of. `./run docs` makes them anew.
 --   script   a script of the tree
 --   page     a page whose example of the same name it is
+--   onion    how many frames before and after lie over it
+--   grid     not a frame but a contact sheet of so many columns and rows
 --   parts    frames that are rendered before, into a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
@@ -20,6 +22,8 @@ return {
   { name = "exposures", page = "docs/guide.md" },
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide.md", frame = 10 },
+  { name = "contact", script = "scripts/waving.lua", grid = "4x2" },
+  { name = "onion", script = "scripts/waving.lua", frame = 14, onion = "2,1", size = "640x400" },
   { name = "primitives", script = "scripts/primitives.lua", frame = 9, size = "720x360" },
   { name = "strokes", script = "scripts/strokes.lua", frame = 36, size = "720x405" },
   { name = "booleans", script = "scripts/booleans.lua", frame = 24, size = "720x240" },

@@ -33,6 +33,7 @@ local function render(script, picture, output, argument)
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
   if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
   if picture.size then add("--size", picture.size) end
+  if picture.onion then add("--onion", picture.onion) end
   if argument then add("--", argument) end
   run(binary .. " render", table.unpack(arguments))
 end
@@ -49,5 +50,10 @@ for _, picture in ipairs(list) do
     render(part.script, part, parts .. "/" .. part.file)
   end
   local script = picture.script or extract(picture.page, picture.name)
-  render(script, picture, folder .. "/" .. picture.name .. ".png", picture.parts and absolute)
+  local output = folder .. "/" .. picture.name .. ".png"
+  if picture.grid then
+    run(binary .. " contact", script, "--grid", picture.grid, "-o", output)
+  else
+    render(script, picture, output, picture.parts and absolute)
+  end
 end
