@@ -16,9 +16,14 @@ static const char *push_in_folder(lua_State *L, const char *name) {
 
 static bool exists(const char *path) { return access(path, F_OK) == 0; }
 
-const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
+const char *cs_files_find_from(lua_State *L, const char *folder, const char *name,
+                               const char **tried) {
   bool is_relative = name[0] != '/';
-  const char *near = is_relative && cs_caller_push_folder(L) ? push_in_folder(L, name) : NULL;
+  const char *near = NULL;
+  if (is_relative && folder) {
+    lua_pushstring(L, folder);
+    near = push_in_folder(L, name);
+  }
   const char *beside = is_relative && cs_host_push_folder(L) ? push_in_folder(L, name) : NULL;
   if (!near && !beside)
     near = lua_pushstring(L, name);
@@ -32,4 +37,13 @@ const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
     lua_remove(L, -3);
   *tried = lua_tostring(L, -1);
   return lua_tostring(L, -2);
+}
+
+const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
+  bool has_folder = cs_caller_push_folder(L);
+  const char *path =
+      cs_files_find_from(L, has_folder ? lua_tostring(L, -1) : NULL, name, tried);
+  if (has_folder)
+    lua_remove(L, -3);
+  return path;
 }

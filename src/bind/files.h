@@ -12,7 +12,11 @@
 #include <lua.h>
 
 /* Pushes where the file is and, after it, where else it was looked for if it is in neither place;
- * else nil. *tried: that or NULL. */
+ * else nil. *tried: that or NULL. folder: of a Lua file, where it is looked for first; NULL: of
+ * none. */
+const char *cs_files_find_from(lua_State *L, const char *folder, const char *name,
+                               const char **tried);
+/* The same, beside the nearest caller's file. */
 const char *cs_files_find(lua_State *L, const char *name, const char **tried);
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "bind/caller.h"
 #include "bind/construct.h"
+#include "bind/files.h"
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/lua_frame.h"
@@ -53,8 +54,13 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   check_whole(form, "frames", 1);
   check_whole(form, "first", -MOST_FRAMES);
   check_text(form, "title");
-  check_text(form, "sound");
-  cs_form_number_or(form, "sound_offset", 0);
+  const char *sound = cs_form_text_or(form, "sound", NULL);
+  if (sound && !sound[0])
+    cs_form_fail(form, "field 'sound' must be the name of a file, got an empty text");
+  double offset = cs_form_number_or(form, "sound_offset", 0);
+  if (!(fabs(offset) <= MOST_FRAMES))
+    cs_form_fail(form, "field 'sound_offset' must be from -%d to %d seconds, got %s", MOST_FRAMES,
+                 MOST_FRAMES, cs_form_digits(form->L, offset));
   lua_pushliteral(L, "frame");
   if (lua_rawget(L, form->table) != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
@@ -185,6 +191,30 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
                         .sound = read_text(L, table, "sound"),
                         .sound_offset = read_number(L, table, "sound_offset")};
   lua_settop(L, table - 1);
+}
+
+/* film -> path, tried. Runs protected. */
+static int find_sound(lua_State *L) {
+  const char *folder = NULL, *tried;
+  lua_getiuservalue(L, 1, 1);
+  lua_getfield(L, 2, "frame");
+  if (cs_caller_push_function_folder(L, 3))
+    folder = lua_tostring(L, -1);
+  if (lua_getfield(L, 2, "sound") == LUA_TNIL)
+    lua_pushnil(L);
+  else
+    cs_files_find_from(L, folder, lua_tostring(L, -1), &tried);
+  return 2;
+}
+
+celspan_status cs_lua_film_push_sound(lua_State *L, int film) {
+  film = lua_absindex(L, film);
+  if (!lua_checkstack(L, 4))
+    return celspan_context_fail(cs_host_context(L), CELSPAN_LIMIT, "Lua's stack is full");
+  lua_pushcfunction(L, find_sound);
+  lua_pushvalue(L, film);
+  int outcome = lua_pcall(L, 1, 2, 0);
+  return outcome == LUA_OK ? CELSPAN_OK : cs_lua_error_report(L, outcome);
 }
 
 /* ---------------------------------------------------------------- frames */

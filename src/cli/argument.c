@@ -69,14 +69,6 @@ cs_argument_outcome cs_argument_integer(const char *text, void *field) {
   return CS_ARGUMENT_READ;
 }
 
-cs_argument_outcome cs_argument_count(const char *text, void *field) {
-  int32_t value = 0;
-  if (!read_integers(text, 0, 0, INT32_MAX, &value, 1))
-    return CS_ARGUMENT_BAD;
-  *(cs_given_integer *)field = (cs_given_integer){true, value};
-  return CS_ARGUMENT_READ;
-}
-
 cs_argument_outcome cs_argument_every(const char *text, void *field) {
   int32_t value = 0;
   if (!read_integers(text, 0, 1, INT32_MAX, &value, 1))
@@ -105,12 +97,25 @@ cs_argument_outcome cs_argument_workers(const char *text, void *field) {
   return read_integers(text, 0, 1, 1024, field, 1) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
 }
 
-cs_argument_outcome cs_argument_memory(const char *text, void *field) {
+/* A whole number from 0 to `most`. */
+static cs_argument_outcome read_given(const char *text, int32_t most, void *field) {
   int32_t value = 0;
-  if (!read_integers(text, 0, 0, 1048576, &value, 1))
+  if (!read_integers(text, 0, 0, most, &value, 1))
     return CS_ARGUMENT_BAD;
   *(cs_given_integer *)field = (cs_given_integer){true, value};
   return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_count(const char *text, void *field) {
+  return read_given(text, INT32_MAX, field);
+}
+
+cs_argument_outcome cs_argument_memory(const char *text, void *field) {
+  return read_given(text, 1048576, field);
+}
+
+cs_argument_outcome cs_argument_quality(const char *text, void *field) {
+  return read_given(text, 100, field);
 }
 
 cs_argument_outcome cs_argument_number(const char *text, void *field) {

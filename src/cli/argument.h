@@ -50,6 +50,8 @@ cs_argument_outcome cs_argument_integer(const char *text, void *field); /* cs_gi
 cs_argument_outcome cs_argument_workers(const char *text, void *field); /* int32_t, 1..1024 */
 cs_argument_outcome cs_argument_memory(const char *text,
                                        void *field); /* cs_given_integer, 0..1048576 */
+cs_argument_outcome cs_argument_quality(const char *text,
+                                        void *field); /* cs_given_integer, 0..100 */
 cs_argument_outcome cs_argument_number(const char *text, void *field);    /* double, finite */
 cs_argument_outcome cs_argument_scale(const char *text, void *field);     /* double, above 0 */
 cs_argument_outcome cs_argument_tolerance(const char *text, void *field); /* double, 0 or more */

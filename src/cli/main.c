@@ -22,7 +22,8 @@ static const cs_verb VERBS[] = {
      "whole or not at all. Colours are worked out in linear light. By default integers are 8 bit,\n"
      "sRGB-coded, alpha straight; floats are linear, alpha premultiplied. With -o - RGBA rows go "
      "to\n"
-     "standard output, top to bottom, little endian.\n",
+     "standard output, top to bottom, little endian. A video is made by ffmpeg, with the film's\n"
+     "sound in step: mp4 and mkv hold H.264, mov ProRes 4444 and webm VP9, both with alpha.\n",
      cs_verb_render},
     {CS_VERB_INFO, "info", "SCRIPT|FILE", 1, 1,
      "Prints frames, size, cels, primitives and pictures of a film; or what a picture or span file "

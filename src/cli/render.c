@@ -17,6 +17,7 @@
 #include "cli/record.h"
 #include "cli/target.h"
 #include "cli/verbs.h"
+#include "cli/video/video.h"
 #include "cli/view.h"
 #include "film/shoot.h"
 
@@ -27,17 +28,26 @@ typedef struct render_job {
   cs_sequence frames;
   cs_progress progress;
   cs_record record;
+  bool is_video;
+  cs_video video; /* where it is one */
   int64_t *failed; /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of what was reported */
 } render_job;
 
-static celspan_status put_raw(void *user, const celspan_frame_desc *frame) {
+static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_shoot_frame *unused) {
   const render_job *job = user;
+  (void)unused;
   cs_raw_rows raw;
   const celspan_coding coding = cs_target_coding(job->request);
   celspan_sink sink = cs_raw_rows_sink(&raw, &coding, frame, stdout);
   return celspan_frame_render(job->script->context, frame, &sink, NULL);
+}
+
+static celspan_status put_video(void *user, const celspan_frame_desc *desc,
+                                cs_shoot_frame *frame) {
+  render_job *job = user;
+  return cs_video_put(&job->video, desc, frame);
 }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
@@ -70,10 +80,12 @@ static celspan_status report_failure(render_job *job, int64_t number, celspan_st
   return status;
 }
 
-static const char *destination_of(const cs_request *request, const cs_shoot_frame *frame) {
-  return !request->output                       ? "hashed"
-         : cs_target_is_stream(request->output) ? "standard output"
-                                                : frame->path;
+static const char *destination_of(const render_job *job, const cs_shoot_frame *frame) {
+  const char *output = job->request->output;
+  return !output                       ? "hashed"
+         : cs_target_is_stream(output) ? "standard output"
+         : job->is_video               ? output
+                                       : frame->path;
 }
 
 static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
@@ -98,7 +110,7 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   if (job->request->hash)
     printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
            frame->digest[1]);
-  cs_progress_frame(&job->progress, frame->number, destination_of(job->request, frame),
+  cs_progress_frame(&job->progress, frame->number, destination_of(job, frame),
                     ways[frame->way]);
   return CELSPAN_OK;
 }
@@ -146,14 +158,14 @@ static cs_exit shoot(render_job *job) {
   const cs_shoot shoot = {.context = job->script->context,
                           .film = job->script->film,
                           .frames = &job->frames,
-                          .pattern = is_stream ? NULL : request->output,
+                          .pattern = is_stream || job->is_video ? NULL : request->output,
                           .frame = job->frame,
                           .file = cs_target_file(request),
                           .has_digests = request->hash,
                           .keeps_going = request->keeps_going,
                           .keeps_nothing = request->memory.is_given && request->memory.value == 0,
                           .user = job,
-                          .put = is_stream ? put_raw : NULL,
+                          .put = job->is_video ? put_video : is_stream ? put_raw : NULL,
                           .keep = request->resumes ? keep : NULL,
                           .build = build,
                           .finished = finished,
@@ -163,9 +175,18 @@ static cs_exit shoot(render_job *job) {
                                     : cs_report_failure(job->script->context, status, NULL);
 }
 
+/* The frames of a video are finished when its file is. */
+static cs_exit shoot_video(render_job *job) {
+  cs_exit outcome = shoot(job);
+  if (outcome == CS_EXIT_OK)
+    return cs_report_failure(job->script->context, cs_video_finish(&job->video), NULL);
+  cs_video_discard(&job->video);
+  return outcome;
+}
+
 static cs_exit render_all(render_job *job) {
   cs_progress_start(&job->progress, job->request->progress, job->frames.count);
-  return report_end(job, shoot(job));
+  return report_end(job, job->is_video ? shoot_video(job) : shoot(job));
 }
 
 static cs_exit resume_all(render_job *job) {
@@ -180,6 +201,8 @@ static cs_exit resume_all(render_job *job) {
 }
 
 static cs_exit refuse_stream(const cs_request *request) {
+  if (request->quality.is_given)
+    return cs_report_usage("--quality belongs to videos, such as film.mp4");
   if (request->hash)
     return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
                            "of them");
@@ -202,6 +225,16 @@ static cs_exit refuse_resume(const cs_request *request) {
   return CS_EXIT_OK;
 }
 
+/* Refuses what cannot be written. frame_count: 0 where it is not known yet. */
+static cs_exit refuse_output(celspan_context *context, const cs_request *request,
+                             size_t frame_count) {
+  if (cs_video_is_wanted(request, frame_count))
+    return cs_video_refuse(request, frame_count);
+  if (request->quality.is_given)
+    return cs_report_usage("--quality belongs to videos, such as film.mp4");
+  return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
+}
+
 static cs_exit refuse_dither(const cs_request *request) {
   bool is_8 =
       request->coding.depth == CELSPAN_DEPTH_DEFAULT || request->coding.depth == CELSPAN_DEPTH_8;
@@ -221,7 +254,17 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
     return outcome;
   if (request->output && cs_target_is_stream(request->output))
     return refuse_stream(request);
-  return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;
+  return refuse_output(context, request, 0);
+}
+
+/* Whether one picture or a video is asked for is known here, where the frames are. */
+static cs_exit open_video(render_job *job) {
+  const cs_request *request = job->request;
+  job->is_video = cs_video_is_wanted(request, job->frames.count);
+  if (job->is_video)
+    return cs_video_open(&job->video, job->script, request, &job->frame, &job->frames);
+  bool is_named = request->output && !cs_target_is_stream(request->output);
+  return is_named ? refuse_output(job->script->context, request, job->frames.count) : CS_EXIT_OK;
 }
 
 static cs_exit run(cs_script *script, const cs_request *request) {
@@ -233,6 +276,8 @@ static cs_exit run(cs_script *script, const cs_request *request) {
     outcome = cs_target_frames(script, request, &job.frames);
   if (outcome == CS_EXIT_OK)
     outcome = cs_change_refuse(script, request, &job.frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = open_video(&job);
   if (outcome == CS_EXIT_OK)
     outcome = resume_all(&job);
   cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);

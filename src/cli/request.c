@@ -24,7 +24,8 @@ static const option OPTIONS[] = {
     {"-o", "DIR", "the name of a folder", CS_VERB_TILES, FIELD(output), cs_argument_text,
      "the folder for the pyramid and its page; made when it is missing"},
     {"-o", "OUT", "the name of a file", CS_VERB_RENDER, FIELD(output), cs_argument_text,
-     "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames"},
+     "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames;\n"
+     "                     film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, by ffmpeg"},
     {"-o", "OUT", "the name of a file", CS_VERB_SHEET, FIELD(output), cs_argument_text,
      "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"},
     {"-o", "SHEET", "the name of a file", CS_VERB_CONTACT, FIELD(output), cs_argument_text,
@@ -63,6 +64,8 @@ static const option OPTIONS[] = {
      "straight or premultiplied; default: straight, floats premultiplied"},
     {"--dither", NULL, NULL, CS_VERB_RENDER, FIELD(dithers), NULL,
      "8 bits without bands: rounded up or down by the place of the pixel"},
+    {"--quality", "Q", "a whole number from 0 to 100", CS_VERB_RENDER, FIELD(quality),
+     cs_argument_quality, "of a video: 0 (small) to 100 (hardly any loss); default: 75"},
     {"--background", "RGB", "a colour like #336699", CS_VERB_RENDER, FIELD(background),
      cs_argument_tint, "a back light of this colour and matte 1 behind everything"},
     {"--cel", "NAME", "the name of a cel", CS_VERB_RENDER, FIELD(cel), cs_argument_text,

@@ -26,6 +26,7 @@ typedef struct cs_request {
   cs_given_antialias antialias;
   celspan_coding coding;
   bool dithers;
+  cs_given_integer quality; /* of a video, 0..100 */
   const char *cel; /* NULL: not given */
   cs_given_colour background;
   int32_t workers;         /* 0: one a processor */

@@ -1,12 +1,10 @@
 #include "cli/target.h"
 
 #include <string.h>
-#include <strings.h>
 
+#include "cli/video/video.h"
 #include "output/ending.h"
 #include "output/sink.h"
-
-static const char *const ABSENT_FORMATS[] = {"mp4", "mov", "webm", "mkv", "avi"};
 
 celspan_coding cs_target_coding(const cs_request *request) {
   celspan_coding coding = request->coding;
@@ -36,11 +34,11 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
 
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
   const char *wanted = request->format ? request->format : cs_ending_of(path);
-  for (size_t i = 0; i < sizeof ABSENT_FORMATS / sizeof ABSENT_FORMATS[0]; i++)
-    if (strcasecmp(wanted, ABSENT_FORMATS[i]) == 0)
-      return cs_report_usage("%s: writing %s files is not built into this version; write numbered "
-                             "pictures such as shot.####.png",
-                             path, ABSENT_FORMATS[i]);
+  const cs_video_format *video = cs_video_format_named(wanted);
+  if (video && !video->is_picture)
+    return cs_report_usage("%s: %s is a video, which 'celspan render' makes of a film; write a "
+                           "picture such as shot.png",
+                           path, video->name);
   return refuse_file(context, path, request);
 }
 
@@ -64,7 +62,7 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_
   if (status != CELSPAN_OK)
     return cs_report_failure(script->context, status, NULL);
   bool is_one_file = request->output && !cs_target_is_stream(request->output) &&
-                     !cs_sequence_has_number(request->output);
+                     !cs_sequence_has_number(request->output) && !cs_video_is_wanted(request, 0);
   if (is_one_file && out->count > 1)
     return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
                            "shot.####.png",

@@ -6,7 +6,7 @@
 #include "film/sequence.h"
 
 /* OK for what this version can write under the options. Everything else is reported: unknown
- * formats, codings that a format lacks, and video, which is not built in. */
+ * formats, codings that a format lacks, and video, which is no picture. */
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request);
 /* The coding of pixels under the options, with defaults, but for --dither. */
 celspan_coding cs_target_coding(const cs_request *request);

@@ -113,7 +113,7 @@ static celspan_status make_frame(const job *j, celspan_context *context,
                                  const celspan_frame_desc *desc, cs_shoot_frame *frame) {
   const cs_shoot *shoot = j->shoot;
   if (shoot->put)
-    return shoot->put(shoot->user, desc);
+    return shoot->put(shoot->user, desc, frame);
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, &shoot->file.coding, frame->digest);
   celspan_file_desc file = describe_file(j, frame->number, desc);

@@ -52,9 +52,9 @@ typedef struct cs_shoot {
   /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
-  /* What is done with each frame instead of writing a file. Calling thread, in order. NULL: files.
-   */
-  celspan_status (*put)(void *user, const celspan_frame_desc *frame);
+  /* What is done with each frame instead of writing a file: frame->way is set where it was not made,
+   * and frame->digest where there are digests. Calling thread, in order. NULL: files. */
+  celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
   /* Whether the frame is there already. Its number, path and hashes are set; where there are
    * digests, this function sets the frame's. Calling thread. NULL: no frame is. */
   bool (*keep)(void *user, cs_shoot_frame *frame);

@@ -267,6 +267,16 @@ celspan_status cs_file_temporary(cs_file *file, celspan_context *context, const 
   return CELSPAN_OK;
 }
 
+celspan_status cs_file_adopt(cs_file *file, celspan_context *context) {
+  struct stat there;
+  CS_TRY(check_usable(file, context));
+  if (file->system->fstat(file->descriptor, &there) != 0)
+    return fail(file, context, "cannot check its size");
+  file->flushed = (uint64_t)there.st_size;
+  file->buffered = 0;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_file_commit(cs_file *file, celspan_context *context) {
   celspan_status status = finish(file, context);
   if (status == CELSPAN_OK)

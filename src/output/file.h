@@ -49,6 +49,8 @@ uint64_t cs_file_size(const cs_file *file);
  * borrowed until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
+/* Takes what another program has written under the temporary name as the file's contents. */
+CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
 /* Both end the file, whatever they return. NULL is ignored by discard. */
 CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
 void cs_file_discard(cs_file *file, celspan_context *context);

@@ -156,10 +156,9 @@ describe("the command line", function()
       usage_error("render x.lua -o", "-o needs a value")
     end)
 
-    it("says what this version does not have", function()
-      usage_error("render x.lua -o film.mp4", "is not built into this version")
-      usage_error("render x.lua -o shot.mp4", "is not built into this version")
-      usage_error("convert in.png out.webm", "is not built into this version")
+    it("says which verb makes videos", function()
+      usage_error("convert in.png out.mp4", "is a video")
+      usage_error("convert in.png out.webm", "is a video")
     end)
 
     it("refuses what no file can hold before it runs the script", function()

@@ -1,0 +1,198 @@
+#include "cli/video/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+
+#define PIPE_BYTES (1 << 20)   /* as much as Linux lets anyone have */
+#define PAUSE_NANOSECONDS 2000000 /* between two questions whether the program has ended */
+
+extern char **environ;
+
+/* ---------------------------------------------------------------- last words */
+
+static void keep_last(cs_process *process, const char *bytes, size_t size) {
+  if (size > CS_PROCESS_WORDS) {
+    bytes += size - CS_PROCESS_WORDS;
+    size = CS_PROCESS_WORDS;
+  }
+  size_t kept = process->last_size;
+  if (kept > CS_PROCESS_WORDS - size)
+    kept = CS_PROCESS_WORDS - size;
+  memmove(process->last, process->last + process->last_size - kept, kept);
+  memcpy(process->last + kept, bytes, size);
+  process->last_size = kept + size;
+}
+
+static void read_words(void *user, int worker) {
+  cs_process *process = user;
+  char bytes[CS_PROCESS_WORDS];
+  (void)worker;
+  for (ssize_t size; (size = read(process->words, bytes, sizeof bytes)) != 0;)
+    if (size > 0)
+      keep_last(process, bytes, (size_t)size);
+    else if (errno != EINTR)
+      return;
+}
+
+/* Lines become one: what is not printable is a blank, and blanks at the ends are left off. */
+static void join_lines(cs_process *process) {
+  char *text = process->last;
+  size_t size = 0;
+  for (size_t i = 0; i < process->last_size; i++) {
+    unsigned char c = (unsigned char)text[i];
+    bool is_blank = c <= ' ' || c == 127;
+    if (!is_blank)
+      text[size++] = (char)c;
+    else if (size > 0 && text[size - 1] != ' ')
+      text[size++] = ' ';
+  }
+  process->last_size = size > 0 && text[size - 1] == ' ' ? size - 1 : size;
+  text[process->last_size] = '\0';
+}
+
+/* ---------------------------------------------------------------- starting */
+
+/* Signals are as a program expects them: this one ignores SIGPIPE and SIGXFSZ. */
+static int set_attributes(posix_spawnattr_t *attributes) {
+  sigset_t none, usual;
+  sigemptyset(&none);
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  sigaddset(&usual, SIGXFSZ);
+  posix_spawnattr_setsigmask(attributes, &none);
+  posix_spawnattr_setsigdefault(attributes, &usual);
+  posix_spawnattr_setpgroup(attributes, 0);
+  return posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
+                                                  POSIX_SPAWN_SETPGROUP);
+}
+
+static int set_files(posix_spawn_file_actions_t *files, int input, int words) {
+  int error = posix_spawn_file_actions_adddup2(files, input, STDIN_FILENO);
+  if (error == 0)
+    error = posix_spawn_file_actions_addopen(files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  return error ? error : posix_spawn_file_actions_adddup2(files, words, STDERR_FILENO);
+}
+
+static int spawn(cs_process *process, const char *const *arguments, int input, int words) {
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t files;
+  int error = posix_spawnattr_init(&attributes);
+  if (error)
+    return error;
+  error = posix_spawn_file_actions_init(&files);
+  if (error == 0) {
+    error = set_attributes(&attributes);
+    if (error == 0)
+      error = set_files(&files, input, words);
+    if (error == 0)
+      error = posix_spawnp(&process->id, arguments[0], &files, &attributes,
+                           (char *const *)arguments, environ);
+    posix_spawn_file_actions_destroy(&files);
+  }
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+static void close_both(const int ends[2]) {
+  close(ends[0]);
+  close(ends[1]);
+}
+
+/* A pipe whose ends are not those of the standard streams, even where the caller closed these. */
+static int open_pipe(int ends[2]) {
+  int first[2];
+  if (pipe2(first, O_CLOEXEC) != 0)
+    return errno;
+  for (int i = 0; i < 2; i++)
+    ends[i] = fcntl(first[i], F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  int error = ends[0] < 0 || ends[1] < 0 ? errno : 0;
+  close_both(first);
+  if (error)
+    close_both(ends);
+  return error;
+}
+
+static int start_reader(cs_process *process) {
+  if (cs_threads_start(&process->reader, 1, read_words, process) == 1)
+    return 0;
+  kill(-process->id, SIGKILL);
+  waitpid(process->id, NULL, 0);
+  return EAGAIN;
+}
+
+int cs_process_start(cs_process *process, const char *const *arguments) {
+  int input[2], words[2];
+  *process = (cs_process){0};
+  int error = open_pipe(input);
+  if (error)
+    return error;
+  error = open_pipe(words);
+  if (error) {
+    close_both(input);
+    return error;
+  }
+  fcntl(input[1], F_SETPIPE_SZ, PIPE_BYTES);
+  process->input = input[1];
+  process->words = words[0];
+  error = spawn(process, arguments, input[0], words[1]);
+  close(input[0]);
+  close(words[1]);
+  if (error == 0)
+    error = start_reader(process);
+  if (error) {
+    close(process->input);
+    close(process->words);
+  }
+  return error;
+}
+
+/* ---------------------------------------------------------------- the end */
+
+/* Whether it has ended; its number stays its own until it is waited for. */
+static bool has_ended(const cs_process *process) {
+  siginfo_t info = {0};
+  int result = waitid(P_PID, (id_t)process->id, &info, WEXITED | WNOHANG | WNOWAIT);
+  return result == 0 ? info.si_pid == process->id : errno != EINTR;
+}
+
+static bool wait_for(const cs_process *process, double seconds) {
+  const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
+  for (double start = cs_progress_clock(); !has_ended(process);) {
+    if (cs_interrupt_signal() || cs_progress_clock() - start >= seconds)
+      return false;
+    nanosleep(&pause, NULL);
+  }
+  return true;
+}
+
+bool cs_process_end(cs_process *process, double seconds) {
+  int state = 0;
+  bool is_over = wait_for(process, seconds);
+  kill(-process->id, SIGKILL);
+  while (waitpid(process->id, &state, 0) < 0 && errno == EINTR)
+    continue;
+  cs_threads_join(&process->reader, 1);
+  close(process->words);
+  join_lines(process);
+  process->exit_code = WIFEXITED(state) ? WEXITSTATUS(state) : -1;
+  process->signal = WIFSIGNALED(state) ? WTERMSIG(state) : 0;
+  return is_over;
+}
+
+void cs_process_describe(const cs_process *process, char *out, size_t size) {
+  const char *colon = process->last_size > 0 ? ": " : "";
+  if (process->exit_code >= 0)
+    snprintf(out, size, "ended with exit code %d%s%s", process->exit_code, colon, process->last);
+  else
+    snprintf(out, size, "was ended by signal %d%s%s", process->signal, colon, process->last);
+}

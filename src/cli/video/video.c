@@ -1,0 +1,271 @@
+#include "cli/video/video.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/video/command.h"
+#include "output/ending.h"
+#include "output/temporary.h"
+
+#define MOST_SIDE 16384 /* of H.264, VP9 and WebP alike */
+
+/* ---------------------------------------------------------------- refusals */
+
+static const cs_video_format *format_of(const cs_request *request) {
+  return !request->output || strcmp(request->output, "-") == 0
+             ? NULL
+             : cs_video_format_named(request->format ? request->format
+                                                     : cs_ending_of(request->output));
+}
+
+bool cs_video_is_wanted(const cs_request *request, size_t frame_count) {
+  const cs_video_format *format = format_of(request);
+  if (!format || !format->is_picture)
+    return format != NULL;
+  return frame_count != 1 && !cs_sequence_has_number(request->output);
+}
+
+static cs_exit refuse_options(const cs_request *request, const cs_video_format *format) {
+  const char *output = request->output;
+  if (cs_sequence_has_number(output))
+    return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
+                           output);
+  if (request->resumes)
+    return cs_report_usage("%s: --resume keeps frames that are files, and a video is made whole: "
+                           "leave --resume out, or render shot.####.png",
+                           output);
+  if (request->keeps_going)
+    return cs_report_usage("%s: --keep-going leaves frames out, and a video has them all: leave it "
+                           "out, or render shot.####.png",
+                           output);
+  if (request->coding.transfer == CELSPAN_TRANSFER_LINEAR ||
+      request->coding.transfer == CELSPAN_TRANSFER_CINEON)
+    return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
+  if (request->coding.depth == CELSPAN_DEPTH_HALF || request->coding.depth == CELSPAN_DEPTH_FLOAT)
+    return cs_report_usage("%s: a video takes --depth 8 or 16", output);
+  if (!cs_video_pixels(format, request))
+    return cs_report_usage("%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output,
+                           format->name,
+                           format->deep_pixels ? " where it has alpha (--background takes it away)"
+                                               : "");
+  return CS_EXIT_OK;
+}
+
+cs_exit cs_video_refuse(const cs_request *request, size_t frame_count) {
+  const cs_video_format *format = format_of(request);
+  return format->is_picture && frame_count == 0 ? CS_EXIT_OK : refuse_options(request, format);
+}
+
+/* 4:2:0 gives one colour to 2 x 2 pixels, and H.264 has no half ones at the edge. */
+static cs_exit refuse_size(const cs_video *video, int32_t width, int32_t height) {
+  const char *output = video->request->output;
+  int32_t even_width = width > 1 ? width & ~1 : 2, even_height = height > 1 ? height & ~1 : 2;
+  if (width > MOST_SIDE || height > MOST_SIDE)
+    return cs_report_usage("%s: %d x %d pixels: a video has at most %d a side", output, (int)width,
+                           (int)height, MOST_SIDE);
+  if (video->format->is_halved && (even_width != width || even_height != height))
+    return cs_report_usage("%s: %d x %d pixels: %s needs an even width and height: give --size "
+                           "%dx%d, or write .mov, .webm or .mkv",
+                           output, (int)width, (int)height, video->format->name, (int)even_width,
+                           (int)even_height);
+  return CS_EXIT_OK;
+}
+
+static cs_exit refuse_rate(const cs_video *video, double frames_second) {
+  if (frames_second <= video->format->most_frames_second)
+    return CS_EXIT_OK;
+  return cs_report_usage("%s: %g frames a second: %s holds at most %g", video->request->output,
+                         frames_second, video->format->name, video->format->most_frames_second);
+}
+
+/* ---------------------------------------------------------------- sound */
+
+static bool is_run(const cs_sequence *frames) {
+  for (size_t i = 1; i < frames->count; i++)
+    if (frames->frames[i] != frames->frames[i - 1] + 1)
+      return false;
+  return true;
+}
+
+static celspan_status check_file(celspan_context *context, const char *path, const char *tried) {
+  struct stat there;
+  int error = access(path, R_OK) != 0 || stat(path, &there) != 0 ? errno
+              : S_ISDIR(there.st_mode)                           ? EISDIR
+                                                                 : 0;
+  if (error == 0)
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be opened: %s%s%s", path,
+                 strerror(error), tried ? "; nor is it there: " : "", tried ? tried : "");
+}
+
+/* A sound that ffmpeg cannot read is told before the first frame. A missing ffmpeg is told by the
+ * encoder. */
+static celspan_status listen(celspan_context *context, const char *path) {
+  cs_video_command command;
+  cs_process process;
+  char how[CS_PROCESS_WORDS + 64];
+  cs_video_command_listen(&command, path);
+  if (cs_process_start(&process, command.arguments) != 0)
+    return CELSPAN_OK;
+  close(process.input);
+  bool is_over = cs_process_end(&process, INFINITY);
+  if (!is_over)
+    return cs_fail(context, CELSPAN_CANCELLED, "%s: stopped", path);
+  if (process.exit_code == 0)
+    return CELSPAN_OK;
+  cs_process_describe(&process, how, sizeof how);
+  return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be read: ffmpeg %s", path, how);
+}
+
+/* The film's sound, as it goes with these frames. Its path is left on the Lua stack, where it lives
+ * as long as the script. */
+static cs_exit find_sound(const cs_video *video, cs_script *script, const cs_sequence *frames,
+                          cs_video_sound *out) {
+  const cs_film_info *film = &script->film;
+  *out = (cs_video_sound){0};
+  if (!film->sound || !video->format->sound) {
+    if (film->sound)
+      cs_report_note("%s: %s holds no sound: it is left out", video->request->output,
+                     video->format->name);
+    return CS_EXIT_OK;
+  }
+  if (!is_run(frames))
+    return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
+                           "such as 10-20",
+                           video->request->frames);
+  celspan_status status = cs_lua_film_push_sound(script->L, CS_SCRIPT_FILM);
+  if (status == CELSPAN_OK) {
+    out->path = lua_tostring(script->L, -2);
+    status = check_file(video->context, out->path, lua_tostring(script->L, -1));
+  }
+  if (status == CELSPAN_OK)
+    status = listen(video->context, out->path);
+  out->start = film->sound_offset - (double)(frames->frames[0] - film->first) / film->frames_second;
+  out->length = (double)frames->count / film->frames_second;
+  return cs_report_failure(video->context, status, NULL);
+}
+
+/* ---------------------------------------------------------------- opening */
+
+static bool is_same(const char *pattern, const char *name) { return strcmp(pattern, name) == 0; }
+
+static celspan_status start(cs_video *video, const cs_video_command *command, int32_t height) {
+  celspan_status status = cs_encoder_open(&video->encoder, video->context, video->request->output,
+                                          command->arguments, video->stride * (size_t)height);
+  if (status != CELSPAN_OK)
+    cs_file_discard(video->file, video->context);
+  return status;
+}
+
+static cs_exit open_file(cs_video *video, const char **name) {
+  cs_temporary_sweep(video->request->output, is_same);
+  celspan_status status =
+      cs_file_create(video->context, NULL, video->request->output, &video->file);
+  if (status == CELSPAN_OK)
+    status = cs_file_temporary(video->file, video->context, name);
+  return cs_report_failure(video->context, status, NULL);
+}
+
+static cs_exit refuse_film(const cs_video *video, const cs_script *script, int32_t width,
+                           int32_t height) {
+  cs_exit outcome = cs_video_refuse(video->request, SIZE_MAX);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_size(video, width, height);
+  return outcome == CS_EXIT_OK ? refuse_rate(video, script->film.frames_second) : outcome;
+}
+
+cs_exit cs_video_open(cs_video *out, cs_script *script, const cs_request *request,
+                      const celspan_frame_desc *frame, const cs_sequence *frames) {
+  int32_t width = frame->crop_width ? frame->crop_width : frame->width;
+  int32_t height = frame->crop_width ? frame->crop_height : frame->height;
+  cs_video_command command;
+  cs_video_sound sound;
+  const char *name = NULL;
+  *out = (cs_video){
+      .context = script->context, .request = request, .format = format_of(request)};
+  out->coding = cs_video_coding(out->format, request);
+  out->stride = (size_t)width * celspan_coding_pixel_size(&out->coding);
+  cs_exit outcome = refuse_film(out, script, width, height);
+  if (outcome == CS_EXIT_OK)
+    outcome = find_sound(out, script, frames, &sound);
+  if (outcome == CS_EXIT_OK)
+    outcome = open_file(out, &name);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  cs_video_command_encode(&command, out->format, request, width, height,
+                          script->film.frames_second, &sound, name);
+  return cs_report_failure(script->context, start(out, &command, height), NULL);
+}
+
+/* ---------------------------------------------------------------- frames */
+
+static bool is_repeated(const cs_video *video, const cs_shoot_frame *frame) {
+  bool keeps_nothing = video->request->memory.is_given && video->request->memory.value == 0;
+  return video->has_last && frame->is_named && !keeps_nothing && frame->scene.a == video->last.a &&
+         frame->scene.b == video->last.b;
+}
+
+static celspan_status make(cs_video *video, const celspan_frame_desc *desc) {
+  int place;
+  CS_TRY(cs_encoder_take(&video->encoder, &place));
+  CS_TRY(celspan_frame_pixels(video->context, desc, &video->coding,
+                              cs_encoder_pixels(&video->encoder, place), video->stride, NULL));
+  cs_encoder_give(&video->encoder, place);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
+                            cs_shoot_frame *frame) {
+  if (is_repeated(video, frame)) {
+    frame->way = CS_SHOOT_COPIED;
+    CS_TRY(cs_encoder_repeat(&video->encoder));
+  } else {
+    CS_TRY(make(video, desc));
+  }
+  video->has_last = frame->is_named;
+  video->last = frame->scene;
+  return video->request->hash
+             ? celspan_frame_digest(video->context, desc, &video->coding, frame->digest)
+             : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the end */
+
+/* An encoder that ends well has written a file of its format. */
+static celspan_status check_mark(const cs_video *video, const char *name) {
+  char bytes[16] = {0};
+  FILE *file = fopen(name, "rb");
+  size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+  const char *mark = video->format->mark.bytes;
+  if (file)
+    fclose(file);
+  if (size == sizeof bytes && memcmp(bytes + video->format->mark.offset, mark, 4) == 0)
+    return CELSPAN_OK;
+  return cs_fail(video->context, CELSPAN_OUTPUT, "%s: what ffmpeg wrote is no %s file",
+                 video->request->output, video->format->name);
+}
+
+static celspan_status complete(cs_video *video) {
+  const char *name;
+  CS_TRY(cs_encoder_finish(&video->encoder));
+  CS_TRY(cs_file_temporary(video->file, video->context, &name));
+  CS_TRY(check_mark(video, name));
+  return cs_file_adopt(video->file, video->context);
+}
+
+celspan_status cs_video_finish(cs_video *video) {
+  celspan_status status = complete(video);
+  if (status == CELSPAN_OK)
+    return cs_file_commit(video->file, video->context);
+  cs_video_discard(video);
+  return status;
+}
+
+void cs_video_discard(cs_video *video) {
+  cs_encoder_discard(&video->encoder);
+  cs_file_discard(video->file, video->context);
+}

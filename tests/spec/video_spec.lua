@@ -1,0 +1,401 @@
+-- Videos: what ffmpeg reads back from them, and what happens when it fails.
+
+local workbench = require "tests.support.workbench"
+
+local has_ffmpeg = os.execute "command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null"
+local it_reads = has_ffmpeg and it or pending
+
+local FIELD = 32
+local ENDINGS = { "mp4", "mov", "webm", "mkv" }
+-- Neighbours differ little: 4:2:0 gives one colour to four pixels, and readers blend it at edges.
+local COLOURS = {
+  { 40, 60, 80 }, { 90, 110, 70 }, { 130, 90, 110 }, { 160, 160, 160 },
+  { 16, 20, 24 }, { 60, 80, 100 }, { 100, 120, 140 }, { 200, 180, 190 },
+}
+
+-- The chart, behind a dot that moves on twos.
+local CHART = [[
+local celspan = require "celspan"
+local sound, offset = ...
+local fields = {}
+for i, c in ipairs { %s } do
+  local x, y = (i - 1) %% 4 * 32, (i - 1) // 4 * 32
+  fields[i] = celspan.rect { x, y, x + 32, y + 32,
+    texture = celspan.rgb(("#%%02x%%02x%%02x"):format(c[1], c[2], c[3])) }
+end
+return celspan.film { size = { 128, 80 }, fps = 24, frames = 12, sound = sound,
+  sound_offset = tonumber(offset), frame = function(f)
+    local dot = celspan.circle { centre = { 20 + 4 * f:on(2), 72 }, radius = 6,
+      texture = celspan.rgb(1, 0.5, 0) }
+    return celspan.rostrum { celspan.cel(fields), celspan.cel { dot } }
+  end }
+]]
+
+--- Half of the frame is a translucent red, the rest is clear.
+local GLASS = [[
+local celspan = require "celspan"
+return celspan.film { size = { 32, 16 }, fps = 24, frames = 3, frame = function(f)
+  return celspan.rostrum { celspan.cel {
+    celspan.rect { 0, 0, 16, 16, texture = celspan.rgb(1, 0, 0, 0.5) },
+    celspan.rect { 0, 0, 1 + f.index, 1, texture = celspan.rgb(0, 0, 1) } } }
+end }
+]]
+
+local function chart_script()
+  local list = {}
+  for i, colour in ipairs(COLOURS) do list[i] = "{" .. table.concat(colour, ",") .. "}" end
+  return CHART:format(table.concat(list, ", "))
+end
+
+--- A second of silence with a tone of a hundredth of a second in it, as a WAV file of 48,000 samples a second.
+local function click(at)
+  local samples = {}
+  for i = 0, 47999 do
+    local is_tone = i >= at * 48000 and i < (at + 0.01) * 48000
+    samples[#samples + 1] = ("<i2"):pack(is_tone and (i // 24 % 2 * 2 - 1) * 20000 or 0)
+  end
+  local data = table.concat(samples)
+  return ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #data, "WAVE", "fmt ", 16, 1, 1, 48000, 96000, 2, 16,
+    "data", #data) .. data
+end
+
+describe("a video", function()
+  local bench
+
+  before_each(function()
+    bench = workbench.new()
+    bench:write("film.lua", chart_script())
+  end)
+  after_each(function() bench:remove() end)
+
+  local function run(command, ...) return bench:shell(("cd '%s' && "):format(bench.folder) .. command:format(...)) end
+  local function celspan(arguments, ...)
+    local binary = workbench.binary
+    binary = binary:sub(1, 1) == "/" and binary or assert(os.getenv "PWD") .. "/" .. binary
+    return run(("'%s' render film.lua --progress none "):format(binary) .. arguments, ...)
+  end
+  local function render(arguments, ...)
+    local code, _, err = celspan(arguments, ...)
+    assert.equal(0, code, err)
+    return err
+  end
+  local function probe(name, entries)
+    local code, out, err = run("ffprobe -v error -select_streams v -count_frames -show_entries %s -of default=nw=1 %s",
+      entries, name)
+    assert.equal(0, code, err)
+    local found = {}
+    for key, value in out:gmatch "([%w_]+)=([^\n]*)" do found[key] = value end
+    return found
+  end
+  --- The pixels of a frame from 0, as RGBA.
+  local function pixels(name, frame, width, height)
+    local decoder = name:find "webm$" and "-c:v libvpx-vp9" or ""
+    local code, out, err = run("ffmpeg -v error %s -i %s -vf scale=flags=accurate_rnd+full_chroma_int "
+      .. "-f rawvideo -pix_fmt rgba -", decoder, name)
+    assert.equal(0, code, err)
+    local size = width * height * 4
+    return out:sub(frame * size + 1, (frame + 1) * size)
+  end
+  local function mean(bytes, width, x, y, side)
+    local sums = { 0, 0, 0, 0 }
+    for row = y, y + side - 1 do
+      for column = x, x + side - 1 do
+        local at = (row * width + column) * 4
+        for i = 1, 4 do sums[i] = sums[i] + bytes:byte(at + i) end
+      end
+    end
+    for i = 1, 4 do sums[i] = sums[i] / side ^ 2 end
+    return sums
+  end
+  local function worst_field(name)
+    local bytes, worst = pixels(name, 4, 128, 80), 0
+    for i, colour in ipairs(COLOURS) do
+      local found = mean(bytes, 128, (i - 1) % 4 * FIELD, (i - 1) // 4 * FIELD, FIELD)
+      for channel = 1, 3 do worst = math.max(worst, math.abs(found[channel] - colour[channel])) end
+    end
+    return worst
+  end
+  --- Seconds at which the sound of a video begins to be heard.
+  local function onset(name)
+    local code, out, err = run("ffmpeg -v error -i %s -f s16le -ac 1 -ar 48000 -", name)
+    assert.equal(0, code, err)
+    for i = 1, #out - 1, 2 do
+      if math.abs((("<i2"):unpack(out, i))) > 4000 then return (i - 1) / 2 / 48000, #out / 96000 end
+    end
+    return nil, #out / 96000
+  end
+  --- A program called ffmpeg that comes first in PATH.
+  local function fake(body)
+    bench:write("bin-ffmpeg", "#!/bin/sh\n" .. body)
+    assert(os.execute(("mkdir -p '%s/bin' && mv '%s/bin-ffmpeg' '%s/bin/ffmpeg' && chmod +x '%s/bin/ffmpeg'")
+      :format(bench.folder, bench.folder, bench.folder, bench.folder)))
+  end
+  local function faked(arguments, ...)
+    local path = os.getenv "PATH"
+    local binary = workbench.binary
+    binary = binary:sub(1, 1) == "/" and binary or assert(os.getenv "PWD") .. "/" .. binary
+    return run(("PATH='%s/bin:%s' '%s' render film.lua --progress none "):format(bench.folder, path, binary)
+      .. arguments, ...)
+  end
+  local function nothing_is_left()
+    for _, name in ipairs(bench:files()) do
+      assert.falsy(name:find "%.part$" or name:find "^%.?out", name)
+    end
+  end
+
+  describe("read back", function()
+    for _, ending in ipairs(ENDINGS) do
+      it_reads(ending .. " has its frames, length, colours and tags", function()
+        render("-o out.%s", ending)
+        local found = probe("out." .. ending,
+          "stream=nb_read_frames,color_space,color_transfer,color_primaries,color_range,width,height:format=duration")
+        assert.same({ "12", "128", "80" }, { found.nb_read_frames, found.width, found.height })
+        assert.same({ "bt709", "iec61966-2-1", "bt709", "tv" },
+          { found.color_space, found.color_transfer, found.color_primaries, found.color_range })
+        assert.is_true(math.abs(tonumber(found.duration) - 0.5) < 0.002, found.duration)
+        assert.is_true(worst_field("out." .. ending) <= 2, worst_field("out." .. ending))
+      end)
+    end
+
+    it_reads("gif has its frames, length and colours", function()
+      render "-o out.gif"
+      local found = probe("out.gif", "stream=nb_read_frames:format=duration")
+      assert.equal("12", found.nb_read_frames)
+      assert.is_true(math.abs(tonumber(found.duration) - 0.5) <= 0.01, found.duration)
+      assert.is_true(worst_field "out.gif" <= 12)
+    end)
+
+    it_reads("webp has its frames and their times", function()
+      render "-o out.webp"
+      local bytes, frames, time, at = bench:read "out.webp", 0, 0, 13
+      while at < #bytes do -- a list of chunks; ANMF is a frame, with its time in three bytes
+        local name, size = ("<c4I4"):unpack(bytes, at)
+        if name == "ANMF" then
+          frames, time = frames + 1, time + ("<I3"):unpack(bytes, at + 8 + 12)
+        end
+        at = at + 8 + size + size % 2
+      end
+      assert.equal(6, frames) -- on twos: equal neighbours are one
+      assert.is_true(math.abs(time - 500) <= 42, time)
+    end)
+
+    it_reads("is one picture of one frame for gif and webp", function()
+      local code = celspan "-o out.webp --frames 2"
+      if code ~= 0 then return end -- built without OpenImageIO
+      assert.falsy(bench:read("out.webp"):find("ANMF", 1, true))
+    end)
+
+    it_reads("says 23.976 frames a second exactly", function()
+      bench:write("film.lua", (chart_script():gsub("fps = 24", "fps = 24000/1001")))
+      render "-o out.mp4"
+      assert.equal("24000/1001", probe("out.mp4", "stream=r_frame_rate").r_frame_rate)
+    end)
+
+    it_reads("keeps the order of a list of frames", function()
+      render "-o out.mkv --frames 12-1:-1"
+      render "-o whole.mkv"
+      local last, first = pixels("out.mkv", 0, 128, 80), pixels("whole.mkv", 11, 128, 80)
+      local dot = mean(last, 128, 64, 66, 12)
+      for i, value in ipairs(mean(first, 128, 64, 66, 12)) do assert.is_true(math.abs(value - dot[i]) < 2) end
+    end)
+
+    it_reads("has alpha where its format has it", function()
+      bench:write("film.lua", GLASS)
+      for _, ending in ipairs { "mov", "webm" } do
+        render("-o out.%s", ending)
+        local bytes = pixels("out." .. ending, 1, 32, 16)
+        local glass, clear = mean(bytes, 32, 4, 4, 8), mean(bytes, 32, 20, 4, 8)
+        assert.is_true(math.abs(glass[4] - 127.5) <= 3 and math.abs(glass[1] - 255) <= 4, ending .. glass[4])
+        assert.is_true(clear[4] <= 2, ending .. clear[4])
+        render("-o out.%s --background '#00ff00'", ending)
+        bytes = pixels("out." .. ending, 1, 32, 16)
+        assert.equal(255, mean(bytes, 32, 20, 4, 8)[4])
+      end
+      render "-o out.gif"
+      local bytes = pixels("out.gif", 1, 32, 16)
+      assert.equal(0, mean(bytes, 32, 20, 4, 8)[4])
+    end)
+
+    it_reads("shows the frame over black without alpha", function()
+      bench:write("film.lua", GLASS)
+      render "-o out.mp4"
+      local found = mean(pixels("out.mp4", 1, 32, 16), 32, 4, 4, 8)
+      assert.is_true(math.abs(found[1] - 188) <= 3 and found[2] <= 2, found[1]) -- half of the light
+    end)
+
+    it_reads("has ten bits with --depth 16, and any size but where the encoder wants even sides", function()
+      render "-o out.mp4 --depth 16"
+      assert.equal("yuv420p10le", probe("out.mp4", "stream=pix_fmt").pix_fmt)
+      for _, ending in ipairs { "mov", "webm", "mkv", "gif" } do
+        render("-o out.%s --size 63x41 --frames 1-3", ending)
+        local found = probe("out." .. ending, "stream=width,height")
+        assert.same({ "63", "41" }, { found.width, found.height })
+      end
+      local code, _, err = celspan "-o odd.mp4 --size 63x41"
+      assert.equal(2, code)
+      assert.truthy(err:find("odd.mp4: 63 x 41 pixels: mp4 needs an even width and height: give --size 62x40", 1, true), err)
+    end)
+
+    it_reads("is larger with more --quality", function()
+      for _, ending in ipairs { "mp4", "mov", "webm", "mkv", "gif", "webp" } do
+        local sizes = {}
+        for i, quality in ipairs { 0, 100 } do
+          render("-o out.%s --quality %d", ending, quality)
+          sizes[i] = #bench:read("out." .. ending)
+        end
+        assert.is_true(sizes[1] < sizes[2], ending .. " " .. sizes[1] .. " " .. sizes[2])
+      end
+    end)
+
+    it_reads("is replaced, made in folders that are missing, and its name may be anything", function()
+      for _, name in ipairs { "-x.mp4", "deep/er/file:a b;'$HOME.mp4", "http:x.mp4", "100%.mp4" } do
+        local quoted = "'" .. name:gsub("'", "'\\''") .. "'"
+        for _ = 1, 2 do render("-o " .. quoted:gsub("%%", "%%%%")) end
+        assert.truthy(bench:read(name):find("ftyp", 1, true), name)
+      end
+      assert.same({ "file:a b;'$HOME.mp4" }, bench:files "deep/er")
+    end)
+
+    it_reads("prints digests that do not depend on the format", function()
+      local _, digests = celspan "-o out.mp4 --hash --background '#fff'"
+      local _, alone = celspan "--hash --alpha premultiplied --background '#fff'"
+      assert.equal(alone, digests)
+    end)
+  end)
+
+  describe("with sound", function()
+    --- Where the click at 0.1 s of the sound is in the video.
+    local cases = {
+      { offset = 0, heard = 0.1 }, { offset = 0.25, heard = 0.35 }, { offset = -0.05, heard = 0.05 },
+      { offset = 0.25, frames = "--frames 7-12", heard = 0.1, length = 0.25 },
+    }
+    for _, ending in ipairs(ENDINGS) do
+      it_reads(ending .. " has it in step", function()
+        bench:write("click.wav", click(0.1))
+        for _, case in ipairs(cases) do
+          render("-o out.%s %s -- click.wav %g", ending, case.frames or "", case.offset)
+          local heard, length = onset("out." .. ending)
+          assert.is_true(math.abs(heard - case.heard) < 1 / 96, ending .. " " .. tostring(heard))
+          assert.is_true(math.abs(length - (case.length or 0.5)) < 0.025, length)
+        end
+      end)
+    end
+
+    it_reads("looks for it beside the script, from any folder", function()
+      assert(os.execute(("mkdir '%s/sub' && mv '%s/film.lua' '%s/sub/film.lua'")
+        :format(bench.folder, bench.folder, bench.folder)))
+      bench:write("sub/click.wav", click(0.1))
+      local code, _, err = bench:celspan("render '%s/sub/film.lua' --progress none -o '%s/out.mkv' -- click.wav",
+        bench.folder, bench.folder)
+      assert.equal(0, code, err)
+      assert.is_true(math.abs(onset "out.mkv" - 0.1) < 1 / 96)
+    end)
+
+    it_reads("says what it cannot be", function()
+      bench:write("click.wav", click(0.1))
+      bench:write("noise.wav", "no sound at all")
+      local cases = {
+        { 4, "the sound nowhere.wav cannot be opened: No such file", "-o out.mp4 -- nowhere.wav" },
+        { 4, "the sound noise.wav cannot be read: ffmpeg ended", "-o out.mp4 -- noise.wav" },
+        { 2, "goes with one run of frames", "-o out.mp4 --frames 1-7:2 -- click.wav" },
+        { 0, "gif holds no sound", "-o out.gif -- click.wav" },
+      }
+      for _, case in ipairs(cases) do
+        local code, _, err = celspan(case[3])
+        assert.equal(case[1], code, err)
+        assert.truthy(err:find(case[2], 1, true), err)
+      end
+    end)
+
+    it("is checked at the script's line", function()
+      for field, sentence in pairs {
+        ["sound = ''"] = "field 'sound' must be the name of a file",
+        ["sound = {}"] = "field 'sound' must be",
+        ["sound_offset = 2e9"] = "field 'sound_offset' must be from",
+        ["sound_offset = 'late'"] = "field 'sound_offset' must be a number",
+      } do
+        bench:write("film.lua", "local celspan = require 'celspan'\nreturn celspan.film { " .. field
+          .. ", frame = function() end }\n")
+        local code, _, err = celspan "-o out.png"
+        assert.equal(3, code)
+        assert.truthy(err:find("film.lua:2: film: " .. sentence, 1, true), err)
+      end
+    end)
+  end)
+
+  it("refuses what a video cannot be", function()
+    for arguments, sentence in pairs {
+      ["-o out.mp4 --resume"] = "--resume keeps frames that are files",
+      ["-o out.gif --resume"] = "--resume keeps frames that are files",
+      ["-o out.mp4 --keep-going"] = "--keep-going leaves frames out",
+      ["-o out.####.mp4"] = "leave the frame's number out",
+      ["-o out.mp4 --depth float"] = "takes --depth 8 or 16",
+      ["-o out.mp4 --colour linear"] = "coded as srgb or rec709",
+      ["-o out.webm --depth 16"] = "webm holds 8 bits where it has alpha",
+      ["-o out.gif --depth 16"] = "gif holds 8 bits",
+      ["-o out.mp4 --quality 101"] = "a whole number from 0 to 100",
+      ["-o out.####.png --quality 50"] = "--quality belongs to videos",
+      ["-o - --quality 50"] = "--quality belongs to videos",
+      ["-o out.mp4 --size 20000x20"] = "a video has at most 16384 a side",
+    } do
+      local code, _, err = celspan(arguments)
+      assert.equal(2, code, err)
+      assert.truthy(err:find(sentence, 1, true), err)
+    end
+    nothing_is_left()
+  end)
+
+  describe("when ffmpeg", function()
+    it("is missing, says which package has it", function()
+      local code, _, err = run("PATH=/nowhere '%s' render film.lua --progress none -o out.mp4",
+        workbench.binary:sub(1, 1) == "/" and workbench.binary or os.getenv "PWD" .. "/" .. workbench.binary)
+      assert.equal(5, code)
+      assert.equal("celspan: error: out.mp4: ffmpeg, which makes videos, is not in PATH: install the package ffmpeg\n", err)
+      nothing_is_left()
+    end)
+
+    local deaths = {
+      { "dies at once", "echo 'no such encoder' >&2; exit 3\n", "ffmpeg ended with exit code 3: no such encoder" },
+      { "dies in the middle", "head -c 50000 >/dev/null; echo disk >&2; echo full >&2; exit 1\n",
+        "ffmpeg ended with exit code 1: disk full" },
+      { "is killed", "head -c 50000 >/dev/null; kill -9 $$\n", "ffmpeg was ended by signal 9" },
+      { "ends too early", "head -c 50000 >/dev/null\n", "ffmpeg ended before it had read every frame" },
+      { "dies at the end", "cat >/dev/null; echo trailer >&2; exit 1\n", "ffmpeg ended with exit code 1: trailer" },
+      { "writes nothing", "cat >/dev/null\n", "what ffmpeg wrote is no mp4 file" },
+      { "writes garbage", "cat >/dev/null; for last; do :; done; seq 1000 >\"${last#file:}\"\n",
+        "what ffmpeg wrote is no mp4 file" },
+      { "reads no more", "exec 0<&-; sleep 60\n", "ffmpeg reads no more frames, and does not end" },
+    }
+    for _, death in ipairs(deaths) do
+      it(death[1] .. ", says so and leaves nothing", function()
+        bench:write("out.mp4", "the film of yesterday")
+        fake(death[2])
+        local code, _, err = faked "-o out.mp4 --size 256x160"
+        assert.equal(5, code, err)
+        assert.truthy(err:find(death[3], 1, true), err)
+        assert.equal("the film of yesterday", bench:read "out.mp4")
+        os.remove(bench.folder .. "/out.mp4")
+        nothing_is_left()
+      end)
+    end
+
+    it("hangs, a signal ends both and leaves nothing", function()
+      fake("echo $$ >'" .. bench.folder .. "/id'; sleep 60 & wait\n")
+      local code = faked "-o out.mp4 --size 1280x720 & other=$!; sleep 1; kill $other; wait $other"
+      assert.equal(128 + 15, code)
+      local id = assert(tonumber(bench:read "id"))
+      assert.falsy(os.execute(("kill -0 %d 2>/dev/null"):format(id)))
+      nothing_is_left()
+    end)
+
+    it("works, and a frame fails, nothing is left", function()
+      fake "cat >/dev/null\n"
+      bench:write("film.lua", "local celspan = require 'celspan'\nreturn celspan.film { size = { 8, 8 }, frames = 3,\n"
+        .. "frame = function(f) if f.number == 2 then error 'torn' end\nreturn celspan.rostrum { celspan.cel {} } end }\n")
+      local code, _, err = faked "-o out.mp4"
+      assert.equal(3, code, err)
+      assert.truthy(err:find("frame 2: torn", 1, true), err)
+      nothing_is_left()
+    end)
+  end)
+end)
