@@ -41,8 +41,7 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
 
 const char *cs_files_find(lua_State *L, const char *name, const char **tried) {
   bool has_folder = cs_caller_push_folder(L);
-  const char *path =
-      cs_files_find_from(L, has_folder ? lua_tostring(L, -1) : NULL, name, tried);
+  const char *path = cs_files_find_from(L, has_folder ? lua_tostring(L, -1) : NULL, name, tried);
   if (has_folder)
     lua_remove(L, -3);
   return path;

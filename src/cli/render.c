@@ -29,7 +29,7 @@ typedef struct render_job {
   cs_progress progress;
   cs_record record;
   bool is_video;
-  cs_video video; /* where it is one */
+  cs_video video;  /* where it is one */
   int64_t *failed; /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of what was reported */
@@ -44,8 +44,7 @@ static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_sh
   return celspan_frame_render(job->script->context, frame, &sink, NULL);
 }
 
-static celspan_status put_video(void *user, const celspan_frame_desc *desc,
-                                cs_shoot_frame *frame) {
+static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
   render_job *job = user;
   return cs_video_put(&job->video, desc, frame);
 }
@@ -110,8 +109,7 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   if (job->request->hash)
     printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
            frame->digest[1]);
-  cs_progress_frame(&job->progress, frame->number, destination_of(job, frame),
-                    ways[frame->way]);
+  cs_progress_frame(&job->progress, frame->number, destination_of(job, frame), ways[frame->way]);
   return CELSPAN_OK;
 }
 
@@ -165,7 +163,9 @@ static cs_exit shoot(render_job *job) {
                           .keeps_going = request->keeps_going,
                           .keeps_nothing = request->memory.is_given && request->memory.value == 0,
                           .user = job,
-                          .put = job->is_video ? put_video : is_stream ? put_raw : NULL,
+                          .put = job->is_video ? put_video
+                                 : is_stream   ? put_raw
+                                               : NULL,
                           .keep = request->resumes ? keep : NULL,
                           .build = build,
                           .finished = finished,

@@ -34,8 +34,8 @@ static void add_all(cs_video_command *command, const char *const *arguments) {
 }
 
 static void begin(cs_video_command *command) {
-  static const char *const first[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error",
-                                      "-xerror", "-y", NULL};
+  static const char *const first[] = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel",
+                                      "error",  "-xerror",  "-y",           NULL};
   *command = (cs_video_command){0};
   add_all(command, first);
 }
@@ -67,16 +67,15 @@ static const char *frame_pixels(const cs_video_format *format, const cs_request 
 }
 
 static void add_frames(cs_video_command *command, const cs_video_format *format,
-                       const cs_request *request, int32_t width, int32_t height,
-                       double frames_second) {
+                       const cs_request *request, const cs_video_frames *frames) {
   add(command, "-f");
   add(command, "rawvideo");
   add(command, "-pixel_format");
   add(command, frame_pixels(format, request));
   add(command, "-video_size");
-  add_text(command, "%dx%d", (int)width, (int)height);
+  add_text(command, "%dx%d", (int)frames->width, (int)frames->height);
   add(command, "-framerate");
-  add_rate(command, frames_second);
+  add_rate(command, frames->frames_second);
   add(command, "-i");
   add(command, "pipe:0");
 }
@@ -89,7 +88,7 @@ static int quality_of(const cs_request *request, const cs_video_format *format) 
 }
 
 /* A palette for each frame, so that the frames need not be kept until the last one is there. */
-static void add_palette(cs_video_command *command, const cs_video_format *format,
+static void add_indexed(cs_video_command *command, const cs_video_format *format,
                         const cs_request *request) {
   add(command, "-filter_complex");
   add_text(command,
@@ -105,8 +104,9 @@ static void add_yuv(cs_video_command *command, const cs_video_format *format,
                     const cs_request *request) {
   bool is_rec709 = request->coding.transfer == CELSPAN_TRANSFER_REC709;
   const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
-  const char *const tags[] = {"-color_range", "tv",         "-colorspace", "bt709",
-                              "-color_primaries", "bt709", "-color_trc",  transfer, NULL};
+  const char *const tags[] = {
+      "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
+      "bt709",        "-color_trc", transfer,      NULL};
   add(command, "-vf");
   add_text(command,
            "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
@@ -118,7 +118,7 @@ static void add_yuv(cs_video_command *command, const cs_video_format *format,
 static void add_pictures(cs_video_command *command, const cs_video_format *format,
                          const cs_request *request) {
   if (!format->quality)
-    add_palette(command, format, request);
+    add_indexed(command, format, request);
   else if (!format->is_rgb)
     add_yuv(command, format, request);
   add_all(command, format->encoder);
@@ -154,10 +154,10 @@ static void add_sound(cs_video_command *command, const cs_video_format *format,
 }
 
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
-                             const cs_request *request, int32_t width, int32_t height,
-                             double frames_second, const cs_video_sound *sound, const char *file) {
+                             const cs_request *request, const cs_video_frames *frames,
+                             const cs_video_sound *sound, const char *file) {
   begin(command);
-  add_frames(command, format, request, width, height, frames_second);
+  add_frames(command, format, request, frames);
   if (sound->path) {
     add(command, "-i");
     add_text(command, "file:%s", sound->path);

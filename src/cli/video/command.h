@@ -13,10 +13,15 @@
 
 enum { CS_VIDEO_ARGUMENTS = 72, CS_VIDEO_TEXT = 16384 };
 
+typedef struct cs_video_frames {
+  int32_t width, height; /* pixels */
+  double frames_second;
+} cs_video_frames;
+
 typedef struct cs_video_sound {
   const char *path; /* NULL: none */
-  double start;     /* seconds from the first frame to its beginning; below 0 its beginning is cut */
-  double length;    /* seconds of all frames */
+  double start;  /* seconds from the first frame to its beginning; below 0 its beginning is cut */
+  double length; /* seconds of all frames */
 } cs_video_sound;
 
 typedef struct cs_video_command {
@@ -28,8 +33,8 @@ typedef struct cs_video_command {
 
 /* file: the name of the file to be written. */
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
-                             const cs_request *request, int32_t width, int32_t height,
-                             double frames_second, const cs_video_sound *sound, const char *file);
+                             const cs_request *request, const cs_video_frames *frames,
+                             const cs_video_sound *sound, const char *file);
 /* A command that ends with 0 if ffmpeg can read the sound. */
 void cs_video_command_listen(cs_video_command *command, const char *sound);
 

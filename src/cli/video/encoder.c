@@ -8,9 +8,9 @@
 
 #include "cli/interrupt.h"
 
-#define NANOSECONDS 1000000000 /* in a second */
+#define NANOSECONDS 1000000000     /* in a second */
 #define PAUSE_NANOSECONDS 50000000 /* between two questions whether a signal asks to stop */
-#define LAST_SECONDS 2.0 /* an encoder that reads no more has to say why and end */
+#define LAST_SECONDS 2.0           /* an encoder that reads no more has to say why and end */
 
 /* ---------------------------------------------------------------- the writing thread */
 

@@ -4,10 +4,10 @@
 #include <strings.h>
 
 /* Drawings are flat between sharp edges: -tune animation spends bits on edges, not on grain. */
-static const char *const H264[] = {"-c:v", "libx264", "-preset", "medium", "-tune", "animation",
-                                   NULL};
-static const char *const PRORES[] = {"-c:v",    "prores_ks", "-profile:v", "4444",
-                                     "-vendor", "apl0",      "-alpha_bits", "16",  NULL};
+static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
+                                   "-tune", "animation", NULL};
+static const char *const PRORES[] = {"-c:v", "prores_ks",   "-profile:v", "4444", "-vendor",
+                                     "apl0", "-alpha_bits", "16",         NULL};
 static const char *const VP9[] = {"-c:v",      "libvpx-vp9", "-b:v",    "0", "-deadline", "good",
                                   "-cpu-used", "3",          "-row-mt", "1", NULL};
 static const char *const GIF[] = {"-c:v", "gif", "-loop", "0", NULL};

@@ -13,7 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 
-#define PIPE_BYTES (1 << 20)   /* as much as Linux lets anyone have */
+#define PIPE_BYTES (1 << 20)      /* as much as Linux lets anyone have */
 #define PAUSE_NANOSECONDS 2000000 /* between two questions whether the program has ended */
 
 extern char **environ;

@@ -48,10 +48,9 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
   if (request->coding.depth == CELSPAN_DEPTH_HALF || request->coding.depth == CELSPAN_DEPTH_FLOAT)
     return cs_report_usage("%s: a video takes --depth 8 or 16", output);
   if (!cs_video_pixels(format, request))
-    return cs_report_usage("%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output,
-                           format->name,
-                           format->deep_pixels ? " where it has alpha (--background takes it away)"
-                                               : "");
+    return cs_report_usage(
+        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, format->name,
+        format->deep_pixels ? " where it has alpha (--background takes it away)" : "");
   return CS_EXIT_OK;
 }
 
@@ -170,35 +169,34 @@ static cs_exit open_file(cs_video *video, const char **name) {
   return cs_report_failure(video->context, status, NULL);
 }
 
-static cs_exit refuse_film(const cs_video *video, const cs_script *script, int32_t width,
-                           int32_t height) {
+static cs_exit refuse_film(const cs_video *video, const cs_video_frames *frames) {
   cs_exit outcome = cs_video_refuse(video->request, SIZE_MAX);
   if (outcome == CS_EXIT_OK)
-    outcome = refuse_size(video, width, height);
-  return outcome == CS_EXIT_OK ? refuse_rate(video, script->film.frames_second) : outcome;
+    outcome = refuse_size(video, frames->width, frames->height);
+  return outcome == CS_EXIT_OK ? refuse_rate(video, frames->frames_second) : outcome;
 }
 
 cs_exit cs_video_open(cs_video *out, cs_script *script, const cs_request *request,
                       const celspan_frame_desc *frame, const cs_sequence *frames) {
-  int32_t width = frame->crop_width ? frame->crop_width : frame->width;
-  int32_t height = frame->crop_width ? frame->crop_height : frame->height;
+  bool is_part = frame->crop_width > 0;
+  const cs_video_frames size = {.width = is_part ? frame->crop_width : frame->width,
+                                .height = is_part ? frame->crop_height : frame->height,
+                                .frames_second = script->film.frames_second};
   cs_video_command command;
   cs_video_sound sound;
   const char *name = NULL;
-  *out = (cs_video){
-      .context = script->context, .request = request, .format = format_of(request)};
+  *out = (cs_video){.context = script->context, .request = request, .format = format_of(request)};
   out->coding = cs_video_coding(out->format, request);
-  out->stride = (size_t)width * celspan_coding_pixel_size(&out->coding);
-  cs_exit outcome = refuse_film(out, script, width, height);
+  out->stride = (size_t)size.width * celspan_coding_pixel_size(&out->coding);
+  cs_exit outcome = refuse_film(out, &size);
   if (outcome == CS_EXIT_OK)
     outcome = find_sound(out, script, frames, &sound);
   if (outcome == CS_EXIT_OK)
     outcome = open_file(out, &name);
   if (outcome != CS_EXIT_OK)
     return outcome;
-  cs_video_command_encode(&command, out->format, request, width, height,
-                          script->film.frames_second, &sound, name);
-  return cs_report_failure(script->context, start(out, &command, height), NULL);
+  cs_video_command_encode(&command, out->format, request, &size, &sound, name);
+  return cs_report_failure(script->context, start(out, &command, size.height), NULL);
 }
 
 /* ---------------------------------------------------------------- frames */
