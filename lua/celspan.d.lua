@@ -589,8 +589,8 @@ function frame:random(label, m, n) end
 ---@field duration? number Seconds, instead of frames
 ---@field first? integer The first frame's number, default 1
 ---@field title? string
----@field sound? string A file
----@field sound_offset? number Seconds
+---@field sound? string A file: the sound of videos
+---@field sound_offset? number Seconds: the film's time at which the sound begins, default 0; a negative one cuts its beginning
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
 
 ---@class celspan.film: celspan.film.fields

@@ -82,19 +82,21 @@ static void add_frames(cs_video_command *command, const cs_video_format *format,
 
 /* ---------------------------------------------------------------- pictures */
 
-static int quality_of(const cs_request *request, const cs_video_format *format) {
-  return cs_video_quality(format,
-                          request->quality.is_given ? request->quality.value : USUAL_QUALITY);
+static int32_t quality_of(const cs_request *request) {
+  return request->quality.is_given ? request->quality.value : USUAL_QUALITY;
 }
 
-/* A palette for each frame, so that the frames need not be kept until the last one is there. */
+/* A table of colours for each frame, so that the frames need not be kept until the last one is
+ * there. Dots between two colours look better than bands, and make the file larger. */
 static void add_indexed(cs_video_command *command, const cs_video_format *format,
                         const cs_request *request) {
+  int32_t quality = quality_of(request);
   add(command, "-filter_complex");
   add_text(command,
            "[0:v]split[a][b];[a]palettegen=stats_mode=single:max_colors=%d:reserve_transparent=%d"
-           "[p];[b][p]paletteuse=new=1:dither=sierra2_4a",
-           quality_of(request, format), cs_video_has_alpha(format, request));
+           "[p];[b][p]paletteuse=new=1:dither=%s",
+           cs_video_quality(format, quality), cs_video_has_alpha(format, request),
+           quality < 50 ? "none" : "sierra2_4a");
 }
 
 /* ffmpeg takes pictures of any size for BT.601 unless it is told otherwise, and tells the file
@@ -124,7 +126,7 @@ static void add_pictures(cs_video_command *command, const cs_video_format *forma
   add_all(command, format->encoder);
   if (format->quality) {
     add(command, format->quality);
-    add_text(command, "%d", quality_of(request, format));
+    add_text(command, "%d", cs_video_quality(format, quality_of(request)));
   }
   if (format->is_rgb && format->quality) {
     add(command, "-pix_fmt");
