@@ -84,8 +84,8 @@ celspan_status cs_layers_append(cs_compiler *c, double fade, celspan_rule rule, 
   return CELSPAN_OK;
 }
 
-/* Adds an outline that lies in a rectangle to the census. */
-static void count_outline(cs_compiler *c, const cs_outline *outline, const cs_layer *layer,
+/* Adds an outline of so many pieces that lies in a rectangle to the census. */
+static void count_outline(cs_compiler *c, size_t pieces, const cs_layer *layer,
                           const cs_boundary_frame *around) {
   const cs_boundary_frame *frame = &c->frame;
   double width = fmin(around->right, frame->right) - fmax(around->left, frame->left);
@@ -93,35 +93,49 @@ static void count_outline(cs_compiler *c, const cs_outline *outline, const cs_la
   double all = (frame->right - frame->left) * (frame->bottom - frame->top);
   if (!(width > 0 && height > 0))
     return;
-  c->census.pieces += (double)outline->piece_count;
+  c->census.pieces += (double)pieces;
   c->census.rows += height;
   cs_v4 through = cs_through_least(&c->plan->stack, layer);
   c->census.depth += width * height / all * cs_through_halvings(through);
+}
+
+/* Takes an outline into the census. Returns whether it is on the rows that are asked for. */
+static bool is_asked_for(cs_compiler *c, size_t pieces, const celspan_box *bounds,
+                         const celspan_matrix *facing, uint32_t index) {
+  cs_boundary_frame around;
+  if (!cs_boundary_around_box(bounds, facing, &around))
+    around = c->frame;
+  count_outline(c, pieces, &c->plan->stack.layers[index], &around);
+  return around.bottom >= c->first_height && around.top <= c->end_height;
 }
 
 celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
                                      const celspan_box *bounds, const celspan_matrix *matrix,
                                      uint32_t index) {
   celspan_matrix facing = cs_matrix_facing(matrix);
-  cs_boundary_frame around;
-  if (!cs_boundary_around_box(bounds, &facing, &around))
-    around = c->frame;
-  count_outline(c, outline, &c->plan->stack.layers[index], &around);
-  if (around.bottom < c->first_height || around.top > c->end_height)
-    return CELSPAN_OK;
-  return cs_boundary_add(c->boundaries, outline, matrix, index);
+  return is_asked_for(c, outline->piece_count, bounds, &facing, index)
+             ? cs_boundary_add(c->boundaries, outline, matrix, index)
+             : CELSPAN_OK;
 }
 
-/* The outline of a stroke is made for what the frame shows of it. facing: the matrix. */
+/* The outline of a stroke is made for what the rows that are asked for show of it. The census counts
+ * what does not depend on them: two sides of its line and two ends of each of its parts. */
 static celspan_status add_stroke(cs_compiler *c, const cs_primitive_data *data,
                                  const celspan_matrix *facing, uint32_t index) {
-  const cs_stroke_view view = {
-      .matrix = *facing, .frame = c->frame, .tolerance = CS_STROKE_TOLERANCE};
+  const cs_stroke *stroke = data->stroke;
+  const cs_stroke_view view = {.matrix = *facing,
+                               .frame = c->frame,
+                               .tolerance = CS_STROKE_TOLERANCE,
+                               .top = c->first_height,
+                               .bottom = c->end_height};
+  size_t pieces = 2 * (stroke->line.piece_count + stroke->part_count);
+  if (!is_asked_for(c, pieces, &data->bounds, facing, index))
+    return CELSPAN_OK;
   cs_outline outline;
   cs_outline_init(&outline);
-  celspan_status status = cs_stroke_outline(c->context, data->stroke, &view, &outline);
+  celspan_status status = cs_stroke_outline(c->context, stroke, &view, &outline);
   if (status == CELSPAN_OK)
-    status = cs_layers_add_outline(c, &outline, &data->bounds, facing, index);
+    status = cs_boundary_add(c->boundaries, &outline, facing, index);
   cs_outline_finish(&outline, c->context->memory);
   return status;
 }

@@ -148,6 +148,22 @@ celspan_point cs_curve_departure(const cs_bezier *line) {
   return (celspan_point){1, 0};
 }
 
+celspan_box cs_curve_box(const cs_curve *curve, double extent) {
+  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, radius = 0;
+  for (int i = 0; i <= curve->line.degree; i++) {
+    cs_hpoint p = curve->line.points[i];
+    left = fmin(left, p.x / p.w);
+    right = fmax(right, p.x / p.w);
+    top = fmin(top, p.y / p.w);
+    bottom = fmax(bottom, p.y / p.w);
+  }
+  for (int i = 0; i <= curve->radius_degree; i++)
+    radius = fmax(radius, curve->radius[i]);
+  radius *= extent;
+  return (celspan_box){left - radius, top - radius, right - left + 2 * radius,
+                       bottom - top + 2 * radius};
+}
+
 bool cs_curve_is_straight(const cs_bezier *line) {
   return line->degree == 1 && line->points[0].w == line->points[1].w;
 }

@@ -34,6 +34,9 @@ void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
                       celspan_point *velocity);
 /* The direction, of length 1, in which the line leaves its first point; in any case a direction. */
 celspan_point cs_curve_departure(const cs_bezier *line);
+/* The box that holds the line and all that is nearer to it than `extent` times the largest radius;
+ * with extent 0 the line alone. */
+celspan_box cs_curve_box(const cs_curve *curve, double extent);
 /* Whether the line is straight with constant speed, but for rounding. */
 bool cs_curve_is_straight(const cs_bezier *line);
 /* Whether all of the line is one point, but for rounding. */

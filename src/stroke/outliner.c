@@ -3,9 +3,10 @@
 #include "geometry/matrix.h"
 #include "stroke/corner.h"
 
-#define DEPTH 8   /* halvings of a piece that is larger than the frame */
+#define DEPTH 32  /* halvings of a piece that is larger than the frame */
 #define PLACES 16 /* of a piece, at which it is looked whether discs are inside their neighbours */
 #define ROOT_DEPTH 60
+#define FEW 16 /* parts that are looked at one by one */
 
 /* A stretch of the line between two parameters of a piece. */
 typedef struct stretch {
@@ -23,7 +24,7 @@ typedef struct outliner {
   stretch *stretches; /* of one part */
   size_t count, capacity;
   double extent;
-  bool is_all_visible; /* all of the stroke is in the frame */
+  bool is_all_visible; /* all of the stroke is in the frame, on the rows that are asked for */
   bool is_cut;         /* something was hidden since the last stretch */
 } outliner;
 
@@ -58,8 +59,8 @@ static double find_change(const cs_curve *curve, double from, double to) {
 }
 
 /* base: the stretch that the curve is; from, to: of its own parameter. */
-static celspan_status add_part(outliner *o, const stretch *base, const cs_curve *curve, double from,
-                               double to) {
+static celspan_status add_between(outliner *o, const stretch *base, const cs_curve *curve,
+                                  double from, double to) {
   stretch s = *base;
   double length = base->end - base->begin;
   s.begin = from > 0 ? base->begin + from * length : base->begin;
@@ -80,40 +81,30 @@ static celspan_status add_visible(outliner *o, const stretch *base, const cs_cur
     if (is_swallowed_at(curve, low) == is_swallowed_at(curve, high))
       continue;
     double to = find_change(curve, low, high);
-    CS_TRY(add_part(o, base, curve, from, to));
+    CS_TRY(add_between(o, base, curve, from, to));
     from = to;
   }
-  return add_part(o, base, curve, from, 1);
+  return add_between(o, base, curve, from, 1);
 }
 
-/* The box that holds all that a curve may contribute; with extent 0, the line alone. */
-static celspan_box box_of(const cs_curve *curve, double extent) {
-  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, radius = 0;
-  for (int i = 0; i <= curve->line.degree; i++) {
-    cs_hpoint p = curve->line.points[i];
-    left = fmin(left, p.x / p.w);
-    right = fmax(right, p.x / p.w);
-    top = fmin(top, p.y / p.w);
-    bottom = fmax(bottom, p.y / p.w);
-  }
-  for (int i = 0; i <= curve->radius_degree; i++)
-    radius = fmax(radius, curve->radius[i]);
-  radius *= extent;
-  return (celspan_box){left - radius, top - radius, right - left + 2 * radius,
-                       bottom - top + 2 * radius};
+/* Whether it is worth while to look at parts of a curve. One that is shorter than it is wide looks
+ * alike from both ends. */
+static bool is_long(const outliner *o, const cs_curve *curve, const celspan_box *box) {
+  celspan_box line = cs_curve_box(curve, 0);
+  return line.width + line.height > box->width - line.width &&
+         cs_stroke_view_is_exceeded(o->view, &line);
 }
 
 /* Adds what can be seen of a curve, between two parameters of a piece. */
 static celspan_status add_curve(outliner *o, const stretch *base, const cs_curve *curve,
                                 int depth) {
   if (!o->is_all_visible) {
-    celspan_box box = box_of(curve, o->extent), line = box_of(curve, 0);
+    celspan_box box = cs_curve_box(curve, o->extent);
     if (cs_stroke_view_hides(o->view, &box)) {
       o->is_cut = true;
       return CELSPAN_OK;
     }
-    if (depth < DEPTH && !cs_curve_is_straight(&curve->line) &&
-        cs_stroke_view_is_exceeded(o->view, &line)) {
+    if (depth < DEPTH && !cs_curve_is_straight(&curve->line) && is_long(o, curve, &box)) {
       double middle = 0.5 * (base->begin + base->end);
       stretch half = {.piece = base->piece, .begin = base->begin, .end = middle};
       cs_curve low, high;
@@ -265,18 +256,38 @@ static celspan_status add_dot(outliner *o, const cs_stroke_part *part) {
   return cs_corner_dot(&o->side, o->stroke, &place);
 }
 
-static celspan_status add_parts(outliner *o) {
-  for (size_t i = 0; i < o->stroke->part_count; i++) {
-    const cs_stroke_part *part = &o->stroke->parts[i];
-    if (part->count == 1 && part->begin == part->end) {
-      CS_TRY(add_dot(o, part));
-      continue;
-    }
-    CS_TRY(add_stretches(o, part));
-    if (o->count > 0)
-      CS_TRY(add_part_runs(o, part));
+static celspan_status add_part(outliner *o, const cs_stroke_part *part) {
+  if (part->count == 1 && part->begin == part->end)
+    return add_dot(o, part);
+  CS_TRY(add_stretches(o, part));
+  return o->count > 0 ? add_part_runs(o, part) : CELSPAN_OK;
+}
+
+/* Whether two parts and all those between them are of one piece, no part of which can be seen from
+ * the beginning of the one to the end of the other. */
+static bool are_hidden(const outliner *o, const cs_stroke_part *first, const cs_stroke_part *last) {
+  if (first->first != last->first || first->count != 1 || last->count != 1 ||
+      !(first->begin < last->end))
+    return false;
+  cs_curve curve;
+  cs_curve_load(o->stroke, first->first, first->begin, last->end, &curve);
+  celspan_box box = cs_curve_box(&curve, o->extent);
+  return cs_stroke_view_hides(o->view, &box);
+}
+
+/* Parts [begin, end). Of very many dashes, few may be in the frame: these are found by halving. */
+static celspan_status add_parts(outliner *o, size_t begin, size_t end) {
+  const cs_stroke_part *parts = o->stroke->parts;
+  if (end - begin > FEW) {
+    size_t middle = begin + (end - begin) / 2;
+    if (!o->is_all_visible && are_hidden(o, &parts[begin], &parts[end - 1]))
+      return CELSPAN_OK;
+    CS_TRY(add_parts(o, begin, middle));
+    return add_parts(o, middle, end);
   }
-  return cs_side_add_folds(&o->side);
+  for (size_t i = begin; i < end; i++)
+    CS_TRY(add_part(o, &parts[i]));
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- public */
@@ -288,7 +299,10 @@ celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stro
   if (cs_stroke_view_hides(view, &stroke->around))
     return CELSPAN_OK;
   cs_side_init(&o.side, context, view, outline);
-  celspan_status status = add_parts(&o);
+  o.side.may_hide = !o.is_all_visible;
+  celspan_status status = add_parts(&o, 0, stroke->part_count);
+  if (status == CELSPAN_OK)
+    status = cs_side_add_folds(&o.side);
   cs_mem_free(context->memory, o.stretches, o.capacity * sizeof *o.stretches);
   cs_side_finish(&o.side);
   return status;
@@ -299,6 +313,8 @@ celspan_status cs_stroke_outline_fine(celspan_context *context, const cs_stroke 
   const celspan_box *box = &stroke->around;
   const cs_stroke_view view = {.matrix = celspan_matrix_identity(),
                                .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
-                               .tolerance = 0x1p-27 * fmax(box->width, box->height)};
+                               .tolerance = 0x1p-27 * fmax(box->width, box->height),
+                               .top = box->y,
+                               .bottom = box->y + box->height};
   return cs_stroke_outline(context, stroke, &view, outline);
 }

@@ -344,8 +344,17 @@ static bool is_point(const cs_side *side, const cs_curve *curve, const cs_spoke 
   return true;
 }
 
+/* Whether nothing that spokes of a curve sweep over can be seen: then any way from tip to tip is as
+ * good as theirs that is in the same box. */
+static bool is_hidden(const cs_side *side, const cs_curve *curve) {
+  celspan_box box = cs_curve_box(curve, 1);
+  return cs_stroke_view_hides(side->view, &box);
+}
+
 static celspan_status follow(cs_side *side, const cs_curve *curve, const cs_spoke *a,
                              const cs_spoke *b, int depth) {
+  if (side->may_hide && is_hidden(side, curve))
+    return cs_side_go(side, b->tip);
   bool is_smooth = goes_along(&curve->line) && cs_spoke_dot(a->direction, b->direction) > TURN;
   cs_spoke s[5] = {*a, *a, cs_spoke_at(curve, 0.5), *b, *b};
   celspan_point p[4];

@@ -26,6 +26,7 @@ typedef struct cs_side {
   celspan_context *context;
   const cs_stroke_view *view;
   cs_outline *outline;
+  bool may_hide;  /* some of the stroke may be out of sight: what is has straight sides */
   bool is_turned; /* the line is followed from its end to its beginning */
   bool is_begun;  /* the outline has an open contour, which ends at `at` */
   celspan_point at;

@@ -29,8 +29,9 @@ bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box) {
   const cs_boundary_frame *frame = &view->frame;
   cs_boundary_frame around;
   if (cs_boundary_around_box(box, &view->matrix, &around))
-    return around.right < frame->left || around.left > frame->right || around.bottom < frame->top ||
-           around.top > frame->bottom;
+    return around.right < frame->left || around.left > frame->right ||
+           around.bottom < fmax(frame->top, view->top) ||
+           around.top > fmin(frame->bottom, view->bottom);
   for (int corner = 0; corner < 4; corner++) {
     cs_hpoint own = {box->x + (corner & 1 ? box->width : 0),
                      box->y + (corner & 2 ? box->height : 0), 1};
@@ -44,7 +45,8 @@ bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box) {
   const cs_boundary_frame *frame = &view->frame;
   cs_boundary_frame around;
   return cs_boundary_around_box(box, &view->matrix, &around) && around.left >= frame->left &&
-         around.right <= frame->right && around.top >= frame->top && around.bottom <= frame->bottom;
+         around.right <= frame->right && around.top >= fmax(frame->top, view->top) &&
+         around.bottom <= fmin(frame->bottom, view->bottom);
 }
 
 bool cs_stroke_view_is_exceeded(const cs_stroke_view *view, const celspan_box *box) {

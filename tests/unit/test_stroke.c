@@ -199,6 +199,13 @@ static celspan_matrix random_placement(test_random *random, double side) {
   return scale;
 }
 
+static cs_stroke_view whole_view(celspan_matrix matrix, double side) {
+  return (cs_stroke_view){.matrix = matrix,
+                          .frame = {0, side, 0, side},
+                          .tolerance = CS_STROKE_TOLERANCE,
+                          .bottom = side};
+}
+
 static bool try_stroke(celspan_context *context, int number, double side, size_t *pieces) {
   test_random random = {(uint64_t)number};
   sketch s;
@@ -210,8 +217,7 @@ static bool try_stroke(celspan_context *context, int number, double side, size_t
   }
   trial t = {.stroke = object->data->stroke, .side = side};
   t.matrix = random_placement(&random, side);
-  const cs_stroke_view view = {
-      .matrix = t.matrix, .frame = {0, side, 0, side}, .tolerance = CS_STROKE_TOLERANCE};
+  const cs_stroke_view view = whole_view(t.matrix, side);
   cs_outline_init(&t.outline);
   celspan_status status = cs_stroke_outline(context, t.stroke, &view, &t.outline);
   int wrong = status == CELSPAN_OK ? try_points(&t, &random, POINTS) : 1;
@@ -240,11 +246,203 @@ static void test_outlines(celspan_context *context) {
          small, large);
 }
 
+/* ---------------------------------------------------------------- what a frame can show */
+
+typedef struct counted {
+  celspan_context *context;
+  celspan_object *object;
+} counted;
+
+static counted make_stroke(celspan_context *context, const celspan_stroke_desc *desc) {
+  counted c = {context, NULL};
+  CHECK(celspan_object_create_stroke(context, desc, &c.object) == CELSPAN_OK);
+  return c;
+}
+
+static void make_outline(const counted *c, const cs_stroke_view *view, cs_outline *outline) {
+  cs_outline_init(outline);
+  CHECK(cs_stroke_outline(c->context, c->object->data->stroke, view, outline) == CELSPAN_OK);
+}
+
+/* The curves that are handed to the sweep. */
+static size_t count_curves(const counted *c, const cs_stroke_view *view) {
+  cs_outline outline;
+  make_outline(c, view, &outline);
+  size_t count = outline.piece_count;
+  cs_outline_finish(&outline, c->object->memory);
+  return count;
+}
+
+/* The outline made for some rows is on them what the whole one is. */
+static void test_rows(celspan_context *context) {
+  for (int number = 1; number <= 200; number++) {
+    test_random random = {(uint64_t)number};
+    sketch s;
+    random_sketch(&random, &s);
+    counted c = make_stroke(context, &s.desc);
+    cs_stroke_view view = whole_view(random_placement(&random, 4096), 4096);
+    celspan_matrix inverse;
+    cs_outline whole, rows;
+    make_outline(&c, &view, &whole);
+    view.top = 64 * random_below(&random, 64);
+    view.bottom = view.top + 64;
+    make_outline(&c, &view, &rows);
+    CHECK(rows.piece_count <= whole.piece_count + 8 * whole.contour_count);
+    int wrong = celspan_matrix_inverse(view.matrix, &inverse) ? 0 : 1;
+    for (int i = 0; i < 100; i++) {
+      celspan_point own, at = random_point(&random, 0, 4096, view.top, view.bottom);
+      if (cs_inside_own_point(&view.matrix, at, &own))
+        wrong += cs_inside_outline(&whole, CELSPAN_RULE_NONZERO, own) !=
+                 cs_inside_outline(&rows, CELSPAN_RULE_NONZERO, own);
+    }
+    if (!CHECK(wrong == 0))
+      fprintf(stderr, "  rows of case %d\n", number);
+    cs_outline_finish(&whole, c.object->memory);
+    cs_outline_finish(&rows, c.object->memory);
+    celspan_object_unref(c.object);
+  }
+}
+
+/* A wave from side to side of a frame of 1,048,576 pixels costs a strip what the strip shows. */
+static void test_strip(celspan_context *context) {
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  desc.data = "M0 50C30 -60 60 160 100 50";
+  desc.width = 3;
+  counted c = make_stroke(context, &desc);
+  cs_stroke_view view = whole_view(celspan_matrix_scaling(1048576 / SIDE, 1048576 / SIDE), 1048576);
+  size_t whole = count_curves(&c, &view);
+  CHECK(whole > 80);
+  view.top = 262144;
+  view.bottom = view.top + 64;
+  size_t strip = count_curves(&c, &view);
+  CHECK(strip > 0 && strip < whole / 3);
+  view.top = 1e6; /* below the wave, above the foot of its control points */
+  view.bottom = view.top + 64;
+  CHECK(count_curves(&c, &view) <= 12);
+  celspan_object_unref(c.object);
+}
+
+/* Of a line of 1,048,576 pixels with dashes of 3 a frame of 1,024 shows 171. */
+static void test_dashes(celspan_context *context) {
+  const double dash = 3;
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  desc.data = "M0 500H1048576";
+  desc.dashes = &dash;
+  desc.dash_count = 1;
+  counted c = make_stroke(context, &desc);
+  CHECK(c.object->data->stroke->part_count == 174763);
+  cs_stroke_view view = whole_view(celspan_matrix_translation(-500000, 0), 1024);
+  size_t shown = count_curves(&c, &view);
+  CHECK(shown >= 170 * 3 && shown <= 173 * 4);
+  view.matrix = celspan_matrix_translation(-500000, -2000);
+  CHECK(count_curves(&c, &view) == 0);
+  view = whole_view(celspan_matrix_scaling(1, 1), 1048576);
+  view.top = 512;
+  CHECK(count_curves(&c, &view) == 0);
+  celspan_object_unref(c.object);
+}
+
+/* Dashes along a curve that goes far beyond the frame, at any scale: what is shown costs, not what is
+ * there; and what is shown is right, however small a part it is. */
+static void test_far(celspan_context *context) {
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  desc.data = "M0 50C30 -60 60 160 100 50";
+  desc.width = 1;
+  counted c = make_stroke(context, &desc);
+  size_t most = 0;
+  for (double scale = 1; scale <= 1e7; scale *= 10) {
+    celspan_matrix to = celspan_matrix_then(celspan_matrix_translation(-50, -50),
+                                            celspan_matrix_scaling(scale, scale));
+    trial t = {.stroke = c.object->data->stroke, .side = 1024};
+    t.matrix = celspan_matrix_then(to, celspan_matrix_translation(512, 512 - 0.5 * scale));
+    cs_stroke_view view = whole_view(t.matrix, 1024);
+    make_outline(&c, &view, &t.outline);
+    test_random random = {(uint64_t)scale};
+    CHECK(try_points(&t, &random, 200) == 0);
+    most = t.outline.piece_count > most ? t.outline.piece_count : most;
+    cs_outline_finish(&t.outline, c.object->memory);
+    view.matrix = celspan_matrix_then(view.matrix, celspan_matrix_translation(0, 1e9));
+    CHECK(count_curves(&c, &view) == 0);
+  }
+  CHECK(most <= 64);
+  celspan_object_unref(c.object);
+}
+
+/* How many curves are handed over for lines of a drawing, 1,024 pixels a side: tests/bench/stroke.c
+ * compares the time with that of filling the same curves. */
+static void test_cost(celspan_context *context) {
+  static const struct {
+    const char *data;
+    size_t most;
+  } lines[] = {
+      {"M10 10L90 20L30 60L80 90", 16}, /* sides, caps, joins */
+      {"M10 90C10 40 30 10 50 10S90 40 90 90", 14},
+      {"M50 10A40 40 0 1 1 49.9 10", 34},
+      {"M10 50Q20 10 30 50T50 50T70 50T90 50", 66},
+      {"M20 20C40 0 90 10 80 40S20 50 20 70S60 100 85 80", 30},
+  };
+  const cs_stroke_view view =
+      whole_view(celspan_matrix_scaling(1024 / SIDE, 1024 / SIDE), 1024);
+  for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+    celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+    desc.data = lines[i].data;
+    desc.width = 2;
+    counted c = make_stroke(context, &desc);
+    CHECK(count_curves(&c, &view) <= lines[i].most);
+    celspan_object_unref(c.object);
+  }
+}
+
+/* ---------------------------------------------------------------- strokes of objects */
+
+static void test_object_stroke(celspan_context *context) {
+  const celspan_path_desc path = {.data = "M0 0H10V10H0Z"};
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  celspan_object *square = NULL, *large = NULL, *pale = NULL, *ring = NULL, *none = NULL;
+  desc.width = 2;
+  CHECK(celspan_object_create_path(context, &path, &square) == CELSPAN_OK);
+  const celspan_matrix matrix =
+      celspan_matrix_then(celspan_matrix_scaling(3, 3), celspan_matrix_translation(100, 0));
+  CHECK(celspan_object_transform(context, square, &matrix, &large) == CELSPAN_OK);
+  CHECK(celspan_object_fade(context, large, 0.25, &pale) == CELSPAN_OK);
+  CHECK(celspan_object_stroke(context, pale, &desc, &ring) == CELSPAN_OK);
+  /* It stands where the object does, its width is scaled with it, its corner has a miter. */
+  CHECK(celspan_object_contains(ring, (celspan_point){97.1, -2.9}));
+  CHECK(!celspan_object_contains(ring, (celspan_point){96.9, 15}));
+  CHECK(celspan_object_contains(ring, (celspan_point){102.9, 15}));
+  CHECK(!celspan_object_contains(ring, (celspan_point){103.1, 15}));
+  CHECK(ring->fade == pale->fade);
+  desc.data = path.data;
+  CHECK(celspan_object_stroke(context, pale, &desc, &none) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "do not go with it"));
+  desc.data = NULL;
+  desc.width = -1;
+  CHECK(celspan_object_stroke(context, pale, &desc, &none) == CELSPAN_BAD_ARGUMENT);
+  desc.width = 1;
+  CHECK(celspan_object_stroke(context, NULL, &desc, &none) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_stroke(context, pale, NULL, &none) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_stroke(context, ring, &desc, &none) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "a stroke has none"));
+  CHECK(none == NULL);
+  celspan_object_unref(ring);
+  celspan_object_unref(pale);
+  celspan_object_unref(large);
+  celspan_object_unref(square);
+}
+
 int main(void) {
   celspan_context *context = NULL;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK)
     return 1;
   test_outlines(context);
+  if (!getenv("CASE")) {
+    test_rows(context);
+    test_strip(context);
+    test_dashes(context);
+    test_far(context);
+    test_cost(context);
+    test_object_stroke(context);
+  }
   celspan_context_destroy(context);
   return check_done();
 }
