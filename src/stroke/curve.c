@@ -215,13 +215,10 @@ double cs_curve_length(const cs_bezier *line, double begin, double end) {
 }
 
 /* Newton's steps inside a bracket that they make smaller, and halvings where they leave it. */
-double cs_curve_parameter(const cs_bezier *line, double whole, double length) {
-  if (!(length > 0) || !(length < whole))
-    return length > 0 ? 1 : 0;
-  double low = 0, high = 1, t = length / whole;
-  if (cs_curve_is_straight(line))
-    return t;
-  double at = cs_curve_length(line, 0, t);
+static double find_parameter(const cs_bezier *line, double whole, double length, double low,
+                             double high, const double at_ends[2]) {
+  double t = low + (length - at_ends[0]) / (at_ends[1] - at_ends[0]) * (high - low);
+  double at = at_ends[0] + cs_curve_length(line, low, t);
   for (int i = 0; i < 60 && fabs(at - length) > LENGTH_ERROR * whole; i++) {
     if (at < length)
       low = t;
@@ -233,4 +230,35 @@ double cs_curve_parameter(const cs_bezier *line, double whole, double length) {
     t = next;
   }
   return t;
+}
+
+double cs_curve_parameter(const cs_bezier *line, double whole, double length) {
+  const double at_ends[2] = {0, whole};
+  if (!(length > 0) || !(length < whole))
+    return length > 0 ? 1 : 0;
+  return cs_curve_is_straight(line) ? length / whole
+                                    : find_parameter(line, whole, length, 0, 1, at_ends);
+}
+
+void cs_curve_mark(const cs_bezier *line, double marks[CS_CURVE_MARKS + 1]) {
+  marks[0] = 0;
+  for (int i = 0; i < CS_CURVE_MARKS; i++)
+    marks[i + 1] = marks[i] + cs_curve_length(line, (double)i / CS_CURVE_MARKS,
+                                              (double)(i + 1) / CS_CURVE_MARKS);
+}
+
+double cs_curve_marked_parameter(const cs_bezier *line, const double marks[CS_CURVE_MARKS + 1],
+                                 double length) {
+  int low = 0, high = CS_CURVE_MARKS;
+  if (!(length > 0) || !(length < marks[CS_CURVE_MARKS]))
+    return length > 0 ? 1 : 0;
+  while (low + 1 < high) {
+    int middle = (low + high) / 2;
+    if (marks[middle] <= length)
+      low = middle;
+    else
+      high = middle;
+  }
+  return find_parameter(line, marks[CS_CURVE_MARKS], length, (double)low / CS_CURVE_MARKS,
+                        (double)high / CS_CURVE_MARKS, &marks[low]);
 }

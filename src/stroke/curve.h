@@ -47,4 +47,11 @@ double cs_curve_length(const cs_bezier *line, double begin, double end);
 /* The parameter at which the length from 0 is `length`; whole: that up to 1. */
 double cs_curve_parameter(const cs_bezier *line, double whole, double length);
 
+/* The lengths up to evenly spaced parameters, from 0 to 1: with them very many parameters of one line
+ * are found without measuring it from its beginning for every one. */
+#define CS_CURVE_MARKS 256
+void cs_curve_mark(const cs_bezier *line, double marks[CS_CURVE_MARKS + 1]);
+double cs_curve_marked_parameter(const cs_bezier *line, const double marks[CS_CURVE_MARKS + 1],
+                                 double length);
+
 #endif

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#define MANY 50 /* patterns of dashes on one piece */
+
 /* The line, measured. */
 typedef struct ruler {
   celspan_context *context;
@@ -11,6 +13,8 @@ typedef struct ruler {
   double whole;
   double pattern, offset; /* length of the dashes, and where in them a contour begins */
   size_t dash_count;      /* in the pattern: even */
+  size_t marked;          /* the piece that the marks are of, or SIZE_MAX */
+  double marks[CS_CURVE_MARKS + 1];
 } ruler;
 
 /* ---------------------------------------------------------------- places */
@@ -30,7 +34,18 @@ static size_t find(const ruler *r, size_t begin, size_t end, double length, bool
   return begin;
 }
 
-static double parameter_at(const ruler *r, size_t piece, double length) {
+/* Whether a piece has so many dashes that it is worth while to mark it. */
+static bool is_marked(ruler *r, size_t piece, const cs_bezier *line, double whole) {
+  if (r->marked == piece)
+    return true;
+  if (cs_curve_is_straight(line) || !(r->pattern > 0) || !(whole > MANY * r->pattern))
+    return false;
+  cs_curve_mark(line, r->marks);
+  r->marked = piece;
+  return true;
+}
+
+static double parameter_at(ruler *r, size_t piece, double length) {
   cs_bezier line;
   double start = begin_of(r, piece), whole = r->ends[piece] - start;
   if (!(length > start))
@@ -38,7 +53,9 @@ static double parameter_at(const ruler *r, size_t piece, double length) {
   if (!(length < r->ends[piece]))
     return 1;
   cs_curve_load_line(&r->stroke->line, piece, 0, 1, &line);
-  return cs_curve_parameter(&line, whole, length - start);
+  return is_marked(r, piece, &line, whole)
+             ? cs_curve_marked_parameter(&line, r->marks, length - start)
+             : cs_curve_parameter(&line, whole, length - start);
 }
 
 static celspan_status append_part(celspan_context *context, cs_stroke *stroke,
@@ -198,7 +215,7 @@ static void measure(ruler *r) {
 celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
                                 const celspan_stroke_desc *desc, const cs_outline_closed *closed) {
   size_t count = stroke->line.piece_count;
-  ruler r = {.context = context, .stroke = stroke, .desc = desc};
+  ruler r = {.context = context, .stroke = stroke, .desc = desc, .marked = SIZE_MAX};
   if (count == 0)
     return CELSPAN_OK;
   r.ends = cs_mem_array(context->memory, count, sizeof *r.ends);

@@ -162,3 +162,105 @@ describe("strokes that abut", function()
     assert.is_true(least({ celspan.stroke { points = wave, degree = 2 } }, 10, 20, 54, 44) > 1 - 1e-6)
   end)
 end)
+
+describe("a stroke in a scene", function()
+  local function film(objects, fields)
+    fields = fields or {}
+    fields[1] = celspan.union(objects)
+    return celspan.rostrum { celspan.cel(fields) }
+  end
+
+  local function pixels(rostrum, options)
+    options = options or {}
+    options.size = options.size or { 64, 64 }
+    return assert(celspan.pixels(rostrum, options))
+  end
+
+  --- The greatest difference between two pictures, in any channel.
+  local function difference(a, b)
+    local most = 0
+    for y = 0, a.height - 1 do
+      for x = 0, a.width - 1 do
+        local one, other = { a:get(x, y) }, { b:get(x, y) }
+        for i = 1, 4 do most = math.max(most, math.abs(one[i] - other[i])) end
+      end
+    end
+    return most
+  end
+
+  local bar = { points = { { 8, 20 }, { 56, 40 } }, width = 12 }
+
+  --- The same as a polygon.
+  local function polygon(texture)
+    local length = math.sqrt(48 ^ 2 + 20 ^ 2)
+    local nx, ny = -20 / length * 6, 48 / length * 6
+    return celspan.polygon { { 8 + nx, 20 + ny }, { 56 + nx, 40 + ny }, { 56 - nx, 40 - ny }, { 8 - nx, 20 - ny },
+                             texture = texture }
+  end
+
+  local function stroke(texture)
+    return celspan.stroke { points = bar.points, width = bar.width, texture = texture }
+  end
+
+  it("takes gradients as a shape of the same outline does", function()
+    local texture = celspan.linear { from = { 8, 0 }, to = { 56, 0 }, { 0, "#ff0000" }, { 1, "#0000ff80" } }
+    assert.is_true(difference(pixels(film { stroke(texture) }), pixels(film { polygon(texture) })) < 2e-6)
+    local red = { celspan.probe(film { stroke(texture) }, 10, 21) }
+    assert.is_true(red[1] > 0.8 and red[3] < 0.1)
+  end)
+
+  it("is defocused as a shape of the same outline is", function()
+    for _, kernel in ipairs { "gaussian", "box", "disc" } do
+      local soft = { radius = 5, kernel = kernel }
+      assert.is_true(difference(pixels(film({ stroke "#40c020" }, { defocus = soft })),
+        pixels(film({ polygon "#40c020" }, { defocus = soft }))) < 1e-5, kernel)
+    end
+  end)
+
+  it("is an operand of booleans", function()
+    local texture, disc = "#ff8000", celspan.circle { centre = { 32, 30 }, radius = 9, texture = "#ff8000" }
+    for _, combine in ipairs { celspan.union, celspan.intersection, celspan.difference, celspan.xor } do
+      assert.is_true(difference(pixels(film { combine { stroke(texture), disc } }),
+        pixels(film { combine { polygon(texture), disc } })) < 2e-6)
+    end
+    local cut = celspan.difference { stroke(texture), disc }
+    covers(cut, { { 32, 30, false }, { 12, 21, true }, { 32, 45, false } })
+  end)
+
+  it("hides what lies behind it when it is thick and opaque", function()
+    local behind = {}
+    for i = 1, 40 do
+      behind[i] = celspan.circle { centre = { 256 + 5 * i, 256 }, radius = 200, texture = ("#%02x20%02x"):format(6 * i, 250 - 6 * i) }
+    end
+    local options = { size = { 512, 512 } }
+    local line = { points = { { -100, 200 }, { 600, 300 } }, width = 900, texture = "#204060" }
+    local alone = pixels(film { celspan.stroke(line) }, options)
+    behind[#behind + 1] = celspan.stroke(line)
+    assert.are.equal(0, difference(pixels(film(behind), options), alone))
+    -- Where it ends, what is behind comes out.
+    line.width = 100
+    behind[#behind] = celspan.stroke(line)
+    local picture = pixels(film(behind), options)
+    assert.is_true(select(1, picture:get(400, 60)) > 0.5 and select(3, picture:get(300, 255)) > 0.1)
+  end)
+
+  it("is the same in a crop and on some rows as in the whole", function()
+    local wave = {}
+    for i = 0, 40 do wave[#wave + 1] = { -20 + 14 * i, 256 + (i % 3) * 90 - i % 7 * 40, 6 + 20 * (i % 3) } end
+    local rostrum = film {
+      celspan.stroke { points = wave, degree = 3, cap = "round", texture = "#c04020" },
+      celspan.stroke { d = "M10 300C300 -900 500 1700 500 300S100 30 -1000 20000", width = 9, dash = { 5, 9 },
+                       texture = "#204080" },
+      celspan.stroke { d = "M10 300C300 -900 500 1700 500 300Z", width = 30, texture = "#20808080" } }
+    for _, antialias in ipairs { "area", "none" } do
+      local function spans(rows)
+        return assert(celspan.spans(rostrum, { size = { 512, 512 }, antialias = antialias, rows = rows }))
+      end
+      local whole = spans()
+      for first = 0, 448, 64 do
+        local some = spans { first, first + 20 }
+        for y = first, first + 20 do assert.are.same(whole[y], some[y], y) end
+      end
+    end
+  end)
+end)

@@ -342,6 +342,26 @@ static void test_dashes(celspan_context *context) {
   celspan_object_unref(c.object);
 }
 
+/* Very many dashes lie along a curve where a few of the same lengths do, past its cusp too: the
+ * dash after 500 turns of a pattern begins where one of 500 times its length ends. */
+static void test_many_dashes(celspan_context *context) {
+  const double fine[] = {0.04, 0.04}, coarse[] = {40, 1000};
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  desc.data = "M0 0C100 80 0 80 100 0";
+  desc.dashes = fine;
+  desc.dash_count = 2;
+  counted many = make_stroke(context, &desc);
+  desc.dashes = coarse;
+  counted few = make_stroke(context, &desc);
+  const cs_stroke *a = many.object->data->stroke, *b = few.object->data->stroke;
+  CHECK(a->part_count > 1000 && b->part_count == 1);
+  CHECK_NEAR(a->parts[500].begin, b->parts[0].end, 1e-9);
+  for (size_t i = 1; i < a->part_count; i++)
+    CHECK(a->parts[i].begin > a->parts[i - 1].end && a->parts[i].end > a->parts[i].begin);
+  celspan_object_unref(many.object);
+  celspan_object_unref(few.object);
+}
+
 /* Dashes along a curve that goes far beyond the frame, at any scale: what is shown costs, not what is
  * there; and what is shown is right, however small a part it is. */
 static void test_far(celspan_context *context) {
@@ -439,6 +459,7 @@ int main(void) {
     test_rows(context);
     test_strip(context);
     test_dashes(context);
+    test_many_dashes(context);
     test_far(context);
     test_cost(context);
     test_object_stroke(context);

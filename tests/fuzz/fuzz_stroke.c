@@ -1,0 +1,178 @@
+/* Any bytes as a stroke: no fault, no memory beyond a bound, nothing kept, every refusal with a
+ * sentence; and what is taken is drawn, with curves in number and place that can be drawn.
+ *
+ *   bytes   0: cap, join, closed and which line it is    1: degree    2: dashes, 0 to 3
+ *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from, to
+ *           and the dashes; the rest is path data, or points with their widths
+ *
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/stroke_fuzzer.sh builds it); with
+ * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
+ * allocation can fail.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "scene/inside.h"
+#include "stroke/outliner.h"
+#include "tests/support/memory.h"
+
+#define MOST_BYTES ((size_t)256 << 20)
+#define POINTS 64
+#define DASHES 3
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static size_t fail_at, allocations;
+
+static void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+/* ---------------------------------------------------------------- memory */
+
+static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
+  const memory_watch *watch = user;
+  if (new_size > 0 && watch->bytes + new_size > MOST_BYTES)
+    return NULL;
+  return memory_watch_resize(user, block, old_size, new_size);
+}
+
+/* ---------------------------------------------------------------- a stroke of bytes */
+
+typedef struct reader {
+  const uint8_t *bytes;
+  size_t size;
+} reader;
+
+static int read_byte(reader *r) {
+  if (r->size == 0)
+    return 0;
+  r->size--;
+  return *r->bytes++;
+}
+
+/* From tiny to huge, of either sign, and things that are no numbers. */
+static double read_number(reader *r) {
+  static const double scales[4] = {1, 10, 1e-7, 1e7};
+  int high = read_byte(r), low = read_byte(r);
+  double number = (high & 31) + low / 256.0;
+  if (high == 255 && low >= 254)
+    return low == 254 ? (double)NAN : HUGE_VAL;
+  return (high & 128 ? -number : number) * scales[high >> 5 & 3];
+}
+
+typedef struct sketch {
+  celspan_stroke_desc desc;
+  celspan_point points[POINTS];
+  double widths[POINTS], dashes[DASHES];
+  char data[4096];
+} sketch;
+
+static void read_line(reader *r, sketch *s, bool is_path, bool has_widths) {
+  if (is_path) {
+    size_t size = r->size < sizeof s->data - 1 ? r->size : sizeof s->data - 1;
+    memcpy(s->data, r->bytes, size);
+    s->desc.data = s->data;
+    return;
+  }
+  for (; r->size > 0 && s->desc.point_count < POINTS; s->desc.point_count++) {
+    s->points[s->desc.point_count].x = read_number(r);
+    s->points[s->desc.point_count].y = read_number(r);
+    s->widths[s->desc.point_count] = has_widths ? read_number(r) : 0;
+  }
+  s->desc.points = s->points;
+  s->desc.widths = has_widths ? s->widths : NULL;
+}
+
+static void read_sketch(reader r, sketch *s) {
+  *s = (sketch){.desc = CELSPAN_STROKE_DESC};
+  int what = read_byte(&r);
+  s->desc.cap = (celspan_stroke_cap)(what & 3);
+  s->desc.join = (celspan_stroke_join)(what >> 2 & 3);
+  s->desc.closed = what & 16;
+  s->desc.degree = read_byte(&r) & 31;
+  s->desc.dash_count = (size_t)read_byte(&r) & 3;
+  s->desc.width = read_number(&r);
+  s->desc.miter = read_number(&r);
+  s->desc.dash_offset = read_number(&r);
+  s->desc.taper[0] = read_number(&r);
+  s->desc.taper[1] = read_number(&r);
+  s->desc.from = read_number(&r) / 10;
+  s->desc.to = read_number(&r) / 10;
+  for (size_t i = 0; i < s->desc.dash_count; i++)
+    s->dashes[i] = read_number(&r);
+  s->desc.dashes = s->desc.dash_count > 0 ? s->dashes : NULL;
+  read_line(&r, s, what & 32, what & 64);
+}
+
+/* ---------------------------------------------------------------- what is done with it */
+
+static bool is_expected(celspan_status status) {
+  return status == CELSPAN_OK || status == CELSPAN_BAD_ARGUMENT || status == CELSPAN_LIMIT ||
+         status == CELSPAN_NO_MEMORY;
+}
+
+static void check_outline(const cs_outline *outline) {
+  for (size_t i = 0; i < outline->point_count; i++) {
+    cs_hpoint p = outline->points[i];
+    demand(isfinite(p.x) && isfinite(p.y) && p.w > 0, "a point that is nowhere");
+  }
+}
+
+/* The whole stroke in a frame, a part of it magnified, and a few rows. */
+static void draw(celspan_context *context, const cs_stroke *stroke) {
+  const celspan_box *box = &stroke->around;
+  double size = fmax(1e-6, fmax(box->width, box->height));
+  for (int i = 0; i < 3; i++) {
+    double scale = (i == 1 ? 1e5 : 100) / size;
+    cs_stroke_view view = {.frame = {0, 100, 0, 100},
+                           .tolerance = CS_STROKE_TOLERANCE,
+                           .top = i == 2 ? 40 : 0,
+                           .bottom = i == 2 ? 42 : 100};
+    cs_outline outline;
+    view.matrix = celspan_matrix_then(celspan_matrix_translation(-box->x, -box->y),
+                                      celspan_matrix_scaling(scale, scale));
+    cs_outline_init(&outline);
+    celspan_status status = cs_stroke_outline(context, stroke, &view, &outline);
+    demand(is_expected(status), "a drawing fails in another way");
+    if (status == CELSPAN_OK)
+      check_outline(&outline);
+    cs_outline_finish(&outline, context->memory);
+  }
+}
+
+static void check_stroke(celspan_context *context, const celspan_object *object) {
+  celspan_box box;
+  (void)celspan_object_bounds(object, &box);
+  (void)celspan_object_contains(object, (celspan_point){1, 1});
+  draw(context, object->data->stroke);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  static sketch s;
+  memory_watch watch = {.fail_at = fail_at};
+  celspan_context_desc context_desc = {
+      .struct_size = sizeof context_desc, .resize = metered, .resize_user = &watch};
+  celspan_context *context = NULL;
+  read_sketch((reader){data, size}, &s);
+  if (celspan_context_create(&context_desc, &context) == CELSPAN_OK) {
+    celspan_object *object = NULL;
+    celspan_status status = celspan_object_create_stroke(context, &s.desc, &object);
+    demand(is_expected(status), "a refusal of another kind");
+    demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a refusal without a word");
+    if (status == CELSPAN_OK)
+      check_stroke(context, object);
+    celspan_object_unref(object);
+    celspan_context_destroy(context);
+  }
+  allocations = watch.allocations;
+  demand(watch.blocks == 0 && watch.size_errors == 0, "memory is kept, or its size forgotten");
+  return 0;
+}
+
+#ifdef REPLAY_MAIN
+#include "tests/fuzz/replay.h"
+#endif
