@@ -58,6 +58,15 @@ static double find_change(const cs_curve *curve, double from, double to) {
   return 0.5 * (from + to);
 }
 
+/* The spoke at a parameter. At a change the slope is 1 or -1, so both sides' tips are one point: were it
+ * left to rounding, its root would set them millionths apart, and light would leak between them. */
+static cs_spoke spoke_at(const cs_curve *curve, double t, bool is_change) {
+  cs_spoke spoke = cs_spoke_at(curve, t);
+  return is_change ? cs_spoke_make(spoke.centre, spoke.radius, spoke.tangent,
+                                   spoke.slope > 0 ? 1 : -1)
+                   : spoke;
+}
+
 /* base: the stretch that the curve is; from, to: of its own parameter. */
 static celspan_status add_between(outliner *o, const stretch *base, const cs_curve *curve,
                                   double from, double to) {
@@ -65,8 +74,8 @@ static celspan_status add_between(outliner *o, const stretch *base, const cs_cur
   double length = base->end - base->begin;
   s.begin = from > 0 ? base->begin + from * length : base->begin;
   s.end = to < 1 ? base->begin + to * length : base->end;
-  s.first = cs_spoke_at(curve, from);
-  s.last = cs_spoke_at(curve, to);
+  s.first = spoke_at(curve, from, from > 0);
+  s.last = spoke_at(curve, to, to < 1);
   s.is_swallowed = curve->radius_degree > 0 && is_swallowed_at(curve, 0.5 * (from + to));
   return append_stretch(o, s);
 }
