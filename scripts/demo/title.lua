@@ -1,55 +1,19 @@
 -- The name, written into the sky with a round pen: letters of arcs and lines on a grid of 100.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
-local shapes = require "demo.shapes"
 
 local title = {}
 
-local pen = 17
-
---- Points on a circle, degrees clockwise from the right.
-local function arc(x, y, radius, from, to)
-  local points, count = {}, math.max(2, math.ceil(math.abs(to - from) / 20))
-  for i = 0, count do
-    local a = math.rad(from + (to - from) * i / count)
-    points[i + 1] = { x + radius * math.cos(a), y + radius * math.sin(a), pen }
-  end
-  return points
-end
-
-local function line(x0, y0, x1, y1)
-  return { { x0, y0, pen }, { (x0 + x1) / 2, (y0 + y1) / 2, pen }, { x1, y1, pen } }
-end
-
-local function join(...)
-  local points = {}
-  for _, part in ipairs { ... } do table.move(part, 1, #part, #points + 1, points) end
-  return points
-end
-
---- letter -> its width and its strokes; the line stands on y = 0, small letters are 100 high.
+--- letter -> its width and the way of the pen; the line stands on y = 0, small letters are 100 high.
 local letters = {
-  c = { 92, arc(50, -50, 50, -48, -312) },
-  e = { 104, line(4, -50, 96, -50), arc(50, -50, 50, 0, -318) },
-  l = { 26, line(10, -150, 10, 0) },
-  s = { 74, join(arc(34, -74, 26, -30, -250), arc(34, -25, 25, -70, 150)) },
-  p = { 104, line(0, -100, 0, 46), arc(50, -50, 50, 180, 540) },
-  a = { 104, arc(50, -50, 50, 0, -360), line(100, -100, 100, 0) },
-  n = { 84, line(0, 0, 0, -100),
-        join(arc(38, -62, 38, -180, 0), { { 76, -30, pen }, { 76, 0, pen } }) },
+  c = { 92, "M83.5 -87.2A50 50 0 1 0 83.5 -12.8" },
+  e = { 104, "M4 -50H100A50 50 0 1 0 87.2 -16.5" },
+  l = { 26, "M10 -150V0" },
+  s = { 74, "M56.5 -87A26 26 0 1 0 25.1 -49.6L42.6 -48.5A25 25 0 1 1 12.3 -12.5" },
+  p = { 104, "M0 -100V46M0 -50a50 50 0 0 1 100 0a50 50 0 0 1 -100 0" },
+  a = { 104, "M100 -50a50 50 0 0 0 -100 0a50 50 0 0 0 100 0M100 -100V0" },
+  n = { 84, "M0 0V-100M0 -62a38 38 0 0 1 76 0V0" },
 }
-
---- The first part of a stroke, with round ends.
-local function drawn(stroke, part, texture)
-  local count = math.max(2, math.ceil(part * #stroke))
-  local points = table.move(stroke, 1, count, 1, {})
-  local first, last = points[1], points[count]
-  return celspan.union {
-    shapes.ribbon(points, texture),
-    celspan.circle { centre = { first[1], first[2] }, radius = pen / 2, texture = texture },
-    celspan.circle { centre = { last[1], last[2] }, radius = pen / 2, texture = texture },
-  }
-end
 
 local flow = ease "inOutSine"
 
@@ -59,9 +23,8 @@ function title.write(word, progress, texture)
   for i = 1, #word do
     local letter = letters[word:sub(i, i)]
     local part = flow(math.max(0, math.min(1, progress * (#word + 2) / 3 - (i - 1) / 3)))
-    for k = 2, part > 0 and #letter or 0 do
-      parts[#parts + 1] = drawn(letter[k], part, texture):translate(x, 0)
-    end
+    parts[i] = celspan.stroke { d = letter[2], width = 17, cap = "round", join = "round", to = part,
+                                texture = texture }:translate(x, 0)
     x = x + letter[1] + 34
   end
   return celspan.union(parts), x - 34
