@@ -74,11 +74,15 @@ CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_out
 /* Errors: BAD_ARGUMENT naming the offset and what was expected. */
 CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
                                                const char *data);
-/* The contours that path data close with Z, ascending; finish frees them. */
+/* The contours that path data close with Z, and the pieces that go on with the arc of the piece before
+ * them; both ascending; finish frees them. */
 typedef struct cs_outline_closed {
-  uint32_t *contours;
-  size_t count, capacity;
+  uint32_t *contours, *inner;
+  size_t count, capacity, inner_count, inner_capacity;
 } cs_outline_closed;
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_outline_closed_add(celspan_context *context,
+                                                     cs_outline_closed *closed, size_t contour);
 void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
 /* Path data as lines: a subpath that Z does not close stays open, and Z without a command before it
  * makes a line of no length. Errors: as above. */

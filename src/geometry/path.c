@@ -164,6 +164,17 @@ static cs_hpoint on_arc(const ellipse_arc *arc, double angle, double weight) {
                      weight};
 }
 
+/* Notes that the next piece of a line goes on with the arc of the last. */
+static celspan_status note_inner(reader *r) {
+  cs_outline_closed *closed = r->closed;
+  if (!closed)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(r->context, (void **)&closed->inner, &closed->inner_capacity,
+                        closed->inner_count + 1, sizeof *closed->inner));
+  closed->inner[closed->inner_count++] = (uint32_t)r->outline->piece_count;
+  return CELSPAN_OK;
+}
+
 static celspan_status draw_arc(reader *r, const double *arguments, celspan_point to) {
   ellipse_arc arc;
   if (arguments[0] == 0 || arguments[1] == 0 || !find_arc(r->pen, to, arguments, &arc))
@@ -173,6 +184,8 @@ static celspan_status draw_arc(reader *r, const double *arguments, celspan_point
   double step = arc.sweep / count, sine, weight;
   cs_elementary_sincos(0.5 * step, &sine, &weight);
   for (int i = 0; i < count; i++) {
+    if (i > 0)
+      CS_TRY(note_inner(r));
     cs_hpoint piece[2] = {on_arc(&arc, arc.begin + (i + 0.5) * step, weight),
                           i + 1 == count ? plain(to) : on_arc(&arc, arc.begin + (i + 1) * step, 1)};
     CS_TRY(cs_outline_piece(r->context, r->outline, 2, piece));
@@ -243,9 +256,7 @@ static celspan_status close_subpath(reader *r) {
   if (closed) {
     if (!r->is_drawing || r->pen.x != r->start.x || r->pen.y != r->start.y)
       CS_TRY(draw(r, 1, &r->start));
-    CS_TRY(cs_mem_reserve(r->context, (void **)&closed->contours, &closed->capacity,
-                          closed->count + 1, sizeof *closed->contours));
-    closed->contours[closed->count++] = (uint32_t)r->outline->contour_count - 1;
+    CS_TRY(cs_outline_closed_add(r->context, closed, r->outline->contour_count - 1));
   }
   return move_pen(r, r->start);
 }
@@ -336,6 +347,15 @@ celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outlin
   return read_all(&r);
 }
 
+celspan_status cs_outline_closed_add(celspan_context *context, cs_outline_closed *closed,
+                                     size_t contour) {
+  CS_TRY(cs_mem_reserve(context, (void **)&closed->contours, &closed->capacity, closed->count + 1,
+                        sizeof *closed->contours));
+  closed->contours[closed->count++] = (uint32_t)contour;
+  return CELSPAN_OK;
+}
+
 void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory) {
+  cs_mem_free(memory, closed->inner, closed->inner_capacity * sizeof *closed->inner);
   cs_mem_free(memory, closed->contours, closed->capacity * sizeof *closed->contours);
 }

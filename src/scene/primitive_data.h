@@ -34,7 +34,14 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_of_outline(celspan_context *con
                                                             cs_outline *outline, celspan_rule rule,
                                                             celspan_texture *texture,
                                                             celspan_object **out);
-/* The same for data with an outline, whose bounds are found first. */
+/* A stroke along a line, which is copied; `closed` tells which of its contours are. Of the description
+ * points, data and outline do not count. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_of_line(celspan_context *context,
+                                                         const cs_outline *line,
+                                                         const cs_outline_closed *closed,
+                                                         const celspan_stroke_desc *desc,
+                                                         celspan_object **out);
+/* As the outline's above, for data with an outline, whose bounds are found first. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *context,
                                                           cs_primitive_data *data,
                                                           celspan_status status,

@@ -85,13 +85,14 @@ static celspan_status find_bounds(celspan_context *context, cs_primitive_data *d
 }
 
 static celspan_status fill(celspan_context *context, cs_primitive_data *data,
-                           const celspan_stroke_desc *desc, const cs_outline *outline) {
+                           const celspan_stroke_desc *desc, const cs_outline *outline,
+                           const cs_outline_closed *closed) {
   data->primitive_count = 1;
   data->stroke = cs_mem_array(context->memory, 1, sizeof *data->stroke);
   if (!data->stroke)
     return cs_fail_memory(context);
   cs_outline_init(&data->stroke->line);
-  CS_TRY(cs_stroke_init(context, data->stroke, desc, outline));
+  CS_TRY(cs_stroke_init(context, data->stroke, desc, outline, closed));
   return find_bounds(context, data);
 }
 
@@ -104,7 +105,18 @@ static celspan_status create(celspan_context *context, const celspan_stroke_desc
   else if (!desc->data)
     CS_TRY(check_points(context, desc));
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
-  celspan_status status = fill(context, data, desc, outlined ? &outlined->data->outline : NULL);
+  celspan_status status =
+      fill(context, data, desc, outlined ? &outlined->data->outline : NULL, NULL);
+  return cs_primitive_data_wrap(context, data, status, out);
+}
+
+celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outline *line,
+                                         const cs_outline_closed *closed,
+                                         const celspan_stroke_desc *desc, celspan_object **out) {
+  cs_primitive_data *data;
+  CS_TRY(check_numbers(context, desc));
+  CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
+  celspan_status status = fill(context, data, desc, line, closed);
   return cs_primitive_data_wrap(context, data, status, out);
 }
 

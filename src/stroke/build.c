@@ -33,11 +33,12 @@ static celspan_status build(celspan_context *context, cs_stroke *stroke,
 }
 
 celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
-                              const celspan_stroke_desc *desc, const cs_outline *outline) {
+                              const celspan_stroke_desc *desc, const cs_outline *outline,
+                              const cs_outline_closed *closed) {
   *stroke = (cs_stroke){.cap = desc->cap, .join = desc->join, .miter = desc->miter};
   cs_outline_init(&stroke->line);
   cs_stroke_raw raw;
-  celspan_status status = cs_stroke_raw_init(context, &raw, desc, outline);
+  celspan_status status = cs_stroke_raw_init(context, &raw, desc, outline, closed);
   if (status == CELSPAN_OK)
     status = build(context, stroke, desc, &raw);
   cs_stroke_raw_finish(&raw, context->memory);

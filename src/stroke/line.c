@@ -6,14 +6,6 @@
 
 /* ---------------------------------------------------------------- what is given */
 
-static celspan_status add_closed(celspan_context *context, cs_stroke_raw *raw, size_t contour) {
-  cs_outline_closed *closed = &raw->closed;
-  CS_TRY(cs_mem_reserve(context, (void **)&closed->contours, &closed->capacity, closed->count + 1,
-                        sizeof *closed->contours));
-  closed->contours[closed->count++] = (uint32_t)contour;
-  return CELSPAN_OK;
-}
-
 /* Lines from point to point. A single point is a line of no length. */
 static celspan_status add_polyline(celspan_context *context, cs_outline *line,
                                    const celspan_point *points, size_t count, bool is_closed) {
@@ -68,11 +60,14 @@ static celspan_status add_points(celspan_context *context, cs_stroke_raw *raw,
   CS_TRY(add_spline(context, &raw->line, desc->points, desc->point_count, desc));
   if (desc->widths)
     CS_TRY(add_widths(context, raw, desc));
-  return desc->closed ? add_closed(context, raw, 0) : CELSPAN_OK;
+  return desc->closed ? cs_outline_closed_add(context, &raw->closed, 0) : CELSPAN_OK;
 }
 
 static celspan_status add_outline(celspan_context *context, cs_stroke_raw *raw,
-                                  const cs_outline *outline) {
+                                  const cs_outline *outline, const cs_outline_closed *closed) {
+  size_t count = closed ? closed->count : outline->contour_count;
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(cs_outline_closed_add(context, &raw->closed, closed ? closed->contours[i] : i));
   for (size_t i = 0; i < outline->contour_count; i++) {
     size_t begin, end;
     cs_stroke_contour(outline, i, &begin, &end);
@@ -80,18 +75,18 @@ static celspan_status add_outline(celspan_context *context, cs_stroke_raw *raw,
     for (size_t piece = begin; piece < end; piece++)
       CS_TRY(cs_outline_piece(context, &raw->line, outline->degrees[piece],
                               outline->points + outline->starts[piece] + 1));
-    CS_TRY(add_closed(context, raw, i));
   }
   return CELSPAN_OK;
 }
 
 celspan_status cs_stroke_raw_init(celspan_context *context, cs_stroke_raw *raw,
-                                  const celspan_stroke_desc *desc, const cs_outline *outline) {
+                                  const celspan_stroke_desc *desc, const cs_outline *outline,
+                                  const cs_outline_closed *closed) {
   *raw = (cs_stroke_raw){.width = desc->width};
   cs_outline_init(&raw->line);
   cs_outline_init(&raw->widths);
   if (outline)
-    return add_outline(context, raw, outline);
+    return add_outline(context, raw, outline, closed);
   return desc->data ? cs_outline_path_open(context, &raw->line, &raw->closed, desc->data)
                     : add_points(context, raw, desc);
 }

@@ -20,7 +20,8 @@ typedef struct cs_stroke_raw {
 /* Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. finish frees it, also after an error. */
 CELSPAN_CHECKED celspan_status cs_stroke_raw_init(celspan_context *context, cs_stroke_raw *raw,
                                                   const celspan_stroke_desc *desc,
-                                                  const cs_outline *outline);
+                                                  const cs_outline *outline,
+                                                  const cs_outline_closed *closed);
 void cs_stroke_raw_finish(cs_stroke_raw *raw, cs_memory *memory);
 
 /* Appends a piece to the line of the stroke, from where it ends; is_first: a contour begins with

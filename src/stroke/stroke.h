@@ -49,11 +49,13 @@ typedef struct cs_stroke {
 } cs_stroke;
 
 /* Makes a stroke of a description whose numbers have been checked. outline: what desc->outline is
- * made of; NULL without it. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts; LIMIT
+ * made of, or another line; NULL for one of the description. closed: which contours of it are; NULL:
+ * all. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts; LIMIT
  * for more dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
 CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
                                               const celspan_stroke_desc *desc,
-                                              const cs_outline *outline);
+                                              const cs_outline *outline,
+                                              const cs_outline_closed *closed);
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
 void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
 

@@ -5,9 +5,11 @@
 
 #include "base/number.h"
 #include "svg/clips.h"
+#include "svg/markers.h"
 #include "svg/masks.h"
 #include "svg/paint.h"
 #include "svg/shapes.h"
+#include "svg/strokes.h"
 
 /* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
 #define DEFAULT_WIDTH 300
@@ -28,6 +30,18 @@ static celspan_status add_children(builder *b, const cs_svg_node *node, const cs
                                    cs_svg_item *parent) {
   for (const cs_svg_node *child = node->first; child; child = child->next)
     CS_TRY(add_element(b, child, *place, parent));
+  return CELSPAN_OK;
+}
+
+/* Counts an element against the limits. */
+static celspan_status count_element(builder *b, const cs_svg_node *node) {
+  cs_svg_reading *reading = b->reading;
+  if (++reading->drawn > CS_SVG_DRAWN)
+    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                   node->line, CS_SVG_DRAWN);
+  if (++reading->depth > CS_SVG_DEPTH)
+    return cs_fail(reading->context, CELSPAN_LIMIT,
+                   "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);
   return CELSPAN_OK;
 }
 
@@ -164,10 +178,72 @@ static celspan_status add_switch(builder *b, const cs_svg_node *node, const cs_s
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- shapes */
+
+/* Adds what is in a marker, for one mark of the shape at `shape`. */
+static celspan_status add_mark(builder *b, const cs_svg_mark *mark, const cs_svg_place *shape,
+                               cs_svg_item *parent) {
+  const cs_svg_open open = {mark->marker, shape->open};
+  cs_svg_place place = *shape;
+  cs_svg_item *item;
+  if (!mark->marker->first)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_style_in_file(b->reading, mark->marker, &place.style));
+  place.open = &open;
+  place.measure = mark->measure;
+  place.measure.font_size = place.style.font_size;
+  place.style.context_fill = shape->style.fill;
+  place.style.context_stroke = shape->style.stroke;
+  place.matrix = celspan_matrix_then(mark->viewport, shape->matrix);
+  CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+  if (!place.style.shows_overflow) {
+    const celspan_box box = {0, 0, mark->width, mark->height};
+    item->has_clip = true;
+    CS_TRY(cs_svg_rectangle(b->reading, &box, &place.matrix, &item->clip));
+  }
+  place.matrix = celspan_matrix_then(mark->content, place.matrix);
+  CS_TRY(note_moved(b, mark->marker->first, &place));
+  CS_TRY(add_children(b, mark->marker, &place, item));
+  return cs_svg_item_compose(b->reading->context, item);
+}
+
+static celspan_status add_marks(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_item *parent) {
+  cs_svg_marks marks;
+  celspan_status status = cs_svg_marks_find(b->reading, node, place, &marks);
+  for (size_t i = 0; i < marks.count && status == CELSPAN_OK; i++) {
+    status = count_element(b, node);
+    if (status == CELSPAN_OK)
+      status = add_mark(b, &marks.items[i], place, parent);
+    b->reading->depth--;
+  }
+  cs_svg_marks_finish(&marks, b->reading->context->memory);
+  return status;
+}
+
+/* One of the things that a shape is painted with. */
+static celspan_status add_layer(builder *b, const cs_svg_node *node, const cs_svg_place *place,
+                                cs_svg_layer layer, cs_svg_item *parent) {
+  cs_svg_item *item;
+  CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
+  if (layer == CS_SVG_LAYER_FILL)
+    CS_TRY(cs_svg_fill(b->reading, node, place, &item->own));
+  else if (layer == CS_SVG_LAYER_MARKERS && cs_svg_is_marked(node, &place->style))
+    CS_TRY(add_marks(b, node, place, item));
+  else if (layer == CS_SVG_LAYER_STROKE && cs_svg_is_stroked(&place->style))
+    CS_TRY(cs_svg_stroke(b->reading, node, place, &item->own));
+  return cs_svg_item_compose(b->reading->context, item);
+}
+
 static celspan_status add_shape(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                 cs_svg_item *item) {
-  if (place->style.is_visible)
-    CS_TRY(cs_svg_paint_shape(b->reading, node, place, &item->own));
+  const cs_svg_style *style = &place->style;
+  if (!style->is_visible)
+    return CELSPAN_OK;
+  if (!cs_svg_is_stroked(style) && !cs_svg_is_marked(node, style))
+    return cs_svg_fill(b->reading, node, place, &item->own);
+  for (int i = 0; i < 3; i++)
+    CS_TRY(add_layer(b, node, place, style->paint_order[i], item));
   return CELSPAN_OK;
 }
 
@@ -248,18 +324,6 @@ static celspan_status name_item(builder *b, const cs_svg_node *node, const cs_sv
     item->moved = place->moved;
     item->is_moved = celspan_matrix_inverse(item->moved, &item->back);
   }
-  return CELSPAN_OK;
-}
-
-/* Counts an element against the limits. */
-static celspan_status count_element(builder *b, const cs_svg_node *node) {
-  cs_svg_reading *reading = b->reading;
-  if (++reading->drawn > CS_SVG_DRAWN)
-    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
-                   node->line, CS_SVG_DRAWN);
-  if (++reading->depth > CS_SVG_DEPTH)
-    return cs_fail(reading->context, CELSPAN_LIMIT,
-                   "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);
   return CELSPAN_OK;
 }
 

@@ -84,6 +84,7 @@ static const name_entry names[CS_SVG_NAME_COUNT] = {
     {"transform", true},
     {"transform-origin", true},
     {"type", false},
+    {"vector-effect", true},
     {"viewBox", false},
     {"visibility", true},
     {"width", false},

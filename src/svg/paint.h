@@ -5,7 +5,7 @@
 #include "svg/reading.h"
 
 /* *out: new, in the drawing's units; NULL for nothing. */
-CELSPAN_CHECKED celspan_status cs_svg_paint_shape(cs_svg_reading *reading, const cs_svg_node *node,
-                                                  const cs_svg_place *place, celspan_object **out);
+CELSPAN_CHECKED celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,
+                                           const cs_svg_place *place, celspan_object **out);
 
 #endif

@@ -151,15 +151,13 @@ static void add_box(const celspan_box *box, celspan_box *whole, bool *is_there) 
 
 static celspan_status add_shape_box(cs_svg_reading *reading, const cs_svg_node *node,
                                     const cs_svg_place *place, celspan_box *whole, bool *is_there) {
-  cs_outline outline;
+  cs_svg_line line;
   celspan_box box;
-  bool is_broken;
-  cs_outline_init(&outline);
-  celspan_status status =
-      cs_svg_shape_outline(reading->context, node, &place->measure, &outline, &is_broken);
-  if (status == CELSPAN_OK && cs_outline_bounds(&outline, &place->matrix, &box))
+  celspan_status status = cs_svg_line_init(reading->context, node, &place->measure, &line);
+  if (status == CELSPAN_OK && line.outline.piece_count > 0 &&
+      cs_outline_bounds(&line.outline, &place->matrix, &box))
     add_box(&box, whole, is_there);
-  cs_outline_finish(&outline, reading->context->memory);
+  cs_svg_line_finish(&line, reading->context);
   return status;
 }
 

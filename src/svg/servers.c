@@ -27,7 +27,7 @@ typedef struct gradient {
   double inner, outer;
 } gradient;
 
-bool cs_svg_is_gradient(const cs_svg_node *node) {
+static bool is_gradient(const cs_svg_node *node) {
   return node->element == CS_SVG_ELEMENT_LINEAR_GRADIENT ||
          node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
 }
@@ -36,7 +36,7 @@ bool cs_svg_is_gradient(const cs_svg_node *node) {
  * inherited from gradients of the same kind alone. */
 static const cs_svg_node *owner_of(const gradient *g, cs_svg_name name, bool is_geometry) {
   const cs_svg_node *node = g->node;
-  for (int i = 0; i < TEMPLATES && node && cs_svg_is_gradient(node); i++) {
+  for (int i = 0; i < TEMPLATES && node && is_gradient(node); i++) {
     bool fits = !is_geometry || node->element == g->node->element;
     if (fits && cs_svg_node_value(node, name))
       return node;
@@ -47,7 +47,7 @@ static const cs_svg_node *owner_of(const gradient *g, cs_svg_name name, bool is_
 
 static const cs_svg_node *owner_of_stops(const gradient *g) {
   const cs_svg_node *node = g->node;
-  for (int i = 0; i < TEMPLATES && node && cs_svg_is_gradient(node); i++) {
+  for (int i = 0; i < TEMPLATES && node && is_gradient(node); i++) {
     for (const cs_svg_node *child = node->first; child; child = child->next)
       if (child->element == CS_SVG_ELEMENT_STOP)
         return node;
@@ -134,7 +134,7 @@ static double place_of(const gradient *g, double x, double y) {
 /* The least and the greatest place of the gradient, in periods, where the shape is. */
 static bool find_places(const gradient *g, double *least, double *most) {
   celspan_matrix inverse;
-  const celspan_box *box = &g->shape->box;
+  const celspan_box *box = &g->shape->painted;
   if (!celspan_matrix_inverse(g->matrix, &inverse))
     return false;
   *least = g->is_radial ? -g->inner / (g->outer - g->inner) : HUGE_VAL;
@@ -230,8 +230,8 @@ static celspan_status make(gradient *g, cs_svg_server *out) {
   return make_texture(g, out);
 }
 
-celspan_status cs_svg_server_make(cs_svg_reading *reading, const cs_svg_node *node,
-                                  const cs_svg_painted *shape, cs_svg_server *out) {
+static celspan_status make_gradient(cs_svg_reading *reading, const cs_svg_node *node,
+                                    const cs_svg_painted *shape, cs_svg_server *out) {
   gradient g = {.reading = reading, .node = node, .shape = shape};
   *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
   g.is_radial = node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
@@ -244,4 +244,34 @@ celspan_status cs_svg_server_make(cs_svg_reading *reading, const cs_svg_node *no
   celspan_status status = make(&g, out);
   cs_svg_stops_finish(&g.stops, reading->context->memory);
   return status;
+}
+
+/* ---------------------------------------------------------------- paints */
+
+static celspan_status flat(cs_svg_reading *reading, const cs_svg_colour *colour, double opacity,
+                           cs_svg_server *out) {
+  const celspan_paint paint = cs_svg_paint_of(reading, colour, opacity);
+  CS_TRY(celspan_texture_create_paint(reading->context, &paint, &out->texture));
+  out->kind = CS_SVG_SERVER_FLAT;
+  return CELSPAN_OK;
+}
+
+static celspan_status plain_paint(cs_svg_reading *reading, const cs_svg_paint *paint,
+                                  const cs_svg_style *style, double opacity, cs_svg_server *out) {
+  if (paint->kind == CS_SVG_PAINT_NONE || !(opacity > 0))
+    return CELSPAN_OK;
+  return flat(reading, paint->kind == CS_SVG_PAINT_CURRENT ? &style->colour : &paint->colour,
+              opacity, out);
+}
+
+celspan_status cs_svg_server_find(cs_svg_reading *reading, const cs_svg_paint *paint,
+                                  const cs_svg_style *style, const cs_svg_painted *shape,
+                                  cs_svg_server *out) {
+  *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
+  const cs_svg_node *node = paint->has_server ? cs_svg_referred(reading, paint->server) : NULL;
+  if (node && is_gradient(node))
+    return make_gradient(reading, node, shape, out);
+  if (node && node->element == CS_SVG_ELEMENT_PATTERN)
+    CS_TRY(cs_svg_skip(reading, shape->node, "pattern of %s", shape->node->tag));
+  return plain_paint(reading, paint, style, shape->opacity, out);
 }

@@ -29,13 +29,15 @@ typedef struct cs_svg_server {
 typedef struct cs_svg_painted {
   const cs_svg_node *node;
   const cs_svg_measure *measure;
-  celspan_box box; /* of its outline, in its user units */
+  celspan_box box;     /* of its outline, in its user units */
+  celspan_box painted; /* around all of it that is painted, in the same */
   double opacity;
 } cs_svg_painted;
 
-bool cs_svg_is_gradient(const cs_svg_node *node);
-CELSPAN_CHECKED celspan_status cs_svg_server_make(cs_svg_reading *reading,
-                                                  const cs_svg_node *gradient,
+/* What a shape is painted with, by its property fill or stroke. Errors: NO_MEMORY, LIMIT, INPUT. */
+CELSPAN_CHECKED celspan_status cs_svg_server_find(cs_svg_reading *reading,
+                                                  const cs_svg_paint *paint,
+                                                  const cs_svg_style *style,
                                                   const cs_svg_painted *shape, cs_svg_server *out);
 
 #endif

@@ -87,27 +87,44 @@ static celspan_status add_ellipse(celspan_context *context, const cs_svg_node *n
 
 /* ---------------------------------------------------------------- points and paths */
 
+/* One point of a list, which *at is moved behind. */
+static celspan_status take_point(celspan_context *context, const cs_svg_node *node, const char **at,
+                                 cs_hpoint *point, bool *is_broken) {
+  const char *begin = *at;
+  *point = (cs_hpoint){0, 0, 1};
+  *is_broken = !cs_svg_take_number(at, &point->x);
+  *at = cs_svg_skip_comma(*at);
+  *is_broken = *is_broken || !cs_svg_take_number(at, &point->y);
+  if (*is_broken && cs_svg_is_unfit(begin))
+    return unfit(context, node, CS_SVG_POINTS, begin);
+  *at = cs_svg_skip_comma(*at);
+  return CELSPAN_OK;
+}
+
+/* Lines from point to point; nothing for a single one. */
 static celspan_status add_points(celspan_context *context, const cs_svg_node *node,
                                  cs_outline *outline, bool *is_broken) {
   const char *at = cs_svg_node_value(node, CS_SVG_POINTS);
-  bool is_first = true;
-  at = cs_svg_skip_space(at ? at : "");
-  while (*at) {
-    cs_hpoint point = {0, 0, 1};
-    const char *begin = at;
-    *is_broken = !cs_svg_take_number(&at, &point.x);
-    at = cs_svg_skip_comma(at);
-    *is_broken = *is_broken || !cs_svg_take_number(&at, &point.y);
-    if (*is_broken && cs_svg_is_unfit(begin))
-      return unfit(context, node, CS_SVG_POINTS, begin);
+  cs_hpoint first, point;
+  size_t count = 0;
+  for (at = cs_svg_skip_space(at ? at : ""); *at; count++) {
+    CS_TRY(take_point(context, node, &at, &point, is_broken));
     if (*is_broken)
       break;
-    CS_TRY(is_first ? cs_outline_move(context, outline, point)
-                    : cs_outline_line(context, outline, point));
-    is_first = false;
-    at = cs_svg_skip_comma(at);
+    if (count == 0)
+      first = point;
+    if (count == 1)
+      CS_TRY(cs_outline_begin(context, outline, first));
+    if (count > 0)
+      CS_TRY(cs_outline_piece(context, outline, 1, &point));
   }
-  return is_first ? CELSPAN_OK : cs_outline_close(context, outline);
+  return CELSPAN_OK;
+}
+
+static celspan_status add_polygon(celspan_context *context, const cs_svg_node *node,
+                                  cs_outline *outline, bool *is_broken) {
+  CS_TRY(add_points(context, node, outline, is_broken));
+  return outline->piece_count > 0 ? cs_outline_close(context, outline) : CELSPAN_OK;
 }
 
 /* A path with a fault in its data is drawn up to the fault. Source: SVG 2, 9.5.4. */
@@ -150,10 +167,70 @@ celspan_status cs_svg_shape_outline(celspan_context *context, const cs_svg_node 
     return add_ellipse(context, node, measure, outline);
   case CS_SVG_ELEMENT_POLYGON:
   case CS_SVG_ELEMENT_POLYLINE:
-    return add_points(context, node, outline, is_broken);
+    return add_polygon(context, node, outline, is_broken);
   case CS_SVG_ELEMENT_PATH:
     return add_path(context, node, outline, is_broken);
   default: /* a line has nothing inside */
     return CELSPAN_OK;
   }
+}
+
+/* ---------------------------------------------------------------- lines */
+
+static celspan_status add_line(celspan_context *context, const cs_svg_node *node,
+                               const cs_svg_measure *measure, cs_outline *outline) {
+  cs_hpoint from = {0, 0, 1}, to = {0, 0, 1};
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_X1, CS_SVG_AXIS_X, measure, &from.x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y1, CS_SVG_AXIS_Y, measure, &from.y));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_X2, CS_SVG_AXIS_X, measure, &to.x));
+  CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y2, CS_SVG_AXIS_Y, measure, &to.y));
+  CS_TRY(cs_outline_begin(context, outline, from));
+  return cs_outline_piece(context, outline, 1, &to);
+}
+
+static celspan_status add_path_line(celspan_context *context, const cs_svg_node *node,
+                                    cs_svg_line *line) {
+  const char *data = cs_svg_node_value(node, CS_SVG_D);
+  if (!data || cs_svg_is_word(data, "none"))
+    return CELSPAN_OK;
+  celspan_status status = cs_outline_path_open(context, &line->outline, &line->closed, data);
+  line->is_broken = status == CELSPAN_BAD_ARGUMENT;
+  return line->is_broken ? CELSPAN_OK : status;
+}
+
+celspan_status cs_svg_line_init(celspan_context *context, const cs_svg_node *node,
+                                const cs_svg_measure *measure, cs_svg_line *line) {
+  *line = (cs_svg_line){.is_broken = false};
+  cs_outline_init(&line->outline);
+  switch (node->element) {
+  case CS_SVG_ELEMENT_LINE:
+    return add_line(context, node, measure, &line->outline);
+  case CS_SVG_ELEMENT_POLYLINE:
+    return add_points(context, node, &line->outline, &line->is_broken);
+  case CS_SVG_ELEMENT_PATH:
+    return add_path_line(context, node, line);
+  default:
+    CS_TRY(cs_svg_shape_outline(context, node, measure, &line->outline, &line->is_broken));
+    for (size_t i = 0; i < line->outline.contour_count; i++)
+      CS_TRY(cs_outline_closed_add(context, &line->closed, i));
+    return CELSPAN_OK;
+  }
+}
+
+void cs_svg_line_finish(cs_svg_line *line, celspan_context *context) {
+  cs_outline_finish(&line->outline, context->memory);
+  cs_outline_closed_finish(&line->closed, context->memory);
+}
+
+bool cs_svg_outline_map(cs_outline *outline, const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  for (size_t i = 0; i < outline->point_count; i++) {
+    const cs_hpoint p = outline->points[i];
+    cs_hpoint *to = &outline->points[i];
+    to->x = m[0] * p.x + m[1] * p.y + m[2] * p.w;
+    to->y = m[3] * p.x + m[4] * p.y + m[5] * p.w;
+    if (!cs_number_is_sane(to->x) || !cs_number_is_sane(to->y))
+      return false;
+  }
+  return true;
 }

@@ -27,4 +27,19 @@ CELSPAN_CHECKED celspan_status cs_svg_shape_outline(celspan_context *context,
                                                     const cs_svg_measure *measure,
                                                     cs_outline *outline, bool *is_broken);
 
+/* An outline as a line. */
+typedef struct cs_svg_line {
+  cs_outline outline;
+  cs_outline_closed closed;
+  bool is_broken; /* as above */
+} cs_svg_line;
+
+/* The element's line: its subpaths are open where they are in the file. finish frees it, also after
+ * an error. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_line_init(celspan_context *context, const cs_svg_node *node,
+                                                const cs_svg_measure *measure, cs_svg_line *line);
+void cs_svg_line_finish(cs_svg_line *line, celspan_context *context);
+/* Brings an outline into other units by an affine matrix; false when it does not fit into them. */
+bool cs_svg_outline_map(cs_outline *outline, const celspan_matrix *matrix);
+
 #endif

@@ -167,16 +167,19 @@ static void read_font_size(const char *text, double inherited, double *out) {
 
 cs_svg_style cs_svg_style_initial(void) {
   const cs_svg_colour black = {{0, 0, 0}, 1};
-  return (cs_svg_style){.colour = black,
-                        .fill = {.kind = CS_SVG_PAINT_COLOUR, .colour = black},
-                        .fill_opacity = 1,
-                        .stroke_opacity = 1,
-                        .stroke_width = {1, CS_SVG_UNIT_NUMBER},
-                        .font_size = 16,
-                        .is_visible = true,
-                        .is_displayed = true,
-                        .opacity = 1,
-                        .stop_colour = black};
+  return (cs_svg_style){
+      .colour = black,
+      .fill = {.kind = CS_SVG_PAINT_COLOUR, .colour = black},
+      .fill_opacity = 1,
+      .stroke_opacity = 1,
+      .stroke_width = {1, CS_SVG_UNIT_NUMBER},
+      .miter = 4,
+      .paint_order = {CS_SVG_LAYER_FILL, CS_SVG_LAYER_STROKE, CS_SVG_LAYER_MARKERS},
+      .font_size = 16,
+      .is_visible = true,
+      .is_displayed = true,
+      .opacity = 1,
+      .stop_colour = black};
 }
 
 static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
@@ -186,9 +189,67 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->opacity = 1;
   out->clip_path = out->mask = (cs_svg_reference){NULL, 0};
   out->has_clip_path = out->has_mask = out->has_filter = out->has_blend = false;
-  out->shows_overflow = out->uses_alpha = false;
+  out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
   out->transform = out->transform_origin = NULL;
+}
+
+static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *out) {
+  if (cap && cs_svg_is_word(cap, "butt"))
+    out->cap = CELSPAN_CAP_BUTT;
+  else if (cap && cs_svg_is_word(cap, "round"))
+    out->cap = CELSPAN_CAP_ROUND;
+  else if (cap && cs_svg_is_word(cap, "square"))
+    out->cap = CELSPAN_CAP_SQUARE;
+  if (join && (cs_svg_is_word(join, "miter") || cs_svg_is_word(join, "miter-clip") ||
+               cs_svg_is_word(join, "arcs")))
+    out->join = CELSPAN_JOIN_MITER; /* where there is no other, as browsers have it */
+  else if (join && cs_svg_is_word(join, "round"))
+    out->join = CELSPAN_JOIN_ROUND;
+  else if (join && cs_svg_is_word(join, "bevel"))
+    out->join = CELSPAN_JOIN_BEVEL;
+}
+
+/* Layers that are named come first, in that order; then the others in theirs. */
+static void read_paint_order(const char *text, cs_svg_style *out) {
+  static const char *const words[] = {"fill", "stroke", "markers"};
+  bool is_named[3] = {false, false, false};
+  int count = 0;
+  for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_space(text)) {
+    int layer = 0;
+    while (layer < 3 && !cs_svg_take_word(&text, words[layer]))
+      layer++;
+    if (layer == 3 || is_named[layer])
+      break;
+    is_named[layer] = true;
+    out->paint_order[count++] = (cs_svg_layer)layer;
+  }
+  if (*text) /* a fault, or `normal` */
+    memset(is_named, count = 0, sizeof is_named);
+  for (int layer = 0; layer < 3; layer++)
+    if (!is_named[layer])
+      out->paint_order[count++] = (cs_svg_layer)layer;
+}
+
+/* What a line is drawn like; values that are none leave what is inherited. */
+static void read_line(const char *const *values, cs_svg_style *out) {
+  cs_svg_length length;
+  if (values[CS_SVG_STROKE_WIDTH] && cs_svg_parse_length(values[CS_SVG_STROKE_WIDTH], &length) &&
+      length.value >= 0)
+    out->stroke_width = length;
+  if (values[CS_SVG_STROKE_DASHOFFSET])
+    (void)cs_svg_parse_length(values[CS_SVG_STROKE_DASHOFFSET], &out->dash_offset);
+  if (values[CS_SVG_STROKE_MITERLIMIT] &&
+      cs_svg_parse_length(values[CS_SVG_STROKE_MITERLIMIT], &length) &&
+      length.unit == CS_SVG_UNIT_NUMBER && length.value >= 1)
+    out->miter = length.value;
+  read_cap_and_join(values[CS_SVG_STROKE_LINECAP], values[CS_SVG_STROKE_LINEJOIN], out);
+  const char *dashes = values[CS_SVG_STROKE_DASHARRAY];
+  if (dashes && !cs_svg_is_word(dashes, "inherit"))
+    out->dashes = cs_svg_is_word(dashes, "none") ? NULL : dashes;
+  const char *order = values[CS_SVG_PAINT_ORDER];
+  if (order && !cs_svg_is_word(order, "inherit"))
+    read_paint_order(order, out);
 }
 
 static void read_painting(const cascade *from, const cs_svg_style *parent, cs_svg_style *out) {
@@ -200,8 +261,7 @@ static void read_painting(const cascade *from, const cs_svg_style *parent, cs_sv
   read_share(values[CS_SVG_STROKE_OPACITY], parent->stroke_opacity, &out->stroke_opacity);
   read_rule(values[CS_SVG_FILL_RULE], &out->fill_rule);
   read_rule(values[CS_SVG_CLIP_RULE], &out->clip_rule);
-  if (values[CS_SVG_STROKE_WIDTH])
-    (void)cs_svg_parse_length(values[CS_SVG_STROKE_WIDTH], &out->stroke_width);
+  read_line(values, out);
   read_font_size(values[CS_SVG_FONT_SIZE], parent->font_size, &out->font_size);
   static const cs_svg_name markers[] = {CS_SVG_MARKER_START, CS_SVG_MARKER_MID, CS_SVG_MARKER_END};
   for (int i = 0; i < 3; i++) {
@@ -228,6 +288,8 @@ static void read_own(const cascade *from, const cs_svg_style *parent, cs_svg_sty
   out->shows_overflow =
       values[CS_SVG_OVERFLOW] && (cs_svg_is_word(values[CS_SVG_OVERFLOW], "visible") ||
                                   cs_svg_is_word(values[CS_SVG_OVERFLOW], "auto"));
+  out->keeps_width = values[CS_SVG_VECTOR_EFFECT] &&
+                     cs_svg_is_word(values[CS_SVG_VECTOR_EFFECT], "non-scaling-stroke");
   out->uses_alpha = values[CS_SVG_MASK_TYPE] && cs_svg_is_word(values[CS_SVG_MASK_TYPE], "alpha");
   if (values[CS_SVG_STOP_COLOR] && cs_svg_is_word(values[CS_SVG_STOP_COLOR], "inherit"))
     out->stop_colour = parent->stop_colour;
@@ -241,9 +303,9 @@ static void read_own(const cascade *from, const cs_svg_style *parent, cs_svg_sty
 
 static celspan_status check_numbers(celspan_context *context, const cascade *from,
                                     const cs_svg_node *node) {
-  static const cs_svg_name numbers[] = {CS_SVG_OPACITY,      CS_SVG_FILL_OPACITY,
-                                        CS_SVG_FONT_SIZE,    CS_SVG_STROKE_OPACITY,
-                                        CS_SVG_STOP_OPACITY, CS_SVG_STROKE_WIDTH};
+  static const cs_svg_name numbers[] = {
+      CS_SVG_OPACITY,      CS_SVG_FILL_OPACITY, CS_SVG_FONT_SIZE,         CS_SVG_STROKE_OPACITY,
+      CS_SVG_STOP_OPACITY, CS_SVG_STROKE_WIDTH, CS_SVG_STROKE_DASHOFFSET, CS_SVG_STROKE_MITERLIMIT};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
     const char *value = from->values[numbers[i]];
     if (value && cs_svg_is_unfit(value))

@@ -24,6 +24,13 @@ typedef struct cs_svg_paint {
   cs_svg_colour colour;
 } cs_svg_paint;
 
+/* The things that a shape is painted with, one over the other. */
+typedef enum cs_svg_layer {
+  CS_SVG_LAYER_FILL,
+  CS_SVG_LAYER_STROKE,
+  CS_SVG_LAYER_MARKERS
+} cs_svg_layer;
+
 typedef struct cs_svg_style {
   /* inherited */
   cs_svg_colour colour;
@@ -31,8 +38,13 @@ typedef struct cs_svg_style {
   cs_svg_paint context_fill, context_stroke; /* of the `use` or marker that shows it */
   double fill_opacity, stroke_opacity;       /* 0..1 */
   celspan_rule fill_rule, clip_rule;
-  cs_svg_length stroke_width;
-  double font_size; /* user units */
+  cs_svg_length stroke_width, dash_offset;
+  celspan_stroke_cap cap;
+  celspan_stroke_join join;
+  double miter;
+  const char *dashes;          /* stroke-dasharray; NULL: none */
+  cs_svg_layer paint_order[3]; /* the lowest first */
+  double font_size;            /* user units */
   bool is_visible;
   cs_svg_reference markers[3]; /* start, mid, end */
   /* of the element alone */
@@ -41,6 +53,7 @@ typedef struct cs_svg_style {
   cs_svg_reference clip_path, mask;
   bool has_clip_path, has_mask;
   bool has_filter, has_blend;               /* a filter, a blend mode other than normal */
+  bool keeps_width;                         /* the stroke's: transforms do not change it */
   bool shows_overflow;                      /* of svg, symbol and marker elements */
   bool uses_alpha;                          /* of a mask: alpha instead of luminance */
   cs_svg_colour stop_colour;                /* stop-opacity multiplied in */
