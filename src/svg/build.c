@@ -362,6 +362,8 @@ static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_sv
   const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
   cs_svg_measure measure = {.width = box->is_given ? box->width : DEFAULT_WIDTH,
                             .height = box->is_given ? box->height : DEFAULT_HEIGHT};
+  measure.page_width = measure.width;
+  measure.page_height = measure.height;
   measure.font_size = measure.root_font_size = cs_svg_style_initial().font_size;
   CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_WIDTH, CS_SVG_AXIS_X, &measure, whole,
                           &b->art->width));
@@ -378,6 +380,8 @@ static celspan_status enter_root(builder *b, const cs_svg_node *node, cs_svg_pla
   *place = (cs_svg_place){.style = cs_svg_style_initial(), .matrix = celspan_matrix_identity()};
   place->measure = (cs_svg_measure){.width = art->width,
                                     .height = art->height,
+                                    .page_width = art->width,
+                                    .page_height = art->height,
                                     .font_size = place->style.font_size,
                                     .root_font_size = place->style.font_size};
   CS_TRY(cs_svg_enter(b->reading, node, place));

@@ -6,6 +6,7 @@
 /* Compounds of one selector and classes of one compound; a selector with more is left out. */
 #define COMPOUNDS 32
 #define CLASSES 16
+#define CONDITIONS 16
 /* Weights of what a compound asks for. Source: CSS Selectors Level 3, 9. */
 #define ID_WEIGHT 65536u
 #define CLASS_WEIGHT 256u
@@ -158,6 +159,61 @@ static const char *take_name(parser *p, const char **text) {
   return copy_trimmed(p->context, p->arena, begin, *text);
 }
 
+/* The value of a condition, quoted or a name; its end is left at *text. NULL without memory. */
+static const char *take_condition_value(parser *p, const char **text) {
+  char quote = **text == '"' || **text == '\'' ? *(*text)++ : 0;
+  if (!quote)
+    return take_name(p, text);
+  const char *begin = *text;
+  while (**text && **text != quote)
+    ++*text;
+  const char *value = copy_trimmed(p->context, p->arena, begin, *text);
+  *text += **text == quote;
+  return value;
+}
+
+/* A condition from behind its '[' to behind its ']'; *is_simple: it was understood. */
+static celspan_status parse_condition(parser *p, const char **text, cs_css_condition *out,
+                                      bool *is_simple) {
+  const char *at = skip_space(*text), *name = take_name(p, &at);
+  if (!name)
+    return CELSPAN_NO_MEMORY;
+  *out = (cs_css_condition){.name = cs_svg_name_of(name), .value = ""};
+  at = skip_space(at);
+  if (*at && strchr("~|^$*", *at) && at[1] == '=')
+    out->operator= * at++;
+  if (*at == '=') {
+    out->operator= out->operator? out->operator: '=';
+    at = skip_space(at + 1);
+    if (!(out->value = take_condition_value(p, &at)))
+      return CELSPAN_NO_MEMORY;
+    at = skip_space(at);
+  }
+  *is_simple = *is_simple && out->name != CS_SVG_NAME_COUNT && *at == ']';
+  *text = at + (*at == ']');
+  return CELSPAN_OK;
+}
+
+/* The conditions that follow one another. */
+static celspan_status parse_conditions(parser *p, const char **text, cs_css_compound *out,
+                                       uint32_t *specificity, bool *is_simple) {
+  cs_css_condition conditions[CONDITIONS];
+  while (*is_simple && **text == '[') {
+    ++*text;
+    *is_simple = out->condition_count < CONDITIONS;
+    if (*is_simple)
+      CS_TRY(parse_condition(p, text, &conditions[out->condition_count], is_simple));
+    out->condition_count += *is_simple;
+    *specificity += CLASS_WEIGHT;
+  }
+  out->conditions =
+      cs_arena_take(p->context, p->arena, out->condition_count * sizeof *out->conditions);
+  if (!out->conditions)
+    return CELSPAN_NO_MEMORY;
+  memcpy(out->conditions, conditions, out->condition_count * sizeof *conditions);
+  return CELSPAN_OK;
+}
+
 /* One compound; *is_simple: all of it was understood. */
 static celspan_status parse_compound(parser *p, const char **text, cs_css_compound *out,
                                      uint32_t *specificity, bool *is_simple) {
@@ -181,6 +237,7 @@ static celspan_status parse_compound(parser *p, const char **text, cs_css_compou
       classes[out->class_count++] = name;
     *specificity += is_id ? ID_WEIGHT : CLASS_WEIGHT;
   }
+  CS_TRY(parse_conditions(p, text, out, specificity, is_simple));
   *is_simple = *is_simple && *text > begin;
   out->classes = cs_arena_take(p->context, p->arena, out->class_count * sizeof *out->classes);
   if (!out->classes)

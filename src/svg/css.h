@@ -4,8 +4,9 @@
  *   '---------selector--------'  '------------declarations-----------'
  *
  * A selector is a chain of compounds, the last of which is the element itself: element, classes and
- * id, joined by descent or by being a child. Selectors with anything else in them (attributes,
- * pseudo-classes, siblings) and at-rules are left out; `omitted` tells so.
+ * id and attributes, joined by descent or by being a child. Selectors with anything else in them
+ * (pseudo-classes, siblings, attributes that mean nothing here) and at-rules are left out; `omitted`
+ * tells so.
  */
 #ifndef CS_SVG_CSS_H
 #define CS_SVG_CSS_H
@@ -26,10 +27,20 @@ typedef struct cs_css_declarations {
   size_t count;
 } cs_css_declarations;
 
+/* [name], [name=value], or with another operator before the '=': ~ a word of it, | it or what it begins
+ * with before a hyphen, ^ its beginning, $ its end, * any part of it. */
+typedef struct cs_css_condition {
+  cs_svg_name name;
+  char operator; /* 0: the attribute is there; '=': it is the value; else the sign before the '=' */
+  const char *value;
+} cs_css_condition;
+
 typedef struct cs_css_compound {
   const char *element, *id; /* NULL: any */
   const char **classes;     /* all of them */
   size_t class_count;
+  cs_css_condition *conditions; /* all of them */
+  size_t condition_count;
   bool is_child; /* of what the compound before it is, not only below it */
 } cs_css_compound;
 

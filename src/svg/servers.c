@@ -230,8 +230,10 @@ static celspan_status make(gradient *g, cs_svg_server *out) {
   return make_texture(g, out);
 }
 
+/* *is_without_box: nothing is painted, since units are shares of a box without a size. */
 static celspan_status make_gradient(cs_svg_reading *reading, const cs_svg_node *node,
-                                    const cs_svg_painted *shape, cs_svg_server *out) {
+                                    const cs_svg_painted *shape, bool *is_without_box,
+                                    cs_svg_server *out) {
   gradient g = {.reading = reading, .node = node, .shape = shape};
   *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
   g.is_radial = node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
@@ -239,7 +241,8 @@ static celspan_status make_gradient(cs_svg_reading *reading, const cs_svg_node *
   g.measure = *shape->measure;
   if (g.is_in_box)
     g.measure.width = g.measure.height = 1;
-  if (g.is_in_box && !(shape->box.width > 0 && shape->box.height > 0))
+  *is_without_box = g.is_in_box && !(shape->box.width > 0 && shape->box.height > 0);
+  if (*is_without_box)
     return CELSPAN_OK;
   celspan_status status = make(&g, out);
   cs_svg_stops_finish(&g.stops, reading->context->memory);
@@ -269,8 +272,13 @@ celspan_status cs_svg_server_find(cs_svg_reading *reading, const cs_svg_paint *p
                                   cs_svg_server *out) {
   *out = (cs_svg_server){.matrix = celspan_matrix_identity()};
   const cs_svg_node *node = paint->has_server ? cs_svg_referred(reading, paint->server) : NULL;
-  if (node && is_gradient(node))
-    return make_gradient(reading, node, shape, out);
+  if (node && is_gradient(node)) {
+    bool is_without_box;
+    CS_TRY(make_gradient(reading, node, shape, &is_without_box, out));
+    return is_without_box && paint->has_fallback
+               ? plain_paint(reading, paint, style, shape->opacity, out)
+               : CELSPAN_OK;
+  }
   if (node && node->element == CS_SVG_ELEMENT_PATTERN)
     CS_TRY(cs_svg_skip(reading, shape->node, "pattern of %s", shape->node->tag));
   return plain_paint(reading, paint, style, shape->opacity, out);

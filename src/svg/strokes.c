@@ -8,7 +8,7 @@
 #include "svg/shapes.h"
 
 /* A stroke that is being made. */
-typedef struct pen {
+typedef struct stroking {
   cs_svg_reading *reading;
   const cs_svg_node *node;
   const cs_svg_place *place;
@@ -17,7 +17,7 @@ typedef struct pen {
   celspan_stroke_desc desc;
   double *dashes;
   size_t dash_capacity;
-} pen;
+} stroking;
 
 bool cs_svg_is_stroked(const cs_svg_style *style) {
   return (style->stroke.kind != CS_SVG_PAINT_NONE || style->stroke.has_server) &&
@@ -27,7 +27,7 @@ bool cs_svg_is_stroked(const cs_svg_style *style) {
 /* ---------------------------------------------------------------- dashes */
 
 /* Appends the lengths of the list; *is_fit: false for what is no list of lengths that are drawn. */
-static celspan_status take_dashes(pen *p, const char *text, bool *is_fit) {
+static celspan_status take_dashes(stroking *p, const char *text, bool *is_fit) {
   double sum = 0;
   cs_svg_length length;
   for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_comma(text)) {
@@ -44,7 +44,7 @@ static celspan_status take_dashes(pen *p, const char *text, bool *is_fit) {
   return CELSPAN_OK;
 }
 
-static celspan_status read_dashes(pen *p) {
+static celspan_status read_dashes(stroking *p) {
   const cs_svg_style *style = &p->place->style;
   bool is_fit = false;
   if (style->dashes)
@@ -61,7 +61,7 @@ static celspan_status read_dashes(pen *p) {
 
 /* ---------------------------------------------------------------- the stroke */
 
-static celspan_status read_desc(pen *p) {
+static celspan_status read_desc(stroking *p) {
   const cs_svg_style *style = &p->place->style;
   p->desc = celspan_stroke_desc_default();
   p->desc.width = cs_svg_resolve(style->stroke_width, CS_SVG_AXIS_BOTH, &p->place->measure);
@@ -72,7 +72,7 @@ static celspan_status read_desc(pen *p) {
 }
 
 /* The stroke in the drawing's units. Dashes beyond the limit are drawn as a whole line. */
-static celspan_status make_stroke(pen *p, celspan_texture *texture, celspan_object **out) {
+static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan_object **out) {
   celspan_context *context = p->reading->context;
   celspan_object *object;
   p->desc.texture = texture;
@@ -108,7 +108,7 @@ static celspan_box mapped_box(const celspan_box *box, const celspan_matrix *matr
 
 /* A rectangle in the gradient's units that covers `box` of the drawing's, brought there. *out: NULL
  * where numbers do not reach so far. */
-static celspan_status cover(pen *p, const cs_svg_server *server, const celspan_box *box,
+static celspan_status cover(stroking *p, const cs_svg_server *server, const celspan_box *box,
                             celspan_object **out) {
   celspan_context *context = p->reading->context;
   celspan_matrix whole = celspan_matrix_then(server->matrix, p->place->matrix), inverse;
@@ -127,7 +127,7 @@ static celspan_status cover(pen *p, const cs_svg_server *server, const celspan_b
   return status;
 }
 
-static celspan_status clip_cover(pen *p, const cs_svg_server *server, celspan_object *stroke,
+static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celspan_object *stroke,
                                  const celspan_box *box, celspan_object **out) {
   celspan_object *both[2] = {NULL, stroke};
   CS_TRY(cover(p, server, box, &both[0]));
@@ -141,7 +141,7 @@ static celspan_status clip_cover(pen *p, const cs_svg_server *server, celspan_ob
 /* ---------------------------------------------------------------- paint */
 
 /* A stroke that is a shape first, as its box is what a gradient may be spread over. */
-static celspan_status paint_by_server(pen *p, const celspan_box *outline_box,
+static celspan_status paint_by_server(stroking *p, const celspan_box *outline_box,
                                       celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
   cs_svg_painted shape = {
@@ -165,7 +165,7 @@ static celspan_status paint_by_server(pen *p, const celspan_box *outline_box,
   return status;
 }
 
-static celspan_status paint_flat(pen *p, celspan_object **out) {
+static celspan_status paint_flat(stroking *p, celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
   const cs_svg_painted shape = {
       p->node, &p->place->measure, {.x = 0}, {.x = 0}, style->stroke_opacity};
@@ -177,7 +177,7 @@ static celspan_status paint_flat(pen *p, celspan_object **out) {
   return status;
 }
 
-static celspan_status draw(pen *p, celspan_object **out) {
+static celspan_status draw(stroking *p, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box;
   cs_outline *outline = &p->line.outline;
@@ -198,7 +198,7 @@ static celspan_status draw(pen *p, celspan_object **out) {
 
 celspan_status cs_svg_stroke(cs_svg_reading *reading, const cs_svg_node *node,
                              const cs_svg_place *place, celspan_object **out) {
-  pen p = {.reading = reading, .node = node, .place = place};
+  stroking p = {.reading = reading, .node = node, .place = place};
   *out = NULL;
   celspan_status status = draw(&p, out);
   cs_svg_line_finish(&p.line, reading->context);

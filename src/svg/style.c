@@ -23,6 +23,28 @@ static bool has_class(const char *list, const char *word) {
   return false;
 }
 
+/* Whether an attribute's value is as a condition of a selector asks. */
+static bool fits_condition(const cs_css_condition *condition, const char *value) {
+  if (!value || !condition->operator)
+    return value;
+  size_t size = strlen(condition->value), length = strlen(value);
+  bool begins = strncmp(value, condition->value, size) == 0;
+  switch (condition->operator) {
+  case '=':
+    return strcmp(value, condition->value) == 0;
+  case '~':
+    return size > 0 && has_class(value, condition->value);
+  case '|':
+    return begins && (value[size] == 0 || value[size] == '-');
+  case '^':
+    return size > 0 && begins;
+  case '$':
+    return size > 0 && length >= size && strcmp(value + length - size, condition->value) == 0;
+  default:
+    return size > 0 && strstr(value, condition->value);
+  }
+}
+
 static bool fits_compound(const cs_css_compound *compound, const cs_svg_node *node) {
   if (compound->element && strcmp(compound->element, node->tag) != 0)
     return false;
@@ -32,6 +54,10 @@ static bool fits_compound(const cs_css_compound *compound, const cs_svg_node *no
   const char *classes = compound->class_count > 0 ? cs_svg_node_value(node, CS_SVG_CLASS) : "";
   for (size_t i = 0; i < compound->class_count; i++)
     if (!classes || !has_class(classes, compound->classes[i]))
+      return false;
+  for (size_t i = 0; i < compound->condition_count; i++)
+    if (!fits_condition(&compound->conditions[i],
+                        cs_svg_node_value(node, compound->conditions[i].name)))
       return false;
   return true;
 }
@@ -159,7 +185,8 @@ static void read_font_size(const char *text, double inherited, double *out) {
   cs_svg_length length;
   if (!text || !cs_svg_parse_length(text, &length))
     return;
-  const cs_svg_measure measure = {inherited, inherited, inherited, inherited};
+  const cs_svg_measure measure = {
+      .width = inherited, .height = inherited, .font_size = inherited, .root_font_size = inherited};
   *out = cs_svg_resolve(length, CS_SVG_AXIS_X, &measure);
 }
 
@@ -224,8 +251,10 @@ static void read_paint_order(const char *text, cs_svg_style *out) {
     is_named[layer] = true;
     out->paint_order[count++] = (cs_svg_layer)layer;
   }
-  if (*text) /* a fault, or `normal` */
-    memset(is_named, count = 0, sizeof is_named);
+  if (*text) { /* a fault, or `normal` */
+    is_named[0] = is_named[1] = is_named[2] = false;
+    count = 0;
+  }
   for (int layer = 0; layer < 3; layer++)
     if (!is_named[layer])
       out->paint_order[count++] = (cs_svg_layer)layer;

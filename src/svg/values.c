@@ -71,7 +71,11 @@ bool cs_svg_take_length(const char **text, cs_svg_length *out) {
                {"em", CS_SVG_UNIT_EM, 1},
                {"ex", CS_SVG_UNIT_EX, 1},
                {"Q", CS_SVG_UNIT_NUMBER, 24 / 25.4},
-               {"rem", CS_SVG_UNIT_REM, 1}};
+               {"rem", CS_SVG_UNIT_REM, 1},
+               {"vw", CS_SVG_UNIT_VW, 0.01},
+               {"vh", CS_SVG_UNIT_VH, 0.01},
+               {"vmin", CS_SVG_UNIT_VMIN, 0.01},
+               {"vmax", CS_SVG_UNIT_VMAX, 0.01}};
   const char *at = *text;
   double value;
   if (!cs_svg_take_number(&at, &value))
@@ -116,6 +120,14 @@ double cs_svg_resolve(cs_svg_length length, cs_svg_axis axis, const cs_svg_measu
     return length.value * measure->font_size * 0.5;
   case CS_SVG_UNIT_REM:
     return length.value * measure->root_font_size;
+  case CS_SVG_UNIT_VW:
+    return length.value * measure->page_width;
+  case CS_SVG_UNIT_VH:
+    return length.value * measure->page_height;
+  case CS_SVG_UNIT_VMIN:
+    return length.value * fmin(measure->page_width, measure->page_height);
+  case CS_SVG_UNIT_VMAX:
+    return length.value * fmax(measure->page_width, measure->page_height);
   case CS_SVG_UNIT_PERCENT:
     return length.value / 100 *
            (axis == CS_SVG_AXIS_X   ? width

@@ -13,7 +13,11 @@ typedef enum cs_svg_unit {
   CS_SVG_UNIT_PERCENT,
   CS_SVG_UNIT_EM,
   CS_SVG_UNIT_EX,
-  CS_SVG_UNIT_REM
+  CS_SVG_UNIT_REM,
+  CS_SVG_UNIT_VW,
+  CS_SVG_UNIT_VH,
+  CS_SVG_UNIT_VMIN,
+  CS_SVG_UNIT_VMAX
 } cs_svg_unit;
 
 typedef struct cs_svg_length {
@@ -26,6 +30,7 @@ typedef struct cs_svg_measure {
   double width, height; /* of the nearest viewport, in user units */
   double font_size;
   double root_font_size;
+  double page_width, page_height; /* of the whole drawing, in px */
 } cs_svg_measure;
 
 typedef enum cs_svg_axis { CS_SVG_AXIS_X, CS_SVG_AXIS_Y, CS_SVG_AXIS_BOTH } cs_svg_axis;

@@ -145,6 +145,26 @@ describe("styles", function()
       seen)
   end)
 
+  it("may ask for attributes", function()
+    local art = read [[<style>[x]{fill:red} rect[y="50"]{fill:lime} [class~='b'][id^=q]{fill:blue}
+      [id$="nd"]{fill:yellow}</style>
+      <rect x="0" width="50" height="50"/><rect y="50" width="50" height="50"/>
+      <rect x="50" width="50" height="50" class="a b" id="q1"/>
+      <rect x="50" y="51" width="50" height="49" id="end"/>]]
+    assert.are.equal("ff0000 255", at(art.object, 25, 25))
+    assert.are.equal("00ff00 255", at(art.object, 25, 75))
+    assert.are.equal("0000ff 255", at(art.object, 75, 25))
+    assert.are.equal("ffff00 255", at(art.object, 75, 75))
+    assert.are.equal(0, #art.skipped)
+  end)
+
+  it("have lengths that are shares of the whole drawing", function()
+    local art = read [[<rect width="50vw" height="25vmax" fill="red"/>]]
+    assert.are.equal("ff0000 255", at(art.object, 48, 23))
+    assert.are.equal("000000 0", at(art.object, 52, 23))
+    assert.are.equal("000000 0", at(art.object, 48, 27))
+  end)
+
   it("tell of selectors that do not count", function()
     local art = read '<style>rect:hover { fill: red } @import "x.css";</style><rect width="9" height="9"/>'
     assert.are.equal("000000 255", at(art.object, 5, 5))
@@ -250,6 +270,135 @@ describe("a radial gradient with a focus", function()
         end
       end
     end
+  end)
+end)
+
+describe("strokes", function()
+  --- Which of these points show red.
+  local function red_at(art, points)
+    local list = {}
+    for i, p in ipairs(points) do
+      if at(art.object, p[1], p[2]) == "ff0000 255" then list[#list + 1] = i end
+    end
+    return table.concat(list, " ")
+  end
+
+  it("have width, caps and the opacity of their own", function()
+    local art = read [[<g stroke="red" stroke-width="10"><line x1="20" y1="20" x2="80" y2="20"/>
+      <path d="M20 50H80" stroke-linecap="square"/><path d="M20 80H80" stroke-linecap="round"/></g>]]
+    assert.are.equal("2 4 5 8", red_at(art, { { 18, 20 }, { 22, 24 }, { 22, 26 }, { 16, 46 }, { 18, 50 },
+                                              { 14, 50 }, { 16, 76 }, { 16, 80 } }))
+    art = read [[<rect x="20" y="20" width="60" height="60" fill="blue" stroke="red" stroke-width="10%"
+      stroke-opacity=".5"/>]]
+    assert.are.equal("ff0000 128", at(art.object, 16, 50))
+    assert.are.equal("0000ff 255", at(art.object, 30, 50))
+  end)
+
+  it("have joins up to the limit of a miter", function()
+    local function corner(attributes)
+      return red_at(read(('<path d="M20 80V20H80" fill="none" stroke="red" stroke-width="20" %s/>')
+        :format(attributes)), { { 11, 11 }, { 13.5, 13.5 }, { 16, 16 } })
+    end
+    assert.are.equal("1 2 3", corner "")
+    assert.are.equal("3", corner 'stroke-linejoin="bevel"')
+    assert.are.equal("2 3", corner 'stroke-linejoin="round"')
+    assert.are.equal("3", corner 'stroke-miterlimit="1.4"')
+    assert.are.equal("1 2 3", corner 'stroke-miterlimit="1.42"')
+  end)
+
+  it("have dashes, from an offset on", function()
+    local function dashes(attributes)
+      return red_at(read(('<path d="M0 50H100" stroke="red" stroke-width="10" %s/>'):format(attributes)),
+        { { 5, 50 }, { 15, 50 }, { 25, 50 }, { 35, 50 }, { 45, 50 }, { 55, 50 } })
+    end
+    assert.are.equal("1 3 5", dashes 'stroke-dasharray="10"')
+    assert.are.equal("1 2 4 5", dashes 'stroke-dasharray="20,10px"')
+    assert.are.equal("1 3 4 6", dashes 'stroke-dasharray="20 10" stroke-dashoffset="10"')
+    for _, none in ipairs { "none", "0 0", "10 -1", "ten" } do
+      assert.are.equal("1 2 3 4 5 6", dashes(('stroke-dasharray="%s"'):format(none)))
+    end
+    assert.are.equal("1 2 4 5", dashes 'stroke-dasharray="20%,10%"')
+  end)
+
+  it("are painted in the order that is asked for", function()
+    local shape = '<rect x="20" y="20" width="60" height="60" fill="blue" stroke="red" stroke-width="20" %s/>'
+    assert.are.equal("ff0000 255", at(read(shape:format "").object, 25, 50))
+    assert.are.equal("0000ff 255", at(read(shape:format 'paint-order="stroke"').object, 25, 50))
+    assert.are.equal("ff0000 255", at(read(shape:format 'paint-order="stroke red"').object, 25, 50))
+  end)
+
+  it("keep their width where that is asked for", function()
+    local art = read [[<g transform="scale(4 1)" stroke="red" stroke-width="4"><path d="M5 0V100"/>
+      <path d="M15 0V100" vector-effect="non-scaling-stroke"/></g>]]
+    assert.are.equal("1 3", red_at(art, { { 13, 50 }, { 11, 50 }, { 59, 50 }, { 57, 50 }, { 63, 50 } }))
+  end)
+
+  it("have gradients, in units of the box without the stroke", function()
+    local gradient = '<linearGradient id="a"><stop offset=".5" stop-color="red"/><stop offset=".5"'
+      .. ' stop-color="lime"/></linearGradient>'
+    local art = read(gradient .. [[<path d="M10 20H90V80" fill="none" stroke="url(#a)" stroke-width="20"/>]])
+    assert.are.equal("ff0000 255", at(art.object, 48, 20))
+    assert.are.equal("00ff00 255", at(art.object, 52, 20))
+    assert.are.equal("000000 0", at(art.object, 52, 50))
+    art = read(gradient .. [[<path d="M10 20H90" stroke="url(#a) blue" stroke-width="20"/>]])
+    assert.are.equal("0000ff 255", at(art.object, 48, 20))
+  end)
+
+  it("may have more dashes than are drawn", function()
+    local art = read [[<path d="M0 50H100" stroke="red" stroke-width="9" stroke-dasharray="1e-9"/>]]
+    assert.are.equal("ff0000 255", at(art.object, 50, 50))
+    assert.are.equal("stroke-dasharray of path", art.skipped[1].what)
+  end)
+end)
+
+describe("markers", function()
+  --- A marker that is red to the right of its middle and blue to the left of it.
+  local function marker(attributes)
+    return ('<marker id="m" markerWidth="10" markerHeight="10" refX="5" refY="5" %s>'
+      .. '<rect width="5" height="10" fill="blue"/><rect x="5" width="5" height="10" fill="red"/></marker>')
+      :format(attributes)
+  end
+
+  it("stand at the ends and vertices, as the line goes", function()
+    local art = read(marker 'orient="auto"' .. [[<path d="M20 20H80V80" fill="none" marker-start="url(#m)"
+      marker-end="url(#m)"/>]])
+    assert.are.equal("ff0000 255", at(art.object, 23, 20))
+    assert.are.equal("0000ff 255", at(art.object, 17, 20))
+    assert.are.equal("000000 0", at(art.object, 80, 20))
+    assert.are.equal("ff0000 255", at(art.object, 80, 83))
+    art = read(marker 'orient="auto"' .. [[<path d="M20 20H80V80" fill="none" marker-mid="url(#m)"/>]])
+    assert.are.equal("ff0000 255", at(art.object, 82, 22)) -- half way between right and down
+    assert.are.equal("0000ff 255", at(art.object, 78, 18))
+  end)
+
+  it("are turned as they say", function()
+    local line = '<path d="M20 50H80" marker-start="url(#m)"/>'
+    assert.are.equal("0000ff 255", at(read(marker 'orient="auto-start-reverse"' .. line).object, 23, 50))
+    assert.are.equal("ff0000 255", at(read(marker 'orient="90"' .. line).object, 20, 53))
+    assert.are.equal("ff0000 255", at(read(marker 'orient=".25turn"' .. line).object, 20, 53))
+    assert.are.equal("ff0000 255", at(read(marker "" .. line).object, 23, 50))
+  end)
+
+  it("are as large as the stroke, or as their units say, and cut at their viewport", function()
+    local line = '<path d="M20 50H80" stroke-width="2" marker-end="url(#m)"/>'
+    assert.are.equal("ff0000 255", at(read(marker "" .. line).object, 89, 50))
+    assert.are.equal("000000 0", at(read(marker 'markerUnits="userSpaceOnUse"' .. line).object, 89, 50))
+    local boxed = marker 'viewBox="0 0 5 5" preserveAspectRatio="none" overflow="%s"' .. line
+    assert.are.equal("000000 0", at(read(boxed:format "hidden").object, 88, 50))
+    assert.are.equal("ff0000 255", at(read(boxed:format "visible").object, 88, 50))
+  end)
+
+  it("stand once at an arc's ends, and not inside of it", function()
+    local art = read(marker "" .. [[<path d="M20 50A30 30 0 0 1 80 50" fill="none" marker-mid="url(#m)"/>]])
+    assert.are.equal("000000 0", at(art.object, 53, 20))
+  end)
+
+  it("take the colours of the line, and never themselves", function()
+    local art = read [[<marker id="m" markerWidth="9" markerHeight="9" orient="auto" markerUnits="userSpaceOnUse">
+      <path d="M0 0H9V9H0z" fill="context-stroke" marker-start="url(#m)"/></marker>
+      <path d="M50 50H80" stroke="lime" marker-start="url(#m)"/>]]
+    assert.are.equal("00ff00 255", at(art.object, 55, 55))
+    assert.are.equal("marker inside of itself", art.skipped[1].what)
   end)
 end)
 
