@@ -1,0 +1,152 @@
+/* Drawings through the C face: reading, questions, parts changed, and memory that fails at any place. */
+#include "celspan/celspan.h"
+#include "tests/support/check.h"
+#include "tests/support/memory.h"
+
+static const char drawing[] =
+    "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30'>\n"
+    "<style>[id] { fill: lime }</style>\n"
+    "<linearGradient id='l'><stop stop-color='red'/><stop offset='1'/></linearGradient>\n"
+    "<marker id='m' orient='auto'><rect width='3' height='3'/></marker>\n"
+    "<g id='arm' opacity='.5'><path id='hand' d='M5 5A9 9 0 0 1 20 20Z' stroke='url(#l)'\n"
+    "  stroke-dasharray='3 1' marker-mid='url(#m)'/></g>\n"
+    "<polyline points='1 1 9 9 9 1' stroke='red' stroke-width='2' fill='none'/>\n"
+    "<foreignObject/>\n"
+    "</svg>";
+
+static celspan_status read_bytes(celspan_context *context, const char *text, celspan_svg **out) {
+  celspan_svg_desc desc = CELSPAN_SVG_DESC;
+  desc.bytes = text;
+  desc.size = strlen(text);
+  desc.name = "a.svg";
+  return celspan_svg_read(context, &desc, out);
+}
+
+static celspan_status move_right(void *user, celspan_context *context, celspan_object *part,
+                                 celspan_object **out) {
+  const celspan_matrix matrix = celspan_matrix_translation(*(double *)user, 0);
+  return celspan_object_transform(context, part, &matrix, out);
+}
+
+static celspan_status refuse(void *user, celspan_context *context, celspan_object *part,
+                             celspan_object **out) {
+  (void)user, (void)context, (void)part, (void)out;
+  return CELSPAN_CANCELLED;
+}
+
+static celspan_object *part_named(const celspan_svg *svg, const char *name) {
+  for (size_t i = 0; i < celspan_svg_part_count(svg); i++) {
+    const char *found;
+    celspan_object *part = celspan_svg_part(svg, i, &found);
+    if (strcmp(found, name) == 0)
+      return part;
+  }
+  return NULL;
+}
+
+static void a_drawing_answers(celspan_context *context) {
+  celspan_svg *svg;
+  celspan_box box;
+  int32_t line;
+  if (!CHECK(read_bytes(context, drawing, &svg) == CELSPAN_OK))
+    return;
+  CHECK(celspan_svg_size(svg).x == 40 && celspan_svg_size(svg).y == 30);
+  CHECK(celspan_svg_part_count(svg) == 2);
+  CHECK(part_named(svg, "arm") && part_named(svg, "hand") && !part_named(svg, "m"));
+  CHECK(celspan_object_bounds(celspan_svg_object(svg), &box) && box.x < 1 && box.width > 15);
+  CHECK(celspan_svg_skipped_count(svg) == 1);
+  CHECK_TEXT(celspan_svg_skipped(svg, 0, &line), "foreignObject");
+  CHECK(line == 8);
+  CHECK(celspan_svg_ref(svg) == svg);
+  celspan_svg_unref(svg);
+  celspan_svg_unref(svg);
+  celspan_svg_unref(NULL);
+}
+
+static void parts_are_changed(celspan_context *context) {
+  celspan_svg *svg, *other;
+  celspan_box before, after;
+  double by = 100;
+  const celspan_svg_changed change = {"hand", move_right, &by}, none = {"leg", move_right, &by},
+                            refused = {"arm", refuse, NULL}, empty = {"arm", NULL, NULL};
+  if (!CHECK(read_bytes(context, drawing, &svg) == CELSPAN_OK))
+    return;
+  if (CHECK(celspan_svg_with(context, svg, &change, 1, &other) == CELSPAN_OK)) {
+    CHECK(celspan_object_bounds(part_named(svg, "arm"), &before));
+    celspan_svg_unref(svg); /* the other keeps what it has of it */
+    CHECK(celspan_object_bounds(part_named(other, "arm"), &after));
+    CHECK_NEAR(after.x, before.x + 100, 1e-9);
+    CHECK(celspan_svg_skipped_count(other) == 1);
+    svg = other;
+  }
+  CHECK(celspan_svg_with(context, svg, &none, 1, &other) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(context), "svg: there is no part \"leg\"");
+  CHECK(celspan_svg_with(context, svg, &refused, 1, &other) == CELSPAN_CANCELLED);
+  CHECK(celspan_svg_with(context, svg, &empty, 1, &other) == CELSPAN_BAD_ARGUMENT);
+  celspan_svg_unref(svg);
+}
+
+static void faults_are_told(celspan_context *context) {
+  celspan_svg_desc desc = CELSPAN_SVG_DESC;
+  celspan_svg *svg;
+  CHECK(celspan_svg_read(context, NULL, &svg) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_svg_read(context, &desc, &svg) == CELSPAN_BAD_ARGUMENT);
+  desc.struct_size = 1;
+  CHECK(celspan_svg_read(context, &desc, &svg) == CELSPAN_BAD_ARGUMENT);
+  desc = CELSPAN_SVG_DESC;
+  desc.file = "/no/such.svg";
+  CHECK(celspan_svg_read(context, &desc, &svg) == CELSPAN_INPUT);
+  CHECK_TEXT(celspan_context_error(context), "/no/such.svg: No such file or directory");
+  CHECK(read_bytes(context,
+                   "<svg xmlns='http://www.w3.org/2000/svg'>\n<path stroke-width='nan'/></svg>",
+                   &svg) == CELSPAN_INPUT);
+  CHECK(strstr(celspan_context_error(context), "a.svg:2: stroke-width is \"nan\""));
+}
+
+/* Reads the drawing and changes a part; the allocation of number `fail_at` of these fails. */
+static celspan_status read_and_change(celspan_context *context, memory_watch *watch,
+                                      size_t fail_at) {
+  celspan_svg *svg, *other;
+  double by = 7;
+  const celspan_svg_changed change = {"hand", move_right, &by};
+  watch->fail_at = watch->allocations + fail_at;
+  celspan_status status = read_bytes(context, drawing, &svg);
+  if (status == CELSPAN_OK) {
+    status = celspan_svg_with(context, svg, &change, 1, &other);
+    if (status == CELSPAN_OK)
+      celspan_svg_unref(other);
+    celspan_svg_unref(svg);
+  }
+  watch->fail_at = 0;
+  return status;
+}
+
+static void memory_may_fail_anywhere(void) {
+  memory_watch watch = {0};
+  celspan_context *context = memory_watch_context(&watch);
+  celspan_status status = CELSPAN_NO_MEMORY;
+  size_t fail_at = 0;
+  if (!CHECK(context))
+    return;
+  while (status == CELSPAN_NO_MEMORY && fail_at < 100000) {
+    size_t blocks = watch.blocks;
+    status = read_and_change(context, &watch, ++fail_at);
+    if (fail_at > 1 && !CHECK(watch.blocks - blocks <= 4)) /* services, made once */
+      break;
+  }
+  CHECK(status == CELSPAN_OK && fail_at > 20);
+  celspan_context_destroy(context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
+    return check_done();
+  a_drawing_answers(context);
+  parts_are_changed(context);
+  faults_are_told(context);
+  celspan_context_destroy(context);
+  memory_may_fail_anywhere();
+  return check_done();
+}
