@@ -1,6 +1,7 @@
 #include "svg/clips.h"
 
 #include "scene/primitive_data.h"
+#include "svg/basic_shapes.h"
 #include "svg/shapes.h"
 
 celspan_matrix cs_svg_box_matrix(const celspan_box *box) {
@@ -186,8 +187,17 @@ static celspan_status make_clip(cs_svg_reading *reading, const cs_svg_node *node
   return status;
 }
 
+static celspan_status make_shape(cs_svg_reading *reading, const cs_svg_node *node,
+                                 const cs_svg_place *place, celspan_object **out, bool *is_clip) {
+  const char *text = place->style.clip_shape;
+  CS_TRY(cs_svg_basic_shape(reading, node, place, text, out, is_clip));
+  return *is_clip ? CELSPAN_OK : cs_svg_skip(reading, node, "clip-path \"%.30s\"", text);
+}
+
 celspan_status cs_svg_clip_make(cs_svg_reading *reading, const cs_svg_node *node,
                                 const cs_svg_place *place, celspan_object **out, bool *is_clip) {
+  if (place->style.clip_shape)
+    return make_shape(reading, node, place, out, is_clip);
   const cs_svg_node *clip = cs_svg_referred(reading, place->style.clip_path);
   *out = NULL;
   *is_clip = clip && clip->element == CS_SVG_ELEMENT_CLIP_PATH;

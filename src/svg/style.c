@@ -215,6 +215,7 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->is_displayed = true;
   out->opacity = 1;
   out->clip_path = out->mask = (cs_svg_reference){NULL, 0};
+  out->clip_shape = NULL;
   out->has_clip_path = out->has_mask = out->has_filter = out->has_blend = false;
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
@@ -310,6 +311,12 @@ static void read_own(const cascade *from, const cs_svg_style *parent, cs_svg_sty
   out->is_displayed = !values[CS_SVG_DISPLAY] || !cs_svg_is_word(values[CS_SVG_DISPLAY], "none");
   read_share(values[CS_SVG_OPACITY], parent->opacity, &out->opacity);
   out->has_clip_path = read_reference(values[CS_SVG_CLIP_PATH], &out->clip_path);
+  const char *clip = values[CS_SVG_CLIP_PATH];
+  if (clip && !out->has_clip_path && !cs_svg_is_word(clip, "none") &&
+      !cs_svg_is_word(clip, "inherit")) {
+    out->clip_shape = clip;
+    out->has_clip_path = true;
+  }
   out->has_mask = read_reference(values[CS_SVG_MASK], &out->mask);
   out->has_filter = values[CS_SVG_FILTER] && !cs_svg_is_word(values[CS_SVG_FILTER], "none");
   out->has_blend =

@@ -51,6 +51,7 @@ typedef struct cs_svg_style {
   bool is_displayed;
   double opacity;
   cs_svg_reference clip_path, mask;
+  const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
   bool has_clip_path, has_mask;
   bool has_filter, has_blend;               /* a filter, a blend mode other than normal */
   bool keeps_width;                         /* the stroke's: transforms do not change it */

@@ -174,6 +174,26 @@ describe("styles", function()
 end)
 
 describe("clip paths and masks", function()
+  it("may be written as shapes, in shares of the box", function()
+    local function inside(shape, x, y)
+      local art = read(('<rect x="20" y="20" width="60" height="40" fill="red" clip-path="%s"/>'):format(shape))
+      assert.are.equal(0, #art.skipped)
+      return at(art.object, x, y) == "ff0000 255"
+    end
+    assert.is_true(inside("circle()", 69, 40))
+    assert.is_false(inside("circle()", 71, 40))
+    assert.is_true(inside("circle(10 at 0 50%)", 29, 40))
+    assert.is_false(inside("circle(10 at 0 50%)", 31, 40))
+    assert.is_true(inside("ellipse()", 79, 40))
+    assert.is_false(inside("ellipse(10px 5px at 50% 50%)", 50, 46))
+    assert.is_true(inside("inset(10 20 5 0)", 21, 54))
+    assert.is_false(inside("inset(10 20 5 0)", 61, 54))
+    assert.is_true(inside("polygon(0 0, 100% 0, 0 100%)", 30, 30))
+    assert.is_false(inside("polygon(evenodd, 0 0, 100% 0, 0 100%)", 70, 50))
+    local art = read '<rect width="9" height="9" clip-path="path(qwe)"/>'
+    assert.are.equal('clip-path "path(qwe)"', art.skipped[1].what)
+  end)
+
   it("cut by the union of their children, in either unit", function()
     local art = read [[<clipPath id="c"><circle cx="50" cy="50" r="20"/><rect width="10" height="10"/></clipPath>
       <clipPath id="b" clipPathUnits="objectBoundingBox"><rect width="0.5" height="1"/></clipPath>
