@@ -3,6 +3,7 @@
 --   local art = assert(svg.read "hero.svg")
 --   art.object                      -- the whole, from (0, 0) to art.width, art.height
 --   art.parts.arm                   -- the element with this id, or with this label of Inkscape's
+--   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for its texts
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
 --
 -- A file is read once and kept from frame to frame until it changes, so that frame functions may
@@ -65,13 +66,46 @@ function Art:with(changes)
   return wrap(self.__drawing:with(changes))
 end
 
+---@class celspan.svg.options
+---@field fonts? table<string, string> Files of fonts by family, as `font-family` names them, for instance "Arial" and "Arial Bold"; `default` for all others
+
+--- The fonts as a list in the order of their families.
+local function list_fonts(options, find)
+  local list = {}
+  for family, file in pairs(options.fonts or {}) do
+    if type(family) ~= "string" or type(file) ~= "string" then
+      return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, got %s = %s")
+        :format(tostring(family), fields.kind(file))
+    end
+    list[#list + 1] = { family, find(file) }
+  end
+  table.sort(list, function(a, b) return a[1] < b[1] end)
+  return list
+end
+
+local function check_options(options)
+  if type(options) ~= "table" then return "svg: read's options are a table, got " .. fields.kind(options) end
+  for name in pairs(options) do
+    if name ~= "fonts" then return ("svg: read has no option '%s'; it has fonts"):format(tostring(name)) end
+  end
+  if options.fonts ~= nil and type(options.fonts) ~= "table" then
+    return "svg: fonts is a table of files by family, got " .. fields.kind(options.fonts)
+  end
+end
+
 ---@param path string Relative to the caller's file, else to the script
+---@param options? celspan.svg.options
 ---@return celspan.svg.art? art
 ---@return string? message
-function svg.read(path)
+function svg.read(path, options)
   if type(path) ~= "string" then error("svg: read takes a file name, got " .. type(path), 2) end
+  options = options == nil and {} or options
+  local wrong = check_options(options)
+  if wrong then error(wrong, 2) end
   local found_at, tried = core.find(path)
-  local drawing, message = core.read_svg(found_at)
+  local fonts, refused = list_fonts(options, core.find)
+  if not fonts then error(refused, 2) end
+  local drawing, message = core.read_svg(found_at, false, fonts)
   if drawing then return wrap(drawing) end
   return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
 end

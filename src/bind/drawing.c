@@ -1,6 +1,7 @@
 /* Drawings read from SVG: what lua/celspan/svg.lua is made of.
  *
- *   core.read_svg(path, is_coded) -> drawing | nil, message
+ *   core.read_svg(path, is_coded, fonts) -> drawing | nil, message
+ *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
  * INVARIANT: functions of the script run protected, so that what the core holds while it calls them
@@ -205,13 +206,35 @@ static int with(lua_State *L) {
 
 /* ---------------------------------------------------------------- reading */
 
+/* The string at `place` of the entry on top of the stack, which keeps it alive; NULL: none. */
+static const char *entry_string(lua_State *L, int place) {
+  lua_rawgeti(L, -1, place);
+  const char *text = lua_tostring(L, -1);
+  lua_pop(L, 1);
+  return text;
+}
+
+/* The list at 3, whose entries are strings: svg.lua saw to it. Scratch memory, left on the stack. */
+static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
+  *count = lua_istable(L, 3) ? (size_t)lua_rawlen(L, 3) : 0;
+  celspan_svg_font *fonts = cs_form_scratch(L, *count + 1, sizeof *fonts);
+  for (size_t i = 0; i < *count; i++) {
+    lua_rawgeti(L, 3, (lua_Integer)i + 1);
+    fonts[i] = (celspan_svg_font){entry_string(L, 1), {entry_string(L, 2), entry_string(L, 3)}};
+    lua_pop(L, 1);
+  }
+  return fonts;
+}
+
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
-  bool is_coded = lua_toboolean(L, 2);
+  cs_svg_options options = {.is_coded = lua_toboolean(L, 2)};
+  lua_settop(L, 3);
+  options.fonts = read_fonts(L, &options.font_count);
   celspan_context *context = cs_host_context(L);
   drawing *made = push_drawing(L);
   cs_named_begin(L, context);
-  celspan_status status = cs_svg_read_file(context, path, is_coded, &made->svg);
+  celspan_status status = cs_svg_read_file(context, path, &options, &made->svg);
   cs_named_end(context);
   if (status == CELSPAN_OK)
     return 1;

@@ -12,9 +12,10 @@
 #include "base/context.h"
 
 typedef struct cs_input {
-  const char *path; /* borrowed */
-  int descriptor;   /* while it is open */
-  bool is_known;    /* the facts below are those of the file as it was first opened */
+  const char *path;           /* borrowed; of bytes in memory what they are called in messages */
+  const unsigned char *bytes; /* borrowed: they are the file then; NULL: it is on the disc */
+  int descriptor;             /* while it is open */
+  bool is_known;              /* the facts below are those of the file as it was first opened */
   int64_t size;
   int64_t time; /* nanoseconds */
   uint64_t number;

@@ -206,6 +206,11 @@ static celspan_status check_member(celspan_context *context, const cs_input *inp
 celspan_status cs_zip_open(celspan_context *context, const cs_input *input,
                            const cs_zip_member *member, cs_zip_stream *out) {
   unsigned char header[LOCAL_HEADER];
+  if (member->header == CS_ZIP_BARE) {
+    cs_stream_range_init(&out->range, input, 0, member->packed);
+    out->bytes = &out->range.base;
+    return CELSPAN_OK;
+  }
   CS_TRY(check_member(context, input, member));
   CS_TRY(cs_input_read(context, input, member->header, header, sizeof header));
   if (memcmp(header, "PK\3\4", 4) != 0)

@@ -19,10 +19,11 @@
 
 #define CS_ZIP_MEMBERS 65536
 #define CS_ZIP_TABLE (16 << 20)
+#define CS_ZIP_BARE (-1) /* in the place of the header of a file that lies in no archive */
 
 typedef struct cs_zip_member {
   const char *name; /* UTF-8 as it stands there; in the table that the zip keeps */
-  int64_t header;   /* offset of the local header */
+  int64_t header;   /* offset of the local header, or CS_ZIP_BARE */
   int64_t packed, unpacked;
   uint32_t sum; /* CRC-32 of what it unpacks to */
   uint16_t flags, method;

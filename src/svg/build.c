@@ -5,11 +5,14 @@
 
 #include "base/number.h"
 #include "svg/clips.h"
+#include "svg/image.h"
 #include "svg/markers.h"
 #include "svg/masks.h"
+#include "svg/naming.h"
 #include "svg/paint.h"
 #include "svg/shapes.h"
 #include "svg/strokes.h"
+#include "svg/text.h"
 
 /* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
 #define DEFAULT_WIDTH 300
@@ -261,6 +264,10 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
     return add_switch(b, node, place, item);
   case CS_SVG_ELEMENT_USE:
     return add_used(b, node, place, item);
+  case CS_SVG_ELEMENT_TEXT:
+    return cs_svg_text_add(b->reading, b->art, node, place, item);
+  case CS_SVG_ELEMENT_IMAGE:
+    return cs_svg_image_add(b->reading, node, place, item);
   default:
     return cs_svg_is_shape(node) ? add_shape(b, node, place, item)
                                  : cs_svg_skip(b->reading, node, "%.50s", node->tag);
@@ -272,6 +279,7 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
 /* Elements that draw nothing by themselves, so that nobody misses them. */
 static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
   switch (node->element) {
+  case CS_SVG_ELEMENT_CHARACTERS:
   case CS_SVG_ELEMENT_CLIP_PATH:
   case CS_SVG_ELEMENT_DEFS:
   case CS_SVG_ELEMENT_DESC:
@@ -310,23 +318,6 @@ static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs
   return CELSPAN_OK;
 }
 
-static celspan_status name_item(builder *b, const cs_svg_node *node, const cs_svg_place *place,
-                                cs_svg_item *item) {
-  celspan_context *context = b->reading->context;
-  const char *id = cs_svg_node_value(node, CS_SVG_ID);
-  const char *label = cs_svg_node_value(node, CS_SVG_LABEL);
-  if (id && *id)
-    CS_TRY(cs_svg_text_copy(context, b->art, id, &item->id));
-  if (label && *label)
-    CS_TRY(cs_svg_text_copy(context, b->art, label, &item->label));
-  item->is_moved = place->is_moved;
-  if (item->is_moved) {
-    item->moved = place->moved;
-    item->is_moved = celspan_matrix_inverse(item->moved, &item->back);
-  }
-  return CELSPAN_OK;
-}
-
 /* A singular transform draws nothing. */
 static bool is_regular(const celspan_matrix *matrix) {
   celspan_matrix inverse;
@@ -346,7 +337,7 @@ static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_pl
   if (place.style.is_displayed && is_regular(&place.matrix)) {
     cs_svg_item *item;
     CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
-    CS_TRY(name_item(b, node, &place, item));
+    CS_TRY(cs_svg_item_name(b->reading, b->art, node, &place, item));
     CS_TRY(read_effects(b, node, &place, item));
     CS_TRY(add_content(b, node, sizes, &place, item));
     CS_TRY(cs_svg_item_compose(b->reading->context, item));
@@ -404,7 +395,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   CS_TRY(enter_root(&b, node, &place));
   place.open = &open;
   CS_TRY(cs_svg_item_append(reading->context, art, NULL, &art->root));
-  CS_TRY(name_item(&b, node, &place, art->root));
+  CS_TRY(cs_svg_item_name(reading, art, node, &place, art->root));
   CS_TRY(read_effects(&b, node, &place, art->root));
   if (place.style.is_displayed && art->width > 0 && art->height > 0)
     CS_TRY(add_children(&b, node, &place, art->root));

@@ -7,6 +7,7 @@
 #define SVG_NAMESPACE "http://www.w3.org/2000/svg"
 #define LINK_NAMESPACE "http://www.w3.org/1999/xlink"
 #define INKSCAPE_NAMESPACE "http://www.inkscape.org/namespaces/inkscape"
+#define XML_NAMESPACE "http://www.w3.org/XML/1998/namespace"
 /* Attributes of one element that count; more are left out. */
 #define ATTRIBUTES 64
 
@@ -18,6 +19,9 @@ typedef struct reader {
   uint32_t foreign_depth; /* elements of other namespaces that are open, and those inside */
   char *css;              /* of the style elements so far */
   size_t css_size, css_capacity;
+  char *characters; /* of the text that is open, since its last element */
+  size_t character_size, character_capacity;
+  uint64_t character_line; /* where they begin */
   celspan_status failure;
 } reader;
 
@@ -40,8 +44,10 @@ static cs_svg_name attribute_name(const char *name) {
     return CS_SVG_HREF;
   if (strcmp(name, INKSCAPE_NAMESPACE " label") == 0)
     return CS_SVG_LABEL;
+  if (strcmp(name, XML_NAMESPACE " space") == 0)
+    return CS_SVG_SPACE;
   cs_svg_name found = strchr(name, ' ') ? CS_SVG_NAME_COUNT : cs_svg_name_of(name);
-  return found == CS_SVG_LABEL ? CS_SVG_NAME_COUNT : found;
+  return found == CS_SVG_LABEL || found == CS_SVG_SPACE ? CS_SVG_NAME_COUNT : found;
 }
 
 /* ---------------------------------------------------------------- elements */
@@ -115,14 +121,18 @@ static void append_child(reader *r, cs_svg_node *node) {
     parent->last = parent->last->next = node;
   else
     parent->first = parent->last = node;
-  r->open = node;
+}
+
+static celspan_status count_element(reader *r, uint64_t line) {
+  if (++r->document->element_count <= CS_SVG_ELEMENTS)
+    return CELSPAN_OK;
+  return cs_fail(r->context, CELSPAN_LIMIT, "%s:%u: there are more than %d elements", r->name,
+                 (unsigned)line, CS_SVG_ELEMENTS);
 }
 
 static celspan_status add_element(reader *r, const char *tag, const char *const *attributes,
                                   uint64_t line) {
-  if (++r->document->element_count > CS_SVG_ELEMENTS)
-    return cs_fail(r->context, CELSPAN_LIMIT, "%s:%u: there are more than %d elements", r->name,
-                   (unsigned)line, CS_SVG_ELEMENTS);
+  CS_TRY(count_element(r, line));
   cs_svg_node *node = cs_arena_take(r->context, &r->document->arena, sizeof *node);
   if (!node)
     return CELSPAN_NO_MEMORY;
@@ -137,6 +147,46 @@ static celspan_status add_element(reader *r, const char *tag, const char *const 
   CS_TRY(read_attributes(r, node, attributes));
   CS_TRY(remember_id(r, node));
   append_child(r, node);
+  r->open = node;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- characters */
+
+/* Whether characters in the open element are part of a text. */
+static bool is_in_text(const cs_svg_node *node) {
+  while (node && (node->element == CS_SVG_ELEMENT_TSPAN || node->element == CS_SVG_ELEMENT_A ||
+                  node->element == CS_SVG_ELEMENT_TEXT_PATH))
+    node = node->parent;
+  return node && node->element == CS_SVG_ELEMENT_TEXT;
+}
+
+/* Appends to a text that grows, and ends it with a zero. */
+static celspan_status append_bytes(reader *r, char **text, size_t *size, size_t *capacity,
+                                   const char *bytes, size_t count) {
+  CS_TRY(cs_mem_reserve(r->context, (void **)text, capacity, *size + count + 1, 1));
+  memcpy(*text + *size, bytes, count);
+  *size += count;
+  (*text)[*size] = 0;
+  return CELSPAN_OK;
+}
+
+/* The characters since the last element, or the last end of one, as a node of their own. */
+static celspan_status end_characters(reader *r) {
+  if (r->character_size == 0)
+    return CELSPAN_OK;
+  CS_TRY(count_element(r, r->character_line));
+  cs_svg_node *node = cs_arena_take(r->context, &r->document->arena, sizeof *node);
+  if (!node)
+    return CELSPAN_NO_MEMORY;
+  *node = (cs_svg_node){.line = (uint32_t)r->character_line,
+                        .element = CS_SVG_ELEMENT_CHARACTERS,
+                        .tag = r->open->tag};
+  node->text = copy_text(r, r->characters);
+  if (!node->text)
+    return CELSPAN_NO_MEMORY;
+  append_child(r, node);
+  r->character_size = 0;
   return CELSPAN_OK;
 }
 
@@ -147,21 +197,25 @@ static bool on_start(void *user, const char *name, const char *const *attributes
     r->foreign_depth++;
     return true;
   }
-  r->failure = add_element(r, tag ? tag : name, attributes, line);
+  r->failure = end_characters(r);
+  if (r->failure == CELSPAN_OK)
+    r->failure = add_element(r, tag ? tag : name, attributes, line);
   return r->failure == CELSPAN_OK;
 }
 
 static bool on_end(void *user, const char *name, uint64_t line) {
   (void)name, (void)line;
   reader *r = user;
-  if (r->foreign_depth > 0)
+  if (r->foreign_depth > 0) {
     r->foreign_depth--;
-  else
-    r->open = r->open->parent;
-  return true;
+    return true;
+  }
+  r->failure = end_characters(r);
+  r->open = r->open->parent;
+  return r->failure == CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- style sheets */
+/* ---------------------------------------------------------------- texts of elements */
 
 static bool is_style_sheet(const cs_svg_node *node) {
   const char *type = node ? cs_svg_node_value(node, CS_SVG_TYPE) : NULL;
@@ -171,18 +225,19 @@ static bool is_style_sheet(const cs_svg_node *node) {
 
 static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
   reader *r = user;
-  if (r->foreign_depth > 0 || !is_style_sheet(r->open))
+  if (r->foreign_depth > 0)
     return true;
-  r->failure =
-      cs_mem_reserve(r->context, (void **)&r->css, &r->css_capacity, r->css_size + size + 1, 1);
-  if (r->failure != CELSPAN_OK)
-    return false;
-  memcpy(r->css + r->css_size, bytes, size);
-  r->css_size += size;
-  r->css[r->css_size] = 0;
-  if (r->document->sheet_line == 0)
-    r->document->sheet_line = (uint32_t)line;
-  return true;
+  if (is_in_text(r->open)) {
+    if (r->character_size == 0)
+      r->character_line = line;
+    r->failure =
+        append_bytes(r, &r->characters, &r->character_size, &r->character_capacity, bytes, size);
+  } else if (is_style_sheet(r->open)) {
+    if (r->document->sheet_line == 0)
+      r->document->sheet_line = (uint32_t)line;
+    r->failure = append_bytes(r, &r->css, &r->css_size, &r->css_capacity, bytes, size);
+  }
+  return r->failure == CELSPAN_OK;
 }
 
 celspan_status cs_svg_document_read(celspan_context *context, const char *name, const char *bytes,
@@ -196,6 +251,7 @@ celspan_status cs_svg_document_read(celspan_context *context, const char *name, 
   if (status == CELSPAN_OK && r.css)
     status = cs_css_sheet_parse(context, &out->arena, r.css, &out->sheet);
   cs_mem_free(context->memory, r.css, r.css_capacity);
+  cs_mem_free(context->memory, r.characters, r.character_capacity);
   return status;
 }
 

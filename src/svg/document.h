@@ -1,7 +1,7 @@
 /* An SVG file as a tree of elements, with the rules of its style sheets.
  *
  * Invariants: the tree is at most CS_SVG_DEPTH deep and has at most CS_SVG_ELEMENTS elements;
- * elements of other namespaces are left out; everything lives in the document's arena.
+ * elements of other namespaces are left out, and so are characters outside of text; everything lives in the document's arena.
  */
 #ifndef CS_SVG_DOCUMENT_H
 #define CS_SVG_DOCUMENT_H
@@ -21,7 +21,8 @@ typedef struct cs_svg_attribute {
 
 typedef struct cs_svg_node {
   cs_svg_element element;
-  const char *tag; /* its name, without a namespace */
+  const char *tag;  /* its name, without a namespace */
+  const char *text; /* of CHARACTERS: UTF-8, as the file has it; else NULL */
   uint32_t line;
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
   const cs_svg_attribute *attributes;

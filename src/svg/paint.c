@@ -35,13 +35,16 @@ static celspan_status place_outline(cs_svg_reading *reading, cs_outline *outline
 }
 
 static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
-                           const cs_svg_place *place, cs_outline *outline, celspan_object **out) {
+                           const cs_svg_place *place, cs_outline *outline, const celspan_box *box,
+                           celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   cs_svg_painted shape = {node, &place->measure, {.x = 0}, {.x = 0}, place->style.fill_opacity};
   cs_svg_server server;
   if (outline->piece_count == 0 ||
       (place->style.fill.has_server && !cs_outline_bounds(outline, &identity, &shape.box)))
     return CELSPAN_OK;
+  if (box)
+    shape.box = *box;
   shape.painted = shape.box;
   CS_TRY(cs_svg_server_find(reading, &place->style.fill, &place->style, &shape, &server));
   if (server.kind == CS_SVG_SERVER_NOTHING)
@@ -49,6 +52,17 @@ static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
   celspan_status status = place_outline(reading, outline, place, &server, out);
   celspan_texture_unref(server.texture);
   return status;
+}
+
+celspan_status cs_svg_paint_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                    const cs_svg_place *place, cs_outline *outline,
+                                    const celspan_box *box, celspan_object **out) {
+  const cs_svg_style *style = &place->style;
+  *out = NULL;
+  CS_TRY(fill(reading, node, place, outline, box, out));
+  return style->stroke.kind == CS_SVG_PAINT_NONE && !style->stroke.has_server
+             ? CELSPAN_OK
+             : cs_svg_skip(reading, node, "stroke of %s", node->tag);
 }
 
 celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,
@@ -62,7 +76,7 @@ celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,
   if (status == CELSPAN_OK && is_broken)
     status = cs_svg_skip(reading, node, "%s from a fault in its data on", node->tag);
   if (status == CELSPAN_OK)
-    status = fill(reading, node, place, &outline, out);
+    status = fill(reading, node, place, &outline, NULL, out);
   cs_outline_finish(&outline, reading->context->memory);
   return status;
 }

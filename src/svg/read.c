@@ -12,7 +12,8 @@
 #include "svg/read.h"
 
 #define FILE_BYTES ((size_t)256 << 20)
-#define KEPT 64 /* drawings */
+#define KEPT 64  /* drawings */
+#define FONTS 64 /* of one drawing */
 
 /* ---------------------------------------------------------------- kept drawings */
 
@@ -129,23 +130,44 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   return status;
 }
 
-celspan_status cs_svg_read_bytes(celspan_context *context, const cs_svg_bytes *from,
+/* reading: the limits, and how to read; its document and notes are those of this drawing while it
+ * is read. */
+static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, size_t size,
                                  celspan_svg **out) {
+  celspan_context *context = reading->context;
+  const char *name = reading->source->name;
   cs_svg_document document;
-  cs_svg_reading reading = {.context = context,
-                            .document = &document,
-                            .is_coded = from->is_coded,
-                            .tests = CS_SVG_SELECTOR_TESTS};
-  if (from->size > FILE_BYTES)
-    return cs_fail(context, CELSPAN_LIMIT, "%s: the file has %zu bytes; at most %zu are read",
-                   from->name, from->size, FILE_BYTES);
-  celspan_status status =
-      cs_svg_document_read(context, from->name, from->bytes, from->size, &document);
+  if (size > FILE_BYTES)
+    return cs_fail(context, CELSPAN_LIMIT, "%s: the file has %zu bytes; at most %zu are read", name,
+                   size, FILE_BYTES);
+  reading->document = &document;
+  celspan_status status = cs_svg_document_read(context, name, bytes, size, &document);
   if (status == CELSPAN_OK)
-    status = build(&reading, from->name, out);
-  cs_mem_free(context->memory, reading.skipped, reading.skipped_capacity * sizeof *reading.skipped);
+    status = build(reading, name, out);
+  cs_mem_free(context->memory, reading->skipped,
+              reading->skipped_capacity * sizeof *reading->skipped);
   cs_svg_document_finish(&document, context);
   return status;
+}
+
+celspan_status cs_svg_read_inner(cs_svg_reading *outer, const cs_svg_source *source,
+                                 const char *bytes, size_t size, celspan_svg **out) {
+  cs_svg_reading inner = *outer;
+  inner.source = source;
+  inner.skipped = NULL;
+  inner.skipped_count = inner.skipped_capacity = 0;
+  celspan_status status = read_bytes(&inner, bytes, size, out);
+  outer->tests = inner.tests;
+  outer->drawn = inner.drawn;
+  outer->image_bytes = inner.image_bytes;
+  outer->has_other_files = outer->has_other_files || inner.has_other_files;
+  return status;
+}
+
+static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_source *source,
+                                    bool is_coded) {
+  return (cs_svg_reading){
+      .context = context, .source = source, .is_coded = is_coded, .tests = CS_SVG_SELECTOR_TESTS};
 }
 
 /* ---------------------------------------------------------------- reading files */
@@ -170,32 +192,47 @@ static celspan_status fill(celspan_context *context, const char *file, int descr
   return CELSPAN_OK;
 }
 
-static celspan_status read_open(celspan_context *context, const char *file, int descriptor,
-                                size_t size, celspan_svg **out, bool is_coded) {
+static celspan_status read_open(cs_svg_reading *reading, int descriptor, size_t size,
+                                celspan_svg **out) {
+  celspan_context *context = reading->context;
   char *bytes = cs_mem_resize(context->memory, NULL, 0, size + 1);
   if (!bytes)
     return cs_fail_memory(context);
-  celspan_status status = fill(context, file, descriptor, bytes, size);
-  const cs_svg_bytes from = {bytes, size, file, is_coded};
+  celspan_status status = fill(context, reading->source->name, descriptor, bytes, size);
   if (status == CELSPAN_OK)
-    status = cs_svg_read_bytes(context, &from, out);
+    status = read_bytes(reading, bytes, size, out);
   cs_mem_free(context->memory, bytes, size + 1);
   return status;
 }
 
-static cs_hash key_of(const char *file, const struct stat *about, bool is_coded) {
+static void hash_about(cs_hash *hash, const struct stat *about) {
+  cs_hash_word(hash, (uint64_t)about->st_size);
+  cs_hash_word(hash, (uint64_t)about->st_mtim.tv_sec);
+  cs_hash_word(hash, (uint64_t)about->st_mtim.tv_nsec);
+  cs_hash_word(hash, (uint64_t)about->st_ino);
+}
+
+/* A font that is not there has no facts; it is missed when a text needs it. */
+static void hash_font(cs_hash *hash, const celspan_svg_font *font) {
+  struct stat about = {0};
+  (void)stat(font->font.file, &about);
+  cs_hash_text(hash, font->family);
+  cs_hash_text(hash, font->font.file);
+  hash_about(hash, &about);
+}
+
+static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_options *options) {
   cs_hash hash = cs_hash_begin(0x647277u);
   cs_hash_text(&hash, file);
-  cs_hash_word(&hash, (uint64_t)about->st_size);
-  cs_hash_word(&hash, (uint64_t)about->st_mtim.tv_sec);
-  cs_hash_word(&hash, (uint64_t)about->st_mtim.tv_nsec);
-  cs_hash_word(&hash, (uint64_t)about->st_ino);
-  cs_hash_word(&hash, is_coded);
+  hash_about(&hash, about);
+  cs_hash_word(&hash, options->is_coded);
+  for (size_t i = 0; i < options->font_count; i++)
+    hash_font(&hash, &options->fonts[i]);
   return cs_hash_end(hash);
 }
 
 static celspan_status read_or_find(celspan_context *context, const char *file, int descriptor,
-                                   bool is_coded, celspan_svg **out) {
+                                   const cs_svg_options *options, celspan_svg **out) {
   struct stat about;
   cs_service *service;
   if (fstat(descriptor, &about) != 0)
@@ -207,22 +244,44 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
                    file, (long long)about.st_size, FILE_BYTES);
   CS_TRY(cs_context_service(context, &store_kind, &service));
   drawing_store *store = (drawing_store *)service;
-  cs_hash key = key_of(file, &about, is_coded);
+  cs_hash key = key_of(file, &about, options);
   *out = find_stored(store, key);
   if (*out)
     return CELSPAN_OK;
-  CS_TRY(read_open(context, file, descriptor, (size_t)about.st_size, out, is_coded));
-  keep(store, key, *out);
+  const cs_svg_source source = {.name = file,
+                                .file = file,
+                                .fonts = options->fonts,
+                                .font_count = options->font_count,
+                                .device = (uint64_t)about.st_dev,
+                                .number = (uint64_t)about.st_ino};
+  cs_svg_reading reading = begin_reading(context, &source, options->is_coded);
+  CS_TRY(read_open(&reading, descriptor, (size_t)about.st_size, out));
+  if (!reading.has_other_files)
+    keep(store, key, *out);
   return CELSPAN_OK;
 }
 
-celspan_status cs_svg_read_file(celspan_context *context, const char *file, bool is_coded,
-                                celspan_svg **out) {
+/* ---------------------------------------------------------------- the faces */
+
+static celspan_status check_fonts(celspan_context *context, const cs_svg_options *options) {
+  if (options->font_count > FONTS)
+    return cs_fail(context, CELSPAN_LIMIT, "svg: %zu fonts; at most %d are allowed",
+                   options->font_count, FONTS);
+  for (size_t i = 0; i < options->font_count; i++)
+    if (!options->fonts[i].family || !options->fonts[i].font.file)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: fonts[%zu] has no family or no file",
+                     i + 1);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_read_file(celspan_context *context, const char *file,
+                                const cs_svg_options *options, celspan_svg **out) {
+  CS_TRY(check_fonts(context, options));
   int descriptor = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
     return fail_file(context, file);
   celspan_svg *art = NULL;
-  celspan_status status = read_or_find(context, file, descriptor, is_coded, &art);
+  celspan_status status = read_or_find(context, file, descriptor, options, &art);
   close(descriptor);
   if (status == CELSPAN_OK)
     *out = art;
@@ -235,12 +294,16 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   CS_TRY(cs_check_version(context, "svg", desc->struct_size, sizeof *desc));
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
+  const cs_svg_options options = {desc->fonts, desc->font_count, false};
   if (desc->file)
-    return cs_svg_read_file(context, desc->file, false, out);
-  const cs_svg_bytes from = {desc->bytes, desc->size, desc->name ? desc->name : "the drawing",
-                             false};
+    return cs_svg_read_file(context, desc->file, &options, out);
+  CS_TRY(check_fonts(context, &options));
+  const cs_svg_source source = {.name = desc->name ? desc->name : "the drawing",
+                                .fonts = desc->fonts,
+                                .font_count = desc->font_count};
+  cs_svg_reading reading = begin_reading(context, &source, false);
   celspan_svg *art;
-  CS_TRY(cs_svg_read_bytes(context, &from, &art));
+  CS_TRY(read_bytes(&reading, desc->bytes, desc->size, &art));
   *out = art;
   return CELSPAN_OK;
 }

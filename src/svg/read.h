@@ -4,19 +4,20 @@
 #ifndef CS_SVG_READ_H
 #define CS_SVG_READ_H
 
-#include "base/context.h"
+#include "svg/reading.h"
 
-typedef struct cs_svg_bytes {
-  const char *bytes;
-  size_t size;
-  const char *name; /* for messages */
+/* What a drawing is read with. */
+typedef struct cs_svg_options {
+  const celspan_svg_font *fonts;
+  size_t font_count;
   bool is_coded;
-} cs_svg_bytes;
+} cs_svg_options;
 
 /* See celspan_svg_read. */
-CELSPAN_CHECKED celspan_status cs_svg_read_bytes(celspan_context *context, const cs_svg_bytes *from,
-                                                 celspan_svg **out);
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
-                                                bool is_coded, celspan_svg **out);
+                                                const cs_svg_options *options, celspan_svg **out);
+/* A drawing that is an image of the one that is read, whose limits it uses up. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_read_inner(cs_svg_reading *outer, const cs_svg_source *source,
+                                                 const char *bytes, size_t size, celspan_svg **out);
 
 #endif

@@ -16,16 +16,29 @@
 
 typedef struct cs_svg_skipped {
   uint32_t line;
-  char what[60];
+  char what[160];
 } cs_svg_skipped;
+
+/* Where a document is from: a file, or bytes inside of another document. */
+typedef struct cs_svg_source {
+  const char *name; /* for messages */
+  const char *file; /* NULL: bytes */
+  const celspan_svg_font *fonts;
+  size_t font_count;
+  const struct cs_svg_source *outer; /* the drawing that shows this one as an image; NULL: none */
+  uint64_t device, number;           /* of the file, by which it is known in itself */
+} cs_svg_source;
 
 typedef struct cs_svg_reading {
   celspan_context *context;
   cs_svg_document *document;
-  bool is_coded;  /* colours stay as they are coded, for comparisons with other renderers */
-  uint64_t tests; /* of selectors, that are left */
-  uint32_t drawn; /* elements so far */
-  uint32_t depth; /* elements being built, one inside the other */
+  const struct cs_svg_source *source; /* where the document is from */
+  bool is_coded;        /* colours stay as they are coded, for comparisons with other renderers */
+  uint64_t tests;       /* of selectors, that are left */
+  uint32_t drawn;       /* elements so far */
+  uint32_t depth;       /* elements being built, one inside the other */
+  uint64_t image_bytes; /* of images so far */
+  bool has_other_files; /* drawings in files of their own are part of it */
   cs_svg_skipped *skipped;
   size_t skipped_count, skipped_capacity;
 } cs_svg_reading;

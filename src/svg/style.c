@@ -363,6 +363,7 @@ celspan_status cs_svg_style_resolve(celspan_context *context, const cs_svg_docum
   CS_TRY(check_numbers(context, &from, node));
   inherit(parent, out);
   read_painting(&from, parent, out);
+  cs_svg_text_style_read(node, from.values, out->font_size, &out->text);
   read_own(&from, parent, out);
   return CELSPAN_OK;
 }

@@ -8,6 +8,7 @@
 
 #include "svg/colours.h"
 #include "svg/document.h"
+#include "svg/text_style.h"
 #include "svg/values.h"
 
 typedef enum cs_svg_paint_kind {
@@ -45,6 +46,7 @@ typedef struct cs_svg_style {
   const char *dashes;          /* stroke-dasharray; NULL: none */
   cs_svg_layer paint_order[3]; /* the lowest first */
   double font_size;            /* user units */
+  cs_svg_text_style text;
   bool is_visible;
   cs_svg_reference markers[3]; /* start, mid, end */
   /* of the element alone */

@@ -432,7 +432,7 @@ describe("what is not drawn", function()
 <foreignObject/>]]
     local told = {}
     for i, entry in ipairs(art.skipped) do told[i] = entry.line .. " " .. entry.what end
-    assert.are.same({ "2 filter of rect", "3 mix-blend-mode of rect", "3 pattern of rect", "4 text",
+    assert.are.same({ "2 filter of rect", "3 mix-blend-mode of rect", "3 pattern of rect", "4 text in no family, for which no font is given",
                       "5 foreignObject" }, told)
     assert.are.equal("000000 255", at(art.object, 25, 50))
     assert.are.equal("ff0000 255", at(art.object, 75, 50))

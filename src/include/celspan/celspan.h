@@ -277,10 +277,9 @@ celspan_texture_create_radial(celspan_context *context, celspan_point centre, do
                               const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 /* A radial gradient whose 0 lies at the focus: its circles grow from there to the whole one. A focus
  * beyond the circle is held just inside of it. */
-CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_texture_create_focal(celspan_context *context, celspan_point centre, double radius,
-                             celspan_point focus, const celspan_stop *stops, size_t stop_count,
-                             celspan_texture **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
+    celspan_context *context, celspan_point centre, double radius, celspan_point focus,
+    const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 /* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. A box
  * of no size draws nothing. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
@@ -772,12 +771,22 @@ CELSPAN_API bool celspan_object_hash(const celspan_object *object, uint64_t draw
  * `use` count each time, 65,536 rules of style; no entities. */
 typedef struct celspan_svg celspan_svg;
 
+/* A font for the texts of a drawing. */
+typedef struct celspan_svg_font {
+  const char
+      *family; /* as font-family names it, capital or small; "Family Bold", "Family Italic" and
+                         "Family Bold Italic" are faces of it; "default": for every other family */
+  celspan_font font;
+} celspan_svg_font;
+
 typedef struct celspan_svg_desc {
   size_t struct_size; /* sizeof(celspan_svg_desc) */
   const char *file;   /* read from the disc; NULL where there are bytes */
   const void *bytes;  /* borrowed */
   size_t size;
-  const char *name; /* for messages, of bytes; NULL: "the drawing" */
+  const char *name;              /* for messages, of bytes; NULL: "the drawing" */
+  const celspan_svg_font *fonts; /* no others are used: texts without one of these are not drawn */
+  size_t font_count;             /* at most 64 */
 } celspan_svg_desc;
 
 static inline celspan_svg_desc celspan_svg_desc_default(void) {
@@ -827,8 +836,7 @@ typedef struct celspan_svg_changed {
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_with(celspan_context *context,
                                                             const celspan_svg *svg,
                                                             const celspan_svg_changed *changes,
-                                                            size_t change_count,
-                                                            celspan_svg **out);
+                                                            size_t change_count, celspan_svg **out);
 
 /* ---------------------------------------------------------------- cels and rostrum */
 

@@ -1,0 +1,127 @@
+#include "svg/image_data.h"
+
+#include <string.h>
+#include <strings.h>
+
+/* ---------------------------------------------------------------- codes */
+
+static int hex_digit(char c) {
+  if (c >= '0' && c <= '9')
+    return c - '0';
+  if (c >= 'a' && c <= 'f')
+    return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+int cs_svg_image_unescape(const char *text) {
+  int high = text[0] == '%' ? hex_digit(text[1]) : -1;
+  int low = high >= 0 ? hex_digit(text[2]) : -1;
+  return low >= 0 ? 16 * high + low : -1;
+}
+
+/* Takes the next byte of a URI, per cents undone. */
+static unsigned char take_byte(const char **text) {
+  int escaped = cs_svg_image_unescape(*text);
+  unsigned char byte = escaped >= 0 ? (unsigned char)escaped : (unsigned char)**text;
+  *text += escaped >= 0 ? 3 : 1;
+  return byte;
+}
+
+/* -1 for what is no digit of base64. */
+static int base64_digit(unsigned char c) {
+  if (c >= 'A' && c <= 'Z')
+    return c - 'A';
+  if (c >= 'a' && c <= 'z')
+    return c - 'a' + 26;
+  if (c >= '0' && c <= '9')
+    return c - '0' + 52;
+  return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
+}
+
+/* Source: RFC 4648, 4. Space is passed over, and "=" ends it. out has room for three quarters. */
+static bool decode_base64(const char *text, cs_svg_image_data *out) {
+  uint32_t bits = 0;
+  int count = 0;
+  while (*text) {
+    unsigned char c = take_byte(&text);
+    int digit = base64_digit(c);
+    if (c == '=')
+      return true;
+    if (digit < 0 && !strchr(" \t\n\r\f", c))
+      return false;
+    if (digit < 0)
+      continue;
+    bits = bits << 6 | (uint32_t)digit;
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      out->bytes[out->size++] = (unsigned char)(bits >> count);
+    }
+  }
+  return true;
+}
+
+/* ---------------------------------------------------------------- URIs */
+
+bool cs_svg_image_is_data(const char *href) { return strncasecmp(href, "data:", 5) == 0; }
+
+celspan_status cs_svg_image_data_read(celspan_context *context, const char *href,
+                                      cs_svg_image_data *out, bool *is_broken) {
+  static const char mark[] = ";base64";
+  const size_t mark_size = sizeof mark - 1;
+  *out = (cs_svg_image_data){NULL, 0, 0};
+  const char *comma = strchr(href, ',');
+  *is_broken = !comma;
+  if (!comma)
+    return CELSPAN_OK;
+  const char *text = comma + 1;
+  while (comma > href && comma[-1] == ' ')
+    comma--;
+  bool is_coded =
+      (size_t)(comma - href) >= mark_size && strncasecmp(comma - mark_size, mark, mark_size) == 0;
+  out->capacity = strlen(text) + 1;
+  out->bytes = cs_mem_resize(context->memory, NULL, 0, out->capacity);
+  if (!out->bytes)
+    return cs_fail_memory(context);
+  if (is_coded)
+    *is_broken = !decode_base64(text, out);
+  while (!is_coded && *text)
+    out->bytes[out->size++] = take_byte(&text);
+  return CELSPAN_OK;
+}
+
+void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context) {
+  if (data->bytes)
+    cs_mem_free(context->memory, data->bytes, data->capacity);
+  *data = (cs_svg_image_data){NULL, 0, 0};
+}
+
+/* ---------------------------------------------------------------- kinds */
+
+static bool begins_with(const unsigned char *bytes, size_t size, const char *mark, size_t count) {
+  return size >= count && memcmp(bytes, mark, count) == 0;
+}
+
+static bool is_drawing(const unsigned char *bytes, size_t size) {
+  size_t at = begins_with(bytes, size, "\xef\xbb\xbf", 3) ? 3 : 0;
+  while (at < size && bytes[at] != 0 && strchr(" \t\n\r", bytes[at]))
+    at++;
+  return at < size && bytes[at] == '<';
+}
+
+cs_svg_image_kind cs_svg_image_kind_of(const unsigned char *bytes, size_t size) {
+  if (begins_with(bytes, size, "\x89PNG", 4))
+    return CS_SVG_IMAGE_PNG;
+  if (begins_with(bytes, size, "\xff\xd8\xff", 3))
+    return CS_SVG_IMAGE_JPEG;
+  if (begins_with(bytes, size, "GIF8", 4))
+    return CS_SVG_IMAGE_GIF;
+  if (begins_with(bytes, size, "RIFF", 4))
+    return CS_SVG_IMAGE_WEBP;
+  return is_drawing(bytes, size) ? CS_SVG_IMAGE_DRAWING : CS_SVG_IMAGE_OTHER;
+}
+
+const char *cs_svg_image_kind_name(cs_svg_image_kind kind) {
+  static const char *const names[] = {"PNG", "JPEG", "GIF", "WebP", "SVG", "an unknown format"};
+  return names[kind];
+}

@@ -1,0 +1,18 @@
+/* Texts: from an element to an item with the outlines of its letters.
+ *
+ *   element --written.c--> characters --letters.c--> letters --paint.c--> objects
+ *
+ * An element inside of a text is an item inside of the text's, and so may be a part. */
+#ifndef CS_SVG_TEXT_H
+#define CS_SVG_TEXT_H
+
+#include "svg/art.h"
+#include "svg/reading.h"
+
+/* Adds what a text element, whose style *place has, draws to `item`. Errors: NO_MEMORY, LIMIT; INPUT
+ * for numbers that are unfit and for fonts that cannot be read. */
+CELSPAN_CHECKED celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art,
+                                               const cs_svg_node *node, const cs_svg_place *place,
+                                               cs_svg_item *item);
+
+#endif

@@ -1,0 +1,57 @@
+/* A text as it is written: the characters of an element and of those inside of it, with what the
+ * file says of each.
+ *
+ *   <text x="10 20">A <tspan dy="3"> b</tspan></text>
+ *
+ *   characters   A     ' '   b           spaces collapsed
+ *   x            10    20    .           .: not said
+ *   dy           .     .     3
+ *   stretches    |---------| |---|       each of one node, with the style of what it is in
+ */
+#ifndef CS_SVG_WRITTEN_H
+#define CS_SVG_WRITTEN_H
+
+#include "svg/reading.h"
+
+#define CS_SVG_FITS 64 /* of one text */
+
+typedef struct cs_svg_character {
+  uint32_t byte; /* where it begins */
+  /* NAN where nothing is said of it. User units; degrees. */
+  double x, y, dx, dy, rotate;
+} cs_svg_character;
+
+typedef struct cs_svg_stretch {
+  const cs_svg_node *node; /* of kind CHARACTERS */
+  cs_svg_place place;
+  size_t begin, end; /* characters */
+} cs_svg_stretch;
+
+/* The length that characters are to have. */
+typedef struct cs_svg_text_fit {
+  size_t begin, end;
+  double length;
+  bool stretches_glyphs;
+} cs_svg_text_fit;
+
+typedef struct cs_svg_written {
+  cs_svg_reading *reading;
+  char *bytes; /* UTF-8 */
+  size_t size, byte_capacity;
+  cs_svg_character *characters;
+  size_t count, capacity;
+  cs_svg_stretch *stretches; /* none is empty */
+  size_t stretch_count, stretch_capacity;
+  cs_svg_text_fit fits[CS_SVG_FITS]; /* inner ones first */
+  size_t fit_count;
+  bool ends_in_space; /* which collapses with what follows */
+  bool is_too_long;
+} cs_svg_written;
+
+/* place: of the element, which it was entered with. *out is to be finished even after a failure.
+ * Errors: NO_MEMORY; INPUT for numbers that are unfit. */
+CELSPAN_CHECKED celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_place *place, cs_svg_written *out);
+void cs_svg_written_finish(cs_svg_written *written);
+
+#endif
