@@ -6,7 +6,6 @@
 #include "svg/clips.h"
 #include "svg/image_data.h"
 #include "svg/image_file.h"
-#include "svg/read.h"
 #include "svg/shapes.h"
 
 /* What an image shows, before it is put in its place. */
@@ -163,7 +162,7 @@ static celspan_status show_drawing(image *of, cs_svg_source inner, const char *b
     return note(of, "the drawing shows itself");
   if (depth_of(reading->source) > CS_SVG_IMAGE_DEPTH)
     return note(of, "drawings are images of one another too deep");
-  celspan_status status = cs_svg_read_inner(reading, &inner, bytes, size, &art);
+  celspan_status status = reading->read_inner(reading, &inner, bytes, size, &art);
   if (status != CELSPAN_OK)
     return note_failure(of, status);
   status = show_art(of, art);

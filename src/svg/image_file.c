@@ -67,7 +67,7 @@ static bool is_below(const char *file, const char *path) {
   return is_inside;
 }
 
-static const char *look_into(int descriptor, cs_svg_image_file *out) {
+static const char *read_facts(int descriptor, cs_svg_image_file *out) {
   struct stat about;
   if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
     return "it is no file";
@@ -92,7 +92,7 @@ static const char *find_named(const char *file, const char *name, cs_svg_image_f
   int descriptor = open(out->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
     return strerror(errno);
-  const char *reason = is_below(file, out->path) ? look_into(descriptor, out)
+  const char *reason = is_below(file, out->path) ? read_facts(descriptor, out)
                                                  : "it lies outside of the drawing's folder";
   close(descriptor);
   return reason;

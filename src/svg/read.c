@@ -150,7 +150,7 @@ static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, siz
   return status;
 }
 
-celspan_status cs_svg_read_inner(cs_svg_reading *outer, const cs_svg_source *source,
+static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *source,
                                  const char *bytes, size_t size, celspan_svg **out) {
   cs_svg_reading inner = *outer;
   inner.source = source;
@@ -166,8 +166,11 @@ celspan_status cs_svg_read_inner(cs_svg_reading *outer, const cs_svg_source *sou
 
 static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_source *source,
                                     bool is_coded) {
-  return (cs_svg_reading){
-      .context = context, .source = source, .is_coded = is_coded, .tests = CS_SVG_SELECTOR_TESTS};
+  return (cs_svg_reading){.context = context,
+                          .source = source,
+                          .read_inner = read_inner,
+                          .is_coded = is_coded,
+                          .tests = CS_SVG_SELECTOR_TESTS};
 }
 
 /* ---------------------------------------------------------------- reading files */

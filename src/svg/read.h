@@ -16,8 +16,5 @@ typedef struct cs_svg_options {
 /* See celspan_svg_read. */
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                                 const cs_svg_options *options, celspan_svg **out);
-/* A drawing that is an image of the one that is read, whose limits it uses up. Errors: as above. */
-CELSPAN_CHECKED celspan_status cs_svg_read_inner(cs_svg_reading *outer, const cs_svg_source *source,
-                                                 const char *bytes, size_t size, celspan_svg **out);
 
 #endif

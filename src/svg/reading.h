@@ -32,7 +32,11 @@ typedef struct cs_svg_source {
 typedef struct cs_svg_reading {
   celspan_context *context;
   cs_svg_document *document;
-  const struct cs_svg_source *source; /* where the document is from */
+  const cs_svg_source *source; /* where the document is from */
+  /* Reads a drawing that is an image of this one, whose limits it uses up. *out: new. Errors: INPUT,
+   * LIMIT, NO_MEMORY. */
+  celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
+                               const char *bytes, size_t size, celspan_svg **out);
   bool is_coded;        /* colours stay as they are coded, for comparisons with other renderers */
   uint64_t tests;       /* of selectors, that are left */
   uint32_t drawn;       /* elements so far */

@@ -564,3 +564,68 @@ describe("reading", function()
     assert.are.same({ { line = 1, what = "path from a fault in its data on" } }, art.skipped)
   end)
 end)
+
+-- What is shown inside of other drawings: texts and images.
+local FONT = "../../scripts/type/block.ttf" -- from this file
+
+describe("a text", function()
+  local function letters(content, fonts)
+    return assert(svg.read(drawing(content), { fonts = fonts or { default = FONT } }))
+  end
+
+  it("is drawn in the fonts that are given, and in no others", function()
+    local art = letters '<text id="t" x="10" y="50" font-size="20">AB</text>'
+    assert.are.same({}, art.skipped)
+    assert.is_not_nil(art.parts.t)
+    local left = letters('<text id="t" x="10" y="50" font-size="20">A</text>', { Other = FONT })
+    assert.are.equal("text in no family, for which no font is given", left.skipped[1].what)
+    assert.is_nil(rawget(left.parts, "t"))
+  end)
+
+  it("has its anchor where it says", function()
+    for anchor, x in pairs { start = 50, middle = 40, ["end"] = 30 } do
+      local one = letters(('<text x="50" y="50" font-size="20" letter-spacing="0" text-anchor="%s" textLength="20">AB</text>')
+        :format(anchor))
+      local other = letters(('<text x="%g" y="50" font-size="20" textLength="20">AB</text>'):format(x))
+      for px = 20, 80, 2 do assert.are.equal(at(other.object, px, 45), at(one.object, px, 45)) end
+    end
+  end)
+
+  it("of more than 100,000 characters is told", function()
+    local art = letters("<text>" .. ("A"):rep(100001) .. "</text>")
+    assert.are.equal("text of more than 100000 characters", art.skipped[1].what)
+  end)
+
+  it("tells of a font that is cut", function()
+    local file = assert(io.open("scripts/type/block.ttf", "rb"))
+    local bytes = file:read "a"
+    file:close()
+    local art, message = svg.read(drawing '<text>A</text>', { fonts = { default = bench:write("cut.ttf", bytes:sub(1, #bytes // 2)) } })
+    assert.is_nil(art)
+    assert.is_truthy(message:find("cut.ttf", 1, true))
+  end)
+end)
+
+describe("an image", function()
+  it("may be a drawing in the file itself, in its place", function()
+    local art = read [[<image x="20" width="40" height="40" href="data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='1' height='1'%3E%3Crect width='9' height='9' fill='red'/%3E%3C/svg%3E"/>]]
+    assert.are.same({}, art.skipped)
+    assert.are.equal("ff0000 255", at(art.object, 50, 20))
+    assert.are.equal("000000 0", at(art.object, 70, 20))
+  end)
+
+  it("is told where it may not be read", function()
+    local art = read [[<image href="../a.png"/><image href="/etc/passwd"/><image href="http://a.b/c.png"/>
+<image href="data:image/png;base64,iVBORw0KGgo="/><image href="data:,"/>]]
+    assert.are.equal(5, #art.skipped)
+    assert.is_truthy(art.skipped[1].what:find("its name has ..", 1, true))
+    assert.is_truthy(art.skipped[2].what:find("its name is absolute", 1, true))
+    assert.is_truthy(art.skipped[3].what:find("it is an address", 1, true))
+    assert.is_truthy(art.skipped[4].what:find("ends too early", 1, true))
+  end)
+
+  it("that is the drawing itself ends there", function()
+    local path = bench:write("itself.svg", in_svg '<image width="50" height="50" href="itself.svg"/>')
+    assert.are.equal("image: the drawing shows itself", assert(svg.read(path)).skipped[1].what)
+  end)
+end)
