@@ -98,6 +98,8 @@ celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *n
   *style = place.style;
   if (!place.style.is_displayed)
     return CELSPAN_OK;
+  if (node->element == CS_SVG_ELEMENT_TEXT)
+    CS_TRY(cs_svg_skip(reading, node, "text in a clip path"));
   if (node->element == CS_SVG_ELEMENT_USE)
     CS_TRY(used_object(reading, node, &place, uses_fill_rule, out));
   else if (cs_svg_is_shape(node) && place.style.is_visible)
