@@ -5,6 +5,8 @@
  * Nothing is loaded that the verb does not need: the Lua state is made by the verbs that run a
  * script, OpenImageIO by the first picture.
  */
+#include <errno.h>
+#include <fcntl.h>
 #include <locale.h>
 #include <stdlib.h>
 #include <string.h>
@@ -186,7 +188,20 @@ static cs_exit dispatch(int count, char **arguments) {
   return verb ? run_verb(verb, (size_t)count - 2, arguments + 2) : refuse_verb(first);
 }
 
+/* Daemons and farms start programs with descriptors 0 to 2 closed; the next file opened would then
+ * take their place, and messages would be written into frames. /dev/null holds the places. It is
+ * opened for reading alone where standard output was, so that what is written there still fails. */
+static bool hold_descriptors(void) {
+  static const int modes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
+  for (int number = 0; number <= 2; number++)
+    if (fcntl(number, F_GETFD) < 0 && errno == EBADF && open("/dev/null", modes[number]) != number)
+      return false;
+  return true;
+}
+
 int main(int count, char **arguments) {
+  if (!hold_descriptors())
+    return CS_EXIT_INTERNAL;
   /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
   uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
   cs_interrupt_install();

@@ -897,4 +897,23 @@ describe("the command line", function()
       assert.equal("sizes_differ 8x4 4x2\n", out)
     end)
   end)
+
+  describe("started with closed descriptors", function()
+    it("renders what it renders otherwise, and no message goes into a frame", function()
+      local script = write("said.lua", "io.stderr:write('said by the script\\n')\n" .. PLAIN)
+      local function rendered(name, closed)
+        local path = folder .. "/" .. name
+        assert.equal(0, (celspan("render " .. script .. " -o " .. path .. " --frames 1" .. closed)))
+        return read(path)
+      end
+      local right = rendered("open.tga", "")
+      assert.equal(right, rendered("no-error.tga", " 2>&-"))
+      assert.equal(right, rendered("none.tga", " <&- >&- 2>&-"))
+    end)
+
+    it("fails only when something was to be written to standard output", function()
+      assert.equal(0, (celspan("check " .. plain .. " >&- 2>&-")))
+      assert.equal(5, (celspan("probe " .. plain .. " 1 1 >&-")))
+    end)
+  end)
 end)
