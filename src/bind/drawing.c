@@ -252,6 +252,8 @@ void cs_drawing_open(lua_State *L) {
     lua_setfield(L, -2, "__gc");
     luaL_newlib(L, methods);
     lua_setfield(L, -2, "__index");
+    lua_pushliteral(L, METATABLE);
+    lua_setfield(L, -2, "__metatable");
   }
   lua_pop(L, 1);
   lua_pushcfunction(L, read);

@@ -189,6 +189,8 @@ void cs_open_pixels(lua_State *L) {
       {"__index", index_image}, {"__tostring", describe}, {NULL, NULL}};
   luaL_newmetatable(L, IMAGE);
   luaL_setfuncs(L, metamethods, 0);
+  lua_pushliteral(L, IMAGE);
+  lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
   lua_pushcfunction(L, pixels);
   lua_setfield(L, -2, "pixels");

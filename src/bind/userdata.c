@@ -81,6 +81,10 @@ void cs_userdata_push_fields(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- finding */
 
+static const cs_kind *const kinds[] = {&cs_kind_object,  &cs_kind_cel,     &cs_kind_paint,
+                                       &cs_kind_texture, &cs_kind_rostrum, &cs_kind_film,
+                                       &cs_kind_frame};
+
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind) {
   cs_userdata *value = luaL_testudata(L, index, kind->name);
   if (value && kind->unref && !value->handle)
@@ -89,11 +93,10 @@ cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind) {
 }
 
 cs_userdata *cs_userdata_any(lua_State *L, int index) {
-  if (!lua_touserdata(L, index) || !lua_getmetatable(L, index))
-    return NULL;
-  bool is_value = lua_getfield(L, -1, "__celspan") == LUA_TBOOLEAN;
-  lua_pop(L, 2);
-  return is_value ? lua_touserdata(L, index) : NULL;
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+    if (kinds[i] != &cs_kind_frame && luaL_testudata(L, index, kinds[i]->name))
+      return cs_userdata_test(L, index, kinds[i]);
+  return NULL;
 }
 
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method) {
@@ -105,9 +108,6 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 }
 
 const char *cs_userdata_type(lua_State *L, int index) {
-  static const cs_kind *const kinds[] = {&cs_kind_object,  &cs_kind_cel,     &cs_kind_paint,
-                                         &cs_kind_texture, &cs_kind_rostrum, &cs_kind_film,
-                                         &cs_kind_frame};
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
     const cs_userdata *value = luaL_testudata(L, index, kinds[i]->name);
     if (value)
@@ -298,7 +298,7 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *met
   lua_pushlightuserdata(L, (void *)kind);
   lua_pushcclosure(L, index_value, 2);
   lua_setfield(L, -2, "__index");
-  lua_pushboolean(L, true);
-  lua_setfield(L, -2, "__celspan");
+  lua_pushstring(L, kind->name); /* all that getmetatable tells: no script can call __gc */
+  lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
 }

@@ -1,7 +1,8 @@
 /* Values: full userdata that hold a reference to something in the core, and the fields they were
  * made from.
  *
- * INVARIANT: a userdata is made closed (handle NULL), then filled; __gc releases it. Its user value
+ * INVARIANT: a userdata is made closed (handle NULL), then filled; __gc releases it, and no script
+ * can call it, because __metatable hides the metatables. Its user value
  * is a table that no script can reach: fields that are read come out as copies. Chains of an
  * operator share a table of operands, of which each shows the first ones.
  */
@@ -28,7 +29,7 @@ extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel
     cs_kind_film, cs_kind_frame;
 
 /* Makes the metatable of a kind. methods: NULL-ended, or NULL. Every kind gets __index, __newindex,
- * __tostring, __gc and __name. */
+ * __tostring, __gc, __metatable and __name. */
 void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *methods);
 
 /* Pushes a closed value. */
@@ -42,7 +43,8 @@ void cs_userdata_push_copy(lua_State *L, int table, int more);
 
 /* The value at index if it is of this kind, else NULL. Raises when it is closed. */
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind);
-/* The value at index, of any kind, else NULL. */
+/* The value at index, of any kind that constructors make (frames are not), else NULL. The kind is
+ * told by the identity of its metatable, never by what a metatable says. */
 cs_userdata *cs_userdata_any(lua_State *L, int index);
 /* The `self` of a method; raises when it is not of this kind. */
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method);

@@ -315,3 +315,28 @@ describe("gels with an alpha", function()
     assert.error_matches(function() return celspan.rgb("#fff", -1) end, "rgb: alpha is -1; it must be between 0 and 1", 1, true)
   end)
 end)
+
+describe("the inside of a value", function()
+  local circle, image = disc(), celspan.pixels(celspan.rostrum {}, { size = { 2, 2 } })
+
+  it("cannot be reached through its metatable", function()
+    for _, value in ipairs { circle, image, celspan.cel {}, celspan.rostrum {}, celspan.clear } do
+      assert.equal("string", type(getmetatable(value)))
+    end
+  end)
+
+  it("is not looked for in what is of another kind", function()
+    local frame
+    celspan.pixels(celspan.film { size = { 2, 2 }, frame = function(f)
+      frame = f
+      return celspan.rostrum {}
+    end }, { size = { 2, 2 }, frame = 1 })
+    local metatable = getmetatable(io.stdout)
+    metatable.__celspan = true
+    for _, other in ipairs { frame, io.stdout, image } do
+      assert.error_matches(function() circle.with(other, {}) end, "call it as a method", 1, true)
+      assert.has_error(function() circle.named(other, "hand") end)
+    end
+    metatable.__celspan = nil
+  end)
+end)
