@@ -61,20 +61,21 @@ cs_argument_outcome cs_argument_text(const char *text, void *field) {
   return CS_ARGUMENT_READ;
 }
 
-cs_argument_outcome cs_argument_integer(const char *text, void *field) {
+/* A whole number that may be given. */
+static cs_argument_outcome read_given(const char *text, int32_t least, int32_t most, void *field) {
   int32_t value = 0;
-  if (!read_integers(text, 0, -INT32_MAX, INT32_MAX, &value, 1))
+  if (!read_integers(text, 0, least, most, &value, 1))
     return CS_ARGUMENT_BAD;
   *(cs_given_integer *)field = (cs_given_integer){true, value};
   return CS_ARGUMENT_READ;
 }
 
+cs_argument_outcome cs_argument_integer(const char *text, void *field) {
+  return read_given(text, -INT32_MAX, INT32_MAX, field);
+}
+
 cs_argument_outcome cs_argument_every(const char *text, void *field) {
-  int32_t value = 0;
-  if (!read_integers(text, 0, 1, INT32_MAX, &value, 1))
-    return CS_ARGUMENT_BAD;
-  *(cs_given_integer *)field = (cs_given_integer){true, value};
-  return CS_ARGUMENT_READ;
+  return read_given(text, 1, INT32_MAX, field);
 }
 
 cs_argument_outcome cs_argument_grid(const char *text, void *field) {
@@ -97,25 +98,16 @@ cs_argument_outcome cs_argument_workers(const char *text, void *field) {
   return read_integers(text, 0, 1, 1024, field, 1) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
 }
 
-/* A whole number from 0 to `most`. */
-static cs_argument_outcome read_given(const char *text, int32_t most, void *field) {
-  int32_t value = 0;
-  if (!read_integers(text, 0, 0, most, &value, 1))
-    return CS_ARGUMENT_BAD;
-  *(cs_given_integer *)field = (cs_given_integer){true, value};
-  return CS_ARGUMENT_READ;
-}
-
 cs_argument_outcome cs_argument_count(const char *text, void *field) {
-  return read_given(text, INT32_MAX, field);
+  return read_given(text, 0, INT32_MAX, field);
 }
 
 cs_argument_outcome cs_argument_memory(const char *text, void *field) {
-  return read_given(text, 1048576, field);
+  return read_given(text, 0, 1048576, field);
 }
 
 cs_argument_outcome cs_argument_quality(const char *text, void *field) {
-  return read_given(text, 100, field);
+  return read_given(text, 0, 100, field);
 }
 
 cs_argument_outcome cs_argument_number(const char *text, void *field) {
