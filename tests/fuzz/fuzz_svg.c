@@ -1,7 +1,7 @@
 /* Any bytes as a drawing: no fault, no memory beyond a bound, nothing kept, every refusal with a
  * sentence that names the drawing, and parts that can be changed.
  *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/svg_fuzzer.sh builds it); with
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); with
  * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
  * allocation can fail.
  */

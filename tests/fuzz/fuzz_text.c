@@ -5,7 +5,7 @@
  *   byte 1   how many of the next bytes are the text
  *   then     the text, and the file of the font
  *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzz_text.sh builds it); else its
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); else its
  * own main runs the files that it is given, each as it is and cut to a half.
  */
 #include <math.h>
