@@ -5,7 +5,7 @@
  *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from, to
  *           and the dashes; the rest is path data, or points with their widths
  *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/stroke_fuzzer.sh builds it); with
+ * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); with
  * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
  * allocation can fail.
  */
