@@ -19,6 +19,7 @@
 #define MOST_PRODUCT (3 * MOST_DEGREE)
 #define HALVINGS 52
 #define SAME 1e-12   /* distances that differ by less are the same */
+#define ROUNDING 1e-12 /* of a radius, in its derivative */
 #define AT_REST 1e-9 /* sine: a spoke at the end of a piece belongs to it, as to its neighbour */
 
 /* A piece about the point: (u, v) / w is the way from the point to the line. */
@@ -110,18 +111,18 @@ static range range_of(const double *c, int degree) {
 /* ---------------------------------------------------------------- ends */
 
 /* The first derivative at an end that is not 0, in the direction of the piece: of its coefficients the
- * first that is none counts, times the binomial coefficient of its place, and before places that
- * come later. */
+ * first counts that is larger than rounding (`least`), times the binomial coefficient of its place,
+ * and before places that come later. */
 typedef struct start {
   double x, y;
   int place;
 } start;
 
-static start start_of(const double *x, const double *y, int degree, int end) {
+static start start_of(const double *x, const double *y, int degree, int end, double least) {
   double binomial = 1;
   for (int k = 0; k <= degree; k++) {
     int i = end ? degree - k : k;
-    if (x[i] != 0 || y[i] != 0)
+    if (fabs(x[i]) > least || fabs(y[i]) > least)
       return (start){binomial * x[i], binomial * y[i], k};
     binomial = binomial * (degree - k) / (k + 1);
   }
@@ -139,7 +140,9 @@ static piece_end end_of(const around *a, int end) {
     du[k] = (a->du[k] - x * a->dw[k]) / a->w[i];
     dv[k] = (a->dv[k] - y * a->dw[k]) / a->w[i];
   }
-  start way = start_of(du, dv, n - 1, end), growth = start_of(a->dr, none, m - 1, end);
+  double rounding = ROUNDING * range_of(a->r, m).most;
+  start way = start_of(du, dv, n - 1, end, 0);
+  start growth = start_of(a->dr, none, m - 1, end, rounding);
   double speed = sqrt(way.x * way.x + way.y * way.y);
   if (!(speed > 0))
     return e;

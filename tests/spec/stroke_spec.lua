@@ -36,6 +36,13 @@ describe("a stroke", function()
     covers(celspan.stroke(corner), { { 21.3, -1.3, false } })
   end)
 
+  it("has upright ends where it begins to taper at a place where its curve stands still", function()
+    -- T after a straight line: the curve begins with no speed, and its radius with no change.
+    local stroke = celspan.stroke { d = "M15.1988 17s-15.9512 12.9562-13.2265-1.6533L53.371 14.9859 51 19.7249T56.5 7.8141",
+                                    width = 7, join = "bevel", taper = { 9.5995, 13.1366 } }
+    covers(stroke, { { 48, 19, true }, { 48, 19.6, false }, { 49, 20.2, false }, { 51, 19.5, true } })
+  end)
+
   it("takes its widths from its points", function()
     local cone = celspan.stroke { points = { { 0, 0, 0 }, { 100, 0, 20 } } }
     covers(cone, { { 50, 4.9, true }, { 50, 5.1, false }, { 100, 9.9, true } })
