@@ -54,15 +54,11 @@ static celspan_status fill(cs_svg_reading *reading, const cs_svg_node *node,
   return status;
 }
 
-celspan_status cs_svg_paint_outline(cs_svg_reading *reading, const cs_svg_node *node,
-                                    const cs_svg_place *place, cs_outline *outline,
-                                    const celspan_box *box, celspan_object **out) {
-  const cs_svg_style *style = &place->style;
+celspan_status cs_svg_fill_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                   const cs_svg_place *place, cs_outline *outline,
+                                   const celspan_box *box, celspan_object **out) {
   *out = NULL;
-  CS_TRY(fill(reading, node, place, outline, box, out));
-  return style->stroke.kind == CS_SVG_PAINT_NONE && !style->stroke.has_server
-             ? CELSPAN_OK
-             : cs_svg_skip(reading, node, "stroke of %s", node->tag);
+  return fill(reading, node, place, outline, box, out);
 }
 
 celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,

@@ -12,8 +12,9 @@ typedef struct stroking {
   cs_svg_reading *reading;
   const cs_svg_node *node;
   const cs_svg_place *place;
-  cs_svg_line line;       /* in the units of the stroke */
-  celspan_matrix to_page; /* these units to the drawing's */
+  cs_outline *outline;             /* in the units of the stroke */
+  const cs_outline_closed *closed; /* its contours that are; NULL: all */
+  celspan_matrix to_page;          /* these units to the drawing's */
   celspan_stroke_desc desc;
   double *dashes;
   size_t dash_capacity;
@@ -77,13 +78,13 @@ static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan
   celspan_object *object;
   p->desc.texture = texture;
   celspan_status status =
-      cs_primitive_data_of_line(context, &p->line.outline, &p->line.closed, &p->desc, &object);
+      cs_primitive_data_of_line(context, p->outline, p->closed, &p->desc, &object);
   if (status == CELSPAN_LIMIT && p->desc.dash_count > 0) {
     CS_TRY(cs_svg_skip(p->reading, p->node, "stroke-dasharray of %.30s", p->node->tag));
     p->desc.dashes = NULL;
     p->desc.dash_count = 0;
     status =
-        cs_primitive_data_of_line(context, &p->line.outline, &p->line.closed, &p->desc, &object);
+        cs_primitive_data_of_line(context, p->outline, p->closed, &p->desc, &object);
   }
   CS_TRY(status);
   status = celspan_object_transform(context, object, &p->to_page, out);
@@ -177,31 +178,51 @@ static celspan_status paint_flat(stroking *p, celspan_object **out) {
   return status;
 }
 
-static celspan_status draw(stroking *p, celspan_object **out) {
+/* box: what gradients in shares of a box are spread over; NULL: the outline's. */
+static celspan_status draw(stroking *p, const celspan_box *given, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box;
-  cs_outline *outline = &p->line.outline;
-  CS_TRY(cs_svg_line_init(p->reading->context, p->node, &p->place->measure, &p->line));
-  if (outline->piece_count == 0 || !cs_outline_bounds(outline, &identity, &box))
+  if (p->outline->piece_count == 0 || !cs_outline_bounds(p->outline, &identity, &box))
     return CELSPAN_OK;
   CS_TRY(read_desc(p));
   p->to_page = p->place->matrix;
   if (p->place->style.keeps_width) {
-    if (!cs_svg_outline_map(outline, &p->to_page))
+    if (!cs_svg_outline_map(p->outline, &p->to_page))
       return CELSPAN_OK;
     p->to_page = identity;
   }
   if (!(p->desc.width > 0) || !cs_number_is_sane(p->desc.width))
     return CELSPAN_OK;
-  return p->place->style.stroke.has_server ? paint_by_server(p, &box, out) : paint_flat(p, out);
+  return p->place->style.stroke.has_server ? paint_by_server(p, given ? given : &box, out)
+                                           : paint_flat(p, out);
+}
+
+static celspan_status draw_and_finish(stroking *p, const celspan_box *box, celspan_object **out) {
+  *out = NULL;
+  celspan_status status = draw(p, box, out);
+  cs_mem_free(p->reading->context->memory, p->dashes, p->dash_capacity * sizeof *p->dashes);
+  return status;
 }
 
 celspan_status cs_svg_stroke(cs_svg_reading *reading, const cs_svg_node *node,
                              const cs_svg_place *place, celspan_object **out) {
-  stroking p = {.reading = reading, .node = node, .place = place};
+  cs_svg_line line;
+  stroking p = {.reading = reading,
+                .node = node,
+                .place = place,
+                .outline = &line.outline,
+                .closed = &line.closed};
   *out = NULL;
-  celspan_status status = draw(&p, out);
-  cs_svg_line_finish(&p.line, reading->context);
-  cs_mem_free(reading->context->memory, p.dashes, p.dash_capacity * sizeof *p.dashes);
+  celspan_status status = cs_svg_line_init(reading->context, node, &place->measure, &line);
+  if (status == CELSPAN_OK)
+    status = draw_and_finish(&p, NULL, out);
+  cs_svg_line_finish(&line, reading->context);
   return status;
+}
+
+celspan_status cs_svg_stroke_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                     const cs_svg_place *place, cs_outline *outline,
+                                     const celspan_box *box, celspan_object **out) {
+  stroking p = {.reading = reading, .node = node, .place = place, .outline = outline};
+  return draw_and_finish(&p, box, out);
 }

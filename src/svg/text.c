@@ -3,6 +3,7 @@
 #include "svg/letters.h"
 #include "svg/naming.h"
 #include "svg/paint.h"
+#include "svg/strokes.h"
 
 typedef struct lettering {
   cs_svg_reading *reading;
@@ -19,7 +20,8 @@ typedef struct lettering {
 /* The box is of all letters, whatever element they are in; without a gradient nobody asks for it. */
 static bool asks_for_box(const cs_svg_written *written) {
   for (size_t i = 0; i < written->stretch_count; i++)
-    if (written->stretches[i].place.style.fill.has_server)
+    if (written->stretches[i].place.style.fill.has_server ||
+        written->stretches[i].place.style.stroke.has_server)
       return true;
   return false;
 }
@@ -40,27 +42,40 @@ static celspan_status find_box(lettering *l) {
 
 /* ---------------------------------------------------------------- items */
 
-/* The place of a stretch is that of its element, but for the transform: elements inside of a text
- * have none of their own. */
-static celspan_status add_stretch(lettering *l, const cs_svg_place *place, cs_svg_item *parent) {
-  const cs_svg_stretch *stretch = &l->written.stretches[l->next++];
-  cs_svg_place own = stretch->place;
+/* The letters of a stretch, filled or stroked. */
+static celspan_status add_layer(lettering *l, const cs_svg_stretch *stretch,
+                                const cs_svg_place *place, cs_svg_layer layer,
+                                cs_svg_item *parent) {
+  const celspan_box *box = l->has_box ? &l->box : NULL;
+  bool is_stroke = layer == CS_SVG_LAYER_STROKE;
   cs_svg_item *item;
   cs_outline outline;
-  if (!own.style.is_visible)
+  if (layer == CS_SVG_LAYER_MARKERS || (is_stroke && !cs_svg_is_stroked(&place->style)))
     return CELSPAN_OK;
-  own.matrix = place->matrix;
-  own.style.fill_rule = CELSPAN_RULE_NONZERO;
   CS_TRY(cs_svg_item_append(l->reading->context, l->art, parent, &item));
   cs_outline_init(&outline);
   celspan_status status =
       cs_svg_letters_outline(&l->letters, &l->written, stretch->begin, stretch->end, &outline);
   if (status == CELSPAN_OK)
-    status = cs_svg_paint_outline(l->reading, stretch->node, &own, &outline,
-                                  l->has_box ? &l->box : NULL, &item->own);
+    status = (is_stroke ? cs_svg_stroke_outline : cs_svg_fill_outline)(
+        l->reading, stretch->node, place, &outline, box, &item->own);
   cs_outline_finish(&outline, l->reading->context->memory);
   CS_TRY(status);
   return cs_svg_item_compose(l->reading->context, item);
+}
+
+/* The place of a stretch is that of its element, but for the transform: elements inside of a text
+ * have none of their own. */
+static celspan_status add_stretch(lettering *l, const cs_svg_place *place, cs_svg_item *parent) {
+  const cs_svg_stretch *stretch = &l->written.stretches[l->next++];
+  cs_svg_place own = stretch->place;
+  if (!own.style.is_visible)
+    return CELSPAN_OK;
+  own.matrix = place->matrix;
+  own.style.fill_rule = CELSPAN_RULE_NONZERO;
+  for (int i = 0; i < 3; i++)
+    CS_TRY(add_layer(l, stretch, &own, own.style.paint_order[i], parent));
+  return CELSPAN_OK;
 }
 
 /* Whether the next stretch is somewhere inside of an element. */

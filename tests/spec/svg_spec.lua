@@ -591,6 +591,21 @@ describe("a text", function()
     end
   end)
 
+  it("is stroked as its paint order says", function()
+    local function bounds(style)
+      local art = letters('<text x="10" y="50" font-size="20" ' .. style .. '>I</text>')
+      assert.are.same({}, art.skipped)
+      return { art.object:bounds() }, art
+    end
+    local plain, wide = bounds 'fill="red"', bounds 'fill="red" stroke="blue" stroke-width="4"'
+    for i, by in ipairs { -2, -2, 4, 4 } do assert.is_near(plain[i] + by, wide[i], 0.01) end
+    local x, y = plain[1] + 0.5, plain[2] + plain[4] / 2 -- inside of the letter, under the stroke
+    local _, above = bounds 'fill="red" stroke="blue" stroke-width="4"'
+    local _, below = bounds 'fill="red" stroke="blue" stroke-width="4" paint-order="stroke"'
+    assert.are.equal("0000ff 255", at(above.object, x, y))
+    assert.are.equal("ff0000 255", at(below.object, x, y))
+  end)
+
   it("of more than 100,000 characters is told", function()
     local art = letters("<text>" .. ("A"):rep(100001) .. "</text>")
     assert.are.equal("text of more than 100000 characters", art.skipped[1].what)
