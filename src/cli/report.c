@@ -7,7 +7,10 @@
 
 #include "cli/interrupt.h"
 
-enum { SENTENCE = 8192 }; /* paths may be 4096 bytes long */
+enum {
+  SENTENCE = 8192,       /* bytes; paths may be 4096 long */
+  VISIBLE = 5 * SENTENCE /* what a sentence may become: see make_visible */
+};
 
 static void (*clear_line)(void);
 static cs_report_form chosen;
@@ -56,10 +59,26 @@ void cs_report_openjd(const char *name, const char *format, ...) {
   print_openjd(name, text);
 }
 
+/* What scripts and names of files bring into a message does not move the cursor or colour the
+ * terminal, and does not look like a message of its own: a new line is indented, other controls are
+ * written as numbers. Those of C1 are C2 80 to C2 9F in UTF-8. */
+static void make_visible(const char *text, char out[VISIBLE]) {
+  for (const unsigned char *at = (const unsigned char *)text; *at; at++)
+    if (*at == '\n')
+      out = stpcpy(out, "\n    ");
+    else if ((*at < ' ' && *at != '\t') || *at == 0x7f || (*at == 0xc2 && (at[1] & 0xe0) == 0x80))
+      out += snprintf(out, sizeof "\\x00", "\\x%02x", *at == 0xc2 ? *++at : *at);
+    else
+      *out++ = (char)*at;
+  *out = 0;
+}
+
 static void print_words(bool is_error, const char *text) {
+  char visible[VISIBLE];
+  make_visible(text, visible);
   if (clear_line)
     clear_line();
-  fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", text);
+  fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", visible);
 }
 
 /* number: NULL, or of the frame that failed. */
