@@ -353,6 +353,18 @@ describe("every page", function()
   end)
 end)
 
+describe("the guide", function()
+  it("lists its chapters", function()
+    local listed, chapters = {}, {}
+    local file = assert(io.open "docs/guide.md")
+    local text = file:read "a"
+    file:close()
+    for name in text:gmatch "\n%d+%. %[([^%]]+)%]" do listed[#listed + 1] = name end
+    for name in text:gmatch "\n## ([^\n]+)" do chapters[#chapters + 1] = name end
+    assert.are.same(chapters, listed)
+  end)
+end)
+
 describe("the pictures", function()
   it("are all shown, and small", function()
     local all, text = 0, ""

@@ -134,7 +134,7 @@ cs_exit cs_verb_init(celspan_context *context, const cs_request *request) {
     outcome = write_picture(context, folder);
   if (outcome == CS_EXIT_OK)
     printf("%s: a film of two seconds, its sheet and its spec\n"
-           "  cd %s\n  celspan test\n  celspan render film.lua -o out/####.png\n",
+           "  cd %s\n  celspan test\n  celspan render film.lua -o out/film.mp4\n",
            folder, folder);
   return outcome;
 }

@@ -1,6 +1,6 @@
 -- @NAME@: a walk over the hills, drawn by a few lines of Lua.
 --
---   celspan render film.lua -o out/####.png
+--   celspan render film.lua -o out/film.mp4
 --   celspan contact film.lua -o out/contact.png
 --   celspan test
 local celspan = require "celspan"
