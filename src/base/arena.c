@@ -23,31 +23,51 @@ void cs_arena_reset(cs_arena *arena) {
   arena->used = 0;
 }
 
-static cs_arena_chunk *append_chunk(celspan_context *context, cs_arena *arena, size_t size) {
-  size_t wanted = size > CHUNK_SIZE ? size : CHUNK_SIZE;
+/* The link to the chunk that comes next. */
+static cs_arena_chunk **link_of_next(cs_arena *arena) {
+  return arena->current ? &arena->current->next : &arena->first;
+}
+
+/* Puts a chunk in front of those that come next. */
+static cs_arena_chunk *insert_next(cs_arena *arena, cs_arena_chunk *chunk) {
+  cs_arena_chunk **link = link_of_next(arena);
+  chunk->next = *link;
+  *link = chunk;
+  return chunk;
+}
+
+/* A chunk of at least so many bytes that comes next, brought to the front of them. */
+static cs_arena_chunk *find_next(cs_arena *arena, size_t size) {
+  for (cs_arena_chunk **link = link_of_next(arena), *chunk; (chunk = *link); link = &chunk->next)
+    if (chunk->size >= size) {
+      *link = chunk->next;
+      return insert_next(arena, chunk);
+    }
+  return NULL;
+}
+
+/* Large chunks have powers of two as sizes: what is a little larger next time fits, too. */
+static cs_arena_chunk *make_next(celspan_context *context, cs_arena *arena, size_t size) {
+  size_t wanted = CHUNK_SIZE;
+  while (wanted < size && wanted <= SIZE_MAX / 4)
+    wanted *= 2;
   cs_arena_chunk *chunk = NULL;
-  if (wanted < SIZE_MAX - sizeof *chunk)
+  if (wanted >= size)
     chunk = cs_mem_resize(context->memory, NULL, 0, sizeof *chunk + wanted);
   if (!chunk) {
     (void)cs_fail_memory(context);
     return NULL;
   }
   *chunk = (cs_arena_chunk){.size = wanted};
-  if (arena->current) {
-    chunk->next = arena->current->next;
-    arena->current->next = chunk;
-  } else {
-    arena->first = chunk;
-  }
-  return chunk;
+  return insert_next(arena, chunk);
 }
 
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size) {
   size = (size + 15) & ~(size_t)15;
   while (!arena->current || arena->current->size - arena->used < size) {
-    cs_arena_chunk *next = arena->current ? arena->current->next : arena->first;
-    if (!next || next->size < size)
-      next = append_chunk(context, arena, size);
+    cs_arena_chunk *next = find_next(arena, size);
+    if (!next)
+      next = make_next(context, arena, size);
     if (!next)
       return NULL;
     arena->current = next;
