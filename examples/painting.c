@@ -18,7 +18,7 @@ enum { WIDTH = 72, HEIGHT = 24 };
 /* Adds a cel of a layer to a rostrum: its picture on a rectangle of its size and place. */
 static celspan_status add_cel(celspan_context *context, const celspan_painting_layer *layer,
                               celspan_cel **out) {
-  celspan_picture_desc picture = {.surface = layer->surface};
+  celspan_picture_desc picture = {.surface = layer->surface, .colour = layer->colour};
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
   celspan_texture *texture = NULL;
   celspan_object *object = NULL;

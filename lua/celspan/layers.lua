@@ -137,8 +137,8 @@ local function from_painting(path)
   if not painting then return nil, message end
   local flat, children, list = painting.layers, {}, {}
   for i, layer in ipairs(flat) do
-    local picture = layer.pixels and { pixels = layer.pixels, x = layer.x, y = layer.y,
-                                       w = layer.width, h = layer.height }
+    local picture = layer.pixels and { pixels = layer.pixels, colour = layer.colour, x = layer.x,
+                                       y = layer.y, w = layer.width, h = layer.height }
     local entry = make_entry { name = layer.name, x = layer.x, y = layer.y, picture = picture,
       opacity = layer.opacity, visible = layer.visible, blend = layer.blend,
       children = layer.group and (children[i] or {}) or nil }
@@ -151,7 +151,7 @@ local function from_painting(path)
   end
   local skipped, paths = {}, paths_of(flat)
   for i, note in ipairs(painting.notes) do
-    skipped[i] = { layer = paths[note.layer], what = note.what }
+    skipped[i] = { layer = note.layer and paths[note.layer] or "", what = note.what }
   end
   return make_tree(list, painting.width, painting.height, skipped)
 end
@@ -312,7 +312,7 @@ local function light_cel(entry, source, options)
   local picture = source.picture
   local x, y, w, h = entry.object:bounds()
   local texture = celspan.picture { file = picture.file, pixels = picture.pixels,
-    box = { x, y, w, h } }
+    colour = picture.colour, box = { x, y, w, h } }
   return celspan.cel { back = { texture = texture, gain = entry.opacity * (options.opacity or 1),
     on = "cel", matte = 0 }, viewport = options.viewport }:named(source.name)
 end

@@ -52,9 +52,10 @@ static void set_boolean(lua_State *L, const char *name, bool is_so) {
 }
 
 static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t count) {
-  lua_createtable(L, 0, 12);
+  lua_createtable(L, 0, 13);
   set_text(L, "name", layer->name);
   set_text(L, "blend", layer->blend);
+  set_text(L, "colour", layer->colour);
   set_boolean(L, "group", layer->is_group);
   set_boolean(L, "visible", layer->is_visible);
   set_number(L, "opacity", layer->opacity);
@@ -81,13 +82,14 @@ static void push_layers(lua_State *L, const celspan_painting *painting) {
 }
 
 static void push_notes(lua_State *L, const celspan_painting *painting) {
-  size_t layer;
+  size_t layer, count = celspan_painting_layer_count(painting);
   const char *text;
   lua_newtable(L);
   for (size_t i = 0; (text = celspan_painting_note_at(painting, i, &layer)); i++) {
     lua_createtable(L, 0, 2);
     set_text(L, "what", text);
-    set_integer(L, "layer", (lua_Integer)layer + 1);
+    if (layer < count)
+      set_integer(L, "layer", (lua_Integer)layer + 1);
     lua_rawseti(L, -2, (lua_Integer)i + 1);
   }
 }

@@ -66,8 +66,11 @@ celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
   CS_TRY(cs_mem_reserve(context, (void **)&painting->layers, &painting->capacity,
                         painting->count + 1, sizeof *painting->layers));
   cs_contents_layer *layer = &painting->layers[painting->count++];
-  *layer = (cs_contents_layer){
-      .blend = "normal", .parent = CS_CONTENTS_NONE, .is_visible = true, .opacity = 1};
+  *layer = (cs_contents_layer){.blend = "normal",
+                               .parent = CS_CONTENTS_NONE,
+                               .is_visible = true,
+                               .opacity = 1,
+                               .colour = "srgb"};
   set_name(layer->name, name, size);
   *out = layer;
   return CELSPAN_OK;

@@ -30,12 +30,13 @@ typedef struct cs_contents_layer {
   int depth;      /* groups it lies in; set when the painting is complete */
   double opacity; /* 0..1 */
   int32_t x, y, width, height;
+  const char *colour;       /* static: how its codes are taken, as in celspan_picture_desc */
   cs_rows_source *source;   /* owned; NULL: no pixels */
   celspan_surface *surface; /* a reference */
 } cs_contents_layer;
 
 typedef struct cs_contents_remark {
-  size_t layer;
+  size_t layer; /* CS_CONTENTS_NONE: the whole painting */
   char text[CS_CONTENTS_TEXT];
 } cs_contents_remark;
 
@@ -61,7 +62,8 @@ CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const c
 static inline size_t cs_contents_last(const celspan_painting *painting) {
   return painting->count - 1;
 }
-/* Appends a note on a layer: what of it is not shown as in the program that made it.
+/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE): what of it is not shown as
+ * in the program that made it.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
                                                 celspan_painting *painting, size_t layer,

@@ -103,6 +103,16 @@ void cs_document_close_group(cs_document *document) {
   document->group = document->painting->layers[document->group].parent;
 }
 
+celspan_status cs_document_scan(cs_document *document, int64_t count) {
+  document->scanned += count;
+  if (document->scanned <= CS_DOCUMENT_SCANNED)
+    return CELSPAN_OK;
+  return cs_document_fail(
+      document, CELSPAN_LIMIT,
+      "the layers up to here unpack to more than %lld bytes, which is the limit",
+      (long long)CS_DOCUMENT_SCANNED);
+}
+
 /* ---------------------------------------------------------------- reading */
 
 static const char *local_name(const char *name) {

@@ -14,9 +14,13 @@
 #define CS_PAINTING_DOCUMENT_H
 
 #include "painting/contents.h"
+#include "painting/profile.h"
 #include "painting/zip.h"
 
 #define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* of its XML at most */
+/* Of all members together, unpacked while the painting is read: layers of a few bytes may all name one
+ * member that unpacks to very much. */
+#define CS_DOCUMENT_SCANNED ((int64_t)4 << 30)
 
 typedef struct cs_document cs_document;
 
@@ -38,10 +42,12 @@ struct cs_document {
   const char *const *attributes; /* of the element that begins */
   uint64_t line;
   celspan_status status;
-  size_t group;     /* the innermost open one; CS_CONTENTS_NONE: none */
-  bool has_size;    /* an element told the size of the painting */
-  char folder[256]; /* Krita: of the archive, where the layers lie */
-  size_t unnamed;   /* elements that are open, but are no groups */
+  size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */
+  bool has_size;      /* an element told the size of the painting */
+  char folder[256];   /* Krita: of the archive, where the layers lie */
+  size_t unnamed;     /* elements that are open, but are no groups */
+  int64_t scanned;    /* bytes of members that were unpacked */
+  cs_profile profile; /* Krita: of the image */
 };
 
 /* Reads the format's document and all that it names. Errors: INPUT, LIMIT, NO_MEMORY. */
@@ -63,6 +69,8 @@ CELSPAN_CHECKED celspan_status cs_document_size(cs_document *document, const cha
 CELSPAN_CHECKED celspan_status cs_document_add(cs_document *document, bool is_group,
                                                cs_contents_layer **out);
 void cs_document_close_group(cs_document *document);
+/* Counts bytes that were unpacked. Errors: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t count);
 /* Records "path: member:line: sentence". */
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,
                                 const char *format, ...) __attribute__((format(printf, 3, 4)));

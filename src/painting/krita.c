@@ -12,12 +12,6 @@ static celspan_status note(cs_document *document, const char *sentence) {
                           cs_contents_last(document->painting), "%s", sentence);
 }
 
-static celspan_status start_image(cs_document *document) {
-  const char *name = cs_document_text(document, "name");
-  snprintf(document->folder, sizeof document->folder, "%s", name ? name : "");
-  return cs_document_size(document, "width", "height");
-}
-
 /* ---------------------------------------------------------------- layers */
 
 static celspan_status read_common(cs_document *document, cs_contents_layer *layer) {
@@ -44,28 +38,81 @@ static celspan_status note_channels(cs_document *document) {
                             : "some channels are switched off: it is shown whole");
 }
 
-/* The member of a layer: where the image's name tells, or in whatever folder it lies. */
-static const cs_zip_member *find_member(const cs_document *document, const char *name) {
-  char path[640];
-  snprintf(path, sizeof path, "%s/layers/%.300s", document->folder, name);
-  const cs_zip_member *found = cs_zip_find(document->zip, path);
-  size_t folder = strlen(document->folder), size = strlen(path) - folder;
-  for (size_t i = 0; i < document->zip->count && !found; i++) {
-    const char *other = document->zip->members[i].name;
-    if (strlen(other) >= size && strcmp(other + strlen(other) - size, path + folder) == 0)
-      found = &document->zip->members[i];
+/* Layers lie in "folder/layers/": the folder has the image's name, or else whatever name it has. */
+static void find_folder(cs_document *document, const char *name) {
+  static const char between[] = "/layers/";
+  const cs_zip *zip = document->zip;
+  char start[320];
+  snprintf(document->folder, sizeof document->folder, "%s", name);
+  snprintf(start, sizeof start, "%s%s", document->folder, between);
+  size_t place = cs_zip_place(zip, start);
+  bool is_there =
+      place < zip->count && strncmp(zip->members[place].name, start, strlen(start)) == 0;
+  for (size_t i = 0; i < zip->count && !is_there; i++) {
+    const char *other = zip->members[i].name, *end = strstr(other, between);
+    is_there = end && (size_t)(end - other) < sizeof document->folder;
+    if (is_there)
+      snprintf(document->folder, (size_t)(end - other) + 1, "%s", other);
   }
-  return found;
 }
+
+/* The member of a layer whose name ends so. */
+static const cs_zip_member *find_member(const cs_document *document, const char *name,
+                                        const char *ending) {
+  char path[640];
+  snprintf(path, sizeof path, "%s/layers/%.300s%s", document->folder, name, ending);
+  return cs_zip_find(document->zip, path);
+}
+
+/* ---------------------------------------------------------------- colour profiles */
+
+/* A profile that is embedded, or else the one that is named; neither: *out stays as it is. */
+static celspan_status read_profile(cs_document *document, const cs_zip_member *member,
+                                   cs_profile *out) {
+  const char *name = cs_document_text(document, "profile");
+  unsigned char *bytes;
+  size_t size;
+  if (!member && name)
+    cs_profile_of_name(name, out);
+  if (!member)
+    return CELSPAN_OK;
+  CS_TRY(cs_zip_load(document->context, document->input, member, CS_PROFILE_BYTES, &bytes, &size));
+  cs_profile_read(bytes, size, out);
+  cs_mem_free(document->context->memory, bytes, size + 1);
+  return cs_document_scan(document, (int64_t)size);
+}
+
+static celspan_status start_image(cs_document *document) {
+  const char *name = cs_document_text(document, "name");
+  char path[320];
+  CS_TRY(cs_document_size(document, "width", "height"));
+  find_folder(document, name ? name : "");
+  snprintf(path, sizeof path, "%s/annotations/icc", document->folder);
+  CS_TRY(read_profile(document, cs_zip_find(document->zip, path), &document->profile));
+  return cs_profile_note(document->context, document->painting, CS_CONTENTS_NONE,
+                         &document->profile);
+}
+
+/* The profile of a layer's pixels; it is noted where it is not that of the image. */
+static celspan_status read_layer_profile(cs_document *document, const char *name,
+                                         cs_contents_layer *layer) {
+  cs_profile profile = document->profile;
+  CS_TRY(read_profile(document, find_member(document, name, ".icc"), &profile));
+  layer->colour = cs_profile_colour(&profile);
+  if (strcmp(profile.name, document->profile.name) == 0)
+    return CELSPAN_OK;
+  return cs_profile_note(document->context, document->painting,
+                         cs_contents_last(document->painting), &profile);
+}
+
+/* ---------------------------------------------------------------- pixels */
 
 /* What Krita takes where there is no tile. */
 static celspan_status read_default(cs_document *document, const char *name,
                                    cs_krita_tiles_form *form) {
-  char member_name[320];
   unsigned char *bytes;
   size_t size;
-  snprintf(member_name, sizeof member_name, "%.300s.defaultpixel", name);
-  const cs_zip_member *member = find_member(document, member_name);
+  const cs_zip_member *member = find_member(document, name, ".defaultpixel");
   if (!member)
     return CELSPAN_OK;
   CS_TRY(cs_zip_load(document->context, document->input, member, 64, &bytes, &size));
@@ -88,7 +135,7 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
     return cs_contents_note(document->context, document->painting,
                             cs_contents_last(document->painting),
                             "pixels in the colour space %.40s: it is empty", space);
-  const cs_zip_member *member = find_member(document, name);
+  const cs_zip_member *member = find_member(document, name, "");
   if (!member)
     return cs_document_fail(document, CELSPAN_INPUT,
                             "filename is \"%.200s\", which is not in the archive", name);
@@ -97,10 +144,13 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
   form.x = -x;
   form.y = -y;
   cs_rows_source *source = NULL;
+  CS_TRY(read_layer_profile(document, name, layer));
   CS_TRY(cs_krita_tiles_create(document->context, document->input, member, &form, &source));
+  if (source)
+    cs_contents_set_pixels(layer, x + form.x, y + form.y, source);
+  CS_TRY(cs_document_scan(document, form.scanned));
   if (!source)
     return CELSPAN_OK;
-  cs_contents_set_pixels(layer, x + form.x, y + form.y, source);
   return cs_contents_check_corner(document->context, document->input, "a layer", layer->x,
                                   layer->y);
 }
@@ -118,7 +168,8 @@ static celspan_status start_layer(cs_document *document) {
   }
   if (type && !is(type, "paintlayer"))
     return cs_contents_note(document->context, document->painting,
-                            cs_contents_last(document->painting), "a %.60s: it is empty", type);
+                            cs_contents_last(document->painting), "is a \"%.60s\": it is empty",
+                            type);
   CS_TRY(read_pixels(document, layer));
   if (cs_document_text(document, "keyframes"))
     CS_TRY(note(document, "animation: its first drawing is shown"));
@@ -130,7 +181,7 @@ static celspan_status start_mask(cs_document *document) {
   if (document->group == CS_CONTENTS_NONE)
     return CELSPAN_OK; /* a selection of the whole painting */
   return cs_contents_note(document->context, document->painting, document->group,
-                          "a %.60s: it changes nothing here", type ? type : "mask");
+                          "has a \"%.60s\": it changes nothing here", type ? type : "mask");
 }
 
 static celspan_status start(cs_document *document, const char *name) {

@@ -384,6 +384,7 @@ static celspan_status scan(celspan_context *context, const cs_input *input,
   celspan_status status = find_bounds(&r, form->pixel_size, &found);
   cs_zip_close(&stream);
   CS_TRY(status);
+  form->scanned = (int64_t)r.at;
   if (!is_beyond_clear(form)) {
     int64_t x = form->x, y = form->y;
     /* Rows of tiles begin where tiles do. */

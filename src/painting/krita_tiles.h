@@ -32,6 +32,7 @@ typedef struct cs_krita_tiles_form {
   int bits;                /* of a channel: 8 or 16 */
   int pixel_size;          /* bytes */
   unsigned char beyond[8]; /* the pixel where there is no tile */
+  int64_t scanned;         /* out: bytes that the tiles have */
 } cs_krita_tiles_form;
 
 /* Sets what a colour space means; false where its pixels are not read. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "painting/png.h"
+#include "painting/png_profile.h"
 
 static celspan_status read_common(cs_document *document, cs_contents_layer *layer) {
   const char *visibility = cs_document_text(document, "visibility");
@@ -37,6 +38,8 @@ static celspan_status start_group(cs_document *document) {
 static celspan_status read_pixels(cs_document *document, cs_contents_layer *layer) {
   const char *name = cs_document_text(document, "src");
   cs_rows_source *source;
+  cs_profile profile;
+  int64_t scanned;
   if (!name)
     return cs_document_fail(document, CELSPAN_INPUT, "a layer without src");
   if (!cs_document_is_inside(name))
@@ -53,7 +56,11 @@ static celspan_status read_pixels(cs_document *document, cs_contents_layer *laye
                             "src is \"%.200s\", which is not in the archive", name);
   CS_TRY(cs_png_create(document->context, document->input, member, &source));
   cs_contents_set_pixels(layer, layer->x, layer->y, source);
-  return CELSPAN_OK;
+  CS_TRY(cs_png_read_profile(document->context, document->input, member, &profile, &scanned));
+  CS_TRY(cs_document_scan(document, scanned));
+  layer->colour = cs_profile_colour(&profile);
+  return cs_profile_note(document->context, document->painting,
+                         cs_contents_last(document->painting), &profile);
 }
 
 static celspan_status start_layer(cs_document *document) {

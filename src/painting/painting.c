@@ -132,6 +132,7 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
       .width = layer->width,
       .height = layer->height,
       .surface = layer->surface,
+      .colour = layer->colour,
   };
   return true;
 }
@@ -144,6 +145,7 @@ const char *celspan_painting_note_at(const celspan_painting *painting, size_t in
                                      size_t *layer) {
   if (index >= painting->note_count)
     return NULL;
-  *layer = painting->notes[index].layer;
+  size_t place = painting->notes[index].layer;
+  *layer = place == CS_CONTENTS_NONE ? painting->count : place;
   return painting->notes[index].text;
 }

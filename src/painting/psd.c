@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "painting/profile.h"
 #include "painting/psd_record.h"
 #include "painting/psd_rows.h"
 
@@ -12,6 +13,7 @@ typedef struct document {
   bool is_large, is_grey;
   int bits, channels;
   int32_t width, height;
+  cs_profile profile;
   cs_psd_record *records;
   size_t count;
   size_t open[CS_CONTENTS_DEPTH]; /* where the layers of the groups that are open begin */
@@ -61,6 +63,44 @@ static celspan_status read_header(document *d, cs_cursor *cursor) {
   d->painting->width = d->width = (int32_t)width;
   d->painting->height = d->height = (int32_t)height;
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- resources */
+
+/* Of `size` bytes at the cursor, which are passed by the caller. */
+static celspan_status read_profile(document *d, const cs_cursor *cursor, uint32_t size) {
+  d->profile.codes = CS_PROFILE_OTHER;
+  if (size > CS_PROFILE_BYTES)
+    return CELSPAN_OK;
+  unsigned char *bytes = cs_mem_resize(d->context->memory, NULL, 0, (size_t)size + 1);
+  if (!bytes)
+    return cs_fail_memory(d->context);
+  celspan_status status = cs_input_read(d->context, d->input, cursor->at, bytes, size);
+  if (status == CELSPAN_OK)
+    cs_profile_read(bytes, size, &d->profile);
+  cs_mem_free(d->context->memory, bytes, (size_t)size + 1);
+  return status;
+}
+
+/* Blocks of a number, a name and bytes, each padded to an even count. What is no block ends them. */
+static celspan_status read_resources(document *d, cs_cursor *cursor) {
+  enum { PROFILE = 1039 };
+  char signature[4];
+  int64_t end = cs_cursor_section(cursor, cs_cursor_32(cursor), "the resources");
+  while (cursor->status == CELSPAN_OK && end - cursor->at >= 12) {
+    cs_cursor_bytes(cursor, signature, sizeof signature);
+    unsigned number = cs_cursor_16(cursor), name = cs_cursor_8(cursor);
+    cs_cursor_skip(cursor, name + (name + 1) % 2);
+    uint32_t size = cs_cursor_32(cursor);
+    if (memcmp(signature, "8BIM", 4) != 0 || size > (uint64_t)(end - cursor->at))
+      break;
+    if (number == PROFILE && cursor->status == CELSPAN_OK)
+      CS_TRY(read_profile(d, cursor, size));
+    cs_cursor_skip(cursor, (uint64_t)size + size % 2);
+  }
+  CS_TRY(cursor->status);
+  cursor->at = end;
+  return cs_profile_note(d->context, d->painting, CS_CONTENTS_NONE, &d->profile);
 }
 
 /* ---------------------------------------------------------------- channels */
@@ -206,6 +246,7 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
     return open_group(d);
   CS_TRY(
       cs_contents_add(d->context, d->input, d->painting, record->name, record->name_size, &layer));
+  layer->colour = cs_profile_colour(&d->profile);
   layer->is_visible = !record->is_hidden;
   layer->opacity = record->opacity * (double)record->fill / (255.0 * 255.0);
   layer->is_group = record->role == CS_PSD_GROUP;
@@ -335,6 +376,7 @@ static celspan_status add_merged(document *d, cs_cursor *cursor) {
   if (source.channels[CS_PSD_RED].packing == CS_PSD_PACK_BITS)
     CS_TRY(find_packed(d, &source));
   CS_TRY(cs_contents_add(d->context, d->input, d->painting, "Background", 10, &layer));
+  layer->colour = cs_profile_colour(&d->profile);
   CS_TRY(cs_psd_rows_create(d->context, &source, &rows));
   cs_contents_set_pixels(layer, 0, 0, rows);
   return CELSPAN_OK;
@@ -347,8 +389,7 @@ static celspan_status read_document(document *d) {
   cs_cursor_init(&cursor, d->context, d->input, 0, d->input->size);
   CS_TRY(read_header(d, &cursor));
   cs_cursor_skip(&cursor, cs_cursor_32(&cursor)); /* the colour table */
-  cs_cursor_skip(&cursor, cs_cursor_32(&cursor)); /* resources */
-  CS_TRY(cursor.status);
+  CS_TRY(read_resources(d, &cursor));
   CS_TRY(read_section(d, &cursor));
   return d->count > 0 ? CELSPAN_OK : add_merged(d, &cursor);
 }

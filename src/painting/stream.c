@@ -14,6 +14,52 @@ celspan_status cs_stream_read(cs_stream *stream, celspan_context *context, void 
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- all of it */
+
+/* Bytes that grow as they come. */
+typedef struct loaded {
+  void *bytes;
+  size_t capacity, size, most;
+} loaded;
+
+static celspan_status load(cs_stream *stream, celspan_context *context, const char *name,
+                           loaded *out) {
+  for (size_t got = 1; got > 0; out->size += got) {
+    if (out->size > out->most)
+      return cs_input_fail(context, stream->input, -1, CELSPAN_LIMIT,
+                           "\"%s\" unpacks to more than %zu bytes, which is the limit for it", name,
+                           out->most);
+    CS_TRY(cs_mem_reserve(context, &out->bytes, &out->capacity, out->size + CS_STREAM_BUFFER, 1));
+    CS_TRY(stream->pull(stream, context, (unsigned char *)out->bytes + out->size,
+                        out->capacity - out->size, &got));
+  }
+  return CELSPAN_OK;
+}
+
+/* The memory that was grown, shrunk to what is in it. */
+static celspan_status shrink(celspan_context *context, loaded *found, unsigned char **out,
+                             size_t *size) {
+  unsigned char *bytes =
+      cs_mem_resize(context->memory, found->bytes, found->capacity, found->size + 1);
+  if (!bytes)
+    return cs_fail_memory(context);
+  bytes[found->size] = 0;
+  *out = bytes;
+  *size = found->size;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_stream_load(cs_stream *stream, celspan_context *context, const char *name,
+                              size_t most, unsigned char **out, size_t *size) {
+  loaded found = {.most = most};
+  celspan_status status = load(stream, context, name, &found);
+  if (status == CELSPAN_OK)
+    status = shrink(context, &found, out, size);
+  if (status != CELSPAN_OK)
+    cs_mem_free(context->memory, found.bytes, found.capacity);
+  return status;
+}
+
 /* ---------------------------------------------------------------- a part of a file */
 
 static celspan_status refill(cs_stream_range *range, celspan_context *context) {

@@ -26,6 +26,13 @@ struct cs_stream {
 CELSPAN_CHECKED celspan_status cs_stream_read(cs_stream *stream, celspan_context *context,
                                               void *bytes, size_t size, const char *what);
 
+/* All that is left of the stream, at most `most` bytes, in *size + 1 bytes of new memory: a NUL follows
+ * them. Memory is taken for bytes that have come. name: for the message. Errors: INPUT, LIMIT,
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_stream_load(cs_stream *stream, celspan_context *context,
+                                              const char *name, size_t most, unsigned char **out,
+                                              size_t *size);
+
 /* Bytes [at, end) of a file. */
 typedef struct cs_stream_range {
   cs_stream base;

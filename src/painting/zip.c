@@ -1,5 +1,6 @@
 #include "painting/zip.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "painting/bytes.h"
@@ -142,6 +143,13 @@ static celspan_status read_entry(celspan_context *context, const cs_input *input
   return CELSPAN_OK;
 }
 
+/* Names lie in memory in the order of the table. */
+static int by_name(const void *a, const void *b) {
+  const cs_zip_member *one = a, *other = b;
+  int order = strcmp(one->name, other->name);
+  return order != 0 ? order : one->name < other->name ? -1 : 1;
+}
+
 static celspan_status read_table(celspan_context *context, const cs_input *input, cs_zip *zip,
                                  const table_place *place) {
   zip->table_at = (int64_t)place->offset;
@@ -162,6 +170,7 @@ static celspan_status read_table(celspan_context *context, const cs_input *input
   char *name = zip->names;
   for (size_t at = 0; zip->count < zip->capacity;)
     CS_TRY(read_entry(context, input, zip, &at, &name));
+  qsort(zip->members, zip->count, sizeof *zip->members, by_name);
   return CELSPAN_OK;
 }
 
@@ -182,11 +191,24 @@ void cs_zip_finish(cs_zip *zip) {
   *zip = (cs_zip){.memory = zip->memory};
 }
 
+/* The first place at which a member's name is not below `name`: of several of one name, the first of
+ * the table. */
+size_t cs_zip_place(const cs_zip *zip, const char *name) {
+  size_t low = 0, high = zip->count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (strcmp(zip->members[middle].name, name) < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
 const cs_zip_member *cs_zip_find(const cs_zip *zip, const char *name) {
-  for (size_t i = 0; i < zip->count; i++)
-    if (strcmp(zip->members[i].name, name) == 0)
-      return &zip->members[i];
-  return NULL;
+  size_t place = cs_zip_place(zip, name);
+  bool is_found = place < zip->count && strcmp(zip->members[place].name, name) == 0;
+  return is_found ? &zip->members[place] : NULL;
 }
 
 /* ---------------------------------------------------------------- members */
@@ -234,46 +256,13 @@ void cs_zip_close(cs_zip_stream *stream) {
     cs_stream_inflate_finish(&stream->inflate);
 }
 
-/* Bytes that grow as they come. */
-typedef struct loaded {
-  void *bytes;
-  size_t capacity, size, most;
-} loaded;
-
-static celspan_status load(celspan_context *context, cs_stream *stream, const char *name,
-                           loaded *out) {
-  for (size_t got = 1; got > 0; out->size += got) {
-    if (out->size > out->most)
-      return cs_input_fail(context, stream->input, -1, CELSPAN_LIMIT,
-                           "\"%s\" unpacks to more than %zu bytes, which is the limit for it", name,
-                           out->most);
-    CS_TRY(cs_mem_reserve(context, &out->bytes, &out->capacity, out->size + CS_STREAM_BUFFER, 1));
-    CS_TRY(stream->pull(stream, context, (unsigned char *)out->bytes + out->size,
-                        out->capacity - out->size, &got));
-  }
-  return CELSPAN_OK;
-}
-
 static celspan_status check_sum(celspan_context *context, const cs_input *input,
-                                const cs_zip_member *member, const loaded *found) {
-  uLong sum = crc32_z(0, found->bytes, found->size);
-  return sum == member->sum
+                                const cs_zip_member *member, const unsigned char *bytes,
+                                size_t size) {
+  return crc32_z(0, bytes, size) == member->sum
              ? CELSPAN_OK
              : cs_input_fail(context, input, member->header, CELSPAN_INPUT,
                              "\"%s\" is damaged: its checksum is wrong", member->name);
-}
-
-/* The memory that was grown, shrunk to what is in it. */
-static celspan_status shrink(celspan_context *context, loaded *found, unsigned char **out,
-                             size_t *size) {
-  unsigned char *bytes =
-      cs_mem_resize(context->memory, found->bytes, found->capacity, found->size + 1);
-  if (!bytes)
-    return cs_fail_memory(context);
-  bytes[found->size] = 0;
-  *out = bytes;
-  *size = found->size;
-  return CELSPAN_OK;
 }
 
 celspan_status cs_zip_load(celspan_context *context, const cs_input *input,
@@ -281,14 +270,17 @@ celspan_status cs_zip_load(celspan_context *context, const cs_input *input,
                            size_t *size) {
   cs_zip_stream stream;
   CS_TRY(cs_zip_open(context, input, member, &stream));
-  loaded found = {.most = most};
-  celspan_status status = load(context, stream.bytes, member->name, &found);
+  unsigned char *bytes;
+  size_t count;
+  celspan_status status = cs_stream_load(stream.bytes, context, member->name, most, &bytes, &count);
   cs_zip_close(&stream);
-  if (status == CELSPAN_OK)
-    status = check_sum(context, input, member, &found);
-  if (status == CELSPAN_OK)
-    status = shrink(context, &found, out, size);
-  if (status != CELSPAN_OK)
-    cs_mem_free(context->memory, found.bytes, found.capacity);
-  return status;
+  CS_TRY(status);
+  status = check_sum(context, input, member, bytes, count);
+  if (status != CELSPAN_OK) {
+    cs_mem_free(context->memory, bytes, count + 1);
+    return status;
+  }
+  *out = bytes;
+  *size = count;
+  return CELSPAN_OK;
 }

@@ -36,7 +36,7 @@ typedef struct cs_zip {
   unsigned char *table;
   char *names; /* ended by NUL each */
   size_t names_size;
-  cs_zip_member *members; /* in the order of the table */
+  cs_zip_member *members; /* by name; of one name in the order of the table */
   size_t count, capacity;
 } cs_zip;
 
@@ -44,7 +44,9 @@ typedef struct cs_zip {
 CELSPAN_CHECKED celspan_status cs_zip_read(celspan_context *context, const cs_input *input,
                                            cs_zip *out);
 void cs_zip_finish(cs_zip *zip);
-/* NULL: there is none of that name. */
+/* The first place of `members` whose name is not below this one; the count where there is none. */
+size_t cs_zip_place(const cs_zip *zip, const char *name);
+/* The first of that name in the table; NULL: there is none. */
 const cs_zip_member *cs_zip_find(const cs_zip *zip, const char *name);
 
 /* The bytes of a member, unpacked. */

@@ -469,11 +469,140 @@ describe("the cels of a tree", function()
     local told = {}
     for i, one in ipairs(tree.skipped) do told[one.layer] = one.what; told[i] = true end
     assert.are.equal(5, #told)
-    assert.are.equal("a adjustmentlayer: it is empty", told.blur)
+    assert.are.equal('is a "adjustmentlayer": it is empty', told.blur)
     assert.matches("alpha is inherited", told.inherits)
     assert.matches("its first drawing is shown", told.moves)
-    assert.matches("a transparencymask: it changes nothing here", told.masked)
+    assert.matches('has a "transparencymask": it changes nothing here', told.masked)
     assert.matches("colour space RGBAF32: it is empty", told.deep)
+  end)
+end)
+
+-- ---------------------------------------------------------------- colour profiles
+
+describe("a colour profile", function()
+  local adobe = { { 0.60974, 0.31111, 0.01947 }, { 0.20528, 0.62567, 0.06087 },
+    { 0.14919, 0.06322, 0.74457 } }
+  local note = 'the colour profile "%s": its colours are taken as those of sRGB'
+
+  --- A painting of one layer in the format, with the profile where that format has it.
+  local function painting_with(format, profile)
+    local fields = { name = "ink", profile = format == "openraster" and profile or nil }
+    return paintings[format] { w = 40, h = 30, profile = profile, layers = { layer_of(fields) } }
+  end
+
+  local function told_of(bytes)
+    local tree = assert(layers.read(write(bytes)))
+    local told = {}
+    for i, one in ipairs(tree.skipped) do told[i] = one.layer .. ": " .. one.what end
+    return told, tree
+  end
+
+  --- Codes as they are, shown as light.
+  local function check_linear(tree)
+    local image = celspan.pixels(celspan.rostrum { celspan.cel { tree[1].object } },
+      { size = { 40, 30 } })
+    local layer = layer_of {}
+    for y = layer.y, layer.y + layer.h - 1 do
+      local r, _, _, a = layer.pixel(4, y - layer.y)
+      local shown, _, _, alpha = image:get(layer.x + 4, y)
+      assert.is_true(math.abs(shown - r / 255 * a / 255) < 1e-3)
+      assert.is_true(math.abs(alpha - a / 255) < 1e-3)
+    end
+  end
+
+  for _, format in ipairs { "openraster", "krita", "psd" } do
+    it("of sRGB needs no note in " .. format, function()
+      for _, profile in ipairs { { curve = "srgb" }, { curve = "formula" }, { wide = true } } do
+        local told, tree = told_of(painting_with(format, paintings.profile(profile)))
+        assert.are.same({}, told)
+        check_pixels(tree[1], layer_of {}, 40, 30)
+      end
+    end)
+
+    it("of light is honoured in " .. format, function()
+      for _, profile in ipairs { { curve = 1 }, { curve = "curv\0\0\0\0\0\0\0\0" },
+        { curve = "para\0\0\0\0\0\0\0\0\0\1\0\0" }, { curve = 1, grey = true } } do
+        local told, tree = told_of(painting_with(format, paintings.profile(profile)))
+        assert.are.same({}, told)
+        check_linear(tree)
+      end
+    end)
+
+    it("of another kind is noted by its name in " .. format, function()
+      local path = format == "openraster" and "ink: " or ": "
+      for _, profile in ipairs { { places = adobe, curve = 2.19921875 }, { places = adobe },
+        { curve = 2.2 }, { grey = true, curve = 2.2 }, { wide = true, places = adobe, curve = 1 },
+        { curve = "curv\0\0\0\0\0\0\9\9" }, { curve = "para\0\0\0\0\0\7\0\0" },
+        { curve = "mft2\0\0\0\0\0\0\0\0" } } do
+        profile.name = "Wide (1998)"
+        local told, tree = told_of(painting_with(format, paintings.profile(profile)))
+        assert.are.same({ path .. note:format "Wide (1998)" }, told)
+        check_pixels(tree[1], layer_of {}, 40, 30)
+      end
+    end)
+
+    it("that is damaged is noted in " .. format, function()
+      local whole = paintings.profile {}
+      local path = format == "openraster" and "ink: " or ": "
+      for size = 1, #whole - 1, 151 do
+        local told = told_of(painting_with(format, whole:sub(1, size)))
+        assert.are.equal(1, #told)
+        assert.are.equal(path, told[1]:match "^.-: ")
+      end
+    end)
+  end
+
+  it("of Krita may be named without being there, and be that of a layer", function()
+    local function told_with(image, layer, profile)
+      return told_of(paintings.krita { w = 40, h = 30, attributes = image and
+        (' profile="%s"'):format(image), layers = { layer_of { name = "ink", profile = profile,
+          attributes = layer and (' profile="%s"'):format(layer) } } })
+    end
+    assert.are.same({}, told_with("sRGB-elle-V2-srgbtrc.icc", "sRGB built-in"))
+    assert.are.same({}, told_with("Gray-D50-elle-V2-srgbtrc.icc"))
+    local told, tree = told_with("sRGB-elle-V2-srgbtrc.icc", "sRGB-elle-V2-g10.icc")
+    assert.are.same({}, told)
+    check_linear(tree)
+    assert.are.same({ ": " .. note:format "Rec2020-elle-V4-rec709.icc" },
+      (told_with("Rec2020-elle-V4-rec709.icc", "Rec2020-elle-V4-rec709.icc")))
+    assert.are.same({ "ink: " .. note:format "Wide" }, (told_with("sRGB built-in", "sRGB built-in",
+      paintings.profile { name = "Wide", places = adobe })))
+  end)
+
+  it("of a PNG may be told by its other chunks", function()
+    local function told_with(...)
+      local text = {}
+      for i, one in ipairs { ... } do text[i] = stored.chunk(one[1], one[2]) end
+      return told_of(paintings.openraster { w = 40, h = 30, layers = { layer_of { name = "ink",
+        chunks = table.concat(text) } } })
+    end
+    local function power(number) return { "gAMA", string.pack(">I4", number) } end
+    local function places(red)
+      return { "cHRM", string.pack(">I4I4I4I4I4I4I4I4", 31270, 32900, red, 33000, 30000, 60000, 15000,
+        6000) }
+    end
+    assert.are.same({}, told_with(power(45455)))
+    assert.are.same({}, told_with(power(45455), places(64000)))
+    assert.are.same({}, told_with(power(50000), places(70000), { "sRGB", "\0" }))
+    local told, tree = told_with(power(100000))
+    assert.are.same({}, told)
+    check_linear(tree)
+    assert.are.same({ "ink: " .. note:format "gamma 2" }, (told_with(power(50000))))
+    assert.are.same({ "ink: " .. note:format "gamma 2.2 with primaries" },
+      (told_with(power(45455), places(70000))))
+    assert.are.same({ "ink: " .. note:format "without a name" },
+      (told_with({ "iCCP", "bad\0\0no zlib" }, { "sRGB", "\0" })))
+    assert.are.same({ "ink: " .. note:format "without a name" }, (told_with { "iCCP", "" }))
+  end)
+
+  it("of a Photoshop document is looked for in its resources alone", function()
+    for _, resources in ipairs { "no block at all", "8BIM\4\15\0\0" .. string.pack(">I4", 999999),
+      "8BIM\4\15\255" } do
+      local told, tree = told_of(paintings.psd { w = 40, h = 30, resources = resources,
+        layers = { layer_of {} } })
+      assert.are.same({}, told)
+      check_pixels(tree[1], layer_of {}, 40, 30)
+    end
   end)
 end)
 

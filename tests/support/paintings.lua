@@ -5,7 +5,8 @@
 --
 -- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner), and
 -- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
--- alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
+-- profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting (Krita,
+-- Photoshop). alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
 -- "predicted" (Photoshop); depth = 8 or 16; grey.
 local stored = require "tests.support.stored"
 
@@ -36,6 +37,62 @@ function paintings.zip(members, comment)
     .. (comment or "")
 end
 
+-- ---------------------------------------------------------------- colour profiles
+
+--- Of sRGB, by the white of D50.
+local srgb_places = { { 0.4361, 0.2225, 0.0139 }, { 0.3851, 0.7169, 0.0971 },
+  { 0.1431, 0.0606, 0.7141 } }
+
+--- A table of the codes of sRGB.
+local function srgb_table()
+  local values = {}
+  for i = 0, 1023 do
+    local code = i / 1023
+    local light = code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
+    values[i + 1] = string.pack(">I2", math.floor(65535 * light + 0.5))
+  end
+  return "curv\0\0\0\0" .. string.pack(">I4", 1024) .. table.concat(values)
+end
+
+--- The bytes of a profile. given: name; curve: "srgb", "formula" (sRGB as one), a power, or the bytes
+--- of a tag; grey; places: of red, green and blue; wide: the name in UTF-16.
+function paintings.profile(given)
+  local function fixed(number) return string.pack(">i4", math.floor(number * 65536 + 0.5)) end
+  local curve = given.curve or "srgb"
+  if curve == "srgb" then
+    curve = srgb_table()
+  elseif curve == "formula" then
+    curve = "para\0\0\0\0\0\3\0\0" .. fixed(2.4) .. fixed(1 / 1.055) .. fixed(0.055 / 1.055)
+      .. fixed(1 / 12.92) .. fixed(0.04045)
+  elseif type(curve) == "number" then
+    curve = "curv\0\0\0\0" .. string.pack(">I4I2", 1, math.floor(curve * 256 + 0.5)) .. "\0\0"
+  end
+  local name = given.name or "a profile"
+  local tags = { { "desc", given.wide
+    and "mluc\0\0\0\0" .. string.pack(">I4I4", 1, 12) .. "enUS" .. string.pack(">I4I4", 2 * #name, 28)
+      .. name:gsub(".", "\0%0")
+    or "desc\0\0\0\0" .. string.pack(">I4", #name + 1) .. name .. ("\0"):rep(80) } }
+  if given.grey then
+    tags[2] = { "kTRC", curve }
+  else
+    for c, letter in ipairs { "r", "g", "b" } do
+      local place = (given.places or srgb_places)[c]
+      tags[#tags + 1] = { letter .. "XYZ", "XYZ \0\0\0\0" .. fixed(place[1]) .. fixed(place[2])
+        .. fixed(place[3]) }
+      tags[#tags + 1] = { letter .. "TRC", curve }
+    end
+  end
+  local entries, data, at = {}, {}, 128 + 4 + 12 * #tags
+  for i, one in ipairs(tags) do
+    entries[i] = one[1] .. string.pack(">I4I4", at, #one[2])
+    data[i] = one[2]
+    at = at + #one[2]
+  end
+  local head = string.pack(">I4", at) .. ("\0"):rep(12) .. (given.grey and "GRAY" or "RGB ") .. "XYZ "
+  return head .. ("\0"):rep(36 - #head) .. "acsp" .. ("\0"):rep(88) .. string.pack(">I4", #tags)
+    .. table.concat(entries) .. table.concat(data)
+end
+
 -- ---------------------------------------------------------------- PNG
 
 --- An RGBA PNG of a layer, or one of the given colour type with rows of its own.
@@ -48,7 +105,8 @@ function paintings.png(layer)
     for x = 0, layer.w - 1 do row[#row + 1] = string.pack(format, layer.pixel(x, y)) end
     rows[#rows + 1] = "\0" .. table.concat(row)
   end
-  return paintings.png_of(layer.w, layer.h, depth, 6, table.concat(rows))
+  local profile = layer.profile and stored.chunk("iCCP", "embedded\0\0" .. stored.zlib(layer.profile))
+  return paintings.png_of(layer.w, layer.h, depth, 6, table.concat(rows), layer.chunks or profile)
 end
 
 --- rows: filtered, each with its filter's byte. more: chunks before the data.
@@ -207,6 +265,9 @@ local function krita_layers(list, members)
     else
       members[#members + 1] = { name = "forest/layers/" .. file, deflate = layer.deflate,
         data = layer.tiles or (layer.pixel and paintings.krita_tiles(layer) or "") }
+      if layer.profile then
+        members[#members + 1] = { name = "forest/layers/" .. file .. ".icc", data = layer.profile }
+      end
       if layer.beyond then
         members[#members + 1] = { name = "forest/layers/" .. file .. ".defaultpixel",
           data = layer.beyond }
@@ -220,11 +281,14 @@ end
 function paintings.krita(painting)
   local members = { { name = "mimetype", data = "application/x-krita" } }
   local list = krita_layers(painting.layers, members)
+  if painting.profile then
+    members[#members + 1] = { name = "forest/annotations/icc", data = painting.profile }
+  end
   members[#members + 1] = { name = "maindoc.xml", deflate = true,
     data = '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE DOC PUBLIC "-//KDE//DTD krita 2.0//EN"'
       .. ' "http://www.calligra.org/DTD/krita-2.0.dtd">\n<DOC xmlns="http://www.calligra.org/DTD/krita"'
-      .. (' syntaxVersion="2">\n<IMAGE name="forest" width="%d" height="%d" colorspacename="RGBA">\n'
-        ):format(painting.w, painting.h) .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
+      .. (' syntaxVersion="2">\n<IMAGE name="forest" width="%d" height="%d" colorspacename="RGBA"%s>\n'
+        ):format(painting.w, painting.h, painting.attributes or "") .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
   return paintings.zip(members)
 end
 
@@ -354,6 +418,15 @@ end
 
 paintings.tag = tag
 
+--- resources: other bytes in their place.
+local function psd_resources(painting)
+  local profile = painting.profile
+  if not profile then return painting.resources or "" end
+  return "8BIM" .. string.pack(">I2", 1005) .. "\3abc" .. string.pack(">I4", 3) .. "xyz\0"
+    .. "8BIM" .. string.pack(">I2", 1039) .. "\0\0" .. string.pack(">I4", #profile) .. profile
+    .. ("\0"):rep(#profile % 2)
+end
+
 --- mode: 3 RGB; merged: what follows the layers.
 function paintings.psd(painting)
   local records, data = {}, {}
@@ -367,7 +440,8 @@ function paintings.psd(painting)
   local channels = painting.channels or (painting.grey and 1 or 3)
   return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", 1, 0, 0, channels, painting.h, painting.w,
       painting.depth or 8, painting.mode or (painting.grey and 1 or 3))
-    .. string.pack(">I4I4I4", 0, 0, #section) .. section
+    .. string.pack(">I4", 0) .. string.pack(">s4", psd_resources(painting))
+    .. string.pack(">I4", #section) .. section
     .. (painting.merged or "\0\0" .. ("\0"):rep(channels * painting.w * painting.h
       * ((painting.depth or 8) // 8)))
 end

@@ -402,6 +402,7 @@ typedef struct celspan_painting_layer {
   double opacity;              /* 0..1 */
   int32_t x, y, width, height; /* where its pixels lie, from the painting's top left corner */
   celspan_surface *surface;    /* borrowed; NULL: a group, or a layer without pixels */
+  const char *colour;          /* "srgb" or "linear": for the picture that is made of the surface */
 } celspan_painting_layer;
 
 /* file: borrowed      out: new
@@ -423,7 +424,8 @@ CELSPAN_API size_t celspan_painting_layer_count(const celspan_painting *painting
 CELSPAN_API bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
                                            celspan_painting_layer *out);
 /* What of the file is not shown as the program that made it does, in sentences; *layer: the place of
- * the layer. NULL where there is no such note. */
+ * the layer, or the count of layers where it is about the whole painting. NULL where there is no such
+ * note. */
 CELSPAN_API size_t celspan_painting_note_count(const celspan_painting *painting);
 CELSPAN_API const char *celspan_painting_note_at(const celspan_painting *painting, size_t index,
                                                  size_t *layer);
