@@ -147,12 +147,15 @@ static bool copy_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t 
   const cs_sampler *s = run->sampler;
   const cs_block_cache_slot *slot = cs_block_cache_slot_of(
       run->blocks, &s->source, 0, x / CS_PICTURE_BLOCK, y / CS_PICTURE_BLOCK);
-  bool reads_codes = slot->texels && (what == CODES || (slot->codes && s->reads_codes));
+  if (!slot->texels) { /* it could not be read: the status of the blocks tells why */
+    memset(out, 0, (size_t)count * (what == CODES ? 4 : 4 * sizeof(float)));
+    return false;
+  }
+  bool reads_codes = what == CODES || (slot->codes && s->reads_codes);
   size_t texel = reads_codes ? 4 : 4 * sizeof(float), size = (size_t)count * texel;
   size_t row = texel * (reads_codes ? CS_PICTURE_CODES_ROW : CS_PICTURE_BLOCK);
-  const char *from = !slot->texels ? (const char *)cs_block_cache_none
-                     : reads_codes ? (const char *)slot->block->codes
-                                   : (const char *)slot->texels;
+  const char *from =
+      reads_codes ? (const char *)slot->block->codes : (const char *)slot->texels;
   from += (size_t)(y % CS_PICTURE_BLOCK) * row + (size_t)(x % CS_PICTURE_BLOCK) * texel;
   if (reads_codes && what == LIGHT)
     CS_WIDE_CHOOSE(s->isa, cs_sampler_decode_codes)

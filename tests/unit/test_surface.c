@@ -472,6 +472,30 @@ static void test_failures(void) {
   free(pixels);
 }
 
+/* Coded rows of an opaque picture are copied. Where it cannot be read nothing is written beyond them:
+ * these rows fill a whole piece of the row's memory, which the heap's own checks stand behind. */
+static void test_wide_failure(void) {
+  enum { WIDE = 16384, HIGH = 4 };
+  const celspan_coding coding = {CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT};
+  unsigned char *pixels = malloc((size_t)WIDE * HIGH * 4);
+  host h;
+  studio s = {0};
+  CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
+  celspan_surface_desc desc = filled_by(host_init(&h, CELSPAN_SURFACE_RGB8, pixels), 1);
+  desc.width = WIDE;
+  desc.height = HIGH;
+  h.fail_row = 0;
+  celspan_exposure exposure = {studio_show(&s, show(&s, &desc, 0, 1)), 1};
+  celspan_frame_desc frame = frame_of(&exposure, 1);
+  frame.width = WIDE;
+  frame.height = HIGH;
+  CHECK(celspan_frame_pixels(s.context, &frame, &coding, pixels, (size_t)WIDE * 4, NULL) ==
+        CELSPAN_CALLBACK);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+  free(pixels);
+}
+
 static void test_refusals(void) {
   static const unsigned char pixel[16];
   host h;
@@ -774,6 +798,7 @@ int main(void) {
   test_places();
   test_map();
   test_failures();
+  test_wide_failure();
   test_refusals();
   test_pictures_refused();
   test_hashes();
