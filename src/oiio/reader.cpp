@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "oiio/jpeg_end.h"
+#include "oiio/psd_size.h"
 #include "oiio/shared.h"
 #include "oiio/sniff.h"
 #include "oiio/source.h"
@@ -463,6 +464,8 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
     check_size(reader->kind.width, reader->kind.height, reader->kind.is_whole);
   if (reader->kind.format == "jpeg")
     check_jpeg_end(*reader->source);
+  if (reader->kind.format == "psd")
+    check_psd_size(*reader->source);
   if (reader->kind.format == "dpx" || reader->kind.format == "cineon")
     check_film_end(*reader->source, reader->kind.format);
   reader->subimage = request.layer ? 0 : request.subimage;

@@ -473,6 +473,39 @@ static void test_huge_headers(void) {
   unlink(path);
 }
 
+/* A Photoshop document of 16 x 16 pixels with a layer, or a mask, of so many rows; no bytes follow. */
+static void check_rows(int32_t rows, int32_t mask_rows, celspan_status status) {
+  const char *path = picture_path("rows.psd");
+  unsigned char psd[26 + 8 + 8 + 2 + 18 + 6 + 12 + 4 + 24] = {
+      '8', 'B', 'P', 'S', 0, 1, [13] = 3, [17] = 16, [21] = 16, [23] = 8, 0, 3};
+  unsigned char *record = psd + 44;
+  psd[37] = 4 + 2 + 64;
+  psd[41] = 2 + 64;
+  psd[43] = 1;
+  record[17] = 1; /* a channel */
+  record[18] = mask_rows ? 0xff : 0;
+  record[19] = mask_rows ? 0xfe : 0;
+  record[23] = 9; /* its bytes */
+  memcpy(record + 24, "8BIMnorm", 8);
+  record[39] = 24;
+  record[43] = 20;
+  for (int i = 0; i < 4; i++) {
+    record[8 + i] = (unsigned char)(rows >> (24 - 8 * i));
+    record[52 + i] = (unsigned char)(mask_rows >> (24 - 8 * i));
+  }
+  write_bytes(path, psd, sizeof psd);
+  CHECK(read_file(path) == status);
+  bool is_told = strstr(celspan_context_error(context), "tell of more rows than it has bytes");
+  CHECK(is_told == (rows > (int32_t)sizeof psd || mask_rows > (int32_t)sizeof psd));
+  unlink(path);
+}
+
+static void test_rows_of_layers(void) {
+  check_rows(3, 0, CELSPAN_INPUT); /* cut off */
+  check_rows(400000000, 0, CELSPAN_INPUT);
+  check_rows(0, 400000000, CELSPAN_INPUT);
+}
+
 static void test_changed(void) {
   const char *path = picture_path("changed.tif");
   cs_picture *picture;
@@ -797,6 +830,7 @@ int main(void) {
     test_jpeg_ends();
     test_corrupt();
     test_huge_headers();
+    test_rows_of_layers();
     test_changed();
     test_memory();
     test_parts();

@@ -1,0 +1,84 @@
+#include "oiio/psd_size.h"
+
+#include "oiio/shared.h"
+
+namespace {
+
+enum { HEADER = 26, LARGE = 2, USER_MASK = -2, WHOLE_MASK = -3, CHANNELS = 56 };
+
+/* Big-endian numbers, one after the other; 0 from the end of the file on. */
+class Numbers {
+public:
+  Numbers(Source &source, uint64_t at) : source_(source), at_(at) {}
+
+  uint64_t next(int bytes) {
+    unsigned char found[8] = {0};
+    uint64_t number = 0;
+    is_over_ = is_over() || source_.pread(found, size_t(bytes), int64_t(at_)) < size_t(bytes);
+    at_ += uint64_t(bytes);
+    for (int i = 0; i < bytes && !is_over_; i++)
+      number = number << 8 | found[i];
+    return number;
+  }
+  int32_t place() { return int32_t(uint32_t(next(4))); }
+  void skip(uint64_t bytes) {
+    is_over_ = is_over_ || bytes > source_.size();
+    at_ += is_over_ ? 0 : bytes;
+  }
+  uint64_t at() const { return at_; }
+  bool is_over() const { return is_over_ || at_ > source_.size(); }
+
+private:
+  Source &source_;
+  uint64_t at_;
+  bool is_over_ = false;
+};
+
+/* The rows of a rectangle; the numbers are left behind it. */
+uint64_t rows_of(Numbers &numbers) {
+  int64_t top = numbers.place();
+  numbers.skip(4);
+  int64_t bottom = numbers.place();
+  numbers.skip(4);
+  return uint64_t(bottom > top ? bottom - top : top - bottom);
+}
+
+/* The rows of all channels of the record at the numbers, which are left behind it. A channel of two
+ * bytes has but the number of its packing, and no rows. */
+uint64_t rows_of_record(Numbers &numbers, int length_bytes) {
+  uint64_t rows = rows_of(numbers), count = numbers.next(2), mask_rows = 0;
+  uint64_t colours = 0, masks = 0;
+  if (count > CHANNELS)
+    throw Failure(CELSPAN_INPUT, "is damaged: a layer has more than 56 channels");
+  for (uint64_t i = 0; i < count; i++) {
+    int id = int16_t(uint16_t(numbers.next(2)));
+    bool has_rows = numbers.next(length_bytes) > 2, is_mask = id == USER_MASK || id == WHOLE_MASK;
+    colours += has_rows && !is_mask;
+    masks += has_rows && is_mask;
+  }
+  numbers.skip(4 + 4 + 4); /* signature, blend mode, opacity and flags */
+  uint64_t extra = numbers.next(4), start = numbers.at();
+  if (numbers.next(4) >= 16)
+    mask_rows = rows_of(numbers);
+  numbers.skip(start + extra > numbers.at() ? start + extra - numbers.at() : 0);
+  return rows * colours + mask_rows * masks;
+}
+
+} // namespace
+
+void check_psd_size(Source &source) {
+  Numbers numbers(source, 4);
+  int length_bytes = numbers.next(2) == LARGE ? 8 : 4;
+  numbers.skip(HEADER - 6);
+  numbers.skip(numbers.next(4)); /* the colour table */
+  numbers.skip(numbers.next(4)); /* resources */
+  uint64_t section = numbers.next(length_bytes), list = numbers.next(length_bytes), rows = 0;
+  if (section == 0 || list == 0)
+    return;
+  int count = int16_t(uint16_t(numbers.next(2)));
+  for (int i = 0; i < (count < 0 ? -count : count) && !numbers.is_over(); i++) {
+    rows += rows_of_record(numbers, length_bytes);
+    if (rows > source.size())
+      throw Failure(CELSPAN_INPUT, "is damaged: its layers tell of more rows than it has bytes");
+  }
+}
