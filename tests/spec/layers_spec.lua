@@ -675,7 +675,96 @@ describe("an OCA folder", function()
     assert.are.equal(4, #assert(layers.read(folder .. "/shot.oca")))
   end)
 
+  --- The tree of one layer with these fields of a layer and of its drawing.
+  local function with_layer(layer, fields, root)
+    return layers.read(oca_folder(([[{"name": "shot", "width": 40, "height": 30, %s "layers": [
+      {"name": "ink", "type": "paintlayer", %s "frames": [{"name": "a", %s "duration": 1}]}]}]]):format(
+        root or "", layer, fields)))
+  end
+  local place = '"position": [10, 12], "width": 4, "height": 4, '
+  local one = '"fileName": "sub/one.png", '
+
+  it_reads_pictures("may mix both slashes in the names of its files", function()
+    for _, name in ipairs { [[sub\\one.png]], "sub/one.png", [[.\\sub/one.png]], "./sub/one.png" } do
+      local tree = assert(with_layer("", ('"fileName": "%s", '):format(name) .. place))
+      assert.are.equal("10 20 30 255", codes_of(tree[1].object, 40, 30)(8, 10))
+    end
+  end)
+
+  it_reads_pictures("tells centres, which may be fractions of a pixel", function()
+    local tree = assert(with_layer("", one .. '"position": [10.5, 12.25], "width": 4, "height": 4, '))
+    assert.are.equal("ink 8.5,10.25 1.00 normal", shape_of(tree))
+    tree = assert(with_layer("", one .. '"position": [1e1, 1.15e1], "width": 3, "height": 3.0, '))
+    assert.are.equal("ink 8.5,10 1.00 normal", shape_of(tree))
+  end)
+
+  it_reads_pictures("without places has drawings that fill it", function()
+    local tree = assert(with_layer("", one))
+    assert.are.equal("ink 0,0 1.00 normal", shape_of(tree))
+    assert.are.equal("10 20 30 255", codes_of(tree[1].object, 40, 30)(39, 29))
+  end)
+
+  it_reads_pictures("may number frames from anywhere, and hold them for any time", function()
+    for _, number in ipairs { -3, 0, 1, 1001 } do
+      local tree = assert(with_layer("", one .. place .. ('"frameNumber": %d, '):format(number)))
+      assert.are.equal("ink 8,10 1.00 normal", shape_of(tree))
+    end
+  end)
+
+  it_reads_pictures("may tell any depth and any program", function()
+    for _, depth in ipairs { "U8", "U16", "F16", "F32", "toonz" } do
+      local tree = assert(with_layer("", one .. place,
+        ('"colorDepth": "%s", "originApp": "OpenToonz", "ocaVersion": "1.2.0",'):format(depth)))
+      assert.are.equal("10 20 30 255", codes_of(tree[1].object, 40, 30)(8, 10))
+    end
+  end)
+
+  it_reads_pictures("may leave out what is as usual, or write null", function()
+    local tree = assert(with_layer('"opacity": null, "visible": null, "blendingMode": null, '
+      .. '"childLayers": null, "label": -1, "animated": false, "fileType": "png", ', one .. place
+      .. '"opacity": null, '))
+    assert.are.equal("ink 8,10 1.00 normal", shape_of(tree))
+    local empty = assert(layers.read(oca_folder '{"layers": [{"type": "grouplayer"}, {}]}'))
+    assert.are.equal(" 0,0 1.00 normal []; \0320,0 1.00 normal", shape_of(empty))
+    assert.are.equal(1920, empty.width)
+    assert.are.equal(1080, empty.height)
+  end)
+
+  it_reads_pictures("has blank drawings that show nothing", function()
+    for _, fields in ipairs { '"name": "_blank", ' .. one, '"fileName": "", ' } do
+      local tree = assert(with_layer("", fields .. place))
+      assert.are.equal("ink 0,0 1.00 normal", shape_of(tree))
+      assert.are.same({}, { tree[1].object:bounds() })
+    end
+  end)
+
+  it_reads_pictures("names blend modes as Krita does, and tells of those that are not shown", function()
+    local known = { normal = "normal", multiply = "multiply", add = "add", linear_dodge = "add",
+      plus = "add", Multiply = "multiply" }
+    for word, blend in pairs(known) do
+      local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place))
+      assert.are.equal(blend, tree[1].blend)
+      assert.are.same({}, tree.skipped)
+    end
+    for _, word in ipairs { "screen", "overlay", "erase", "soft_light" } do
+      local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place))
+      assert.are.same({ { layer = "ink", what = ('blend mode "%s": it is shown as normal'):format(
+        (word:gsub("_", "-"))) } }, tree.skipped)
+    end
+    local tree = assert(with_layer('"inheritAlpha": true, ', one .. place))
+    assert.matches("alpha is inherited", tree.skipped[1].what)
+  end)
+
+  it_reads_pictures("may have a document that ends in .json, beside others", function()
+    local folder = write_folder { ["shot.json"] = '{"layers": [{"name": "ink"}]}', ["a_meta.json"] = "{}" }
+    assert.are.equal("ink 0,0 1.00 normal", shape_of(assert(layers.read(folder))))
+  end)
+
   local refusals = {
+    ['fileName is "C:.*one%.png"; it must lie in the folder'] =
+      ('{"layers": [{"frames": [%s]}]}'):format(drawing:format("x", [[C:\\one.png]], 1)),
+    ['fileName is ".*one%.png"; it must lie in the folder'] =
+      ('{"layers": [{"frames": [%s]}]}'):format(drawing:format("x", [[\\\\host\\one.png]], 1)),
     ["line 2: a comma or } is missing"] = '{"name": "a"\n"b": 1}',
     ["the document must be an object"] = "3",
     ["layer 1 must be an object, got number"] = '{"layers": [3]}',
