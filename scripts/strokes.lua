@@ -1,4 +1,4 @@
--- Lines: a brush that feels pressure, a signature that draws itself, and a road whose dashes march.
+-- Lines: a brush that feels pressure, loops that draw themselves, and a road whose dashes march.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 
@@ -14,12 +14,20 @@ local function brush(u)
   return celspan.stroke { points = points, degree = 3, cap = "round", texture = ink }
 end
 
+--- Loops as they are written to loosen the wrist, small at first and at last, and a flourish.
+local loops = {}
+for i = 7, 103 do
+  local t = i / 112
+  local size, turn = 112 * math.sin(math.pi * t) ^ 0.7, 14 * math.pi * t
+  local x, y = 200 + 1330 * t - size * math.sin(turn), 645 - size * math.cos(turn)
+  loops[#loops + 1] = { x + 0.45 * (645 - y), y } -- they lean
+end
+table.move({ { 1600, 668 }, { 1680, 655 }, { 1760, 590 } }, 1, 3, #loops + 1, loops)
+
 --- A line that draws itself: `to` grows, and the taper keeps the tip fine wherever it is.
-local function signature(u)
-  return celspan.stroke {
-    d = "M170 660 C 260 420 380 420 330 620 S 250 800 420 700 S 620 480 650 620 S 560 800 760 690 "
-      .. "S 930 520 960 640 C 990 760 860 800 850 690 S 1100 560 1220 660 S 1480 740 1750 560",
-    width = 26, taper = { 90, 260 }, cap = "round", join = "round", to = u, texture = clay }
+local function written(u)
+  return celspan.stroke { points = loops, degree = 3, width = 20, taper = { 120, 220 }, cap = "round", to = u,
+                          texture = clay }
 end
 
 --- Dashes march when their offset moves; a primitive's outline is a line as well.
@@ -34,5 +42,5 @@ return celspan.film { size = { 1920, 1080 }, frames = 48, frame = function(f)
   local u = f.index / f.count
   local track, dashes = table.unpack(road(f))
   return celspan.rostrum { back = paper, celspan.cel {
-    track, dashes, brush(u), signature(ease("inOutSine")(f.progress)) } }
+    track, dashes, brush(u), written(ease "inOutSine"(math.min(1, f.progress / 0.85))) } } -- and dries
 end }

@@ -21,7 +21,7 @@ local under = celspan.glyphs { "a film in forty drawings", font = FONT, size = 4
 
 --- A letter on its way: from above, turned, to its place.
 local function arriving(letter, i, time)
-  local u = share(time, 0.25 + 0.12 * i, 0.6)
+  local u = share(time, 0.12 * i - 0.08, 0.6)
   if u == 0 then return end
   local k = ease "outBack"(u)
   local x = letter.x + letter.advance / 2
@@ -39,7 +39,7 @@ local function frame(f)
   local art = { sky, hill }
   for i, letter in ipairs(title) do art[#art + 1] = arriving(letter, i, f.time) end
   for i, letter in ipairs(under) do
-    art[#art + 1] = letter.object:fade(share(f.time, 2.1 + 0.05 * i, 0.15))
+    art[#art + 1] = letter.object:fade(share(f.time, 1.9 + 0.05 * i, 0.15))
   end
   return celspan.rostrum { celspan.cel(art) }
 end

@@ -5,10 +5,16 @@ local keys = require "celspan.keys"
 
 local owl = assert(svg.read "drawings/owl.svg")
 
-local wing = keys { { 0, 0 }, { 0.5, 135, "outBack" }, { 0.7, 105, "inOutSine" }, { 0.9, 140, "inOutSine" },
-                    { 1.1, 105, "inOutSine" }, { 1.3, 140, "inOutSine" }, { 1.9, 0, "inOutQuad" } }
-local tilt = keys { { 0.2, 0 }, { 0.6, -7, "inOutSine" }, { 1.4, -7 }, { 1.8, 0, "inOutSine" } }
-local glance = keys { { 0.1, 0 }, { 0.3, -7, "outQuad" }, { 1.5, -7 }, { 1.7, 0, "inOutQuad" } }
+-- It gathers itself and crouches, swings the wing up past its place, waves, and lets it fall past its
+-- place again. The head follows a little later than the wing, and the eyes are there first.
+local wing = keys { { 0, 0 }, { 0.2, -14, "outSine" }, { 0.55, 122, "outBack" }, { 0.75, 88, "inOutSine" },
+                    { 0.95, 116, "inOutSine" }, { 1.15, 88, "inOutSine" }, { 1.35, 116, "inOutSine" },
+                    { 1.75, -9, "inOutQuad" }, { 1.96, 0, "inOutSine" } }
+local tilt = keys { { 0.05, 0 }, { 0.25, 3, "outSine" }, { 0.65, -8, "inOutSine" }, { 1.45, -8 },
+                    { 1.8, 2, "inOutSine" }, { 1.96, 0, "inOutSine" } }
+local glance = keys { { 0, 0 }, { 0.15, -8, "outQuad" }, { 1.4, -8 }, { 1.6, 0, "inOutQuad" } }
+local height = keys { { 0, 1 }, { 0.2, 0.955, "outSine" }, { 0.5, 1.035, "inOutQuad" }, { 0.8, 1, "inOutSine" },
+                      { 1.5, 1 }, { 1.75, 0.97, "inQuad" }, { 1.96, 1, "outBack" } }
 
 local night = celspan.cel {
   celspan.rect { 0, 0, 640, 400, texture = celspan.linear { from = { 0, 0 }, to = { 0, 400 }, { 0, "#16203f" },
@@ -17,10 +23,14 @@ local night = celspan.cel {
   celspan.path { d = "M0 356 C180 340 420 372 640 350 V386 C430 396 200 372 0 388 Z", texture = "#3a2a22" } }
 
 return celspan.film { size = { 640, 400 }, frames = 48, frame = function(f)
+  local tall = height:at(f.time)
+  local sunk = 160 * (1 - tall) -- of the shoulders, which stand 160 above the feet
   local look = function(pupil) return pupil:translate(glance:at(f.time), 0) end
   local art = owl:with {
-    ["left wing"] = function(arm) return arm:rotate(wing:at(f.time), 90, 172) end,
-    head = function(head) return head:rotate(tilt:at(f.time), 160, 170) end,
+    body = function(body) return body:scale(2 - tall, tall, 160, 330) end,
+    ["left wing"] = function(arm) return arm:rotate(wing:at(f.time), 90, 172):translate(0, sunk) end,
+    ["right wing"] = function(arm) return arm:rotate(-0.12 * wing:at(f.time), 230, 172):translate(0, sunk) end,
+    head = function(head) return head:rotate(tilt:at(f.time), 160, 170):translate(0, sunk) end,
     ["left-pupil"] = look, ["right-pupil"] = look }
   return celspan.rostrum { night, celspan.cel { art.object:translate(150, 12) } }
 end }

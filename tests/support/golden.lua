@@ -21,6 +21,14 @@ function golden.actual(case)
   return nil, "celspan spans " .. case .. ".lua failed"
 end
 
+--- Whether celspan was built without the module that sets type.
+function golden.lacks_art()
+  local pipe = assert(io.popen(command .. " check tests/golden/text/layout.lua 2>&1"))
+  local text = pipe:read "a"
+  pipe:close()
+  return text:find("celspan-art.so", 1, true) ~= nil
+end
+
 --- What was accepted; nil when nothing was.
 function golden.expected(case)
   local file = io.open(case .. ".spans")
