@@ -626,7 +626,7 @@ describe("the command line", function()
         assert.truthy(out:find "\nskipped line 3: [^\n]+\n$", out)
       end)
 
-      it("says what is wrong with it", function()
+      it_reads_artwork("says what is wrong with it", function()
         local function refused(path, pattern)
           local code, out, err = celspan("info " .. path)
           assert.same({ 4, "" }, { code, out })

@@ -1,8 +1,9 @@
 /* A memory hook for tests: counts what is held, checks the sizes it is told, and can make the n-th
- * allocation fail. */
+ * allocation fail, once or with all that follow. */
 #ifndef CELSPAN_TESTS_MEMORY_H
 #define CELSPAN_TESTS_MEMORY_H
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@ typedef struct memory_watch {
   size_t size_errors; /* blocks resized or freed with another size than they had */
   size_t allocations; /* made so far, failed ones included */
   size_t fail_at;     /* the allocation of this number fails, counted from 1; 0: none */
+  bool is_for_good;   /* all later ones fail, too */
 } memory_watch;
 
 typedef union memory_header {
@@ -25,8 +27,11 @@ static inline void *memory_watch_resize(void *user, void *block, size_t old_size
   memory_header *header = block ? (memory_header *)block - 1 : NULL;
   if (header && header->size != old_size)
     watch->size_errors++;
-  if (new_size > 0 && ++watch->allocations == watch->fail_at)
-    return NULL;
+  if (new_size > 0) {
+    size_t n = ++watch->allocations;
+    if (n == watch->fail_at || (watch->is_for_good && watch->fail_at && n > watch->fail_at))
+      return NULL;
+  }
   watch->blocks += (new_size > 0) - (size_t)(block != NULL);
   watch->bytes += new_size - (header ? header->size : 0);
   if (header && new_size == 0)

@@ -56,9 +56,10 @@ static void write_document(const char *path, long missing) {
   fclose(file);
 }
 
-/* The frame that shows the layer, as coded pixels. */
-static celspan_status shoot(celspan_context *context, celspan_surface *surface, int workers,
-                            unsigned char *pixels) {
+/* The frame that shows the layer, as coded pixels. watch: its allocation `n` of those for the frame
+ * fails; NULL: none. */
+static celspan_status shoot_with(celspan_context *context, celspan_surface *surface, int workers,
+                                 memory_watch *watch, size_t n, unsigned char *pixels) {
   studio s = {.context = context};
   celspan_picture_desc picture = {.surface = surface};
   celspan_texture *texture = NULL;
@@ -82,6 +83,8 @@ static celspan_status shoot(celspan_context *context, celspan_surface *surface, 
   frame.film_width = frame.width = WIDTH;
   frame.film_height = frame.height = HEIGHT;
   frame.workers = workers;
+  if (watch)
+    watch->fail_at = watch->allocations + n;
   celspan_status status =
       celspan_frame_pixels(context, &frame, &coding, pixels, (size_t)WIDTH * 4, NULL);
   celspan_rostrum_unref(rostrum);
@@ -89,6 +92,11 @@ static celspan_status shoot(celspan_context *context, celspan_surface *surface, 
   celspan_texture_unref(texture);
   studio_finish(&s);
   return status;
+}
+
+static celspan_status shoot(celspan_context *context, celspan_surface *surface, int workers,
+                            unsigned char *pixels) {
+  return shoot_with(context, surface, workers, NULL, 0, pixels);
 }
 
 static bool is_file(const unsigned char *pixels) {
@@ -142,6 +150,201 @@ static void check_failure(const char *path) {
   free(pixels);
 }
 
+/* ---------------------------------------------------------------- the face */
+
+#define VALLEY TEST_ROOT "/scripts/paintings/valley.ora"
+
+/* Without the art module there is no XML. */
+static bool has_art(celspan_context *context) {
+  celspan_painting *painting = NULL;
+  if (celspan_painting_read(context, VALLEY, &painting) == CELSPAN_OK) {
+    celspan_painting_unref(painting);
+    return true;
+  }
+  CHECK(strstr(celspan_context_error(context), "celspan-art.so"));
+  printf("skipped: %s\n", celspan_context_error(context));
+  return false;
+}
+
+static void check_refused(celspan_context *context, const char *path, celspan_status status,
+                          const char *sentence) {
+  celspan_painting *painting = NULL;
+  CHECK(celspan_painting_read(context, path, &painting) == status && !painting);
+  CHECK(strstr(celspan_context_error(context), sentence));
+}
+
+static void check_arguments(void) {
+  celspan_context *context = NULL;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  check_refused(context, NULL, CELSPAN_BAD_ARGUMENT, "painting: file must name a file");
+  check_refused(context, "", CELSPAN_BAD_ARGUMENT, "painting: file must name a file");
+  check_refused(context, "/nowhere/a.psd", CELSPAN_INPUT, "/nowhere/a.psd: cannot be opened");
+  check_refused(context, "/tmp", CELSPAN_INPUT, "/tmp: is not a file");
+  check_refused(context, "/dev/zero", CELSPAN_INPUT, "/dev/zero: is not a file");
+  check_refused(context, TEST_ROOT "/meson.build", CELSPAN_INPUT, "is no layered painting");
+  celspan_painting_unref(NULL);
+  celspan_context_destroy(context);
+}
+
+/* All that the functions tell of a painting is so for as long as somebody holds it. */
+static void check_facts(const char *path) {
+  celspan_context *context = NULL;
+  celspan_painting *painting = NULL;
+  celspan_painting_layer layer = {0}, other = {.name = "as it was"};
+  int32_t width = 0, height = 0;
+  size_t place = 7;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  if (!CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK))
+    return;
+  CHECK(celspan_painting_ref(painting) == painting);
+  celspan_painting_unref(painting);
+  celspan_painting_size(painting, &width, &height);
+  CHECK(width == WIDTH && height == HEIGHT && celspan_painting_layer_count(painting) == 1);
+  CHECK(celspan_painting_layer_at(painting, 0, &layer) && layer.surface && !layer.is_group);
+  CHECK_TEXT(layer.blend, "normal");
+  CHECK_TEXT(layer.colour, "srgb");
+  CHECK(layer.parent == 1 && layer.is_visible && layer.opacity == 1);
+  CHECK(layer.x == 0 && layer.y == 0 && layer.width == WIDTH && layer.height == HEIGHT);
+  CHECK(!celspan_painting_layer_at(painting, 1, &other) && other.name[0] == 'a');
+  CHECK(!celspan_painting_layer_at(painting, SIZE_MAX, &other));
+  CHECK(celspan_painting_note_count(painting) == 0);
+  CHECK(!celspan_painting_note_at(painting, 0, &place) && place == 7);
+  celspan_painting_unref(painting);
+  celspan_context_destroy(context);
+}
+
+/* A surface that is kept shows its pixels when its painting and even its context are gone. */
+static void check_lifetimes(const char *path) {
+  celspan_context *context = NULL, *later = NULL;
+  celspan_painting *painting = NULL;
+  celspan_painting_layer layer = {0};
+  unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
+  CHECK(celspan_painting_layer_at(painting, 0, &layer));
+  celspan_surface *kept = celspan_surface_ref(layer.surface);
+  celspan_painting_unref(painting);
+  celspan_context_destroy(context);
+  CHECK(celspan_context_create(NULL, &later) == CELSPAN_OK);
+  CHECK(shoot(later, kept, 2, pixels) == CELSPAN_OK && is_file(pixels));
+  celspan_surface_unref(kept);
+  celspan_context_destroy(later);
+  free(pixels);
+}
+
+/* A header and records may tell of as much as they like: memory is for what is there. */
+static void check_claims(const char *path) {
+  memory_watch watch = {0};
+  celspan_context *context = memory_watch_context(&watch);
+  celspan_painting *painting = NULL;
+  size_t bytes, peak;
+  uint64_t allocations;
+  FILE *file = fopen(path, "wb");
+  const uint32_t count = 60, record = 18 + 3 * 6 + 16 + 12, data = 3 * 10;
+  fwrite("8BPS\0\1\0\0\0\0\0\0\0\3\0\0\x40\0\0\0\x40\0\0\10\0\3\0\0\0\0\0\0\0\0", 1, 34, file);
+  put(file, 4 + 2 + count * (record + data) + 4, 4);
+  put(file, 2 + count * (record + data), 4);
+  put(file, count, 2);
+  for (uint32_t i = 0; i < count; i++) {
+    put(file, 0, 4);
+    put(file, 0, 4);
+    put(file, 16384, 4);
+    put(file, 16384, 4);
+    put(file, 3, 2);
+    for (uint32_t c = 0; c < 3; c++) {
+      put(file, c, 2);
+      put(file, 10, 4);
+    }
+    fwrite("8BIMnorm\377\0\0\0\0\0\0\14\0\0\0\0\0\0\0\0\3ink", 1, 28, file);
+  }
+  for (uint32_t i = 0; i < 3 * count * 10; i++)
+    put(file, 0, 1);
+  put(file, 0, 4);
+  fclose(file);
+  CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
+  CHECK(celspan_painting_layer_count(painting) == count);
+  celspan_context_memory(context, &bytes, &peak, &allocations);
+  CHECK(peak < 1u << 20);
+  celspan_painting_unref(painting);
+  celspan_context_destroy(context);
+  CHECK(watch.blocks == 0);
+}
+
+/* ---------------------------------------------------------------- allocations */
+
+/* Reads the painting and shows a point of every layer. */
+static celspan_status use(celspan_context *context, const char *path) {
+  celspan_painting *painting = NULL;
+  celspan_painting_layer layer;
+  celspan_status status = celspan_painting_read(context, path, &painting);
+  CHECK(status == CELSPAN_OK || !painting);
+  for (size_t i = 0; status == CELSPAN_OK && celspan_painting_layer_at(painting, i, &layer); i++) {
+    celspan_picture_desc picture = {.surface = layer.surface, .colour = layer.colour};
+    celspan_texture *texture = NULL;
+    if (layer.surface)
+      status = celspan_texture_create_picture(context, &picture, &texture);
+    celspan_texture_unref(texture);
+  }
+  celspan_painting_unref(painting);
+  return status;
+}
+
+/* Whichever allocation fails, alone or with all that follow: the status says so, nothing is lost, and
+ * the context goes on. */
+static void check_allocations(const char *path, bool is_for_good) {
+  bool is_done = false;
+  for (size_t n = 1; n < 5000 && !is_done; n++) {
+    memory_watch watch = {0};
+    celspan_context *context = memory_watch_context(&watch);
+    watch.fail_at = watch.allocations + n;
+    watch.is_for_good = is_for_good;
+    celspan_status status = use(context, path);
+    is_done = watch.allocations < watch.fail_at;
+    CHECK(status == (is_done ? CELSPAN_OK : CELSPAN_NO_MEMORY));
+    watch.fail_at = 0;
+    CHECK(use(context, path) == CELSPAN_OK);
+    celspan_context_destroy(context);
+    CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  }
+  CHECK(is_done);
+}
+
+/* The rows of a layer, as a frame asks for them. */
+static void check_rows(const char *path, bool is_for_good) {
+  unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
+  bool is_done = false;
+  for (size_t n = 1; n < 3000 && !is_done; n = n < 60 ? n + 1 : n + n / 8) {
+    memory_watch watch = {0};
+    celspan_context *context = memory_watch_context(&watch);
+    celspan_painting *painting = NULL;
+    celspan_painting_layer layer = {0};
+    CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
+    CHECK(celspan_painting_layer_at(painting, 0, &layer));
+    watch.is_for_good = is_for_good;
+    celspan_status status = shoot_with(context, layer.surface, 1, &watch, n, pixels);
+    is_done = watch.allocations < watch.fail_at;
+    /* What is kept to go faster may be given up instead. */
+    CHECK(status == CELSPAN_OK ? is_file(pixels) : status == CELSPAN_NO_MEMORY && !is_done);
+    watch.fail_at = 0;
+    CHECK(shoot(context, layer.surface, 1, pixels) == CELSPAN_OK && is_file(pixels));
+    celspan_painting_unref(painting);
+    celspan_context_destroy(context);
+    CHECK(watch.blocks == 0 && watch.size_errors == 0);
+  }
+  CHECK(is_done);
+  free(pixels);
+}
+
+static void check_archives(void) {
+  celspan_context *context = NULL;
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  if (has_art(context)) {
+    check_allocations(VALLEY, false);
+    check_allocations(VALLEY, true);
+  }
+  celspan_context_destroy(context);
+}
+
 int main(void) {
   char path[] = "/tmp/celspan-painting-XXXXXX";
   int descriptor = mkstemp(path);
@@ -152,7 +355,16 @@ int main(void) {
   check_frame(path, 0, 4);
   check_frame(path, 1 << 20, 1);
   check_frame(path, 1 << 20, 3);
+  check_arguments();
+  check_facts(path);
+  check_lifetimes(path);
+  check_allocations(path, false);
+  check_allocations(path, true);
+  check_rows(path, false);
+  check_rows(path, true);
+  check_archives();
   check_failure(path);
+  check_claims(path);
   unlink(path);
   return check_done();
 }

@@ -342,8 +342,78 @@ static void fonts_are_kept_and_let_go(void) {
   CHECK(after + 50000 < before);
 }
 
-/* Whichever allocation fails, the answer says so, nothing leaks, and the context goes on. */
-static void every_allocation_may_fail(void) {
+/* What is no text is refused with a sentence, and *out stays as it is. */
+static void refuse(celspan_text_desc desc, celspan_status status, const char *sentence) {
+  celspan_object *object = NULL;
+  celspan_glyphs *glyphs = NULL;
+  CHECK(celspan_object_create_text(context, &desc, &object) == status && !object);
+  if (!CHECK(strstr(celspan_context_error(context), sentence)))
+    fprintf(stderr, "%s\n", celspan_context_error(context));
+  CHECK(celspan_glyphs_create(context, &desc, &glyphs) == status && !glyphs);
+}
+
+static void bad_arguments_are_refused(void) {
+  const celspan_font fonts[17] = {{OWN, NULL}, {OWN, NULL}}, none[] = {{"/nowhere.ttf", NULL}};
+  const celspan_font no_name[] = {{NULL, NULL}}, no_font[] = {{TEST_ROOT "/meson.build", NULL}};
+  const celspan_feature feature[] = {{"li", 1}};
+  const celspan_variation axis[] = {{"ital", 1}}, not_finite[] = {{"wght", NAN}};
+  const celspan_text_desc good = text_of("ab", fonts, 1);
+  celspan_text_desc bad = good;
+#define REFUSE(change, status, sentence) bad = good, change, refuse(bad, CELSPAN_##status, sentence)
+  REFUSE(bad.text = NULL, BAD_ARGUMENT, "text");
+  REFUSE((bad.text = "a\tb", bad.text_size = 3), BAD_ARGUMENT, "byte 2");
+  REFUSE(bad.text = "\xff\xfe", BAD_ARGUMENT, "UTF-8");
+  REFUSE((bad.text = "\xe6\x97\xa5", bad.text_size = 3), BAD_ARGUMENT, "U+65E5");
+  REFUSE(bad.fonts = NULL, BAD_ARGUMENT, "font");
+  REFUSE(bad.font_count = 0, BAD_ARGUMENT, "font");
+  REFUSE(bad.font_count = 17, LIMIT, "16");
+  REFUSE(bad.fonts = no_name, BAD_ARGUMENT, "font");
+  REFUSE(bad.fonts = none, INPUT, "/nowhere.ttf");
+  REFUSE(bad.fonts = no_font, INPUT, "meson.build");
+  REFUSE(bad.size = -1, BAD_ARGUMENT, "size");
+  REFUSE(bad.size = NAN, BAD_ARGUMENT, "size");
+  REFUSE(bad.at.x = INFINITY, BAD_ARGUMENT, "at");
+  REFUSE((bad.has_width = true, bad.width = -1), BAD_ARGUMENT, "width");
+  REFUSE(bad.leading = NAN, BAD_ARGUMENT, "leading");
+  REFUSE(bad.tracking = 1e300, BAD_ARGUMENT, "tracking");
+  REFUSE(bad.align = (celspan_align)7, BAD_ARGUMENT, "align");
+  REFUSE(bad.direction = (celspan_direction)7, BAD_ARGUMENT, "direction");
+  REFUSE((bad.features = feature, bad.feature_count = 1), BAD_ARGUMENT, "li");
+  REFUSE((bad.features = NULL, bad.feature_count = 1), BAD_ARGUMENT, "features");
+  REFUSE((bad.variations = NULL, bad.variation_count = 1), BAD_ARGUMENT, "variations");
+  REFUSE((bad.variations = axis, bad.variation_count = 1), BAD_ARGUMENT, "ital");
+  REFUSE((bad.variations = not_finite, bad.variation_count = 1), BAD_ARGUMENT, "wght");
+  REFUSE(bad.language = "not a language at all, and far too long for one", BAD_ARGUMENT,
+         "language");
+#undef REFUSE
+}
+
+/* Letters live as long as somebody keeps them, whatever becomes of the list. */
+static void letters_outlive_their_list(void) {
+  const celspan_font fonts[] = {{OWN, NULL}};
+  celspan_text_desc desc = text_of("Ab c\nd", fonts, 1);
+  celspan_glyphs *glyphs = NULL;
+  celspan_box box = {0, 0, 0, 0};
+  desc.tracking = 100;
+  if (!CHECK(celspan_glyphs_create(context, &desc, &glyphs) == CELSPAN_OK))
+    return;
+  CHECK(celspan_glyphs_count(glyphs) == 5);
+  const celspan_glyph *first = celspan_glyphs_get(glyphs, 0), *last = celspan_glyphs_get(glyphs, 4);
+  CHECK(first->text_size == 1 && first->text[0] == 'A' && first->line == 1);
+  CHECK(last->text_size == 1 && last->text[0] == 'd' && last->line == 2);
+  CHECK_NEAR(celspan_glyphs_get(glyphs, 1)->x, first->x + first->advance + 4.8, 1e-9);
+  CHECK_NEAR(last->y - first->y, 1.2 * 48, 1e-9);
+  CHECK(!celspan_object_bounds(celspan_glyphs_get(glyphs, 2)->object, &box)); /* a space */
+  celspan_object *kept = celspan_object_ref(first->object);
+  celspan_glyphs_destroy(glyphs);
+  celspan_glyphs_destroy(NULL);
+  CHECK(celspan_object_bounds(kept, &box) && box.width > 0);
+  celspan_object_unref(kept);
+}
+
+/* Whichever allocation fails, alone or with all that follow, the answer says so, nothing leaks, and
+ * the context goes on. */
+static void every_allocation_may_fail(bool is_for_good) {
   const celspan_font fonts[] = {{OWN, NULL}, {OWN, NULL}};
   const celspan_variation variations[] = {{"wght", 700}};
   celspan_text_desc desc = text_of("ab שלום, AVE ->\nc d e", fonts, 2);
@@ -353,7 +423,7 @@ static void every_allocation_may_fail(void) {
   desc.variation_count = 1;
   bool is_done = false;
   for (size_t n = 1; n < 2000 && !is_done; n++) {
-    memory_watch watch = {.fail_at = n};
+    memory_watch watch = {.fail_at = n, .is_for_good = is_for_good};
     celspan_context *failing = memory_watch_context(&watch);
     if (!failing)
       continue;
@@ -379,7 +449,10 @@ int main(void) {
   mixed_lines_are_those_of_hb_shape();
   outlines_are_those_of_freetype();
   fonts_are_kept_and_let_go();
-  every_allocation_may_fail();
+  bad_arguments_are_refused();
+  letters_outlive_their_list();
+  every_allocation_may_fail(false);
+  every_allocation_may_fail(true);
   celspan_context_destroy(context);
   printf("%u skipped\n", skipped);
   return check_done();
