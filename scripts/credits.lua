@@ -30,13 +30,14 @@ local roll = column(table.concat(roles, "\n"), WIDTH / 2 - 20, "right", "#8fa3b8
   | column(table.concat(names, "\n"), WIDTH / 2 + 20, "left", "#f6ead2")
 local _, top, _, height = roll:bounds()
 
---- Darkness that hides the ends of the roll.
-local function shade(y, height_of_it, from, to)
-  return celspan.rect { 0, y, WIDTH, height_of_it,
-    texture = celspan.linear { from = { 0, y }, to = { 0, y + height_of_it }, { 0, from }, { 1, to } } }
+--- Darkness that hides the ends of the roll, from the edge of the frame inwards. Light is mixed, and a
+--- tenth of it still reads well: most of the fading is done near the edge.
+local dark = "#10151c"
+local function shade(from, to)
+  return celspan.rect { 0, math.min(from, to), WIDTH, math.abs(to - from), texture = celspan.linear {
+    from = { 0, from }, to = { 0, to }, { 0, dark }, { 0.25, dark .. "fa" }, { 0.55, dark .. "b0" }, { 1, dark .. "00" } } }
 end
-local dark, none = "#10151c", "#10151c00"
-local shades = celspan.cel { shade(0, 110, dark, none), shade(HEIGHT - 110, 110, none, dark) }
+local shades = celspan.cel { shade(0, 120), shade(HEIGHT, HEIGHT - 120) }
 local ground = celspan.cel { celspan.rect { 0, 0, WIDTH, HEIGHT, texture = celspan.radial {
   centre = { WIDTH / 2, HEIGHT / 2 }, radius = WIDTH / 2, { 0, "#1d2936" }, { 1, dark } } } }
 

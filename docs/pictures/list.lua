@@ -19,6 +19,7 @@ return {
   { name = "gradients", page = "docs/guide.md" },
   { name = "poster", page = "docs/guide.md" },
   { name = "title", script = "scripts/title.lua", frame = 29, size = "640x360" },
+  { name = "credits", script = "scripts/credits.lua", frame = 109, size = "640x360" },
   { name = "exposures", page = "docs/guide.md" },
   { name = "easing", page = "docs/guide.md" },
   { name = "blur", page = "docs/guide.md", frame = 10 },

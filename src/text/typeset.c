@@ -118,7 +118,7 @@ static celspan_status acquire_fonts(cs_layout *layout) {
 
 static celspan_status make_room(cs_layout *layout) {
   cs_memory *memory = layout->context->memory;
-  size_t room = layout->desc->text_size;
+  size_t room = layout->desc->text_size + 1; /* an empty text has memory, too */
   layout->room = room;
   layout->characters = cs_mem_array(memory, room, sizeof *layout->characters);
   layout->places = cs_mem_array(memory, room, sizeof *layout->places);
@@ -129,7 +129,7 @@ static celspan_status make_room(cs_layout *layout) {
   layout->advances = cs_mem_array(memory, room, sizeof *layout->advances);
   bool is_made = layout->characters && layout->places && layout->scripts && layout->embeddings &&
                  layout->directions && layout->breaks && layout->advances;
-  return is_made || room == 0 ? CELSPAN_OK : cs_fail_memory(layout->context);
+  return is_made ? CELSPAN_OK : cs_fail_memory(layout->context);
 }
 
 static celspan_status read_characters(cs_layout *layout) {
