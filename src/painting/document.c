@@ -104,13 +104,16 @@ void cs_document_close_group(cs_document *document) {
 }
 
 celspan_status cs_document_scan(cs_document *document, int64_t count) {
+  int64_t size = document->input->size, largest = (int64_t)1 << 50;
+  int64_t most = CS_DOCUMENT_SCANNED + CS_DOCUMENT_SCANNED_EACH * (size < largest ? size : largest);
   document->scanned += count;
-  if (document->scanned <= CS_DOCUMENT_SCANNED)
+  if (document->scanned <= most)
     return CELSPAN_OK;
   return cs_document_fail(
       document, CELSPAN_LIMIT,
-      "the layers up to here unpack to more than %lld bytes, which is the limit",
-      (long long)CS_DOCUMENT_SCANNED);
+      "the layers up to here unpack to more than %lld bytes, which is the limit "
+      "for a file of this size",
+      (long long)most);
 }
 
 /* ---------------------------------------------------------------- reading */

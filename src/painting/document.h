@@ -18,9 +18,10 @@
 #include "painting/zip.h"
 
 #define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* of its XML at most */
-/* Of all members together, unpacked while the painting is read: layers of a few bytes may all name one
- * member that unpacks to very much. */
-#define CS_DOCUMENT_SCANNED ((int64_t)4 << 30)
+/* What all members together may unpack to while the painting is read: so many bytes, and so many for
+ * each byte of the file. Layers of a few bytes may all name one member that unpacks to very much. */
+#define CS_DOCUMENT_SCANNED ((int64_t)64 << 20)
+#define CS_DOCUMENT_SCANNED_EACH 64
 
 typedef struct cs_document cs_document;
 

@@ -249,6 +249,14 @@ describe("the pixels of a layer", function()
       end)
   end
 
+  it("of Krita are found in a folder of another name than the image's", function()
+    for _, name in ipairs { "wood", "forest/x", "" } do
+      local layer = layer_of {}
+      local tree = assert(layers.read(write(paintings.krita { w = 40, h = 30, name = name, layers = { layer } })))
+      check_pixels(tree[1], layer, 40, 30)
+    end
+  end)
+
   it("of Krita fill the painting where no tile is, if the layer says so", function()
     local layer = layer_of { x = 0, y = 0, w = 64, h = 64, beyond = "\30\20\10\255" }
     local tree = assert(layers.read(write(paintings.krita { w = 130, h = 70,
@@ -886,6 +894,15 @@ describe("an OpenRaster file", function()
   for pattern, stack in pairs(refusals) do
     it("is refused: " .. pattern, function() refused(ora_with(stack, more), pattern) end)
   end
+
+  it("is refused for layers that all name one member that unpacks to much", function()
+    local long = paintings.png_of(4, 4, 8, 6, ("\0"):rep(68), stored.chunk("tEXt", "a\0" .. ("b"):rep(1 << 20)))
+    local stack = '<image w="4" h="4"><stack>' .. ('<layer src="a.png"/>'):rep(400) .. "</stack></image>"
+    local began = os.clock()
+    refused(ora_with(stack, { { name = "a.png", data = long, deflate = true } }),
+      "stack.xml:1: the layers up to here unpack to more than 13%d+ bytes, which is the limit for a file")
+    assert.is_true(os.clock() - began < 2)
+  end)
 
   it("fails when a damaged picture is seen", function()
     local stack = '<image w="40" h="30"><stack><layer src="a.png"/></stack></image>'

@@ -6,7 +6,7 @@
 -- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner), and
 -- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
 -- profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting (Krita,
--- Photoshop). alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
+-- Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
 -- "predicted" (Photoshop); depth = 8 or 16; grey.
 local stored = require "tests.support.stored"
 
@@ -287,8 +287,8 @@ function paintings.krita(painting)
   members[#members + 1] = { name = "maindoc.xml", deflate = true,
     data = '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE DOC PUBLIC "-//KDE//DTD krita 2.0//EN"'
       .. ' "http://www.calligra.org/DTD/krita-2.0.dtd">\n<DOC xmlns="http://www.calligra.org/DTD/krita"'
-      .. (' syntaxVersion="2">\n<IMAGE name="forest" width="%d" height="%d" colorspacename="RGBA"%s>\n'
-        ):format(painting.w, painting.h, painting.attributes or "") .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
+      .. (' syntaxVersion="2">\n<IMAGE name="%s" width="%d" height="%d" colorspacename="RGBA"%s>\n'
+        ):format(painting.name or "forest", painting.w, painting.h, painting.attributes or "") .. "<layers>\n" .. list .. "\n</layers>\n</IMAGE>\n</DOC>\n" }
   return paintings.zip(members)
 end
 
