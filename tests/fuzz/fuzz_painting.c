@@ -159,7 +159,7 @@ static void check_layers(celspan_context *context, const celspan_painting *paint
     }
   }
   for (size_t i = 0; celspan_painting_note_at(painting, i, &at); i++)
-    demand(at < count, "a note on no layer");
+    demand(at <= count, "a note on no layer");
 }
 
 typedef struct meter {

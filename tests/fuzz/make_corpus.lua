@@ -42,6 +42,9 @@ write("ora", "indexed", around(stack:format(0, "screen"), paintings.png_of(4, 2,
 write("ora", "grey", around(stack:format(0, "x"), paintings.png_of(3, 4, 8, 0,
   "\1\1\2\3\2\1\2\3\3\1\2\3\4\1\2\3")))
 
+write("ora", "profile", around(stack:format(1, "y"), paintings.png(layer {
+  profile = paintings.profile { curve = "formula" } })))
+
 local document = '<DOC xmlns="k"><IMAGE name="f" width="80" height="8"><layers><layer '
   .. 'nodetype="grouplayer" name="g"><layers><layer nodetype="paintlayer" filename="a" name="a" '
   .. 'opacity="99" compositeop="add" colorspacename="%s" x="-3"/></layers></layer></layers>'
@@ -61,5 +64,8 @@ for _, packing in ipairs { "raw", "packbits", "zip", "predicted" } do
   end
 end
 write("psd", "grey", paintings.psd { w = 8, h = 8, grey = true, layers = { layer() } })
+local profiled = painting(layer())
+profiled.profile = paintings.profile { curve = 2.2, wide = true }
+write("psd", "profile", paintings.psd(profiled))
 write("psd", "merged", paintings.psd { w = 2, h = 1,
   merged = "\0\1" .. string.pack(">I2I2I2", 2, 2, 2) .. "\255\1\255\2\255\3" })

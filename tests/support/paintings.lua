@@ -6,8 +6,9 @@
 -- A layer: name, x, y, w, h, pixel = function(x, y) -> r, g, b, a (codes; x, y from its corner), and
 -- opacity (0..1), visible, blend (the format's own word), layers (a group), attributes (more of XML).
 -- profile: the bytes of a colour profile, of a layer (OpenRaster, Krita) or of the painting (Krita,
--- Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the bytes of a Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita), packing = "raw", "packbits", "zip" or
--- "predicted" (Photoshop); depth = 8 or 16; grey.
+-- Photoshop). name: what a Krita image is called; its layers lie in "forest". alpha: the bytes of a
+-- Photoshop layer's alpha, instead of its own. How it is packed: deflate (zip members), lzf (Krita),
+-- packing = "raw", "packbits", "zip" or "predicted" (Photoshop); depth = 8 or 16; grey.
 local stored = require "tests.support.stored"
 
 local paintings = {}
