@@ -1,11 +1,20 @@
 #include "art/xml.h"
 
+/* The header tells of the limits of what entities grow to only to those who say this; libraries of
+ * distributions are built with it. */
+#define XML_DTD
 #include <expat.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Bytes handed to expat at a time: it counts them in an int. */
 #define PIECE_BYTES (1 << 20)
+/* Of what one entity stands for, as its message says. */
+#define ENTITY_BYTES 1024
+/* Entities may make a document this many times as large, and any to this many bytes. */
+#define GROWTH 2
+#define GROWN_BYTES (1 << 20)
 
 typedef struct document {
   XML_Parser parser;
@@ -66,20 +75,38 @@ static void on_text(void *user, const XML_Char *bytes, int size) {
     stop(doc);
 }
 
-/* Entities are how a small file grows without bound, and how one reads another; so none may be
- * declared. &amp;, &lt;, &gt;, &quot;, &apos; and character references need no declaration. */
+/* Why an entity may not be declared; NULL: it may. Those of the document type itself and those in
+ * other files are how one file reads another, and those made of others are how a small file grows
+ * without bound. value is text, in which character references are undone: NULL for another file. */
+static const char *refusal_of(const XML_Char *value, int size, int is_parameter) {
+  if (is_parameter)
+    return "is of the document type; only those of the text are read";
+  if (!value)
+    return "is in another file, and no other file is read";
+  if (size > ENTITY_BYTES)
+    return "is longer than 1,024 bytes";
+  return memchr(value, '&', (size_t)size) ? "is made of others, which is not read" : NULL;
+}
+
 static void on_entity(void *user, const XML_Char *name, int is_parameter, const XML_Char *value,
                       int value_size, const XML_Char *base, const XML_Char *system_id,
                       const XML_Char *public_id, const XML_Char *notation) {
-  (void)is_parameter, (void)value, (void)value_size, (void)base;
-  (void)system_id, (void)public_id, (void)notation;
+  (void)base, (void)system_id, (void)public_id, (void)notation;
   document *doc = user;
-  if (is_stopped(doc))
+  const char *reason = refusal_of(value, value_size, is_parameter);
+  if (is_stopped(doc) || !reason)
+    return;
+  fail(doc, CELSPAN_INPUT, "the entity \"%.100s\" %s: write out what it stands for", name, reason);
+  stop(doc);
+}
+
+/* An entity that nobody declared, where another file might declare it. */
+static void on_skipped(void *user, const XML_Char *name, int is_parameter) {
+  document *doc = user;
+  if (is_stopped(doc) || is_parameter)
     return;
   fail(doc, CELSPAN_INPUT,
-       "the entity \"%.100s\" is declared; entities are not expanded: write out "
-       "what they stand for",
-       name);
+       "the entity \"%.100s\" is not declared here: write out what it stands for", name);
   stop(doc);
 }
 
@@ -91,6 +118,9 @@ static XML_Parser create_parser(document *doc) {
   XML_SetElementHandler(parser, on_start, on_end);
   XML_SetCharacterDataHandler(parser, on_text);
   XML_SetEntityDeclHandler(parser, on_entity);
+  XML_SetSkippedEntityHandler(parser, on_skipped);
+  XML_SetBillionLaughsAttackProtectionMaximumAmplification(parser, GROWTH);
+  XML_SetBillionLaughsAttackProtectionActivationThreshold(parser, GROWN_BYTES);
   return parser;
 }
 
@@ -105,6 +135,9 @@ static celspan_status parse(document *doc, const char *bytes, size_t size) {
         return fail(doc, CELSPAN_NO_MEMORY, "out of memory");
       if (error == XML_ERROR_ABORTED)
         return doc->failure->status != CELSPAN_OK ? doc->failure->status : CELSPAN_CANCELLED;
+      if (error == XML_ERROR_AMPLIFICATION_LIMIT_BREACH)
+        return fail(doc, CELSPAN_LIMIT, "entities make the document more than %d times as large",
+                    GROWTH);
       return fail(doc, CELSPAN_INPUT, "%s", XML_ErrorString(error));
     }
     done += piece;

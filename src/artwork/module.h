@@ -36,9 +36,9 @@ typedef struct cs_xml_handler {
 
 typedef struct cs_art_module {
   uint32_t version;
-  /* Errors: INPUT for a document that is not well-formed, that declares entities, or whose encoding
-   * is none of UTF-8, UTF-16, ISO-8859-1 and ASCII; LIMIT for one that nests too deeply; NO_MEMORY;
-   * CANCELLED. */
+  /* Errors: INPUT for a document that is not well-formed, that declares entities made of others or
+   * lying in other files, or whose encoding is none of UTF-8, UTF-16, ISO-8859-1 and ASCII; LIMIT for
+   * one that nests too deeply, or that entities make too large; NO_MEMORY; CANCELLED. */
   celspan_status (*parse_xml)(const char *bytes, size_t size, const cs_xml_handler *handler,
                               cs_art_failure *failure);
   const cs_type_functions *type;

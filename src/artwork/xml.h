@@ -1,7 +1,7 @@
 /* XML documents, element by element.
  *
- * Invariant: a document that ends with OK was well-formed, declared no entities, and never had more
- * than `depth` elements open.
+ * Invariant: a document that ends with OK was well-formed, had no entities but those of plain text and
+ * elements, which made it at most twice as large or a MiB, and never had more than `depth` elements open.
  */
 #ifndef CS_ARTWORK_XML_H
 #define CS_ARTWORK_XML_H

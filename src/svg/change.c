@@ -1,6 +1,7 @@
 /* A drawing with parts changed: a copy of its items in which changed parts are leaves. */
 #include <string.h>
 
+#include "scene/check.h"
 #include "svg/art.h"
 
 typedef struct changing {
@@ -11,13 +12,9 @@ typedef struct changing {
   celspan_svg *art; /* the copy */
 } changing;
 
-static const celspan_svg_changed *change_of(const changing *c, const cs_svg_item *item) {
-  for (size_t i = 0; i < c->change_count; i++) {
-    const char *name = c->are_labels[i] ? item->label : item->id;
-    if (name && strcmp(name, c->changes[i].name) == 0)
-      return &c->changes[i];
-  }
-  return NULL;
+static bool is_meant(const changing *c, size_t change, const cs_svg_item *item) {
+  const char *name = c->are_labels[change] ? item->label : item->id;
+  return name && strcmp(name, c->changes[change].name) == 0;
 }
 
 static celspan_object *kept(celspan_object *object) {
@@ -85,6 +82,16 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   return CELSPAN_OK;
 }
 
+/* An item that has an id and a label may be meant by both: one change acts on what the other made. */
+static celspan_status change_as_meant(changing *c, cs_svg_item *item, bool *is_changed) {
+  for (size_t i = 0; i < c->change_count && item->object; i++)
+    if (is_meant(c, i, item)) {
+      CS_TRY(change_item(c, &c->changes[i], item));
+      *is_changed = true;
+    }
+  return CELSPAN_OK;
+}
+
 /* Copies the items inside `from` into `to`. *is_changed: any of them, or what is in it, is another
  * now. Recursion: the depth of items. */
 static celspan_status copy_items(changing *c, const cs_svg_item *from, cs_svg_item *to,
@@ -108,11 +115,8 @@ static celspan_status copy_item(changing *c, const cs_svg_item *from, cs_svg_ite
   CS_TRY(copy_items(c, from, item, &is_inside_changed));
   if (is_inside_changed)
     CS_TRY(cs_svg_item_compose(c->context, item));
-  const celspan_svg_changed *change = item->object ? change_of(c, item) : NULL;
-  if (change)
-    CS_TRY(change_item(c, change, item));
-  *is_changed = *is_changed || is_inside_changed || change;
-  return CELSPAN_OK;
+  *is_changed = *is_changed || is_inside_changed;
+  return change_as_meant(c, item, is_changed);
 }
 
 static celspan_status copy_items(changing *c, const cs_svg_item *from, cs_svg_item *to,
@@ -170,6 +174,9 @@ celspan_status celspan_svg_with(celspan_context *context, const celspan_svg *svg
                                 const celspan_svg_changed *changes, size_t change_count,
                                 celspan_svg **out) {
   changing c = {.context = context, .changes = changes, .change_count = change_count};
+  CS_TRY(cs_check_given(context, "svg", "the drawing", svg));
+  if (change_count > 0)
+    CS_TRY(cs_check_given(context, "svg", "the list of changes", changes));
   CS_TRY(cs_svg_art_create(context, &c.art));
   c.are_labels = cs_arena_take(context, &c.art->arena, change_count * sizeof *c.are_labels);
   celspan_status status = c.are_labels ? find_names(&c, svg) : CELSPAN_NO_MEMORY;

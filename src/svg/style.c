@@ -97,7 +97,8 @@ static void collect(const cs_svg_document *document, const cs_svg_node *node, ui
                     cascade *out) {
   *out = (cascade){{0}};
   for (size_t i = 0; i < node->attribute_count; i++)
-    if (cs_svg_is_property(node->attributes[i].name))
+    if (cs_svg_is_property(node->attributes[i].name) &&
+        node->attributes[i].name != CS_SVG_MARKER) /* a shorthand: of style sheets alone */
       out->values[node->attributes[i].name] = node->attributes[i].value;
   apply_sheet(&document->sheet, node, false, tests, out);
   apply_declarations(&node->style, false, out);

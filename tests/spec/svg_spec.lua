@@ -123,6 +123,17 @@ describe("a drawing", function()
   end)
 end)
 
+describe("entities", function()
+  it("stand for values and for elements", function()
+    local art = assert(svg.read(write([[<!DOCTYPE svg [<!ENTITY red "#f00">
+      <!ENTITY box "<rect width='9' height='9' fill='&#35;00f'/>"><!ENTITY ns "http://www.w3.org/2000/svg">]>
+      <svg xmlns="&ns;" width="100" height="100"><rect width="50" height="50" fill="&red;"/>
+      <g transform="translate(60 60)">&box;</g></svg>]])))
+    assert.are.equal("ff0000 255", at(art.object, 25, 25))
+    assert.are.equal("0000ff 255", at(art.object, 65, 65))
+  end)
+end)
+
 describe("styles", function()
   it("come from attributes, rules and style attributes, in that order", function()
     local art = read [[<style>
@@ -420,6 +431,14 @@ describe("markers", function()
     assert.are.equal("00ff00 255", at(art.object, 55, 55))
     assert.are.equal("marker inside of itself", art.skipped[1].what)
   end)
+
+  it("are given all at once by style sheets alone", function()
+    local line = [[<path d="M20 50H80" fill="none" %s/>]]
+    local art = read(marker "" .. line:format 'style="marker: url(#m)"')
+    assert.are.equal("ff0000 255", at(art.object, 23, 50))
+    art = read(marker "" .. line:format 'marker="url(#m)"')
+    assert.are.equal("000000 0", at(art.object, 23, 50))
+  end)
 end)
 
 describe("what is not drawn", function()
@@ -476,6 +495,21 @@ describe("parts", function()
     assert.are.equal("000000 0", at(art.object, 5, 5))
   end)
 
+  it("that were changed are wholes: what is in them is no part any more", function()
+    local art = read(content):with { arm = function(arm) return arm:translate(40, 0) end }
+    assert.is_nil(rawget(art.parts, "hand"))
+    assert.is_truthy(raised.message(function() art:with { hand = function(hand) return hand end } end)
+      :find("the drawing has no part 'hand'", 1, true))
+    art = art:with { arm = function(arm) return arm:translate(0, 40) end }
+    assert.are.equal("ff0000 128", at(art.object, 55, 55))
+  end)
+
+  it("with two names are changed by both, in the order of the names", function()
+    local art = read(content):with { arm = function(arm) return arm:translate(40, 0) end,
+                                     ["left arm"] = function(arm) return arm:translate(0, 40) end }
+    assert.are.equal("ff0000 128", at(art.object, 55, 55))
+  end)
+
   it("may be put in the place of one another, inner ones first", function()
     local order = {}
     local art = read(content):with {
@@ -526,7 +560,8 @@ describe("reading", function()
       { in_svg "\n<g opacity='inf'/>", 3, 'opacity is "inf"' },
       { in_svg "<use id='a' href='#a'/>", 2, "use goes in a circle" },
       { in_svg "<g id='a'><use href='#b'/></g>\n<g id='b'><use href='#a'/></g>", 3, "use goes in a circle" },
-      { "<!DOCTYPE svg [<!ENTITY a 'b'>]>" .. in_svg "&a;", 1, "entities are not expanded" },
+      { "<!DOCTYPE svg [<!ENTITY a 'b'><!ENTITY c '&a;&a;'>]>" .. in_svg "&c;", 1, 'the entity "c" is made of others' },
+      { "<!DOCTYPE svg [<!ENTITY a SYSTEM '/etc/passwd'>]>" .. in_svg "&a;", 1, 'the entity "a" is in another file' },
       { in_svg(("<g>"):rep(10000) .. ("</g>"):rep(10000)), 2, "elements are nested more than 128 deep" },
     }
     for _, case in ipairs(cases) do

@@ -1,8 +1,10 @@
 --- Drawings from SVG beside other renderers' pictures of them.
 --
---   lua5.4 tests/svg/compare.lua FOLDER [SIDE] [NAME...]     with LUA_PATH and LUA_CPATH as for specs
+--   lua5.4 tests/svg/compare.lua FOLDER [PATTERN]     with LUA_PATH and LUA_CPATH as for specs
 --
--- FOLDER is that of the sample material. Colours are blended as they are coded, like there, by a
+-- FOLDER is that of the sample material; PATTERN picks drawings by their names. The letters of the
+-- pictures in svg-w3c are Roboto's: CELSPAN_ROBOTO names the folder of Roboto-Regular.ttf and its
+-- faces, else they are where Debian's fonts-roboto-unhinted puts them. Colours are blended as they are coded, like there, by a
 -- switch that is there for this comparison alone. A drawing passes when less than 0.5 % of its pixels
 -- are off by more than 24 of 255; the others are listed with how much is off and what was skipped.
 -- The last line is "N of M drawings pass".
@@ -10,6 +12,25 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 
 local MOST_OFF, MOST_SHARE = 24, 0.005
+local ROBOTO = os.getenv "CELSPAN_ROBOTO"
+  or "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF"
+
+--- Roboto in place of every family, as the core takes fonts; none where it is missing.
+local function roboto()
+  local list = {}
+  for face, name in pairs { [""] = "Regular", [" bold"] = "Bold", [" italic"] = "Italic",
+                            [" bold italic"] = "BoldItalic" } do
+    local file = ("%s/Roboto-%s.ttf"):format(ROBOTO, name)
+    local there = io.open(file, "rb")
+    if there then
+      there:close()
+      list[#list + 1] = { "default" .. face, file }
+    end
+  end
+  return list
+end
+
+local fonts = roboto()
 
 local function files_below(folder)
   local list = {}
@@ -59,7 +80,7 @@ end
 --- Compares one drawing; gives whether it passes and why not. caption: rows at the bottom that do not
 --- count.
 local function compare(svg, png, caption)
-  local drawing, message = core.read_svg(svg, true)
+  local drawing, message = core.read_svg(svg, true, fonts)
   if not drawing then return false, "refused: " .. message:gsub("^.*/", "") end
   local reference = celspan.image { file = png, colour = "linear" }
   local _, _, w, h = reference:bounds()

@@ -83,6 +83,10 @@ static void parts_are_changed(celspan_context *context) {
   CHECK_TEXT(celspan_context_error(context), "svg: there is no part \"leg\"");
   CHECK(celspan_svg_with(context, svg, &refused, 1, &other) == CELSPAN_CANCELLED);
   CHECK(celspan_svg_with(context, svg, &empty, 1, &other) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_svg_with(context, svg, NULL, 1, &other) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_svg_with(context, NULL, &change, 1, &other) == CELSPAN_BAD_ARGUMENT);
+  if (CHECK(celspan_svg_with(context, svg, NULL, 0, &other) == CELSPAN_OK))
+    celspan_svg_unref(other);
   celspan_svg_unref(svg);
 }
 

@@ -85,14 +85,66 @@ static void faults_have_lines(void) {
   check_refuses("<a>\n\n<b", CELSPAN_INPUT, "a.xml:3: unclosed token");
   check_refuses("<a x='1' x='2'/>", CELSPAN_INPUT, "a.xml:1: duplicate attribute");
   check_refuses("<q:a/>", CELSPAN_INPUT, "a.xml:1: unbound prefix");
-  check_refuses("<!DOCTYPE a [\n<!ENTITY b 'cc'>]>\n<a>&b;</a>", CELSPAN_INPUT,
-                "a.xml:2: the entity \"b\" is declared; entities are not expanded: write out what "
-                "they stand for");
-  check_refuses("<!DOCTYPE a [<!ENTITY b SYSTEM '/etc/passwd'>]>\n<a>&b;</a>", CELSPAN_INPUT,
-                "a.xml:1: the entity \"b\" is declared; entities are not expanded: write out what "
-                "they stand for");
   check_refuses("<?xml version='1.0' encoding='x-none'?><a/>", CELSPAN_INPUT,
                 "a.xml:1: unknown encoding");
+}
+
+static void entities_of_plain_text_are_read(void) {
+  check_reads(
+      "<!DOCTYPE a [<!ENTITY b 'c'><!ENTITY e '<d f=\"&#65;\"/>'>]><a g='&b;&b;'>&b;\n&e;</a>",
+      "<a@1 g=cc>c\n<d@2 f=A></></>");
+  check_reads("<!DOCTYPE a [<!ENTITY ns 'u'>]><a xmlns='&ns;'/>", "<u a@1></>");
+}
+
+static void other_entities_are_refused(void) {
+  check_refuses("<!DOCTYPE a [\n<!ENTITY b 'cc'><!ENTITY d '&b;&b;'>]>\n<a/>", CELSPAN_INPUT,
+                "a.xml:2: the entity \"d\" is made of others, which is not read: write out what it "
+                "stands for");
+  check_refuses("<!DOCTYPE a [<!ENTITY b '&#38;b;'>]><a>&b;</a>", CELSPAN_INPUT,
+                "a.xml:1: the entity \"b\" is made of others, which is not read: write out what it "
+                "stands for");
+  check_refuses(
+      "<!DOCTYPE a [<!ENTITY b SYSTEM '/etc/passwd'>]>\n<a>&b;</a>", CELSPAN_INPUT,
+      "a.xml:1: the entity \"b\" is in another file, and no other file is read: write out "
+      "what it stands for");
+  check_refuses(
+      "<!DOCTYPE a [<!ENTITY % b '<!ENTITY c \"d\">'> %b;]>\n<a>&c;</a>", CELSPAN_INPUT,
+      "a.xml:1: the entity \"b\" is of the document type; only those of the text are read: "
+      "write out what it stands for");
+  check_refuses("<!DOCTYPE a SYSTEM 'x.dtd'><a>\n&nbsp;</a>", CELSPAN_INPUT,
+                "a.xml:2: the entity \"nbsp\" is not declared here: write out what it stands for");
+}
+
+/* `count` references to an entity of `size` bytes, in an attribute or as text. */
+static celspan_status parse_grown(size_t size, size_t count, bool is_attribute) {
+  const size_t room = 200 + size + 3 * count;
+  char *text = malloc(room);
+  record out = {.used = 0};
+  if (!CHECK(text))
+    return CELSPAN_NO_MEMORY;
+  size_t used = (size_t)snprintf(text, room, "<!DOCTYPE a [<!ENTITY b '");
+  memset(text + used, 'x', size);
+  used += size;
+  used += (size_t)snprintf(text + used, room - used, "'>]>%s", is_attribute ? "<a b='" : "<a>");
+  for (size_t i = 0; i < count; i++, used += 3)
+    memcpy(text + used, "&b;", 3);
+  used += (size_t)snprintf(text + used, room - used, "%s", is_attribute ? "'/>" : "</a>");
+  celspan_status status = parse_bytes(&out, text, used);
+  free(text);
+  return status;
+}
+
+static void entities_make_no_bomb(void) {
+  CHECK(parse_grown(1024, 100, true) == CELSPAN_OK);
+  CHECK(parse_grown(1025, 1, false) == CELSPAN_INPUT);
+  CHECK_TEXT(celspan_context_error(context),
+             "a.xml:1: the entity \"b\" is longer than 1,024 bytes: "
+             "write out what it stands for");
+  for (int i = 0; i < 2; i++) {
+    CHECK(parse_grown(1024, 2000, i == 0) == CELSPAN_LIMIT);
+    CHECK_TEXT(celspan_context_error(context),
+               "a.xml:1: entities make the document more than 2 times as large");
+  }
 }
 
 static void nesting_has_a_limit(void) {
@@ -152,6 +204,9 @@ int main(void) {
     return check_done();
   documents_are_read();
   faults_have_lines();
+  entities_of_plain_text_are_read();
+  other_entities_are_refused();
+  entities_make_no_bomb();
   nesting_has_a_limit();
   a_handler_can_stop();
   every_cut_is_refused();

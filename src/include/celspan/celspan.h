@@ -770,7 +770,8 @@ CELSPAN_API bool celspan_object_hash(const celspan_object *object, uint64_t draw
  * line. Blending is in linear light, as everywhere; colours and gradients are those a browser shows.
  *
  * Limits: a file of 256 MiB, 1,000,000 elements, nested 128 deep, 1,000,000 drawn when those of
- * `use` count each time, 65,536 rules of style; no entities. */
+ * `use` count each time, 65,536 rules of style; entities of plain text and elements, of 1,024 bytes
+ * each, that make the file at most twice as large or a MiB. */
 typedef struct celspan_svg celspan_svg;
 
 /* A font for the texts of a drawing. */
