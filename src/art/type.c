@@ -78,6 +78,14 @@ static void close_font(cs_type_font *font) {
   free(font);
 }
 
+/* Fonts that do not tell how high their lines are have lines of an em. */
+static void read_lines(hb_font_t *font, cs_type_font_info *info) {
+  hb_font_extents_t extents;
+  bool is_told = hb_font_get_h_extents(font, &extents) && extents.ascender > extents.descender;
+  info->ascent = is_told ? extents.ascender : (int32_t)info->units;
+  info->descent = is_told ? -extents.descender : 0;
+}
+
 static celspan_status open_font(const void *bytes, size_t size, uint32_t index,
                                 const celspan_variation *variations, size_t variation_count,
                                 cs_type_font_info *info, cs_type_font **out) {
@@ -88,9 +96,11 @@ static celspan_status open_font(const void *bytes, size_t size, uint32_t index,
   hb_face_t *face = hb_face_create(blob, index);
   made->font = hb_font_create(face);
   made->functions = create_functions();
-  *info = (cs_type_font_info){hb_face_get_upem(face), hb_face_get_glyph_count(face), 0};
+  *info =
+      (cs_type_font_info){.units = hb_face_get_upem(face), .glyphs = hb_face_get_glyph_count(face)};
   if (variation_count > 0)
     set_variations(face, made->font, variations, variation_count, info);
+  read_lines(made->font, info);
   hb_face_destroy(face);
   hb_blob_destroy(blob);
   /* Without memory HarfBuzz makes empty objects, which cannot be changed. */

@@ -13,7 +13,7 @@
 
 #include "artwork/type.h"
 
-#define CS_ART_MODULE_VERSION 2u
+#define CS_ART_MODULE_VERSION 3u
 
 typedef struct cs_art_failure {
   celspan_status status;

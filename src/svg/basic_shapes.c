@@ -4,6 +4,7 @@
 
 #include "base/number.h"
 #include "scene/primitive_data.h"
+#include "svg/boxes.h"
 #include "svg/shapes.h"
 
 /* What is being read. */

@@ -10,6 +10,7 @@
 #include "svg/masks.h"
 #include "svg/naming.h"
 #include "svg/paint.h"
+#include "svg/rectangles.h"
 #include "svg/shapes.h"
 #include "svg/strokes.h"
 #include "svg/text.h"
@@ -50,9 +51,9 @@ static celspan_status count_element(builder *b, const cs_svg_node *node) {
 
 /* ---------------------------------------------------------------- viewports */
 
-/* Moves *place into a viewport at (0, 0) of this size that shows `node`'s view box. */
-static void enter_viewport(const cs_svg_node *node, double width, double height,
-                           cs_svg_place *place) {
+/* Moves *place into a viewport at (0, 0) of this size that shows `node`'s view box; what it shows. */
+static celspan_box enter_viewport(const cs_svg_node *node, double width, double height,
+                                  cs_svg_place *place) {
   cs_svg_view_box box = {.is_given = false};
   const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
   if (value && cs_svg_parse_view_box(value, &box)) {
@@ -61,6 +62,7 @@ static void enter_viewport(const cs_svg_node *node, double width, double height,
   }
   place->measure.width = box.is_given ? box.width : width;
   place->measure.height = box.is_given ? box.height : height;
+  return (celspan_box){box.x, box.y, place->measure.width, place->measure.height};
 }
 
 /* Where a nested svg element or a symbol is shown. sizes: the element whose width and height count
@@ -82,6 +84,26 @@ static celspan_status read_viewport(builder *b, const cs_svg_node *node, const c
                           &out->height);
 }
 
+/* Puts the point of a symbol that refX and refY name where its corner would lie. Source: SVG 2, 5.5. */
+static celspan_status shift_to_reference(builder *b, const cs_svg_node *node,
+                                         const celspan_box *viewport, cs_svg_place *place) {
+  celspan_context *context = b->reading->context;
+  const char *x = cs_svg_node_value(node, CS_SVG_REF_X), *y = cs_svg_node_value(node, CS_SVG_REF_Y);
+  cs_svg_place inner = *place;
+  celspan_point at = {0, 0};
+  if (node->element != CS_SVG_ELEMENT_SYMBOL || (!x && !y))
+    return CELSPAN_OK;
+  inner.matrix = celspan_matrix_identity();
+  celspan_box box = enter_viewport(node, viewport->width, viewport->height, &inner);
+  CS_TRY(cs_svg_reference_of(context, node, CS_SVG_AXIS_X, &inner.measure, box.x, &at.x));
+  CS_TRY(cs_svg_reference_of(context, node, CS_SVG_AXIS_Y, &inner.measure, box.y, &at.y));
+  const double *m = inner.matrix.m;
+  place->matrix = celspan_matrix_then(
+      celspan_matrix_translation(x ? -(m[0] * at.x + m[2]) : 0, y ? -(m[4] * at.y + m[5]) : 0),
+      place->matrix);
+  return CELSPAN_OK;
+}
+
 /* Adds the content of a nested svg element or a symbol, whose style *place has. */
 static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
                                    cs_svg_place *place, cs_svg_item *parent) {
@@ -89,6 +111,7 @@ static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs
   CS_TRY(read_viewport(b, node, sizes, &place->measure, &box));
   if (!(box.width > 0) || !(box.height > 0))
     return CELSPAN_OK;
+  CS_TRY(shift_to_reference(b, node, &box, place));
   cs_svg_item *inside = parent;
   if (!place->style.shows_overflow) {
     CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &inside));

@@ -2,11 +2,10 @@
 
 #include "scene/primitive_data.h"
 #include "svg/basic_shapes.h"
+#include "svg/boxes.h"
+#include "svg/rectangles.h"
 #include "svg/shapes.h"
-
-celspan_matrix cs_svg_box_matrix(const celspan_box *box) {
-  return (celspan_matrix){{box->width, 0, box->x, 0, box->height, box->y, 0, 0, 1}};
-}
+#include "svg/text.h"
 
 /* ---------------------------------------------------------------- objects */
 
@@ -16,14 +15,6 @@ static celspan_status moved(celspan_context *context, celspan_object *object,
   celspan_status status = celspan_object_transform(context, object, matrix, out);
   celspan_object_unref(object);
   return status;
-}
-
-celspan_status cs_svg_rectangle(cs_svg_reading *reading, const celspan_box *box,
-                                const celspan_matrix *matrix, celspan_object **out) {
-  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, NULL};
-  celspan_object *object;
-  CS_TRY(celspan_object_create_rect(reading->context, &desc, &object));
-  return moved(reading->context, object, matrix, out);
 }
 
 celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a, celspan_object *b,
@@ -38,6 +29,11 @@ celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a, cels
   return status;
 }
 
+/* Whether the element has an outline of its own, as shapes and texts have. */
+static bool has_outline(const cs_svg_node *node) {
+  return cs_svg_is_shape(node) || node->element == CS_SVG_ELEMENT_TEXT;
+}
+
 static celspan_status outline_object(cs_svg_reading *reading, const cs_svg_node *node,
                                      const cs_svg_place *place, celspan_rule rule,
                                      celspan_object **out) {
@@ -46,7 +42,9 @@ static celspan_status outline_object(cs_svg_reading *reading, const cs_svg_node 
   celspan_object *object;
   cs_outline_init(&outline);
   celspan_status status =
-      cs_svg_shape_outline(reading->context, node, &place->measure, &outline, &is_broken);
+      node->element == CS_SVG_ELEMENT_TEXT
+          ? cs_svg_text_outline(reading, node, place, &outline)
+          : cs_svg_shape_outline(reading->context, node, &place->measure, &outline, &is_broken);
   if (status != CELSPAN_OK) {
     cs_outline_finish(&outline, reading->context->memory);
     return status;
@@ -71,14 +69,14 @@ static celspan_status clip_by_own(cs_svg_reading *reading, const cs_svg_node *no
   return cs_svg_intersect(reading, given_up, clip, object);
 }
 
-/* Through `use` only a basic shape may be meant. */
+/* Through `use` only a shape or a text may be meant. */
 static celspan_status used_object(cs_svg_reading *reading, const cs_svg_node *node,
                                   const cs_svg_place *place, bool uses_fill_rule,
                                   celspan_object **out) {
   const cs_svg_node *used = cs_svg_linked(reading, node);
   cs_svg_style style;
   double x, y;
-  if (!used || !cs_svg_is_shape(used))
+  if (!used || !has_outline(used))
     return CELSPAN_OK;
   CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
@@ -98,11 +96,9 @@ celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *n
   *style = place.style;
   if (!place.style.is_displayed)
     return CELSPAN_OK;
-  if (node->element == CS_SVG_ELEMENT_TEXT)
-    CS_TRY(cs_svg_skip(reading, node, "text in a clip path"));
   if (node->element == CS_SVG_ELEMENT_USE)
     CS_TRY(used_object(reading, node, &place, uses_fill_rule, out));
-  else if (cs_svg_is_shape(node) && place.style.is_visible)
+  else if (has_outline(node) && place.style.is_visible)
     CS_TRY(outline_object(reading, node, &place,
                           uses_fill_rule ? place.style.fill_rule : place.style.clip_rule, out));
   celspan_status status = clip_by_own(reading, node, &place, out);
@@ -128,8 +124,6 @@ static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node 
     if (status == CELSPAN_OK)
       status = cs_svg_shape_object(reading, child, *place, false, &objects[count], &style);
     count += status == CELSPAN_OK && objects[count];
-    if (status == CELSPAN_OK && child->element == CS_SVG_ELEMENT_TEXT)
-      status = cs_svg_skip(reading, child, "text in clipPath");
   }
   if (status == CELSPAN_OK && count > 0)
     status = celspan_object_create_boolean(reading->context, CELSPAN_UNION, objects, count, out);

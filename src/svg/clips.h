@@ -8,7 +8,7 @@
 
 #include "svg/reading.h"
 
-/* The shape of a child of a clip path or mask: of a basic shape, or of one through `use`. *out:
+/* The shape of a child of a clip path or mask: of a shape or a text, or of one through `use`. *out:
  * new; NULL for nothing. place: of the parent. rule: NULL for the element's clip-rule. style: what
  * the element's style came to be. */
 CELSPAN_CHECKED celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *node,
@@ -21,13 +21,7 @@ CELSPAN_CHECKED celspan_status cs_svg_clip_make(cs_svg_reading *reading, const c
                                                 const cs_svg_place *place, celspan_object **out,
                                                 bool *is_clip);
 
-/* A rectangle of user units as an object. */
-CELSPAN_CHECKED celspan_status cs_svg_rectangle(cs_svg_reading *reading, const celspan_box *box,
-                                                const celspan_matrix *matrix, celspan_object **out);
 /* The intersection of two objects, both of which are given up; NULL where either is. */
 CELSPAN_CHECKED celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a,
                                                 celspan_object *b, celspan_object **out);
-/* Units that are shares of a box, to user units. */
-celspan_matrix cs_svg_box_matrix(const celspan_box *box);
-
 #endif

@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-#include "painting/png.h"
-#include "svg/clips.h"
 #include "svg/image_data.h"
 #include "svg/image_file.h"
+#include "svg/image_picture.h"
+#include "svg/rectangles.h"
 #include "svg/shapes.h"
 
 /* What an image shows, before it is put in its place. */
@@ -16,7 +16,7 @@ typedef struct image {
   double width, height;
 } image;
 
-/* ---------------------------------------------------------------- limits and notes */
+/* ---------------------------------------------------------------- notes */
 
 static celspan_status note(const image *of, const char *reason) {
   return cs_svg_skip(of->reading, of->node, "image: %s", reason);
@@ -27,17 +27,6 @@ static celspan_status note_failure(const image *of, celspan_status status) {
   if (status != CELSPAN_INPUT && status != CELSPAN_LIMIT)
     return status;
   return note(of, of->reading->context->error);
-}
-
-static celspan_status count_bytes(const image *of, uint64_t bytes) {
-  cs_svg_reading *reading = of->reading;
-  if (bytes <= CS_SVG_IMAGE_BYTES - reading->image_bytes) {
-    reading->image_bytes += bytes;
-    return CELSPAN_OK;
-  }
-  return cs_fail(reading->context, CELSPAN_LIMIT,
-                 "line %u: the images of the drawing have more than %llu bytes", of->node->line,
-                 (unsigned long long)CS_SVG_IMAGE_BYTES);
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -55,58 +44,14 @@ static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
   return celspan_object_create_image(context, &desc, &of->object);
 }
 
-static celspan_status read_rows(celspan_context *context, const cs_input *input,
-                                const cs_rows_source *source, unsigned char *pixels) {
-  cs_rows *rows;
-  CS_TRY(source->kind->begin(source, context, input, &rows));
-  celspan_status status = CELSPAN_OK;
-  for (int32_t y = 0; y < source->height && status == CELSPAN_OK; y++)
-    status = source->kind->next(rows, context, pixels + (size_t)y * cs_rows_size(source));
-  source->kind->end(rows);
-  return status;
-}
-
-static celspan_status show_pixels(image *of, const cs_rows_source *source, void *pixels) {
-  celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
+/* A picture that lies in the drawing itself. */
+static celspan_status show_bytes(image *of, const cs_svg_image_data *data) {
   celspan_picture_desc picture = {.file = NULL};
-  desc.width = source->width;
-  desc.height = source->height;
-  desc.format = source->bits == 16 ? CELSPAN_SURFACE_RGBA16 : CELSPAN_SURFACE_RGBA8;
-  desc.alpha = CELSPAN_ALPHA_STRAIGHT;
-  desc.pixels = pixels;
-  CS_TRY(celspan_surface_create(of->reading->context, &desc, &picture.surface));
+  CS_TRY(cs_svg_image_picture(of->reading, of->node, data->bytes, data->size, &picture.surface));
+  if (!picture.surface)
+    return CELSPAN_OK;
   celspan_status status = show_picture(of, &picture);
   celspan_surface_unref(picture.surface);
-  return status;
-}
-
-static celspan_status decode(image *of, const cs_input *input, const cs_rows_source *source) {
-  celspan_context *context = of->reading->context;
-  size_t size = cs_rows_size(source) * (size_t)source->height;
-  CS_TRY(count_bytes(of, size));
-  unsigned char *pixels = cs_mem_resize(context->memory, NULL, 0, size);
-  if (!pixels)
-    return cs_fail_memory(context);
-  celspan_status status = read_rows(context, input, source, pixels);
-  status = status == CELSPAN_OK ? show_pixels(of, source, pixels) : note_failure(of, status);
-  cs_mem_free(context->memory, pixels, size);
-  return status;
-}
-
-static celspan_status show_png(image *of, const unsigned char *bytes, size_t size) {
-  celspan_context *context = of->reading->context;
-  const cs_input input = {
-      .path = "embedded PNG", .bytes = bytes, .is_known = true, .size = (int64_t)size};
-  const cs_zip_member member = {.name = "the picture",
-                                .header = CS_ZIP_BARE,
-                                .packed = (int64_t)size,
-                                .unpacked = (int64_t)size};
-  cs_rows_source *source;
-  celspan_status status = cs_png_create(context, &input, &member, &source);
-  if (status != CELSPAN_OK)
-    return note_failure(of, status);
-  status = decode(of, &input, source);
-  source->kind->destroy(source);
   return status;
 }
 
@@ -173,23 +118,17 @@ static celspan_status show_drawing(image *of, cs_svg_source inner, const char *b
 /* ---------------------------------------------------------------- where they are */
 
 static celspan_status show_data(image *of, const cs_svg_image_data *data) {
-  cs_svg_image_kind kind = cs_svg_image_kind_of(data->bytes, data->size);
   const cs_svg_source inner = {.name = "the drawing in it"};
-  if (kind == CS_SVG_IMAGE_PNG)
-    return show_png(of, data->bytes, data->size);
-  if (kind == CS_SVG_IMAGE_DRAWING)
-    return show_drawing(of, inner, (const char *)data->bytes, data->size);
-  return cs_svg_skip(of->reading, of->node,
-                     "image: %s is not read from inside of a drawing; make it PNG, or a file "
-                     "beside the drawing",
-                     cs_svg_image_kind_name(kind));
+  return cs_svg_image_is_drawing(data->bytes, data->size)
+             ? show_drawing(of, inner, (const char *)data->bytes, data->size)
+             : show_bytes(of, data);
 }
 
 static celspan_status show_embedded(image *of, const char *href) {
   celspan_context *context = of->reading->context;
   cs_svg_image_data data;
   bool is_broken;
-  CS_TRY(count_bytes(of, strlen(href)));
+  CS_TRY(cs_svg_image_count(of->reading, of->node, strlen(href)));
   celspan_status status = cs_svg_image_data_read(context, href, &data, &is_broken);
   if (status == CELSPAN_OK)
     status = is_broken ? note(of, "its data: address is damaged") : show_data(of, &data);
@@ -203,7 +142,7 @@ static celspan_status show_drawing_file(image *of, const cs_svg_image_file *file
       .name = file->path, .file = file->path, .device = file->device, .number = file->number};
   char *bytes;
   of->reading->has_other_files = true;
-  CS_TRY(count_bytes(of, file->size));
+  CS_TRY(cs_svg_image_count(of->reading, of->node, file->size));
   CS_TRY(cs_svg_image_file_load(context, file, &bytes));
   if (!bytes)
     return note(of, "the file changed while it was read");
@@ -217,7 +156,7 @@ static celspan_status show_linked(image *of, const char *href) {
   const char *reason = cs_svg_image_file_find(of->reading->source->file, href, &file);
   if (reason)
     return cs_svg_skip(of->reading, of->node, "image %.40s: %s", href, reason);
-  if (cs_svg_image_kind_of(file.head, file.head_size) == CS_SVG_IMAGE_DRAWING)
+  if (cs_svg_image_is_drawing(file.head, file.head_size))
     return show_drawing_file(of, &file);
   celspan_picture_desc picture = {.file = file.path};
   return note_failure(of, show_picture(of, &picture));
@@ -274,17 +213,39 @@ static celspan_status put(const image *of, const cs_svg_place *place, cs_svg_ite
   return aspect && strstr(aspect, "slice") ? cut(of, &box, place, item) : CELSPAN_OK;
 }
 
+/* What the element shows, read when it is asked for first. The object is borrowed. */
+static celspan_status show(image *of) {
+  cs_svg_kept_images *kept = &of->reading->images;
+  cs_svg_kept_image found = {NULL, 0, 0};
+  const char *href = cs_svg_node_value(of->node, CS_SVG_HREF);
+  if (!href || !*cs_svg_skip_space(href))
+    return CELSPAN_OK;
+  if (!cs_svg_kept_image_find(kept, of->node, &found)) {
+    href = cs_svg_skip_space(href);
+    CS_TRY(cs_svg_image_is_data(href) ? show_embedded(of, href) : show_linked(of, href));
+    found = (cs_svg_kept_image){of->object, of->width, of->height};
+    CS_TRY(cs_svg_kept_image_add(kept, of->reading->context, of->node, found));
+  }
+  of->object = found.object;
+  of->width = found.width;
+  of->height = found.height;
+  return CELSPAN_OK;
+}
+
 celspan_status cs_svg_image_add(cs_svg_reading *reading, const cs_svg_node *node,
                                 const cs_svg_place *place, cs_svg_item *item) {
   image of = {.reading = reading, .node = node};
-  const char *href = cs_svg_node_value(node, CS_SVG_HREF);
-  if (!href || !*href || !place->style.is_visible)
+  if (!place->style.is_visible)
     return CELSPAN_OK;
-  href = cs_svg_skip_space(href);
-  celspan_status status =
-      cs_svg_image_is_data(href) ? show_embedded(&of, href) : show_linked(&of, href);
-  if (status == CELSPAN_OK && of.object)
-    status = put(&of, place, item);
-  celspan_object_unref(of.object);
-  return status;
+  CS_TRY(show(&of));
+  return of.object ? put(&of, place, item) : CELSPAN_OK;
+}
+
+celspan_status cs_svg_image_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                const cs_svg_measure *measure, celspan_box *out, bool *is_there) {
+  image of = {.reading = reading, .node = node};
+  CS_TRY(show(&of));
+  CS_TRY(read_box(&of, measure, out));
+  *is_there = out->width > 0 && out->height > 0;
+  return CELSPAN_OK;
 }

@@ -98,30 +98,9 @@ void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context)
 
 /* ---------------------------------------------------------------- kinds */
 
-static bool begins_with(const unsigned char *bytes, size_t size, const char *mark, size_t count) {
-  return size >= count && memcmp(bytes, mark, count) == 0;
-}
-
-static bool is_drawing(const unsigned char *bytes, size_t size) {
-  size_t at = begins_with(bytes, size, "\xef\xbb\xbf", 3) ? 3 : 0;
+bool cs_svg_image_is_drawing(const unsigned char *bytes, size_t size) {
+  size_t at = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
   while (at < size && bytes[at] != 0 && strchr(" \t\n\r", bytes[at]))
     at++;
   return at < size && bytes[at] == '<';
-}
-
-cs_svg_image_kind cs_svg_image_kind_of(const unsigned char *bytes, size_t size) {
-  if (begins_with(bytes, size, "\x89PNG", 4))
-    return CS_SVG_IMAGE_PNG;
-  if (begins_with(bytes, size, "\xff\xd8\xff", 3))
-    return CS_SVG_IMAGE_JPEG;
-  if (begins_with(bytes, size, "GIF8", 4))
-    return CS_SVG_IMAGE_GIF;
-  if (begins_with(bytes, size, "RIFF", 4))
-    return CS_SVG_IMAGE_WEBP;
-  return is_drawing(bytes, size) ? CS_SVG_IMAGE_DRAWING : CS_SVG_IMAGE_OTHER;
-}
-
-const char *cs_svg_image_kind_name(cs_svg_image_kind kind) {
-  static const char *const names[] = {"PNG", "JPEG", "GIF", "WebP", "SVG", "an unknown format"};
-  return names[kind];
 }

@@ -10,15 +10,6 @@
 
 #include "base/context.h"
 
-typedef enum cs_svg_image_kind {
-  CS_SVG_IMAGE_PNG,
-  CS_SVG_IMAGE_JPEG,
-  CS_SVG_IMAGE_GIF,
-  CS_SVG_IMAGE_WEBP,
-  CS_SVG_IMAGE_DRAWING, /* SVG */
-  CS_SVG_IMAGE_OTHER
-} cs_svg_image_kind;
-
 typedef struct cs_svg_image_data {
   unsigned char *bytes;
   size_t size, capacity;
@@ -33,8 +24,7 @@ void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context)
 /* The byte that "%41" and the like stand for; -1 where text does not begin with one. */
 int cs_svg_image_unescape(const char *text);
 
-cs_svg_image_kind cs_svg_image_kind_of(const unsigned char *bytes, size_t size);
-/* For messages: "JPEG". */
-const char *cs_svg_image_kind_name(cs_svg_image_kind kind);
+/* Whether bytes begin as SVG does. */
+bool cs_svg_image_is_drawing(const unsigned char *bytes, size_t size);
 
 #endif

@@ -352,3 +352,44 @@ celspan_status cs_svg_letters_outline(const cs_svg_letters *letters, const cs_sv
   }
   return CELSPAN_OK;
 }
+
+/* ---------------------------------------------------------------- boxes */
+
+typedef struct bounds {
+  double left, top, right, bottom;
+} bounds;
+
+/* A corner of a letter's box, from its left end on the baseline before it is turned. */
+static void add_corner(const cs_svg_letter *letter, double degrees, double x, double y,
+                       bounds *whole) {
+  celspan_matrix turn = celspan_matrix_rotation(degrees * (PI / 180), (celspan_point){0, 0});
+  double to_x = letter->x + turn.m[0] * x + turn.m[1] * y;
+  double to_y = letter->y + turn.m[3] * x + turn.m[4] * y;
+  whole->left = fmin(whole->left, to_x);
+  whole->right = fmax(whole->right, to_x);
+  whole->top = fmin(whole->top, to_y);
+  whole->bottom = fmax(whole->bottom, to_y);
+}
+
+static void add_letter(const cs_svg_letters *letters, const cs_svg_letter *letter, double degrees,
+                       bounds *whole) {
+  const cs_svg_run *run = &letters->runs[letter->run];
+  const cs_type_font_info *info = &run->layout.glyphs[letter->first].font->info;
+  double em = run->size / (double)info->units;
+  for (int i = 0; i < 4; i++)
+    add_corner(letter, degrees, i & 1 ? letter->advance : 0,
+               i & 2 ? em * info->descent : -em * info->ascent, whole);
+}
+
+bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *written,
+                        celspan_box *out) {
+  bounds whole = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (size_t i = 0; i < letters->count; i++) {
+    const cs_svg_letter *letter = &letters->letters[i];
+    double degrees = written->characters[letter->character].rotate;
+    if (letter->count > 0)
+      add_letter(letters, letter, isnan(degrees) ? 0 : degrees, &whole);
+  }
+  *out = (celspan_box){whole.left, whole.top, whole.right - whole.left, whole.bottom - whole.top};
+  return whole.left <= whole.right;
+}

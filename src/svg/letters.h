@@ -58,5 +58,9 @@ void cs_svg_letters_finish(cs_svg_letters *letters);
 CELSPAN_CHECKED celspan_status cs_svg_letters_outline(const cs_svg_letters *letters,
                                                       const cs_svg_written *written, size_t begin,
                                                       size_t end, cs_outline *outline);
+/* The box around all letters, each as wide as its advance and as high as its font's lines, in user
+ * units; false: there is none. */
+bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *written,
+                        celspan_box *out);
 
 #endif

@@ -138,10 +138,8 @@ static celspan_status read_viewport(const marking *m, const cs_svg_node *marker,
   if (box.is_given)
     mark->content = cs_svg_fit(&box, mark->width, mark->height,
                                cs_svg_node_value(marker, CS_SVG_PRESERVE_ASPECT_RATIO));
-  CS_TRY(cs_svg_number_of(context, marker, CS_SVG_REF_X, CS_SVG_AXIS_X, &mark->measure,
-                          &reference->x));
-  return cs_svg_number_of(context, marker, CS_SVG_REF_Y, CS_SVG_AXIS_Y, &mark->measure,
-                          &reference->y);
+  CS_TRY(cs_svg_reference_of(context, marker, CS_SVG_AXIS_X, &mark->measure, box.x, &reference->x));
+  return cs_svg_reference_of(context, marker, CS_SVG_AXIS_Y, &mark->measure, box.y, &reference->y);
 }
 
 static double scale_of(const marking *m, const cs_svg_node *marker) {

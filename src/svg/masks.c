@@ -1,8 +1,12 @@
 #include "svg/masks.h"
 
 #include "base/number.h"
+#include "svg/boxes.h"
 #include "svg/clips.h"
+#include "svg/markers.h"
+#include "svg/rectangles.h"
 #include "svg/shapes.h"
+#include "svg/strokes.h"
 
 #define SHAPES 64 /* of one mask */
 
@@ -25,59 +29,129 @@ static double luminance(const cs_svg_colour *colour) {
   return 0.2125 * colour->rgb[0] + 0.7154 * colour->rgb[1] + 0.0721 * colour->rgb[2];
 }
 
-/* What a shape with this style is filled with; false for what is no single colour. */
-static bool flat_fill(const cs_svg_style *style, cs_svg_colour *out) {
-  const cs_svg_paint *fill = &style->fill;
-  *out = fill->kind == CS_SVG_PAINT_CURRENT ? style->colour : fill->colour;
-  if (fill->kind == CS_SVG_PAINT_NONE)
+/* The one colour of a fill or a stroke; false for what is none. */
+static bool flat_colour(const cs_svg_style *style, cs_svg_layer layer, cs_svg_colour *out) {
+  bool is_fill = layer == CS_SVG_LAYER_FILL;
+  const cs_svg_paint *paint = is_fill ? &style->fill : &style->stroke;
+  *out = paint->kind == CS_SVG_PAINT_CURRENT ? style->colour : paint->colour;
+  if (paint->kind == CS_SVG_PAINT_NONE)
     out->alpha = 0;
-  out->alpha *= style->fill_opacity * style->opacity;
-  bool has_lines = style->stroke.kind != CS_SVG_PAINT_NONE || style->stroke.has_server;
-  return !fill->has_server && !has_lines && !style->has_mask && !style->has_filter;
+  out->alpha *= is_fill ? style->fill_opacity : style->stroke_opacity;
+  return !paint->has_server;
 }
 
-/* Recursion: through groups, CS_SVG_DEPTH. opacity: of the groups around. */
-static celspan_status add_child(mask *m, const cs_svg_node *node, cs_svg_place place,
-                                double opacity);
-
-static celspan_status add_group(mask *m, const cs_svg_node *node, cs_svg_place place,
-                                double opacity) {
-  size_t before = m->count;
-  CS_TRY(cs_svg_enter(m->reading, node, &place));
-  if (!place.style.is_displayed)
-    return CELSPAN_OK;
-  m->is_flat = m->is_flat && !place.style.has_clip_path && !place.style.has_mask;
-  for (const cs_svg_node *child = node->first; child; child = child->next)
-    CS_TRY(add_child(m, child, place, opacity * place.style.opacity));
-  m->is_flat = m->is_flat && (place.style.opacity == 1 || m->count - before <= 1);
-  return CELSPAN_OK;
-}
-
-static celspan_status add_child(mask *m, const cs_svg_node *node, cs_svg_place place,
-                                double opacity) {
+/* Adds the fill or the stroke of a shape. place: of what it is in, and the shape's own. opacity: of
+ * the shape and the groups around. */
+static celspan_status add_layer(mask *m, const cs_svg_node *node, const cs_svg_place *parent,
+                                const cs_svg_place *place, cs_svg_layer layer, double opacity) {
   cs_svg_style style;
   cs_svg_colour colour;
-  if (node->element == CS_SVG_ELEMENT_G)
-    return add_group(m, node, place, opacity);
-  if (!cs_svg_is_shape(node) && node->element != CS_SVG_ELEMENT_USE) {
-    m->is_flat = m->is_flat && node->element != CS_SVG_ELEMENT_TEXT &&
-                 node->element != CS_SVG_ELEMENT_IMAGE && node->element != CS_SVG_ELEMENT_SVG &&
-                 node->element != CS_SVG_ELEMENT_SWITCH;
-    return CELSPAN_OK;
-  }
   if (m->count == SHAPES) {
     m->is_flat = false;
     return CELSPAN_OK;
   }
   masked_shape *shape = &m->shapes[m->count];
-  CS_TRY(cs_svg_shape_object(m->reading, node, place, true, &shape->object, &style));
+  if (layer == CS_SVG_LAYER_FILL)
+    CS_TRY(cs_svg_shape_object(m->reading, node, *parent, true, &shape->object, &style));
+  else
+    CS_TRY(cs_svg_stroke(m->reading, node, place, &shape->object));
   if (!shape->object)
     return CELSPAN_OK;
-  m->is_flat = flat_fill(&style, &colour) && m->is_flat;
+  m->is_flat = flat_colour(&place->style, layer, &colour) && m->is_flat;
   shape->alpha = colour.alpha * opacity;
   shape->share = cs_number_clamp(shape->alpha * (m->uses_alpha ? 1 : luminance(&colour)), 0, 1);
   m->count++;
   return CELSPAN_OK;
+}
+
+static celspan_status add_shape(mask *m, const cs_svg_node *node, const cs_svg_place *parent,
+                                double opacity) {
+  cs_svg_place place = *parent;
+  size_t before = m->count;
+  CS_TRY(cs_svg_enter(m->reading, node, &place));
+  const cs_svg_style *style = &place.style;
+  bool is_stroked = cs_svg_is_stroked(style);
+  if (!style->is_displayed || !style->is_visible)
+    return CELSPAN_OK;
+  m->is_flat = m->is_flat && !style->has_mask && !style->has_filter &&
+               !(is_stroked && style->has_clip_path) && !cs_svg_is_marked(node, style);
+  for (int i = 0; i < 3; i++)
+    if (style->paint_order[i] == CS_SVG_LAYER_FILL ||
+        (style->paint_order[i] == CS_SVG_LAYER_STROKE && is_stroked))
+      CS_TRY(add_layer(m, node, parent, &place, style->paint_order[i], opacity * style->opacity));
+  m->is_flat = m->is_flat && (style->opacity == 1 || m->count - before <= 1);
+  return CELSPAN_OK;
+}
+
+/* Recursion: through groups and `use`, CS_SVG_DEPTH. opacity: of the groups around. */
+static celspan_status add_child(mask *m, const cs_svg_node *node, const cs_svg_place *parent,
+                                double opacity);
+
+/* What `use` shows; what would show itself is not flat. */
+static celspan_status add_used(mask *m, const cs_svg_node *node, cs_svg_place *place,
+                               double opacity) {
+  const cs_svg_node *used = cs_svg_linked(m->reading, node);
+  double x, y;
+  if (!used)
+    return CELSPAN_OK;
+  m->is_flat = m->is_flat && !cs_svg_is_open(place->open, used);
+  if (!m->is_flat)
+    return CELSPAN_OK;
+  CS_TRY(cs_svg_number_of(m->reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
+  CS_TRY(cs_svg_number_of(m->reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
+  place->matrix = celspan_matrix_then(celspan_matrix_translation(x, y), place->matrix);
+  return add_child(m, used, place, opacity);
+}
+
+static celspan_status add_content(mask *m, const cs_svg_node *node, cs_svg_place *place,
+                                  double opacity) {
+  if (node->element == CS_SVG_ELEMENT_USE)
+    return add_used(m, node, place, opacity);
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    CS_TRY(add_child(m, child, place, opacity));
+  return CELSPAN_OK;
+}
+
+static celspan_status add_group(mask *m, const cs_svg_node *node, cs_svg_place place,
+                                double opacity) {
+  const cs_svg_open open = {node, place.open};
+  const size_t before = m->count;
+  CS_TRY(cs_svg_enter(m->reading, node, &place));
+  if (!place.style.is_displayed)
+    return CELSPAN_OK;
+  if (++m->reading->depth > CS_SVG_DEPTH)
+    return cs_fail(m->reading->context, CELSPAN_LIMIT,
+                   "line %u: elements of a mask refer to one another more than %d deep", node->line,
+                   CS_SVG_DEPTH);
+  place.open = &open;
+  const double own = place.style.opacity;
+  m->is_flat =
+      m->is_flat && !place.style.has_clip_path && !place.style.has_mask && !place.style.has_filter;
+  CS_TRY(add_content(m, node, &place, opacity * own));
+  m->is_flat = m->is_flat && (own == 1 || m->count - before <= 1);
+  m->reading->depth--;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_child(mask *m, const cs_svg_node *node, const cs_svg_place *parent,
+                                double opacity) {
+  if (cs_svg_is_shape(node))
+    return add_shape(m, node, parent, opacity);
+  switch (node->element) {
+  case CS_SVG_ELEMENT_A:
+  case CS_SVG_ELEMENT_G:
+  case CS_SVG_ELEMENT_USE:
+    return add_group(m, node, *parent, opacity);
+  case CS_SVG_ELEMENT_IMAGE:
+  case CS_SVG_ELEMENT_SVG:
+  case CS_SVG_ELEMENT_SWITCH:
+  case CS_SVG_ELEMENT_SYMBOL:
+  case CS_SVG_ELEMENT_TEXT:
+    m->is_flat = false;
+    return CELSPAN_OK;
+  default:
+    return CELSPAN_OK;
+  }
 }
 
 /* Whether no shape shines through another: all are opaque, or their boxes are apart. */
@@ -174,7 +248,7 @@ static celspan_status read_mask(mask *m, celspan_svg *art, const cs_svg_node *no
   m->is_flat = !place.style.has_mask && !place.style.has_clip_path;
   for (const cs_svg_node *child = node->first; child && is_sized && status == CELSPAN_OK;
        child = child->next)
-    status = add_child(m, child, place, 1);
+    status = add_child(m, child, &place, 1);
   m->is_flat = m->is_flat && are_separate(m);
   if (status == CELSPAN_OK)
     status = m->is_flat ? cut_pieces(m, art, region, out)

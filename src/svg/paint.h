@@ -11,8 +11,7 @@ CELSPAN_CHECKED celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg
 
 /* The same of an outline in the user units of `place`, which is taken over where it is drawn. box:
  * what gradients in shares of a box are of; NULL: its own. */
-CELSPAN_CHECKED celspan_status cs_svg_fill_outline(cs_svg_reading *reading,
-                                                   const cs_svg_node *node,
+CELSPAN_CHECKED celspan_status cs_svg_fill_outline(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_place *place, cs_outline *outline,
                                                    const celspan_box *box, celspan_object **out);
 

@@ -144,6 +144,7 @@ static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, siz
   celspan_status status = cs_svg_document_read(context, name, bytes, size, &document);
   if (status == CELSPAN_OK)
     status = build(reading, name, out);
+  cs_svg_kept_images_finish(&reading->images, context);
   cs_mem_free(context->memory, reading->skipped,
               reading->skipped_capacity * sizeof *reading->skipped);
   cs_svg_document_finish(&document, context);
@@ -156,6 +157,7 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
   inner.source = source;
   inner.skipped = NULL;
   inner.skipped_count = inner.skipped_capacity = 0;
+  inner.images = (cs_svg_kept_images){.count = 0};
   celspan_status status = read_bytes(&inner, bytes, size, out);
   outer->tests = inner.tests;
   outer->drawn = inner.drawn;

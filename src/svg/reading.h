@@ -8,6 +8,7 @@
 #ifndef CS_SVG_READING_H
 #define CS_SVG_READING_H
 
+#include "svg/image_kept.h"
 #include "svg/style.h"
 
 #define CS_SVG_DRAWN 1000000             /* elements drawn, those of `use` counted each time */
@@ -42,6 +43,7 @@ typedef struct cs_svg_reading {
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* elements being built, one inside the other */
   uint64_t image_bytes; /* of images so far */
+  cs_svg_kept_images images;
   bool has_other_files; /* drawings in files of their own are part of it */
   cs_svg_skipped *skipped;
   size_t skipped_count, skipped_capacity;
@@ -91,11 +93,5 @@ celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measu
 /* The paint of a colour: opacity multiplies its alpha. */
 celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,
                               double opacity);
-
-/* The box around an element's outlines in the units of `place`, without lines and clips; false when
- * there is none. Errors: those of cs_svg_shape_outline. */
-CELSPAN_CHECKED celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
-                                             const cs_svg_place *place, celspan_box *out,
-                                             bool *is_there);
 
 #endif

@@ -35,6 +35,22 @@ celspan_status cs_svg_number_of(celspan_context *context, const cs_svg_node *nod
                           (cs_svg_length){0, CS_SVG_UNIT_NUMBER}, out);
 }
 
+/* Source: SVG 2, 11.6.2. */
+celspan_status cs_svg_reference_of(celspan_context *context, const cs_svg_node *node,
+                                   cs_svg_axis axis, const cs_svg_measure *measure, double from,
+                                   double *out) {
+  static const char *const words[2][3] = {{"left", "center", "right"}, {"top", "center", "bottom"}};
+  bool is_x = axis == CS_SVG_AXIS_X;
+  cs_svg_name name = is_x ? CS_SVG_REF_X : CS_SVG_REF_Y;
+  const char *value = cs_svg_node_value(node, name);
+  for (int i = 0; i < 3 && value; i++)
+    if (cs_svg_is_word(value, words[!is_x][i])) {
+      *out = from + 0.5 * i * (is_x ? measure->width : measure->height);
+      return CELSPAN_OK;
+    }
+  return cs_svg_number_of(context, node, name, axis, measure, out);
+}
+
 /* ---------------------------------------------------------------- rectangles and ellipses */
 
 /* rx and ry: where only one is given the other is the same; below 0: not given. */

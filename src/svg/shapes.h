@@ -17,6 +17,13 @@ CELSPAN_CHECKED celspan_status cs_svg_number_of(celspan_context *context, const 
                                                 cs_svg_name name, cs_svg_axis axis,
                                                 const cs_svg_measure *measure, double *out);
 
+/* The attribute refX or refY: a length, or a word for a place in the view box that begins at `from`
+ * and has the size that `measure` tells; 0 by default. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_reference_of(celspan_context *context,
+                                                   const cs_svg_node *node, cs_svg_axis axis,
+                                                   const cs_svg_measure *measure, double from,
+                                                   double *out);
+
 /* Whether the element is a path or a basic shape. */
 bool cs_svg_is_shape(const cs_svg_node *node);
 /* Appends the element's outline, all of whose contours are closed: nothing for a shape without a

@@ -83,8 +83,7 @@ static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan
     CS_TRY(cs_svg_skip(p->reading, p->node, "stroke-dasharray of %.30s", p->node->tag));
     p->desc.dashes = NULL;
     p->desc.dash_count = 0;
-    status =
-        cs_primitive_data_of_line(context, p->outline, p->closed, &p->desc, &object);
+    status = cs_primitive_data_of_line(context, p->outline, p->closed, &p->desc, &object);
   }
   CS_TRY(status);
   status = celspan_object_transform(context, object, &p->to_page, out);

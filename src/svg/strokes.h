@@ -17,8 +17,7 @@ CELSPAN_CHECKED celspan_status cs_svg_stroke(cs_svg_reading *reading, const cs_s
  * what gradients in shares of a box are spread over; NULL: the outline's. */
 CELSPAN_CHECKED celspan_status cs_svg_stroke_outline(cs_svg_reading *reading,
                                                      const cs_svg_node *node,
-                                                     const cs_svg_place *place,
-                                                     cs_outline *outline, const celspan_box *box,
-                                                     celspan_object **out);
+                                                     const cs_svg_place *place, cs_outline *outline,
+                                                     const celspan_box *box, celspan_object **out);
 
 #endif

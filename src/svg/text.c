@@ -15,31 +15,6 @@ typedef struct lettering {
   bool has_box;
 } lettering;
 
-/* ---------------------------------------------------------------- boxes */
-
-/* The box is of all letters, whatever element they are in; without a gradient nobody asks for it. */
-static bool asks_for_box(const cs_svg_written *written) {
-  for (size_t i = 0; i < written->stretch_count; i++)
-    if (written->stretches[i].place.style.fill.has_server ||
-        written->stretches[i].place.style.stroke.has_server)
-      return true;
-  return false;
-}
-
-static celspan_status find_box(lettering *l) {
-  const celspan_matrix identity = celspan_matrix_identity();
-  cs_outline outline;
-  if (!asks_for_box(&l->written))
-    return CELSPAN_OK;
-  cs_outline_init(&outline);
-  celspan_status status =
-      cs_svg_letters_outline(&l->letters, &l->written, 0, l->written.count, &outline);
-  if (status == CELSPAN_OK && outline.piece_count > 0)
-    l->has_box = cs_outline_bounds(&outline, &identity, &l->box);
-  cs_outline_finish(&outline, l->reading->context->memory);
-  return status;
-}
-
 /* ---------------------------------------------------------------- items */
 
 /* The letters of a stretch, filled or stroked. */
@@ -90,6 +65,24 @@ static bool holds_next(const lettering *l, const cs_svg_node *node) {
 
 /* Adds what is in an element. Recursion: CS_SVG_DEPTH. */
 static celspan_status add_content(lettering *l, const cs_svg_node *node, const cs_svg_place *place,
+                                  cs_svg_item *item);
+
+/* Adds an element inside of a text: it has an opacity of its own, but no place. */
+static celspan_status add_inner(lettering *l, const cs_svg_node *node, cs_svg_place place,
+                                cs_svg_item *parent) {
+  cs_svg_reading *reading = l->reading;
+  const cs_svg_style above = place.style;
+  cs_svg_item *item;
+  CS_TRY(cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
+                              &place.style));
+  CS_TRY(cs_svg_item_append(reading->context, l->art, parent, &item));
+  CS_TRY(cs_svg_item_name(reading, l->art, node, &place, item));
+  item->opacity = place.style.opacity;
+  CS_TRY(add_content(l, node, &place, item));
+  return cs_svg_item_compose(reading->context, item);
+}
+
+static celspan_status add_content(lettering *l, const cs_svg_node *node, const cs_svg_place *place,
                                   cs_svg_item *item) {
   for (const cs_svg_node *child = node->first; child; child = child->next) {
     if (!holds_next(l, child))
@@ -98,26 +91,56 @@ static celspan_status add_content(lettering *l, const cs_svg_node *node, const c
       CS_TRY(add_stretch(l, place, item));
       continue;
     }
-    cs_svg_item *inner;
-    CS_TRY(cs_svg_item_append(l->reading->context, l->art, item, &inner));
-    CS_TRY(cs_svg_item_name(l->reading, l->art, child, place, inner));
-    CS_TRY(add_content(l, child, place, inner));
-    CS_TRY(cs_svg_item_compose(l->reading->context, inner));
+    CS_TRY(add_inner(l, child, *place, item));
   }
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- the whole */
+
+/* Sets the letters of a text. *l is to be finished even after a failure. */
+static celspan_status set_letters(cs_svg_reading *reading, const cs_svg_node *node,
+                                  const cs_svg_place *place, lettering *l) {
+  *l = (lettering){.reading = reading, .letters = {.context = reading->context}};
+  CS_TRY(cs_svg_written_read(reading, node, place, &l->written));
+  CS_TRY(cs_svg_letters_make(reading, node, &l->written, &l->letters));
+  l->has_box = cs_svg_letters_box(&l->letters, &l->written, &l->box);
+  return CELSPAN_OK;
+}
+
+static void finish(lettering *l) {
+  cs_svg_letters_finish(&l->letters);
+  cs_svg_written_finish(&l->written);
+}
+
 celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art, const cs_svg_node *node,
                                const cs_svg_place *place, cs_svg_item *item) {
-  lettering l = {.reading = reading, .art = art, .letters = {.context = reading->context}};
-  celspan_status status = cs_svg_written_read(reading, node, place, &l.written);
-  if (status == CELSPAN_OK)
-    status = cs_svg_letters_make(reading, node, &l.written, &l.letters);
-  if (status == CELSPAN_OK)
-    status = find_box(&l);
+  lettering l;
+  celspan_status status = set_letters(reading, node, place, &l);
+  l.art = art;
   if (status == CELSPAN_OK)
     status = add_content(&l, node, place, item);
-  cs_svg_letters_finish(&l.letters);
-  cs_svg_written_finish(&l.written);
+  finish(&l);
+  return status;
+}
+
+celspan_status cs_svg_text_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                   const cs_svg_place *place, cs_outline *outline) {
+  lettering l;
+  celspan_status status = set_letters(reading, node, place, &l);
+  if (status == CELSPAN_OK)
+    status = cs_svg_letters_outline(&l.letters, &l.written, 0, l.written.count, outline);
+  finish(&l);
+  return status;
+}
+
+celspan_status cs_svg_text_box(cs_svg_reading *reading, const cs_svg_node *node,
+                               const cs_svg_place *place, celspan_box *out, bool *is_there) {
+  lettering l;
+  celspan_status status = set_letters(reading, node, place, &l);
+  *is_there = status == CELSPAN_OK && l.has_box;
+  if (*is_there)
+    *out = l.box;
+  finish(&l);
   return status;
 }

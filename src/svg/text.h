@@ -6,6 +6,7 @@
 #ifndef CS_SVG_TEXT_H
 #define CS_SVG_TEXT_H
 
+#include "geometry/outline.h"
 #include "svg/art.h"
 #include "svg/reading.h"
 
@@ -14,5 +15,12 @@
 CELSPAN_CHECKED celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art,
                                                const cs_svg_node *node, const cs_svg_place *place,
                                                cs_svg_item *item);
+/* Appends the outlines of all letters of a text, in its user units. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_text_outline(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_place *place, cs_outline *outline);
+/* The box around a text, in its user units: see cs_svg_letters_box. Errors: as above. */
+CELSPAN_CHECKED celspan_status cs_svg_text_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                               const cs_svg_place *place, celspan_box *out,
+                                               bool *is_there);
 
 #endif

@@ -141,8 +141,25 @@ static celspan_status give_values(cs_svg_written *w, const cs_svg_node *node,
 static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
                                   const cs_svg_place *place);
 
+/* What is only done to texts as a whole. */
+static celspan_status note_effects(cs_svg_written *w, const cs_svg_node *node,
+                                   const cs_svg_style *style) {
+  const struct {
+    bool is_given;
+    const char *name;
+  } effects[] = {{style->has_clip_path, "clip-path"},
+                 {style->has_mask, "mask"},
+                 {style->has_filter, "filter"},
+                 {style->has_blend, "mix-blend-mode"}};
+  for (size_t i = 0; i < sizeof effects / sizeof *effects; i++)
+    if (effects[i].is_given)
+      CS_TRY(cs_svg_skip(w->reading, node, "%s of %.40s", effects[i].name, node->tag));
+  return CELSPAN_OK;
+}
+
 static celspan_status add_inner(cs_svg_written *w, const cs_svg_node *node, cs_svg_place place) {
   CS_TRY(cs_svg_enter(w->reading, node, &place));
+  CS_TRY(note_effects(w, node, &place.style));
   return place.style.is_displayed ? add_content(w, node, &place) : CELSPAN_OK;
 }
 

@@ -182,6 +182,17 @@ describe("styles", function()
     assert.are.equal(1, #art.skipped)
     assert.is_truthy(art.skipped[1].what:find("style", 1, true))
   end)
+
+  it("of other files are not read", function()
+    bench:write("red.css", "rect { fill: red }")
+    for _, import in ipairs { '@import "red.css";', "@import url(red.css);" } do
+      local art = read(("<style>%s rect { stroke: none }</style><rect width='9' height='9'/>"):format(import))
+      assert.are.equal("000000 255", at(art.object, 5, 5))
+      assert.are.equal("style: selectors or at-rules that do not count", art.skipped[1].what)
+    end
+    local sheet = '<?xml-stylesheet href="red.css" type="text/css"?>'
+    assert.are.equal("000000 255", at(assert(svg.read(write(sheet .. in_svg '<rect width="9" height="9"/>'))).object, 5, 5))
+  end)
 end)
 
 describe("clip paths and masks", function()
@@ -224,6 +235,29 @@ describe("clip paths and masks", function()
     assert.are.equal("ff0000 128", at(art.object, 25, 50))
     assert.are.equal("ff0000 255", at(art.object, 75, 50))
     assert.are.equal("000000 0", at(art.object, 75, 5))
+  end)
+
+  it("may have strokes and what use shows", function()
+    local art = read [[<defs><rect id="r" width="20" height="20"/></defs>
+      <mask id="m" maskUnits="userSpaceOnUse" x="0" y="0" width="100" height="100">
+      <rect x="20" y="20" width="60" height="60" fill="#808080" stroke="white" stroke-width="10"/>
+      <g fill="black"><use href="#r" x="40" y="40"/></g></mask>
+      <rect width="100" height="100" fill="red" mask="url(#m)"/>]]
+    assert.are.same({}, art.skipped)
+    assert.are.equal("ff0000 255", at(art.object, 20, 50))
+    assert.are.equal("ff0000 128", at(art.object, 30, 50))
+    assert.are.equal("000000 0", at(art.object, 50, 50))
+    assert.are.equal("000000 0", at(art.object, 10, 50))
+    art = read [[<mask id="m"><g opacity=".5"><rect width="9" height="9" fill="red" stroke="blue"/></g></mask>
+      <rect width="100" height="100" mask="url(#m)"/>]]
+    assert.are.equal("mask that is not flat", art.skipped[1].what)
+    art = read [[<mask id="m"><text id="t">A</text><use href="#t"/></mask><rect width="9" height="9" mask="url(#m)"/>]]
+    assert.are.equal("mask that is not flat", art.skipped[1].what)
+  end)
+
+  it("end where what they show is themselves", function()
+    local art = read [[<mask id="m"><g id="g"><use href="#g"/></g></mask><rect width="9" height="9" mask="url(#m)"/>]]
+    assert.are.equal("mask that is not flat", art.skipped[1].what)
   end)
 
   it("are told of when they are not flat", function()
@@ -417,6 +451,23 @@ describe("markers", function()
     local boxed = marker 'viewBox="0 0 5 5" preserveAspectRatio="none" overflow="%s"' .. line
     assert.are.equal("000000 0", at(read(boxed:format "hidden").object, 88, 50))
     assert.are.equal("ff0000 255", at(read(boxed:format "visible").object, 88, 50))
+  end)
+
+  it("have their reference at a side or in the middle by a word", function()
+    local line = '<path d="M50 50H80" stroke-width="1" fill="none" marker-start="url(#m)"/>'
+    local function place(x, y)
+      return ('<marker id="m" markerWidth="10" markerHeight="10" viewBox="-5 -5 10 10" refX="%s" refY="%s">'
+        .. '<rect x="-5" y="-5" width="10" height="10" fill="red"/></marker>%s'):format(x, y, line)
+    end
+    assert.are.equal("ff0000 255", at(read(place("center", "center")).object, 46, 46))
+    assert.are.equal("000000 0", at(read(place("center", "center")).object, 46, 56))
+    assert.are.equal("ff0000 255", at(read(place("left", "bottom")).object, 59, 41))
+    assert.are.equal("ff0000 255", at(read(place("right", "top")).object, 41, 59))
+    local symbol = '<symbol id="s" width="10" height="10" viewBox="0 0 1 1" refX="%s" refY="right">'
+      .. '<rect width="1" height="1" fill="red"/></symbol><use href="#s" x="50" y="50"/>'
+    assert.are.equal("ff0000 255", at(read(symbol:format "center").object, 46, 51))
+    assert.are.equal("ff0000 255", at(read(symbol:format "1").object, 41, 51))
+    assert.are.equal("000000 0", at(read(symbol:format "1").object, 51, 51))
   end)
 
   it("stand once at an arc's ends, and not inside of it", function()
@@ -641,6 +692,53 @@ describe("a text", function()
     assert.are.equal("ff0000 255", at(below.object, x, y))
   end)
 
+  it("runs both ways as other texts do", function()
+    local words = "AB שלום, CD"
+    for direction, name in pairs { ltr = "ltr", rtl = "rtl" } do
+      local art = letters(('<text x="10" y="50" font-size="16" direction="%s" text-anchor="%s">%s</text>')
+        :format(direction, direction == "rtl" and "end" or "start", words))
+      assert.are.same({}, art.skipped)
+      local text = celspan.text { words, font = "../../scripts/type/block.ttf", size = 16, at = { 10, 50 }, direction = name }
+      local one, other = { art.object:bounds() }, { text:bounds() }
+      for i = 1, 4 do assert.is_near(other[i], one[i], 1e-6) end
+      for x = 10, 95, 3 do assert.are.equal(at(text, x, 46), at(art.object, x, 46)) end
+    end
+  end)
+
+  it("has a box as high as its lines and as wide as its advances", function()
+    local clip = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width="%g" height="%g"/></clipPath>'
+    local function width(share)
+      local art = letters(clip:format(share, 1) .. '<text x="0" y="50" font-size="20" clip-path="url(#c)">MMMM</text>')
+      assert.are.same({}, art.skipped)
+      local x, _, w = art.object:bounds()
+      return x + w
+    end
+    local glyphs = celspan.glyphs { "MMMM", font = "../../scripts/type/block.ttf", size = 20 }
+    local last = glyphs[#glyphs]
+    assert.is_near(0.5 * (last.x + last.advance), width(0.5), 1e-6)
+  end)
+
+  it("may cut as a clip path", function()
+    local art = letters [[<clipPath id="c"><text x="10" y="90" font-size="100">I</text></clipPath>
+      <rect width="100" height="100" fill="red" clip-path="url(#c)"/>]]
+    assert.are.same({}, art.skipped)
+    local plain = letters '<text x="10" y="90" font-size="100" fill="red">I</text>'
+    for x = 0, 60, 2 do assert.are.equal(at(plain.object, x, 60), at(art.object, x, 60)) end
+    local x = plain.object:bounds()
+    assert.are.equal("ff0000 255", at(art.object, x + 2, 60))
+  end)
+
+  it("has elements with an opacity of their own, and tells of what else they have", function()
+    local art = letters [[<text x="10" y="90" font-size="100" fill="red"><tspan opacity=".5"><tspan id="i">I</tspan></tspan></text>]]
+    local x = art.object:bounds()
+    assert.are.equal("ff0000 128", at(art.object, x + 2, 60))
+    assert.are.equal("ff0000 255", at(art.parts.i, x + 2, 60))
+    art = letters [[<filter id="f"/><text><tspan clip-path="url(#c)" mask="url(#m)" filter="url(#f)">I</tspan></text>]]
+    local told = {}
+    for i, entry in ipairs(art.skipped) do told[i] = entry.what end
+    assert.are.same({ "clip-path of tspan", "mask of tspan", "filter of tspan" }, told)
+  end)
+
   it("of more than 100,000 characters is told", function()
     local art = letters("<text>" .. ("A"):rep(100001) .. "</text>")
     assert.are.equal("text of more than 100000 characters", art.skipped[1].what)
@@ -656,7 +754,123 @@ describe("a text", function()
   end)
 end)
 
+local BASE64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+
+local function base64(bytes)
+  local out = {}
+  for i = 1, #bytes, 3 do
+    local a, b, c = bytes:byte(i, i + 2)
+    local n = a << 16 | (b or 0) << 8 | (c or 0)
+    for k = 0, 3 do
+      local digit = n >> 18 - 6 * k & 63
+      out[#out + 1] = k > 1 and i + k > #bytes + 1 and "=" or BASE64:sub(digit + 1, digit + 1)
+    end
+  end
+  return table.concat(out)
+end
+
+--- The bytes of a picture, red on the left and blue on the right.
+local function two_halves(format, w, h)
+  local rostrum = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, w / 2, h, texture = "#f00" },
+                                                  celspan.rect { w / 2, 0, w / 2, h, texture = "#00f" } } }
+  local path = bench.folder .. "/halves." .. format
+  assert(assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } })):write(path))
+  local file = assert(io.open(path, "rb"))
+  local bytes = file:read "a"
+  file:close()
+  return bytes
+end
+
+local function embedded(bytes, attributes)
+  return ('<image %s href="data:image/png;base64,%s"/>'):format(attributes or 'width="100" height="100"', base64(bytes))
+end
+
 describe("an image", function()
+  it("may be a picture in the file itself, of any format with sRGB codes", function()
+    local art = read(embedded(two_halves("png", 16, 16)))
+    assert.are.same({}, art.skipped)
+    assert.are.equal("ff0000 255", at(art.object, 25, 50))
+    assert.are.equal("0000ff 255", at(art.object, 75, 50))
+    for _, format in ipairs { "jpg", "tga", "tif" } do
+      art = read(embedded(two_halves(format, 32, 32)))
+      assert.are.same({}, art.skipped)
+      local left, right = at(art.object, 20, 50), at(art.object, 80, 50)
+      assert.is_truthy(left:find "^f[c-f]0[0-3]0[0-3] 255$", left)
+      assert.is_truthy(right:find "^0[0-3]0[0-3]f[c-f] 255$", right)
+    end
+  end)
+
+  it("is sliced or fitted to its place", function()
+    local halves = two_halves("png", 40, 20)
+    local art = read(embedded(halves, 'x="20" y="20" width="40" height="40"'))
+    assert.are.same({ 20, 30, 40, 20 }, { art.object:bounds() })
+    art = read(embedded(halves, 'x="20" y="20" width="40" height="40" preserveAspectRatio="xMinYMid slice"'))
+    assert.are.same({ 20, 20, 40, 40 }, { art.object:bounds() })
+    assert.are.equal("ff0000 255", at(art.object, 58, 21))
+    assert.are.equal("000000 0", at(art.object, 61, 40))
+    art = read(embedded(halves, 'x="20" y="20" width="40" height="40" preserveAspectRatio="none"'))
+    assert.are.equal("0000ff 255", at(art.object, 45, 21))
+  end)
+
+  it("has a box for clip paths and masks", function()
+    local art = read('<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+      .. embedded(two_halves("png", 8, 8), 'x="20" y="20" width="40" height="40" clip-path="url(#c)"'))
+    assert.are.equal("ff0000 255", at(art.object, 30, 40))
+    assert.are.equal("000000 0", at(art.object, 50, 40))
+  end)
+
+  it("is read once, however often use shows it", function()
+    local uses = {}
+    for i = 1, 300 do uses[i] = ('<use href="#i" x="%d"/>'):format(i % 50) end
+    -- 300 times 4 MiB would be more than all images of a drawing may have
+    local art = read("<defs>" .. embedded(two_halves("png", 1024, 1024), 'id="i" width="10" height="10"') .. "</defs>"
+      .. table.concat(uses))
+    assert.are.same({}, art.skipped)
+    assert.are.equal("ff0000 255", at(art.object, 2, 5))
+    assert.are.equal("0000ff 255", at(art.object, 58, 5))
+    art = read('<defs><image id="i" href="data:,"/></defs><use href="#i"/><use href="#i"/>')
+    assert.are.equal(1, #art.skipped)
+  end)
+
+  it("that is cut short, or is none, is told", function()
+    for _, format in ipairs { "png", "jpg" } do
+      local bytes = two_halves(format, 32, 32)
+      for _, size in ipairs { 3, 20, 40, #bytes // 2 } do
+        local art = read(embedded(bytes:sub(1, size)) .. '<rect width="9" height="9" fill="lime"/>')
+        assert.are.equal(1, #art.skipped, format .. " " .. size)
+        assert.is_truthy(art.skipped[1].what:find("^image: "), art.skipped[1].what)
+        assert.is_nil(art.skipped[1].what:find("/proc", 1, true))
+        assert.are.equal("00ff00 255", at(art.object, 5, 5))
+      end
+    end
+    local art = read(('<image width="9" height="9" href="data:image/png;base64,%s"/>'):format(("QUFB"):rep(5000000)))
+    assert.are.equal(1, #art.skipped)
+    art = read '<image width="9" height="9" href="data:image/png;base64,iVBO$$$$"/>'
+    assert.are.equal("image: its data: address is damaged", art.skipped[1].what)
+  end)
+
+  it("is never read from outside of the drawing's folder", function()
+    local folder = bench.folder .. "/inside"
+    assert(os.execute(("mkdir -p '%s/deep' && ln -sf /etc '%s/etc' && ln -sf ../secret.svg '%s/out.svg' && ln -sf deep/in.svg '%s/in.svg'")
+      :format(folder, folder, folder, folder)))
+    local secret = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><rect width="9" height="9" fill="red"/></svg>'
+    bench:write("secret.svg", secret)
+    bench:write("inside/deep/in.svg", secret)
+    local tries = { "out.svg", "etc/hostname", "../secret.svg", "%2e%2e/secret.svg", "deep/../../secret.svg",
+      "deep/%2E%2e/../secret.svg", "file:///etc/hostname", "//etc/hostname", "/etc/hostname", "https://a.b/c.png",
+      "%00", "deep", "in.svg%00.png" }
+    for i, href in ipairs(tries) do
+      local path = bench:write("inside/try.svg", in_svg(('<image width="50" height="50" href="%s"/><!-- %d -->'):format(href, i)))
+      local art = assert(svg.read(path))
+      assert.are.equal(1, #art.skipped, href)
+      assert.are.equal("000000 0", at(art.object, 5, 5))
+    end
+    for _, href in ipairs { "deep/in.svg", "in.svg", "./deep/in.svg" } do
+      local path = bench:write("inside/try.svg", in_svg(('<image width="50" height="50" href="%s"/>'):format(href)))
+      assert.are.equal("ff0000 255", at(assert(svg.read(path)).object, 5, 5), href)
+    end
+  end)
+
   it("may be a drawing in the file itself, in its place", function()
     local art = read [[<image x="20" width="40" height="40" href="data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' width='1' height='1'%3E%3Crect width='9' height='9' fill='red'/%3E%3C/svg%3E"/>]]
     assert.are.same({}, art.skipped)
