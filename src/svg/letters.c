@@ -124,7 +124,7 @@ static celspan_status append_letters(const cs_svg_written *written, size_t index
     double wider = is_word_end(written, character) ? style->text.word_spacing : 0;
     out->letters[out->count++] =
         (cs_svg_letter){index, from->glyph, from->glyph_count,     character, from->x, from->y,
-                        x,     0,           from->advance + wider, 1};
+                        x,     0,           from->advance + wider, 1,         0};
     widened += wider;
     right = fmax(right, x + from->advance + wider + style->text.letter_spacing);
   }
@@ -275,6 +275,32 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
   anchor_chunk(written, &part, letters, &at);
 }
 
+/* ---------------------------------------------------------------- along lines */
+
+/* Brings a letter from its distance along a line, and across it, to its place. */
+static void bend(const cs_svg_way *way, cs_svg_letter *letter) {
+  const double half = 0.5 * letter->advance, middle = letter->x + half;
+  if (!(middle >= 0 && middle <= way->length)) {
+    letter->count = 0;
+    return;
+  }
+  const celspan_point at = cs_svg_way_at(way, middle, &letter->turn);
+  const celspan_matrix turn =
+      celspan_matrix_rotation(letter->turn * (PI / 180), (celspan_point){0, 0});
+  const double y = letter->y;
+  letter->x = at.x - turn.m[0] * half + turn.m[1] * y;
+  letter->y = at.y - turn.m[3] * half + turn.m[4] * y;
+}
+
+static void bend_letters(const cs_svg_written *written, cs_svg_letters *letters) {
+  for (size_t i = 0; i < written->way_count; i++)
+    for (size_t k = written->ways[i].begin; k < written->ways[i].end; k++) {
+      cs_svg_letter *letter = letter_at(letters, k);
+      if (letter)
+        bend(&written->ways[i], letter);
+    }
+}
+
 /* Numbers beyond what the geometry takes draw nothing. */
 static void drop_unfit(cs_svg_letters *letters) {
   for (size_t i = 0; i < letters->count; i++) {
@@ -297,6 +323,7 @@ celspan_status cs_svg_letters_make(cs_svg_reading *reading, const cs_svg_node *n
   for (size_t i = 0; i < written->fit_count; i++)
     fit_length(out, &written->fits[i]);
   place_letters(written, out);
+  bend_letters(written, out);
   drop_unfit(out);
   return CELSPAN_OK;
 }
@@ -308,6 +335,12 @@ void cs_svg_letters_finish(cs_svg_letters *letters) {
   cs_mem_free(memory, letters->runs, letters->run_capacity * sizeof *letters->runs);
   cs_mem_free(memory, letters->letters, letters->capacity * sizeof *letters->letters);
   cs_mem_free(memory, letters->order, letters->order_count * sizeof *letters->order);
+}
+
+/* How far a letter is turned, in degrees. */
+static double turn_of(const cs_svg_letter *letter, const cs_svg_written *written) {
+  double own = written->characters[letter->character].rotate;
+  return letter->turn + (isnan(own) ? 0 : own);
 }
 
 /* ---------------------------------------------------------------- outlines */
@@ -346,9 +379,8 @@ celspan_status cs_svg_letters_outline(const cs_svg_letters *letters, const cs_sv
                                       size_t begin, size_t end, cs_outline *outline) {
   for (size_t i = begin; i < end && i < letters->order_count; i++) {
     const cs_svg_letter *letter = letter_at(letters, i);
-    double degrees = written->characters[i].rotate;
     if (letter)
-      CS_TRY(append_letter(letters, letter, isnan(degrees) ? 0 : degrees, outline));
+      CS_TRY(append_letter(letters, letter, turn_of(letter, written), outline));
   }
   return CELSPAN_OK;
 }
@@ -386,9 +418,8 @@ bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *wri
   bounds whole = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (size_t i = 0; i < letters->count; i++) {
     const cs_svg_letter *letter = &letters->letters[i];
-    double degrees = written->characters[letter->character].rotate;
     if (letter->count > 0)
-      add_letter(letters, letter, isnan(degrees) ? 0 : degrees, &whole);
+      add_letter(letters, letter, turn_of(letter, written), &whole);
   }
   *out = (celspan_box){whole.left, whole.top, whole.right - whole.left, whole.bottom - whole.top};
   return whole.left <= whole.right;

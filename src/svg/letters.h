@@ -3,7 +3,8 @@
  *   runs of characters with the same fonts, shaped one by one (text/typeset.h)
  *   |  side by side on one line
  *   v
- *   letters at (advance, 0) --textLength--> --x, y, dx, dy--> --text-anchor--> in user units
+ *   letters at (advance, 0) --textLength--> --x, y, dx, dy--> --text-anchor--> --textPath--> in user
+ *                                                                                       units
  *
  * A chunk is what lies from one absolute position to the next; it is anchored as a whole.
  *
@@ -27,6 +28,7 @@ typedef struct cs_svg_letter {
   double origin_x, origin_y; /* where the layout has it */
   double x, y, advance;      /* its left end on the baseline, user units */
   double scale;              /* of its width */
+  double turn;               /* of the line that it runs along, degrees */
 } cs_svg_letter;
 
 typedef struct cs_svg_run {

@@ -163,6 +163,29 @@ static celspan_status add_inner(cs_svg_written *w, const cs_svg_node *node, cs_s
   return place.style.is_displayed ? add_content(w, node, &place) : CELSPAN_OK;
 }
 
+/* Along a line that is not there nothing is drawn. */
+static celspan_status add_path(cs_svg_written *w, const cs_svg_node *node,
+                               const cs_svg_place *place) {
+  const char *side = cs_svg_node_value(node, CS_SVG_SIDE);
+  bool is_there;
+  if (w->way_count == CS_SVG_WAYS)
+    return cs_svg_skip(w->reading, node, "textPath: a text has more than %d", CS_SVG_WAYS);
+  if (side && cs_svg_is_word(side, "right"))
+    CS_TRY(cs_svg_skip(w->reading, node, "side of textPath"));
+  cs_svg_way *way = &w->ways[w->way_count++];
+  const size_t begin = w->count;
+  CS_TRY(cs_svg_way_make(w->reading, node, place, way, &is_there));
+  if (is_there)
+    CS_TRY(add_inner(w, node, *place));
+  else
+    CS_TRY(cs_svg_skip(w->reading, node, "textPath without a path"));
+  way->begin = begin;
+  way->end = w->count;
+  if (way->begin == way->end)
+    cs_svg_way_finish(&w->ways[--w->way_count], w->reading->context->memory);
+  return CELSPAN_OK;
+}
+
 static celspan_status add_child(cs_svg_written *w, const cs_svg_node *node,
                                 const cs_svg_place *place) {
   switch (node->element) {
@@ -171,6 +194,8 @@ static celspan_status add_child(cs_svg_written *w, const cs_svg_node *node,
   case CS_SVG_ELEMENT_TSPAN:
   case CS_SVG_ELEMENT_A:
     return add_inner(w, node, *place);
+  case CS_SVG_ELEMENT_TEXT_PATH:
+    return add_path(w, node, place);
   case CS_SVG_ELEMENT_TITLE:
   case CS_SVG_ELEMENT_DESC:
     return CELSPAN_OK;
@@ -195,10 +220,36 @@ static void drop_last(cs_svg_written *w) {
   w->size = w->characters[w->count].byte;
   for (size_t i = 0; i < w->fit_count; i++)
     w->fits[i].end = w->fits[i].end > w->count ? w->count : w->fits[i].end;
+  cs_svg_way *way = w->way_count > 0 ? &w->ways[w->way_count - 1] : NULL;
+  if (way && way->end > w->count)
+    way->end = w->count;
+  if (way && way->begin == way->end)
+    cs_svg_way_finish(&w->ways[--w->way_count], w->reading->context->memory);
   cs_svg_stretch *last = &w->stretches[w->stretch_count - 1];
   last->end = w->count;
   if (last->begin == last->end)
     w->stretch_count--;
+}
+
+/* Along a line x counts from where its first letter begins, and y from the line; behind it the text
+ * goes on at the line's end. */
+static void enter_ways(cs_svg_written *w) {
+  for (size_t i = 0; i < w->way_count; i++) {
+    const cs_svg_way *way = &w->ways[i];
+    cs_svg_character *first = &w->characters[way->begin], *behind = &w->characters[way->end];
+    double degrees;
+    const celspan_point end = cs_svg_way_at(way, way->length, &degrees);
+    for (size_t k = way->begin; k < way->end; k++) {
+      w->characters[k].x += way->start;
+      w->characters[k].y = NAN;
+    }
+    first->x = isnan(first->x) ? way->start : first->x;
+    first->y = 0;
+    if (way->end < w->count) {
+      behind->x = isnan(behind->x) ? end.x : behind->x;
+      behind->y = isnan(behind->y) ? end.y : behind->y;
+    }
+  }
 }
 
 celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *node,
@@ -207,11 +258,14 @@ celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *n
   CS_TRY(add_content(out, node, place));
   if (out->count > 0 && out->ends_in_space)
     drop_last(out);
+  enter_ways(out);
   return CELSPAN_OK;
 }
 
 void cs_svg_written_finish(cs_svg_written *w) {
   cs_memory *memory = w->reading->context->memory;
+  for (size_t i = 0; i < w->way_count; i++)
+    cs_svg_way_finish(&w->ways[i], memory);
   cs_mem_free(memory, w->bytes, w->byte_capacity);
   cs_mem_free(memory, w->characters, w->capacity * sizeof *w->characters);
   cs_mem_free(memory, w->stretches, w->stretch_capacity * sizeof *w->stretches);

@@ -11,9 +11,10 @@
 #ifndef CS_SVG_WRITTEN_H
 #define CS_SVG_WRITTEN_H
 
-#include "svg/reading.h"
+#include "svg/text_path.h"
 
 #define CS_SVG_FITS 64 /* of one text */
+#define CS_SVG_WAYS 64 /* of one text */
 
 typedef struct cs_svg_character {
   uint32_t byte; /* where it begins */
@@ -44,6 +45,8 @@ typedef struct cs_svg_written {
   size_t stretch_count, stretch_capacity;
   cs_svg_text_fit fits[CS_SVG_FITS]; /* inner ones first */
   size_t fit_count;
+  cs_svg_way ways[CS_SVG_WAYS]; /* ascending, apart; none is empty */
+  size_t way_count;
   bool ends_in_space; /* which collapses with what follows */
   bool is_too_long;
 } cs_svg_written;

@@ -10,6 +10,9 @@
 #include "tests/support/memory.h"
 
 #define MOST_BYTES ((size_t)512 << 20)
+#ifndef TEST_ROOT
+#define TEST_ROOT "." /* the fuzzer runs there */
+#endif
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -89,6 +92,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   desc.bytes = size > 0 ? (const void *)data : "";
   desc.size = size;
   desc.name = "fuzz.svg";
+  const celspan_svg_font font = {"default", {.file = TEST_ROOT "/scripts/type/block.ttf"}};
+  desc.fonts = &font;
+  desc.font_count = 1;
   if (celspan_context_create(&context_desc, &context) == CELSPAN_OK) {
     celspan_svg *svg = NULL;
     celspan_status status = celspan_svg_read(context, &desc, &svg);

@@ -718,6 +718,38 @@ describe("a text", function()
     assert.is_near(0.5 * (last.x + last.advance), width(0.5), 1e-6)
   end)
 
+  it("may run along a line, its letters turned with it", function()
+    local square = '<path id="p" d="M20 20H80V80" fill="none"/>'
+    local function along(attributes, words)
+      local art = letters(square .. ('<text font-size="10"><textPath href="#p" %s>%s</textPath></text>')
+        :format(attributes, words or "I"))
+      assert.are.same({}, art.skipped)
+      return { art.object:bounds() }
+    end
+    local plain = { assert(letters '<text font-size="10">I</text>').object:bounds() }
+    local level, upright = along 'startOffset="10"', along 'startOffset="70"'
+    assert.is_near(30 + plain[1], level[1], 1e-6)
+    assert.is_near(20 + plain[2], level[2], 1e-6)
+    -- turned by a right angle: what was above the line is now to the right of it
+    assert.is_near(80 - plain[2] - plain[4], upright[1], 1e-6)
+    assert.is_near(30 + plain[1], upright[2], 1e-6)
+    assert.are.same(along 'startOffset="25%"', along 'startOffset="30"')
+    square = square:gsub("/>", ' pathLength="1"/>')
+    assert.are.same(along 'startOffset="25%"', along 'startOffset="0.25"')
+    assert.are.same({}, along 'startOffset="119"')
+  end)
+
+  it("goes on behind the line, and not without one", function()
+    local line = '<path id="p" d="M20 20H80" fill="none" transform="translate(0 10)"/>'
+    local art = letters(line .. '<text id="t" font-size="10"><textPath id="a" href="#p">I</textPath><tspan id="b">I</tspan></text>')
+    local x, y = art.parts.b:bounds()
+    assert.is_true(x > 80 and x < 82 and y < 30 and y > 20)
+    art = letters '<text><textPath href="#no">I</textPath></text>'
+    assert.are.equal("textPath without a path", art.skipped[1].what)
+    art = letters '<path id="p" d="M9 9"/><text><textPath href="#p">I</textPath></text>'
+    assert.are.equal("textPath without a path", art.skipped[1].what)
+  end)
+
   it("may cut as a clip path", function()
     local art = letters [[<clipPath id="c"><text x="10" y="90" font-size="100">I</text></clipPath>
       <rect width="100" height="100" fill="red" clip-path="url(#c)"/>]]
