@@ -43,6 +43,26 @@ static celspan_stop *read_stops(const cs_form *form, int count) {
   return stops;
 }
 
+/* Gives the gradient the matrix and the spread of the form; *texture is the value's from the first on,
+ * so that it is released where one is refused. */
+static void read_extent(const cs_form *form, celspan_texture *texture, cs_userdata *value) {
+  static const char *const spreads[] = {"hold", "repeat", "reflect", NULL};
+  celspan_context *context = cs_host_context(form->L);
+  celspan_matrix matrix;
+  value->handle = texture;
+  if (cs_form_numbers(form, "matrix", 9, matrix.m)) {
+    cs_form_try(form, celspan_texture_with_matrix(context, value->handle, &matrix, &texture));
+    celspan_texture_unref(value->handle);
+    value->handle = texture;
+  }
+  celspan_spread spread = (celspan_spread)cs_form_choice(form, "spread", spreads);
+  if (spread != CELSPAN_SPREAD_HOLD) {
+    cs_form_try(form, celspan_texture_with_spread(context, value->handle, spread, &texture));
+    celspan_texture_unref(value->handle);
+    value->handle = texture;
+  }
+}
+
 static void create_linear(const cs_form *form, cs_userdata *value) {
   celspan_point from = cs_form_point(form, "from"), to = cs_form_point(form, "to");
   int count = cs_form_length(form);
@@ -50,7 +70,7 @@ static void create_linear(const cs_form *form, cs_userdata *value) {
   celspan_texture *texture = NULL;
   cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), from, to, stops,
                                                   (size_t)count, &texture));
-  value->handle = texture;
+  read_extent(form, texture, value);
 }
 
 static void create_radial(const cs_form *form, cs_userdata *value) {
@@ -62,7 +82,7 @@ static void create_radial(const cs_form *form, cs_userdata *value) {
   celspan_texture *texture = NULL;
   cs_form_try(form, celspan_texture_create_focal(cs_host_context(form->L), centre, radius, focus,
                                                  stops, (size_t)count, &texture));
-  value->handle = texture;
+  read_extent(form, texture, value);
 }
 
 const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
@@ -100,8 +120,10 @@ static void create_picture(const cs_form *form, cs_userdata *value) {
 }
 
 static const cs_field no_fields[] = {{0}};
-static const cs_field linear_fields[] = {{"from", NULL}, {"to", NULL}, {0}};
-static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {"focus", NULL}, {0}};
+static const cs_field linear_fields[] = {
+    {"from", NULL}, {"to", NULL}, {"spread", NULL}, {"matrix", NULL}, {0}};
+static const cs_field radial_fields[] = {{"centre", NULL}, {"radius", NULL}, {"focus", NULL},
+                                         {"spread", NULL}, {"matrix", NULL}, {0}};
 static const cs_field picture_fields[] = {CS_TEXTURE_PICTURE_FIELDS, {"box", NULL}, {0}};
 
 static const cs_noun nouns[] = {

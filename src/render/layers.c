@@ -29,6 +29,8 @@ static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_laye
   CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = place->texture, .inverse = place->inverse};
+  if (place->texture->has_matrix)
+    shade->inverse = celspan_matrix_then(place->inverse, place->texture->inverse);
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
   layer->index = (uint32_t)stack->shade_count++;

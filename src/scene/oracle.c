@@ -184,6 +184,32 @@ static celspan_status shade_procedure(celspan_context *context, const cs_primiti
   return status;
 }
 
+/* Where a place beyond the ends lies in the one period from 0 to 1. */
+static double fold(celspan_spread spread, double at) {
+  if (spread == CELSPAN_SPREAD_HOLD)
+    return at;
+  double period = floor(at), rest = at - period;
+  bool is_turned = spread == CELSPAN_SPREAD_REFLECT && fmod(fabs(period), 2) == 1;
+  return is_turned ? 1 - rest : rest;
+}
+
+/* A gradient in its own units, as it was given: not as it was unrolled. Behind the horizon of its
+ * matrix it is clear. */
+static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_point point) {
+  const celspan_texture *given = texture->origin ? texture->origin : texture;
+  if (given->has_matrix) {
+    const double *m = given->inverse.m;
+    double w = m[6] * point.x + m[7] * point.y + m[8];
+    if (!(w > 0))
+      return cs_oracle_clear;
+    point = (celspan_point){(m[0] * point.x + m[1] * point.y + m[2]) / w,
+                            (m[3] * point.x + m[4] * point.y + m[5]) / w};
+  }
+  double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
+                                               : radial_parameter(given, point);
+  return shade_stops(given, fold(given->spread, at));
+}
+
 celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture *texture,
                                  const celspan_box *bounds, celspan_point point,
                                  cs_oracle_paint *out) {
@@ -195,10 +221,8 @@ celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture
     *out = shade_triangle(texture, point);
     return CELSPAN_OK;
   case CS_TEXTURE_LINEAR:
-    *out = shade_stops(texture, linear_parameter(texture, point));
-    return CELSPAN_OK;
   case CS_TEXTURE_RADIAL:
-    *out = shade_stops(texture, radial_parameter(texture, point));
+    *out = shade_gradient(texture, point);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:
     break;

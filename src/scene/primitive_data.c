@@ -3,6 +3,7 @@
 #include "geometry/matrix.h"
 #include "scene/check.h"
 #include "scene/texture.h"
+#include "scene/unroll.h"
 #include "scene/value.h"
 
 /* ---------------------------------------------------------------- data */
@@ -131,6 +132,8 @@ static celspan_status create_object(celspan_context *context, cs_primitive_data 
 celspan_status cs_primitive_data_wrap(celspan_context *context, cs_primitive_data *data,
                                       celspan_status status, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
+  if (status == CELSPAN_OK && data->texture)
+    status = cs_texture_unroll(context, &data->texture, &data->bounds);
   if (status == CELSPAN_OK) {
     data->hash =
         data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? hash_boolean(data) : hash_primitive(data);

@@ -5,6 +5,7 @@
 
 #include "pictures/store.h"
 #include "scene/check.h"
+#include "scene/unroll.h"
 #include "scene/value.h"
 
 /* Twice the area of a triangle below this share of its longest side squared is rounding. */
@@ -48,10 +49,16 @@ static cs_hash hash_texture(const celspan_texture *texture) {
     cs_hash_number(&hash, texture->stops[i].at);
     cs_value_hash_paint(&hash, &texture->stops[i].paint);
   }
+  cs_hash_word(&hash, texture->spread);
+  cs_hash_word(&hash, texture->has_matrix);
+  if (texture->has_matrix)
+    cs_value_hash_matrix(&hash, &texture->matrix);
   if (texture->kind == CS_TEXTURE_PICTURE)
     hash_picture(&hash, texture);
   return cs_hash_end(hash);
 }
+
+void cs_texture_rehash(celspan_texture *texture) { texture->hash = hash_texture(texture); }
 
 static celspan_status finish(celspan_texture *texture, celspan_texture **out) {
   texture->hash = hash_texture(texture);
@@ -287,6 +294,10 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
   CS_TRY(create(context, texture->kind, &light));
   light->flat = light_paint(&texture->flat);
   light->radius = texture->radius;
+  light->spread = texture->spread;
+  light->has_matrix = texture->has_matrix;
+  light->matrix = texture->matrix;
+  light->inverse = texture->inverse;
   for (int i = 0; i < 3; i++) {
     light->points[i] = texture->points[i];
     light->corners[i] = light_paint(&texture->corners[i]);
@@ -295,7 +306,13 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
     celspan_texture_unref(light);
     return CELSPAN_NO_MEMORY;
   }
-  return finish(light, out);
+  cs_texture_rehash(light);
+  celspan_status status = cs_texture_unroll(context, &light, NULL);
+  if (status == CELSPAN_OK)
+    *out = light;
+  else
+    celspan_texture_unref(light);
+  return status;
 }
 
 /* ---------------------------------------------------------------- questions */
@@ -321,32 +338,41 @@ bool cs_texture_is_grey(const celspan_texture *texture) {
                                              : all_paints_are_grey(texture);
 }
 
-/* ---------------------------------------------------------------- names */
+/* ---------------------------------------------------------------- copies */
+
+celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *texture,
+                               size_t stop_count, cs_mark mark, celspan_texture **out) {
+  celspan_texture *copy = cs_mem_array(context->memory, 1, sizeof *copy);
+  cs_stop *stops = cs_mem_array(context->memory, stop_count, sizeof *stops);
+  if (!copy || (!stops && stop_count > 0)) {
+    cs_mem_free(context->memory, copy, sizeof *copy);
+    cs_mem_free(context->memory, stops, stop_count * sizeof *stops);
+    cs_mark_drop(mark);
+    return cs_fail_memory(context);
+  }
+  size_t kept = stop_count < texture->stop_count ? stop_count : texture->stop_count;
+  *copy = *texture;
+  atomic_init(&copy->references, 1);
+  copy->memory = cs_memory_ref(context->memory);
+  copy->mark = mark;
+  copy->stops = stops;
+  copy->stop_count = stop_count;
+  if (kept > 0)
+    memcpy(stops, texture->stops, kept * sizeof *stops);
+  if (copy->picture)
+    cs_picture_ref(copy->picture);
+  if (copy->origin)
+    celspan_texture_ref(copy->origin);
+  *out = copy;
+  return CELSPAN_OK;
+}
 
 celspan_status celspan_texture_named(celspan_context *context, celspan_texture *texture,
                                      const char *name, celspan_texture **out) {
   CS_TRY(cs_check_given(context, "named", "the texture", texture));
   cs_mark mark;
   CS_TRY(cs_mark_named(context, texture->mark, name, &mark));
-  celspan_texture *copy = cs_mem_array(context->memory, 1, sizeof *copy);
-  cs_stop *stops = cs_mem_array(context->memory, texture->stop_count, sizeof *stops);
-  if (!copy || (!stops && texture->stop_count > 0)) {
-    cs_mem_free(context->memory, copy, sizeof *copy);
-    cs_mem_free(context->memory, stops, texture->stop_count * sizeof *stops);
-    cs_mark_drop(mark);
-    return cs_fail_memory(context);
-  }
-  *copy = *texture;
-  atomic_init(&copy->references, 1);
-  copy->memory = cs_memory_ref(context->memory);
-  copy->mark = mark;
-  copy->stops = stops;
-  if (stops)
-    memcpy(stops, texture->stops, texture->stop_count * sizeof *stops);
-  if (copy->picture)
-    cs_picture_ref(copy->picture);
-  *out = copy;
-  return CELSPAN_OK;
+  return cs_texture_copy(context, texture, texture->stop_count, mark, out);
 }
 
 const char *celspan_texture_name(const celspan_texture *texture) {
@@ -371,6 +397,7 @@ void celspan_texture_unref(celspan_texture *texture) {
   cs_mem_free(memory, texture->stops, texture->stop_count * sizeof *texture->stops);
   if (texture->picture)
     cs_picture_unref(texture->picture);
+  celspan_texture_unref(texture->origin);
   cs_mark_drop(texture->mark);
   cs_mem_free(memory, texture, sizeof *texture);
   cs_memory_unref(memory);

@@ -38,7 +38,11 @@ struct celspan_texture {
   cs_paint corners[3];     /* TRIANGLE */
   cs_stop *stops;          /* LINEAR, RADIAL */
   size_t stop_count;
-  cs_picture *picture; /* PICTURE */
+  celspan_spread spread;          /* LINEAR, RADIAL; of what primitives and lights have: HOLD */
+  bool has_matrix;                /* LINEAR, RADIAL; not singular: */
+  celspan_matrix matrix, inverse; /* from the units of points to the primitive's */
+  celspan_texture *origin; /* what was unrolled to this one, a reference; NULL: nothing was */
+  cs_picture *picture;     /* PICTURE */
   celspan_sampling sampling;
   celspan_picture_use use;
   celspan_wrap wrap;
@@ -55,6 +59,14 @@ CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
                                                        celspan_texture *texture,
                                                        celspan_texture **out);
+
+/* A copy with its own mark, which is taken over, and room for so many stops, of which those that fit
+ * are copied. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
+                                               const celspan_texture *texture, size_t stop_count,
+                                               cs_mark mark, celspan_texture **out);
+/* To be called when a copy was changed. */
+void cs_texture_rehash(celspan_texture *texture);
 
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
  * unless it is a gel. */

@@ -338,6 +338,98 @@ describe("a radial gradient with a focus", function()
   end)
 end)
 
+describe("a gradient with a spread or a matrix", function()
+  local stops = { { 0.2, celspan.rgb(1, 0, 0) }, { 0.5, celspan.rgb(0, 1, 0, 0.5) }, { 0.9, celspan.rgb(0, 0, 1) } }
+  local turn = { 0.8, -0.6, 20, 0.6, 0.8, -10, 0, 0, 1 }
+
+  --- Where a place along the stops lies between 0 and 1.
+  local function fold(spread, at)
+    if spread == "hold" then return at end
+    local period = math.floor(at)
+    return spread == "reflect" and period % 2 == 1 and 1 - (at - period) or at - period
+  end
+
+  --- The share of red there, by the first two stops.
+  local function red(at)
+    if at <= 0.2 then return 1 end
+    return at >= 0.5 and 0 or 1 - (at - 0.2) / 0.3
+  end
+
+  local function each(check)
+    for _, spread in ipairs { "hold", "repeat", "reflect" } do
+      for _, matrix in ipairs { false, turn } do check(spread, matrix or nil) end
+    end
+  end
+
+  local function scene(texture, form)
+    local rect = celspan.rect { 0, 0, 100, 100, texture = texture }
+    return celspan.rostrum { antialias = "none", celspan.cel { form and form(rect) or rect } }
+  end
+
+  --- The point in the gradient's own units.
+  local function back(matrix, x, y)
+    if not matrix then return x, y end
+    return 0.8 * (x - 20) + 0.6 * (y + 10), -0.6 * (x - 20) + 0.8 * (y + 10)
+  end
+
+  it("has the colours that its definition gives", function()
+    each(function(spread, matrix)
+      local linear = scene(celspan.linear { from = { 30, 0 }, to = { 50, 0 }, spread = spread, matrix = matrix, table.unpack(stops) })
+      local radial = scene(celspan.radial { centre = { 50, 40 }, radius = 15, spread = spread, matrix = matrix, table.unpack(stops) })
+      for x = 1.3, 99, 7 do
+        for y = 2.1, 99, 9 do
+          local u, v = back(matrix, x, y)
+          local place = (u - 30) / 20
+          assert.is_near(red(fold(spread, place)), (celspan.probe(linear, x, y, { film = { 100, 100 } })), 1e-6)
+          place = math.sqrt((u - 50) ^ 2 + (v - 40) ^ 2) / 15
+          assert.is_near(red(fold(spread, place)), (celspan.probe(radial, x, y, { film = { 100, 100 } })), 1e-6)
+        end
+      end
+    end)
+  end)
+
+  it("is rendered as it is defined", function()
+    each(function(spread, matrix)
+      for _, texture in ipairs {
+        celspan.linear { from = { 30, 10 }, to = { 50, 17 }, spread = spread, matrix = matrix, table.unpack(stops) },
+        celspan.radial { centre = { 50, 40 }, radius = 15, focus = { 44, 38 }, spread = spread, matrix = matrix, table.unpack(stops) },
+      } do
+        local turned = scene(texture, function(rect) return rect:rotate(33, 50, 50) end)
+        local image = assert(celspan.pixels(turned, { size = { 100, 100 } }))
+        for y = 0, 99, 3 do
+          for x = 0, 99 do
+            local shown, exact = { image:get(x, y) }, { celspan.probe(turned, x + 0.5, y + 0.5, { film = { 100, 100 } }) }
+            for c = 1, 4 do assert.is_near(exact[c], shown[c], 1.1 / 1023) end
+          end
+        end
+      end
+    end)
+  end)
+
+  it("may be a light", function()
+    local lamp = celspan.linear { from = { 0, 0 }, to = { 20, 0 }, spread = "reflect", { 0, "#000" }, { 1, "#fff" } }
+    local rostrum = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 100, 100, texture = "#fff" }, front = lamp } }
+    for x = 1, 99, 7 do
+      local place = x / 20 % 2
+      assert.is_near(place > 1 and 2 - place or place, (celspan.probe(rostrum, x, 50, { film = { 100, 100 } })), 1e-6)
+    end
+  end)
+
+  it("refuses other spreads, and too many periods", function()
+    local function made(fields)
+      fields.from, fields.to, fields[1], fields[2] = { 0, 0 }, { 1, 0 }, { 0, celspan.rgb(0, 0, 0) }, { 1, celspan.rgb(1, 1, 1) }
+      return function() return celspan.rect { 0, 0, 1e5, 9, texture = celspan.linear(fields) } end
+    end
+    assert.is_truthy(raised.message(made { spread = "pad" }):find('"hold", "repeat" or "reflect", got "pad"', 1, true))
+    assert.is_truthy(raised.message(made { spread = "repeat" })
+      :find("is repeated 100000 times where it is shown; with its stops that may be 1024 times", 1, true))
+    assert.is_truthy(raised.message(made { matrix = { 1, 2, 3 } }):find("matrix[4] must be a number", 1, true))
+    assert.is_truthy(raised.message(made { spread = "repeat", matrix = { 1, 0, 0, 0, 1, 0, 1, 0, 1 } }):find("horizon", 1, true))
+    local clear = scene(celspan.linear { from = { 0, 0 }, to = { 9, 0 }, matrix = { 0, 0, 0, 0, 0, 0, 0, 0, 1 }, table.unpack(stops) })
+    assert.are.same({ 0, 0, 0, 0 }, { celspan.probe(clear, 5, 5, { film = { 100, 100 } }) })
+  end)
+end)
+
 describe("strokes", function()
   --- Which of these points show red.
   local function red_at(art, points)

@@ -74,6 +74,35 @@ function maker:stops()
   return table.concat(stops, ", ")
 end
 
+--- The spread and the matrix of a gradient, as text. A gradient that repeats has no horizon, and is
+--- not so small that it repeats without end.
+function maker:extent(repeats)
+  local fields = ""
+  if repeats then fields = ('spread = "%s", '):format(self.random:pick { "repeat", "reflect" }) end
+  if self.random:once(3) then
+    local turn, scale = self.random:between(0, 6.28), self.random:between(0.7, 2)
+    local c, s = text_of(scale * math.cos(turn)), text_of(scale * math.sin(turn))
+    local tilt = not repeats and self.random:once(3) and text_of(self.random:between(-0.01, 0.01)) or "0"
+    fields = fields .. ("matrix = { %s, -(%s), %s, %s, %s, %s, %s, 0, 1 }, "):format(c, s, self:number(-9, 9), s, c,
+      self:number(-9, 9), tilt)
+  end
+  return fields
+end
+
+--- Gradients that repeat: from a point, so far to the right and down.
+function maker:repeating()
+  local x, y = self.random:between(0, 40), self.random:between(0, 40)
+  local stops, extent = self:stops(), self:extent(true)
+  if self.random:once(2) then
+    return ("celspan.linear{ from = {%s, %s}, to = {%s, %s}, %s%s }"):format(text_of(x), text_of(y),
+      text_of(x + self.random:between(4, 30)), text_of(y + self.random:between(4, 30)), extent, stops)
+  end
+  local radius = self.random:between(5, 30)
+  local focus = self.random:once(2) and ("focus = {%s, %s}, "):format(text_of(x + radius / 3), text_of(y - radius / 4)) or ""
+  return ("celspan.radial{ centre = {%s, %s}, radius = %s, %s%s%s }"):format(text_of(x), text_of(y), text_of(radius),
+    focus, extent, stops)
+end
+
 function maker:texture()
   local kind = self.is_flat and 8 or self.random:whole(1, 8)
   if kind == 1 then
@@ -82,13 +111,16 @@ function maker:texture()
       self:paint(), self:number(0, 40), self:number(0, 40), self:paint())
   end
   if kind == 2 then
-    return ("celspan.linear{ from = %s, to = %s, %s }"):format(self:point_text(), self:point_text(),
-                                                              self:stops())
+    if self.random:once(3) then return self:repeating() end
+    local extent = self:extent(false)
+    return ("celspan.linear{ from = %s, to = %s, %s%s }"):format(self:point_text(), self:point_text(),
+      extent, self:stops())
   end
   if kind == 3 then
-    local centre, radius = self:point_text(), self:number(1, 30)
+    if self.random:once(3) then return self:repeating() end
+    local extent, centre, radius = self:extent(false), self:point_text(), self:number(1, 30)
     local focus = self.random:whole(1, 2) == 1 and "focus = " .. self:point_text() .. ", " or ""
-    return ("celspan.radial{ centre = %s, radius = %s, %s%s }"):format(centre, radius, focus, self:stops())
+    return ("celspan.radial{ centre = %s, radius = %s, %s%s%s }"):format(centre, radius, focus, extent, self:stops())
   end
   if kind == 4 and self.has_pictures then return self:picture() end
   return self:paint()

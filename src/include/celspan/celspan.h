@@ -280,6 +280,25 @@ celspan_texture_create_radial(celspan_context *context, celspan_point centre, do
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
     celspan_context *context, celspan_point centre, double radius, celspan_point focus,
     const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+/* How a linear or radial gradient goes on before 0 and after 1. */
+typedef enum celspan_spread {
+  CELSPAN_SPREAD_HOLD = 0, /* the first and the last colour */
+  CELSPAN_SPREAD_REPEAT,   /* from 0 to 1 again and again */
+  CELSPAN_SPREAD_REFLECT   /* from 0 to 1, back to 0, and so on */
+} celspan_spread;
+/* The linear or radial gradient with another spread. A primitive may show 4,096 stops of it, each
+ * counted as often as it is repeated; a light is repeated as often as these last, and held then.
+ * out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_spread(celspan_context *context,
+                                                                       celspan_texture *texture,
+                                                                       celspan_spread spread,
+                                                                       celspan_texture **out);
+/* The linear or radial gradient moved by a matrix, while what it is on stays. A singular matrix makes
+ * it clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_context *context,
+                                                                       celspan_texture *texture,
+                                                                       const celspan_matrix *matrix,
+                                                                       celspan_texture **out);
 /* Nothing is read yet: the header when a size is needed, the pixels when they are first seen. A box
  * of no size draws nothing. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
