@@ -105,11 +105,13 @@ function celspan.gradient(corners) end
 ---@class celspan.linear.fields
 ---@field from celspan.point Where 0 lies
 ---@field to celspan.point Where 1 lies
+---@field spread? "hold"|"repeat"|"reflect" What lies before 0 and after 1; default: "hold"
+---@field matrix? number[] Nine numbers: moves the gradient alone
 ---@field [integer] table Stops {at, paint}, at ascending in 0..1
 
 ---@class celspan.linear: celspan.texture, celspan.linear.fields
 
---- A gradient along a line; held outside.
+--- A gradient along a line; held outside, or repeated.
 ---@param fields celspan.linear.fields
 ---@return celspan.linear
 function celspan.linear(fields) end
@@ -118,11 +120,13 @@ function celspan.linear(fields) end
 ---@field centre celspan.point
 ---@field radius number Of the circle where 1 lies
 ---@field focus? celspan.point Where 0 lies; default: the centre
+---@field spread? "hold"|"repeat"|"reflect" What lies before 0 and after 1; default: "hold"
+---@field matrix? number[] Nine numbers: moves the gradient alone
 ---@field [integer] table Stops {at, paint}, at ascending in 0..1
 
 ---@class celspan.radial: celspan.texture, celspan.radial.fields
 
---- A gradient around a point; held outside.
+--- A gradient around a point; held outside, or repeated.
 ---@param fields celspan.radial.fields
 ---@return celspan.radial
 function celspan.radial(fields) end

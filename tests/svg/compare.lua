@@ -31,6 +31,7 @@ local function roboto()
 end
 
 local fonts = roboto()
+if #fonts == 0 then print("Roboto is not there: texts are not drawn, and many drawings of svg-w3c are off") end
 
 local function files_below(folder)
   local list = {}
