@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "scene/check.h"
 #include "scene/texture.h"
+#include "scene/unroll.h"
 #include "scene/value.h"
 
 static celspan_status check(celspan_context *context, const cs_light_desc *desc) {
@@ -20,10 +21,9 @@ static celspan_status check(celspan_context *context, const cs_light_desc *desc)
 /* What a texture of one paint shines with. */
 static celspan_light flat_of(const celspan_texture *texture, const celspan_light_texture *shape) {
   const cs_paint *paint = &texture->flat;
-  return (celspan_light){(float)(shape->gain * (double)paint->s[0]),
-                         (float)(shape->gain * (double)paint->s[1]),
-                         (float)(shape->gain * (double)paint->s[2]),
-                         (float)(shape->matte * (double)paint->beta)};
+  return (celspan_light){
+      (float)(shape->gain * (double)paint->s[0]), (float)(shape->gain * (double)paint->s[1]),
+      (float)(shape->gain * (double)paint->s[2]), (float)(shape->matte * (double)paint->beta)};
 }
 
 celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc, cs_light *out) {
@@ -35,6 +35,11 @@ celspan_status cs_light_make(celspan_context *context, const cs_light_desc *desc
   }
   celspan_texture *texture;
   CS_TRY(cs_texture_create_light(context, shape->texture, &texture));
+  celspan_status status = cs_texture_unroll(context, &texture, NULL);
+  if (status != CELSPAN_OK) {
+    celspan_texture_unref(texture);
+    return status;
+  }
   *out = (cs_light){.is_given = true,
                     .texture = texture,
                     .gain = shape->gain,

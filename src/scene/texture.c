@@ -5,7 +5,6 @@
 
 #include "pictures/store.h"
 #include "scene/check.h"
-#include "scene/unroll.h"
 #include "scene/value.h"
 
 /* Twice the area of a triangle below this share of its longest side squared is rounding. */
@@ -306,13 +305,7 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
     celspan_texture_unref(light);
     return CELSPAN_NO_MEMORY;
   }
-  cs_texture_rehash(light);
-  celspan_status status = cs_texture_unroll(context, &light, NULL);
-  if (status == CELSPAN_OK)
-    *out = light;
-  else
-    celspan_texture_unref(light);
-  return status;
+  return finish(light, out);
 }
 
 /* ---------------------------------------------------------------- questions */
