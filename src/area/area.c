@@ -240,20 +240,41 @@ static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
 #define ROW_EVENTS 2048 /* begins and ends in a row that is not cut into slabs, at most */
 #define SLAB_EVENTS 128 /* and in a slab, about */
 #define SLABS_MOST 256
+#define SLAB_EDGES ((size_t)4 << 20) /* edges in all slabs of a row, about, at most */
+
+/* Whether the boundaries at the current height are dense: judged by the middle half of them, so
+ * that few others far away do not matter, as if all were as far apart as these over twice the
+ * width, because what ends and bends in the row divides them into several intervals. */
+static bool is_dense(const cs_area *area) {
+  const cs_active *active = area->tools.active;
+  size_t first = active->count / 4, last = first + active->count / 2;
+  if (active->count == 0)
+    return false;
+  double low = fmax(active->x[first], 0), high = fmin(active->x[last], area->tools.width);
+  return cs_dense_suits(active->count, 4 * fmax(high - low, 0));
+}
+
+/* Boundaries at any height of a row that is cut into slabs, at most: where there would be more, the
+ * slabs end, because the row is dense. */
+static size_t count_edges(const cs_area *area, size_t begins) {
+  size_t edges = area->tools.active->count + begins;
+  size_t most = 2 * CS_DENSE_A_PIXEL * ((size_t)area->tools.width + 1);
+  return edges < most ? edges : most;
+}
 
 /* Slabs of a row: a power of two, so that their heights are exact. */
 static int count_slabs(const cs_area *area, int32_t y) {
   const cs_active *active = area->tools.active;
-  size_t events = cs_intervals_count_begins(active, y + 1.0);
+  size_t begins = cs_intervals_count_begins(active, y + 1.0), events = begins;
+  size_t edges = count_edges(area, begins);
   int slabs = 1;
-  size_t most = (size_t)(2 * CS_DENSE_A_PIXEL) * (size_t)area->tools.width;
-  bool is_dense = active->count > most; /* then most of them are in dense intervals */
-  if (events + active->count <= ROW_EVENTS || is_dense ||
+  if (begins + active->count <= ROW_EVENTS || is_dense(area) ||
       cs_procedures_meet(area->tools.procedures, y))
     return 1;
   for (size_t i = 0; i < active->count; i++)
     events += cs_active_chain(active, i)->y1 < y + 1.0;
-  while (slabs < SLABS_MOST && events > ROW_EVENTS && (size_t)slabs * SLAB_EVENTS < events)
+  while (slabs < SLABS_MOST && events > ROW_EVENTS && (size_t)slabs * SLAB_EVENTS < events &&
+         (size_t)slabs * edges < SLAB_EDGES)
     slabs *= 2;
   return slabs;
 }
@@ -299,9 +320,11 @@ static celspan_status walk_heights(row_walk *w, double y0, double y1) {
   return walk_row(w);
 }
 
+/* A row that becomes dense on the way is not cut any further: dense intervals cost less than the
+ * exact slabs of so many boundaries, and need no memory for their intersections. */
 static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
   cs_window *window = &area->target.window;
-  for (int k = 0; k < slabs; k++) {
+  for (int k = 0, end; k < slabs; k = end) {
     row_walk w = {.area = area, .is_slab = true};
     if (k > 0)
       CS_TRY(next_slab(area));
@@ -311,7 +334,8 @@ static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *ou
       cs_window_open_row(window);
     }
     cs_window_end_item(window, &w.cells[0]);
-    CS_TRY(walk_heights(&w, y + (double)k / slabs, y + (k + 1.0) / slabs));
+    end = is_dense(area) ? slabs : k + 1;
+    CS_TRY(walk_heights(&w, y + (double)k / slabs, y + (double)end / slabs));
     CS_TRY(cs_commit_apply(&area->commit));
   }
   return cs_window_end_row(window);

@@ -143,29 +143,52 @@ static void grow_group(const cs_intervals *b, inversion_group *k) {
   }
 }
 
-/* Puts boundaries i and i + 1 into one group. groups: those found so far, from left to right. */
-static void group_pair(const cs_intervals *b, size_t i, inversion_group *groups, size_t *count) {
-  if (*count > 0 && groups[*count - 1].high >= i + 2)
-    return;
-  inversion_group *k = &groups[*count], other = group_of(b, i + 1);
+/* The groups found so far, from left to right. In a dense row there are few of them for very many
+ * boundaries, so their room grows with them. */
+typedef struct group_list {
+  inversion_group *groups;
+  size_t count, capacity;
+} group_list;
+
+static celspan_status make_group_room(const cs_intervals *b, group_list *list) {
+  if (list->count < list->capacity)
+    return CELSPAN_OK;
+  size_t wanted = list->capacity ? 2 * list->capacity : 64;
+  inversion_group *grown = allocate(b, wanted, sizeof *grown);
+  if (!grown)
+    return CELSPAN_NO_MEMORY;
+  if (list->count > 0)
+    memcpy(grown, list->groups, list->count * sizeof *grown);
+  list->groups = grown;
+  list->capacity = wanted;
+  return CELSPAN_OK;
+}
+
+/* Puts boundaries i and i + 1 into one group. */
+static celspan_status group_pair(const cs_intervals *b, size_t i, group_list *list) {
+  if (list->count > 0 && list->groups[list->count - 1].high >= i + 2)
+    return CELSPAN_OK;
+  CS_TRY(make_group_room(b, list));
+  inversion_group *k = &list->groups[list->count], other = group_of(b, i + 1);
   *k = group_of(b, i);
   join_groups(k, &other);
   grow_group(b, k);
-  for (; *count > 0; --*count, k--) {
+  for (; list->count > 0; --list->count, k--) {
     inversion_group *last = k - 1;
     if (last->high < k->low || (last->high == k->low && !may_cross(last, k)))
       break;
     join_groups(last, k);
     grow_group(b, last);
   }
-  ++*count;
+  ++list->count;
+  return CELSPAN_OK;
 }
 
 /* Groups the bent boundaries below place `end` with the neighbours that they pass, from left to
  * right.
  */
-static void group_bends(const cs_intervals *b, size_t end, size_t *bend, inversion_group *groups,
-                        size_t *count) {
+static celspan_status group_bends(const cs_intervals *b, size_t end, size_t *bend,
+                                  group_list *list) {
   const cs_active *active = b->active;
   for (; *bend < active->bend_count && active->bends[*bend].boundary < end; ++*bend) {
     const cs_bend *at = &active->bends[*bend];
@@ -173,29 +196,30 @@ static void group_bends(const cs_intervals *b, size_t end, size_t *bend, inversi
     if (at->vertex_count == 0)
       continue;
     if (i > 0 && passes(b, at, i - 1, -1))
-      group_pair(b, i - 1, groups, count);
+      CS_TRY(group_pair(b, i - 1, list));
     if (i + 1 < active->count && passes(b, at, i + 1, 1))
-      group_pair(b, i, groups, count);
+      CS_TRY(group_pair(b, i, list));
   }
+  return CELSPAN_OK;
 }
 
 static celspan_status add_groups(cs_intervals *b) {
   const cs_active *active = b->active;
   const double *foot = active->x_next;
-  size_t count = 0, bend = 0;
-  inversion_group *groups = allocate(b, active->count, sizeof *groups);
-  if (!groups)
-    return CELSPAN_NO_MEMORY;
+  size_t bend = 0;
+  group_list list = {0};
   for (size_t i = 1; i < active->count; i++)
     if (foot[i - 1] > foot[i]) {
-      group_bends(b, i, &bend, groups, &count);
-      group_pair(b, i - 1, groups, &count);
+      CS_TRY(group_bends(b, i, &bend, &list));
+      CS_TRY(group_pair(b, i - 1, &list));
     }
-  group_bends(b, active->count, &bend, groups, &count);
-  for (size_t k = 0; k < count; k++)
-    CS_TRY(add_interval(b, (cs_interval){groups[k].low, groups[k].high, groups[k].low,
-                                         cs_extent_nowhere(), groups[k].extent}));
-  b->group_count = count;
+  CS_TRY(group_bends(b, active->count, &bend, &list));
+  for (size_t k = 0; k < list.count; k++) {
+    const inversion_group *group = &list.groups[k];
+    CS_TRY(add_interval(
+        b, (cs_interval){group->low, group->high, group->low, cs_extent_nowhere(), group->extent}));
+  }
+  b->group_count = list.count;
   return CELSPAN_OK;
 }
 

@@ -143,6 +143,26 @@ return celspan.rostrum{ celspan.cel{
     end
   end)
 
+  it("needs memory that grows with what crosses a row, not with the square of it", function()
+    local scribble = [[
+local celspan = require "celspan"
+local seed, points = 1, { rule = "evenodd" }
+local function random()
+  seed = (seed * 1103515245 + 12345) % 2147483648
+  return seed / 2147483648
+end
+for i = 1, COUNT do points[i] = { 100 * random(), 100 * random() } end
+return celspan.film{ size = { 100, 100 }, frame = function()
+  return celspan.rostrum{ celspan.cel{ celspan.polygon(points) } } end }
+]]
+    local function peak(count, size)
+      return statistics(scribble:gsub("COUNT", count), "--antialias area --size " .. size).peak_bytes
+    end
+    -- Into the first row of each all boundaries begin, and cross there in some millions of places.
+    assert.is_true(peak(64000, "4x4") <= 100e6, "in rows of 4 pixels")
+    assert.is_true(peak(64000, "20x20") <= 100e6, "in rows of 20 pixels")
+  end)
+
   it("composes few colours for 100 shapes at 30,000 x 30,000", function()
     local material = os.getenv "CELSPAN_MATERIAL"
     if not material then return pending "CELSPAN_MATERIAL is not set" end
