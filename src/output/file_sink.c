@@ -2,6 +2,7 @@
 
 #include "output/dither.h"
 #include "output/ending.h"
+#include "output/guard.h"
 #include "output/pixels.h"
 #include "output/sink.h"
 
@@ -31,8 +32,8 @@ create_pixels(celspan_context *context, const char *path, const celspan_file_des
   return CELSPAN_OK;
 }
 
-celspan_status cs_sink_file(celspan_context *context, const char *path,
-                            const celspan_file_desc *file, celspan_sink *out) {
+static celspan_status create(celspan_context *context, const char *path,
+                             const celspan_file_desc *file, celspan_sink *out) {
   const char *format = format_of(path, file);
   if (format[0] == '\0')
     return cs_fail(
@@ -44,6 +45,18 @@ celspan_status cs_sink_file(celspan_context *context, const char *path,
   if (strcasecmp(format, "span") == 0)
     return cs_sink_span(context, path, file, out);
   return cs_sink_picture(context, path, file, out);
+}
+
+celspan_status cs_sink_file(celspan_context *context, const char *path,
+                            const celspan_file_desc *file, celspan_sink *out) {
+  celspan_sink sink;
+  if (!path || !*path)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "the file to write has no name");
+  CS_TRY(cs_pixels_check(context, &file->coding));
+  CS_TRY(create(context, path, file, &sink));
+  CS_TRY(cs_guard_sink(context, path, &sink));
+  *out = sink;
+  return CELSPAN_OK;
 }
 
 celspan_status celspan_file_sink_create(celspan_context *context, const char *path,

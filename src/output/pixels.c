@@ -30,6 +30,16 @@ size_t celspan_coding_pixel_size(const celspan_coding *coding) {
   }
 }
 
+celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *coding) {
+  if (!coding || ((unsigned)coding->depth <= CELSPAN_DEPTH_8_DITHER &&
+                  (unsigned)coding->transfer <= CELSPAN_TRANSFER_CINEON &&
+                  (unsigned)coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED))
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "coding: there is none of depth %d, transfer %d and alpha %d", (int)coding->depth,
+                 (int)coding->transfer, (int)coding->alpha);
+}
+
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth) {
   celspan_coding resolved = coding ? *coding : (celspan_coding){0};
   if (resolved.depth == CELSPAN_DEPTH_DEFAULT)

@@ -12,8 +12,12 @@
 #ifndef CS_OUTPUT_PIXELS_H
 #define CS_OUTPUT_PIXELS_H
 
-#include "celspan/celspan.h"
+#include "base/context.h"
 
+/* Whether the numbers of a coding that a caller gave are values of their enumerations; NULL is a
+ * coding. Errors: BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_pixels_check(celspan_context *context,
+                                               const celspan_coding *coding);
 /* The coding with every default filled in, for integers and floats alike. 8_DITHER becomes 8: the
  * rest is done by output/dither.h. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);

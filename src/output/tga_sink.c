@@ -161,10 +161,6 @@ static celspan_status put_footer(tga_sink *sink, celspan_context *context) {
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   tga_sink *sink = user;
-  if (width < 1 || height < 1)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: the frame is %d x %d pixels; it must have at least 1 a side", sink->path,
-                   (int)width, (int)height);
   if (width > SIDE_MOST || height > SIDE_MOST)
     return cs_fail(context, CELSPAN_LIMIT,
                    "%s: the frame is %d x %d pixels; targa files hold at most %d a side",
@@ -192,9 +188,6 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 }
 
 static celspan_status finish(tga_sink *sink, celspan_context *context) {
-  if (!sink->file)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: the picture ends without a beginning",
-                   sink->path);
   CS_TRY(put_footer(sink, context));
   cs_file *file = sink->file;
   sink->file = NULL;

@@ -42,6 +42,10 @@ static celspan_status check_numbers(celspan_context *context, const celspan_surf
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "surface: stride is %zu; it must be 0, or %zu or more for %d pixels",
                    desc->stride, row, (int)desc->width);
+  if (desc->stride > PTRDIFF_MAX / (size_t)desc->height)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "surface: stride is %zu; %d rows of it do not fit into memory", desc->stride,
+                   (int)desc->height);
   return CELSPAN_OK;
 }
 

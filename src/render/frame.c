@@ -43,6 +43,8 @@ static celspan_status check_crop(celspan_context *context, const celspan_frame_d
 }
 
 static celspan_status check_exposures(celspan_context *context, const celspan_frame_desc *desc) {
+  CS_TRY(cs_check_list(context, "frame", "exposures", desc->exposures, desc->exposure_count,
+                       CS_CHECK_ITEMS));
   for (size_t i = 0; i < desc->exposure_count; i++) {
     CS_TRY(cs_check_item(context, (cs_check_field){"frame", "exposures", i + 1, "weight"},
                          desc->exposures[i].weight, 0, CS_NUMBER_LIMIT));
@@ -148,11 +150,16 @@ static celspan_status fill_frame(celspan_context *context, const celspan_frame_d
   return CELSPAN_OK;
 }
 
-celspan_status cs_frame_create(celspan_context *context, const celspan_frame_desc *desc,
-                               cs_frame *out) {
+celspan_status cs_frame_check(celspan_context *context, const celspan_frame_desc *desc) {
+  CS_TRY(cs_check_given(context, "frame", "the description", desc));
   CS_TRY(check_size(context, desc));
   CS_TRY(check_crop(context, desc));
-  CS_TRY(check_exposures(context, desc));
+  return check_exposures(context, desc);
+}
+
+celspan_status cs_frame_create(celspan_context *context, const celspan_frame_desc *desc,
+                               cs_frame *out) {
+  CS_TRY(cs_frame_check(context, desc));
   cs_frame frame = {0};
   set_crop(&frame, desc);
   celspan_status status = fill_frame(context, desc, &frame);

@@ -20,7 +20,11 @@ typedef struct cs_frame {
   bool takes_codes; /* rows may contain codes, because their sink takes them */
 } cs_frame;
 
-/* Errors: BAD_ARGUMENT naming the field; those of cs_compile. */
+/* Whether the description can be read and rendered. Errors: BAD_ARGUMENT and LIMIT, naming the
+ * field. */
+CELSPAN_CHECKED celspan_status cs_frame_check(celspan_context *context,
+                                              const celspan_frame_desc *desc);
+/* Errors: those of checking; those of cs_compile. */
 CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
                                                const celspan_frame_desc *desc, cs_frame *out);
 void cs_frame_free(cs_frame *frame, cs_memory *memory);

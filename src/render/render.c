@@ -5,6 +5,7 @@
 #include "output/sink.h"
 #include "render/strips.h"
 #include "scene/blame.h"
+#include "scene/check.h"
 
 /* ---------------------------------------------------------------- into a sink */
 
@@ -77,6 +78,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
 celspan_status celspan_frame_render(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_sink *sink, celspan_statistics *statistics) {
   bool ended = false;
+  CS_TRY(cs_check_given(context, "frame", "the sink", sink));
   return render(context, desc, sink, statistics, &ended);
 }
 
@@ -111,6 +113,8 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
                                     celspan_statistics *statistics) {
   celspan_sink sink;
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_frame_check(context, desc));
+  CS_TRY(cs_pixels_check(context, coding));
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, statistics);
@@ -129,7 +133,8 @@ static bool is_backed(const celspan_rostrum *rostrum) {
  * rounding. */
 bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
   double alpha = 0;
-  for (size_t i = 0; i < desc->exposure_count; i++)
+  size_t count = desc && desc->exposures ? desc->exposure_count : 0;
+  for (size_t i = 0; i < count && count <= CS_CHECK_ITEMS; i++)
     if (desc->exposures[i].rostrum && is_backed(desc->exposures[i].rostrum))
       alpha += desc->exposures[i].weight;
   return alpha > 1 - 1e-9;
@@ -139,6 +144,7 @@ celspan_status celspan_frame_write(celspan_context *context, const celspan_frame
                                    const char *path, const celspan_file_desc *file,
                                    celspan_statistics *statistics) {
   celspan_sink sink;
+  CS_TRY(cs_frame_check(context, desc));
   celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
   known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
   known.workers = known.workers ? known.workers : desc->workers;
@@ -152,6 +158,9 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
                                     const celspan_coding *coding, uint64_t digest[2]) {
   celspan_sink sink;
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_frame_check(context, desc));
+  CS_TRY(cs_pixels_check(context, coding));
+  CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, NULL);

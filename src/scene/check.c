@@ -151,6 +151,14 @@ celspan_status cs_check_given(celspan_context *context, const char *noun, const 
   return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s is missing", noun, field);
 }
 
+celspan_status cs_check_list(celspan_context *context, const char *noun, const char *field,
+                             const void *items, size_t count, size_t most) {
+  if (count > most)
+    return cs_fail(context, CELSPAN_LIMIT, "%s: %zu %s; at most %zu are allowed", noun, count,
+                   field, most);
+  return count > 0 ? cs_check_given(context, noun, field, items) : CELSPAN_OK;
+}
+
 celspan_status cs_check_version(celspan_context *context, const char *noun, size_t given,
                                 size_t expected) {
   if (given == expected)

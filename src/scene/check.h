@@ -65,9 +65,16 @@ CELSPAN_CHECKED celspan_status cs_check_transform(celspan_context *context,
 /* An enumeration whose values are 0 .. count - 1. */
 CELSPAN_CHECKED celspan_status cs_check_choice(celspan_context *context, const char *noun,
                                                const char *field, unsigned value, unsigned count);
-/* A pointer that may not be NULL; a list of count 0 may be. */
+/* A pointer that may not be NULL. */
 CELSPAN_CHECKED celspan_status cs_check_given(celspan_context *context, const char *noun,
                                               const char *field, const void *pointer);
+/* Items of a list where there is no lower limit: scripts cannot have more either. */
+#define CS_CHECK_ITEMS ((size_t)10000000)
+/* A list of `count` items, before the first of them is read: it may be NULL where the count is 0.
+ * Errors: also LIMIT, beyond `most`. */
+CELSPAN_CHECKED celspan_status cs_check_list(celspan_context *context, const char *noun,
+                                             const char *field, const void *items, size_t count,
+                                             size_t most);
 /* given: the struct_size of a description. */
 CELSPAN_CHECKED celspan_status cs_check_version(celspan_context *context, const char *noun,
                                                 size_t given, size_t expected);

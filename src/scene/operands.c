@@ -57,8 +57,7 @@ static void keep_objects(celspan_object **to, celspan_object *const *from, size_
 
 static celspan_status check_objects(celspan_context *context, const char *noun,
                                     celspan_object *const *objects, size_t count) {
-  if (count > 0)
-    CS_TRY(cs_check_given(context, noun, "operands", objects));
+  CS_TRY(cs_check_list(context, noun, "operands", objects, count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < count; i++)
     if (!objects[i])
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: operands[%zu] is missing", noun, i + 1);

@@ -29,8 +29,7 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
 
 static celspan_status check_points(celspan_context *context, const char *noun,
                                    const celspan_point *points, size_t count) {
-  if (count > 0)
-    CS_TRY(cs_check_given(context, noun, "points", points));
+  CS_TRY(cs_check_list(context, noun, "points", points, count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < count; i++)
     CS_TRY(cs_check_point(context, noun, "points", i + 1, points[i]));
   return CELSPAN_OK;

@@ -225,8 +225,7 @@ void celspan_object_unref(celspan_object *object) {
 celspan_status cs_primitive_data_list_copy(celspan_context *context, const char *noun,
                                            const char *field, celspan_object *const *objects,
                                            size_t count, celspan_object ***out) {
-  if (count > 0)
-    CS_TRY(cs_check_given(context, noun, field, objects));
+  CS_TRY(cs_check_list(context, noun, field, objects, count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < count; i++)
     if (!objects[i])
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s[%zu] is missing", noun, field, i + 1);

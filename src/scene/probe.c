@@ -50,8 +50,7 @@ static celspan_status primitive_present(const probe_call *probe, const cs_primit
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
   cs_oracle_paint unused;
-  *out = cs_inside_own_point(matrix, probe->point, &own) &&
-         cs_inside_primitive(data, own);
+  *out = cs_inside_own_point(matrix, probe->point, &own) && cs_inside_primitive(data, own);
   return *out && data->kind == CS_PRIMITIVE_DATA_SCANLINE
              ? cs_oracle_primitive(probe->context, data, own, out, &unused)
              : CELSPAN_OK;
@@ -269,8 +268,7 @@ static celspan_status add_exposure(const probe_call *probe, const celspan_exposu
 static celspan_status check(celspan_context *context, const celspan_exposure *exposures,
                             size_t exposure_count, double film_width, double film_height,
                             celspan_point point) {
-  if (exposure_count > 0)
-    CS_TRY(cs_check_given(context, "probe", "exposures", exposures));
+  CS_TRY(cs_check_list(context, "probe", "exposures", exposures, exposure_count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < exposure_count; i++) {
     CS_TRY(cs_check_item(context, (cs_check_field){"probe", "exposures", i + 1, "weight"},
                          exposures[i].weight, 0, CS_NUMBER_LIMIT));

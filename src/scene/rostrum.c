@@ -8,8 +8,7 @@
 /* ---------------------------------------------------------------- making */
 
 static celspan_status check_cels(celspan_context *context, const celspan_rostrum_desc *desc) {
-  if (desc->cel_count > 0)
-    CS_TRY(cs_check_given(context, "rostrum", "cels", desc->cels));
+  CS_TRY(cs_check_list(context, "rostrum", "cels", desc->cels, desc->cel_count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < desc->cel_count; i++)
     if (!desc->cels[i])
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "rostrum: cels[%zu] is missing", i + 1);

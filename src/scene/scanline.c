@@ -41,6 +41,7 @@ static celspan_status check_paints(const celspan_scanline_output *output,
   if (count == 0 || !paints)
     return cs_fail(output->context, CELSPAN_CALLBACK, "scanline: span %zu at y = %s has no paint",
                    output->emitted + 1, cs_check_number_text(output->y).text);
+  CS_TRY(cs_check_list(output->context, "scanline", "paints", paints, count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < count; i++)
     if (!cs_paint_is_valid(&paints[i]))
       return cs_fail(output->context, CELSPAN_CALLBACK,

@@ -9,6 +9,7 @@
 /* ---------------------------------------------------------------- checks */
 
 static celspan_status check_points(celspan_context *context, const celspan_stroke_desc *desc) {
+  CS_TRY(cs_check_list(context, NOUN, "points", desc->points, desc->point_count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < desc->point_count; i++) {
     CS_TRY(cs_check_point(context, NOUN, "points", i + 1, desc->points[i]));
     if (desc->widths)
@@ -23,8 +24,9 @@ static celspan_status check_points(celspan_context *context, const celspan_strok
 
 static celspan_status check_dashes(celspan_context *context, const celspan_stroke_desc *desc) {
   double sum = 0;
+  CS_TRY(cs_check_list(context, NOUN, "dash", desc->dashes, desc->dash_count, CS_CHECK_ITEMS));
   if (!desc->dashes)
-    return desc->dash_count == 0 ? CELSPAN_OK : cs_check_given(context, NOUN, "dash", NULL);
+    return CELSPAN_OK;
   if (desc->dash_count == 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "stroke: dash is empty; leave it out for a line without dashes");

@@ -115,6 +115,8 @@ celspan_status celspan_texture_create_gradient(celspan_context *context,
                                                const celspan_point points[3],
                                                const celspan_paint paints[3],
                                                celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "gradient", "points", points));
+  CS_TRY(cs_check_given(context, "gradient", "paints", paints));
   for (size_t i = 0; i < 3; i++) {
     CS_TRY(cs_check_point(context, "gradient", "points", i + 1, points[i]));
     CS_TRY(cs_check_paint(context, "gradient", "paints", i + 1, &paints[i]));
@@ -135,6 +137,7 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
   if (!stops || count == 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: there is no stop; it needs one or more",
                    noun);
+  CS_TRY(cs_check_list(context, noun, "stops", stops, count, CS_CHECK_ITEMS));
   for (size_t i = 0; i < count; i++) {
     CS_TRY(cs_check_item(context, (cs_check_field){noun, "stops", i + 1, "at"}, stops[i].at, 0, 1));
     if (i > 0 && stops[i].at < stops[i - 1].at)

@@ -173,6 +173,8 @@ static celspan_status copy_art(changing *c, const celspan_svg *svg) {
 celspan_status celspan_svg_with(celspan_context *context, const celspan_svg *svg,
                                 const celspan_svg_changed *changes, size_t change_count,
                                 celspan_svg **out) {
+  CS_TRY(cs_check_given(context, "svg", "the drawing", svg));
+  CS_TRY(cs_check_list(context, "svg", "changes", changes, change_count, CS_CHECK_ITEMS));
   changing c = {.context = context, .changes = changes, .change_count = change_count};
   CS_TRY(cs_check_given(context, "svg", "the drawing", svg));
   if (change_count > 0)

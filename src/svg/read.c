@@ -269,9 +269,7 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
 /* ---------------------------------------------------------------- the faces */
 
 static celspan_status check_fonts(celspan_context *context, const cs_svg_options *options) {
-  if (options->font_count > FONTS)
-    return cs_fail(context, CELSPAN_LIMIT, "svg: %zu fonts; at most %d are allowed",
-                   options->font_count, FONTS);
+  CS_TRY(cs_check_list(context, "svg", "fonts", options->fonts, options->font_count, FONTS));
   for (size_t i = 0; i < options->font_count; i++)
     if (!options->fonts[i].family || !options->fonts[i].font.file)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: fonts[%zu] has no family or no file",

@@ -38,22 +38,14 @@ static celspan_status check_tag(celspan_context *context, const char *noun, cons
                  noun, field, field[0] == 'f' ? "liga" : "wght", tag ? tag : "");
 }
 
-static celspan_status check_count(celspan_context *context, const char *noun, const char *field,
-                                  const void *list, size_t count, size_t most) {
-  if (count <= most)
-    return count > 0 ? cs_check_given(context, noun, field, list) : CELSPAN_OK;
-  return cs_fail(context, CELSPAN_LIMIT, "%s: %zu %s; at most %zu are allowed", noun, count, field,
-                 most);
-}
-
 static celspan_status check_settings(celspan_context *context, const char *noun,
                                      const celspan_text_desc *desc) {
-  CS_TRY(check_count(context, noun, "features", desc->features, desc->feature_count,
-                     CS_TEXT_SETTINGS));
+  CS_TRY(cs_check_list(context, noun, "features", desc->features, desc->feature_count,
+                       CS_TEXT_SETTINGS));
   for (size_t i = 0; i < desc->feature_count; i++)
     CS_TRY(check_tag(context, noun, "features", desc->features[i].tag));
-  CS_TRY(check_count(context, noun, "variations", desc->variations, desc->variation_count,
-                     CS_TEXT_SETTINGS));
+  CS_TRY(cs_check_list(context, noun, "variations", desc->variations, desc->variation_count,
+                       CS_TEXT_SETTINGS));
   for (size_t i = 0; i < desc->variation_count; i++) {
     CS_TRY(check_tag(context, noun, "variations", desc->variations[i].tag));
     CS_TRY(cs_check_range(context, noun, desc->variations[i].tag, desc->variations[i].value, -1e6,
@@ -89,7 +81,7 @@ static celspan_status check(celspan_context *context, const char *noun,
     CS_TRY(cs_check_given(context, noun, "text", desc->text));
   if (desc->font_count == 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: font is missing: the file of one", noun);
-  CS_TRY(check_count(context, noun, "fonts", desc->fonts, desc->font_count, CS_TEXT_FONTS));
+  CS_TRY(cs_check_list(context, noun, "fonts", desc->fonts, desc->font_count, CS_TEXT_FONTS));
   for (size_t i = 0; i < desc->font_count; i++)
     CS_TRY(cs_check_given(context, noun, "font", desc->fonts[i].file));
   return CELSPAN_OK;

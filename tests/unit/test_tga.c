@@ -157,10 +157,7 @@ static void check_refusals(celspan_context *context) {
   CHECK(sink.end(sink.user, context, CELSPAN_BAD_ARGUMENT) == CELSPAN_BAD_ARGUMENT);
   CHECK(cs_sink_tga(context, "/dev/null/x.tga", &file, &sink) == CELSPAN_OK);
   CHECK(sink.begin(sink.user, context, 1, 1) == CELSPAN_OUTPUT);
-  CHECK(sink.end(sink.user, context, CELSPAN_OK) == CELSPAN_BAD_ARGUMENT);
-  CHECK(cs_sink_tga(context, path, &file, &sink) == CELSPAN_OK);
-  CHECK(sink.begin(sink.user, context, -8, 8) == CELSPAN_BAD_ARGUMENT);
-  CHECK(sink.end(sink.user, context, CELSPAN_OK) == CELSPAN_BAD_ARGUMENT);
+  cs_sink_discard(context, &sink);
   CHECK(access(path, F_OK) != 0);
 }
 

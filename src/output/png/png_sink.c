@@ -86,10 +86,6 @@ static void destroy(png_sink *sink, celspan_context *context) {
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   png_sink *sink = user;
-  if (width < 1 || height < 1)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: the frame is %d x %d pixels; it must have at least 1 a side", sink->path,
-                   (int)width, (int)height);
   cs_png_picture picture = {sink->coding, sink->is_opaque, width, height, sink->workers};
   CS_TRY(cs_png_strips_create(context, &picture, put_image_data, sink, &sink->strips));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
@@ -104,9 +100,6 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 }
 
 static celspan_status finish(png_sink *sink, celspan_context *context) {
-  if (!sink->file)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: the picture ends without a beginning",
-                   sink->path);
   CS_TRY(cs_png_strips_finish(sink->strips, context));
   CS_TRY(put_chunk(sink, context, "IEND", "", 0));
   cs_file *file = sink->file;

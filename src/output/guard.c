@@ -1,0 +1,158 @@
+#include "output/guard.h"
+
+#include <string.h>
+
+#include "output/sink.h"
+
+#define SIDE_MOST 1048576
+
+typedef struct guard {
+  celspan_sink inner;
+  size_t allocated;
+  int32_t width, height;  /* 0 before a begin that succeeded */
+  int32_t rows;           /* that were put */
+  celspan_status failure; /* of the first call that failed; then nothing but end is allowed */
+  bool has_shares;        /* rows are put into shares, past the guard */
+  bool takes_codes;
+  char path[];
+} guard;
+
+/* A call that is refused ends what can be done with the sink, as one that failed does. */
+#define REFUSE(guard, context, ...)                                                                \
+  ((guard)->failure = cs_fail((context), CELSPAN_BAD_ARGUMENT, __VA_ARGS__))
+
+static celspan_status refuse_failed(const guard *g, celspan_context *context) {
+  return cs_fail(context, g->failure, "%s: the picture cannot go on after a failure (%s)", g->path,
+                 celspan_status_name(g->failure));
+}
+
+/* ---------------------------------------------------------------- begin */
+
+static celspan_status check_begin(guard *g, celspan_context *context, int32_t width,
+                                  int32_t height) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width > 0)
+    return REFUSE(g, context, "%s: the picture has begun already", g->path);
+  if (width < 1 || height < 1 || width > SIDE_MOST || height > SIDE_MOST)
+    return REFUSE(g, context, "%s: the frame is %d x %d pixels; it must have 1 to %d a side",
+                  g->path, (int)width, (int)height, SIDE_MOST);
+  return CELSPAN_OK;
+}
+
+static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
+  guard *g = user;
+  CS_TRY(check_begin(g, context, width, height));
+  g->failure = g->inner.begin(g->inner.user, context, width, height);
+  if (g->failure == CELSPAN_OK) {
+    g->width = width;
+    g->height = height;
+  }
+  return g->failure;
+}
+
+/* ---------------------------------------------------------------- rows */
+
+static bool has_pixels(const guard *g, const celspan_span *span) {
+  switch (span->kind) {
+  case CELSPAN_SPAN_SINGLE:
+  case CELSPAN_SPAN_GRADIENT:
+    return true;
+  case CELSPAN_SPAN_ARRAY:
+    return span->array || (g->takes_codes && span->codes);
+  }
+  return false;
+}
+
+static celspan_status check_spans(guard *g, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t span_count) {
+  int32_t x = 0;
+  if (!spans || span_count == 0 || span_count > (size_t)g->width)
+    return REFUSE(g, context, "%s: row %d has %zu spans; a row of %d pixels has from 1 to %d",
+                  g->path, (int)y, spans ? span_count : 0, (int)g->width, (int)g->width);
+  for (const celspan_span *span = spans; span < spans + span_count; span++) {
+    if (span->x0 != x || span->x1 <= x || span->x1 > g->width)
+      return REFUSE(g, context,
+                    "%s: row %d: span %zu is from %d to %d; it must begin at %d and end by %d",
+                    g->path, (int)y, (size_t)(span - spans) + 1, (int)span->x0, (int)span->x1,
+                    (int)x, (int)g->width);
+    if (!has_pixels(g, span))
+      return REFUSE(g, context, "%s: row %d: span %zu is of kind %d and has no array of pixels",
+                    g->path, (int)y, (size_t)(span - spans) + 1, (int)span->kind);
+    x = span->x1;
+  }
+  if (x < g->width)
+    return REFUSE(g, context, "%s: row %d: the spans end at %d of %d pixels", g->path, (int)y,
+                  (int)x, (int)g->width);
+  return CELSPAN_OK;
+}
+
+static celspan_status check_row(guard *g, celspan_context *context, int32_t y) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width == 0)
+    return REFUSE(g, context, "%s: row %d comes before the picture has begun", g->path, (int)y);
+  if (g->rows == g->height)
+    return REFUSE(g, context, "%s: row %d comes after all %d rows", g->path, (int)y,
+                  (int)g->height);
+  if (y != g->rows)
+    return REFUSE(g, context, "%s: row %d comes where row %d is due", g->path, (int)y,
+                  (int)g->rows);
+  return CELSPAN_OK;
+}
+
+static celspan_status put_row(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t span_count) {
+  guard *g = user;
+  CS_TRY(check_row(g, context, y));
+  CS_TRY(check_spans(g, context, y, spans, span_count));
+  g->failure = g->inner.row(g->inner.user, context, y, spans, span_count);
+  g->rows += g->failure == CELSPAN_OK;
+  return g->failure;
+}
+
+/* ---------------------------------------------------------------- end */
+
+static celspan_status check_end(guard *g, celspan_context *context) {
+  if (g->failure != CELSPAN_OK)
+    return refuse_failed(g, context);
+  if (g->width == 0)
+    return REFUSE(g, context, "%s: the picture ends without a beginning", g->path);
+  if (g->rows < g->height && !(g->has_shares && g->rows == 0))
+    return REFUSE(g, context, "%s: the picture ends after %d of %d rows", g->path, (int)g->rows,
+                  (int)g->height);
+  return CELSPAN_OK;
+}
+
+static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
+  guard *g = user;
+  if (outcome == CELSPAN_OK)
+    outcome = check_end(g, context);
+  outcome = g->inner.end(g->inner.user, context, outcome);
+  cs_mem_free(context->memory, g, g->allocated);
+  return outcome;
+}
+
+celspan_status cs_guard_sink(celspan_context *context, const char *path, celspan_sink *sink) {
+  size_t path_size = strlen(path) + 1, size = sizeof(guard) + path_size;
+  guard *g = cs_mem_array(context->memory, 1, size);
+  if (!g) {
+    cs_sink_discard(context, sink);
+    return cs_fail_memory(context);
+  }
+  g->inner = *sink;
+  g->allocated = size;
+  g->takes_codes = sink->takes_codes;
+  memcpy(g->path, path, path_size);
+  *sink = (celspan_sink){
+      .user = g, .begin = begin, .row = put_row, .end = end, .takes_codes = g->takes_codes};
+  return CELSPAN_OK;
+}
+
+const celspan_sink *cs_guard_open(const celspan_sink *sink) {
+  if (sink->row != put_row)
+    return sink;
+  guard *g = sink->user;
+  g->has_shares = true;
+  return &g->inner;
+}
