@@ -53,6 +53,7 @@ struct celspan_context {
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes;
   cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
+  struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
   char error[CS_ERROR_SIZE];
 };
 

@@ -1,6 +1,7 @@
 #include "cli/record.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 #include "output/file_copy.h"
 #include "output/temporary.h"
 
-enum { LINE_SIZE = 256, CHUNK = 1 << 16 };
+enum { LINE_SIZE = 256 };
 
 static const char HEAD[] = "celspan frames 1\n";
 
@@ -57,23 +58,14 @@ static cs_hash key_of(const cs_record *record, const cs_shoot_frame *frame) {
 
 static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
-/* Hashes a whole file; false when it cannot be read. */
-static bool hash_contents(const char *path, cs_hash *out, uint64_t *bytes) {
-  unsigned char chunk[CHUNK];
-  FILE *file = fopen(path, "rbe");
-  if (!file)
+/* What a file has that is there already; false when it cannot be read. */
+static bool read_contents(const char *path, cs_file_contents *out) {
+  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0)
     return false;
-  cs_hash hash = cs_hash_begin(2);
-  size_t size;
-  *bytes = 0;
-  while ((size = fread(chunk, 1, sizeof chunk, file)) > 0) {
-    cs_hash_bytes(&hash, chunk, size);
-    *bytes += size;
-  }
-  bool is_whole = !ferror(file);
-  fclose(file);
-  *out = cs_hash_end(hash);
-  return is_whole;
+  bool is_read = cs_file_contents_read(descriptor, out);
+  close(descriptor);
+  return is_read;
 }
 
 /* ---------------------------------------------------------------- reading */
@@ -162,10 +154,9 @@ static const cs_record_line *find(const cs_record *record, int64_t number) {
 }
 
 static bool is_whole(const cs_record_line *line, const char *path) {
-  cs_hash contents;
-  uint64_t bytes;
-  return hash_contents(path, &contents, &bytes) && bytes == line->bytes &&
-         equals(contents, line->contents);
+  cs_file_contents contents;
+  return read_contents(path, &contents) && contents.bytes == line->bytes &&
+         equals(contents.hash, line->contents);
 }
 
 bool cs_record_has(const cs_record *record, cs_shoot_frame *frame) {
@@ -213,14 +204,9 @@ static celspan_status open_for_lines(cs_record *record) {
 
 celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {
   char text[LINE_SIZE], pixels[40] = "-";
-  cs_hash contents, key = key_of(record, frame);
-  uint64_t bytes;
+  cs_hash contents = frame->contents.hash, key = key_of(record, frame);
   if (frame->way == CS_SHOOT_KEPT)
     return CELSPAN_OK;
-  if (!hash_contents(frame->path, &contents, &bytes))
-    return cs_fail(record->context, CELSPAN_OUTPUT,
-                   "frame %" PRId64 ": %s: cannot read it back: %s", frame->number, frame->path,
-                   strerror(errno));
   if (record->descriptor < 0)
     CS_TRY(open_for_lines(record));
   if (record->needs_pixels)
@@ -229,7 +215,7 @@ celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {
   snprintf(text, sizeof text,
            "frame %" PRId64 " %016" PRIx64 "%016" PRIx64 " %" PRIu64 " %016" PRIx64 "%016" PRIx64
            " %s\n",
-           frame->number, key.a, key.b, bytes, contents.a, contents.b, pixels);
+           frame->number, key.a, key.b, frame->contents.bytes, contents.a, contents.b, pixels);
   return append(record, text);
 }
 

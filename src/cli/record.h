@@ -5,7 +5,8 @@
  *     frame NUMBER KEY BYTES CONTENTS PIXELS      hashes as 32 hexadecimal digits; PIXELS may be -
  *
  * KEY is the hash of everything that decides how a frame comes out: the scene, the picture files as
- * they were on the disk, the view, the coding, the version. CONTENTS is the hash of the file.
+ * they were on the disk, the view, the coding, the version. CONTENTS is the hash of the file as it
+ * was written, taken before it got its name.
  *
  * INVARIANT  A line is added when the file of its frame is complete under its name. Lines are only
  * added, each in one write, so that several runs may share a record; a line that was cut off is

@@ -165,7 +165,9 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   desc.workers = workers;
   desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;
+  context->contents = &task->frame.contents;
   celspan_status status = make_or_copy(j, context, task, &desc);
+  context->contents = NULL;
   if (j->shoot->keeps_nothing)
     cs_context_trim(context);
   return name_failure(context, task->frame.number, status);

@@ -19,6 +19,7 @@
 #include "base/hash.h"
 #include "film/film.h"
 #include "film/sequence.h"
+#include "output/file.h"
 
 #define CS_SHOOT_PATH 4096
 
@@ -36,6 +37,7 @@ typedef struct cs_shoot_frame {
   cs_hash scene;
   cs_hash inputs; /* of its pictures' files; set only where `keep` is given */
   uint64_t digest[2];
+  cs_file_contents contents; /* of its file, where that was made or copied */
 } cs_shoot_frame;
 
 typedef struct cs_shoot {

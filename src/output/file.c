@@ -30,6 +30,30 @@ struct cs_file {
   unsigned char buffer[BUFFER_BYTES];
 };
 
+enum { CHUNK = 1 << 16 }; /* of what is hashed: part of the records that programs have kept */
+
+bool cs_file_contents_read(int descriptor, cs_file_contents *out) {
+  unsigned char chunk[CHUNK];
+  ssize_t got = 0;
+  *out = (cs_file_contents){.hash = cs_hash_begin(2)};
+  for (size_t size = 0; size == 0 || size == CHUNK; out->bytes += size) {
+    for (size = 0; size < CHUNK; size += (size_t)got) {
+      got = pread(descriptor, chunk + size, CHUNK - size, (off_t)(out->bytes + size));
+      if (got < 0 && errno == EINTR)
+        got = 0;
+      else if (got < 0)
+        return false;
+      else if (got == 0)
+        break;
+    }
+    if (size == 0)
+      break;
+    cs_hash_bytes(&out->hash, chunk, size);
+  }
+  out->hash = cs_hash_end(out->hash);
+  return true;
+}
+
 static int system_open(const char *path, int flags, mode_t mode) { return open(path, flags, mode); }
 
 static const cs_file_system real_system = {.open = system_open,
@@ -107,7 +131,7 @@ static int open_temporary(cs_file *file) {
     snprintf(file->temporary, room, "%.*s.%.*s.%04x.part", (int)file->folder_length, file->path,
              NAME_BYTES, name, (start + i) & 0xffff);
     file->descriptor = open_again(file->system, file->temporary,
-                                  O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+                                  O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file->descriptor >= 0 ? cs_temporary_claim(file->descriptor) : errno != EEXIST)
       break;
     if (file->descriptor >= 0)
@@ -250,6 +274,8 @@ static celspan_status finish(cs_file *file, celspan_context *context) {
   CS_TRY(check_size(file, context));
   if (sync_descriptor(file->system, file->descriptor) != 0)
     return fail(file, context, "cannot sync");
+  if (context->contents && !cs_file_contents_read(file->descriptor, context->contents))
+    return fail(file, context, "cannot read it back");
   int descriptor = file->descriptor;
   file->descriptor = -1;
   if (close_descriptor(file->system, descriptor) != 0)

@@ -17,8 +17,20 @@
 #include <sys/types.h>
 
 #include "base/context.h"
+#include "base/hash.h"
 
 typedef struct cs_file cs_file;
+
+/* What a file has that was completed. A context whose `contents` points to one has those of the
+ * last file that it committed: taken of the temporary file, which nobody else has opened, before it
+ * gets its name. What happens to the file afterwards does not change them. */
+typedef struct cs_file_contents {
+  cs_hash hash;
+  uint64_t bytes;
+} cs_file_contents;
+
+/* Reads all of a file, from its first byte on. false when it cannot be read; then errno says why. */
+bool cs_file_contents_read(int descriptor, cs_file_contents *out);
 
 /* The system calls that a file needs, as in POSIX; tests replace them to make them fail. */
 typedef struct cs_file_system {

@@ -201,6 +201,27 @@ static void check_discard_and_places(celspan_context *context) {
   cs_file_discard(NULL, context);
 }
 
+/* What is recorded of a file is what was written, whatever happens to the file afterwards. */
+static void check_contents(celspan_context *context) {
+  char path[256];
+  cs_file_contents written, there;
+  in_root(path, "contents");
+  context->contents = &written;
+  CHECK(write_content(context, NULL, path) == CELSPAN_OK);
+  context->contents = NULL;
+  int descriptor = open(path, O_RDWR);
+  CHECK(cs_file_contents_read(descriptor, &there));
+  CHECK(written.bytes == CONTENT && there.bytes == CONTENT);
+  CHECK(written.hash.a == there.hash.a && written.hash.b == there.hash.b);
+  CHECK(pwrite(descriptor, "x", 1, CONTENT - 1) == 1 && cs_file_contents_read(descriptor, &there));
+  CHECK(written.hash.a != there.hash.a);
+  close(descriptor);
+  CHECK(!cs_file_contents_read(descriptor, &there));
+  CHECK(write_content(context, NULL, path) == CELSPAN_OK); /* nobody asks any more */
+  CHECK(written.bytes == CONTENT);
+  unlink(path);
+}
+
 int main(void) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK || !mkdtemp(root))
@@ -218,6 +239,7 @@ int main(void) {
   check_refusals(context);
   check_long_name(context);
   check_discard_and_places(context);
+  check_contents(context);
   celspan_context_memory(context, &after, &peak, &allocations);
   CHECK(after == before);
   CHECK(rmdir(root) == 0);
