@@ -14,6 +14,7 @@
 
 enum {
   NAME_SIZE = 512,
+  DESCRIPTORS = 4096, /* that may be open, of a process that is ended */
   DIGITS = 4,
   TAIL_SIZE = 1 + DIGITS + sizeof TAIL - 1 /* ".12ef.part" */
 };
@@ -73,4 +74,36 @@ void cs_temporary_sweep(const char *pattern,
     if (final_name(entry->d_name, name) && matches(base, name))
       sweep(dirfd(folder), entry->d_name);
   closedir(folder);
+}
+
+/* ---------------------------------------------------------------- ending */
+
+/* "/proc/self/fd/N" without functions that allocate or lock. */
+static void name_descriptor(int descriptor, char out[32]) {
+  static const char folder[] = "/proc/self/fd/";
+  char digits[12];
+  size_t count = 0, length = sizeof folder - 1;
+  memcpy(out, folder, length);
+  do
+    digits[count++] = (char)('0' + descriptor % 10);
+  while ((descriptor /= 10) > 0);
+  while (count > 0)
+    out[length++] = digits[--count];
+  out[length] = '\0';
+}
+
+/* The system knows the names of open files, so that no list of them has to be kept; a file that has
+ * got its final name, or was removed, has another one there. */
+void cs_temporary_abandon(void) {
+  char link[32], path[4096], name[NAME_SIZE];
+  for (int descriptor = 3; descriptor < DESCRIPTORS; descriptor++) {
+    name_descriptor(descriptor, link);
+    ssize_t length = readlink(link, path, sizeof path - 1);
+    if (length <= 0)
+      continue;
+    path[length] = '\0';
+    const char *slash = strrchr(path, '/');
+    if (slash && final_name(slash + 1, name))
+      unlink(path);
+  }
 }

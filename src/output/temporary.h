@@ -18,5 +18,8 @@ bool cs_temporary_claim(int descriptor);
  * true. A file that cannot be removed stays, without an error. */
 void cs_temporary_sweep(const char *pattern,
                         bool (*matches)(const char *pattern, const char *name));
+/* Removes every temporary file that this process has open, which then is not to go on. Safe in a
+ * signal handler. */
+void cs_temporary_abandon(void);
 
 #endif

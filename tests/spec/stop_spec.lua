@@ -1,0 +1,74 @@
+-- SIGTERM and SIGHUP (shells let what is in the background ignore SIGINT): whatever the program is doing, it is dead by the signal soon, and leaves nothing.
+local workbench = require "tests.support.workbench"
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+--- Builds with a sanitizer are many times slower, and more patient.
+local function is_slow() return os.execute("grep -qaE '__(asan|tsan)_init' '" .. workbench.binary .. "'") == true end
+local START, LIMIT = 0.6, 1.2
+if is_slow() then START, LIMIT = 5, 30 end
+
+local POINTS = [[
+local seed, points = 7, { rule = "evenodd" }
+local function random() seed = (seed * 1103515245 + 12345) % 2147483648 return seed / 2147483648 end
+for i = 1, 16000 do points[i] = { 1920 * random(), 1080 * random() } end
+local scribble = celspan.polygon(points)
+]]
+
+local HUNG = "('a'):rep(300000):find(('a-'):rep(8) .. 'b')"
+
+--- What a frame function does for ever, or for long.
+local busy = {
+  ["a loop in pcall"] = "while true do pcall(function() while true do end end) end",
+  ["a loop in xpcall"] = [[while true do
+    xpcall(function() while true do end end, function() while true do end end) end]],
+  ["a finaliser"] = "setmetatable({}, { __gc = function() while true do end end }) collectgarbage()",
+  ["table.move"] = "table.move({}, 1, 1 << 52, 2)",
+  ["table.sort"] = [[table.sort(setmetatable({}, { __len = function() return 1 << 30 end,
+    __index = function() return 1 end }))]],
+  ["string.rep"] = "return string.rep('', 1 << 60)",
+  ["string.find"] = HUNG,
+  ["string.gsub"] = "(('('):rep(200000)):gsub('%b()', '')",
+  ["celspan.pixels"] = POINTS .. [[for _ = 1, 99 do
+    celspan.pixels(celspan.rostrum { celspan.cel { scribble } }, { size = { 1920, 1080 } }) end]],
+}
+
+--- What a frame shows that takes for ever, or for long, to make: its file is open then.
+local shown = {
+  ["a polygon of 16,000 points"] = { POINTS, "scribble" },
+  ["a procedure"] = { "", "celspan.scanline { bounds = { 0, 0, 9, 9 }, spans = function() " .. HUNG .. " end }" },
+}
+
+local function script(before, frame, object)
+  return ([[local celspan = require "celspan"
+%s
+return celspan.film { size = { 1920, 1080 }, frames = 99, frame = function()
+  (function() %s end)()
+  return celspan.rostrum { celspan.cel { %s } }
+end }]]):format(before, frame, object)
+end
+
+--- Stops a render by a signal; nothing is left of frames that were not finished.
+local function stop(text, signal, code)
+  bench:write("film.lua", text)
+  local started = ("%s render film.lua -o out/f.##.png --progress none"):format(
+    workbench.binary:sub(1, 1) == "/" and workbench.binary or "$OLDPWD/" .. workbench.binary)
+  local got, out, err = bench:shell(([[cd '%s' && mkdir out && { %s & pid=$!; sleep %g
+    kill -%s $pid; before=$(date +%%s%%N); wait $pid; code=$?; echo $(( ($(date +%%s%%N) - before) / 1000000 ))
+    exit $code; }]]):format(bench.folder, started, START, signal))
+  assert.are.equal(code, got, err)
+  assert.is_true(tonumber(out) <= 1000 * LIMIT, "stopped after " .. out .. " ms")
+  for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.%d%d%.png$", name) end
+end
+
+describe("a signal ends", function()
+  for name, frame in pairs(busy) do
+    it(name, function() stop(script("", frame, ""), "TERM", 143) end)
+  end
+  for name, parts in pairs(shown) do
+    it(name, function() stop(script(parts[1], "", parts[2]), "HUP", 129) end)
+  end
+end)
