@@ -55,14 +55,34 @@ void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction la
   lua_pushcclosure(L, handle_error, 2);
 }
 
+/* function, arguments -> results. Runs protected. */
+static int call_handled(lua_State *L) {
+  cs_lua_error_push_handler(L, "", lua_tocfunction(L, 1));
+  lua_insert(L, 1);
+  if (lua_pcall(L, lua_gettop(L) - 2, LUA_MULTRET, 1) != LUA_OK)
+    return lua_error(L);
+  return lua_gettop(L) - 1;
+}
+
+int cs_lua_error_call(lua_State *L, int arguments, int results) {
+  lua_pushcfunction(L, call_handled);
+  lua_insert(L, -2 - arguments);
+  return lua_pcall(L, arguments + 1, results, 0);
+}
+
+bool cs_lua_error_is_memory(lua_State *L, int outcome) {
+  const char *message = lua_tostring(L, -1);
+  return outcome == LUA_ERRMEM || (message && strcmp(message, "not enough memory") == 0);
+}
+
 /* ---------------------------------------------------------------- the context's sentence */
 
 /* The status of the failure whose message is on top of the stack. */
 static celspan_status status_of(lua_State *L, int outcome) {
   const char *message = lua_tostring(L, -1);
-  return outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY
-         : message             ? cs_host_blame(L, message)
-                               : CELSPAN_CALLBACK;
+  return cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY
+         : message                          ? cs_host_blame(L, message)
+                                            : CELSPAN_CALLBACK;
 }
 
 celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {

@@ -17,10 +17,17 @@
  * position of the message. last: the function whose call is protected, with which the callers
  * end. */
 void cs_lua_error_push_handler(lua_State *L, const char *label, lua_CFunction last);
+/* lua_pcall(L, arguments, results, ...) of `function`, which is below its arguments, with such a
+ * handler. The handler is made protected, too: where there is no memory for it, that is the outcome.
+ */
+int cs_lua_error_call(lua_State *L, int arguments, int results);
 /* The length of the position "script.lua:12: " that a message begins with; 0: it begins with none.
  */
 size_t cs_lua_error_position(const char *message);
 
+/* Whether the message on top of the stack, left by lua_pcall with this outcome, says that there was
+ * no memory: Lua's own message keeps its meaning where it was raised again. */
+bool cs_lua_error_is_memory(lua_State *L, int outcome);
 /* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's
  * sentence, and pops it. The status: the core's own where its refusal was raised, NO_MEMORY or
  * CALLBACK. */

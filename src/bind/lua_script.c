@@ -1,5 +1,6 @@
 #include "bind/lua_script.h"
 
+#include <errno.h>
 #include <lauxlib.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +62,10 @@ static int run(lua_State *L) {
                       "%s' tells of pictures)",
                       c->path, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");
-  c->is_missing = outcome == LUA_ERRFILE;
+  if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))
+    lua_pushliteral(L, "not enough memory"); /* for the file's buffer */
+  else
+    c->is_missing = outcome == LUA_ERRFILE;
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
@@ -79,12 +83,9 @@ celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_co
                                  const char *const *arguments) {
   call c = {path, argument_count, arguments, false};
   cs_host_get(L)->failure = CELSPAN_OK;
-  cs_lua_error_push_handler(L, "", run);
-  int handler = lua_gettop(L);
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, &c);
-  int outcome = lua_pcall(L, 1, 1, handler);
-  lua_remove(L, handler);
+  int outcome = cs_lua_error_call(L, 1, 1);
   if (outcome == LUA_OK)
     return CELSPAN_OK;
   return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);

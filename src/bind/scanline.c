@@ -88,17 +88,32 @@ static int call(lua_State *L) {
 
 /* Pushes the message on top of the stack again, with the line where the function begins if it has
  * none. */
-static const char *push_message(lua_State *L, const procedure *p) {
+static void push_message(lua_State *L, const procedure *p) {
   const char *message =
       lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "the error is not a string";
-  if (cs_lua_error_position(message))
-    return lua_pushstring(L, message);
-  lua_rawgeti(L, LUA_REGISTRYINDEX, p->function);
-  cs_caller_push_function(L, -1);
-  lua_remove(L, -2);
-  lua_pushstring(L, message);
-  lua_concat(L, 2);
-  return lua_tostring(L, -1);
+  if (!cs_lua_error_position(message)) {
+    lua_rawgeti(L, LUA_REGISTRYINDEX, p->function);
+    cs_caller_push_function(L, -1);
+    lua_remove(L, -2);
+    lua_pushstring(L, message);
+    lua_concat(L, 2);
+  } else {
+    lua_pushstring(L, message);
+  }
+}
+
+/* As call; what is raised has a position. */
+static int call_placed(lua_State *L) {
+  const request *r = lua_touserdata(L, 1);
+  cs_lua_error_push_handler(L, "", call);
+  lua_pushcfunction(L, call);
+  lua_pushvalue(L, 1);
+  int outcome = lua_pcall(L, 1, 0, 2);
+  if (outcome == LUA_OK)
+    return 0;
+  if (!cs_lua_error_is_memory(L, outcome))
+    push_message(L, r->procedure);
+  return lua_error(L);
 }
 
 static celspan_status spans(void *user, celspan_context *context, double y,
@@ -111,18 +126,14 @@ static celspan_status spans(void *user, celspan_context *context, double y,
   request r = {p, y, row, output, CELSPAN_OK};
   if (!lua_checkstack(L, 8))
     return celspan_context_fail(context, CELSPAN_LIMIT, "scanline: Lua's stack is full");
-  cs_lua_error_push_handler(L, "", call);
-  int handler = lua_gettop(L);
-  lua_pushcfunction(L, call);
+  lua_pushcfunction(L, call_placed);
   lua_pushlightuserdata(L, &r);
-  int outcome = lua_pcall(L, 1, 0, handler);
-  lua_remove(L, handler);
+  int outcome = lua_pcall(L, 1, 0, 0);
   if (outcome == LUA_OK)
     return r.status;
-  const char *message = push_message(L, p);
-  celspan_status status = outcome == LUA_ERRMEM ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
-  status = celspan_context_fail(context, status, "%s", message);
-  lua_pop(L, 2);
+  celspan_status status = cs_lua_error_is_memory(L, outcome) ? CELSPAN_NO_MEMORY : CELSPAN_CALLBACK;
+  status = celspan_context_fail(context, status, "%s", lua_tostring(L, -1));
+  lua_pop(L, 1);
   return status;
 }
 

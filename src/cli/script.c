@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bind/host.h"
+#include "bind/lua_error.h"
 #include "bind/lua_script.h"
 #include "celspan/lua.h"
 #include "cli/interrupt.h"
@@ -55,8 +56,10 @@ static cs_exit open_state(cs_script *script) {
   lua_pushlightuserdata(script->L, script->context);
   if (lua_pcall(script->L, 1, 0, 0) == LUA_OK)
     return CS_EXIT_OK;
-  cs_report_error("Lua could not be started: %s", lua_tostring(script->L, -1));
-  return CS_EXIT_INTERNAL;
+  const char *message = lua_tostring(script->L, -1);
+  bool has_room = message && !strstr(message, "not enough memory");
+  cs_report_error("Lua could not be started: %s", message ? message : "not enough memory");
+  return has_room ? CS_EXIT_INTERNAL : CS_EXIT_MEMORY;
 }
 
 cs_exit cs_script_start(celspan_context *context, cs_script *out) {
@@ -69,6 +72,12 @@ cs_exit cs_script_start(celspan_context *context, cs_script *out) {
   return CS_EXIT_OK;
 }
 
+/* film, light userdata: where it is told. Runs protected. */
+static int read_film(lua_State *L) {
+  cs_lua_film_read(L, 1, lua_touserdata(L, 2));
+  return 0;
+}
+
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out) {
   cs_exit outcome = cs_script_start(context, out);
   if (outcome != CS_EXIT_OK)
@@ -78,8 +87,12 @@ cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_s
                         (const char *const *)request->script_arguments);
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
-  cs_lua_film_read(out->L, CS_SCRIPT_FILM, &out->film);
-  return CS_EXIT_OK;
+  lua_pushcfunction(out->L, read_film);
+  lua_pushvalue(out->L, CS_SCRIPT_FILM);
+  lua_pushlightuserdata(out->L, &out->film);
+  int raised = lua_pcall(out->L, 2, 0, 0);
+  return raised == LUA_OK ? CS_EXIT_OK
+                          : cs_report_failure(context, cs_lua_error_report(out->L, raised), NULL);
 }
 
 void cs_script_close(cs_script *script) {

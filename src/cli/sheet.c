@@ -87,13 +87,11 @@ static int run(lua_State *L) {
 
 static cs_exit call(cs_script *script, job *j) {
   lua_State *L = script->L;
-  cs_lua_error_push_handler(L, "", run);
-  int handler = lua_gettop(L);
   lua_pushcfunction(L, run);
   if (j->is_script)
     lua_pushvalue(L, CS_SCRIPT_FILM);
   lua_pushlightuserdata(L, j);
-  int outcome = lua_pcall(L, j->is_script ? 2 : 1, 0, handler);
+  int outcome = cs_lua_error_call(L, j->is_script ? 2 : 1, 0);
   if (outcome == LUA_OK)
     return j->outcome;
   return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
