@@ -6,6 +6,7 @@
  * formats the library ignores it (a full disk) and reports success; so Target remembers it.
  */
 #include <OpenImageIO/filesystem.h>
+#include <cstring>
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,17 @@ using OIIO::TypeDesc;
 
 namespace {
 
+/* The file's name without its folders: headers of film scans name their file, and must not tell where
+ * on the maker's disk it lay. */
+const char *own_name(const char *path) {
+  const char *slash = strrchr(path, '/');
+  return slash ? slash + 1 : path;
+}
+
 class Target : public OIIO::Filesystem::IOProxy {
 public:
   explicit Target(const cs_picture_output &output)
-      : IOProxy(output.name, Write), put_(output.put), user_(output.user) {}
+      : IOProxy(own_name(output.name), Write), put_(output.put), user_(output.user) {}
   const char *proxytype() const override { return "celspan"; }
   void close() override {}
   bool seek(int64_t offset) override {
@@ -175,7 +183,7 @@ celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **
     writer->spec = make_spec(*output);
     void *proxy = writer->target.get();
     writer->spec.attribute("oiio:ioproxy", TypeDesc::PTR, &proxy);
-    if (!writer->output->open(output->name, writer->spec))
+    if (!writer->output->open(own_name(output->name), writer->spec))
       fail_output(*writer, writer->output->geterror());
     writer->target->check();
     *out = writer.release();

@@ -110,6 +110,16 @@ describe("PNG and Targa files", function()
     end
   end)
 
+  it_reads("do not tell in which folder they were made", function()
+    for _, ending in ipairs { "png", "tga", "span", "exr", "tif", "dpx", "jpg", "bmp", "hdr", "ppm" } do
+      local path = folder .. "/where." .. ending
+      local code, _, err = celspan(("render '%s/scripts/demo.lua' -o %s --size 64x36 --frames 1 --progress none")
+        :format(os.getenv "PWD", path))
+      assert.are.equal(0, code, err)
+      assert.falsy(read(path):find(folder, 1, true), ending)
+    end
+  end)
+
   it_reads("may be as long and thin as a million pixels by one, as PNG", function()
     for _, size in ipairs { "1000000x1", "1x1000000" } do
       assert.are.same({ 0, "", "" }, { render("e.png", true, "--size " .. size) })
