@@ -34,16 +34,15 @@ local function render(script, picture, output, argument)
   if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
-  if argument then add("--", argument) end
+  if argument then add("--allow", argument, "--", argument) end
   run(binary .. " render", table.unpack(arguments))
 end
 
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
-run("cp -r scripts/type", folder .. "/examples/")
--- A script is given an absolute path, because it looks for files beside itself.
+run("cp -r scripts/type scripts/paintings", folder .. "/examples/")
+-- A script is given an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"
-run("ln -sfn", pwd .. "/scripts/paintings", folder .. "/examples/paintings")
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts
 for _, picture in ipairs(list) do
   for _, part in ipairs(picture.parts or {}) do

@@ -38,6 +38,7 @@ static cs_memory *memory_create(celspan_resize resize, void *user) {
   atomic_init(&memory->peak, 0);
   atomic_init(&memory->allocations, 0);
   memory->sources = NULL;
+  memory->refuses = NULL;
   return memory;
 }
 
@@ -67,6 +68,9 @@ static void count_bytes(cs_memory *memory, size_t old_size, size_t new_size) {
 }
 
 void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size) {
+  size_t more = new_size - (storage ? old_size : 0);
+  if (memory->refuses && new_size > (storage ? old_size : 0) && memory->refuses(memory, more))
+    return NULL;
   void *resized = memory->resize(memory->user, storage, old_size, new_size);
   if (!resized && new_size > 0)
     return NULL;

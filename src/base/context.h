@@ -22,6 +22,9 @@ typedef struct cs_memory {
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
   struct cs_source *sources; /* files that values were made in; owned */
+  /* Whether this thread must not have so many bytes more; NULL: it may have what there is. Set before
+   * other threads use the memory. */
+  bool (*refuses)(const struct cs_memory *memory, size_t more);
 } cs_memory;
 
 /* A service is something that a higher folder keeps for a context, such as decoded pictures;

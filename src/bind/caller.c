@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define MOST_CALLERS 6 /* told of a chain: the first ones and the last */
+#define MOST_CALLS 500 /* looked at for it: Lua counts them anew for each, from the innermost */
 
 /* The modules that are built in have these names: embed.c. */
 static bool is_own(const lua_Debug *info) {
@@ -116,7 +117,7 @@ static bool is_at(const char *position, const place *p) {
 
 /* The level of the next file's function from `level` on, below `last`; 0: there is none. */
 static int next_file(lua_State *L, int level, lua_CFunction last, lua_Debug *info) {
-  for (; get(L, level, info) && !is_function(L, info, last); level++)
+  for (; level <= MOST_CALLS && get(L, level, info) && !is_function(L, info, last); level++)
     if (is_file(info))
       return level;
   return 0;

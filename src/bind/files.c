@@ -36,7 +36,9 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
   for (int i = !!near + !!beside; i > 0; i--)
     lua_remove(L, -3);
   *tried = lua_tostring(L, -1);
-  return lua_tostring(L, -2);
+  path = lua_tostring(L, -2);
+  cs_host_admit(L, path);
+  return path;
 }
 
 const char *cs_files_find(lua_State *L, const char *name, const char **tried) {

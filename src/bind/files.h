@@ -13,7 +13,7 @@
 
 /* Pushes where the file is and, after it, where else it was looked for if it is in neither place;
  * else nil. *tried: that or NULL. folder: of a Lua file, where it is looked for first; NULL: of
- * none. */
+ * none. Raises where a sandbox does not let the script read there. */
 const char *cs_files_find_from(lua_State *L, const char *folder, const char *name,
                                const char **tried);
 /* The same, beside the nearest caller's file. */

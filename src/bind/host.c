@@ -8,6 +8,7 @@
 
 static const char host_key = 0; /* addresses in the registry */
 static const char folder_key = 0;
+static const char globals_key = 0;
 
 void cs_host_unref(cs_host *host) {
   if (!host || --host->references > 0)
@@ -131,6 +132,40 @@ void cs_host_set_folder(lua_State *L, const char *folder) {
 
 bool cs_host_push_folder(lua_State *L) {
   bool found = lua_rawgetp(L, LUA_REGISTRYINDEX, &folder_key) == LUA_TSTRING;
+  if (!found)
+    lua_pop(L, 1);
+  return found;
+}
+
+/* ---------------------------------------------------------------- rules */
+
+void cs_host_begin(lua_State *L, cs_host_call call, int64_t number) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  if (rules)
+    rules->begin(rules->user, L, call, number);
+}
+
+void cs_host_end(lua_State *L) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  if (rules)
+    rules->end(rules->user);
+}
+
+void cs_host_admit(lua_State *L, const char *path) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  if (rules && rules->admit)
+    rules->admit(rules->user, L, path);
+}
+
+bool cs_host_may_write(lua_State *L, const char *path) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  return !rules || !rules->may_write || rules->may_write(rules->user, L, path);
+}
+
+void cs_host_set_globals(lua_State *L) { lua_rawsetp(L, LUA_REGISTRYINDEX, &globals_key); }
+
+bool cs_host_push_globals(lua_State *L) {
+  bool found = lua_rawgetp(L, LUA_REGISTRYINDEX, &globals_key) == LUA_TTABLE;
   if (!found)
     lua_pop(L, 1);
   return found;

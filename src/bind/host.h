@@ -11,6 +11,31 @@
 
 #include "base/context.h"
 
+/* Why the script is called. Frames that a verb's own Lua builds have limits of their own. */
+typedef enum cs_host_call {
+  CS_HOST_LOAD,      /* the script itself is run */
+  CS_HOST_FRAME,     /* a frame is built */
+  CS_HOST_PROCEDURE, /* part of a frame that was built before */
+  CS_HOST_VERB       /* Lua of the command line works on what the script made */
+} cs_host_call;
+
+/* What a sandbox asks of the bindings, on the thread that runs Lua. `user` is the first argument of
+ * all. */
+typedef struct cs_host_rules {
+  void *user;
+  /* Before and after a call into the script; calls may be nested. number: of the frame; else 0. */
+  void (*begin)(void *user, lua_State *L, cs_host_call call, int64_t number);
+  void (*end)(void *user);
+  /* Raises unless the script may read the file or folder at this path; NULL: it may read all. */
+  void (*admit)(void *user, lua_State *L, const char *path);
+  /* Whether it may write there; else the sentence that refuses it is in the context. NULL: it may
+   * write everywhere. */
+  bool (*may_write)(void *user, lua_State *L, const char *path);
+  /* The sentence of the limit that ended a call with this outcome of lua_pcall and this message
+   * (NULL: no text); NULL: none did. */
+  const char *(*limit)(void *user, int outcome, const char *message);
+} cs_host_rules;
+
 typedef struct cs_host {
   size_t references;
   cs_memory *memory; /* counted; that of the context */
@@ -18,6 +43,7 @@ typedef struct cs_host {
   celspan_context *context;
   bool owns_context;
   celspan_status failure; /* of the last core call that raised; its sentence is in the context */
+  const cs_host_rules *rules; /* borrowed; NULL: the state has no sandbox and no limits */
 } cs_host;
 
 /* Makes the host of this state if it has none. context: NULL makes one; else borrowed, and must
@@ -39,6 +65,19 @@ void cs_host_try(lua_State *L, const char *noun, celspan_status status);
 /* The status of a message that was raised: the core's own when the message contains the core's
  * sentence, else CALLBACK. */
 celspan_status cs_host_blame(lua_State *L, const char *message);
+
+/* Before and after a call into the script; without rules nothing happens. */
+void cs_host_begin(lua_State *L, cs_host_call call, int64_t number);
+void cs_host_end(lua_State *L);
+/* Raises unless the script may read there. */
+void cs_host_admit(lua_State *L, const char *path);
+/* Whether the script may write there; else the sentence is in the context. */
+bool cs_host_may_write(lua_State *L, const char *path);
+
+/* Makes the table on top of the stack the globals of the script, and pops it. */
+void cs_host_set_globals(lua_State *L);
+/* Pushes them; false, and nothing pushed, where the script has Lua's own. */
+bool cs_host_push_globals(lua_State *L);
 
 /* The folder of the script that the host runs; "" is the current directory. */
 void cs_host_set_folder(lua_State *L, const char *folder);

@@ -93,6 +93,21 @@ celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
   return celspan_context_fail(cs_host_context(L), status, "%s", copy);
 }
 
+bool cs_lua_error_is_limit(lua_State *L, int outcome) {
+  const cs_host_rules *rules = cs_host_get(L)->rules;
+  const char *message = lua_tostring(L, -1);
+  if (cs_lua_error_is_memory(L, outcome))
+    outcome = LUA_ERRMEM;
+  const char *sentence = rules ? rules->limit(rules->user, outcome, message) : NULL;
+  if (sentence && (!message || !strstr(message, sentence))) {
+    lua_pop(L, 1);
+    lua_pushstring(L, sentence);
+  }
+  return sentence != NULL;
+}
+
 celspan_status cs_lua_error_report(lua_State *L, int outcome) {
+  if (cs_lua_error_is_limit(L, outcome))
+    return cs_lua_error_report_as(L, CELSPAN_LIMIT);
   return cs_lua_error_report_as(L, status_of(L, outcome));
 }

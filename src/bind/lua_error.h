@@ -28,6 +28,10 @@ size_t cs_lua_error_position(const char *message);
 /* Whether the message on top of the stack, left by lua_pcall with this outcome, says that there was
  * no memory: Lua's own message keeps its meaning where it was raised again. */
 bool cs_lua_error_is_memory(lua_State *L, int outcome);
+/* Whether the call ended by a limit of the sandbox. The message on top of the stack is then a
+ * sentence that says which: one of Lua that has no memory left does not. */
+bool cs_lua_error_is_limit(lua_State *L, int outcome);
+
 /* Turns the message on top of the stack, left by lua_pcall with this outcome, into the context's
  * sentence, and pops it. The status: the core's own where its refusal was raised, NO_MEMORY or
  * CALLBACK. */

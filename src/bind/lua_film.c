@@ -254,7 +254,9 @@ static int protected_frame(lua_State *L, int film, int64_t number) {
   lua_getfield(L, -1, "frame");
   lua_remove(L, -2);
   cs_lua_frame_push(L, &info, number);
+  cs_host_begin(L, CS_HOST_FRAME, number);
   int outcome = lua_pcall(L, 2, 1, handler);
+  cs_host_end(L);
   lua_remove(L, handler);
   return outcome;
 }

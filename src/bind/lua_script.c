@@ -55,7 +55,9 @@ static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
   const char *folder = cs_caller_push_folder_of(L, c->path);
   cs_host_set_folder(L, folder);
-  set_search_path(L, folder);
+  bool is_sandboxed = cs_host_push_globals(L);
+  if (!is_sandboxed)
+    set_search_path(L, folder); /* a sandbox has its own `require` */
   if (!cs_lua_text_accepts(c->path))
     return luaL_error(L,
                       "%s: is not a Lua script, but a picture or other binary data ('celspan info "
@@ -70,6 +72,10 @@ static int run(lua_State *L) {
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
     return lua_error(L);
+  if (is_sandboxed) {
+    lua_pushvalue(L, -2);
+    lua_setupvalue(L, -2, 1);
+  }
   luaL_checkstack(L, c->argument_count + 4, "too many arguments");
   for (int i = 0; i < c->argument_count; i++)
     lua_pushstring(L, c->arguments[i]);
@@ -85,7 +91,9 @@ celspan_status cs_lua_script_run(lua_State *L, const char *path, int argument_co
   cs_host_get(L)->failure = CELSPAN_OK;
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, &c);
+  cs_host_begin(L, CS_HOST_LOAD, 0);
   int outcome = cs_lua_error_call(L, 1, 1);
+  cs_host_end(L);
   if (outcome == LUA_OK)
     return CELSPAN_OK;
   return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);

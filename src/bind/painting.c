@@ -96,6 +96,7 @@ static void push_notes(lua_State *L, const celspan_painting *painting) {
 
 int cs_painting_read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
+  cs_host_admit(L, path);
   celspan_context *context = cs_host_context(L);
   celspan_painting **painting = push_holder(L);
   int32_t width, height;
@@ -139,6 +140,7 @@ static DIR **push_folder_holder(lua_State *L) {
 
 int cs_painting_folder(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
+  cs_host_admit(L, path);
   DIR **folder = push_folder_holder(L);
   *folder = opendir(path);
   if (!*folder) {

@@ -223,3 +223,63 @@ cs_argument_outcome cs_argument_progress(const char *text, void *field) {
                                    {"json", CS_PROGRESS_JSON},   {"openjd", CS_PROGRESS_OPENJD}};
   return CHOOSE(text, field, choices);
 }
+
+/* ---------------------------------------------------------------- a script's rights */
+
+cs_argument_outcome cs_argument_texts(const char *text, void *field) {
+  cs_given_texts *given = field;
+  if (!text[0] || given->count == CS_TEXTS_MOST)
+    return CS_ARGUMENT_BAD;
+  given->items[given->count++] = text;
+  return CS_ARGUMENT_READ;
+}
+
+/* A number of 0 or more with one of the letters behind it, each 1024 times the one before; up to
+ * `end`. */
+static bool read_amount(const char *text, const char *end, const char *letters, double *out) {
+  char *after = NULL;
+  double number = text < end && text[0] != ' ' ? strtod(text, &after) : -1;
+  if (!after || after == text || after > end || !(number >= 0 && number <= 1e15))
+    return false;
+  const char *letter = after < end ? strchr(letters, *after) : NULL;
+  if (after + (letter != NULL) != end)
+    return false;
+  for (ptrdiff_t i = letter ? letter - letters : -1; i >= 0; i--)
+    number *= 1024;
+  *out = number;
+  return number <= 1e15;
+}
+
+static bool read_limit(const char *text, const char *end, cs_given_limits *out) {
+  static const struct limit {
+    const char *name, *letters;
+  } known[] = {{"memory=", "KMG"}, {"steps=", ""}, {"time=", ""}, {"print=", "KMG"}};
+  double value = 0;
+  int i = 0;
+  while (i < 4 && strncmp(text, known[i].name, strlen(known[i].name)) != 0)
+    i++;
+  if (i == 4 || !read_amount(text + strlen(known[i].name), end, known[i].letters, &value))
+    return false;
+  if (i == 0)
+    out->has_memory = true, out->values.memory = (size_t)value;
+  else if (i == 1)
+    out->has_steps = true, out->values.steps = (uint64_t)value;
+  else if (i == 2)
+    out->has_time = true, out->values.seconds = value;
+  else
+    out->has_print = true, out->values.print = (size_t)value;
+  return i != 2 || value <= 1e6;
+}
+
+cs_argument_outcome cs_argument_limits(const char *text, void *field) {
+  cs_given_limits given = *(cs_given_limits *)field;
+  for (const char *end;; text = end + 1) {
+    end = text + strcspn(text, ",");
+    if (!read_limit(text, end, &given))
+      return CS_ARGUMENT_BAD;
+    if (!*end)
+      break;
+  }
+  *(cs_given_limits *)field = given;
+  return CS_ARGUMENT_READ;
+}

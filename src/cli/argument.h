@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "celspan/celspan.h"
+#include "sandbox/guard.h"
 
 #define CS_SIDE_MAX 1048576
 
@@ -38,6 +39,20 @@ typedef struct cs_given_integer {
   bool is_given;
   int32_t value;
 } cs_given_integer;
+
+enum { CS_TEXTS_MOST = 48 };
+
+/* Of an option that may be given several times. */
+typedef struct cs_given_texts {
+  const char *items[CS_TEXTS_MOST];
+  size_t count;
+} cs_given_texts;
+
+/* A script's limits; those that are not given have their defaults. */
+typedef struct cs_given_limits {
+  bool has_memory, has_steps, has_time, has_print;
+  cs_limits values;
+} cs_given_limits;
 
 /* "#rgb" or "#rrggbb": linear light, opaque. */
 typedef struct cs_given_colour {
@@ -69,5 +84,8 @@ cs_argument_outcome cs_argument_onion(const char *text, void *field);    /* int3
 cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
 cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
+cs_argument_outcome cs_argument_texts(const char *text, void *field);    /* cs_given_texts: adds */
+/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M" */
+cs_argument_outcome cs_argument_limits(const char *text, void *field);
 
 #endif

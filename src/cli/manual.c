@@ -20,7 +20,7 @@ static const term EXIT_CODES[] = {
 };
 
 static const term ENVIRONMENT[] = {
-    {"CELSPAN_PATH", "where require looks after the script's folder"},
+    {"CELSPAN_PATH", "where require looks after the script's folder; scripts may read there"},
     {"CELSPAN_PICTURE_MODULE",
      "the file of the picture module, when it is not where celspan looks"},
     {"OCIO", "an OpenColorIO configuration: its colour spaces may be named in colour"},

@@ -123,6 +123,17 @@ static const option OPTIONS[] = {
      "go on after frames that fail; the exit code is then 1"},
     {"--deep", NULL, NULL, CS_VERB_CHECK, FIELD(is_deep), NULL,
      "read pictures whole, not only their headers"},
+    {"--trust", NULL, NULL, CS_VERBS_WITH_SCRIPT, FIELD(trusts), NULL,
+     "give the script the whole of Lua: files, programs, no limits"},
+    {"--strict", NULL, NULL, CS_VERBS_WITH_SCRIPT, FIELD(is_strict), NULL,
+     "confine the process too, by the kernel: no other files, programs or network"},
+    {"--allow", "DIR", "the name of a folder", CS_VERBS_WITH_SCRIPT, FIELD(allowed),
+     cs_argument_texts, "let the script read below this folder too; may be given several times"},
+    {"--limit", "NAME=V",
+     "memory=SIZE, steps=N, time=SECONDS or print=SIZE, such as memory=512M,time=60; 0: no limit",
+     CS_VERBS_WITH_SCRIPT, FIELD(limits), cs_argument_limits,
+     "limits of the script: memory=512M, steps=2e9 (a frame), time=60 (seconds a call),\n"
+     "                     print=1M (a frame) are the defaults; several with commas; 0: none"},
     {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
      FIELD(memory), cs_argument_memory,
      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"
@@ -225,7 +236,8 @@ static cs_exit read_operand(parser *p) {
 
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *arguments,
                          cs_request *out) {
-  *out = (cs_request){.rows = {0, -1}, .levels = {0, -1}};
+  *out = (cs_request){
+      .rows = {0, -1}, .levels = {0, -1}, .makes_folder = verb->self == CS_VERB_TILES};
   parser p = {verb, arguments, count, 0, out};
   cs_exit outcome = CS_EXIT_OK;
   while (p.next < count && outcome == CS_EXIT_OK) {

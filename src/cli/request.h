@@ -46,6 +46,10 @@ typedef struct cs_request {
   int32_t grid[2];        /* columns and rows; 0 0: not given */
   cs_given_integer every; /* 1 or more */
   int32_t onion[2];       /* frames before and after; both 0: not given */
+  bool trusts, is_strict;
+  bool makes_folder; /* the output is one */
+  cs_given_texts allowed; /* folders */
+  cs_given_limits limits;
 } cs_request;
 
 typedef enum cs_verb_set {

@@ -4,10 +4,12 @@
 #include <lualib.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/lua_script.h"
 #include "celspan/lua.h"
+#include "cli/confine.h"
 #include "cli/interrupt.h"
 #include "cli/view.h"
 
@@ -36,24 +38,52 @@ static const char HOUSE_RULES[] =
     "end\n"
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
 
-/* light userdata: the context. Runs protected. */
-static int prepare(lua_State *L) {
+/* The whole of Lua; pcall and xpcall pass on limits where there are any. */
+static void open_libraries(lua_State *L, const cs_script *script) {
+  static const luaL_Reg catching[] = {
+      {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
   luaL_openlibs(L);
   if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
-    return lua_error(L);
-  cs_host_open(L, lua_touserdata(L, 1));
+    lua_error(L);
+  lua_pushglobaltable(L);
+  luaL_setfuncs(L, script->sandbox ? catching : catching + 2, 0);
+  lua_pop(L, 1);
+}
+
+/* light userdata: the script. Runs protected. */
+static int prepare(lua_State *L) {
+  const cs_script *script = lua_touserdata(L, 1);
+  bool is_sandboxed = script->sandbox && !script->is_trusted;
+  if (is_sandboxed)
+    cs_sandbox_open_libraries(L);
+  else
+    open_libraries(L, script);
+  cs_host_open(L, script->context);
+  if (script->sandbox)
+    cs_sandbox_attach(script->sandbox, L, script->is_trusted);
+  if (is_sandboxed)
+    cs_sandbox_open_globals(script->sandbox, L);
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   return 0;
 }
 
+static lua_State *new_state(const cs_script *script) {
+  if (!script->sandbox)
+    return luaL_newstate();
+  lua_State *L = lua_newstate(cs_guard_allocate, &script->sandbox->guard);
+  if (L)
+    *(cs_guard **)lua_getextraspace(L) = NULL;
+  return L;
+}
+
 static cs_exit open_state(cs_script *script) {
-  script->L = luaL_newstate();
+  script->L = new_state(script);
   if (!script->L) {
     cs_report_error("no memory for Lua");
     return CS_EXIT_MEMORY;
   }
   lua_pushcfunction(script->L, prepare);
-  lua_pushlightuserdata(script->L, script->context);
+  lua_pushlightuserdata(script->L, script);
   if (lua_pcall(script->L, 1, 0, 0) == LUA_OK)
     return CS_EXIT_OK;
   const char *message = lua_tostring(script->L, -1);
@@ -62,8 +92,7 @@ static cs_exit open_state(cs_script *script) {
   return has_room ? CS_EXIT_INTERNAL : CS_EXIT_MEMORY;
 }
 
-cs_exit cs_script_start(celspan_context *context, cs_script *out) {
-  *out = (cs_script){.context = context};
+static cs_exit start(cs_script *out) {
   cs_exit outcome = open_state(out);
   if (outcome != CS_EXIT_OK)
     return outcome;
@@ -78,8 +107,33 @@ static int read_film(lua_State *L) {
   return 0;
 }
 
+cs_exit cs_script_start(celspan_context *context, cs_script *out) {
+  *out = (cs_script){.context = context};
+  return start(out);
+}
+
+/* The sandbox outlives values that the script made, so it has a place of its own. */
+static cs_exit confine(cs_script *script, const cs_request *request) {
+  if (!cs_confine_is_needed(request))
+    return CS_EXIT_OK;
+  script->sandbox = cs_mem_array(script->context->memory, 1, sizeof *script->sandbox);
+  return script->sandbox ? cs_confine_open(request, script->sandbox)
+                         : cs_report_failure(script->context, cs_fail_memory(script->context), NULL);
+}
+
+static void close_sandbox(cs_script *script) {
+  if (!script->sandbox)
+    return;
+  cs_sandbox_finish(script->sandbox);
+  cs_mem_free(script->context->memory, script->sandbox, sizeof *script->sandbox);
+  script->sandbox = NULL;
+}
+
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, cs_script *out) {
-  cs_exit outcome = cs_script_start(context, out);
+  *out = (cs_script){.context = context, .is_trusted = request->trusts};
+  cs_exit outcome = confine(out, request);
+  if (outcome == CS_EXIT_OK)
+    outcome = start(out);
   if (outcome != CS_EXIT_OK)
     return outcome;
   celspan_status status =
@@ -101,6 +155,7 @@ void cs_script_close(cs_script *script) {
   if (script->L)
     lua_close(script->L);
   script->L = NULL;
+  close_sandbox(script);
 }
 
 celspan_status cs_script_try(cs_script *script, int64_t number) {

@@ -6,6 +6,7 @@
 
 #include "bind/lua_film.h"
 #include "cli/request.h"
+#include "sandbox/sandbox.h"
 
 #define CS_SCRIPT_FILM 1 /* index of the film on the state's stack */
 
@@ -15,6 +16,8 @@ typedef struct cs_script {
   cs_film_info film;        /* its texts live as long as the state */
   int64_t number;           /* of the frame built last */
   cs_film_frame frame;      /* that frame; owned */
+  bool is_trusted;          /* it has the whole of Lua */
+  cs_sandbox *sandbox;      /* owned; NULL: the whole of Lua without limits */
 } cs_script;
 
 /* Makes the Lua state of a verb that runs celspan's own modules and no script. OK, or reported;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "bind/host.h"
 #include "bind/lua_error.h"
 #include "cli/lines.h"
 #include "cli/script.h"
@@ -91,7 +92,11 @@ static cs_exit call(cs_script *script, job *j) {
   if (j->is_script)
     lua_pushvalue(L, CS_SCRIPT_FILM);
   lua_pushlightuserdata(L, j);
+  if (script->sandbox)
+    script->sandbox->output = j->request->output; /* the verb writes there itself, in Lua */
+  cs_host_begin(L, CS_HOST_VERB, 0);
   int outcome = cs_lua_error_call(L, j->is_script ? 2 : 1, 0);
+  cs_host_end(L);
   if (outcome == LUA_OK)
     return j->outcome;
   return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);

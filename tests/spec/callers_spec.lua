@@ -194,7 +194,7 @@ return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 4, 4, texture = part
   end
 
   it("is found beside the caller's file, else beside the script; both are told", function()
-    local code, _, printed = bench:celspan("probe '%s/shot.lua' 1 1 -- '%s/parts/?.lua'",
+    local code, _, printed = bench:celspan("probe '%s/shot.lua' 1 1 --trust -- '%s/parts/?.lua'",
       bench.folder, bench.folder)
     assert.are.equal(4, code)
     local lines = lines_of(printed)

@@ -36,7 +36,7 @@ setup(function()
   folder = os.tmpname()
   os.remove(folder)
   assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
-  assert(os.execute(("ln -s %s/scripts/pictures %s/scripts/drawings %s/scripts/type %s/scripts/paintings "
+  assert(os.execute(("cp -r %s/scripts/pictures %s/scripts/drawings %s/scripts/type %s/scripts/paintings "
     .. "%s/scripts/demo/line.tsv %s/"):format(root, root, root, root, root, folder)))
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do

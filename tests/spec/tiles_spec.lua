@@ -254,10 +254,10 @@ describe("a run that goes on", function()
         return celspan.rostrum{ celspan.cel{ %s
           celspan.image{ pixels = pixels, size = {2, 2}, format = "grey8", w = 64, h = 64 } } }]]):format(folder, procedure))
       write("pixels.bin", "\0\1\2\3")
-      assert_success("tiles %s -o %s/q --size 64x64 --fresh --progress none", film, folder)
-      assert_success("tiles %s -o %s/q --size 64x64 --progress none", film, folder)
+      assert_success("tiles %s -o %s/q --size 64x64 --fresh --trust --progress none", film, folder)
+      assert_success("tiles %s -o %s/q --size 64x64 --trust --progress none", film, folder)
       write("pixels.bin", "\0\1\2\4")
-      local code, _, err = celspan("tiles %s -o %s/q --size 64x64 --progress none", film, folder)
+      local code, _, err = celspan("tiles %s -o %s/q --size 64x64 --trust --progress none", film, folder)
       assert.are.equal(2, code)
       assert.is_truthy(err:find("--fresh", 1, true), err)
     end

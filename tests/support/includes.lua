@@ -6,7 +6,7 @@
 -- header, celspan/..., may be included from everywhere and includes nothing of ours.
 
 local root = arg[1] or "."
-local BUILT_APART = { "oiio", "art", "bind", "cli" }
+local BUILT_APART = { "oiio", "art", "bind", "sandbox", "cli" }
 
 local function read(path)
   local file = assert(io.open(path, "r"))

@@ -54,5 +54,7 @@ function workbench:celspan(arguments, ...)
 end
 
 workbench.binary = BINARY
+--- The same from any folder.
+workbench.absolute = BINARY:sub(1, 1) == "/" and BINARY or os.getenv "PWD" .. "/" .. BINARY
 
 return workbench

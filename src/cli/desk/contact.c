@@ -8,6 +8,7 @@
 #include <lauxlib.h>
 
 #include "base/context.h"
+#include "bind/host.h"
 #include "bind/lua_error.h"
 #include "cli/desk/desk.h"
 #include "cli/script.h"
@@ -98,7 +99,9 @@ static celspan_status make_page(contact *c, int64_t page) {
   CS_TRY(make_panels(c));
   lua_pushcfunction(L, lay_out);
   lua_pushlightuserdata(L, c);
+  cs_host_begin(L, CS_HOST_VERB, 0);
   int outcome = lua_pcall(L, 1, 1, 0);
+  cs_host_end(L);
   if (outcome != LUA_OK)
     return cs_lua_error_report(L, outcome);
   celspan_status status = write_page(c, page);

@@ -2,6 +2,7 @@
 
 #include <lauxlib.h>
 
+#include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/userdata.h"
 #include "cli/desk/desk.h"
@@ -47,7 +48,9 @@ cs_exit cs_onion_lay(cs_script *script, const cs_request *request,
   lua_pushcfunction(L, lay);
   lua_pushvalue(L, CS_SCRIPT_FILM);
   lua_pushlightuserdata(L, &o);
+  cs_host_begin(L, CS_HOST_VERB, 0);
   int outcome = lua_pcall(L, 2, 1, 0);
+  cs_host_end(L);
   if (outcome != LUA_OK)
     return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
   lua_replace(L, CS_SCRIPT_FILM);

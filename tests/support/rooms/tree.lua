@@ -5,7 +5,7 @@ local c_source = require "tests.support.rooms.c_source"
 local tree = {}
 tree.__index = tree
 
-local BUILT_APART = { "picture", "bind", "cli" }
+local BUILT_APART = { "picture", "bind", "sandbox", "cli" }
 local PUBLIC = "include/celspan"
 
 --- The rank of each folder in the list of src/meson.build, followed by those that are built apart.

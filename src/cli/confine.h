@@ -1,0 +1,15 @@
+/* What the command line says of a script's rights and limits: --trust, --strict, --allow, --limit.
+ */
+#ifndef CS_CLI_CONFINE_H
+#define CS_CLI_CONFINE_H
+
+#include "cli/request.h"
+#include "sandbox/sandbox.h"
+
+/* Whether a script of this request has a sandbox or a limit. */
+bool cs_confine_is_needed(const cs_request *request);
+/* Makes the sandbox of the request's script and enters strict where that is asked for. OK, or
+ * reported; either way *out may be finished. */
+cs_exit cs_confine_open(const cs_request *request, cs_sandbox *out);
+
+#endif
