@@ -23,9 +23,27 @@ static cs_limits limits_of(const cs_request *request) {
   return limits;
 }
 
+cs_exit cs_confine_refuse(const cs_request *request) {
+  const cs_given_limits *limits = &request->limits;
+  bool has_limits =
+      limits->has_memory || limits->has_steps || limits->has_time || limits->has_print;
+  if (!request->trusts && !request->is_strict && !request->allowed.count && !has_limits)
+    return CS_EXIT_OK;
+  return cs_report_usage("--trust, --strict, --allow and --limit are for scripts, and %s is none",
+                         request->operands[0]);
+}
+
+static cs_exit refuse_both(const cs_request *request) {
+  if (request->trusts && (request->is_strict || request->allowed.count))
+    return cs_report_usage("--trust lets the script do all: leave %s out",
+                           request->is_strict ? "--strict" : "--allow");
+  return CS_EXIT_OK;
+}
+
 bool cs_confine_is_needed(const cs_request *request) {
   cs_limits limits = limits_of(request);
-  return !request->trusts || limits.memory || limits.steps || limits.seconds > 0;
+  return !request->trusts || request->is_strict || request->allowed.count || limits.memory ||
+         limits.steps || limits.seconds > 0;
 }
 
 static bool is_interrupted(void) { return cs_interrupt_signal() != 0; }
@@ -141,7 +159,7 @@ cs_exit cs_confine_open(const cs_request *request, cs_sandbox *out) {
   out->guard.is_interrupted = is_interrupted;
   out->guard.kill = kill_script;
   if (request->trusts)
-    return CS_EXIT_OK;
+    return refuse_both(request);
   cs_exit outcome = open_roots(request, out);
   if (outcome != CS_EXIT_OK || !request->is_strict || is_strict)
     return outcome;

@@ -6,6 +6,8 @@
 #include "cli/request.h"
 #include "sandbox/sandbox.h"
 
+/* Refuses these options where a verb reads a FILE, in which no script is run. OK, or reported. */
+cs_exit cs_confine_refuse(const cs_request *request);
 /* Whether a script of this request has a sandbox or a limit. */
 bool cs_confine_is_needed(const cs_request *request);
 /* Makes the sandbox of the request's script and enters strict where that is asked for. OK, or

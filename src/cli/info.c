@@ -7,6 +7,7 @@
 #include "base/hash_table.h"
 #include "bind/lua_text.h"
 #include "cli/artwork_info.h"
+#include "cli/confine.h"
 #include "cli/interrupt.h"
 #include "cli/names.h"
 #include "cli/picture_info.h"
@@ -130,14 +131,19 @@ static cs_exit inform_artwork(celspan_context *context, const char *path, cs_art
   return outcome == CS_EXIT_OK ? cs_artwork_info_print(context, path, kind) : outcome;
 }
 
-cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
-  const char *path = request->operands[0];
-  cs_artwork kind = cs_artwork_info_kind(path);
+static cs_exit inform_file(celspan_context *context, const char *path, cs_artwork kind) {
   if (kind != CS_ARTWORK_NONE)
     return inform_artwork(context, path, kind);
   if (cs_span_reader_accepts(path))
     return inform_spans(context, path);
-  if (!cs_lua_text_accepts(path))
-    return cs_picture_info_print(context, path);
-  return inform_script(context, request);
+  return cs_picture_info_print(context, path);
+}
+
+cs_exit cs_verb_info(celspan_context *context, const cs_request *request) {
+  const char *path = request->operands[0];
+  cs_artwork kind = cs_artwork_info_kind(path);
+  if (kind == CS_ARTWORK_NONE && !cs_span_reader_accepts(path) && cs_lua_text_accepts(path))
+    return inform_script(context, request);
+  cs_exit outcome = cs_confine_refuse(request);
+  return outcome == CS_EXIT_OK ? inform_file(context, path, kind) : outcome;
 }

@@ -8,6 +8,7 @@
 
 #include "bind/host.h"
 #include "bind/lua_error.h"
+#include "cli/confine.h"
 #include "cli/lines.h"
 #include "cli/script.h"
 #include "cli/verbs.h"
@@ -109,7 +110,10 @@ cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request) {
     return cs_report_usage("-o: '%s' must end in .xdts, .csv or .txt", out);
   job j = {.request = request, .is_script = ends_with(request->operands[0], ".lua")};
   cs_script script;
-  cs_exit outcome =
+  cs_exit outcome = j.is_script ? CS_EXIT_OK : cs_confine_refuse(request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  outcome =
       j.is_script ? cs_script_open(context, request, &script) : cs_script_start(context, &script);
   if (outcome == CS_EXIT_OK)
     outcome = call(&script, &j);

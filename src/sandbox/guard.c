@@ -190,32 +190,62 @@ void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context) {
   set_hook(guard, L);
 }
 
+static void kill_late(cs_guard *guard) {
+  char sentence[160];
+  int64_t deadline = atomic_load_explicit(&guard->deadline, memory_order_relaxed);
+  if (!deadline || now() <= deadline + GRACE)
+    return;
+  snprintf(sentence, sizeof sentence,
+           "the script ran for more than %g seconds (--limit time=SECONDS allows more)",
+           guard->limits.seconds);
+  guard->kill(sentence);
+}
+
 static void *watch(void *user) {
   cs_guard *guard = user;
-  for (const struct timespec pause = {0, POLL};; nanosleep(&pause, NULL)) {
-    int64_t deadline = atomic_load_explicit(&guard->deadline, memory_order_relaxed);
-    if (!deadline || now() <= deadline + GRACE)
-      continue;
-    char sentence[160];
-    snprintf(sentence, sizeof sentence,
-             "the script ran for more than %g seconds (--limit time=SECONDS allows more)",
-             guard->limits.seconds);
-    guard->kill(sentence);
+  pthread_mutex_lock(&guard->lock);
+  while (!guard->is_finished) {
+    struct timespec until;
+    clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += POLL;
+    until.tv_sec += until.tv_nsec / SECOND;
+    until.tv_nsec %= SECOND;
+    pthread_cond_timedwait(&guard->finished, &guard->lock, &until);
+    kill_late(guard);
   }
+  pthread_mutex_unlock(&guard->lock);
   return NULL;
 }
 
 /* Without a thread the hook alone ends scripts. It takes no signals: those are for the main
  * thread. */
 static void start_watchdog(cs_guard *guard) {
-  pthread_t thread;
   sigset_t all, before;
+  pthread_condattr_t attributes;
+  pthread_condattr_init(&attributes);
+  pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+  pthread_mutex_init(&guard->lock, NULL);
+  pthread_cond_init(&guard->finished, &attributes);
+  pthread_condattr_destroy(&attributes);
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  if (pthread_create(&thread, NULL, watch, guard) == 0)
-    pthread_detach(thread);
+  guard->has_watchdog = pthread_create(&guard->watchdog, NULL, watch, guard) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
-  guard->has_watchdog = true;
+  if (!guard->has_watchdog)
+    guard->kill = NULL;
+}
+
+void cs_guard_finish(cs_guard *guard) {
+  if (!guard->has_watchdog)
+    return;
+  pthread_mutex_lock(&guard->lock);
+  guard->is_finished = true;
+  pthread_cond_signal(&guard->finished);
+  pthread_mutex_unlock(&guard->lock);
+  pthread_join(guard->watchdog, NULL);
+  pthread_cond_destroy(&guard->finished);
+  pthread_mutex_destroy(&guard->lock);
+  guard->has_watchdog = false;
 }
 
 static void set_deadline(cs_guard *guard) {

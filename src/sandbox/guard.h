@@ -18,6 +18,7 @@
 #define CS_SANDBOX_GUARD_H
 
 #include <lua.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -57,11 +58,16 @@ typedef struct cs_guard {
   size_t printed;
   char tripped[256];         /* the sentence of the limit that was hit; "": none */
   _Atomic(int64_t) deadline; /* of the call, in nanoseconds of the monotonic clock; 0: none */
-  bool has_watchdog;
+  bool has_watchdog, is_finished;
+  pthread_t watchdog;
+  pthread_mutex_t lock; /* of is_finished */
+  pthread_cond_t finished;
 } cs_guard;
 
 /* Begins without a state, which is made with the guard's allocator. */
 void cs_guard_init(cs_guard *guard, const cs_limits *limits);
+/* The state must be closed. */
+void cs_guard_finish(cs_guard *guard);
 /* lua_Alloc; user: the guard. */
 void *cs_guard_allocate(void *user, void *storage, size_t old_size, size_t new_size);
 /* The state's main thread belongs to this guard, and so do all coroutines that are made later. */

@@ -17,6 +17,7 @@ void cs_sandbox_init(cs_sandbox *sandbox, const cs_limits *limits) {
 }
 
 void cs_sandbox_finish(cs_sandbox *sandbox) {
+  cs_guard_finish(&sandbox->guard);
   cs_roots_finish(&sandbox->roots);
   free(sandbox->search);
   sandbox->search = NULL;

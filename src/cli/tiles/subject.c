@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "cli/confine.h"
 #include "scene/scene.h"
 
 static bool is_script(const char *path) {
@@ -20,7 +21,10 @@ static void set_name(const char *path, char name[CS_TILE_SUBJECT_NAME]) {
 }
 
 static cs_exit open_still(cs_tile_subject *subject, const cs_request *request) {
-  cs_exit outcome = cs_still_open(subject->context, request->operands[0], &subject->still);
+  cs_exit outcome = cs_confine_refuse(request);
+  if (outcome != CS_EXIT_OK)
+    return outcome;
+  outcome = cs_still_open(subject->context, request->operands[0], &subject->still);
   return outcome == CS_EXIT_OK ? cs_still_frame(&subject->still, request, &subject->frame)
                                : outcome;
 }
