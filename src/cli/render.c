@@ -229,7 +229,10 @@ static cs_exit refuse_resume(const cs_request *request) {
 static cs_exit refuse_output(celspan_context *context, const cs_request *request,
                              size_t frame_count) {
   if (cs_video_is_wanted(request, frame_count))
-    return cs_video_refuse(request, frame_count);
+    return request->is_strict
+               ? cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render "
+                                 "frames, and make the video of them")
+               : cs_video_refuse(request, frame_count);
   if (request->quality.is_given)
     return cs_report_usage("--quality belongs to videos, such as film.mp4");
   return request->output ? cs_target_refuse(context, request->output, request) : CS_EXIT_OK;

@@ -123,12 +123,13 @@ static void trip_time(cs_guard *guard) {
 }
 
 static void trip_memory(cs_guard *guard) {
+  bool is_large = guard->limits.memory >= (size_t)1 << 20;
   int length = guard->refused_line ? snprintf(guard->tripped, sizeof guard->tripped,
                                               "%s:%d: ", guard->refused_in, guard->refused_line)
                                    : 0;
   snprintf(guard->tripped + length, sizeof guard->tripped - (size_t)length,
-           "the script needs more than %zu MiB (--limit memory=SIZE allows more)",
-           guard->limits.memory >> 20);
+           "the script needs more than %zu %s (--limit memory=SIZE allows more)",
+           guard->limits.memory >> (is_large ? 20 : 10), is_large ? "MiB" : "KiB");
 }
 
 /* Compares with the limits and raises when one is hit. */

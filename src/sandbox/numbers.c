@@ -7,44 +7,59 @@
 #include "base/elementary.h"
 #include "sandbox/library.h"
 
+/* celspan's functions are for finite numbers, and angles that are not a great many turns; of others
+ * the library of C knows the answer. */
+#define ANGLE_MOST 1e6
+
+/* The library keeps the sign of 0. */
+static bool is_angle(double x) { return x != 0 && fabs(x) <= ANGLE_MOST; }
+
 static int sine(lua_State *L) {
-  double s, c;
-  cs_elementary_sincos(luaL_checknumber(L, 1), &s, &c);
-  lua_pushnumber(L, s);
+  double x = luaL_checknumber(L, 1), s, c;
+  if (is_angle(x))
+    cs_elementary_sincos(x, &s, &c);
+  lua_pushnumber(L, is_angle(x) ? s : sin(x));
   return 1;
 }
 
 static int cosine(lua_State *L) {
-  double s, c;
-  cs_elementary_sincos(luaL_checknumber(L, 1), &s, &c);
-  lua_pushnumber(L, c);
+  double x = luaL_checknumber(L, 1), s, c;
+  if (is_angle(x))
+    cs_elementary_sincos(x, &s, &c);
+  lua_pushnumber(L, is_angle(x) ? c : cos(x));
   return 1;
 }
 
 static int tangent(lua_State *L) {
-  lua_pushnumber(L, cs_elementary_tan(luaL_checknumber(L, 1)));
+  double x = luaL_checknumber(L, 1);
+  lua_pushnumber(L, is_angle(x) ? cs_elementary_tan(x) : tan(x));
   return 1;
 }
 
+static double arc_tangent_of(double y, double x) {
+  return isfinite(x) && isfinite(y) ? cs_elementary_atan2(y, x) : atan2(y, x);
+}
+
 static int arc_tangent(lua_State *L) {
-  lua_pushnumber(L, cs_elementary_atan2(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1)));
+  lua_pushnumber(L, arc_tangent_of(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1)));
   return 1;
 }
 
 static int arc_sine(lua_State *L) {
   double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, cs_elementary_atan2(x, sqrt((1 - x) * (1 + x))));
+  lua_pushnumber(L, arc_tangent_of(x, sqrt((1 - x) * (1 + x))));
   return 1;
 }
 
 static int arc_cosine(lua_State *L) {
   double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, cs_elementary_atan2(sqrt((1 - x) * (1 + x)), x));
+  lua_pushnumber(L, arc_tangent_of(sqrt((1 - x) * (1 + x)), x));
   return 1;
 }
 
 static int exponential(lua_State *L) {
-  lua_pushnumber(L, cs_elementary_exp(luaL_checknumber(L, 1)));
+  double x = luaL_checknumber(L, 1);
+  lua_pushnumber(L, isfinite(x) ? cs_elementary_exp(x) : exp(x));
   return 1;
 }
 

@@ -82,6 +82,9 @@ static bool is_of_class(int c, int class) {
   case 'x':
     is = isxdigit(c);
     break;
+  case 'z': /* of older versions, which Lua still knows */
+    is = c == 0;
+    break;
   default:
     return class == c;
   }
@@ -163,7 +166,7 @@ static const char *match_again(cs_match *m, const char *s, int digit) {
     luaL_error(m->L, "invalid capture index %%%d", i + 1);
   ptrdiff_t length = m->captures[i].length;
   if (length == CS_CAPTURE_PLACE)
-    luaL_error(m->L, "invalid capture index %%%d", i + 1);
+    return NULL; /* no text is like it */
   step(m, (size_t)length / 8 + 1);
   bool is = m->subject_end - s >= length && memcmp(m->captures[i].begin, s, (size_t)length) == 0;
   return is ? s + length : NULL;

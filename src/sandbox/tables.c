@@ -46,7 +46,7 @@ static int insert(lua_State *L) {
 
 static int remove_item(lua_State *L) {
   lua_Integer length = check_length(L, 1, "remove");
-  if (lua_gettop(L) > 1 && luaL_checkinteger(L, 2) > 0)
+  if (!lua_isnoneornil(L, 2) && luaL_checkinteger(L, 2) > 0)
     check_count(L, "remove", luaL_checkinteger(L, 2), length);
   return call(L);
 }

@@ -68,6 +68,119 @@ describe("the sandbox", function()
     return HEAD:format(bench.folder .. "/secret.txt", "link.txt", bench.folder .. "/out.png", bench.folder)
   end
 
+  describe("agrees with Lua", function()
+    for seed = 1, 2 do
+      it("in what it replaces, with random arguments " .. seed, function()
+        local command = ("'%s' info tests/sandbox/agree.lua --limit print=0 %%s -- %d"):format(workbench.absolute, seed)
+        local code, _, own = bench:shell(command:format(""))
+        assert.equal(0, code, own:sub(-400))
+        local _, _, lua = bench:shell(command:format("--trust"))
+        local line = 0
+        local others = lua:gmatch "[^\n]*"
+        for one in own:gmatch "[^\n]*" do
+          line = line + 1
+          assert.equal(others(), one, "line " .. line)
+        end
+        assert.is_true(line > 30000)
+        assert.equal(#lua, #own)
+      end)
+    end
+  end)
+
+  describe("is asked for", function()
+    local function celspan(arguments)
+      return bench:shell(("cd '%s' && '%s' %s"):format(bench.folder, workbench.absolute, arguments))
+    end
+
+    local function refused(arguments, pattern, code)
+      local got, _, err = celspan(arguments)
+      assert.equal(code or 2, got, err)
+      assert.truthy(err:find(pattern, 1, true), err)
+    end
+
+    setup(function()
+      bench:write("scripts/still.lua", head() .. "return FILM")
+      bench:write("scripts/fonts.lua", head() .. 'return celspan.rostrum{ celspan.cel{ celspan.text{ "x", font = ... } } }')
+      bench:write("scripts/needs.lua", 'assert(require "beside" == "escaped")\n' .. head() .. "return FILM")
+      bench:write("scripts/loops.lua", head() .. [[return FILM:with{ frames = 3, frame = function(f)
+        while f.number == 2 do end return ROSTRUM end }]])
+      bench:write("scripts/counts.lua", head() .. [[return FILM:with{ frame = function(f)
+        for i = 1, 3e5 do end return ROSTRUM end }]])
+      bench:write("scripts/sound.lua", head() .. 'return FILM:with{ frames = 2, sound = "../secret.txt" }')
+      bench:write("scripts/writes.lua", head() .. 'assert(celspan.render(FILM, OUT)) return FILM')
+    end)
+
+    it("with folders to read below", function()
+      refused("info scripts/needs.lua", "module 'beside' not found", 3)
+      assert.equal(0, (celspan("info scripts/needs.lua --allow .")))
+      assert.equal(0, (bench:shell(("cd '%s' && CELSPAN_PATH='./?.lua' '%s' info scripts/needs.lua")
+        :format(bench.folder, workbench.absolute))))
+      refused("info scripts/needs.lua --allow none", "there is no such folder")
+      refused("info scripts/still.lua --trust --allow .", "leave --allow out")
+      refused("info scripts/still.lua --trust --strict", "leave --strict out")
+    end)
+
+    it("with limits by their names", function()
+      for _, bad in ipairs { "x=1", "memory", "memory=", "memory=1X", "memory=-1", "steps=1K", "time=1e9", "time=nan",
+        "memory=1M,", ",memory=1M", "memory=1M,x=2", "steps= 1" } do
+        refused(("info scripts/still.lua --limit '%s'"):format(bad), "--limit: '" .. bad .. "' is not")
+      end
+      assert.equal(0, (celspan("info scripts/still.lua --limit memory=64M,steps=1e6 --limit time=0.5,print=0")))
+      refused("info scripts/still.lua --limit memory=20K", "needs more than 20 KiB (--limit memory=", 6)
+      refused("info scripts/counts.lua --limit steps=1000", "scripts/counts.lua:6: frame 1: more than 1000 steps", 6)
+    end)
+
+    it("for scripts alone", function()
+      for _, option in ipairs { "--trust", "--strict", "--allow .", "--limit time=1" } do
+        refused(("info '%s/scripts/pictures/canal.png' %s"):format(os.getenv "PWD", option), "are for scripts")
+      end
+    end)
+
+    it("not with --trust, but for limits that are named", function()
+      assert.equal(0, (celspan("info scripts/writes.lua --trust")))
+      assert.truthy(bench:read("out.png"))
+      os.remove(bench.folder .. "/out.png")
+      refused("info scripts/writes.lua", "write no files", 3)
+      refused("render scripts/loops.lua --hash --trust --limit steps=1e6", "scripts/loops.lua:6: frame 2: more than 1000000", 6)
+    end)
+
+    it("frame by frame: --keep-going goes on after a limit", function()
+      local code, out, err = celspan("render scripts/loops.lua --hash --keep-going --limit steps=1e6 --progress none")
+      assert.equal(1, code, err)
+      assert.truthy(out:find("^1 %x+\n3 %x+\n$"), out)
+      assert.truthy(err:find("scripts/loops.lua:6: frame 2: more than 1000000 steps", 1, true), err)
+    end)
+
+    it("in steps that do not depend on the run", function()
+      local least, most = 1e5, 1e6
+      while most - least > 1000 do
+        local middle = math.floor((least + most) / 2)
+        local code = celspan(("info scripts/counts.lua --limit steps=%d"):format(middle))
+        if code == 0 then most = middle else least = middle end
+      end
+      for _ = 1, 3 do
+        assert.equal(6, (celspan(("info scripts/counts.lua --limit steps=%d"):format(least))))
+        assert.equal(0, (celspan(("info scripts/counts.lua --limit steps=%d"):format(most))))
+      end
+    end)
+
+    it("for the sound of a film too", function()
+      local code, _, err = celspan("render scripts/sound.lua -o out.mp4")
+      assert.equal(3, code, err)
+      assert.truthy(err:find("lets scripts read below", 1, true), err)
+    end)
+
+    it("by the kernel, with the same pixels", function()
+      local code, out, err = celspan("render scripts/still.lua --hash --strict --progress none")
+      if code == 6 and err:find("--strict: ", 1, true) then return pending "the kernel cannot confine a process" end
+      assert.equal(0, code, err)
+      assert.equal(out, (select(2, celspan("render scripts/still.lua --hash --progress none"))))
+      assert.equal(0, (celspan("render scripts/still.lua -o new/folder/still.png --strict --progress none")))
+      assert.truthy(bench:read("new/folder/still.png"))
+      refused("render scripts/still.lua -o film.mp4 --strict", "--strict starts no programs")
+    end)
+  end)
+
   describe("holds", function()
     local escapes = require "tests.sandbox.escapes"
 
