@@ -49,46 +49,19 @@ static const char *end_of_single(const cs_match *m, const char *at) {
   return first == '[' ? end_of_set(m, at) : at;
 }
 
+static int is_zero(int c) { return c == 0; } /* %z of older versions, which Lua still knows */
+
 static bool is_of_class(int c, int class) {
-  bool is = false;
-  switch (tolower(class)) {
-  case 'a':
-    is = isalpha(c);
-    break;
-  case 'c':
-    is = iscntrl(c);
-    break;
-  case 'd':
-    is = isdigit(c);
-    break;
-  case 'g':
-    is = isgraph(c);
-    break;
-  case 'l':
-    is = islower(c);
-    break;
-  case 'p':
-    is = ispunct(c);
-    break;
-  case 's':
-    is = isspace(c);
-    break;
-  case 'u':
-    is = isupper(c);
-    break;
-  case 'w':
-    is = isalnum(c);
-    break;
-  case 'x':
-    is = isxdigit(c);
-    break;
-  case 'z': /* of older versions, which Lua still knows */
-    is = c == 0;
-    break;
-  default:
-    return class == c;
-  }
-  return isupper(class) ? !is : is;
+  static const struct class {
+    char letter;
+    int (*holds)(int c);
+  } classes[] = {{'a', isalpha}, {'c', iscntrl},  {'d', isdigit}, {'g', isgraph},
+                 {'l', islower}, {'p', ispunct},  {'s', isspace}, {'u', isupper},
+                 {'w', isalnum}, {'x', isxdigit}, {'z', is_zero}};
+  for (size_t i = 0; i < sizeof classes / sizeof *classes; i++)
+    if (tolower(class) == classes[i].letter)
+      return (classes[i].holds(c) != 0) != (isupper(class) != 0);
+  return class == c;
 }
 
 /* at: behind the '['; last: its ']'. */
