@@ -82,6 +82,11 @@ return {
     texture = celspan.radial{ centre = { 0, 0 }, radius = 1, { 0, "#fff" }, { 1, "#000" } } } } }, { size = { 30000, 30000 } })]], 6 },
 
   -- memory
+  { "a text that doubles, caught", [[pcall(function() local s = "x" while true do s = s .. s end end)]], 6 },
+  { "a text that doubles, caught by xpcall", [[xpcall(function() local s = "x" while true do s = s .. s end end, print)]], 6 },
+  { "a text that doubles in a coroutine", [[coroutine.resume(coroutine.create(function()
+    local s = "x" while true do s = s .. s end end))]], 6 },
+  { "a text that doubles by rep, caught", [[pcall(function() local s = "x" while true do s = s:rep(2) end end)]], 6 },
   { "a text that doubles", [[local s = "x" while true do s = s .. s end]], 6 },
   { "a table that grows", [[local t = {} while true do t[#t + 1] = {} end]], 6 },
   { "a table of texts", [[local t = {} for i = 1, 1e9 do t[i] = ("x"):rep(1000) .. i end]], 6 },
