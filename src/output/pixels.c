@@ -122,6 +122,23 @@ static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba
   cs_srgb8_choose(cs_isa_best())(rgba, count, out);
 }
 
+/* Light that is not divided by alpha is coded as if it were opaque. */
+static void code_8_srgb_premultiplied(const celspan_coding *coding, const float *rgba, size_t count,
+                                      unsigned char *out) {
+  cs_srgb8 code = cs_srgb8_choose(cs_isa_best());
+  (void)coding;
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 4 * portion) {
+    float opaque[4 * CHUNK];
+    portion = count < CHUNK ? count : CHUNK;
+    memcpy(opaque, rgba, 4 * portion * sizeof *rgba);
+    for (size_t i = 0; i < portion; i++)
+      opaque[4 * i + 3] = 1;
+    code(opaque, portion, out);
+    for (size_t i = 0; i < portion; i++)
+      out[4 * i + 3] = (unsigned char)to_integer(rgba[4 * i + 3], 255);
+  }
+}
+
 static void code_8(const celspan_coding *coding, const float *rgba, size_t count,
                    unsigned char *out) {
   for (; count > 0; count--, rgba += 4, out += 4) {
@@ -174,9 +191,9 @@ static coder choose_coder(const celspan_coding *coding) {
   case CELSPAN_DEPTH_FLOAT:
     return code_float;
   default:
-    return coding->transfer == CELSPAN_TRANSFER_SRGB && coding->alpha == CELSPAN_ALPHA_STRAIGHT
-               ? code_8_srgb_straight
-               : code_8;
+    return coding->transfer != CELSPAN_TRANSFER_SRGB ? code_8
+           : coding->alpha == CELSPAN_ALPHA_STRAIGHT ? code_8_srgb_straight
+                                                     : code_8_srgb_premultiplied;
   }
 }
 

@@ -261,6 +261,47 @@ describe("a video", function()
       local _, alone = celspan "--hash --alpha premultiplied --background '#fff'"
       assert.equal(alone, digests)
     end)
+
+    it_reads("makes a frame once for its video and its digest, which equal neighbours share", function()
+      bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 8, 8 }, frames = 2, frame = function(f)
+  return celspan.rostrum { antialias = "none", celspan.cel { celspan.scanline { bounds = { 0, 0, 8, 8 },
+    spans = function(y) print("row " .. y) return {} end } } }
+end }]])
+      local function rows(ending)
+        local code, out, err = celspan("-o out.%s --hash", ending)
+        assert.equal(0, code, err)
+        return select(2, (out .. err):gsub("row ", ""))
+      end
+      for _, ending in ipairs { "mkv", "mov" } do assert.equal(16, rows(ending)) end
+      bench:write("film.lua", chart_script())
+      local _, digests = celspan "-o out.mov --hash"
+      local list = {}
+      for digest in digests:gmatch "%d+ (%x+)\n" do list[#list + 1] = digest end
+      assert.equal(12, #list)
+      for i = 1, 12, 2 do
+        assert.equal(list[i], list[i + 1]) -- on twos
+        assert.is_true(i == 11 or list[i + 1] ~= list[i + 2])
+      end
+    end)
+
+    it_reads("has an odd number of pixels a side where its colours are halved", function()
+      bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 33, 17 }, frames = 2, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 33, 17, texture = "#285a3c" } } }
+end }]])
+      render "-o out.webm --background '#000'"
+      assert.equal("yuv420p", probe("out.webm", "stream=pix_fmt").pix_fmt)
+      local bytes = pixels("out.webm", 1, 33, 17)
+      for _, corner in ipairs { { 0, 0 }, { 31, 0 }, { 0, 15 }, { 31, 15 } } do
+        local found = mean(bytes, 33, corner[1], corner[2], 2)
+        for channel, wanted in ipairs { 0x28, 0x5a, 0x3c, 255 } do
+          assert.is_true(math.abs(found[channel] - wanted) <= 2, channel .. ": " .. found[channel])
+        end
+      end
+    end)
   end)
 
   describe("with sound", function()

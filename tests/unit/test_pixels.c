@@ -80,6 +80,29 @@ static void check_straight(void) {
   CHECK(floats[0] == 0.5f && floats[1] == 1 && floats[2] == 0 && floats[3] == 0.5f);
 }
 
+/* Premultiplied, the light of a colour is coded as if it were opaque, and its alpha as it is. */
+static void check_premultiplied(void) {
+  enum { COUNT = 1000 };
+  static float light[4 * COUNT], opaque[4 * COUNT];
+  static unsigned char found[4 * COUNT], wanted[4 * COUNT];
+  celspan_coding coding = cs_pixels_resolve(NULL, CELSPAN_DEPTH_8);
+  for (int i = 0; i < 4 * COUNT; i++) {
+    light[i] = i % 4 == 3 ? (float)(i / 4 % 256) / 255 : (float)(i * 37 % 1009) / 1000;
+    opaque[i] = i % 4 == 3 ? 1 : light[i];
+  }
+  const celspan_span spans[2] = {
+      {.x1 = COUNT, .kind = CELSPAN_SPAN_ARRAY, .array = light},
+      {.x1 = COUNT, .kind = CELSPAN_SPAN_ARRAY, .array = opaque},
+  };
+  cs_pixels_row(&coding, &spans[1], 1, wanted);
+  coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+  cs_pixels_row(&coding, &spans[0], 1, found);
+  int wrong = 0;
+  for (int i = 0; i < 4 * COUNT; i++)
+    wrong += found[i] != (i % 4 == 3 ? i / 4 % 256 : wanted[i]);
+  CHECK(wrong == 0);
+}
+
 static void check_16(void) {
   celspan_coding coding = {CELSPAN_DEPTH_16, CELSPAN_TRANSFER_LINEAR, CELSPAN_ALPHA_STRAIGHT};
   int wrong = 0;
@@ -290,6 +313,7 @@ int main(void) {
   check_defaults();
   check_half();
   check_straight();
+  check_premultiplied();
   check_16();
   check_rows();
   check_lengths((celspan_coding){CELSPAN_DEPTH_8, CELSPAN_TRANSFER_SRGB, CELSPAN_ALPHA_STRAIGHT});

@@ -5,6 +5,8 @@
 #include <stdio.h>
 
 #define USUAL_QUALITY 75
+#define FROM_RGB                                                                                   \
+  "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
 #define MOST_DENOMINATOR 1001000 /* of frames a second: 24000/1001 and the like are exact */
 
 /* ---------------------------------------------------------------- arguments */
@@ -61,6 +63,8 @@ static void add_rate(cs_video_command *command, double rate) {
 
 /* Bytes that hold no alpha are called so: a frame over black has its alpha in them. */
 static const char *frame_pixels(const cs_video_format *format, const cs_request *request) {
+  if (cs_video_layout_of(format, request) != CS_VIDEO_RGBA)
+    return cs_video_pixels(format, request);
   if (cs_video_is_deep(format, request))
     return "rgba64le";
   return cs_video_has_alpha(format, request) ? "rgba" : "rgb0";
@@ -101,19 +105,19 @@ static void add_indexed(cs_video_command *command, const cs_video_format *format
 
 /* ffmpeg takes pictures of any size for BT.601 unless it is told otherwise, and tells the file
  * nothing unless it is told to. Rounding is exact, and where 2 x 2 pixels share a colour it is their
- * mean: flat colours stay what they are. */
+ * mean: flat colours stay what they are. Planes that were made here are left as they are. */
 static void add_yuv(cs_video_command *command, const cs_video_format *format,
                     const cs_request *request) {
   bool is_rec709 = request->coding.transfer == CELSPAN_TRANSFER_REC709;
   const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
+  bool is_made = cs_video_layout_of(format, request) != CS_VIDEO_RGBA;
   const char *const tags[] = {
       "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
       "bt709",        "-color_trc", transfer,      NULL};
   add(command, "-vf");
   add_text(command,
-           "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
-           "format=%s,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=%s",
-           cs_video_pixels(format, request), transfer);
+           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=%s",
+           is_made ? "" : FROM_RGB, cs_video_pixels(format, request), transfer);
   add_all(command, tags);
 }
 

@@ -1,6 +1,6 @@
 /* The command that makes a video of raw frames: the arguments of ffmpeg.
  *
- *   frames on standard input --> matrix and range of BT.709 --> encoder --> muxer --> file
+ *   frames on standard input [--> matrix and range of BT.709] --> encoder --> muxer --> file
  *   sound, moved and cut to the frames ------------------> encoder --^
  *
  * INVARIANT: no argument is read by a shell, and names of files begin with "file:", so that none of

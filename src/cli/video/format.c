@@ -1,6 +1,7 @@
 #include "cli/video/format.h"
 
 #include <math.h>
+#include <string.h>
 #include <strings.h>
 
 /* Drawings are flat between sharp edges: -tune animation spends bits on edges, not on grain. */
@@ -126,6 +127,13 @@ const char *cs_video_pixels(const cs_video_format *format, const cs_request *req
   if (cs_video_has_alpha(format, request))
     return cs_video_is_deep(format, request) ? format->deep_alpha_pixels : format->alpha_pixels;
   return cs_video_is_deep(format, request) ? format->deep_pixels : format->pixels;
+}
+
+cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_request *request) {
+  const char *pixels = cs_video_pixels(format, request);
+  return strcmp(pixels, "yuv420p") == 0   ? CS_VIDEO_420
+         : strcmp(pixels, "yuv444p") == 0 ? CS_VIDEO_444
+                                          : CS_VIDEO_RGBA;
 }
 
 celspan_coding cs_video_coding(const cs_video_format *format, const cs_request *request) {

@@ -1,6 +1,6 @@
 /* The video formats: what file each ending makes, by which encoder, and of what pixels.
  *
- *   film   RGB frames --> pixels of the encoder, by ffmpeg --> encoder --> file
+ *   film   planes of Y'CbCr, or RGBA that ffmpeg turns into them --> encoder --> file
  *
  *   ending  encoder      pixels                               alpha      sound
  *   mp4     H.264        4:2:0, 8 bits (10 under --depth 16)  none       AAC
@@ -40,6 +40,13 @@ typedef struct cs_video_format {
   } mark;
 } cs_video_format;
 
+/* How frames go to the encoder. */
+typedef enum cs_video_layout {
+  CS_VIDEO_RGBA, /* of 8 or 16 bits; ffmpeg makes what the encoder takes of them */
+  CS_VIDEO_444,  /* planes of 8 bits, made here (cli/video/planes.h) */
+  CS_VIDEO_420
+} cs_video_layout;
+
 /* The format of that name, or else NULL. */
 const cs_video_format *cs_video_format_named(const char *name);
 /* Whether frames go to the encoder with 16 bits, and whether the file has alpha. */
@@ -47,6 +54,8 @@ bool cs_video_is_deep(const cs_video_format *format, const cs_request *request);
 bool cs_video_has_alpha(const cs_video_format *format, const cs_request *request);
 /* The encoder's pixels under the options; NULL: it has none such. */
 const char *cs_video_pixels(const cs_video_format *format, const cs_request *request);
+/* Planes are made here where the encoder takes 8 bits without alpha. */
+cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_request *request);
 /* The coding of the frames that the encoder is sent. Over black where there is no alpha. */
 celspan_coding cs_video_coding(const cs_video_format *format, const cs_request *request);
 /* What the quality option is at a quality of 0 to 100; the same quality looks alike in every

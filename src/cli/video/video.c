@@ -8,7 +8,12 @@
 #include <unistd.h>
 
 #include "cli/video/command.h"
+#include "cli/video/planes.h"
+#include "output/dither.h"
 #include "output/ending.h"
+#include "output/pixels.h"
+#include "output/sink.h"
+#include "output/tee.h"
 #include "output/temporary.h"
 
 #define MOST_SIDE 16384 /* of H.264, VP9 and WebP alike */
@@ -152,9 +157,17 @@ static cs_exit find_sound(const cs_video *video, cs_script *script, const cs_seq
 
 static bool is_same(const char *pattern, const char *name) { return strcmp(pattern, name) == 0; }
 
-static celspan_status start(cs_video *video, const cs_video_command *command, int32_t height) {
+static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
+  return video->layout == CS_VIDEO_RGBA
+             ? video->stride * (size_t)height
+             : cs_planes_size(width, height, video->layout == CS_VIDEO_420);
+}
+
+static celspan_status start(cs_video *video, const cs_video_command *command, int32_t width,
+                            int32_t height) {
+  size_t size = frame_size(video, width, height);
   celspan_status status = cs_encoder_open(&video->encoder, video->context, video->request->output,
-                                          command->arguments, video->stride * (size_t)height);
+                                          command->arguments, size);
   if (status != CELSPAN_OK)
     cs_file_discard(video->file, video->context);
   return status;
@@ -195,8 +208,9 @@ cs_exit cs_video_open(cs_video *out, cs_script *script, const cs_request *reques
     outcome = open_file(out, &name);
   if (outcome != CS_EXIT_OK)
     return outcome;
+  out->layout = cs_video_layout_of(out->format, request);
   cs_video_command_encode(&command, out->format, request, &size, &sound, name);
-  return cs_report_failure(script->context, start(out, &command, size.height), NULL);
+  return cs_report_failure(script->context, start(out, &command, size.width, size.height), NULL);
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -207,11 +221,59 @@ static bool is_repeated(const cs_video *video, const cs_shoot_frame *frame) {
          frame->scene.b == video->last.b;
 }
 
+/* A sink of the frame's pixels, as the encoder is sent them. planes: kept by the sink. */
+static celspan_status open_sink(const cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels, cs_planes *planes, celspan_sink *out) {
+  if (video->layout != CS_VIDEO_RGBA) {
+    *out = cs_planes_sink(planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+    return CELSPAN_OK;
+  }
+  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_memory(video->context, &plain, pixels, video->stride, out));
+  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+}
+
+/* A sink of the hash of its RGBA pixels. */
+static celspan_status open_digest(cs_video *video, const celspan_frame_desc *desc,
+                                  celspan_sink *out) {
+  celspan_coding plain = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  CS_TRY(cs_sink_digest(video->context, &plain, video->digest, out));
+  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+}
+
+/* Sends and hashes the frame in one pass over its rows. */
+static celspan_status make_both(cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels) {
+  cs_planes planes;
+  cs_tee tee;
+  CS_TRY(open_sink(video, desc, pixels, &planes, &tee.sinks[0]));
+  celspan_status status = open_digest(video, desc, &tee.sinks[1]);
+  if (status != CELSPAN_OK) {
+    cs_sink_discard(video->context, &tee.sinks[0]);
+    return status;
+  }
+  celspan_sink sink = cs_tee_sink(&tee);
+  status = celspan_frame_render(video->context, desc, &sink, NULL);
+  for (int i = 0; i < 2 && !tee.is_ended; i++)
+    cs_sink_discard(video->context, &tee.sinks[i]);
+  return status;
+}
+
+static celspan_status make_one(const cs_video *video, const celspan_frame_desc *desc,
+                               unsigned char *pixels) {
+  cs_planes planes;
+  if (video->layout == CS_VIDEO_RGBA)
+    return celspan_frame_pixels(video->context, desc, &video->coding, pixels, video->stride, NULL);
+  celspan_sink sink =
+      cs_planes_sink(&planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+  return celspan_frame_render(video->context, desc, &sink, NULL);
+}
+
 static celspan_status make(cs_video *video, const celspan_frame_desc *desc) {
   int place;
   CS_TRY(cs_encoder_take(&video->encoder, &place));
-  CS_TRY(celspan_frame_pixels(video->context, desc, &video->coding,
-                              cs_encoder_pixels(&video->encoder, place), video->stride, NULL));
+  unsigned char *pixels = cs_encoder_pixels(&video->encoder, place);
+  CS_TRY(video->request->hash ? make_both(video, desc, pixels) : make_one(video, desc, pixels));
   cs_encoder_give(&video->encoder, place);
   return CELSPAN_OK;
 }
@@ -226,9 +288,8 @@ celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
   }
   video->has_last = frame->is_named;
   video->last = frame->scene;
-  return video->request->hash
-             ? celspan_frame_digest(video->context, desc, &video->coding, frame->digest)
-             : CELSPAN_OK;
+  memcpy(frame->digest, video->digest, sizeof frame->digest);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- the end */

@@ -23,11 +23,13 @@ typedef struct cs_video {
   const cs_request *request;
   const cs_video_format *format;
   celspan_coding coding;
-  size_t stride;
+  cs_video_layout layout;
+  size_t stride; /* of RGBA */
   cs_file *file; /* owned */
   cs_encoder encoder;
   bool has_last; /* the frame given last can be compared with the next one */
   cs_hash last;
+  uint64_t digest[2]; /* of its pixels, where digests are asked for */
 } cs_video;
 
 /* Whether OUT is a video; frame_count 0: not known yet, and what may be a picture is not refused. */
