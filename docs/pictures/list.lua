@@ -38,6 +38,8 @@ return {
   { name = "picture", script = "scripts/picture.lua", frame = 40, size = "640x360" },
   { name = "layers", script = "scripts/layers.lua", frame = 20, size = "640x360" },
   { name = "valley", page = "docs/guide.md", frame = 32, size = "600x270" },
+  { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
+  { name = "night", page = "docs/guide-shot.md", frame = 40 },
   { name = "balloon", page = "docs/guide.md", frame = 24 },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },

@@ -14,16 +14,14 @@ local function run(command, ...)
   assert(os.execute(command .. " " .. table.concat(words, " ")))
 end
 
---- The example `name` of a page, as a file of its own.
+local is_saved = {}
+
+--- The example `name` of a page, as a file of its own, beside the others of that page.
 local function extract(page, name)
+  if not is_saved[page] then markdown.save(page, folder .. "/examples", function() return true end) end
+  is_saved[page] = true
   for _, block in ipairs(markdown.blocks(page)) do
-    if block.name == name then
-      local path = folder .. "/examples/" .. name .. ".lua"
-      local file = assert(io.open(path, "wb"))
-      assert(file:write(block.text))
-      file:close()
-      return path
-    end
+    if block.name == name then return folder .. "/examples/" .. name .. ".lua" end
   end
   error(("%s has no example %s.lua"):format(page, name))
 end

@@ -4,8 +4,11 @@
 --              -- name.lua          its file name, else example.lua
 --              -- error: TEXT       it must fail, and TEXT must be in the message
 --              --> TEXT             (anywhere) a line that it prints
---            what is named *_spec.lua is a spec, and passes
+--            what is named *_spec.lua is a spec, and passes; `-- name.lua: a module` is one that
+--            another example requires
+--   ```text  a file that is saved under the name in backquotes before the colon above it
 --   ```sh    commands: those that begin with `celspan` are run, in a folder that holds the examples
+--            and, after `cd FOLDER`, in that folder
 --   ```c     a part of one of the programs in examples/
 local celspan = require "celspan"
 local markdown = require "tests.support.markdown"
@@ -39,22 +42,18 @@ setup(function()
   assert(os.execute(("cp -r %s/scripts/pictures %s/scripts/drawings %s/scripts/type %s/scripts/paintings "
     .. "%s/scripts/demo/line.tsv %s/"):format(root, root, root, root, root, folder)))
   for _, page in ipairs(pages) do
-    for _, block in ipairs(markdown.blocks(page)) do
-      if block.language == "lua" and block.name then
-        local file = assert(io.open(("%s/%s.lua"):format(folder, block.name), "wb"))
-        file:write(block.text)
-        file:close()
-      end
-    end
+    markdown.save(page, folder, function(block)
+      return block.language == "lua" and block.name or block.language == "text"
+    end)
   end
 end)
 
 teardown(function() os.execute("rm -r " .. folder) end)
 
 --- Runs a command in the folder of the examples: exit code, standard output, standard error.
-local function run(command)
-  local _, how, code = os.execute(("cd %s && PATH=$PWD/bin:$PATH && { %s ; } >out.txt 2>err.txt")
-    :format(folder, command))
+local function run(command, where)
+  local _, how, code = os.execute(("cd %s && PATH=$PWD/bin:$PATH && { cd ./%s && %s ; } >out.txt 2>err.txt")
+    :format(folder, where or "", command))
   return how == "signal" and 128 + code or code, markdown.read(folder .. "/out.txt"),
     markdown.read(folder .. "/err.txt")
 end
@@ -99,7 +98,15 @@ describe("the examples of", function()
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do
       local returns = block.text:find "^return " or block.text:find "\nreturn "
-      if block.language == "lua" and returns then
+      local is_module = block.text:find "^%-%- [%w_]+%.lua: a module"
+      if block.language == "lua" and is_module then
+        it(place(page, block) .. " load", function()
+          write_example(block)
+          local code, _, message = run(("LUA_PATH='./?.lua;%s/lua/?.lua;;' LUA_CPATH='%s' %s -e 'require \"%s\"' /dev/null")
+            :format(root, package.cpath, interpreter, block.name))
+          assert.are.equal(0, code, message)
+        end)
+      elseif block.language == "lua" and returns then
         it(place(page, block) .. " render", function()
           local path, error_text = write_example(block)
           local code, _, message = render_small(path)
@@ -129,16 +136,28 @@ describe("the examples of", function()
   end
 end)
 
+--- Whether a command makes a video.
+local function needs_ffmpeg(line)
+  for _, word in ipairs { "ffmpeg", "%.mp4", "%.mov", "%.webm", "%.mkv", "%.gif", "%.webp" } do
+    if line:find(word) then return true end
+  end
+  return false
+end
+
 describe("the commands of", function()
   local has_ffmpeg = os.execute "command -v ffmpeg >/dev/null"
   local run_help = output_of "./run help"
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do
+      local where
       for line in (block.language == "sh" and block.text or ""):gmatch "[^\n]+" do
-        if line:find "^celspan " and (has_ffmpeg or not line:find "ffmpeg") then
+        where = line:match "^cd ([%w_]+)$" or where
+        local here, laid = where, line:match "^celspan init ([%w_]+)$"
+        if line:find "^celspan " and (has_ffmpeg or not needs_ffmpeg(line)) then
           it(place(page, block) .. line .. " run", function()
             local command = line:find "%$first" and "first=1; last=2; " .. line or line
-            local code, _, message = run(command)
+            if laid then command = ("rm -rf %s; %s"):format(laid, line) end
+            local code, _, message = run(command, here)
             check_code(code, message)
           end)
         elseif line:find "^%./run " then

@@ -8,25 +8,40 @@ function markdown.read(path)
   return text
 end
 
---- { { language, text, line, name }, ... }: line is that of the fence; a block whose first line is
---- the comment `-- name.lua` or `-- name.lua: what it shows` has a name.
+--- { { language, text, line, name, file }, ... }: line is that of the fence; a block whose first line
+--- is the comment `-- name.lua` or `-- name.lua: what it shows` has a name; file: where it is to be
+--- saved, that of its name, or what stands in backquotes before a colon right above it.
 function markdown.blocks(path)
-  local blocks, open, number = {}, nil, 0
+  local blocks, open, number, above = {}, nil, 0, ""
   for line in markdown.read(path):gmatch "([^\n]*)\n" do
     number = number + 1
     if open and line == "```" then
       open.text = table.concat(open, "\n") .. "\n"
       open.name = open.text:match "^%-%- (%w[%w_]*)%.lua[:\n]"
+      open.file = open.name and open.name .. ".lua" or above:match "`([%w_.-]+)`:$"
       blocks[#blocks + 1] = open
-      open = nil
+      open, above = nil, ""
     elseif open then
       open[#open + 1] = line
     elseif line:find "^```" then
       open = { language = line:sub(4), line = number }
+    elseif line ~= "" then
+      above = line
     end
   end
   assert(not open, path .. ": a block is not closed")
   return blocks
+end
+
+--- Saves the blocks of a page that have a file, into a folder. keeps: which of them, a function.
+function markdown.save(path, folder, keeps)
+  for _, block in ipairs(markdown.blocks(path)) do
+    if block.file and keeps(block) then
+      local file = assert(io.open(folder .. "/" .. block.file, "wb"))
+      assert(file:write(block.text))
+      file:close()
+    end
+  end
 end
 
 --- The page without its blocks.
