@@ -10,6 +10,8 @@ local columns = {}
 --- Sheets beyond these are refused.
 columns.most_frames = 10000000
 columns.most_layers = 65536
+--- Texts of more cells than this are not written.
+columns.most_cells = 100000000
 
 --- The marks that a frame may have, with their letters in text.
 columns.marks = { { "inbetween", "i" }, { "reverse", "r" }, { "key", "k" }, { "reference", "f" },
@@ -63,8 +65,26 @@ function columns.sort(list)
   return list
 end
 
+--- Raises unless a text of so many rows can be written.
+function columns.check_cells(rows, list)
+  local count = rows * (#list + 1)
+  if count > columns.most_cells then
+    columns.fail("it would have %d rows of %d cells, more than %d cells, which is the limit", rows,
+      #list + 1, columns.most_cells)
+  end
+end
+
+--- A longer message quotes a file that is no sheet at all.
+local MESSAGE_BYTES = 400
+
 --- What a reader raises: its message becomes that of read.
-function columns.fail(...) error({ message = string.format(...) }, 0) end
+function columns.fail(...)
+  local message = string.format(...)
+  if #message > MESSAGE_BYTES then
+    message = message:sub(1, MESSAGE_BYTES):gsub("[\192-\255][\128-\191]*$", "") .. " ..."
+  end
+  error({ message = message }, 0)
+end
 
 --- Raises unless the text is UTF-8 without zero bytes. what: it is called so.
 function columns.check_text(text, what)

@@ -455,8 +455,9 @@ local function plain(self)
 end
 
 --- The sheet as plain text.
----@return string text
-function methods:text() return sheet_text.encode(plain(self)) end
+---@return string? text nil where it would be too long
+---@return string? message
+function methods:text() return caught(sheet_text.encode, plain(self)) end
 
 local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.encode }
 
@@ -472,7 +473,8 @@ function methods:write(path)
   if not encode then
     return nil, ("%s: sheets are written as .xdts, .csv or .txt"):format(path)
   end
-  local text = encode(plain(self))
+  local text, refused = caught(encode, plain(self))
+  if not text then return nil, ("%s: %s"):format(path, refused) end
   local part = path .. ".part"
   local file, message = io.open(part, "wb")
   if not file then return nil, message end

@@ -227,8 +227,10 @@ local function row_of(first, layers, make)
 end
 
 --- The CSV of TVPaint and Krita: drawings and layers; notes and marks have no place in it.
+--- Raises { message = } where it would be too long.
 function sheet_csv.encode(sheet)
   local layers = sheet.layers
+  columns.check_cells(sheet.frames, layers)
   local lines = { 'UTF-8, TVPaint, "CSV 1.0"',
     "Project Name, Width, Height, Frame Count, Layer Count, Frame Rate, Pixel Aspect Ratio, Field Mode",
     ("%s, %d, %d, %d, %d, %.6f, 1.000000, Progressive"):format(quote(sheet.name),

@@ -291,6 +291,29 @@ local function cell_of(column, place, frame)
   return text .. (marks and marks_of(marks) or "")
 end
 
+--- Sheets with more cells have no lines where nothing changes.
+local WHOLE_CELLS = 1000000
+
+--- The frames that have a line, ascending.
+local function frames_of(sheet)
+  local list, is_there = {}, {}
+  if sheet.frames * (#sheet.layers + 1) <= WHOLE_CELLS then
+    for frame = 1, sheet.frames do list[frame] = frame end
+    return list
+  end
+  local function add(frame)
+    if not is_there[frame] then is_there[frame], list[#list + 1] = true, frame end
+  end
+  add(1)
+  for _, column in ipairs(sheet.layers) do
+    for _, frame in ipairs(column.at) do add(frame) end
+    for frame in pairs(column.marks) do add(frame) end
+  end
+  table.sort(list)
+  return list
+end
+
+--- Raises { message = } where it would be too long.
 function sheet_text.encode(sheet)
   local lines, layers = write_head(sheet), sheet.layers
   local words, at, holds, widths = { pad("layers", 8) }, {}, {}, {}
@@ -300,7 +323,9 @@ function sheet_text.encode(sheet)
     holds[i] = pad("|", widths[i])
   end
   lines[#lines + 1] = table.concat(words, "  ")
-  for frame = 1, sheet.frames do
+  local frames = frames_of(sheet)
+  columns.check_cells(#frames, layers)
+  for _, frame in ipairs(frames) do
     words[1] = ("%8d"):format(frame)
     for i, column in ipairs(layers) do
       local cell = cell_of(column, at[i], frame)

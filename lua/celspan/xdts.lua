@@ -276,11 +276,14 @@ local function write_cells(column, frames)
   return lines
 end
 
+--- Longer notes have one hyphen, at their ends, and not one on each frame: gaps hold as well.
+local HYPHENS = 10000
+
 local function write_note(lines, note, frames)
   local to = note.to or frames
   lines[#lines + 1] = entry_of(note.from,
     note.speaker and { note.speaker, note.text } or { note.text })
-  for frame = note.from + 1, to do
+  for frame = math.max(note.from + 1, to - note.from > HYPHENS and to or 0), to do
     lines[#lines + 1] = entry_of(frame, { "SYMBOL_HYPHEN" })
   end
   lines[#lines + 1] = entry_of(to + 1, { "SYMBOL_NULL_CELL" })

@@ -45,10 +45,16 @@ static bool push_sheet(lua_State *L, job *j) {
 }
 
 /* The sheet on top of the stack, to standard output. Raises. */
-static void print_sheet(lua_State *L) {
+static void print_sheet(lua_State *L, job *j) {
   lua_getfield(L, -1, "text");
   lua_pushvalue(L, -2);
-  lua_call(L, 1, 1);
+  lua_call(L, 1, 2);
+  if (lua_isnil(L, -2)) {
+    cs_report_error("%s: %s", j->request->operands[0], lua_tostring(L, -1));
+    j->outcome = CS_EXIT_LIMIT;
+    return;
+  }
+  lua_pop(L, 1);
   size_t size;
   const char *text = lua_tolstring(L, -1, &size);
   fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
@@ -83,7 +89,7 @@ static int run(lua_State *L) {
   if (j->request->output && strcmp(j->request->output, "-") != 0)
     write_sheet(L, j);
   else
-    print_sheet(L);
+    print_sheet(L, j);
   return 0;
 }
 

@@ -506,6 +506,52 @@ it("no truncation and no changed byte does more than a message", function()
   end
 end)
 
+it("damaged sheets of every format are read or refused, and what is read can be written", function()
+  local fuzz = require "tests.fuzz.sheets"
+  assert.is_true(fuzz.run(300, 1, folder) > 150)
+end)
+
+describe("a sheet of few words and millions of frames", function()
+  local text = "celspan sheet 1\nfps 24\nframes 10000000\nnote camera A 2-9000000 PAN\n"
+    .. "layers A B C D E F G H I J\n1 1 1 1 1 1 1 1 1 1 1\n9999999 2" .. (" |"):rep(9) .. "\n"
+
+  it("is written without the frames on which nothing changes", function()
+    local s = assert(read("far.txt", text))
+    assert.is_true(#s:text() < 500)
+    local again = assert(read("again.txt", s:text()))
+    assert.are.equal(s:text(), again:text())
+    assert.are.equal("2", again:at("A", 9999999))
+    assert.are.equal("1", again:at("J", 10000000))
+    local path = folder .. "/far.xdts"
+    assert.is_true(s:write(path))
+    assert.is_true(#slurp(path) < 10000)
+    local note = assert(sheet.read(path)).notes[1]
+    assert.are.same({ 2, 9000000 }, { note.from, note.to })
+  end)
+
+  it("is refused where it would have to be a text without end", function()
+    local path = folder .. "/far.csv"
+    local done, message = assert(read("far.txt", text)):write(path)
+    assert.is_nil(done)
+    assert.is_truthy(message:find("far.csv: it would have 10000000 rows of 11 cells, more than 100000000", 1, true), message)
+    assert.is_nil(io.open(path))
+    local _, _, code = os.execute(("%s sheet %s/far.txt -o %s 2>%s/err"):format(BINARY, folder, path, folder))
+    assert.are.equal(5, code)
+    local layers = {}
+    for i = 1, 20000 do layers[i] = "L" .. i end
+    local drawings = {}
+    for i = 1, 20000 do drawings[layers[i]] = { [i] = "1" } end
+    local wide = sheet.new { layers = layers, drawings = drawings }
+    local none, problem = wide:text()
+    assert.is_nil(none)
+    assert.is_truthy(problem:find("20000 rows of 20001 cells", 1, true), problem)
+    assert.is_true(wide:write(folder .. "/wide.xdts"))
+    _, _, code = os.execute(("%s sheet %s/wide.xdts 2>%s/err"):format(BINARY, folder, folder))
+    assert.are.equal(6, code)
+    assert.is_truthy(slurp(folder .. "/err"):find("wide.xdts: it would have 20000 rows", 1, true))
+  end)
+end)
+
 it("a sheet of 100,000 frames and 200 columns takes seconds", function()
   local names, drawings = {}, {}
   for l = 1, 200 do
