@@ -561,16 +561,20 @@ end
 --- The sheet of a film: a row for each named cel and each named object, and for unnamed cels by
 --- their places. Drawings are numbered as they first appear; `moved` marks the frames on which
 --- the placement changes: transform, fade, viewport, lights, defocus.
+--- Of frames that are listed, the first one is frame 1 of the sheet, and so on.
 ---@param film celspan.film
+---@param options? { frames?: integer[] } The numbers of frames; default: all
 ---@return celspan.sheet
-function sheet.of(film)
+function sheet.of(film, options)
   if not tostring(film):find "^film" then
     error("sheet: of takes a film, got " .. fields.kind(film), 2)
   end
-  local state = { layers = {}, by_key = {}, taken = {} }
-  local count = film.frames
+  options = options or {}
+  fields.check("sheet: of", options, { frames = "table" })
+  local listed = options.frames
+  local state, count = { layers = {}, by_key = {}, taken = {} }, listed and #listed or film.frames
   for index = 1, count do
-    add_frame(state, core.parts(film:at(film.first + index - 1)), index)
+    add_frame(state, core.parts(film:at(listed and listed[index] or film.first + index - 1)), index)
   end
   local made, message = caught(finish, { name = film.title, fps = film.fps, frames = count,
     layers = state.layers, notes = {}, width = film.size[1], height = film.size[2] })

@@ -88,15 +88,6 @@ bool cs_caller_push_folder(lua_State *L) {
   return false;
 }
 
-bool cs_caller_push_function_folder(lua_State *L, int index) {
-  lua_Debug info;
-  lua_pushvalue(L, index);
-  if (!lua_getinfo(L, ">S", &info) || info.source[0] != '@' || is_own(&info))
-    return false;
-  cs_caller_push_folder_of(L, info.source + 1);
-  return true;
-}
-
 /* ---------------------------------------------------------------- the chain */
 
 typedef struct place {

@@ -29,8 +29,6 @@ void cs_caller_push_function(lua_State *L, int index);
 /* Pushes the folder of the nearest file that is not celspan's own, "" for the current one; false,
  * and nothing pushed, when there is none. */
 bool cs_caller_push_folder(lua_State *L);
-/* The same for the file that the function at index stands in. */
-bool cs_caller_push_function_folder(lua_State *L, int index);
 /* Pushes the folder of a path; "" when it has none. */
 const char *cs_caller_push_folder_of(lua_State *L, const char *path);
 

@@ -16,7 +16,9 @@
 #define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
 #define MOST_SIDE 1048576
 
-const cs_kind cs_kind_film = {.name = "celspan.film"};
+enum { SOUND_FOLDER = 2 }; /* the user value with the folder of the file that named the sound */
+
+const cs_kind cs_kind_film = {.name = "celspan.film", .kept = 1};
 
 /* ---------------------------------------------------------------- the value */
 
@@ -41,7 +43,10 @@ static void check_whole(const cs_form *form, const char *name, double least) {
 
 static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
+  int film = lua_gettop(L);
   (void)value;
+  if (cs_caller_push_folder(L))
+    lua_setiuservalue(L, film, SOUND_FOLDER);
   check_size(form);
   double fps = cs_form_number_or(form, "fps", 24);
   if (!(fps > 0 && fps <= 1e6))
@@ -117,6 +122,17 @@ static int film_at(lua_State *L) {
   return 1;
 }
 
+/* A sound that is not named anew stays where it is. */
+static int film_with(lua_State *L) {
+  cs_construct_with(L);
+  if (lua_getfield(L, 2, "sound") == LUA_TNIL) {
+    lua_getiuservalue(L, 1, SOUND_FOLDER);
+    lua_setiuservalue(L, -3, SOUND_FOLDER);
+  }
+  lua_pop(L, 1);
+  return 1;
+}
+
 static int constant_frame(lua_State *L) {
   lua_pushvalue(L, lua_upvalueindex(1));
   return 1;
@@ -153,7 +169,7 @@ bool cs_lua_film_push(lua_State *L, int index) {
 }
 
 void cs_open_film(lua_State *L) {
-  static const luaL_Reg methods[] = {{"with", cs_construct_with}, {"at", film_at}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {{"with", film_with}, {"at", film_at}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_film, methods);
   cs_lua_frame_register(L);
   cs_construct_push(L, &cs_noun_film);
@@ -195,11 +211,10 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
 
 /* film -> path, tried. Runs protected. */
 static int find_sound(lua_State *L) {
-  const char *folder = NULL, *tried;
+  const char *tried;
   lua_getiuservalue(L, 1, 1);
-  lua_getfield(L, 2, "frame");
-  if (cs_caller_push_function_folder(L, 3))
-    folder = lua_tostring(L, -1);
+  lua_getiuservalue(L, 1, SOUND_FOLDER);
+  const char *folder = lua_tostring(L, -1);
   if (lua_getfield(L, 2, "sound") == LUA_TNIL)
     lua_pushnil(L);
   else

@@ -24,6 +24,7 @@ typedef struct cs_kind {
   /* Pushes a field that is not kept but found in the core; false when there is none of this name.
    * NULL: there are none. */
   bool (*push_field)(lua_State *L, const struct cs_userdata *value, const char *key);
+  int kept; /* user values of a value beside its fields, which are the first */
 } cs_kind;
 
 typedef struct cs_field {

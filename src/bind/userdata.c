@@ -14,7 +14,7 @@
 /* ---------------------------------------------------------------- making */
 
 cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun) {
-  cs_userdata *value = lua_newuserdatauv(L, sizeof *value, 1);
+  cs_userdata *value = lua_newuserdatauv(L, sizeof *value, 1 + noun->kind->kept);
   *value = (cs_userdata){.noun = noun, .matrix = celspan_matrix_identity(), .fade = 1};
   luaL_setmetatable(L, noun->kind->name);
   return value;

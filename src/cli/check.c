@@ -2,6 +2,7 @@
  *
  *   frames of a part   1 2 3 ... n | n+1 ...        part by part, so that memory has a bound:
  *
+ *   the film's sound
  *   first pass    -->  in order: frames that cannot be built, pictures that cannot be read
  *   second pass   <--  a fresh film, last frame first: a frame whose scene now differs was not made
  *                      by a pure function of its number
@@ -18,6 +19,7 @@
 #include "cli/script.h"
 #include "cli/target.h"
 #include "cli/verbs.h"
+#include "cli/video/sound.h"
 #include "scene/inspect.h"
 #include "scene/scene.h"
 
@@ -91,6 +93,15 @@ static void check_pictures(checkup *check, int64_t frame) {
   }
 }
 
+/* The film's sound is looked for, and under --deep listened to. OK, or reported. */
+static cs_exit check_sound(checkup *check) {
+  const char *path = NULL;
+  celspan_status status = cs_sound_find(&check->script, &path);
+  if (status == CELSPAN_OK && path && check->request->is_deep)
+    status = cs_sound_listen(check->context, path);
+  return cs_report_failure(check->context, status, NULL);
+}
+
 static void first_pass(checkup *check, int64_t begin, int64_t end) {
   for (int64_t i = begin; i < end && !cs_interrupt_signal(); i++) {
     int64_t frame = frame_at(check, i);
@@ -154,7 +165,7 @@ static cs_exit check_parts(checkup *check) {
 
 static const char *plural(uint64_t count) { return count == 1 ? "" : "s"; }
 
-static void report(const checkup *check) {
+static void report(const checkup *check, cs_exit sound) {
   const cs_faults *faults = &check->faults;
   uint64_t done = (uint64_t)check->done;
   cs_faults_report(faults);
@@ -165,7 +176,8 @@ static void report(const checkup *check) {
                    faults->beyond > 0 ? "more than " : "", faults->count, plural(faults->count),
                    faults->met, plural(faults->met), done, plural(done));
   else if (check->done == check->count)
-    cs_report_note("%" PRIu64 " frame%s checked: no faults", done, plural(done));
+    cs_report_note("%" PRIu64 " frame%s checked: no faults%s", done, plural(done),
+                   sound == CS_EXIT_OK ? "" : " but the sound");
 }
 
 /* ---------------------------------------------------------------- the verb */
@@ -185,9 +197,10 @@ static cs_exit run(checkup *check) {
     cs_report_error("no memory to compare frames");
     return CS_EXIT_MEMORY;
   }
-  cs_exit outcome = check_parts(check);
+  cs_exit sound = check_sound(check), outcome = check_parts(check);
   cs_mem_free(check->context->memory, check->names, PART * sizeof *check->names);
-  report(check);
+  report(check, sound);
+  outcome = outcome == CS_EXIT_OK ? sound : outcome;
   return check->faults.outcome == CS_EXIT_OK ? outcome : check->faults.outcome;
 }
 

@@ -131,7 +131,10 @@ static void list_failed(const render_job *job, char *out, size_t size) {
 static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   char list[1024];
   size_t done = job->progress.frames_done, count = job->frames.count;
-  if (done < count && count > 1)
+  if (done < count && count > 1 && job->is_video)
+    cs_report_note("%s is not made: it ended at %zu of %zu frames", job->request->output, done,
+                   count);
+  else if (done < count && count > 1)
     cs_report_note("%zu of %zu frames are finished", done, count);
   if (job->failed_count == 0 || !job->request->keeps_going)
     return outcome;

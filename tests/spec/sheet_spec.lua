@@ -701,6 +701,23 @@ describe("celspan sheet", function()
     assert.are.equal("1 1 1", exposed(assert(sheet.read(folder .. "/c.csv")), "A"))
   end)
 
+  it("makes the sheet of some frames of a script", function()
+    local script = write("three.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 9, 9 }, first = 5, frames = 12, frame = function(f)
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 1, f:on(2) }:named "bar" } }
+end }]])
+    local path = folder .. "/part.txt"
+    local code, _, err = run(("%s --frames 8-10,15 -o %s"):format(script, path))
+    assert.are.equal(0, code, err)
+    local s = assert(sheet.read(path))
+    assert.are.equal(4, s.frames)
+    assert.are.equal("1 2 2 3", exposed(s, "bar"))
+    assert.are.equal(2, (run(script .. " --frames 1-3")))
+    assert.are.equal(2, (run(path .. " --frames 1")))
+    assert.has_error(function() sheet.of(celspan.film { frame = function() end }, { frames = 3 }) end)
+  end)
+
   it("has exit codes for what went wrong", function()
     assert.are.equal(4, (run(folder .. "/none.xdts")))
     local code, _, err = run(write("bad.txt", "celspan sheet 1\nfps x\n"))

@@ -9,6 +9,7 @@
 
 #include "cli/video/command.h"
 #include "cli/video/planes.h"
+#include "cli/video/sound.h"
 #include "output/dither.h"
 #include "output/ending.h"
 #include "output/pixels.h"
@@ -95,36 +96,6 @@ static bool is_run(const cs_sequence *frames) {
   return true;
 }
 
-static celspan_status check_file(celspan_context *context, const char *path, const char *tried) {
-  struct stat there;
-  int error = access(path, R_OK) != 0 || stat(path, &there) != 0 ? errno
-              : S_ISDIR(there.st_mode)                           ? EISDIR
-                                                                 : 0;
-  if (error == 0)
-    return CELSPAN_OK;
-  return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be opened: %s%s%s", path,
-                 strerror(error), tried ? "; nor is it there: " : "", tried ? tried : "");
-}
-
-/* A sound that ffmpeg cannot read is told before the first frame. A missing ffmpeg is told by the
- * encoder. */
-static celspan_status listen(celspan_context *context, const char *path) {
-  cs_video_command command;
-  cs_process process;
-  char how[CS_PROCESS_WORDS + 64];
-  cs_video_command_listen(&command, path);
-  if (cs_process_start(&process, command.arguments) != 0)
-    return CELSPAN_OK;
-  close(process.input);
-  bool is_over = cs_process_end(&process, INFINITY);
-  if (!is_over)
-    return cs_fail(context, CELSPAN_CANCELLED, "%s: stopped", path);
-  if (process.exit_code == 0)
-    return CELSPAN_OK;
-  cs_process_describe(&process, how, sizeof how);
-  return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be read: ffmpeg %s", path, how);
-}
-
 /* The film's sound, as it goes with these frames. Its path is left on the Lua stack, where it lives
  * as long as the script. */
 static cs_exit find_sound(const cs_video *video, cs_script *script, const cs_sequence *frames,
@@ -141,13 +112,9 @@ static cs_exit find_sound(const cs_video *video, cs_script *script, const cs_seq
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            video->request->frames);
-  celspan_status status = cs_lua_film_push_sound(script->L, CS_SCRIPT_FILM);
-  if (status == CELSPAN_OK) {
-    out->path = lua_tostring(script->L, -2);
-    status = check_file(video->context, out->path, lua_tostring(script->L, -1));
-  }
+  celspan_status status = cs_sound_find(script, &out->path);
   if (status == CELSPAN_OK)
-    status = listen(video->context, out->path);
+    status = cs_sound_listen(video->context, out->path);
   out->start = film->sound_offset - (double)(frames->frames[0] - film->first) / film->frames_second;
   out->length = (double)frames->count / film->frames_second;
   return cs_report_failure(video->context, status, NULL);
