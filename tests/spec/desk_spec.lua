@@ -144,6 +144,9 @@ describe("celspan init", function()
       assert.truthy(bench:read(bench.folder .. "/walk/" .. name), name)
     end
     assert.truthy(bench:read(bench.folder .. "/walk/README.md"):find("^# walk\n"))
+    for line in bench:read(bench.folder .. "/walk/film.lua"):gmatch "[^\n]+" do
+      assert.is_true(utf8.len(line) <= 120, line) -- as its .luacheckrc has it
+    end
     local checked, _, faults = run "check walk/film.lua"
     assert.equal(0, checked, faults)
     local tested, told = bench:shell(("cd %s/walk && %s test"):format(bench.folder, BINARY))
@@ -151,6 +154,17 @@ describe("celspan init", function()
     assert.truthy(told:find("5 passed, 0 failed, 0 skipped", 1, true), told)
     local rendered = run "render walk/film.lua --scale 0.1 --progress none -o out/####.png"
     assert.equal(0, rendered)
+  end)
+
+  it_reads_sheets("lays out a film that loops: the frame after the last would be the first", function()
+    run "init walk"
+    local more = bench:read(bench.folder .. "/walk/film.lua"):gsub("frames = 48, title", "frames = 49, title")
+      :gsub("f%.index / f%.count", "f.index / 48")
+    bench:write("walk/film.lua", more)
+    bench:write("walk/walk.txt", bench:read(bench.folder .. "/walk/walk.txt"):gsub("frames 48", "frames 49") .. "\n    49         1  open\n")
+    assert.equal(0, (run "render walk/film.lua --progress none --frames 1,49 -o walk/%d.png"))
+    local code, out = run "compare walk/1.png walk/49.png --fail 0.01"
+    assert.equal(0, code, out)
   end)
 
   it("replaces nothing", function()
