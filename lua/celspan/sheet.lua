@@ -268,9 +268,10 @@ local function read_whole(path)
     path = document
   end
   local file, message = io.open(path, "rb")
-  local text = file and file:read(sheet.most_bytes + 1)
-  if file then file:close() end
   if not file then return nil, message end
+  local text, problem = file:read(sheet.most_bytes + 1)
+  file:close()
+  if problem then return nil, ("%s: %s"):format(path, problem) end
   text = text or ""
   if #text > sheet.most_bytes then
     return nil, ("%s: it has more than %d bytes, which is the limit"):format(path, sheet.most_bytes)

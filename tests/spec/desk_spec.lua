@@ -304,6 +304,40 @@ describe("compare -o", function()
     assert.is_true(pale == same and pale > 0.9)
   end)
 
+  it("counts every pixel of a run, in span files too, and says where the largest difference is", function()
+    bench:write("film.lua", FILM)
+    bench:write("other.lua", (FILM:gsub('texture = "#fff" }', 'texture = "#fffff0" }')))
+    run "render film.lua --frames 1,3 -o f.#.span"
+    run "render other.lua --frames 1 -o g.span"
+    local code, out = run "compare f.1.span f.3.span -o difference.png"
+    assert.equal(1, code)
+    assert.truthy(out:find("pixels_differing 120 pixels 800", 1, true), out)
+    local r, g = pixel("difference.png", 8, 19)
+    assert.is_true(r > 3 * g)
+    code, out = run "compare f.1.span g.span"
+    assert.equal(1, code)
+    assert.truthy(out:find("x 3 y 0 channel b pixels_differing 740 pixels 800", 1, true), out)
+    assert.equal(0, (run "compare f.1.span g.span --fail 0.06"))
+  end)
+
+  it("is redder where more differs, whatever the channel", function()
+    local function lines(a, b, c)
+      bench:write("lines.lua", ([[
+local celspan = require "celspan"
+return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4, 4, texture = "%s" },
+  celspan.rect { 4, 0, 4, 4, texture = "%s" }, celspan.rect { 8, 0, 4, 4, texture = "%s" } } }]]):format(a, b, c))
+    end
+    lines("#808080", "#808080", "#808080")
+    run "render lines.lua --size 12x4 -o a.png"
+    lines("#8080ff", "#ff8080", "#848080")
+    run "render lines.lua --size 12x4 -o b.png"
+    run "compare a.png b.png -o difference.png"
+    local blue, red, weak = { pixel("difference.png", 2, 2) }, { pixel("difference.png", 6, 2) },
+      { pixel("difference.png", 10, 2) }
+    assert.are.same(blue, red)
+    assert.is_true(red[2] < weak[2])
+  end)
+
   it("is pale where nothing differs by more than --fail", function()
     bench:write("film.lua", FILM)
     run "render film.lua --frames 1,3 -o f.#.png"

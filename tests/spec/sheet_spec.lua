@@ -260,6 +260,12 @@ describe("an OCA folder", function()
     assert.is_nil(s:drawing("body", 5, tree))
   end)
 
+  it("is told where it is a folder in a folder, or holds no document", function()
+    assert(os.execute("mkdir -p " .. folder .. "/deep.oca/inner.oca"))
+    assert.is_truthy(select(2, sheet.read(folder .. "/deep.oca")):find("inner.oca: Is a directory", 1, true))
+    assert.is_truthy(select(2, sheet.read(folder .. "/deep.oca/inner.oca")):find("holds no OCA document", 1, true))
+  end)
+
   it("is refused by layer and frame", function()
     for wanted, bad in pairs {
       ["layer 1: frame 1: frameNumber must be a number, got string"] =
