@@ -159,27 +159,40 @@ local function check_places(number, path)
   end
 end
 
+local function read_tracks(state, field, id, path)
+  local names = state.headers[id] or {}
+  for track, here in each(field, path, "tracks", {}) do
+    local place = whole(track, here, "trackNo", 0, columns.most_layers - 1) + 1
+    if id == CELLS then
+      for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
+      read_cells(state.layers[place], track, here)
+    else
+      read_notes(state.notes, kinds[id] or ("field %d"):format(id),
+        names[place] or ("track %d"):format(place), track, here)
+    end
+  end
+end
+
+--- A field that the format does not tell of is notes where it is made like those, and else nothing.
+local function try_tracks(state, field, id, path)
+  local count = #state.notes
+  local good, problem = pcall(read_tracks, state, field, id, path)
+  if not good and type(problem) ~= "table" then error(problem, 0) end
+  for i = #state.notes, good and #state.notes + 1 or count + 1, -1 do state.notes[i] = nil end
+end
+
 local function read_fields(tables, path)
-  local headers, layers, notes = read_headers(tables, path), {}, {}
-  for i, name in ipairs(headers[CELLS] or {}) do
+  local state = { headers = read_headers(tables, path), layers = {}, notes = {} }
+  for i, name in ipairs(state.headers[CELLS] or {}) do
     check_places(i, path)
-    layers[i] = columns.new(name)
+    state.layers[i] = columns.new(name)
   end
   for field, here in each(tables, path, "fields", {}) do
     local id = whole(field, here, "fieldId", -2 ^ 31, 2 ^ 31)
-    local names = headers[id] or {}
-    for track, there in each(field, here, "tracks", {}) do
-      local place = whole(track, there, "trackNo", 0, columns.most_layers - 1) + 1
-      if id == CELLS then
-        for i = #layers + 1, place do layers[i] = columns.new(("track %d"):format(i)) end
-        read_cells(layers[place], track, there)
-      else
-        read_notes(notes, kinds[id] or ("field %d"):format(id),
-          names[place] or ("track %d"):format(place), track, there)
-      end
-    end
+    local is_known = id == CELLS or kinds[id]
+    if is_known then read_tracks(state, field, id, here) else try_tracks(state, field, id, here) end
   end
-  return layers, notes
+  return state.layers, state.notes
 end
 
 local function read_table(document, tables, path)

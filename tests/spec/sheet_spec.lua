@@ -119,6 +119,22 @@ describe("an XDTS", function()
     assert.are.equal(3, #s:notes_at(5))
   end)
 
+  it("may have fields of later programs, an extension, and data beside the drawings", function()
+    local text = xdts_of(3, '{"trackNo":0,"frames":[{"frame":0,"data":[{"id":1,"values":[true]},{"id":0,"values":["7"]}]}]}',
+      ',{"fieldId":7,"tracks":[{"trackNo":0,"frames":[{"frame":0,"data":[{"values":["12F"]}]},'
+      .. '{"frame":1,"data":[{"values":[{"folder":1}]}]}]}]},{"fieldId":8,"tracks":{"a":1},"more":[]},'
+      .. '{"fieldId":9,"tracks":[' .. track(0, { { 1, "kept" } }) .. ']}')
+      :gsub('"version":5', '"version":5,"subversion":"_p1_","later":{}')
+    local s = assert(read("a.xdts", text))
+    assert.are.equal("7 7 7", exposed(s, "A"))
+    assert.are.same({ { kind = "field 9", column = "track 1", from = 2, to = 3, text = "kept" } }, s.notes)
+    text = text:gsub('"header":{.-},', "", 1)
+    assert.are.equal("", assert(read("a.xdts", text)).cut)
+    local none, message = read("a.xdts", (text:gsub("exchangeDigital", " exchangeDigital", 1)))
+    assert.is_nil(none)
+    assert.is_truthy(message:find("line 1 is not", 1, true), message)
+  end)
+
   it("reads the options of the extension, and escapes", function()
     local text = xdts_of(4, '{"trackNo":0,"frames":[{"frame":1,"data":[{"id":0,"values":["\\u732b"],'
       .. '"options":["OPTION_KEYFRAME","OPTION_REFERENCEFRAME"]}]}]}')
@@ -247,6 +263,15 @@ describe("an OCA folder", function()
     assert.are.equal("b1 b1 b1 b1 b1 b1", exposed(s, "group/bg"))
     assert.are.equal(0.5, s.looks[2].opacity)
     assert.are.equal("b2", assert(sheet.read(folder .. "/shot.oca/shot.oca")):at("body", 3))
+  end)
+
+  it("counts from its start, and hides layers that are for reference", function()
+    local s = assert(read("one.json", (document:gsub('"startTime":2', '"startTime":-1')
+      :gsub('"animated":false', '"animated":false,"reference":true'))))
+    assert.are.equal(9, s.frames)
+    assert.are.equal(". b1 b1 b1 b1 b2 b2 . .", exposed(s, "body"))
+    assert.is_false(s.looks[2].visible)
+    assert.is_true(s.looks[1].visible)
   end)
 
   it("draws with its own layers", function()
