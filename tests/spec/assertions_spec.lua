@@ -119,6 +119,18 @@ describe("looks_like", function()
     assert.frame(film, 1).looks_like(missing)
   end)
 
+  it("writes nothing where it holds, also negated", function()
+    assert.frame(film, 3).is_not.looks_like(picture)
+    assert.is_false(exists(beside(picture, "actual")) or exists(beside(picture, "difference")))
+  end)
+
+  it("fails for a picture that is as wide and not as high", function()
+    local flat = folder .. "/flat.png"
+    assert(celspan.pixels(film, { size = { 64, 16 } }):write(flat))
+    told(message_of(function() assert.frame(film, 1).looks_like(flat) end),
+      "it is 64 x 32 pixels, the picture is 64 x 16")
+  end)
+
   it("fails for a picture of another size", function()
     local small = folder .. "/small.png"
     assert(celspan.pixels(film, { size = { 32, 16 } }):write(small))
@@ -167,6 +179,12 @@ describe("shows", function()
   end)
 end)
 
+it("shows, with a tolerance, that hardly anything is nothing", function()
+  local faint = celspan.rostrum { size = { 4, 4 }, celspan.cel { celspan.rect { 0, 0, 4, 4, texture = "#ff000004" } } }
+  assert.point(faint, 1, 2, 2).shows(celspan.clear, 0.05)
+  assert.point(faint, 1, 2, 2).is_not.shows(celspan.clear)
+end)
+
 describe("is_visible", function()
   it("passes where the frame would be another without the cel", function()
     assert.cel(film, 1, "ball").is_visible()
@@ -208,6 +226,20 @@ describe("covers", function()
   end)
 end)
 
+it("a cel covers by its art, not by lights from behind, and exposures count by their weights", function()
+  local function square(name, x)
+    return celspan.cel { celspan.rect { x, 0, 4, 4, texture = "#fff" }, back = { 1, 1, 1, 1 } }:named(name)
+  end
+  local bench = celspan.rostrum { back = "#fff", square("left", 0), square("right", 4) }
+  local double = celspan.film { size = { 8, 8 }, frame = function()
+    return { { bench, 1 }, { celspan.rostrum { square("ghost", 2), square("other", 0) }, 0 } }
+  end }
+  assert.cel(double, 1, "left").covers(0.25)
+  assert.cel(double, 1, "left").is_not.covers(0.26)
+  assert.cel(double, 1, "ghost").is_not.visible()
+  message_of(function() assert.cel(double, 1, "ghost").is_visible() end)
+end)
+
 describe("look_alike", function()
   it("passes for frames that show the same", function()
     assert.frames(film, 1, 2).look_alike()
@@ -235,6 +267,12 @@ describe("holds", function()
     told(message_of(function() assert.row(film, 3, 10).is_not.holds { single = 3 } end),
       "holds spans { single = 3, gradient = 0, array = 0 }, and it should not")
   end)
+end)
+
+it("holds wants each of its counts", function()
+  told(message_of(function() assert.row(film, 3, 10).holds { single = 2, gradient = 0, array = 0 } end), "single = 3")
+  told(message_of(function() assert.row(film, 3, 10).holds { single = 3, gradient = 1, array = 0 } end), "gradient = 0")
+  assert.row(film, 3, 10).is_not.holds { single = 2, array = 0 }
 end)
 
 describe("what assertions are given", function()

@@ -218,6 +218,25 @@ describe("celspan contact", function()
     assert.is_true(darkest < 0.3)
   end)
 
+  it("writes the number of the frame, not of its place", function()
+    run "contact film.lua -o one.png --frames 1"
+    run "contact film.lua -o eight.png --frames 8"
+    local function ink(name)
+      local sum = 0
+      for x = 12, 24 do
+        for y = 38, 50 do sum = sum + 1 - (pixel(name, x, y)) end
+      end
+      return sum
+    end
+    assert.is_true(ink "eight.png" > ink "one.png" + 1)
+  end)
+
+  it("makes panels no wider than 480 pixels, in the film's shape", function()
+    bench:write("wide.lua", (FILM:gsub("size = { 40, 20 }", "size = { 1000, 500 }")))
+    assert.equal(0, (run "contact wide.lua -o wide.png --frames 1 --grid 1x1"))
+    assert.equal("504x276", size_of "wide.png")
+  end)
+
   it("makes pages where they have a number, and else refuses more than fit", function()
     local code = run "contact film.lua -o page.##.png --grid 2x2 --every 1"
     assert.equal(0, code)
@@ -360,6 +379,17 @@ return celspan.rostrum { size = { 12, 4 }, celspan.cel { celspan.rect { 0, 0, 4,
       .. "frame 3 largest_difference 0 pixels_differing 0 pixels 800\nframe 4 only_in a.##.png\n$"), out)
     assert.is_truthy(bench:read "difference.2.png")
     assert.equal(0, (run "compare a.##.png a.##.png"))
+    code, out = run "compare b/%d.png a.##.png"
+    assert.equal(1, code)
+    assert.truthy(out:find("frame 4 only_in a.##.png\n$"), out)
+    os.remove(bench.folder .. "/a.04.png")
+    code, out = run "compare b/%d.png a.##.png"
+    assert.equal(1, code) -- for frame 2 alone
+    assert.falsy(out:find("only_in", 1, true), out)
+    os.remove(bench.folder .. "/a.02.png")
+    code, out = run "compare a.##.png b/%d.png"
+    assert.equal(1, code) -- for what the second one alone has
+    assert.truthy(out:find("frame 2 only_in b/%d.png\n$", 1, false) or out:find("frame 2 only_in b/", 1, true), out)
     assert.equal(2, (run "compare a.##.png b/%d.png -o difference.png"))
     assert.equal(4, (run "compare a.##.png none.#.png"))
     assert.equal(4, (run "compare a.##.png none/#.png"))
