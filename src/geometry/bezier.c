@@ -11,7 +11,7 @@
 #define ROOT_DEPTH 46 /* halvings: two roots that are nearer than this count as one */
 #define CLIP_DEPTH 40
 #define NOISE 4e-15 /* relative to its terms: a smaller coefficient is rounding */
-#define COEFFICIENTS (2 * CS_BEZIER_DEGREE + 1)
+#define COEFFICIENTS (CS_BEZIER_POLYNOMIAL + 1)
 
 /* ---------------------------------------------------------------- pieces */
 
@@ -213,6 +213,12 @@ static void find_roots(const double *coefficients, int degree, double noise, roo
     isolate_roots(coefficients, degree, noise, 0, 1, 0, list);
   else if (signs_of(coefficients, degree, noise).changes > 0)
     find_quadratic_roots(coefficients, list);
+}
+
+int cs_bezier_roots(const double *coefficients, int degree, double size, double *roots) {
+  root_list list = {0, degree, roots};
+  find_roots(coefficients, degree, NOISE * (degree + 1) * size, &list);
+  return list.count;
 }
 
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form,

@@ -19,6 +19,8 @@
 #define CS_BEZIER_DEGREE 15
 /* The most roots of any polynomial here: those of the extrema of a rational piece. */
 #define CS_BEZIER_ROOTS (2 * CS_BEZIER_DEGREE)
+/* The highest degree of any polynomial that may be asked for its roots. */
+#define CS_BEZIER_POLYNOMIAL 100
 
 typedef struct cs_bezier {
   int degree;
@@ -56,6 +58,9 @@ void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *fro
 
 /* Parameters inside (0, 1) where a form changes its sign, ascending; their number. */
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form, double roots[CS_BEZIER_ROOTS]);
+/* Parameters inside (0, 1) where the polynomial with these Bernstein coefficients changes its sign,
+ * ascending, no more than its degree; their number. size: of the terms whose sums they are. */
+int cs_bezier_roots(const double *coefficients, int degree, double size, double *roots);
 /* Parameters inside (0, 1) where the polynomial with these Bernstein coefficients has an extremum,
  * ascending; their number. */
 int cs_bezier_turns(const double *coefficients, int degree, double *roots);

@@ -30,6 +30,25 @@ void cs_curve_cut_polynomial(double *c, int degree, double begin, double end) {
         c[i] += share * (c[i + 1] - c[i]);
 }
 
+void cs_curve_multiply(const double *a, int a_degree, const double *b, int b_degree, double *out) {
+  int degree = a_degree + b_degree;
+  double whole = 1, first = 1;
+  for (int k = 0; k <= degree; k++)
+    out[k] = 0;
+  for (int i = 0; i <= a_degree; i++) {
+    double second = 1;
+    for (int j = 0; j <= b_degree; j++) {
+      out[i + j] += first * second * a[i] * b[j];
+      second = second * (b_degree - j) / (j + 1);
+    }
+    first = first * (a_degree - i) / (i + 1);
+  }
+  for (int k = 0; k <= degree; k++) {
+    out[k] /= whole;
+    whole = whole * (degree - k) / (k + 1);
+  }
+}
+
 void cs_curve_load(const cs_stroke *stroke, size_t piece, double begin, double end, cs_curve *out) {
   cs_curve_load_line(&stroke->line, piece, begin, end, &out->line);
   out->radius_degree = stroke->radius_degrees[piece];
@@ -47,32 +66,34 @@ void cs_curve_reverse(cs_curve *curve) {
   }
 }
 
-static cs_hpoint middle(cs_hpoint a, cs_hpoint b) {
-  return (cs_hpoint){0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.w + b.w)};
+/* Not a + t (b - a): a sum of two is the same in either order, so this is symmetric at 1/2;
+ * cs_bezier_split is not. */
+static cs_hpoint mix(cs_hpoint a, cs_hpoint b, double t) {
+  double s = 1 - t;
+  return (cs_hpoint){s * a.x + t * b.x, s * a.y + t * b.y, s * a.w + t * b.w};
 }
 
-/* Sums of two are the same in either order, so this is symmetric; cs_bezier_split is not. */
-static void halve_line(const cs_bezier *line, cs_bezier *low, cs_bezier *high) {
+static void split_line(const cs_bezier *line, double t, cs_bezier *low, cs_bezier *high) {
   int degree = line->degree;
   cs_bezier_copy(line, high);
   low->degree = degree;
   low->points[0] = high->points[0];
   for (int level = 1; level <= degree; level++) {
     for (int i = 0; i <= degree - level; i++)
-      high->points[i] = middle(high->points[i], high->points[i + 1]);
+      high->points[i] = mix(high->points[i], high->points[i + 1], t);
     low->points[level] = high->points[0];
   }
 }
 
-void cs_curve_halve(const cs_curve *curve, cs_curve *low, cs_curve *high) {
+void cs_curve_split(const cs_curve *curve, double t, cs_curve *low, cs_curve *high) {
   int degree = curve->radius_degree;
-  halve_line(&curve->line, &low->line, &high->line);
+  split_line(&curve->line, t, &low->line, &high->line);
   low->radius_degree = high->radius_degree = degree;
   memcpy(high->radius, curve->radius, ((size_t)degree + 1) * sizeof *high->radius);
   low->radius[0] = high->radius[0];
   for (int level = 1; level <= degree; level++) {
     for (int i = 0; i <= degree - level; i++)
-      high->radius[i] = 0.5 * (high->radius[i] + high->radius[i + 1]);
+      high->radius[i] = (1 - t) * high->radius[i] + t * high->radius[i + 1];
     low->radius[level] = high->radius[0];
   }
 }
@@ -83,36 +104,58 @@ static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
   return (cs_hpoint){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
 }
 
-void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
-                      celspan_point *velocity) {
-  cs_hpoint work[CS_BEZIER_DEGREE + 1];
+/* By de Casteljau's scheme, whose last three rows tell the derivatives. */
+static void line_at(const cs_bezier *line, double t, celspan_point *point, celspan_point *velocity,
+                    celspan_point *acceleration) {
+  cs_hpoint work[CS_BEZIER_DEGREE + 1] = {line->points[0], line->points[1]};
   int degree = line->degree;
-  for (int i = 0; i <= degree; i++)
+  for (int i = 2; i <= degree; i++)
     work[i] = line->points[i];
-  for (int level = degree; level > 1; level--)
+  for (int level = degree; level > 2; level--)
     for (int i = 0; i < level; i++)
       work[i] = between(work[i], work[i + 1], t);
-  cs_hpoint a = work[0], b = work[1], at = between(a, b, t);
+  cs_hpoint a = work[0], b = work[1], bend = {0, 0, 0};
+  if (degree > 1) {
+    double scale = degree * (degree - 1);
+    bend = (cs_hpoint){scale * ((work[2].x - b.x) - (b.x - a.x)),
+                       scale * ((work[2].y - b.y) - (b.y - a.y)),
+                       scale * ((work[2].w - b.w) - (b.w - a.w))};
+    a = between(a, b, t);
+    b = between(b, work[2], t);
+  }
+  cs_hpoint at = between(a, b, t);
+  double rise = degree * (b.w - a.w);
   point->x = at.x / at.w;
   point->y = at.y / at.w;
   velocity->x = degree * ((b.x - a.x) - point->x * (b.w - a.w)) / at.w;
   velocity->y = degree * ((b.y - a.y) - point->y * (b.w - a.w)) / at.w;
+  acceleration->x = (bend.x - 2 * rise * velocity->x - bend.w * point->x) / at.w;
+  acceleration->y = (bend.y - 2 * rise * velocity->y - bend.w * point->y) / at.w;
+}
+
+void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
+                      celspan_point *velocity) {
+  celspan_point acceleration;
+  line_at(line, t, point, velocity, &acceleration);
 }
 
 cs_curve_place cs_curve_at(const cs_curve *curve, double t) {
   cs_curve_place place;
   double work[CS_STROKE_RADIUS_DEGREE + 1];
   int degree = curve->radius_degree;
-  cs_curve_line_at(&curve->line, t, &place.point, &place.velocity);
+  line_at(&curve->line, t, &place.point, &place.velocity, &place.acceleration);
   place.radius = curve->radius[0];
-  place.growth = 0;
+  place.growth = place.growth_change = 0;
   if (degree == 0)
     return place;
   for (int i = 0; i <= degree; i++)
     work[i] = curve->radius[i];
-  for (int level = degree; level > 1; level--)
+  for (int level = degree; level > 1; level--) {
+    if (level == 2)
+      place.growth_change = degree * (degree - 1) * ((work[2] - work[1]) - (work[1] - work[0]));
     for (int i = 0; i < level; i++)
       work[i] += t * (work[i + 1] - work[i]);
+  }
   place.growth = degree * (work[1] - work[0]);
   place.radius = fmax(0, work[0] + t * (work[1] - work[0]));
   return place;
@@ -120,24 +163,23 @@ cs_curve_place cs_curve_at(const cs_curve *curve, double t) {
 
 static celspan_point project(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
 
-static double extent_of(const cs_bezier *line, double *size) {
+double cs_curve_extent(const cs_bezier *line) {
   celspan_point first = project(line->points[0]);
   double extent = 0;
   for (int i = 1; i <= line->degree; i++) {
     celspan_point p = project(line->points[i]);
     extent = fmax(extent, fmax(fabs(p.x - first.x), fabs(p.y - first.y)));
   }
-  *size = fabs(first.x) + fabs(first.y);
   return extent;
 }
 
 bool cs_curve_is_point(const cs_bezier *line) {
-  double size, extent = extent_of(line, &size);
-  return !(extent > POINT * size);
+  celspan_point first = project(line->points[0]);
+  return !(cs_curve_extent(line) > POINT * (fabs(first.x) + fabs(first.y)));
 }
 
 celspan_point cs_curve_departure(const cs_bezier *line) {
-  double size, extent = extent_of(line, &size);
+  double extent = cs_curve_extent(line);
   celspan_point first = project(line->points[0]);
   for (int i = 1; i <= line->degree; i++) {
     celspan_point p = project(line->points[i]);

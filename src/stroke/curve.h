@@ -1,6 +1,4 @@
 /* A piece of a line with its radius, or a part of one: what strokes are measured and outlined by.
- *
- * Invariant: splitting at 1/2 gives the same bits for a curve and for its reversed copy.
  */
 #ifndef CS_STROKE_CURVE_H
 #define CS_STROKE_CURVE_H
@@ -14,10 +12,11 @@ typedef struct cs_curve {
   double radius[CS_STROKE_RADIUS_DEGREE + 1];
 } cs_curve;
 
-/* A place of a curve. velocity, growth: of point and radius by the parameter. */
+/* A place of a curve. By the parameter, velocity and growth are the first derivatives of point and
+ * radius, acceleration and growth_change the second. */
 typedef struct cs_curve_place {
-  celspan_point point, velocity;
-  double radius, growth;
+  celspan_point point, velocity, acceleration;
+  double radius, growth, growth_change;
 } cs_curve_place;
 
 /* The part of piece `piece` between two parameters, begin <= end. */
@@ -25,9 +24,12 @@ void cs_curve_load(const cs_stroke *stroke, size_t piece, double begin, double e
 void cs_curve_load_line(const cs_outline *line, size_t piece, double begin, double end,
                         cs_bezier *out);
 void cs_curve_reverse(cs_curve *curve);
-void cs_curve_halve(const cs_curve *curve, cs_curve *low, cs_curve *high);
+/* At 1/2 the halves are the same, to the bit, for the curve and for its reversed copy. */
+void cs_curve_split(const cs_curve *curve, double t, cs_curve *low, cs_curve *high);
 /* The part of a Bernstein polynomial between two parameters, in place. */
 void cs_curve_cut_polynomial(double *coefficients, int degree, double begin, double end);
+/* The product of two of them, whose degree is the sum of theirs. */
+void cs_curve_multiply(const double *a, int a_degree, const double *b, int b_degree, double *out);
 cs_curve_place cs_curve_at(const cs_curve *curve, double t);
 /* A place of the line alone. */
 void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
@@ -37,6 +39,8 @@ celspan_point cs_curve_departure(const cs_bezier *line);
 /* The box that holds the line and all that is nearer to it than `extent` times the largest radius;
  * with extent 0 the line alone. */
 celspan_box cs_curve_box(const cs_curve *curve, double extent);
+/* How far its control points are from the first, along either axis. */
+double cs_curve_extent(const cs_bezier *line);
 /* Whether the line is straight with constant speed, but for rounding. */
 bool cs_curve_is_straight(const cs_bezier *line);
 /* Whether all of the line is one point, but for rounding. */

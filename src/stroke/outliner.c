@@ -2,11 +2,11 @@
 
 #include "geometry/matrix.h"
 #include "stroke/corner.h"
+#include "stroke/follow.h"
+#include "stroke/swallow.h"
 
-#define DEPTH 32  /* halvings of a piece that is larger than the frame */
-#define PLACES 16 /* of a piece, at which it is looked whether discs are inside their neighbours */
-#define ROOT_DEPTH 60
-#define FEW 16 /* parts that are looked at one by one */
+#define DEPTH 32 /* halvings of a piece that is larger than the frame */
+#define FEW 16   /* parts that are looked at one by one */
 
 /* A stretch of the line between two parameters of a piece. */
 typedef struct stretch {
@@ -39,32 +39,13 @@ static celspan_status append_stretch(outliner *o, stretch s) {
   return CELSPAN_OK;
 }
 
-static bool is_swallowed_at(const cs_curve *curve, double t) {
-  cs_curve_place place = cs_curve_at(curve, t);
-  return fabs(place.growth) > 0 &&
-         place.growth * place.growth >= cs_spoke_dot(place.velocity, place.velocity);
-}
-
-/* The parameter between two at which discs begin or cease to be inside their neighbours. */
-static double find_change(const cs_curve *curve, double from, double to) {
-  bool before = is_swallowed_at(curve, from);
-  for (int i = 0; i < ROOT_DEPTH; i++) {
-    double middle = 0.5 * (from + to);
-    if (is_swallowed_at(curve, middle) == before)
-      from = middle;
-    else
-      to = middle;
-  }
-  return 0.5 * (from + to);
-}
-
 /* The spoke at a parameter. At a change the slope is 1 or -1, so both sides' tips are one point: were it
  * left to rounding, its root would set them millionths apart, and light would leak between them. */
 static cs_spoke spoke_at(const cs_curve *curve, double t, bool is_change) {
   cs_spoke spoke = cs_spoke_at(curve, t);
-  return is_change ? cs_spoke_make(spoke.centre, spoke.radius, spoke.tangent,
-                                   spoke.slope > 0 ? 1 : -1)
-                   : spoke;
+  return is_change
+             ? cs_spoke_make(spoke.centre, spoke.radius, spoke.tangent, spoke.slope > 0 ? 1 : -1)
+             : spoke;
 }
 
 /* base: the stretch that the curve is; from, to: of its own parameter. */
@@ -76,22 +57,21 @@ static celspan_status add_between(outliner *o, const stretch *base, const cs_cur
   s.end = to < 1 ? base->begin + to * length : base->end;
   s.first = spoke_at(curve, from, from > 0);
   s.last = spoke_at(curve, to, to < 1);
-  s.is_swallowed = curve->radius_degree > 0 && is_swallowed_at(curve, 0.5 * (from + to));
+  s.is_swallowed = curve->radius_degree > 0 && cs_swallow_at(curve, 0.5 * (from + to));
   return append_stretch(o, s);
 }
 
 /* Divides a stretch where discs begin or cease to be inside their neighbours. */
 static celspan_status add_visible(outliner *o, const stretch *base, const cs_curve *curve) {
-  double from = 0;
-  for (int i = 0; curve->radius_degree > 0 && i < PLACES; i++) {
-    double low = (i + 0.25) / PLACES, high = (i + 1.25) / PLACES;
-    high = i + 1 == PLACES ? 1 - 1e-9 : high;
-    low = i == 0 ? 1e-9 : low;
-    if (is_swallowed_at(curve, low) == is_swallowed_at(curve, high))
-      continue;
-    double to = find_change(curve, low, high);
-    CS_TRY(add_between(o, base, curve, from, to));
-    from = to;
+  double changes[CS_SWALLOW_CHANGES], from = 0;
+  int count = cs_swallow_changes(curve, changes);
+  for (int i = 0; i < count; i++) {
+    double to = i + 1 < count ? changes[i + 1] : 1;
+    if (cs_swallow_at(curve, 0.5 * (from + changes[i])) ==
+        cs_swallow_at(curve, 0.5 * (changes[i] + to)))
+      continue; /* it is rounding that changes */
+    CS_TRY(add_between(o, base, curve, from, changes[i]));
+    from = changes[i];
   }
   return add_between(o, base, curve, from, 1);
 }
@@ -117,7 +97,7 @@ static celspan_status add_curve(outliner *o, const stretch *base, const cs_curve
       double middle = 0.5 * (base->begin + base->end);
       stretch half = {.piece = base->piece, .begin = base->begin, .end = middle};
       cs_curve low, high;
-      cs_curve_halve(curve, &low, &high);
+      cs_curve_split(curve, 0.5, &low, &high);
       CS_TRY(add_curve(o, &half, &low, depth + 1));
       half = (stretch){.piece = base->piece, .begin = middle, .end = base->end};
       return add_curve(o, &half, &high, depth + 1);
@@ -153,10 +133,10 @@ static celspan_status follow(outliner *o, const stretch *s) {
   cs_curve curve;
   cs_curve_load(o->stroke, s->piece, s->begin, s->end, &curve);
   if (!side->is_turned)
-    return cs_side_follow(side, &curve, &s->first, &s->last);
+    return cs_follow_curve(side, &curve, &s->first, &s->last);
   cs_spoke first = cs_spoke_turned(&s->last), last = cs_spoke_turned(&s->first);
   cs_curve_reverse(&curve);
-  return cs_side_follow(side, &curve, &first, &last);
+  return cs_follow_curve(side, &curve, &first, &last);
 }
 
 static celspan_status turn(outliner *o, const stretch *a, const stretch *b) {

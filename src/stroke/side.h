@@ -1,20 +1,19 @@
 /* One side of a stroke: the pieces of an outline along the right of a line's way.
  *
  * A stroke is the union of what its spokes sweep over. Where the line bends less than the side is
- * away, the tips go forwards, and curves are fitted to their way. Where it bends more sharply, the
- * tips on the inside go backwards, and two spokes that follow each other cross:
+ * away, the tips go forwards. Where it bends more sharply, the tips on the inside go backwards, for a
+ * spoke turns about its pivot, and what is beyond the pivot goes the other way:
  *
- *      a -------*-------> b       the line                         a contour must not go round
- *        .     . .     .          between the line and the         anything in the wrong order, or
- *          . .     . .            intersection the order is that of    parts that lie over each other
- *         . intersection .            a contour; beyond it, it is      cancel. So the side goes by the
- *       .             .           turned round                     intersections, and what is beyond is
- *     tip b         tip a                                          a contour of its own, a fold.
+ *          a --------> b     the line        A contour must not go round anything in the wrong
+ *           \        /                       order, or parts that lie over each other cancel. So the
+ *            \      /                        side goes from tip a along spoke a to its pivot, then
+ *             '.  .'   the way of the        along the way of the pivots, then along spoke b out to
+ *               \/     pivots                tip b. What is beyond the pivots is a contour of its
+ *               /\                           own, a fold: from tip b along the tips back to tip a, then
+ *             .'  '.                         as the side goes, to tip b. The way of the pivots is in
+ *     tip b  *--<---* tip a                  both, to the bit: 2 or 0 windings are added by crossing it.
  *
- * Invariants: contours go round in one order, so that their windings never cancel. Curves are within
- * the view's tolerance of the tips' way. The intersections are found by straight steps, and both
- * contours go along the same ones, so they leave nothing between them. Two sides of a curve are
- * halved at the same places, which makes what they share the same to the bit.
+ * Invariant: contours go round in one order, so that their windings never cancel.
  */
 #ifndef CS_STROKE_SIDE_H
 #define CS_STROKE_SIDE_H
@@ -30,24 +29,35 @@ typedef struct cs_side {
   bool is_turned; /* the line is followed from its end to its beginning */
   bool is_begun;  /* the outline has an open contour, which ends at `at` */
   celspan_point at;
-  celspan_point *tips, *intersections; /* of the fold that is under way */
-  size_t tip_count, tip_capacity, intersection_count, intersection_capacity;
-  cs_outline folds; /* those that are done */
+  cs_outline tips;   /* of the fold that is under way: an open contour, as they go; or nothing */
+  size_t fold_begin; /* the piece of the outline with which the side left its first tip */
+  cs_outline folds;  /* those that are done */
 } cs_side;
 
 void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
                   cs_outline *outline);
 void cs_side_finish(cs_side *side);
 
+/* How far from its place, in pixels, what is near some points may be drawn; in the box of them that
+ * is larger by a share of its size on every side. */
+double cs_side_allowance(const cs_side *side, const celspan_point *points, int count, double share);
+celspan_point cs_side_on_cubic(const celspan_point p[4], double t);
+
 /* All: Errors NO_MEMORY, LIMIT. A straight line to a point; the first one begins a contour. */
 CELSPAN_CHECKED celspan_status cs_side_go(cs_side *side, celspan_point to);
+/* A cubic from where the side is. */
+CELSPAN_CHECKED celspan_status cs_side_curve(cs_side *side, const celspan_point p[4]);
 /* An arc about a centre by an angle > 0, with the order of a contour, from one direction to
  * another. */
 CELSPAN_CHECKED celspan_status cs_side_arc(cs_side *side, const cs_spoke *about, celspan_point from,
                                            celspan_point to, double angle);
-/* Along a curve, from the tip of its first spoke to that of its last. */
-CELSPAN_CHECKED celspan_status cs_side_follow(cs_side *side, const cs_curve *curve,
-                                              const cs_spoke *first, const cs_spoke *last);
+/* A part of a fold: the tips go backwards on one cubic, the pivots meanwhile on another. Parts that
+ * follow each other from tip to tip make one fold. */
+CELSPAN_CHECKED celspan_status cs_side_fold(cs_side *side, const celspan_point tips[4],
+                                            const celspan_point pivots[4]);
+/* A fold about one pivot, the centre of `to`, by an angle > 0 against the order of a contour. */
+CELSPAN_CHECKED celspan_status cs_side_fold_arc(cs_side *side, const cs_spoke *from,
+                                                const cs_spoke *to, double angle);
 /* Ends the contour. */
 CELSPAN_CHECKED celspan_status cs_side_close(cs_side *side);
 /* Moves the folds into the outline; no contour may be open. */

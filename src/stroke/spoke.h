@@ -18,6 +18,20 @@ typedef struct cs_spoke {
   double radius, slope; /* slope: -1 .. 1 */
 } cs_spoke;
 
+/* How a spoke moves when its place goes on along the curve.
+ *
+ *            *---> a place that goes on        It turns about its pivot, the point of its line that
+ *           /                                  goes along the line itself. Beyond a pivot on its own
+ *          o pivot                             side of the curve it goes backwards.
+ *         /
+ *    <---* tip
+ */
+typedef struct cs_spoke_motion {
+  int pace; /* 1: the tip goes forwards, with the order of a contour; -1: backwards; 0: it rests */
+  double pivot; /* distance from the centre where the pace is -1 or 0, 0 .. radius; else nothing */
+  double drift; /* how fast the place goes along the spoke, by the parameter */
+} cs_spoke_motion;
+
 static inline celspan_point cs_spoke_add(celspan_point p, double k, celspan_point v) {
   return (celspan_point){p.x + k * v.x, p.y + k * v.y};
 }
@@ -39,6 +53,7 @@ static inline celspan_point cs_spoke_back(celspan_point v) { return (celspan_poi
 cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangent, double slope);
 /* That of a curve at a parameter. */
 cs_spoke cs_spoke_at(const cs_curve *curve, double t);
+cs_spoke_motion cs_spoke_move(const cs_curve *curve, double t, const cs_spoke *spoke);
 /* The same place seen on the way back: the spoke to the other side. */
 cs_spoke cs_spoke_turned(const cs_spoke *spoke);
 /* The angle from the tangent to the spoke, 0 .. pi, and that from one direction to another,

@@ -51,26 +51,6 @@ static void find_way(const cs_bezier *line, double way[WAY_DEGREE + 1]) {
   }
 }
 
-/* The product of two polynomials as Bernstein coefficients. */
-static void multiply(const double *a, int a_degree, const double *b, int b_degree, double *out) {
-  int degree = a_degree + b_degree;
-  double whole = 1, first = 1;
-  for (int k = 0; k <= degree; k++)
-    out[k] = 0;
-  for (int i = 0; i <= a_degree; i++) {
-    double second = 1;
-    for (int j = 0; j <= b_degree; j++) {
-      out[i + j] += first * second * a[i] * b[j];
-      second = second * (b_degree - j) / (j + 1);
-    }
-    first = first * (a_degree - i) / (i + 1);
-  }
-  for (int k = 0; k <= degree; k++) {
-    out[k] /= whole;
-    whole = whole * (degree - k) / (k + 1);
-  }
-}
-
 /* ---------------------------------------------------------------- pieces */
 
 /* Appends a curve that lies in one of the three stretches of its part. length: of its line. */
@@ -82,7 +62,7 @@ static celspan_status append(tapering *t, const cs_curve *curve, double length, 
   if (side >= 0) {
     bool is_straight = cs_curve_is_straight(&curve->line);
     find_way(&curve->line, way);
-    cs_curve_halve(curve, &low, &high);
+    cs_curve_split(curve, 0.5, &low, &high);
     double half = is_straight ? 0.5 * length : cs_curve_length(&low.line, 0, 1);
     double half_way[WAY_DEGREE + 1];
     for (int i = 0; i <= WAY_DEGREE; i++)
@@ -100,7 +80,7 @@ static celspan_status append(tapering *t, const cs_curve *curve, double length, 
     }
     low = *curve;
     low.radius_degree = curve->radius_degree + WAY_DEGREE;
-    multiply(curve->radius, curve->radius_degree, way, WAY_DEGREE, low.radius);
+    cs_curve_multiply(curve->radius, curve->radius_degree, way, WAY_DEGREE, low.radius);
     curve = &low;
   }
   t->way += length;
