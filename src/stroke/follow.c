@@ -4,6 +4,8 @@
 #define CONE 0.82      /* cosine of 35 degrees: how far a curve may turn from its chord */
 #define TURN 0.5       /* cosine of 60 degrees: how far spokes of a fitted curve may turn */
 #define SMALL 0.1      /* of what is allowed: what is within it is a point */
+#define THIN 0.04      /* pixels: half the width that both errors of the sweep may be as large as */
+#define RESTING 0.02   /* of the speed at the other end */
 #define HALF_TURN 1e-9 /* sine: what is nearer to a half turn is one */
 #define ROOT_STEPS 100
 
@@ -138,6 +140,34 @@ static bool is_flat(const cs_side *side, const cs_spoke s[SPOKES]) {
   return true;
 }
 
+/* How many of the spokes are shorter than some pixels. */
+static int count_short(const cs_side *side, const cs_spoke s[SPOKES], double pixels) {
+  int count = 0;
+  for (int i = 0; i < SPOKES; i++)
+    count += cs_stroke_view_error(side->view, s[i].centre, s[i].tip) < pixels;
+  return count;
+}
+
+/* Whether places and radii grow evenly. It is the same seen from either side: both then have straight
+ * lines between the same places, which never change theirs. */
+static bool is_even(const cs_side *side, const cs_spoke s[SPOKES]) {
+  const celspan_point ends[2] = {s[0].centre, s[4].centre};
+  celspan_point chord = cs_spoke_away(ends[0], ends[1]);
+  double allowed = 0.5 * cs_side_allowance(side, ends, 2, 0.25);
+  for (int i = 1; i < SPOKES - 1; i++) {
+    double square = cs_spoke_dot(chord, chord);
+    double share = cs_spoke_dot(cs_spoke_away(ends[0], s[i].centre), chord);
+    share = square > 0 ? fmin(1, fmax(0, share / square)) : 0;
+    celspan_point ought = cs_spoke_add(ends[0], share, chord);
+    double growth = s[0].radius + share * (s[4].radius - s[0].radius) - s[i].radius;
+    celspan_point wider = {ought.x + fabs(growth), ought.y};
+    if (cs_stroke_view_error(side->view, s[i].centre, ought) > allowed ||
+        cs_stroke_view_error(side->view, wider, ought) > allowed)
+      return false;
+  }
+  return true;
+}
+
 /* Whether all tips are one point. */
 static bool are_one(const cs_side *side, const cs_spoke s[SPOKES]) {
   double allowed = SMALL * cs_side_allowance(side, &s[0].tip, 1, 0);
@@ -149,29 +179,41 @@ static bool are_one(const cs_side *side, const cs_spoke s[SPOKES]) {
 
 /* ---------------------------------------------------------------- pivots */
 
-/* A pivot goes along its spoke, as fast as its distance grows and its place drifts: how fast it grows
- * is told by the polynomial through the five distances. The cubic does so at its ends. */
-static void fit_pivots(const fan *f, celspan_point p[4]) {
-  double d[SPOKES];
-  const cs_spoke *a = &f->spokes[0], *b = &f->spokes[4];
+/* How fast pivots go along the first and the last spoke while the fan is swept: as fast as their
+ * distance grows, which the polynomial through the five tells, and as their place drifts. */
+static void find_speeds(const fan *f, double speeds[2]) {
+  double d[SPOKES], length = f->end - f->begin;
   for (int i = 0; i < SPOKES; i++)
     d[i] = f->motions[i].pivot;
-  double first = (-25 * d[0] + 48 * d[1] - 36 * d[2] + 16 * d[3] - 3 * d[4]) / 3;
-  double second = (25 * d[4] - 48 * d[3] + 36 * d[2] - 16 * d[1] + 3 * d[0]) / 3;
-  first += (f->end - f->begin) * f->motions[0].drift;
-  second += (f->end - f->begin) * f->motions[4].drift;
-  p[0] = cs_spoke_add(a->centre, d[0], a->direction);
-  p[3] = cs_spoke_add(b->centre, d[4], b->direction);
-  p[1] = cs_spoke_add(p[0], first / 3, a->direction);
-  p[2] = cs_spoke_add(p[3], -second / 3, b->direction);
+  speeds[0] = (-25 * d[0] + 48 * d[1] - 36 * d[2] + 16 * d[3] - 3 * d[4]) / 3;
+  speeds[1] = (25 * d[4] - 48 * d[3] + 36 * d[2] - 16 * d[1] + 3 * d[0]) / 3;
+  speeds[0] += length * f->motions[0].drift;
+  speeds[1] += length * f->motions[4].drift;
 }
 
-static bool fits_pivots(const cs_side *side, const fan *f, celspan_point p[4]) {
-  fit_pivots(f, p);
+/* Where pivots turn round, as at the sharpest place of a bend, their way has a cusp, at which it is to
+ * be cut: a cubic would go round it in the wrong order. Where one is so near to an end that it makes no
+ * difference, pivots rest there. */
+static bool has_cusp(double speeds[2]) {
+  int least = fabs(speeds[0]) < fabs(speeds[1]) ? 0 : 1;
+  if (!(speeds[0] * speeds[1] < 0))
+    return false;
+  if (fabs(speeds[least]) > RESTING * fabs(speeds[1 - least]))
+    return true;
+  speeds[least] = 0;
+  return false;
+}
+
+static bool fits_pivots(const cs_side *side, const fan *f, const double speeds[2],
+                        celspan_point p[4]) {
+  const cs_spoke *s = f->spokes;
+  p[0] = cs_spoke_add(s[0].centre, f->motions[0].pivot, s[0].direction);
+  p[3] = cs_spoke_add(s[4].centre, f->motions[4].pivot, s[4].direction);
+  p[1] = cs_spoke_add(p[0], speeds[0] / 3, s[0].direction);
+  p[2] = cs_spoke_add(p[3], -speeds[1] / 3, s[4].direction);
   double allowed = cs_side_allowance(side, p, 4, 0);
   for (int i = 1; i < SPOKES - 1; i++) {
-    const cs_spoke *s = &f->spokes[i];
-    celspan_point ought = cs_spoke_add(s->centre, f->motions[i].pivot, s->direction);
+    celspan_point ought = cs_spoke_add(s[i].centre, f->motions[i].pivot, s[i].direction);
     if (cs_stroke_view_error(side->view, cs_side_on_cubic(p, 0.25 * i), ought) > allowed)
       return false;
   }
@@ -218,21 +260,27 @@ static bool is_hidden(const cs_side *side, const cs_curve *curve) {
   return cs_stroke_view_hides(side->view, &box);
 }
 
-/* Draws the fan if that can be done; false when its curve has to be cut. */
-static celspan_status draw_fan(cs_side *side, const fan *f, int way, bool *is_done) {
-  celspan_point tips[4], pivots[4];
+/* The tips go forwards. */
+static celspan_status draw_forwards(cs_side *side, const fan *f, bool *is_done) {
   const cs_spoke *s = f->spokes;
-  *is_done = true;
-  if (way <= 0 && are_one(side, s))
-    return cs_side_go(side, s[4].tip);
-  if (way != 0 && fits_tips(side, s, way, tips)) {
-    if (way > 0)
-      return cs_side_curve(side, tips);
-    if (fits_pivots(side, f, pivots))
-      return cs_side_fold(side, tips, pivots);
-  }
-  if (way > 0 && is_flat(side, s))
-    return cs_side_go(side, s[4].tip);
+  celspan_point tips[4];
+  bool is_thin = count_short(side, s, THIN) > 0;
+  if (!is_thin && fits_tips(side, s, 1, tips))
+    return cs_side_curve(side, tips);
+  *is_done =
+      is_thin ? count_short(side, s, 2 * THIN) == SPOKES && is_even(side, s) : is_flat(side, s);
+  return *is_done ? cs_side_go(side, s[4].tip) : CELSPAN_OK;
+}
+
+/* The tips go backwards. */
+static celspan_status draw_backwards(cs_side *side, const fan *f, double *at, bool *is_done) {
+  double speeds[2];
+  celspan_point tips[4], pivots[4];
+  find_speeds(f, speeds);
+  if (has_cusp(speeds))
+    *at = f->begin + speeds[0] / (speeds[0] - speeds[1]) * (f->end - f->begin);
+  else if (fits_tips(side, f->spokes, -1, tips) && fits_pivots(side, f, speeds, pivots))
+    return cs_side_fold(side, tips, pivots);
   *is_done = false;
   return CELSPAN_OK;
 }
@@ -273,25 +321,40 @@ static void cut(const stretch *s, double t, bool is_turn, stretch *low, stretch 
   cs_curve_split(&s->part, share, &low->part, &high->part);
 }
 
+/* Draws a stretch if that can be done; else tells at which parameter it is to be cut. */
+static celspan_status draw(cs_side *side, const stretch *s, double *at, bool *is_turn,
+                           bool *is_done) {
+  if (!goes_along(&s->part.line) || cs_spoke_dot(s->first.direction, s->last.direction) <= TURN) {
+    *is_done = false;
+    return CELSPAN_OK;
+  }
+  const fan f = spread(s);
+  int way = way_of(&f);
+  *is_done = true;
+  if (way > 0)
+    return draw_forwards(side, &f, is_done);
+  if (are_one(side, f.spokes))
+    return cs_side_go(side, s->last.tip);
+  if (way < 0)
+    return draw_backwards(side, &f, at, is_done);
+  *at = find_turn(s->whole, &f);
+  *is_turn = true;
+  *is_done = false;
+  return CELSPAN_OK;
+}
+
 static celspan_status follow(cs_side *side, const stretch *s, int depth) {
+  double at = 0.5 * (s->begin + s->end);
+  bool is_turn = false, is_done;
   if (side->may_hide && is_hidden(side, &s->part))
     return cs_side_go(side, s->last.tip);
-  double at = 0.5 * (s->begin + s->end);
-  int way = 1;
-  if (goes_along(&s->part.line) && cs_spoke_dot(s->first.direction, s->last.direction) > TURN) {
-    const fan f = spread(s);
-    bool is_done;
-    way = way_of(&f);
-    CS_TRY(draw_fan(side, &f, way, &is_done));
-    if (is_done)
-      return CELSPAN_OK;
-    if (way == 0)
-      at = find_turn(s->whole, &f);
-  }
+  CS_TRY(draw(side, s, &at, &is_turn, &is_done));
+  if (is_done)
+    return CELSPAN_OK;
   if (depth == DEPTH || is_point(side, &s->part, &s->first, &s->last))
     return turn(side, &s->first, &s->last);
   stretch low, high;
-  cut(s, at, way == 0, &low, &high);
+  cut(s, at, is_turn, &low, &high);
   CS_TRY(follow(side, &low, depth + 1));
   return follow(side, &high, depth + 1);
 }
