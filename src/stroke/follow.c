@@ -1,10 +1,11 @@
 #include "stroke/follow.h"
 
-#define DEPTH 48       /* cuts of a curve: more would not change a double */
-#define CONE 0.82      /* cosine of 35 degrees: how far a curve may turn from its chord */
-#define TURN 0.5       /* cosine of 60 degrees: how far spokes of a fitted curve may turn */
-#define SMALL 0.1      /* of what is allowed: what is within it is a point */
-#define THIN 0.04      /* pixels: half the width that both errors of the sweep may be as large as */
+#define DEPTH 48  /* cuts of a curve: more would not change a double */
+#define CONE 0.82 /* cosine of 35 degrees: how far a curve may turn from its chord */
+#define TURN 0.5  /* cosine of 60 degrees: how far spokes of a fitted curve may turn */
+#define SMALL 0.1 /* of what is allowed: what is within it is a point */
+#define THIN 0.04 /* pixels: half the width that both errors of the sweep may be as large as */
+#define HAIR 1e-4 /* pixels: sides that are so near are the same curve, wherever they are drawn */
 #define RESTING 0.02   /* of the speed at the other end */
 #define HALF_TURN 1e-9 /* sine: what is nearer to a half turn is one */
 #define ROOT_STEPS 100
@@ -264,7 +265,7 @@ static bool is_hidden(const cs_side *side, const cs_curve *curve) {
 static celspan_status draw_forwards(cs_side *side, const fan *f, bool *is_done) {
   const cs_spoke *s = f->spokes;
   celspan_point tips[4];
-  bool is_thin = count_short(side, s, THIN) > 0;
+  bool is_thin = count_short(side, s, THIN) > 0 && count_short(side, s, HAIR) < SPOKES;
   if (!is_thin && fits_tips(side, s, 1, tips))
     return cs_side_curve(side, tips);
   *is_done =

@@ -11,6 +11,7 @@
 #include "celspan/celspan.h"
 #include "scene/inside.h"
 #include "stroke/outliner.h"
+#include "stroke/spoke.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -362,6 +363,198 @@ static void test_many_dashes(celspan_context *context) {
   celspan_object_unref(few.object);
 }
 
+/* What is hard: where the sides turn round, and where they would need a line for every step. The number
+ * of curves grows with the fourth root of the size or less, 5.7 from one size to the other, and where
+ * a line stands still with its logarithm. */
+static void test_folds(celspan_context *context) {
+  static celspan_point spiral[120];
+  static double brush[120];
+  for (int i = 0; i < 120; i++) {
+    spiral[i] =
+        (celspan_point){50 + (2 + 0.3 * i) * cos(0.3 * i), 50 + (2 + 0.3 * i) * sin(0.3 * i)};
+    brush[i] = 12 + 10 * sin(0.7 * i);
+  }
+  static const struct {
+    const char *name, *data; /* none: the spiral */
+    double width;
+    size_t most[2]; /* at 1,024 and at 1,048,576 pixels a side */
+  } lines[] = {{"hairpin", "M20 80C48 10 52 10 80 80", 60, {90, 380}},
+               {"tight hairpin", "M48 80C49.9 -20 50.1 -20 52 80", 40, {100, 380}},
+               {"cusp", "M20 20C80 80 20 80 80 20", 30, {85, 250}},
+               {"rest", "M50 50S66 48 53 80", 10, {28, 90}},
+               {"loop", "M10 50C130 20 -30 20 90 50", 50, {190, 1060}},
+               {"brush", NULL, 0, {1900, 2300}}};
+  for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+    celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+    desc.data = lines[i].data;
+    desc.width = lines[i].width;
+    if (!desc.data) {
+      desc.points = spiral;
+      desc.widths = brush;
+      desc.point_count = 120;
+    }
+    counted c = make_stroke(context, &desc);
+    const double sides[2] = {1024, 1048576};
+    for (int k = 0; k < 2; k++) {
+      trial t = {.stroke = c.object->data->stroke, .side = sides[k]};
+      t.matrix = celspan_matrix_scaling(sides[k] / SIDE, sides[k] / SIDE);
+      const cs_stroke_view view = whole_view(t.matrix, sides[k]);
+      test_random random = {i};
+      make_outline(&c, &view, &t.outline);
+      printf("%-14s %7.0f pixels a side: %6zu curves\n", lines[i].name, sides[k],
+             t.outline.piece_count);
+      CHECK(t.outline.piece_count <= lines[i].most[k]);
+      CHECK(try_points(&t, &random, lines[i].data ? 300 : 20) == 0);
+      cs_outline_finish(&t.outline, c.object->memory);
+    }
+    celspan_object_unref(c.object);
+  }
+}
+
+/* One width among many of 0 makes a bump, whose flanks are so steep that discs are inside their
+ * neighbours for a short way, anywhere along the piece. */
+static void test_swallowed(celspan_context *context) {
+  celspan_point line[16];
+  double bump[16];
+  celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+  desc.points = line;
+  desc.widths = bump;
+  desc.point_count = 16;
+  desc.degree = 15;
+  desc.cap = CELSPAN_CAP_ROUND;
+  for (int number = 1; number <= 60; number++) {
+    test_random random = {(uint64_t)number};
+    int place = random_below(&random, 16);
+    for (int i = 0; i < 16; i++) {
+      line[i] = (celspan_point){6.0 * i + 5, 50 + random_between(&random, -6, 6)};
+      bump[i] = i == place ? random_between(&random, 30, 90) : 0;
+    }
+    counted c = make_stroke(context, &desc);
+    const double side = number % 2 ? 1024 : 1048576;
+    trial t = {.stroke = c.object->data->stroke, .side = side};
+    t.matrix = celspan_matrix_scaling(side / SIDE, side / SIDE);
+    cs_stroke_view view = whole_view(t.matrix, side);
+    make_outline(&c, &view, &t.outline);
+    if (!CHECK(try_points(&t, &random, 300) == 0))
+      fprintf(stderr, "  bump %d\n", number);
+    cs_outline_finish(&t.outline, c.object->memory);
+    celspan_object_unref(c.object);
+  }
+}
+
+/* Corners of pieces that are shorter than they are wide: nothing but the shapes of the corner itself
+ * covers what is between their spokes. */
+static void test_short_corners(celspan_context *context) {
+  celspan_point line[6];
+  double widths[6];
+  for (int number = 1; number <= 150; number++) {
+    test_random random = {(uint64_t)number};
+    celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+    desc.points = line;
+    desc.point_count = 3 + (size_t)random_below(&random, 4);
+    desc.widths = random_below(&random, 2) == 0 ? widths : NULL;
+    desc.width = random_between(&random, 20, 60);
+    desc.join = (celspan_stroke_join)random_below(&random, 3);
+    desc.cap = (celspan_stroke_cap)random_below(&random, 3);
+    desc.closed = random_below(&random, 4) == 0;
+    for (size_t i = 0; i < desc.point_count; i++) {
+      line[i] = random_point(&random, 44, 56, 44, 56);
+      widths[i] = random_between(&random, 25, 32);
+    }
+    counted c = make_stroke(context, &desc);
+    trial t = {.stroke = c.object->data->stroke, .side = 1024};
+    t.matrix = celspan_matrix_scaling(1024 / SIDE, 1024 / SIDE);
+    const cs_stroke_view view = whole_view(t.matrix, 1024);
+    make_outline(&c, &view, &t.outline);
+    if (!CHECK(try_points(&t, &random, 300) == 0))
+      fprintf(stderr, "  short corners %d\n", number);
+    cs_outline_finish(&t.outline, c.object->memory);
+    celspan_object_unref(c.object);
+  }
+}
+
+/* A window of 1,024 pixels somewhere on a random stroke that is up to a million times as large: lines
+ * leave it and come back, closed ones too. */
+static void test_windows(celspan_context *context) {
+  size_t most = 0;
+  for (int number = 1; number <= 250; number++) {
+    test_random random = {(uint64_t)number};
+    sketch s;
+    random_sketch(&random, &s);
+    s.desc.dashes = NULL;
+    s.desc.dash_count = 0;
+    if (s.desc.point_count > 2 && random_below(&random, 2) == 0)
+      s.desc.closed = true;
+    counted c = make_stroke(context, &s.desc);
+    const cs_stroke *stroke = c.object->data->stroke;
+    double scale = pow(10, random_between(&random, 0.5, 5));
+    if (stroke->line.point_count > 0) {
+      cs_hpoint on = stroke->line.points[random_bits(&random) % stroke->line.point_count];
+      trial t = {.stroke = stroke, .side = 1024};
+      t.matrix = celspan_matrix_then(celspan_matrix_translation(-on.x / on.w, -on.y / on.w),
+                                     celspan_matrix_scaling(scale, scale));
+      double x = random_between(&random, 0, 1024), y = random_between(&random, 0, 1024);
+      t.matrix = celspan_matrix_then(t.matrix, celspan_matrix_translation(x, y));
+      const cs_stroke_view view = whole_view(t.matrix, 1024);
+      make_outline(&c, &view, &t.outline);
+      if (!CHECK(try_points(&t, &random, 100) == 0))
+        fprintf(stderr, "  window %d\n", number);
+      most = t.outline.piece_count > most ? t.outline.piece_count : most;
+      cs_outline_finish(&t.outline, c.object->memory);
+    }
+    celspan_object_unref(c.object);
+  }
+  CHECK(most <= 400);
+}
+
+/* ---------------------------------------------------------------- spokes and views */
+
+/* Where a line stands still its slope is that of what is beside it, along the way: there and back. */
+static void test_rest(void) {
+  cs_curve curve = {.line = {.degree = 2, .points = {{0, 0, 1}, {10, 0, 1}, {10, 0, 1}}},
+                    .radius_degree = 1,
+                    .radius = {1, 3}};
+  cs_spoke end = cs_spoke_at(&curve, 1);
+  CHECK(end.slope == 1 && end.tangent.x == 1);
+  cs_curve_reverse(&curve);
+  cs_spoke begin = cs_spoke_at(&curve, 0);
+  CHECK(begin.slope == -1 && begin.tangent.x == -1);
+  curve.radius[0] = 1;
+  CHECK(cs_spoke_at(&curve, 0).slope == 0);
+}
+
+/* A circle of radius 10: a spoke of 8 goes forwards, one of 10 rests, one of 12 goes back about its
+ * centre; on the outside all go forwards. */
+static void test_motion(void) {
+  const double k = 0.70710678118654752;
+  cs_curve curve = {
+      .line = {.degree = 2, .points = {{10, 0, 1}, {10 * k, -10 * k, k}, {0, -10, 1}}}};
+  static const int paces[3] = {1, 0, -1};
+  for (int i = 0; i < 3; i++) {
+    curve.radius[0] = 8 + 2 * i;
+    cs_spoke inside = cs_spoke_at(&curve, 0.3), outside = cs_spoke_turned(&inside);
+    if (!CHECK(inside.tip.x * inside.tip.x + inside.tip.y * inside.tip.y < 5))
+      continue;
+    cs_spoke_motion motion = cs_spoke_move(&curve, 0.3, &inside);
+    CHECK(motion.pace == paces[i]);
+    if (motion.pace < 0)
+      CHECK_NEAR(motion.pivot, 10, 1e-9);
+    cs_curve back = curve;
+    cs_curve_reverse(&back);
+    CHECK(cs_spoke_move(&back, 0.7, &outside).pace == 1);
+  }
+}
+
+/* Beside the frame a quarter of the distance is allowed, in it the tolerance. */
+static void test_allowance(void) {
+  const cs_stroke_view view = whole_view(celspan_matrix_scaling(2, 2), 1024);
+  const celspan_box boxes[] = {
+      {100, 100, 10, 10}, {532, 100, 10, 10}, {100, -30, 10, 10}, {-60, 552, 20, 20}};
+  const double allowed[] = {CS_STROKE_TOLERANCE, 10, 10, 20};
+  for (int i = 0; i < 4; i++)
+    CHECK_NEAR(cs_stroke_view_allowance(&view, &boxes[i]), allowed[i], 1e-12);
+}
+
 /* Dashes along a curve that goes far beyond the frame, at any scale: what is shown costs, not what is
  * there; and what is shown is right, however small a part it is. */
 static void test_far(celspan_context *context) {
@@ -401,8 +594,7 @@ static void test_cost(celspan_context *context) {
       {"M10 50Q20 10 30 50T50 50T70 50T90 50", 66},
       {"M20 20C40 0 90 10 80 40S20 50 20 70S60 100 85 80", 30},
   };
-  const cs_stroke_view view =
-      whole_view(celspan_matrix_scaling(1024 / SIDE, 1024 / SIDE), 1024);
+  const cs_stroke_view view = whole_view(celspan_matrix_scaling(1024 / SIDE, 1024 / SIDE), 1024);
   for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
     celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
     desc.data = lines[i].data;
@@ -461,6 +653,13 @@ int main(void) {
     test_dashes(context);
     test_many_dashes(context);
     test_far(context);
+    test_folds(context);
+    test_swallowed(context);
+    test_short_corners(context);
+    test_windows(context);
+    test_rest();
+    test_motion();
+    test_allowance();
     test_cost(context);
     test_object_stroke(context);
   }
