@@ -287,6 +287,32 @@ describe("a stroke in a scene", function()
     assert.is_true(select(1, picture:get(400, 60)) > 0.5 and select(3, picture:get(300, 255)) > 0.1)
   end)
 
+  it("spares the colours of what it hides", function()
+    --- How many colours are evaluated for 40 discs behind a line that is so thick.
+    local function evaluations(width)
+      local path = os.tmpname()
+      local file = assert(io.open(path, "w"))
+      file:write(([[
+        local celspan = require "celspan"
+        local art = {}
+        for i = 1, 40 do
+          art[i] = celspan.circle { centre = { 256 + 5 * i, 256 }, radius = 200, texture = ("#%%02x20ff"):format(6 * i) }
+        end
+        art[41] = celspan.stroke { points = { { -100, 200 }, { 600, 300 } }, width = %d, texture = "#204060" }
+        return celspan.film { size = { 512, 512 }, frames = 1,
+          frame = function() return celspan.rostrum { celspan.cel(art) } end }]]):format(width))
+      file:close()
+      local pipe = assert(io.popen(os.getenv "CELSPAN" .. " spans --stats " .. path))
+      local out = pipe:read "a"
+      pipe:close()
+      os.remove(path)
+      return tonumber(out:match "colour_evaluations (%d+)"), out
+    end
+    local hidden, out = evaluations(900)
+    assert.is_true(hidden <= 100, out)
+    assert.is_true(evaluations(2) >= 5 * hidden)
+  end)
+
   it("is the same in a crop and on some rows as in the whole", function()
     local wave = {}
     for i = 0, 40 do wave[#wave + 1] = { -20 + 14 * i, 256 + (i % 3) * 90 - i % 7 * 40, 6 + 20 * (i % 3) } end
