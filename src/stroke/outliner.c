@@ -215,7 +215,6 @@ static void begin_at_cut(outliner *o) {
   reverse(o->stretches, first);
   reverse(o->stretches + first, o->count - first);
   reverse(o->stretches, o->count);
-  o->is_cut = true;
 }
 
 static celspan_status add_part_runs(outliner *o, const cs_stroke_part *part) {
