@@ -6,6 +6,7 @@
 --   parts    frames that are rendered before, into a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
+  { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "moon", page = "README.md", frame = 40 },
   { name = "beta", page = "docs/guide.md" },
   { name = "blending", page = "docs/guide.md" },

@@ -5,6 +5,7 @@
 -- Each layer is drawn with celspan and cut to what is in it; then all are put into an archive.
 package.path = "./?.lua;" .. package.path
 local celspan = require "celspan"
+local draw = require "scripts.paintings.draw"
 local paintings = require "tests.support.paintings"
 
 local W, H = 1200, 540
@@ -86,28 +87,18 @@ local layers = {
   } },
 }
 
---- The picture of a layer, cut to whole pixels about what is drawn.
-local function draw(layer)
-  local art = celspan.union { table.unpack(layer) }
-  local x, y, w, h = art:bounds()
-  local x0, y0 = math.max(0, math.floor(x)), math.max(0, math.floor(y))
-  local x1, y1 = math.min(W, math.ceil(x + w)), math.min(H, math.ceil(y + h))
-  local path = os.tmpname() .. ".png"
-  assert(celspan.render(celspan.rostrum { celspan.cel { art } }, path,
-    { size = { W, H }, crop = { x0, y0, x1 - x0, y1 - y0 } }))
-  local file = assert(io.open(path, "rb"))
-  layer.x, layer.y, layer.png = x0, y0, file:read "a"
-  file:close()
-  os.remove(path)
-end
-
 local function draw_all(list)
   for _, layer in ipairs(list) do
-    if layer.layers then draw_all(layer.layers) else draw(layer) end
+    if layer.layers then
+      draw_all(layer.layers)
+    else
+      local picture = draw(celspan.union { table.unpack(layer) }, W, H, 1)
+      layer.x, layer.y, layer.png = picture.x, picture.y, picture.png
+    end
   end
 end
 
 draw_all(layers)
-local file = assert(io.open("scripts/paintings/valley.ora", "wb"))
+local file = assert(io.open(arg[1] or "scripts/paintings/valley.ora", "wb"))
 assert(file:write(paintings.openraster { w = W, h = H, layers = layers }))
 file:close()

@@ -4,20 +4,27 @@
 package.path = "./?.lua;" .. package.path
 local golden = require "tests.support.golden"
 
-local function accept(case)
-  local text = assert(golden.actual(case))
-  local before = golden.expected(case)
-  if before == text then return false end
-  print(("%s  %s"):format(before and "changed" or "new", case))
+--- Writes what is new into the file at `path`, and shows it; whether there was something.
+local function accept(path, before, text)
+  if before == text then return 0 end
+  print(("%s  %s"):format(before and "changed" or "new", path))
   print(golden.difference(before or "", text))
-  local file = assert(io.open(case .. ".spans", "w"))
+  local file = assert(io.open(path, "w"))
   file:write(text)
   file:close()
-  return true
+  return 1
 end
 
-local count = 0
+local count, part = 0, arg[1] or ""
 for _, case in ipairs(golden.cases()) do
-  if case:find(arg[1] or "", 1, true) and accept(case) then count = count + 1 end
+  if case:find(part, 1, true) then
+    count = count + accept(case .. ".spans", golden.expected(case), assert(golden.actual(case)))
+  end
+end
+for _, path in ipairs(golden.films()) do
+  if path:find(part, 1, true) then
+    local before, now, message = golden.digests(path)
+    count = count + accept(path, before, assert(now, message))
+  end
 end
 print(count .. " accepted")

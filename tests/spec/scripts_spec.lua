@@ -40,11 +40,18 @@ local has_pictures = not run("convert no-such.png no-such-either.png 2>&1; true"
 -- Built without the libraries for type and XML, there are no letters, drawings and paintings.
 local has_art = not run("check scripts/title.lua 2>&1; true"):find("celspan-art.so", 1, true)
 
+--- A script, and what is in the folder of its name.
+local function text_of(path)
+  local pipe = assert(io.popen(("cat %s $(find %s -name '*.lua' 2>/dev/null)"):format(path,
+    path:gsub("%.lua$", ""))))
+  local text = pipe:read("a")
+  pipe:close()
+  return text
+end
+
 --- Whether a script needs a module that is not there.
 local function lacks_module(path)
-  local file = assert(io.open(path))
-  local text = file:read("a")
-  file:close()
+  local text = text_of(path)
   local function calls(...)
     for _, name in ipairs { ... } do
       if text:find("celspan." .. name, 1, true) then return true end

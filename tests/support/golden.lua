@@ -38,6 +38,30 @@ function golden.expected(case)
   return text
 end
 
+--- Files of digests of a shipped film's frames, in order. The first line of such a file is what
+--- `celspan render --hash` is asked for, the others are its answer.
+function golden.films()
+  local list = {}
+  local pipe = assert(io.popen "ls tests/golden/*.digests")
+  for path in pipe:lines() do list[#list + 1] = path end
+  pipe:close()
+  return list
+end
+
+--- What a file of digests says; and what it would say now, or nil and a message.
+function golden.digests(path)
+  local file = assert(io.open(path))
+  local accepted = file:read "a"
+  file:close()
+  local asked = accepted:match "^[^\n]*"
+  local pipe = assert(io.popen(("%s render %s --hash --progress none"):format(command, asked)))
+  local lines = {}
+  for line in pipe:lines() do lines[#lines + 1] = line end
+  if not pipe:close() then return accepted, nil, "celspan render " .. asked .. " failed" end
+  table.sort(lines, function(a, b) return tonumber(a:match "%S+") < tonumber(b:match "%S+") end)
+  return accepted, asked .. "\n" .. table.concat(lines, "\n") .. "\n"
+end
+
 --- Lines of the two texts that are not in both, "- " the old and "+ " the new.
 function golden.difference(old, new)
   local function lines_of(text)

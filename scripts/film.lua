@@ -1,0 +1,47 @@
+-- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute.
+--
+--   celspan render scripts/film.lua -o out/film.mp4 [-- SOUND]      (./run film makes the sound)
+--
+-- The cutting: which shot is seen when, and how one dissolves into the next. What happens in a shot
+-- is in film/shots/, the set and the figure beside it, and film/timing.lua is the clock of them
+-- all.
+local celspan = require "celspan"
+local ease = require "celspan.ease"
+local timing = require "film.timing"
+
+local sound = ...
+
+local shots = {}
+for _, shot in ipairs(timing.shots) do
+  shots[#shots + 1] = { from = shot.from, to = shot.to, draw = require("film.shots."
+    .. shot.name).draw }
+end
+
+local fading = ease "inOutSine"
+
+--- How much of the shot is seen: less than 1 while the shot before it, or after it, is seen as
+--- well.
+local function share_of(i, time)
+  local before, shot, after = shots[i - 1], shots[i], shots[i + 1]
+  local share = 1
+  if before and time < before.to then
+    share = fading(timing.share(time, shot.from, before.to - shot.from))
+  end
+  if after and time >= after.from then
+    share = share * (1 - fading(timing.share(time, after.from, shot.to - after.from)))
+  end
+  return share
+end
+
+return celspan.film { title = "Little One", fps = timing.fps, duration = timing.seconds,
+  sound = sound,
+  frame = function(f)
+    local exposures = {}
+    for i, shot in ipairs(shots) do
+      if f.time >= shot.from and f.time < shot.to then
+        local share = share_of(i, f.time)
+        if share > 0 then exposures[#exposures + 1] = { shot.draw(f.time), share } end
+      end
+    end
+    return exposures
+  end }

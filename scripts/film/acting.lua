@@ -1,0 +1,34 @@
+-- What the exposure sheet and the voice tell of the lamplighter at a frame of the film.
+local lips = require "celspan.lips"
+local sheet = require "celspan.sheet"
+local lamplighter = require "film.lamplighter"
+local timing = require "film.timing"
+
+local acting = {}
+
+local exposed = assert(sheet.read "acting.txt")
+local voice = assert(lips.read("voice.tsv", { fps = timing.fps }))
+local way = lamplighter.way(exposed, "step")
+
+acting.sheet, acting.voice = exposed, voice
+
+--- The frame of the film, from 1, that shows this time.
+function acting.frame_of(time)
+  return math.max(1, math.min(exposed.frames, math.floor(time * timing.fps + 0.01) + 1))
+end
+
+--- The drawings of a frame, and how far he has walked by then, in his units. A mouth that the sheet
+--- calls `voice` is the one that the voice needs.
+function acting.at(time)
+  local frame = acting.frame_of(time)
+  local mouth = exposed:at("mouth", frame)
+  if mouth == "voice" then mouth = voice:at(frame) end
+  return { step = exposed:at("step", frame) or "stand", eyes = exposed:at("eyes", frame),
+    mouth = mouth,
+    mitten = exposed:at("mitten", frame), time = time }, way[frame]
+end
+
+--- How far he has walked when he stops at the lamp.
+function acting.far_way() return way[acting.frame_of(timing.reach)] end
+
+return acting

@@ -1,0 +1,44 @@
+-- Falling snow: flakes on ways of their own, over and over, each swaying in its time.
+local celspan = require "celspan"
+
+local snow = {}
+
+local FLAKE = "#e9ecff"
+
+--- A flake of radius 1 about (0, 0): sharp, or as a lens shows it that looks past it.
+local function flake(softness)
+  if softness == 0 then
+    return celspan.circle { centre = { 0, 0 }, radius = 1, texture = FLAKE }
+  end
+  local clear = celspan.rgb(FLAKE, 0)
+  return celspan.circle { centre = { 0, 0 }, radius = 1, texture = celspan.radial {
+    centre = { 0, 0 }, radius = 1, { 0, celspan.rgb(FLAKE, 0.62) },
+    { 1 - softness, celspan.rgb(FLAKE, 0.5) }, { 1, clear } } }
+end
+
+--- A curtain of snow for a frame of 1920 x 1080 and some more: a function of the time and of how
+--- far the curtain has been moved.
+---   count, size = {least, most}, fall (units a second), drift (to the side), sway, soft 0..1
+function snow.curtain(seed, fields)
+  local random = celspan.random(seed)
+  local width, height, margin = 2300, 1300, 110
+  local one, flakes = flake(fields.soft or 0), {}
+  for i = 1, fields.count do
+    local size = fields.size[1] + (fields.size[2] - fields.size[1]) * random("size" .. i) ^ 2
+    flakes[i] = { x = random("x" .. i) * width, y = random("y" .. i) * height, size = size,
+      fall = fields.fall * (0.75 + 0.5 * random("fall" .. i)), phase = 6.28 * random("phase" .. i),
+      pace = 0.7 + 0.8 * random("pace" .. i), object = one:scale(size) }
+  end
+  return function(time, dx, dy)
+    local list = {}
+    for i, f in ipairs(flakes) do
+      local sway = fields.sway * math.sin(time * f.pace * 1.7 + f.phase)
+      local x = (f.x + fields.drift * time + sway + dx) % width - 190
+      local y = (f.y + f.fall * time + 0.25 * sway + dy) % height - margin
+      list[i] = f.object:translate(x, y)
+    end
+    return celspan.union(list)
+  end
+end
+
+return snow
