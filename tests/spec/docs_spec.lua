@@ -406,7 +406,7 @@ describe("the pictures", function()
       assert.is_true(size < 300000, picture.name)
       assert.is_truthy(text:find("pictures/" .. picture.name .. ".png", 1, true), picture.name)
     end
-    assert.is_true(all < 2000000)
+    assert.is_true(all < 4000000)
   end)
 
   it("move on the front page, round and round", function()

@@ -27,7 +27,7 @@ end
 
 local function scripts()
   local paths = {}
-  local list = assert(io.popen("ls scripts/*.lua"))
+  local list = assert(io.popen("ls scripts/*.lua scripts/paper/figure*.lua"))
   for path in list:lines() do paths[#paths + 1] = path end
   list:close()
   return paths
@@ -57,6 +57,7 @@ local function lacks_module(path)
       if text:find("celspan." .. name, 1, true) then return true end
     end
   end
+  if path:find "/paper/" then return not (has_pictures and has_art) end
   return calls("image", "picture") and not has_pictures
     or calls("text", "glyphs", "layers", "svg") and not has_art
 end

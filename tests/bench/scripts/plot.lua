@@ -1,6 +1,7 @@
 -- The plots of docs/bench.md. Arguments: the table of a run, the plot, the scene where it has one:
 --   shapes SCENE   time against side
 --   ratios         how many times celspan's time others take
+--   figure13       the paper's shapes, beside its line
 --   figure14       the paper's pair, beside its curves
 --   defocus        time against radius
 local celspan = require "celspan"
@@ -91,6 +92,25 @@ local function ratios()
     title = "how many times celspan's time (antialiased, to pixels, one thread)" }
 end
 
+local function figure13()
+  local series, paper = {}, published.paper
+  local function line(last)
+    local out = {}
+    for i, side in ipairs { 1024, paper.side } do out[i] = { side, last * side / paper.side } end
+    return out
+  end
+  add(series, "paper: 100 shapes", colours.limit, line(paper.shapes), true)
+  for _, one in ipairs { { "100", "area", colours.celspan }, { "100", "none", colours.spans },
+                         { "10", "area", colours.published }, { "10", "none", colours.skia } } do
+    add(series, ("%s shapes, %s"):format(one[1], one[2]), one[3],
+      points({ part = "shapes", scene = one[1], renderer = "celspan", output = "spans",
+               antialias = one[2] }, sides))
+  end
+  return chart.lines { width = 960, height = 600, series = series, x = "pixels a side",
+    ticks = { 1024, 4096, 30000, 100000, 1000000 },
+    title = "figure 13: 10 and 100 shapes, to spans" }
+end
+
 local function figure14()
   local series, list = {}, { 1000, 4000, 10000, 30000 }
   local paper = published.paper
@@ -134,7 +154,8 @@ local function defocus()
     title = "defocus of 100 shapes at 4096 x 4096, one thread" }
 end
 
-local plots = { shapes = shapes, ratios = ratios, figure14 = figure14, defocus = defocus }
+local plots = { shapes = shapes, ratios = ratios, figure13 = figure13, figure14 = figure14,
+  defocus = defocus }
 local sizes = { ratios = { 1100, 520 }, defocus = { 960, 520 } }
 
 return celspan.film { size = sizes[plot] or { 960, 600 }, frames = 1, frame = plots[plot] }

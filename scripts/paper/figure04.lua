@@ -1,6 +1,6 @@
--- The Beta colour model against plain alpha. Above: three paints that only cover, opaque, half and
--- a fifth. Below: the same, but what a paint does not cover it filters, as a sheet of gelatine
--- does; the last is a filter alone.
+-- Figure 4: the colour model of RGBA (above) and the Beta colour model (below). Above: three paints
+-- that only cover, opaque, half and a fifth. Below: the same, but what a paint does not cover it
+-- filters, as a sheet of gelatine does; the last is a filter alone.
 local celspan = require "celspan"
 
 local cream = "#f4ead5"

@@ -1,0 +1,46 @@
+-- Figure 9: the span list of one NURBS primitive. What is in front makes a mask (1); only what the
+-- mask leaves free of the primitive is worked out (2); what is opaque of it joins the mask (3),
+-- which the cels behind are given.
+local celspan = require "celspan"
+local diagram = require "diagram"
+
+local COLUMNS, CELL, LEFT = 60, 14, 60
+local SCAN = 8 -- the row of pixels that is looked at, of 22 that the drawing is high
+
+local leaf = celspan.nurbs { closed = "periodic", texture = diagram.gold,
+  points = { { 6, 16 }, { 10, -4 }, { 24, 2 }, { 29, 17 }, { 37, -2 }, { 56, 1 }, { 54, 22 }, { 30, 13 } } }
+local front = celspan.union {
+  celspan.circle { centre = { 16, 11 }, radius = 5, texture = diagram.teal },
+  celspan.rect { 43, 3, 5, 16, radius = 2, texture = diagram.teal },
+}
+
+--- The row of an object at the scan line.
+local function row(object)
+  return diagram.row(celspan.rostrum { antialias = "none",
+    celspan.cel { object:translate(0, -SCAN) } }, COLUMNS)
+end
+
+--- An object in one colour.
+local function flat(object, colour)
+  return celspan.clip(celspan.rect { 0, 0, COLUMNS, 22, texture = colour }, object)
+end
+
+--- A numbered list of spans with what it is.
+local function list(number, text, object, y)
+  return celspan.union {
+    diagram.label(number, LEFT - 14, y + 15, 22, "right"),
+    diagram.spans(row(object), LEFT, y, CELL),
+    diagram.label(text, LEFT + COLUMNS * CELL, y - 8, 17, "right", diagram.grey),
+  }
+end
+
+local drawing = (leaf | front):scale(CELL):translate(LEFT, 34)
+local scan = 34 + (SCAN + 0.5) * CELL
+
+return diagram.film("Figure 9", 960, 560, {
+  drawing,
+  diagram.line({ { LEFT - 20, scan }, { LEFT + COLUMNS * CELL + 20, scan } }, 2, diagram.ink),
+  list("1", "the mask of what is in front", flat(front, diagram.ink), 376),
+  list("2", "what is left of the primitive", leaf - front, 446),
+  list("3", "the mask for what is behind", flat(leaf | front, diagram.ink), 516),
+})

@@ -1,0 +1,37 @@
+-- Pictures of pixels for the figures that need photographs: from a file that is given, else drawn
+-- here and made into pixels, so that every figure can be rendered without any file.
+local celspan = require "celspan"
+
+local pixels = {}
+
+--- Art of `w` x `h` units as a picture of as many pixels, with alpha.
+function pixels.of(art, w, h, light)
+  local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
+  local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
+  return { pixels = image:bytes { depth = 8, colour = "srgb", alpha = "straight" }, size = { w, h },
+    format = "rgba8", colour = "srgb" }
+end
+
+--- The same as film that is coded by its density: 16 bits, Cineon's curve, no alpha.
+function pixels.film(art, w, h, light)
+  local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
+  local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
+  return { pixels = image:bytes { depth = 16, colour = "cineon", alpha = "straight" }, size = { w, h },
+    format = "rgba16", colour = "cineon" }
+end
+
+--- The fields of celspan.picture for a file that is given, else what `make` returns.
+function pixels.given(file, make)
+  if file and file ~= "" then return { file = file } end
+  return make()
+end
+
+--- A texture of these fields and more.
+function pixels.texture(fields, more)
+  local all = {}
+  for key, value in pairs(fields) do all[key] = value end
+  for key, value in pairs(more or {}) do all[key] = value end
+  return celspan.picture(all)
+end
+
+return pixels
