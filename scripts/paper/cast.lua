@@ -22,8 +22,8 @@ local function disc(x, y, rx, ry, texture)
 end
 
 local function line(points, width, colour)
-  return celspan.stroke { points = points, width = width, degree = 3, cap = "round", taper = { 14, 14 },
-    texture = colour }
+  return celspan.stroke { points = points, width = width, degree = 3, cap = "round",
+    taper = { 14, 14 }, texture = colour }
 end
 
 --- An eye that looks `look` units aside.
@@ -67,11 +67,11 @@ function cast.woman()
   local skin = { "#f7d0ac", "#cf8d6c", "#b23b3f" }
   local hair = fade(-100, -120, 120, 140, "#6a3a2a", "#2a1516")
   return celspan.union {
-    blob({ { 0, -176 }, { 130, -130 }, { 122, 40 }, { 150, 190 }, { 70, 170 }, { -70, 170 }, { -150, 190 },
-           { -122, 40 }, { -130, -130 } }, hair),
+    blob({ { 0, -176 }, { 130, -130 }, { 122, 40 }, { 150, 190 }, { 70, 170 }, { -70, 170 },
+      { -150, 190 }, { -122, 40 }, { -130, -130 } }, hair),
     bust(skin, { "#c4472f", "#7d2420" }), face(skin), eye(-36, 3), eye(36, 3),
-    blob({ { -10, -150 }, { 90, -140 }, { 112, -30 }, { 88, -16 }, { 60, -84 }, { -30, -96 }, { -86, -20 },
-           { -112, -10 }, { -104, -120 } }, hair),
+    blob({ { -10, -150 }, { 90, -140 }, { 112, -30 }, { 88, -16 }, { 60, -84 }, { -30, -96 },
+      { -86, -20 }, { -112, -10 }, { -104, -120 } }, hair),
   }
 end
 
@@ -79,13 +79,13 @@ end
 function cast.man()
   local skin = { "#e9bd98", "#b07a58", "#8f4038" }
   local hair = fade(-90, -120, 100, 60, "#a7a29a", "#5c5853")
-  local beard = blob({ { -92, 0 }, { -70, 50 }, { -30, 44 }, { 0, 50 }, { 30, 44 }, { 70, 50 }, { 92, 0 },
-                       { 84, 110 }, { 0, 168 }, { -84, 110 } }, hair)
+  local beard = blob({ { -92, 0 }, { -70, 50 }, { -30, 44 }, { 0, 50 }, { 30, 44 }, { 70, 50 },
+    { 92, 0 }, { 84, 110 }, { 0, 168 }, { -84, 110 } }, hair)
   local mouth = line({ { -22, 66 }, { -8, 72 }, { 8, 72 }, { 22, 65 } }, 8, skin[3])
   return celspan.union {
     bust(skin, { "#3f7f6c", "#1c4440" }), face(skin), beard, mouth, eye(-36, -4), eye(36, -4),
-    blob({ { 0, -160 }, { 104, -130 }, { 106, -40 }, { 84, -44 }, { 60, -98 }, { -60, -98 }, { -84, -44 },
-           { -106, -40 }, { -104, -130 } }, hair),
+    blob({ { 0, -160 }, { 104, -130 }, { 106, -40 }, { 84, -44 }, { 60, -98 }, { -60, -98 },
+      { -84, -44 }, { -106, -40 }, { -104, -130 } }, hair),
   }
 end
 
@@ -93,7 +93,8 @@ end
 local function flower(x, y, r, turn, petal, heart)
   local petals = {}
   for i = 0, 6 do
-    petals[#petals + 1] = blob({ { 0, 0 }, { 0.55 * r, -0.6 * r }, { 0, -1.25 * r }, { -0.55 * r, -0.6 * r } }, petal)
+    petals[#petals + 1] = blob({ { 0, 0 }, { 0.55 * r, -0.6 * r }, { 0, -1.25 * r },
+      { -0.55 * r, -0.6 * r } }, petal)
       :rotate(turn + 360 / 7 * i):translate(x, y)
   end
   petals[#petals + 1] = disc(x, y, 0.28 * r, 0.28 * r, heart)
@@ -108,16 +109,20 @@ function cast.flowers()
                   { 56, -270, 58, 44, "#f2b632" } }
   local art = {}
   for _, head in ipairs(heads) do
-    art[#art + 1] = line({ { head[1], head[2] }, { head[1] * 0.7, -220 }, { head[1] * 0.2, -150 }, { 0, -20 } }, 9, stem)
+    art[#art + 1] = line({ { head[1], head[2] }, { head[1] * 0.7, -220 }, { head[1] * 0.2, -150 },
+      { 0, -20 } }, 9, stem)
   end
   for _, x in ipairs { -130, 120 } do
-    art[#art + 1] = blob({ { 0, -130 }, { x * 0.4, -230 }, { x * 1.3, -250 }, { x * 0.8, -150 } }, "#52834a")
+    art[#art + 1] = blob({ { 0, -130 }, { x * 0.4, -230 }, { x * 1.3, -250 }, { x * 0.8, -150 } },
+      "#52834a")
   end
   for _, head in ipairs(heads) do
-    art[#art + 1] = flower(head[1], head[2], head[3], head[4], fade(0, -80, 0, 0, head[5], "#b5563f"), "#5b3320")
+    art[#art + 1] = flower(head[1], head[2], head[3], head[4],
+      fade(0, -80, 0, 0, head[5], "#b5563f"), "#5b3320")
   end
   art[#art + 1] = celspan.nurbs { closed = "periodic",
-    points = { { -46, -170 }, { 46, -170 }, { 34, -110 }, { 84, -40 }, { 60, 8 }, { -60, 8 }, { -84, -40 }, { -34, -110 } },
+    points = { { -46, -170 }, { 46, -170 }, { 34, -110 }, { 84, -40 }, { 60, 8 }, { -60, 8 },
+      { -84, -40 }, { -34, -110 } },
     texture = celspan.paint { pigment = "#8fb7c4", medium = { 0.72, 0.86, 0.9 }, beta = 0.4 } }
   return celspan.union(art)
 end

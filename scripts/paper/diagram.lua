@@ -92,7 +92,8 @@ function diagram.spans(row, x, y, size)
       if span.kind == "array" then
         parts[#parts + 1] = diagram.pixels({ span }, x, y, size)
       else
-        parts[#parts + 1] = celspan.rect { left, y, width, size, texture = texture(span, left, size) }
+        parts[#parts + 1] = celspan.rect { left, y, width, size,
+          texture = texture(span, left, size) }
       end
       parts[#parts + 1] = diagram.box(left, y, width, size, 3)
     end

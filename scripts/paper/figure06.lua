@@ -7,8 +7,8 @@ local COLUMNS, CELL, LEFT = 24, 36, 48
 
 --- Nine pixels of a photograph: a sunset seen through branches.
 local function photograph()
-  local codes = { { 40, 44, 70 }, { 120, 70, 84 }, { 214, 120, 74 }, { 36, 30, 38 }, { 246, 184, 96 },
-                  { 252, 226, 150 }, { 58, 40, 44 }, { 226, 140, 84 }, { 92, 62, 88 } }
+  local codes = { { 40, 44, 70 }, { 120, 70, 84 }, { 214, 120, 74 }, { 36, 30, 38 },
+    { 246, 184, 96 }, { 252, 226, 150 }, { 58, 40, 44 }, { 226, 140, 84 }, { 92, 62, 88 } }
   local bytes = {}
   for i, code in ipairs(codes) do bytes[i] = string.char(table.unpack(code)) end
   return celspan.picture { pixels = table.concat(bytes), size = { #codes, 1 }, format = "rgb8",

@@ -14,7 +14,8 @@ local cels = {
     front = { 0.9, 0.85, 0.8 }, back = { 0, 0.06, 0.22 } },
 }
 
---- Light that leaves the first `count` cels, and with the back light of the next where it is wanted.
+--- Light that leaves the first `count` cels, and with the back light of the next where it is
+-- wanted.
 local function light(count, with_next)
   local stack = {}
   for i = 1, count do
@@ -41,10 +42,10 @@ end
 
 --- A sign in a circle: "x" where a cel filters and scatters, "+" where light is added.
 local function sign(x, y, kind)
-  local d = kind == "x" and 8 or 0
-  local a = kind == "x" and { { x - d, y - d }, { x + d, y + d } } or { { x - 11, y }, { x + 11, y } }
-  local b = kind == "x" and { { x - d, y + d }, { x + d, y - d } } or { { x, y - 11 }, { x, y + 11 } }
-  return celspan.union { disc(x, y, 17, diagram.paper), diagram.line(a, 3), diagram.line(b, 3) }
+  local turn = kind == "x" and 45 or 0
+  local level = diagram.line({ { x - 11, y }, { x + 11, y } }, 3)
+  local upright = diagram.line({ { x, y - 11 }, { x, y + 11 } }, 3)
+  return disc(x, y, 17, diagram.paper) | (level | upright):rotate(turn, x, y)
 end
 
 local LINE = 250 -- the row along which the light goes
@@ -62,7 +63,8 @@ local function stage(i, x)
     celspan.rect { cross - 27, LINE - 178, 27, 54, texture = diagram.ink },
     celspan.rect { cross - 27, LINE - 178, 54, 54, texture = cel.paint },
     diagram.box(cross - 27, LINE - 178, 54, 54), diagram.arrow(cross, LINE - 123, cross, LINE - 20),
-    disc(cross, LINE + 120, 26, shown(cel.front)), diagram.arrow(cross, LINE + 93, cross, LINE + 20),
+    disc(cross, LINE + 120, 26, shown(cel.front)),
+      diagram.arrow(cross, LINE + 93, cross, LINE + 20),
     diagram.arrow(cross + 18, LINE, to - (i == #cels and 36 or 28), LINE),
     diagram.label("back", add, LINE + 172, 17, "centre", diagram.grey),
     diagram.label("front", cross, LINE + 172, 17, "centre", diagram.grey),
@@ -73,6 +75,7 @@ end
 local art = {}
 for i = 1, #cels do art[i] = stage(i, 56 + (i - 1) * 262) end
 art[#art + 1] = disc(56 + #cels * 262, LINE, 34, shown(light(#cels)))
-art[#art + 1] = diagram.label("to the camera", 56 + #cels * 262 - 8, LINE + 66, 17, "centre", diagram.grey)
+art[#art + 1] = diagram.label("to the camera", 56 + #cels * 262 - 8, LINE + 66, 17, "centre",
+  diagram.grey)
 
 return diagram.film("Figure 8", 960, 480, art)

@@ -8,7 +8,8 @@ local COLUMNS, CELL, LEFT = 60, 14, 60
 local SCAN = 8 -- the row of pixels that is looked at, of 22 that the drawing is high
 
 local leaf = celspan.nurbs { closed = "periodic", texture = diagram.gold,
-  points = { { 6, 16 }, { 10, -4 }, { 24, 2 }, { 29, 17 }, { 37, -2 }, { 56, 1 }, { 54, 22 }, { 30, 13 } } }
+  points = { { 6, 16 }, { 10, -4 }, { 24, 2 }, { 29, 17 }, { 37, -2 }, { 56, 1 }, { 54, 22 },
+    { 30, 13 } } }
 local front = celspan.union {
   celspan.circle { centre = { 16, 11 }, radius = 5, texture = diagram.teal },
   celspan.rect { 43, 3, 5, 16, radius = 2, texture = diagram.teal },

@@ -1,5 +1,5 @@
--- Figure 10: a picture on a primitive under a transform, and the output's pixels over it. Near (case
--- 1) one texel of the picture covers several pixels; far (case 2) several texels lie in one pixel.
+-- Figure 10: a picture on a primitive under a transform, and the output's pixels over it. Case 1,
+-- near: one texel of the picture covers several pixels. Case 2, far: several texels lie in one pixel.
 local celspan = require "celspan"
 local diagram = require "diagram"
 
@@ -25,9 +25,9 @@ local picture = celspan.rect { 0, 0, TEXELS, TEXELS, texture = chart() }
 
 --- The pixels of the output as thin lines.
 local function grid()
-  local lines = {}
-  for x = 0, 960, PIXEL do lines[#lines + 1] = diagram.line({ { x, 0 }, { x, 540 } }, 1, "#26323d60") end
-  for y = 0, 540, PIXEL do lines[#lines + 1] = diagram.line({ { 0, y }, { 960, y } }, 1, "#26323d60") end
+  local lines, colour = {}, "#26323d60"
+  for x = 0, 960, PIXEL do lines[#lines + 1] = diagram.line({ { x, 0 }, { x, 540 } }, 1, colour) end
+  for y = 0, 540, PIXEL do lines[#lines + 1] = diagram.line({ { 0, y }, { 960, y } }, 1, colour) end
   return celspan.union(lines)
 end
 

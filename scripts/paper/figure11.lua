@@ -45,13 +45,16 @@ local function graph(row, base, is_stepped)
       points[#points + 1] = { LEFT + (i - 0.5) * CELL, y }
     end
   end
-  return celspan.union { diagram.line({ { LEFT, base }, { LEFT + COLUMNS * CELL, base } }, 1.5, diagram.grey),
+  return celspan.union { diagram.line({ { LEFT, base }, { LEFT + COLUMNS * CELL, base } }, 1.5,
+    diagram.grey),
     diagram.line(points, 4, diagram.red) }
 end
 
 local function count(row) return #row .. " spans" end
 
 return diagram.film("Figure 11", 960, 470, {
-  diagram.label(count(sharp), LEFT, 36), graph(sharp, 160, true), diagram.spans(sharp, LEFT, 174, CELL),
-  diagram.label(count(soft), LEFT, 262), graph(soft, 386, false), diagram.spans(soft, LEFT, 400, CELL),
+  diagram.label(count(sharp), LEFT, 36), graph(sharp, 160, true),
+    diagram.spans(sharp, LEFT, 174, CELL),
+  diagram.label(count(soft), LEFT, 262), graph(soft, 386, false),
+    diagram.spans(soft, LEFT, 400, CELL),
 })

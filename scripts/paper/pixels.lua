@@ -16,8 +16,8 @@ end
 function pixels.film(art, w, h, light)
   local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
   local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
-  return { pixels = image:bytes { depth = 16, colour = "cineon", alpha = "straight" }, size = { w, h },
-    format = "rgba16", colour = "cineon" }
+  return { pixels = image:bytes { depth = 16, colour = "cineon", alpha = "straight" },
+    size = { w, h }, format = "rgba16", colour = "cineon" }
 end
 
 --- The fields of celspan.picture for a file that is given, else what `make` returns.

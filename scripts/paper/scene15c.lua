@@ -17,13 +17,14 @@ local flowers = cast.flowers():scale(2.4):translate(1640, 1460)
 --- The frame of film: a woman and flowers before a grey wall, in the flat light of a studio.
 local function frame()
   local wall = celspan.rect { 0, 0, FRAME[1], FRAME[2], texture = "#8d9094" }
-  return pixels.film(celspan.union { wall, woman, flowers }, FRAME[1], FRAME[2], { 0.32, 0.30, 0.27 })
+  return pixels.film(celspan.union { wall, woman, flowers }, FRAME[1], FRAME[2],
+    { 0.32, 0.30, 0.27 })
 end
 
 --- The view: houses on a canal, a picture of the project, as pixels of the paper's size.
 local function view()
-  local picture = celspan.image { file = "../pictures/canal.png", x = 0, y = 0, w = VIEW[1], h = VIEW[2],
-    fit = "cover" }
+  local picture = celspan.image { file = "../pictures/canal.png", x = 0, y = 0, w = VIEW[1],
+    h = VIEW[2], fit = "cover" }
   return pixels.of(picture, VIEW[1], VIEW[2])
 end
 
@@ -43,8 +44,8 @@ local function clover()
   local leaves = {}
   for turn = 0, 3 do
     leaves[turn + 1] = celspan.nurbs { closed = "periodic",
-      points = { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 120, -110 }, { 190, -230 }, { 90, -330 }, { 0, -230 },
-                 { -90, -330 }, { -190, -230 }, { -120, -110 } } }:rotate(20 + 90 * turn)
+      points = { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 120, -110 }, { 190, -230 }, { 90, -330 },
+        { 0, -230 }, { -90, -330 }, { -190, -230 }, { -120, -110 } } }:rotate(20 + 90 * turn)
   end
   local glass = celspan.linear { from = { 0, -260 }, to = { 0, 260 },
     { 0, celspan.paint { pigment = "#d0202a", medium = { 1, 0.5, 0.45 }, beta = 0.15 } },
@@ -68,7 +69,8 @@ function scene.cels(frame_file, view_file, sampling)
     celspan.cel { celspan.rect { 0, 0, 1080, 720, texture = town }:translate(-60, 0),
       front = { 0.8, 0.85, 0.95 } }:named "view",
     celspan.cel { clover():scale(0.72):translate(575, 268) }:named "clover",
-    celspan.cel { bunch:scale(0.34):translate(262, 210), front = { 3.3, 3.3, 3.6 } }:named "flowers",
+    celspan.cel { bunch:scale(0.34):translate(262, 210),
+      front = { 3.3, 3.3, 3.6 } }:named "flowers",
     celspan.cel { face:scale(0.42):translate(-54, 112), front = { 3.1, 3.2, 3.4 } }:named "face",
   }
 end

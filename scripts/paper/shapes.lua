@@ -1,5 +1,5 @@
--- The paper's random NURBS shapes: four control points anywhere in the square and random knots, each
--- with its colour and its transparency (section 6.1).
+-- The paper's random NURBS shapes: four control points anywhere in the square and random knots,
+-- each with its colour and its transparency (section 6.1).
 local celspan = require "celspan"
 
 local shapes = {}

@@ -61,7 +61,8 @@ describe("Table 1", function()
 
   it("cuts a gradient over a gradient where their product bends", function()
     local veil = gradient(0, 64, celspan.rgb(1, 0, 0, 0), celspan.rgb(1, 0, 0, 1))
-    local spans = row(sharp(bar(0, 64, gradient(0, 64, "#000000", "#ffffff")), bar(0, 64, veil)), 64)
+    local spans = row(sharp(bar(0, 64, gradient(0, 64, "#000000", "#ffffff")), bar(0, 64, veil)),
+      64)
     assert.is_true(#spans > 1)
     for _, span in ipairs(spans) do assert.are_not.equal("array", span.kind) end
   end)
@@ -105,14 +106,17 @@ describe("the lighting operator", function()
     local cels, light = {}, { 0, 0, 0 }
     for i = 1, 5 do
       local function number(label) return celspan.random("lights")(label .. i) end
-      local pigment, medium = { number "p1", number "p2", number "p3" }, { number "m1", number "m2", number "m3" }
-      local front, back = { number "f1", number "f2", number "f3" }, { number "b1", number "b2", number "b3" }
+      local pigment, medium = { number "p1", number "p2", number "p3" },
+        { number "m1", number "m2", number "m3" }
+      local front, back = { number "f1", number "f2", number "f3" },
+        { number "b1", number "b2", number "b3" }
       local beta = number "beta"
       for c = 1, 3 do
         light[c] = beta * pigment[c] * front[c] + (1 - beta) * medium[c] * (light[c] + back[c])
       end
       local paint = celspan.paint { pigment = pigment, medium = medium, beta = beta }
-      cels[i] = celspan.cel { bar(0, 1, paint), front = front, back = { back[1], back[2], back[3], 0 } }
+      cels[i] = celspan.cel { bar(0, 1, paint), front = front,
+        back = { back[1], back[2], back[3], 0 } }
     end
     cels.antialias = "none"
     local span = row(celspan.rostrum(cels), 1)[1]
@@ -122,14 +126,17 @@ end)
 
 describe("figure 11", function()
   local function list(defocus)
-    local art = celspan.union { bar(-9, 7, celspan.rgb(0.2, 0.2, 0.2)), bar(7, 15, celspan.rgb(0.9, 0.9, 0.9)),
+    local art = celspan.union { bar(-9, 7, celspan.rgb(0.2, 0.2, 0.2)),
+      bar(7, 15, celspan.rgb(0.9, 0.9, 0.9)),
       bar(15, 31, celspan.rgb(0.45, 0.45, 0.45)) }
-    return row(celspan.rostrum { antialias = "none", celspan.cel { art:scale(1, 30, 0, 0.5), defocus = defocus } }, 22)
+    return row(celspan.rostrum { antialias = "none",
+      celspan.cel { art:scale(1, 30, 0, 0.5), defocus = defocus } }, 22)
   end
 
   it("filters 3 spans into 5 by a box", function()
     assert.are.equal("single single single", kinds(list()))
-    assert.are.equal("single gradient single gradient single", kinds(list { radius = 2.5, kernel = "box" }))
+    assert.are.equal("single gradient single gradient single",
+      kinds(list { radius = 2.5, kernel = "box" }))
   end)
 
   it("has ramps as long as the box is wide, about each step", function()
