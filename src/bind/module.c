@@ -14,6 +14,7 @@
 #include "bind/parts.h"
 #include "bind/random.h"
 #include "bind/suggest.h"
+#include "bind/tracing.h"
 #include "celspan/lua.h"
 
 #define MOST_NAMES 128
@@ -49,6 +50,7 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"parts", cs_parts_list},
                                        {"folder", cs_painting_folder},
                                        {"within", cs_painting_within},
+                                       {"trace", cs_tracing_make},
                                        {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "celspan/celspan.h"
+#include "colour/transfer.h"
 
 typedef struct choice {
   const char *name;
@@ -214,6 +215,50 @@ cs_argument_outcome cs_argument_tint(const char *text, void *field) {
     return CS_ARGUMENT_BAD;
   *(cs_given_colour *)field =
       (cs_given_colour){true, {paint.pigment[0], paint.pigment[1], paint.pigment[2]}};
+  return CS_ARGUMENT_READ;
+}
+
+/* The sRGB codes of an opaque colour, up to a comma or the end; what follows it, NULL: there is none
+ * such. */
+static const char *read_code(const char *text, unsigned char code[3]) {
+  char name[10] = {0};
+  celspan_paint paint;
+  size_t size = strcspn(text, ",");
+  if (size >= sizeof name)
+    return NULL;
+  memcpy(name, text, size);
+  if (!celspan_paint_parse(name, &paint) || paint.beta != 1)
+    return NULL;
+  for (int c = 0; c < 3; c++)
+    code[c] = cs_transfer_srgb8(paint.pigment[c]);
+  return text + size;
+}
+
+cs_argument_outcome cs_argument_colours(const char *text, void *field) {
+  cs_given_colours given = {.has_codes = true};
+  const int32_t most = sizeof given.codes / 3;
+  if (text[0] != '#') {
+    given.has_codes = false;
+    if (!read_integers(text, 0, 1, most, &given.count, 1))
+      return CS_ARGUMENT_BAD;
+    *(cs_given_colours *)field = given;
+    return CS_ARGUMENT_READ;
+  }
+  for (const char *rest = text; rest; rest = *rest == ',' ? rest + 1 : NULL) {
+    rest = given.count < most ? read_code(rest, given.codes + 3 * given.count) : NULL;
+    if (!rest)
+      return CS_ARGUMENT_BAD;
+    given.count++;
+  }
+  *(cs_given_colours *)field = given;
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_smooth(const char *text, void *field) {
+  double number = 0;
+  if (!read_number(text, &number) || number < 0 || number > 16)
+    return CS_ARGUMENT_BAD;
+  *(double *)field = number;
   return CS_ARGUMENT_READ;
 }
 

@@ -60,6 +60,13 @@ typedef struct cs_given_colour {
   float rgb[3];
 } cs_given_colour;
 
+/* How many colours, or which. */
+typedef struct cs_given_colours {
+  int32_t count; /* 0: not given */
+  bool has_codes;
+  unsigned char codes[3 * 64]; /* sRGB */
+} cs_given_colours;
+
 cs_argument_outcome cs_argument_text(const char *text, void *field);    /* const char * */
 cs_argument_outcome cs_argument_integer(const char *text, void *field); /* cs_given_integer */
 cs_argument_outcome cs_argument_workers(const char *text, void *field); /* int32_t, 1..1024 */
@@ -83,6 +90,8 @@ cs_argument_outcome cs_argument_grid(const char *text, void *field);     /* int3
 cs_argument_outcome cs_argument_onion(const char *text, void *field);    /* int32_t[2], 0..16 */
 cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
 cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */
+cs_argument_outcome cs_argument_colours(const char *text, void *field);  /* cs_given_colours */
+cs_argument_outcome cs_argument_smooth(const char *text, void *field);   /* double, 0..16 */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
 cs_argument_outcome cs_argument_texts(const char *text, void *field);    /* cs_given_texts: adds */
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M" */

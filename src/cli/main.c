@@ -88,6 +88,14 @@ static const cs_verb VERBS[] = {
      "Without --every the frames are thinned until they fit on one page. With it, SHEET needs a\n"
      "number such as sheet.####.png when there are more frames than cells.\n",
      cs_verb_contact},
+    {CS_VERB_TRACE, "trace", "IN -o OUT", 1, 1,
+     "Turns a scanned or flat-coloured drawing into shapes: SVG, or a script.",
+     "IN is any picture. Areas of one colour become closed paths of lines and cubics; those that "
+     "abut\n"
+     "share their border, so that nothing shows between them. A script renders as it is, and gives "
+     "its\n"
+     "shapes to other scripts by require. OUT appears whole or not at all.\n",
+     cs_verb_trace},
     {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
      "Runs specs in busted, with the assertions of celspan.spec.",
      "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. "

@@ -30,6 +30,17 @@ static const option OPTIONS[] = {
      "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"},
     {"-o", "SHEET", "the name of a file", CS_VERB_CONTACT, FIELD(output), cs_argument_text,
      "the picture to make; sheet.####.png for several pages"},
+    {"-o", "OUT", "the name of a file", CS_VERB_TRACE, FIELD(output), cs_argument_text,
+     "art.svg, or art.lua: a script that shows the drawing, and is a module"},
+    {"--colours", "N|LIST", "a whole number from 1 to 64, or colours like #ffffff,#203040",
+     CS_VERB_TRACE, FIELD(colours), cs_argument_colours,
+     "how many colours are found in the picture, or which there are; default: 2"},
+    {"--smooth", "S", "a number from 0 to 16", CS_VERB_TRACE, FIELD(smooth), cs_argument_smooth,
+     "how far curves may leave the edges; 0: the sides of the pixels; default: 1"},
+    {"--speckle", "N", "a whole number of pixels, 0 or more", CS_VERB_TRACE, FIELD(speckle),
+     cs_argument_count, "areas of at most N pixels go to their neighbours; default: 2"},
+    {"--lines", NULL, NULL, CS_VERB_TRACE, FIELD(lines), NULL,
+     "strokes along what is drawn on the ground, instead of areas"},
     {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45",
      CS_VERB_RENDER | CS_VERB_CHECK | CS_VERB_CONTACT | CS_VERB_SHEET, FIELD(frames),
      cs_argument_text,
@@ -237,8 +248,10 @@ static cs_exit read_operand(parser *p) {
 
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *arguments,
                          cs_request *out) {
-  *out = (cs_request){
-      .rows = {0, -1}, .levels = {0, -1}, .makes_folder = verb->self == CS_VERB_TILES};
+  *out = (cs_request){.rows = {0, -1},
+                      .levels = {0, -1},
+                      .makes_folder = verb->self == CS_VERB_TILES,
+                      .smooth = -1};
   parser p = {verb, arguments, count, 0, out};
   cs_exit outcome = CS_EXIT_OK;
   while (p.next < count && outcome == CS_EXIT_OK) {

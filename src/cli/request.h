@@ -27,7 +27,7 @@ typedef struct cs_request {
   celspan_coding coding;
   bool dithers;
   cs_given_integer quality; /* of a video, 0..100 */
-  const char *cel; /* NULL: not given */
+  const char *cel;          /* NULL: not given */
   cs_given_colour background;
   int32_t workers;         /* 0: one a processor */
   cs_given_integer memory; /* MiB; 0: nothing is kept from frame to frame */
@@ -50,6 +50,10 @@ typedef struct cs_request {
   bool makes_folder; /* the output is one */
   cs_given_texts allowed; /* folders */
   cs_given_limits limits;
+  cs_given_colours colours;
+  double smooth;            /* below 0: not given */
+  cs_given_integer speckle; /* pixels */
+  bool lines;
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -65,6 +69,7 @@ typedef enum cs_verb_set {
   CS_VERB_TEST = 1 << 9,
   CS_VERB_INIT = 1 << 10,
   CS_VERB_CONTACT = 1 << 11,
+  CS_VERB_TRACE = 1 << 12,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
                          CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT
 } cs_verb_set;

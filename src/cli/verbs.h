@@ -18,5 +18,6 @@ cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_test(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_init(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_contact(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_trace(celspan_context *context, const cs_request *request);
 
 #endif

@@ -18,7 +18,7 @@ words.list = {
   { word = "band", means = "node rows of a defocused cel's grid that are kept together",
     places = { "defocus/", "sample/defocused" } },
   { word = "block", means = "64 x 64 texels of a picture, or a block of the deflate format",
-    places = { "pictures/", "sample/", "paint/painter", "deflate/" } },
+    places = { "pictures/", "sample/", "paint/painter", "deflate/", "trace/scan" } },
   { word = "level", means = "a picture halved so many times",
     places = { "pictures/", "sample/", "cli/tiles/", "cli/request", "cli/argument", "scene/" } },
   { word = "slab", means = "a range of heights inside a row", places = { "area/" } },
@@ -32,7 +32,7 @@ words.list = {
   { word = "lane", means = "one number of a register",
     places = { "base/wide", "base/vector", "colour/", "geometry/polyline", "sweep/advance", "paint/",
                "sample/", "output/" } },
-  { word = "knot", means = "a knot of a NURBS curve", places = { "geometry/", "scene/", "bind/" } },
+  { word = "knot", means = "a knot of a NURBS curve", places = { "geometry/", "scene/", "bind/", "trace/spline" } },
   { word = "pen", means = "the current point of a path", places = { "geometry/" } },
   { word = "crossing", means = "how crossing a boundary changes a winding number",
     places = { "sweep/", "compose/", "area/", "geometry/bezier", "scene/inside" } },
@@ -62,7 +62,8 @@ words.list = {
   { word = "meeting", say = "intersection" },
   { word = "gather", means = "collecting the layers of a cell that contribute",
     places = { "compose/" } },
-  { word = "trace", say = "retained edges" },
+  { word = "trace", means = "a picture turned into shapes",
+    places = { "trace/", "bind/tracing", "cli/trace", "cli/request" } },
   { word = "door", say = "check" },
 }
 

@@ -1,0 +1,122 @@
+--- Scanned line art and flat-colour drawings as shapes.
+--
+--   local art = assert(trace.picture("scan.png", { colours = 3 }))
+--   art.object                              -- the whole, from (0, 0) to art.width, art.height
+--   art.shapes[2].object:with { texture = "#ffcc66" }          -- an area in another colour
+--   assert(trace.picture("sketch.png", { lines = true }))      -- strokes along the lines
+--
+-- Areas that abut share their border: nothing shows between them, at any size.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local trace = {}
+
+---@class celspan.trace.shape
+---@field object celspan.object A path, or a stroke, painted with the colour
+---@field colour string "#rrggbb"
+---@field x integer Of a pixel that belongs to it
+---@field y integer
+---@field area number In pixels of the picture; of a stroke what it covers
+---@field d? string The path's data
+---@field points? number[][] Of a stroke: x, y and width, of a spline of degree 3
+---@field closed? boolean Of a stroke
+
+---@class celspan.trace.art
+---@field object celspan.object All shapes
+---@field shapes celspan.trace.shape[] Areas from the largest on, strokes from the longest on
+---@field width integer Of the picture, in pixels: the units of the shapes
+---@field height integer
+local Art = { __name = "celspan.trace" }
+Art.__index = fields.reads("a tracing", {})
+
+local Shape = { __name = "celspan.trace.shape" }
+Shape.__index = fields.reads("a shape of a tracing", {}, { d = true, points = true, closed = true })
+
+---@class celspan.trace.options
+---@field colours? integer|string[] How many are found in the picture, 1 to 64, or which: "#rrggbb"; 2
+---@field smooth? number Quarters of a pixel that curves may be away from edges, 0 to 16; 1; 0: the sides of the pixels
+---@field speckle? integer Areas of at most so many pixels go to their neighbours; 2
+---@field lines? boolean Strokes along what is drawn on the ground, instead of areas
+
+local known = { colours = "any", smooth = "number", speckle = "number", lines = "boolean" }
+
+local function refuse(text, ...) error("trace: " .. text:format(...), 4) end
+
+local function check_whole(name, value, least, most)
+  if math.type(value) == "integer" and value >= least and value <= most then return end
+  refuse("%s must be a whole number from %d to %d, got %s", name, least, most, fields.shown(value))
+end
+
+--- "#abc" as "#aabbcc".
+local function whole_colour(text)
+  local r, g, b = text:match "^#(%x)(%x)(%x)$"
+  return r and ("#" .. r:rep(2) .. g:rep(2) .. b:rep(2)) or text:match "^#%x%x%x%x%x%x$"
+end
+
+local function check_colours(colours)
+  if type(colours) ~= "table" then
+    check_whole("colours", colours, 1, 64)
+    return colours
+  end
+  local list = {}
+  if #colours < 1 or #colours > 64 then
+    refuse("colours must be a number or a list of 1 to 64 colours, got %d", #colours)
+  end
+  for i, colour in ipairs(colours) do
+    list[i] = type(colour) == "string" and whole_colour(colour)
+    if not list[i] then
+      refuse("colours[%d] must be a colour like \"#336699\", got %s", i,
+        type(colour) == "string" and ("%q"):format(colour) or fields.kind(colour))
+    end
+  end
+  return list
+end
+
+--- The options with whole numbers as such; raises at the line of picture's caller.
+local function check(options)
+  fields.check("trace: picture", options, known, 4)
+  local checked = { lines = options.lines, smooth = options.smooth or 1 }
+  checked.colours = check_colours(options.colours or 2)
+  local speckle = options.speckle or 2
+  checked.speckle = math.tointeger(speckle) or speckle
+  check_whole("speckle", checked.speckle, 0, 2147483647)
+  if checked.smooth < 0 or checked.smooth > 16 then
+    refuse("smooth must be from 0 to 16, got %s", fields.shown(checked.smooth))
+  end
+  return checked
+end
+
+local function make_object(shape)
+  if shape.d then return celspan.path { d = shape.d, texture = shape.colour } end
+  return celspan.stroke { points = shape.points, closed = shape.closed, degree = 3, cap = "round",
+    join = "round", texture = shape.colour }
+end
+
+local function wrap(found)
+  local objects = {}
+  for i, shape in ipairs(found.shapes) do
+    shape.object = make_object(shape)
+    objects[i] = shape.object
+    setmetatable(shape, Shape)
+  end
+  found.object = celspan.union(objects)
+  return setmetatable(found, Art)
+end
+
+---@param path string A picture; relative to the caller's file, else to the script
+---@param options? celspan.trace.options
+---@return celspan.trace.art? art
+---@return string? message
+function trace.picture(path, options)
+  if type(path) ~= "string" then
+    error("trace: picture takes a file name, got " .. fields.kind(path), 2)
+  end
+  local checked = check(options or {})
+  local found_at, tried = core.find(path)
+  local found, message = core.trace(found_at, checked)
+  if found then return wrap(found) end
+  return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+end
+
+return fields.seal("trace", trace)

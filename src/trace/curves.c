@@ -1,0 +1,119 @@
+#include "trace/curves.h"
+
+#include "base/elementary.h"
+
+/* Closed chains of fewer sides, or of fewer points, stay as they are. */
+enum { FEW_SIDES = 8, FEW_POINTS = 5 };
+
+typedef struct maker {
+  celspan_context *context;
+  const cs_material *material;
+  const cs_borders *borders;
+  celspan_point *places; /* of nodes */
+  cs_fit_rules rules;
+  bool is_exact; /* the borders of pixels */
+  cs_curves *out;
+} maker;
+
+static double least(double a, double b) { return a < b ? a : b; }
+
+/* A picture of whole pixels does not tell where within half a pixel an edge is: its points are made
+ * even first, and have more room. */
+static cs_fit_rules rules_for(double smooth, bool is_whole) {
+  const double degree = 0.017453292519943295;
+  double sine;
+  cs_fit_rules rules = {.tolerance = is_whole ? 0.15 + 0.3 * smooth : 0.15 * smooth,
+                        .about = (int)least(is_whole ? 5 + 2 * smooth : 3 + 2 * smooth, 12),
+                        .noise = is_whole ? 0.4 : 0.08,
+                        .evening = is_whole     ? 4
+                                   : smooth > 1 ? (int)smooth
+                                                : 0};
+  cs_elementary_sincos(degree * least(is_whole ? 38 + 10 * smooth : 28 + 10 * smooth, 80), &sine,
+                       &rules.turn);
+  return rules;
+}
+
+/* ---------------------------------------------------------------- one chain */
+
+/* The sides of the pixels, from node to node as these lie. */
+static celspan_status follow_pixels(const maker *m, const cs_chain *chain, cs_points *points,
+                                    celspan_point *start) {
+  CS_TRY(cs_edge_turns(m->context, m->borders, chain, points));
+  if (chain->from != CS_NODE_NONE) {
+    points->items[0] = m->places[chain->from];
+    points->items[points->count - 1] = m->places[chain->to];
+  }
+  *start = cs_fit_snap(points->items[0]);
+  return cs_fit_lines(m->context, points, &m->out->pieces);
+}
+
+static celspan_status follow_edge(const maker *m, const cs_chain *chain, cs_points *points,
+                                  celspan_point *start) {
+  bool is_open = chain->from != CS_NODE_NONE;
+  const cs_sides all = {0, chain->count};
+  if (is_open)
+    CS_TRY(cs_points_add(m->context, points, m->places[chain->from]));
+  CS_TRY(cs_edge_points(m->context, m->material, m->borders, chain, all, points));
+  if (!is_open && points->count < FEW_POINTS) {
+    points->count = 0;
+    return follow_pixels(m, chain, points, start);
+  }
+  if (!is_open)
+    return cs_fit_closed(m->context, points, &m->rules, start, &m->out->pieces);
+  CS_TRY(cs_points_add(m->context, points, m->places[chain->to]));
+  *start = cs_fit_snap(points->items[0]);
+  return cs_fit_open(m->context, points, &m->rules, &m->out->pieces);
+}
+
+static bool is_rim(const cs_chain *chain) {
+  return chain->left == CS_REGION_OUTSIDE || chain->right == CS_REGION_OUTSIDE;
+}
+
+static celspan_status make_curve(const maker *m, const cs_chain *chain, cs_curve *curve) {
+  cs_points points = {.items = NULL};
+  bool is_few = chain->from == CS_NODE_NONE && chain->count < FEW_SIDES;
+  curve->first = m->out->pieces.count;
+  celspan_status status = m->is_exact || is_few || is_rim(chain)
+                              ? follow_pixels(m, chain, &points, &curve->start)
+                              : follow_edge(m, chain, &points, &curve->start);
+  curve->count = m->out->pieces.count - curve->first;
+  cs_points_finish(m->context, &points);
+  return status;
+}
+
+/* ---------------------------------------------------------------- all */
+
+static celspan_status place_nodes(const maker *m) {
+  for (size_t i = 0; i < m->borders->node_count && m->is_exact; i++)
+    m->places[i] = (celspan_point){m->borders->nodes[i].x, m->borders->nodes[i].y};
+  return m->is_exact ? CELSPAN_OK : cs_nodes_place(m->context, m->material, m->borders, m->places);
+}
+
+static celspan_status make_all(const maker *m) {
+  CS_TRY(place_nodes(m));
+  for (size_t i = 0; i < m->borders->chain_count; i++)
+    CS_TRY(make_curve(m, &m->borders->chains[i], &m->out->list[i]));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
+                              const cs_regions *regions, const cs_borders *borders, double smooth,
+                              cs_curves *out) {
+  cs_memory *memory = context->memory;
+  size_t nodes = borders->node_count + 1; /* one at least, so that there is an array */
+  maker m = {.context = context, .material = material, .borders = borders, .out = out};
+  *out = (cs_curves){.count = borders->chain_count};
+  out->list = cs_mem_array(memory, out->count, sizeof *out->list);
+  m.places = cs_mem_array(memory, nodes, sizeof *m.places);
+  m.rules = rules_for(smooth, cs_edge_is_whole(material, regions));
+  m.is_exact = !(smooth > 0);
+  celspan_status status = out->list && m.places ? make_all(&m) : cs_fail_memory(context);
+  cs_mem_free(memory, m.places, nodes * sizeof *m.places);
+  return status;
+}
+
+void cs_curves_finish(cs_curves *curves, celspan_context *context) {
+  cs_mem_free(context->memory, curves->list, curves->count * sizeof *curves->list);
+  cs_pieces_finish(context, &curves->pieces);
+  *curves = (cs_curves){.list = NULL};
+}

@@ -1,0 +1,34 @@
+/* The borders as lines and cubics: each chain fitted once, for both of its sides.
+ *
+ *      chain --edge.h: points of the edge--> --corners.h, fit.h--> pieces from node to node
+ *
+ * The rim of the picture stays as it is, and so do chains of few pixels, of which nothing can be told
+ * but their pixels.
+ *
+ * INVARIANT: chains that end in one node have the same point there, to the bit.
+ */
+#ifndef CS_TRACE_CURVES_H
+#define CS_TRACE_CURVES_H
+
+#include "trace/fit.h"
+#include "trace/nodes.h"
+
+typedef struct cs_curve {
+  celspan_point start;
+  size_t first, count; /* pieces */
+} cs_curve;
+
+typedef struct cs_curves {
+  cs_curve *list; /* one for each chain */
+  size_t count;
+  cs_pieces pieces;
+} cs_curves;
+
+/* smooth: 1 for a tolerance of a quarter of a pixel; 0: the borders of the pixels themselves.
+ * Errors: NO_MEMORY. To be finished, whatever happens. */
+CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
+                                              const cs_regions *regions, const cs_borders *borders,
+                                              double smooth, cs_curves *out);
+void cs_curves_finish(cs_curves *curves, celspan_context *context);
+
+#endif

@@ -1,0 +1,205 @@
+#include "trace/labels.h"
+
+#include <string.h>
+
+enum { SHADES = 1 << 18, MIXED = 254, UNKNOWN = 253 };
+/* A plain pixel is nearer to its colour than this share of the way to the next one. */
+#define PLAIN 0.2f
+/* A mixture of two colours is this much nearer to the line between them than to any third one. */
+#define NEARER 0.5f
+/* What two colours that are not about a pixel must explain better, as a share. */
+#define STRANGE 4.0f
+
+typedef struct work {
+  const cs_scan *scan;
+  const cs_colours *colours;
+  cs_labels *labels;
+  float plain[CS_COLOURS_MOST + 1]; /* by label: the square of how far plain pixels may be */
+  unsigned char *shades;            /* labels by the upper 6 bits of the codes, once known */
+} work;
+
+static float apart(const cs_light4 *a, const cs_light4 *b) {
+  float sum = 0;
+  for (int c = 0; c < 4; c++)
+    sum += (a->c[c] - b->c[c]) * (a->c[c] - b->c[c]);
+  return sum;
+}
+
+/* The colours, and nothing where the picture has clear parts. */
+static size_t label_count(const work *w) { return w->colours->count + w->scan->has_clear; }
+
+static void measure_plain(work *w) {
+  for (size_t i = 0; i < label_count(w); i++) {
+    float least = 1e30f;
+    for (size_t k = 0; k < label_count(w); k++) {
+      float way = apart(&w->colours->list[i].light, &w->colours->list[k].light);
+      least = k != i && way < least ? way : least;
+    }
+    w->plain[i] = PLAIN * PLAIN * least;
+  }
+}
+
+/* ---------------------------------------------------------------- plain pixels */
+
+static unsigned char nearest(const cs_colours *colours, const cs_light4 *light) {
+  cs_oklab lab = cs_oklab_of(light->c);
+  size_t best = 0;
+  for (size_t i = 1; i < colours->count; i++)
+    if (cs_oklab_apart(lab, colours->list[i].lab) < cs_oklab_apart(lab, colours->list[best].lab))
+      best = i;
+  return (unsigned char)best;
+}
+
+static unsigned char plain_label(const work *w, const cs_light4 *light) {
+  unsigned char label = nearest(w->colours, light);
+  return apart(light, &w->colours->list[label].light) <= w->plain[label] ? label : MIXED;
+}
+
+static unsigned char label_of(const work *w, int32_t x, int32_t y) {
+  const unsigned char *code = cs_scan_at(w->scan, x, y);
+  if (code[3] == 0)
+    return (unsigned char)w->colours->count;
+  cs_light4 light = cs_scan_light(w->scan, x, y);
+  if (code[3] < 255)
+    return MIXED;
+  unsigned char *shade = &w->shades[(code[0] >> 2) << 12 | (code[1] >> 2) << 6 | code[2] >> 2];
+  if (*shade == UNKNOWN)
+    *shade = plain_label(w, &light);
+  return *shade;
+}
+
+static void label_plain(const work *w) {
+  for (int32_t y = 0; y < w->scan->height; y++) {
+    unsigned char *row = cs_labels_at(w->labels, 0, y);
+    for (int32_t x = 0; x < w->scan->width; x++)
+      row[x] = label_of(w, x, y);
+  }
+}
+
+/* ---------------------------------------------------------------- mixtures */
+
+typedef struct mixture {
+  cs_light4 light;
+  bool is_about[256]; /* labels of plain pixels about it */
+  float error;        /* of the best explanation so far, squared */
+  unsigned char label;
+} mixture;
+
+/* Explains the pixel as a mixture of two. */
+static void explain(const work *w, mixture *m, size_t a, size_t b) {
+  const cs_light4 *from = &w->colours->list[a].light, *to = &w->colours->list[b].light;
+  cs_light4 line;
+  float share = cs_labels_share(&m->light, from, to);
+  for (int c = 0; c < 4; c++)
+    line.c[c] = from->c[c] + share * (to->c[c] - from->c[c]);
+  int strangers = !m->is_about[a] + !m->is_about[b];
+  float error = apart(&m->light, &line) + 1e-6f;
+  error *= strangers == 0 ? 1 : strangers == 1 ? STRANGE : STRANGE * STRANGE;
+  if (error >= m->error)
+    return;
+  m->error = error;
+  m->label = (unsigned char)(share > 0.5f ? b : a);
+}
+
+static void note_about(const cs_labels *labels, int32_t x, int32_t y, bool is_about[256]) {
+  for (int32_t row = y - 2; row <= y + 2; row++)
+    for (int32_t column = x - 2; column <= x + 2; column++)
+      if (row >= 0 && row < labels->height && column >= 0 && column < labels->width)
+        is_about[*cs_labels_at(labels, column, row)] = true;
+}
+
+static unsigned char resolve(const work *w, int32_t x, int32_t y) {
+  mixture m = {.light = cs_scan_light(w->scan, x, y), .error = 1e30f};
+  size_t count = label_count(w);
+  m.label = nearest(w->colours, &m.light);
+  note_about(w->labels, x, y, m.is_about);
+  for (size_t a = 0; a < count; a++)
+    for (size_t b = a + 1; b < count; b++)
+      explain(w, &m, a, b);
+  return m.label;
+}
+
+/* Whether a plain pixel is one of a thin line, no wider than edges are. */
+static bool is_thin(const cs_labels *labels, int32_t x, int32_t y) {
+  const unsigned char *at = cs_labels_at(labels, x, y);
+  size_t s = labels->stride;
+  unsigned char label = *at;
+  if (at[-1] == label && at[1] == label)
+    return at[-(ptrdiff_t)s] != label && at[s] != label;
+  return at[-1] != label && at[1] != label;
+}
+
+/* The label of a plain pixel of a thin line: what it would be as a mixture of two others that are
+ * about it, if that explains it. */
+static unsigned char resolve_thin(const work *w, int32_t x, int32_t y) {
+  unsigned char own = *cs_labels_at(w->labels, x, y);
+  const cs_light4 *centre = &w->colours->list[own].light;
+  mixture m = {.light = cs_scan_light(w->scan, x, y)};
+  m.error = NEARER * NEARER * w->plain[own] + 1e-5f;
+  m.label = own;
+  note_about(w->labels, x, y, m.is_about);
+  (void)centre;
+  for (size_t a = 0; a < label_count(w); a++)
+    for (size_t b = a + 1; b < label_count(w); b++)
+      if (a != own && b != own && m.is_about[a] && m.is_about[b])
+        explain(w, &m, a, b);
+  return m.label;
+}
+
+/* New labels go into a plane of their own, so that they depend on plain pixels alone. */
+static void label_mixed(const work *w, unsigned char *into) {
+  const cs_labels *labels = w->labels;
+  for (int32_t y = 0; y < labels->height; y++) {
+    const unsigned char *row = cs_labels_at(labels, 0, y);
+    unsigned char *out = into + (size_t)y * (size_t)labels->width;
+    for (int32_t x = 0; x < labels->width; x++)
+      out[x] = row[x] == MIXED                               ? resolve(w, x, y)
+               : label_count(w) > 2 && is_thin(labels, x, y) ? resolve_thin(w, x, y)
+                                                             : row[x];
+  }
+}
+
+/* ---------------------------------------------------------------- the plane */
+
+static size_t plane_size(const cs_labels *labels) {
+  return labels->stride * ((size_t)labels->height + 2);
+}
+
+static void label_all(const work *w, unsigned char *resolved) {
+  cs_labels *labels = w->labels;
+  memset(w->shades, UNKNOWN, SHADES);
+  label_plain(w);
+  label_mixed(w, resolved);
+  for (int32_t y = 0; y < labels->height; y++)
+    memcpy(cs_labels_at(labels, 0, y), resolved + (size_t)y * (size_t)labels->width,
+           (size_t)labels->width);
+}
+
+celspan_status cs_labels_make(celspan_context *context, const cs_scan *scan,
+                              const cs_colours *colours, cs_labels *out) {
+  cs_memory *memory = context->memory;
+  size_t pixels = (size_t)scan->width * (size_t)scan->height;
+  *out = (cs_labels){scan->width, scan->height, (size_t)scan->width + 2, NULL};
+  out->plane = cs_mem_resize(memory, NULL, 0, plane_size(out));
+  unsigned char *resolved = cs_mem_resize(memory, NULL, 0, pixels);
+  work w = {scan, colours, out, {0}, cs_mem_resize(memory, NULL, 0, SHADES)};
+  bool is_made = out->plane && resolved && w.shades;
+  if (is_made) {
+    memset(out->plane, CS_LABEL_OUTSIDE, plane_size(out));
+    measure_plain(&w);
+    label_all(&w, resolved);
+  }
+  if (resolved)
+    cs_mem_free(memory, resolved, pixels);
+  if (w.shades)
+    cs_mem_free(memory, w.shades, SHADES);
+  if (!is_made)
+    cs_labels_finish(out, context);
+  return is_made ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+void cs_labels_finish(cs_labels *labels, celspan_context *context) {
+  if (labels->plane)
+    cs_mem_free(context->memory, labels->plane, plane_size(labels));
+  labels->plane = NULL;
+}

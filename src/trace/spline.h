@@ -1,0 +1,32 @@
+/* Points with widths as a cubic B-spline with few control points: uniform, clamped or periodic, as
+ * strokes are drawn.
+ *
+ * The control points are those of the least squares of all distances, by conjugate gradients; their
+ * number grows until no point is farther away than the tolerance.
+ */
+#ifndef CS_TRACE_SPLINE_H
+#define CS_TRACE_SPLINE_H
+
+#include "base/context.h"
+
+typedef struct cs_station { /* a place along a line */
+  double v[3];              /* x, y, width */
+} cs_station;
+
+typedef struct cs_spline {
+  cs_station *controls;
+  size_t count;
+} cs_spline;
+
+/* tolerance: of places; widths may be off by twice as much. out: new, count controls. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_spline_fit(celspan_context *context, const cs_station *stations,
+                                             size_t count, bool is_closed, double tolerance,
+                                             cs_spline *out);
+
+/* Where such a spline is, 0..1 from its first point to its last, or around; one that is closed has
+ * four points at least, and one of fewer than four a lesser degree. */
+cs_station cs_spline_at(const celspan_point *points, const double *widths, size_t count,
+                        bool is_closed, double parameter);
+
+#endif

@@ -1,0 +1,37 @@
+/* Regions thinned to lines of single pixels.
+ *
+ *      . # # # # # .         . . . . . . .       each colour by itself, from all sides at once, as
+ *      . # # # # # .   -->   . . # # # . .       long as it hangs together and has its ends
+ *      . # # # # # .         . . . . . . .
+ *
+ * Zhang and Suen, "A fast parallel algorithm for thinning digital patterns", 1984; but no pixel goes
+ * that, of those that are left when its turn comes, holds others together: so nothing vanishes.
+ *
+ * INVARIANT: a pixel that is left can not be taken away without taking a line apart or shortening it.
+ */
+#ifndef CS_TRACE_THINNING_H
+#define CS_TRACE_THINNING_H
+
+#include "trace/material.h"
+
+/* A plane of pixels with a rim of one pixel, like labels: 1 + label, 0: not drawn. */
+typedef struct cs_thin {
+  int32_t width, height;
+  size_t stride;
+  unsigned char *plane;
+  uint16_t *depths; /* thirds of a pixel to what is not drawn, before thinning */
+} cs_thin;
+
+/* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */
+void cs_thin_offsets(const cs_thin *thin, ptrdiff_t offsets[8]);
+
+/* ground: the label that is not drawn, nor is nothing. Errors: NO_MEMORY. On failure there is nothing
+ * to finish. */
+CELSPAN_CHECKED celspan_status cs_thin_make(celspan_context *context, const cs_material *material,
+                                            unsigned char ground, cs_thin *out);
+/* Takes away pixels at which lines turn by a side where they could go by a corner, from the places
+ * in the list. */
+void cs_thin_tidy(cs_thin *thin, const uint32_t *places, size_t count);
+void cs_thin_finish(cs_thin *thin, celspan_context *context);
+
+#endif
