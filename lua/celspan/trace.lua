@@ -41,11 +41,14 @@ Shape.__index = fields.reads("a shape of a tracing", {}, { d = true, points = tr
 
 local known = { colours = "any", smooth = "number", speckle = "number", lines = "boolean" }
 
-local function refuse(text, ...) error("trace: " .. text:format(...), 4) end
+--- What is wrong, for picture to raise; below it every check answers a value, or nil and that.
+local function wrong(text, ...) return nil, "trace: " .. text:format(...) end
 
-local function check_whole(name, value, least, most)
-  if math.type(value) == "integer" and value >= least and value <= most then return end
-  refuse("%s must be a whole number from %d to %d, got %s", name, least, most, fields.shown(value))
+local function whole(name, value, least, most)
+  local number = math.tointeger(value)
+  if number and number >= least and number <= most then return number end
+  return wrong("%s must be a whole number from %d to %d, got %s", name, least, most,
+    fields.shown(value))
 end
 
 --- "#abc" as "#aabbcc".
@@ -54,37 +57,34 @@ local function whole_colour(text)
   return r and ("#" .. r:rep(2) .. g:rep(2) .. b:rep(2)) or text:match "^#%x%x%x%x%x%x$"
 end
 
-local function check_colours(colours)
-  if type(colours) ~= "table" then
-    check_whole("colours", colours, 1, 64)
-    return colours
+local function colours_of(colours)
+  if type(colours) ~= "table" then return whole("colours", colours, 1, 64) end
+  if #colours < 1 or #colours > 64 then
+    return wrong("colours must be a number or a list of 1 to 64 colours, got %d", #colours)
   end
   local list = {}
-  if #colours < 1 or #colours > 64 then
-    refuse("colours must be a number or a list of 1 to 64 colours, got %d", #colours)
-  end
   for i, colour in ipairs(colours) do
     list[i] = type(colour) == "string" and whole_colour(colour)
     if not list[i] then
-      refuse("colours[%d] must be a colour like \"#336699\", got %s", i,
+      return wrong("colours[%d] must be a colour like \"#336699\", got %s", i,
         type(colour) == "string" and ("%q"):format(colour) or fields.kind(colour))
     end
   end
   return list
 end
 
---- The options with whole numbers as such; raises at the line of picture's caller.
+--- The options as the core takes them.
 local function check(options)
-  fields.check("trace: picture", options, known, 4)
-  local checked = { lines = options.lines, smooth = options.smooth or 1 }
-  checked.colours = check_colours(options.colours or 2)
-  local speckle = options.speckle or 2
-  checked.speckle = math.tointeger(speckle) or speckle
-  check_whole("speckle", checked.speckle, 0, 2147483647)
-  if checked.smooth < 0 or checked.smooth > 16 then
-    refuse("smooth must be from 0 to 16, got %s", fields.shown(checked.smooth))
+  local smooth = options.smooth or 1
+  local colours, message = colours_of(options.colours or 2)
+  if not colours then return nil, message end
+  local speckle
+  speckle, message = whole("speckle", options.speckle or 2, 0, 2147483647)
+  if not speckle then return nil, message end
+  if smooth < 0 or smooth > 16 then
+    return wrong("smooth must be from 0 to 16, got %s", fields.shown(smooth))
   end
-  return checked
+  return { colours = colours, smooth = smooth, speckle = speckle, lines = options.lines }
 end
 
 local function make_object(shape)
@@ -112,7 +112,10 @@ function trace.picture(path, options)
   if type(path) ~= "string" then
     error("trace: picture takes a file name, got " .. fields.kind(path), 2)
   end
-  local checked = check(options or {})
+  options = options == nil and {} or options
+  fields.check("trace: picture", options, known)
+  local checked, refused = check(options)
+  if not checked then error(refused, 2) end
   local found_at, tried = core.find(path)
   local found, message = core.trace(found_at, checked)
   if found then return wrap(found) end

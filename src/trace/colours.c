@@ -233,6 +233,11 @@ static void list_colours(const groups *g, const cs_scan *scan, cs_colours *out) 
   out->list[out->count] = (cs_flat_colour){.code = {0}};
 }
 
+static void fill(groups *g, const cs_scan *scan, bool is_flat) {
+  g->total = fill_bins(scan, is_flat, g->bins);
+  g->bin_count = pack_bins(scan, g->bins);
+}
+
 celspan_status cs_colours_find(celspan_context *context, const cs_scan *scan, size_t wanted,
                                cs_colours *out) {
   groups g = {.bins = cs_mem_array(context->memory, BINS, sizeof(bin))};
@@ -241,10 +246,12 @@ celspan_status cs_colours_find(celspan_context *context, const cs_scan *scan, si
   out->count = 0;
   out->list[0] = (cs_flat_colour){.code = {0}};
   uint64_t pixels = (uint64_t)scan->width * (uint64_t)scan->height;
-  g.total = fill_bins(scan, true, g.bins);
-  if (g.total < pixels / FLAT_SHARE + 1)
-    g.total = fill_bins(scan, false, g.bins);
-  g.bin_count = pack_bins(scan, g.bins);
+  fill(&g, scan, false);
+  if (g.bin_count > wanted) {
+    fill(&g, scan, true);
+    if (g.total <= pixels / FLAT_SHARE)
+      fill(&g, scan, false);
+  }
   if (g.bin_count > 0) {
     find_groups(&g, wanted);
     list_colours(&g, scan, out);

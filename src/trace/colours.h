@@ -6,7 +6,7 @@
  *     --> the mean about the fullest bin of each group: of a flat drawing, its colours exactly
  *
  * Edges between two colours are mixtures of both and no colours of their own: so only flat places
- * are asked, unless there are hardly any.
+ * are asked, unless there are hardly any, or the picture has no more colours than are wanted.
  *
  * INVARIANT: the result is a function of the pixels alone. The colours differ from each other, and
  * the one that most flat pixels have comes first; given colours keep their order.

@@ -10,8 +10,13 @@
 #define STEP 0.4
 enum { CAP_POINTS = 12, MOST_POINTS = 1000000 };
 
-static const cs_fit_rules rules = {
-    .tolerance = 0.05, .about = 3, .turn = 0.5, .evening = 0, .noise = 0.02};
+static const cs_fit_rules rules = {.tolerance = 0.05,
+                                   .about = 3,
+                                   .turn = 0.5,
+                                   .evening = 0,
+                                   .near = 2,
+                                   .smooth = 0.03,
+                                   .noise = 0.02};
 
 typedef struct drawer {
   celspan_context *context;

@@ -115,11 +115,20 @@ static bool come_in(const finder *f, size_t i, int step, cs_parabola *out) {
   return true;
 }
 
+/* Whether one parabola goes through the points about one. */
+static bool is_smooth(const finder *f, size_t i) {
+  ptrdiff_t count = (ptrdiff_t)f->points->count, near = f->rules->near;
+  bool has_room =
+      f->is_closed ? 2 * near + 1 <= count : (ptrdiff_t)i >= near && (ptrdiff_t)i + near < count;
+  const cs_stretch_of_points both = {f->points, (ptrdiff_t)i, 1, -(int)near, 2 * (int)near + 1};
+  return has_room && cs_parabola_at(&both).error <= f->rules->smooth * f->rules->smooth;
+}
+
 /* The cosine of the turn at a point, 1 straight on, -1 back, and how far points are off its sides. */
 static void measure(const finder *f, size_t i) {
   cs_parabola before, after;
   f->turns[i] = 1;
-  if (!come_in(f, i, -1, &before) || !come_in(f, i, 1, &after))
+  if (is_smooth(f, i) || !come_in(f, i, -1, &before) || !come_in(f, i, 1, &after))
     return;
   f->turns[i] = -(before.tangent.x * after.tangent.x + before.tangent.y * after.tangent.y);
   double dx = before.point.x - after.point.x, dy = before.point.y - after.point.y;

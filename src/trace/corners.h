@@ -7,7 +7,8 @@
  *
  * On a smooth border, however much it bends, both come in at the same angle. Where the next corner is
  * near, the parabola does not get past it: it is through fewer points, until it is near all of them.
- * Of the points about a corner that one is taken from which both are nearest to theirs.
+ * A bend that the few points about it have a parabola through is none, however narrow it is. Of the
+ * points about a corner that one is taken from which both are nearest to theirs.
  */
 #ifndef CS_TRACE_CORNERS_H
 #define CS_TRACE_CORNERS_H
@@ -20,6 +21,8 @@ typedef struct cs_fit_rules {
   int about;        /* points on either side that give a tangent */
   double turn;      /* cosine of the least angle that is a corner */
   int evening;      /* times that points are made even with their neighbours */
+  int near;         /* points on either side that a smooth border has a parabola through */
+  double smooth;    /* pixels, root mean square, that they are off it */
   double noise;     /* pixels, root mean square, that points are off a smooth border */
 } cs_fit_rules;
 

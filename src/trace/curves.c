@@ -24,6 +24,8 @@ static cs_fit_rules rules_for(double smooth, bool is_whole) {
   double sine;
   cs_fit_rules rules = {.tolerance = is_whole ? 0.15 + 0.3 * smooth : 0.15 * smooth,
                         .about = (int)least(is_whole ? 5 + 2 * smooth : 3 + 2 * smooth, 12),
+                        .near = is_whole ? 4 : 2,
+                        .smooth = is_whole ? 0.25 : 0.085,
                         .noise = is_whole ? 0.4 : 0.08,
                         .evening = is_whole     ? 4
                                    : smooth > 1 ? (int)smooth
