@@ -38,6 +38,8 @@ return {
   { name = "gradient", script = "scripts/gradient.lua", frame = 24, size = "640x360" },
   { name = "picture", script = "scripts/picture.lua", frame = 40, size = "640x360" },
   { name = "layers", script = "scripts/layers.lua", frame = 20, size = "640x360" },
+  { name = "trace", script = "scripts/trace.lua", frame = 20, size = "640x360" },
+  { name = "inked", page = "docs/guide.md", size = "560x380" },
   { name = "valley", page = "docs/guide.md", frame = 32, size = "600x270" },
   { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
   { name = "night", page = "docs/guide-shot.md", frame = 40 },

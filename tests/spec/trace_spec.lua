@@ -118,8 +118,8 @@ describe("trace.picture", function()
       | celspan.rect { 5, 8.1, 50, 0.8, texture = ink }, 60, 20), { colours = { paper, ink } }))
     local line = art.shapes[2].object
     for _, x in ipairs { 15, 25, 35 } do
-      assert.same({ false, true, true, false }, { line:contains(x, 7.98), line:contains(x, 8.22),
-        line:contains(x, 8.78), line:contains(x, 9.02) })
+      assert.same({ false, true, true, false }, { line:contains(x, 7.9), line:contains(x, 8.25),
+        line:contains(x, 8.75), line:contains(x, 9.1) })
     end
   end)
 
