@@ -22,14 +22,12 @@ static double least(double a, double b) { return a < b ? a : b; }
 static cs_fit_rules rules_for(double smooth, bool is_whole) {
   const double degree = 0.017453292519943295;
   double sine;
-  cs_fit_rules rules = {.tolerance = is_whole ? 0.15 + 0.3 * smooth : 0.15 * smooth,
-                        .about = (int)least(is_whole ? 5 + 2 * smooth : 3 + 2 * smooth, 12),
-                        .near = is_whole ? 4 : 2,
-                        .smooth = is_whole ? 0.25 : 0.085,
-                        .noise = is_whole ? 0.4 : 0.08,
-                        .evening = is_whole     ? 4
-                                   : smooth > 1 ? (int)smooth
-                                                : 0};
+  cs_fit_rules rules = {.tolerance = is_whole ? 0.1 + 0.25 * smooth : 0.15 * smooth,
+                        .about = (int)least(3 + 2 * smooth, 12),
+                        .near = 2,
+                        .smooth = is_whole ? 0.16 : 0.085,
+                        .noise = is_whole ? 0.2 : 0.08,
+                        .evening = (smooth > 1 ? (int)smooth : 0) + is_whole};
   cs_elementary_sincos(degree * least(is_whole ? 38 + 10 * smooth : 28 + 10 * smooth, 80), &sine,
                        &rules.turn);
   return rules;
@@ -99,15 +97,14 @@ static celspan_status make_all(const maker *m) {
 }
 
 celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
-                              const cs_regions *regions, const cs_borders *borders, double smooth,
-                              cs_curves *out) {
+                              const cs_borders *borders, double smooth, cs_curves *out) {
   cs_memory *memory = context->memory;
   size_t nodes = borders->node_count + 1; /* one at least, so that there is an array */
   maker m = {.context = context, .material = material, .borders = borders, .out = out};
   *out = (cs_curves){.count = borders->chain_count};
   out->list = cs_mem_array(memory, out->count, sizeof *out->list);
   m.places = cs_mem_array(memory, nodes, sizeof *m.places);
-  m.rules = rules_for(smooth, cs_edge_is_whole(material, regions));
+  m.rules = rules_for(smooth, material->is_whole);
   m.is_exact = !(smooth > 0);
   celspan_status status = out->list && m.places ? make_all(&m) : cs_fail_memory(context);
   cs_mem_free(memory, m.places, nodes * sizeof *m.places);

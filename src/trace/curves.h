@@ -27,8 +27,8 @@ typedef struct cs_curves {
 /* smooth: 1 for a tolerance of a quarter of a pixel; 0: the borders of the pixels themselves.
  * Errors: NO_MEMORY. To be finished, whatever happens. */
 CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
-                                              const cs_regions *regions, const cs_borders *borders,
-                                              double smooth, cs_curves *out);
+                                              const cs_borders *borders, double smooth,
+                                              cs_curves *out);
 void cs_curves_finish(cs_curves *curves, celspan_context *context);
 
 #endif

@@ -17,8 +17,21 @@
  *        +--+
  *           +-----+--
  *
- * INVARIANT: a point is less than CS_EDGE_FAR from the middle of its side, and a function of the
- * pixels near it.
+ * In a picture of whole pixels a slanting edge is a stair of sides, and only the middle of each step
+ * tells where it is:
+ *
+ *      ---.--             . : points
+ *            |--.--
+ *                  |--.--
+ *
+ * In a picture of whole pixels a slanting edge is a stair of sides, and only the middle of each step
+ * tells where it is:
+ *
+ *      --.--+                 . : points
+ *           +--.--+
+ *                 +--.--
+ *
+ * INVARIANT: a point is less than CS_EDGE_FAR from its side, and a function of the pixels near it.
  */
 #ifndef CS_TRACE_EDGE_H
 #define CS_TRACE_EDGE_H

@@ -10,6 +10,8 @@
 enum { THIRDS = 3, EVENING = 3 };
 /* Between places where shares are asked across a line, pixels. */
 #define STEP 0.25
+/* A share that is noise. */
+#define NOTHING 0.06
 /* How much farther than it is deep a line is asked. */
 #define BEYOND 1.5
 /* The tolerance of splines, pixels, at smooth 1. */
@@ -74,7 +76,7 @@ static double extent(const liner *l, const cs_station *from, double nx, double n
   double sum = 0;
   for (double way = 0.5 * STEP; way < most; way += STEP) {
     double share = share_at(l, from->v[0] + way * nx, from->v[1] + way * ny, label);
-    if (share < 0.02)
+    if (share < NOTHING)
       return sum;
     sum += STEP * share;
   }
@@ -133,21 +135,25 @@ static celspan_point along_at(const line *n, size_t i) {
   return length > 0 ? (celspan_point){dx / length, dy / length} : (celspan_point){1, 0};
 }
 
-/* Places that could not be told lie on the line between those about them that could, or the ends. */
-static void fill_places(line *n) {
-  for (size_t i = 1; i + 1 < n->count; i++) {
-    if (n->is_told[i])
-      continue;
-    size_t last = i;
-    while (last + 1 < n->count && !n->is_told[last])
-      last++;
-    const double *from = n->places[i - 1].v, *to = n->places[last].v;
-    for (size_t k = i; k < last; k++) {
-      double share = (double)(k - i + 1) / (double)(last - i + 1);
-      for (int c = 0; c < 2; c++)
-        n->places[k].v[c] = from[c] + share * (to[c] - from[c]);
-    }
-    i = last;
+/* How many places at an end could not be told, going on from it; 0 where they are more than a fork
+ * can have spoilt: then they are as good as they are. */
+static size_t spoilt_at(const line *n, bool at_last) {
+  size_t count = 0, most = (size_t)n->places[at_last ? n->count - 1 : 0].v[2] + 4;
+  while (count < n->count && !n->is_told[at_last ? n->count - 1 - count : count])
+    count++;
+  return count < n->count && count <= most ? count : 0;
+}
+
+/* Near a fork thinned lines are drawn to each other: places that could not be told there lie on the
+ * line from the end to the first that could. */
+static void straighten_end(line *n, bool at_last) {
+  size_t count = n->is_closed ? 0 : spoilt_at(n, at_last);
+  size_t end = at_last ? n->count - 1 : 0, told = at_last ? end - count : count;
+  for (size_t k = 1; k < count; k++) {
+    double *place = n->places[at_last ? end - k : k].v;
+    double share = (double)k / (double)count;
+    for (int c = 0; c < 2; c++)
+      place[c] = n->places[end].v[c] + share * (n->places[told].v[c] - n->places[end].v[c]);
   }
 }
 
@@ -177,7 +183,8 @@ static void measure(const liner *l, line *n) {
     else
       n->is_told[i] = 0;
   }
-  fill_places(n);
+  straighten_end(n, false);
+  straighten_end(n, true);
   fill_widths(n);
   make_even(n, 3, 1);
 }

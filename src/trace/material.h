@@ -19,6 +19,7 @@ typedef struct cs_material {
   const cs_scan *scan;
   const cs_colours *colours;
   cs_labels *labels;
+  bool is_whole; /* hardly any pixel of a border is a mixture (edge.h tells) */
 } cs_material;
 
 typedef enum cs_join { CS_JOIN_NONE, CS_JOIN_NW_SE, CS_JOIN_NE_SW } cs_join;

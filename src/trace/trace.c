@@ -107,13 +107,16 @@ static celspan_status make_objects(celspan_context *context, celspan_trace *trac
 /* ---------------------------------------------------------------- tracing */
 
 static celspan_status outline_regions(celspan_context *context, const celspan_trace_desc *desc,
-                                      const cs_material *material, const cs_regions *regions,
+                                      const cs_material *given, const cs_regions *regions,
                                       celspan_trace *out) {
+  cs_material told = *given;
+  const cs_material *material = &told;
+  told.is_whole = cs_edge_is_whole(given, regions);
   cs_borders borders;
   cs_curves curves = {.list = NULL};
   celspan_status status = cs_borders_make(context, material, regions, &borders);
   if (status == CELSPAN_OK)
-    status = cs_curves_make(context, material, regions, &borders, desc->smooth, &curves);
+    status = cs_curves_make(context, material, &borders, desc->smooth, &curves);
   if (status == CELSPAN_OK)
     status = cs_shapes_make(context, material, regions, &borders, &curves, out);
   cs_curves_finish(&curves, context);
@@ -142,7 +145,7 @@ static celspan_status trace_scan(celspan_context *context, const celspan_trace_d
   CS_TRY(desc->codes ? cs_colours_take(context, scan, desc->codes, (size_t)desc->colours, &colours)
                      : cs_colours_find(context, scan, (size_t)desc->colours, &colours));
   CS_TRY(cs_labels_make(context, scan, &colours, &labels));
-  const cs_material material = {scan, &colours, &labels};
+  const cs_material material = {scan, &colours, &labels, false};
   celspan_status status = trace_regions(context, desc, &material, out);
   cs_labels_finish(&labels, context);
   return status;
