@@ -5,7 +5,7 @@
 /* The points about a corner that are not asked, on either side; the fewest that are; how many points
  * lie at least between two corners; and the most that a corner may be away from its point. */
 enum { SKIPPED = 1, FEWEST = 3, APART = 3 };
-#define FAR 1.6
+#define FAR 1.15
 
 /* ---------------------------------------------------------------- parabolas */
 
@@ -135,7 +135,8 @@ static void measure(const finder *f, size_t i) {
   f->errors[i] = before.error + after.error + 0.1 * (dx * dx + dy * dy);
 }
 
-/* Where the lines of both sides intersect; the point itself where that is far away. */
+/* Where the lines of both sides intersect, or on the way there, where that is too far away: of a sharp
+ * corner antialiasing takes more. */
 static celspan_point corner_at(const finder *f, size_t i) {
   cs_parabola before, after;
   celspan_point point = f->points->items[i];
@@ -149,7 +150,9 @@ static celspan_point corner_at(const finder *f, size_t i) {
   double way = (dx * out.y - dy * out.x) / area;
   dx = before.point.x + way * in.x - point.x;
   dy = before.point.y + way * in.y - point.y;
-  double far = sqrt(dx * dx + dy * dy), held = far > FAR ? FAR / far : 1;
+  double far = sqrt(dx * dx + dy * dy);
+  double most = f->turns[i] < 0 ? FAR * (1 - 0.4 * f->turns[i]) : FAR;
+  double held = far > most ? most / far : 1;
   return (celspan_point){point.x + held * dx, point.y + held * dy};
 }
 
