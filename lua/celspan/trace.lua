@@ -35,7 +35,7 @@ Shape.__index = fields.reads("a shape of a tracing", {}, { d = true, points = tr
 
 ---@class celspan.trace.options
 ---@field colours? integer|string[] How many are found in the picture, 1 to 64, or which: "#rrggbb"; 2
----@field smooth? number Quarters of a pixel that curves may be away from edges, 0 to 16; 1; 0: the sides of the pixels
+---@field smooth? number How far curves may leave the edges, 0 to 16: 1 stands for 0.15 pixels; 1; 0: the sides of the pixels
 ---@field speckle? integer Areas of at most so many pixels go to their neighbours; 2
 ---@field lines? boolean Strokes along what is drawn on the ground, instead of areas
 

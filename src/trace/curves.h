@@ -24,7 +24,7 @@ typedef struct cs_curves {
   cs_pieces pieces;
 } cs_curves;
 
-/* smooth: 1 for a tolerance of a quarter of a pixel; 0: the borders of the pixels themselves.
+/* smooth: 1 for a tolerance of 0.15 pixels, twice that for 2; 0: the borders of the pixels themselves.
  * Errors: NO_MEMORY. To be finished, whatever happens. */
 CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
                                               const cs_borders *borders, double smooth,

@@ -20,13 +20,6 @@
  * In a picture of whole pixels a slanting edge is a stair of sides, and only the middle of each step
  * tells where it is:
  *
- *      ---.--             . : points
- *            |--.--
- *                  |--.--
- *
- * In a picture of whole pixels a slanting edge is a stair of sides, and only the middle of each step
- * tells where it is:
- *
  *      --.--+                 . : points
  *           +--.--+
  *                 +--.--

@@ -133,12 +133,10 @@ static bool is_thin(const cs_labels *labels, int32_t x, int32_t y) {
  * about it, if that explains it. */
 static unsigned char resolve_thin(const work *w, int32_t x, int32_t y) {
   unsigned char own = *cs_labels_at(w->labels, x, y);
-  const cs_light4 *centre = &w->colours->list[own].light;
   mixture m = {.light = cs_scan_light(w->scan, x, y)};
   m.error = NEARER * NEARER * w->plain[own] + 1e-5f;
   m.label = own;
   note_about(w->labels, x, y, m.is_about);
-  (void)centre;
   for (size_t a = 0; a < label_count(w); a++)
     for (size_t b = a + 1; b < label_count(w); b++)
       if (a != own && b != own && m.is_about[a] && m.is_about[b])

@@ -25,7 +25,6 @@ struct celspan_trace {
   atomic_size_t references;
   cs_memory *memory;
   int32_t width, height;
-  bool has_lines;
   cs_shape *shapes;
   size_t count, capacity;
   celspan_object *object; /* their union; NULL where theirs are not made */

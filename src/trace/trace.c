@@ -188,7 +188,6 @@ celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc
     return cs_fail_memory(context);
   trace->references = 1;
   trace->memory = cs_memory_ref(context->memory);
-  trace->has_lines = desc->lines;
   celspan_status status = trace_picture(context, desc, trace);
   if (status == CELSPAN_OK)
     *out = trace;

@@ -875,7 +875,7 @@ typedef struct celspan_trace_desc {
   celspan_picture_desc picture; /* what is traced; its sampling, use, wrap and box do not matter */
   int32_t colours; /* as many are found in the picture, or fewer where it has no more; 1..64; 2 */
   const unsigned char *codes; /* or those that are given: `colours` times 3 bytes, sRGB; borrowed */
-  /* How far curves may leave the edges, in quarters of a pixel, 0..16; 1. 0: they are the sides of
+  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they are the sides of
    * the pixels. In a picture without mixed pixels an edge is known to half a pixel, and that is
    * allowed for. */
   double smooth;
