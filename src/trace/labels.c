@@ -92,9 +92,8 @@ static void explain(const work *w, mixture *m, size_t a, size_t b) {
   float share = cs_labels_share(&m->light, from, to);
   for (int c = 0; c < 4; c++)
     line.c[c] = from->c[c] + share * (to->c[c] - from->c[c]);
-  int strangers = !m->is_about[a] + !m->is_about[b];
   float error = apart(&m->light, &line) + 1e-6f;
-  error *= strangers == 0 ? 1 : strangers == 1 ? STRANGE : STRANGE * STRANGE;
+  error *= m->is_about[a] && m->is_about[b] ? 1 : STRANGE;
   if (error >= m->error)
     return;
   m->error = error;
@@ -113,9 +112,14 @@ static unsigned char resolve(const work *w, int32_t x, int32_t y) {
   size_t count = label_count(w);
   m.label = nearest(w->colours, &m.light);
   note_about(w->labels, x, y, m.is_about);
+  bool knows_one = false;
+  for (size_t a = 0; a < count; a++)
+    knows_one = knows_one || m.is_about[a];
+  /* Of two colours that are both not about it, the pixel is not taken for a mixture while one is. */
   for (size_t a = 0; a < count; a++)
     for (size_t b = a + 1; b < count; b++)
-      explain(w, &m, a, b);
+      if (!knows_one || m.is_about[a] || m.is_about[b])
+        explain(w, &m, a, b);
   return m.label;
 }
 
