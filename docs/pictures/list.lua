@@ -3,6 +3,7 @@
 --   page     a page whose example of the same name it is
 --   onion    how many frames before and after lie over it
 --   grid     not a frame but a contact sheet of so many columns and rows
+--   allow    a folder that the script may read in, beside its own
 --   parts    frames that are rendered before, into a folder that the script gets as its argument
 return {
   { name = "demo", script = "scripts/demo.lua", frame = 236, size = "960x540" },
@@ -46,19 +47,19 @@ return {
   { name = "balloon", page = "docs/guide.md", frame = 24 },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
-  { name = "paper-01", script = "scripts/paper/figure01.lua", size = "640x480" },
-  { name = "paper-04", script = "scripts/paper/figure04.lua", size = "640x360" },
-  { name = "paper-06", script = "scripts/paper/figure06.lua", size = "720x195" },
-  { name = "paper-07", script = "scripts/paper/figure07.lua", size = "720x188" },
-  { name = "paper-08", script = "scripts/paper/figure08.lua", size = "720x360" },
-  { name = "paper-09", script = "scripts/paper/figure09.lua", size = "720x420" },
-  { name = "paper-10", script = "scripts/paper/figure10.lua", size = "640x360" },
-  { name = "paper-11", script = "scripts/paper/figure11.lua", size = "720x352" },
-  { name = "paper-12", script = "scripts/paper/figure12.lua", size = "400x400" },
-  { name = "paper-15a", script = "scripts/paper/figure15a.lua", size = "480x480" },
-  { name = "paper-15b", script = "scripts/paper/figure15b.lua", size = "640x480" },
-  { name = "paper-15c", script = "scripts/paper/figure15c.lua", size = "640x480" },
-  { name = "paper-15d", script = "scripts/paper/figure15d.lua", size = "640x480" },
+  { name = "paper-01", script = "scripts/paper/figure01.lua", size = "640x480", allow = "scripts" },
+  { name = "paper-04", script = "scripts/paper/figure04.lua", size = "640x360", allow = "scripts" },
+  { name = "paper-06", script = "scripts/paper/figure06.lua", size = "720x195", allow = "scripts" },
+  { name = "paper-07", script = "scripts/paper/figure07.lua", size = "720x188", allow = "scripts" },
+  { name = "paper-08", script = "scripts/paper/figure08.lua", size = "720x360", allow = "scripts" },
+  { name = "paper-09", script = "scripts/paper/figure09.lua", size = "720x420", allow = "scripts" },
+  { name = "paper-10", script = "scripts/paper/figure10.lua", size = "640x360", allow = "scripts" },
+  { name = "paper-11", script = "scripts/paper/figure11.lua", size = "720x352", allow = "scripts" },
+  { name = "paper-12", script = "scripts/paper/figure12.lua", size = "400x400", allow = "scripts" },
+  { name = "paper-15a", script = "scripts/paper/figure15a.lua", size = "480x480", allow = "scripts" },
+  { name = "paper-15b", script = "scripts/paper/figure15b.lua", size = "640x480", allow = "scripts" },
+  { name = "paper-15c", script = "scripts/paper/figure15c.lua", size = "640x480", allow = "scripts" },
+  { name = "paper-15d", script = "scripts/paper/figure15d.lua", size = "640x480", allow = "scripts" },
   { name = "kernels", script = "docs/pictures/kernels.lua", parts = {
     { script = "scripts/kernels.lua", frame = 2, size = "384x160", file = "kernels.art.png" },
     { script = "scripts/kernels.lua", frame = "all", file = "kernels.#.png" } } },

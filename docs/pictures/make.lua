@@ -32,6 +32,7 @@ local function render(script, picture, output, argument)
   if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
+  if picture.allow then add("--allow", picture.allow) end
   if argument then add("--allow", argument, "--", argument) end
   run(binary .. " render", table.unpack(arguments))
 end
