@@ -15,6 +15,7 @@
 #include "bind/random.h"
 #include "bind/suggest.h"
 #include "bind/tracing.h"
+#include "bind/track.h"
 #include "celspan/lua.h"
 
 #define MOST_NAMES 128
@@ -51,6 +52,11 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"folder", cs_painting_folder},
                                        {"within", cs_painting_within},
                                        {"trace", cs_tracing_make},
+                                       {"tracker", cs_track_tracker},
+                                       {"follow", cs_track_follow},
+                                       {"rewind", cs_track_rewind},
+                                       {"frames", cs_track_frames},
+                                       {"frame_name", cs_track_frame_name},
                                        {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);

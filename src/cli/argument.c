@@ -262,6 +262,13 @@ cs_argument_outcome cs_argument_smooth(const char *text, void *field) {
   return CS_ARGUMENT_READ;
 }
 
+cs_argument_outcome cs_argument_model(const char *text, void *field) {
+  if (strcmp(text, "translation") != 0 && strcmp(text, "similarity") != 0 &&
+      strcmp(text, "perspective") != 0)
+    return CS_ARGUMENT_BAD;
+  return cs_argument_text(text, field);
+}
+
 cs_argument_outcome cs_argument_progress(const char *text, void *field) {
   static const choice choices[] = {{"auto", CS_PROGRESS_AUTO},   {"bar", CS_PROGRESS_BAR},
                                    {"lines", CS_PROGRESS_LINES}, {"none", CS_PROGRESS_NONE},

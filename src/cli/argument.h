@@ -92,6 +92,7 @@ cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_p
 cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */
 cs_argument_outcome cs_argument_colours(const char *text, void *field);  /* cs_given_colours */
 cs_argument_outcome cs_argument_smooth(const char *text, void *field);   /* double, 0..16 */
+cs_argument_outcome cs_argument_model(const char *text, void *field);    /* const char *, of a track */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
 cs_argument_outcome cs_argument_texts(const char *text, void *field);    /* cs_given_texts: adds */
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M" */

@@ -17,6 +17,17 @@ bool cs_lines_make_folders(char *path) {
   return true;
 }
 
+bool cs_lines_make_folders_for(const char *path) {
+  char copy[4096];
+  size_t size = strlen(path) + 1;
+  if (size > sizeof copy) {
+    errno = ENAMETOOLONG;
+    return false;
+  }
+  memcpy(copy, path, size);
+  return cs_lines_make_folders(copy);
+}
+
 int cs_lines_open(const char *path) {
   return open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
 }

@@ -12,6 +12,8 @@
 /* Makes the folders that a path names, one after the other. The path is the same afterwards. false:
  * errno says why. */
 bool cs_lines_make_folders(char *path);
+/* The same for a path that may not be touched. */
+bool cs_lines_make_folders_for(const char *path);
 /* Opens a file for reading and adding; it is made when it is missing. -1: errno says why. */
 int cs_lines_open(const char *path);
 /* Writes a text at the end. false: errno says why. */

@@ -96,6 +96,11 @@ static const cs_verb VERBS[] = {
      "its\n"
      "shapes to other scripts by require. OUT appears whole or not at all.\n",
      cs_verb_trace},
+    {CS_VERB_TRACK, "track", "PATTERN --from N --at X,Y,W,H", 1, 1,
+     "Follows a region through frames, and writes where it lies in each.",
+     "PATTERN names pictures with a number, such as head.####.png. Frames in which the region was\n"
+     "not found are told as lost. The track is for celspan.track, which places art on it.\n",
+     cs_verb_track},
     {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
      "Runs specs in busted, with the assertions of celspan.spec.",
      "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. "

@@ -54,6 +54,9 @@ typedef struct cs_request {
   double smooth;            /* below 0: not given */
   cs_given_integer speckle; /* pixels */
   bool lines;
+  cs_given_integer from;  /* the frame in which `at` is */
+  int32_t at[4];          /* x, y, width, height; width 0: not given */
+  const char *model;      /* NULL: not given */
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -70,6 +73,7 @@ typedef enum cs_verb_set {
   CS_VERB_INIT = 1 << 10,
   CS_VERB_CONTACT = 1 << 11,
   CS_VERB_TRACE = 1 << 12,
+  CS_VERB_TRACK = 1 << 13,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
                          CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT
 } cs_verb_set;

@@ -75,17 +75,8 @@ static void print_sheet(lua_State *L, job *j) {
   fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
 }
 
-/* Makes the folders that OUT names; where that fails, so does writing, with a message. */
-static void make_folders(lua_State *L, const char *path) {
-  size_t size = strlen(path) + 1;
-  char *copy = lua_newuserdatauv(L, size, 0);
-  memcpy(copy, path, size);
-  cs_lines_make_folders(copy);
-  lua_pop(L, 1);
-}
-
 static void write_sheet(lua_State *L, job *j) {
-  make_folders(L, j->request->output);
+  (void)cs_lines_make_folders_for(j->request->output); /* where it fails, so does writing */
   lua_getfield(L, -1, "write");
   lua_pushvalue(L, -2);
   lua_pushstring(L, j->request->output);

@@ -15,6 +15,7 @@ cs_exit cs_verb_convert(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_compare(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_tiles(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_sheet(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_track(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_test(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_init(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_contact(celspan_context *context, const cs_request *request);

@@ -20,7 +20,7 @@ words.list = {
   { word = "block", means = "64 x 64 texels of a picture, or a block of the deflate format",
     places = { "pictures/", "sample/", "paint/painter", "deflate/", "trace/scan" } },
   { word = "level", means = "a picture halved so many times",
-    places = { "pictures/", "sample/", "cli/tiles/", "cli/request", "cli/argument", "scene/" } },
+    places = { "pictures/", "sample/", "track/", "cli/tiles/", "cli/request", "cli/argument", "scene/" } },
   { word = "slab", means = "a range of heights inside a row", places = { "area/" } },
   { word = "segment", means = "a straight or parabolic piece of a boundary, or of a deflate stream",
     places = { "geometry/", "sweep/", "area/", "kernel/", "defocus/", "deflate/" } },

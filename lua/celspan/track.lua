@@ -1,0 +1,392 @@
+--- Following a part of pictures from frame to frame, and placing art on it.
+--
+--   local t = assert(track.follow("head.####.png", { from = 1, at = { 300, 120, 200, 180 } }))
+--   t:place(hat, f)             -- the hat, where the head is in frame f
+--   t:steady(picture, f)        -- the picture, moved so that the head stays where it is in frame 1
+--   t.lost                      -- the frames in which it was not found
+--
+-- All places are pixels of the frames. In a lost frame art is placed between the nearest frames
+-- before and after that were found.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local json = require "celspan.json"
+
+local track = {}
+
+---@class celspan.track
+---@field from integer The frame in which the region was given
+---@field at number[] {x, y, w, h} of the region there
+---@field model "translation"|"similarity"|"perspective"
+---@field width integer Of the frames, in pixels
+---@field height integer
+---@field frames integer[] All that were followed, ascending
+---@field lost integer[] Of these, where it was not found
+local Track = { __name = "celspan.track" }
+local methods = {}
+Track.__index = fields.reads("a track", methods)
+
+--- What is known of each frame of a track: { matrix =, corners =, agreeing =, error = }, or false
+--- where it was lost. Out of the sight of scripts.
+local sightings = setmetatable({}, { __mode = "k" })
+
+local models = { "translation", "similarity", "perspective" }
+local MOST_BYTES = 64 * 1024 * 1024 -- of a file of a track
+
+-- ---------------------------------------------------------------- a value
+
+local IDENTITY = { 1, 0, 0, 0, 1, 0, 0, 0, 1 }
+
+--- The lists that scripts read, from what is known of the frames.
+local function make(head, found)
+  local self = setmetatable(head, Track)
+  self.frames, self.lost = {}, {}
+  for frame in pairs(found) do self.frames[#self.frames + 1] = frame end
+  table.sort(self.frames)
+  for _, frame in ipairs(self.frames) do
+    if not found[frame] then self.lost[#self.lost + 1] = frame end
+  end
+  sightings[self] = found
+  return self
+end
+
+--- The number of a frame that is given as such, or as what a film's function is given.
+local function number_of(method, f)
+  local number = f
+  if type(f) == "userdata" and tostring(f):find "^frame" then number = f.number end
+  if not fields.is_finite(number) then
+    error(("track: %s takes a frame or its number, got %s"):format(method, fields.shown(f)), 3)
+  end
+  return number
+end
+
+--- The nearest frames before and after a number that were found.
+local function around(self, number)
+  local found, before, after = sightings[self], nil, nil
+  for _, frame in ipairs(self.frames) do
+    if found[frame] and frame <= number then before = frame end
+    if found[frame] and frame >= number and not after then after = frame end
+  end
+  return before or after, after or before
+end
+
+--- The motion from the first frame to another one: between those that were found, and held beyond
+--- the first and the last of them.
+---@param f celspan.frame|number
+---@return number[] matrix Nine numbers, by rows
+---@return boolean is_found In that very frame
+function methods:motion(f)
+  local number = number_of("motion", f)
+  local found = sightings[self]
+  local before, after = around(self, number)
+  local u = after == before and 0 or (number - before) / (after - before)
+  local a, b, matrix = found[before].matrix, found[after].matrix, {}
+  for i = 1, 9 do matrix[i] = a[i] + (b[i] - a[i]) * u end
+  return matrix, found[number] and true or false
+end
+
+--- The inverse of a matrix of nine numbers, nil where there is none.
+local function inverse(m)
+  local a = m[5] * m[9] - m[6] * m[8]
+  local b = m[6] * m[7] - m[4] * m[9]
+  local c = m[4] * m[8] - m[5] * m[7]
+  local determinant = m[1] * a + m[2] * b + m[3] * c
+  if math.abs(determinant) < 1e-12 then return nil end
+  local adjoint = {
+    a, m[3] * m[8] - m[2] * m[9], m[2] * m[6] - m[3] * m[5],
+    b, m[1] * m[9] - m[3] * m[7], m[3] * m[4] - m[1] * m[6],
+    c, m[2] * m[7] - m[1] * m[8], m[1] * m[5] - m[2] * m[4],
+  }
+  for i = 1, 9 do adjoint[i] = adjoint[i] / determinant end
+  return adjoint
+end
+
+local function check_object(method, object)
+  local noun = tostring(object)
+  if type(object) ~= "userdata" or noun:find "^frame" or noun:find "^paint" then
+    error(("track: %s takes an object or a cel, got %s"):format(method, fields.kind(object)), 3)
+  end
+end
+
+--- Art that lies right in the first frame, where it belongs in frame f.
+---@generic T: celspan.object|celspan.cel
+---@param object T
+---@param f celspan.frame|number
+---@return T
+function methods:place(object, f)
+  check_object("place", object)
+  number_of("place", f)
+  return object:transform(self:motion(f))
+end
+
+--- What shows frame f, moved so that the region stays where it is in the first frame.
+---@generic T: celspan.object|celspan.cel
+---@param object T
+---@param f celspan.frame|number
+---@return T
+function methods:steady(object, f)
+  check_object("steady", object)
+  number_of("steady", f)
+  return object:transform(assert(inverse(self:motion(f))))
+end
+
+-- ---------------------------------------------------------------- following
+
+local known = { from = "number", at = "any", frames = "string", model = "string" }
+
+local function check_options(options)
+  fields.check("track", options, known, 4)
+  local model = options.model or "similarity"
+  local place
+  for i, name in ipairs(models) do place = name == model and i - 1 or place end
+  if not place then
+    error(("track: field 'model' must be \"%s\", got \"%s\""):format(
+      table.concat(models, '", "'), model), 4)
+  end
+  if not options.from or math.type(math.tointeger(options.from)) ~= "integer" then
+    error("track: field 'from' must be the number of a frame, got "
+      .. fields.shown(options.from), 4)
+  end
+  local at = options.at
+  if type(at) == "table" then
+    fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 4)
+  elseif type(at) ~= "userdata" then
+    error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 4)
+  end
+  return place
+end
+
+--- A frame's pixels in 16-bit codes.
+local function codes_of(object, w, h)
+  local rostrum = celspan.rostrum { antialias = "none", celspan.cel { object } }
+  local image, message = celspan.pixels(rostrum, { size = { w, h }, film = { w, h } })
+  return image and image:bytes { depth = 16, colour = "srgb", alpha = "premultiplied" }, message
+end
+
+--- A frame's file as pixels: codes, width, height | nil, message.
+local function read_frame(path)
+  local good, image = pcall(celspan.image, { file = path, sampling = "nearest" })
+  if not good then return nil, image end
+  local found, problem, _, w, h = pcall(image.bounds, image)
+  if not found then return nil, problem end
+  local codes, message = codes_of(image, w, h)
+  return codes, codes and w or message, h
+end
+
+--- A pattern where its files are, beside the caller's file or the script's.
+local function find_pattern(pattern, from)
+  local name, message = core.frame_name(pattern, from)
+  if not name then return nil, message end
+  local there, tried = core.find(name)
+  if tried then
+    return nil, ("%s: No such file; nor is it there: %s"):format(there, tried)
+  end
+  return there:sub(1, #there - #name) .. pattern
+end
+
+--- The numbers of the frames that are wanted, ascending, with `from`.
+local function list_frames(pattern, options)
+  local numbers, message = core.frames(pattern, options.frames)
+  if not numbers then return nil, message end
+  if #numbers == 0 then return nil, pattern .. ": there are no such files" end
+  local has_from = false
+  for _, number in ipairs(numbers) do has_from = has_from or number == options.from end
+  if not has_from then
+    return nil, ("%s: frame %d, from which it is to be followed, is not among the frames"):format(
+      pattern, options.from)
+  end
+  table.sort(numbers)
+  return numbers
+end
+
+--- Follows one way through `numbers`; adds what is found of each.
+local function follow_some(tracker, pattern, numbers, size, found)
+  for _, number in ipairs(numbers) do
+    local path = core.frame_name(pattern, number)
+    local codes, w, h = read_frame(path)
+    if not codes then return nil, ("frame %d: %s"):format(number, w) end
+    if w ~= size[1] or h ~= size[2] then
+      return nil, ("%s: has %d x %d pixels, and the first frame %d x %d"):format(path, w, h,
+        size[1], size[2])
+    end
+    local matrix, corners, agreeing, error_of = core.follow(tracker, codes, w, h)
+    if not matrix and corners then return nil, ("%s: %s"):format(path, corners) end
+    found[number] = matrix and { matrix = matrix, corners = corners, agreeing = agreeing,
+                                 error = error_of } or false
+  end
+  return true
+end
+
+--- The numbers after `from`, and those before it, backwards.
+local function both_ways(numbers, from)
+  local after, before = {}, {}
+  for _, number in ipairs(numbers) do
+    if number > from then after[#after + 1] = number end
+    if number < from then table.insert(before, 1, number) end
+  end
+  return after, before
+end
+
+--- The region as {x, y, w, h}, and an object as codes too.
+local function region_of(at, w, h)
+  if type(at) == "table" then return { at[1], at[2], at[3], at[4] } end
+  local x, y, width, height = at:bounds()
+  local mask, message = codes_of(celspan.clip(celspan.rect { x, y, width, height }, at), w, h)
+  return { x, y, width, height }, mask, message
+end
+
+---@class celspan.track.options
+---@field from integer The frame in which the region is given
+---@field at number[]|celspan.object {x, y, w, h} there, or an object that covers what is followed
+---@field frames? string Such as "1-100"; default: all files of the pattern
+---@field model? "translation"|"similarity"|"perspective" Default "similarity"
+
+---@param pattern string Files with a number: "head.####.png"; beside the caller's file or the script
+---@param options celspan.track.options
+---@return celspan.track? track
+---@return string? message
+function track.follow(pattern, options)
+  if type(pattern) ~= "string" then
+    error("track: follow takes the pattern of files, got " .. fields.kind(pattern), 2)
+  end
+  local model = check_options(options)
+  local from = math.tointeger(options.from)
+  local where, message = find_pattern(pattern, from)
+  if not where then return nil, message end
+  local numbers
+  numbers, message = list_frames(where, options)
+  if not numbers then return nil, message end
+  local codes, w, h = read_frame(core.frame_name(where, from))
+  if not codes then return nil, ("frame %d: %s"):format(from, w) end
+  local region, mask = region_of(options.at, w, h)
+  local tracker
+  tracker, message = core.tracker(codes, w, h, model, region, mask)
+  if not tracker then return nil, ("%s: frame %d: %s"):format(pattern, from, message) end
+  local found = { [from] = { matrix = IDENTITY, corners = 0, agreeing = 0, error = 0 } }
+  local after, before = both_ways(numbers, from)
+  local good
+  good, message = follow_some(tracker, where, after, { w, h }, found)
+  if good then
+    core.rewind(tracker)
+    good, message = follow_some(tracker, where, before, { w, h }, found)
+  end
+  if not good then return nil, message end
+  return make({ from = from, at = region, model = models[model + 1], width = w, height = h },
+    found)
+end
+
+-- ---------------------------------------------------------------- files
+
+local function numbers_text(list)
+  local words = {}
+  for i, value in ipairs(list) do words[i] = ("%.17g"):format(value) end
+  return "[" .. table.concat(words, ", ") .. "]"
+end
+
+local function frame_text(number, sighting)
+  if not sighting then return ('    {"frame": %d, "lost": true}'):format(number) end
+  return ('    {"frame": %d, "matrix": %s, "corners": %d, "agreeing": %d, "error": %.4f}'):format(
+    number, numbers_text(sighting.matrix), sighting.corners, sighting.agreeing, sighting.error)
+end
+
+--- The track as JSON: one line a frame.
+function methods:text()
+  local lines = {}
+  for i, number in ipairs(self.frames) do
+    lines[i] = frame_text(number, sightings[self][number])
+  end
+  return ('{\n  "celspan": "track", "from": %d, "model": "%s",\n  "at": %s, "size": [%d, %d],\n'
+    .. '  "frames": [\n%s\n  ]\n}\n'):format(self.from, self.model, numbers_text(self.at),
+    self.width, self.height, table.concat(lines, ",\n"))
+end
+
+---@param path string
+---@return true?
+---@return string? message
+function methods:write(path)
+  if type(path) ~= "string" then
+    error("track: write takes the name of a file, got " .. fields.kind(path), 2)
+  end
+  local part = path .. ".part"
+  local file, message = io.open(part, "wb")
+  if not file then return nil, message end
+  local good, problem = file:write(self:text())
+  local closed, close_problem = file:close()
+  if good and closed then good, problem = os.rename(part, path) end
+  if good and closed then return true end
+  os.remove(part)
+  return nil, ("%s: %s"):format(path, problem or close_problem)
+end
+
+--- Raises what is wrong with a value of a file, with its path there.
+local function demand(is_right, where, what)
+  if not is_right then error({ message = ("%s must be %s"):format(where, what) }, 0) end
+end
+
+local function numbers_in(value, count, where)
+  demand(type(value) == "table" and #value == count, where, count .. " numbers")
+  for i = 1, count do
+    demand(fields.is_finite(value[i]), ("%s[%d]"):format(where, i), "a number")
+  end
+  return value
+end
+
+local function whole_in(value, where)
+  demand(math.tointeger(value), where, "a whole number")
+  return math.tointeger(value)
+end
+
+local function sighting_in(entry, where)
+  if entry.lost == true then return false end
+  local matrix = numbers_in(entry.matrix, 9, where .. ".matrix")
+  demand(inverse(matrix), where .. ".matrix", "one that has an inverse")
+  local error_of = entry.error
+  demand(fields.is_finite(error_of) and error_of >= 0, where .. ".error", "a number, 0 or more")
+  return { matrix = matrix, corners = whole_in(entry.corners, where .. ".corners"),
+    agreeing = whole_in(entry.agreeing, where .. ".agreeing"), error = error_of }
+end
+
+local function from_value(value)
+  demand(type(value) == "table" and value.celspan == "track", "the file", "a track of celspan's")
+  local is_model = false
+  for _, name in ipairs(models) do is_model = is_model or name == value.model end
+  demand(is_model, "model", "one of " .. table.concat(models, ", "))
+  local size = numbers_in(value.size, 2, "size")
+  demand(type(value.frames) == "table" and #value.frames > 0, "frames", "a list")
+  local found, is_found = {}, false
+  for i, entry in ipairs(value.frames) do
+    local where = ("frames[%d]"):format(i)
+    demand(type(entry) == "table", where, "a frame")
+    local number = whole_in(entry.frame, where .. ".frame")
+    demand(found[number] == nil, where .. ".frame", "one that did not come before")
+    found[number] = sighting_in(entry, where)
+    is_found = is_found or found[number]
+  end
+  demand(is_found, "frames", "a list with one in which it was found")
+  return make({ from = whole_in(value.from, "from"), at = numbers_in(value.at, 4, "at"),
+    model = value.model, width = whole_in(size[1], "size[1]"),
+    height = whole_in(size[2], "size[2]") }, found)
+end
+
+---@param path string Relative to the caller's file, else to the script
+---@return celspan.track? track
+---@return string? message
+function track.read(path)
+  if type(path) ~= "string" then error("track: read takes a file name, got " .. type(path), 2) end
+  local found_at, tried = core.find(path)
+  local file, message = io.open(found_at, "rb")
+  local text = file and file:read(MOST_BYTES + 1)
+  if file then file:close() end
+  if not text then
+    message = message or ("%s: cannot be read"):format(found_at)
+    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
+  end
+  local value, problem = json.decode(text)
+  if value == nil then return nil, ("%s: %s"):format(path, problem or "holds null") end
+  local good, result = pcall(from_value, value)
+  if good then return result end
+  if type(result) ~= "table" then error(result, 0) end
+  return nil, ("%s: %s"):format(path, result.message)
+end
+
+return fields.seal("track", track)

@@ -1,0 +1,301 @@
+/* Trackers on sequences whose motion is known: a patterned card before a patterned ground, turned,
+ * scaled and bent, under changing light, with noise, and partly or wholly covered. */
+#include <stdlib.h>
+
+#include "celspan/celspan.h"
+#include "tests/support/check.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+
+enum { WIDTH = 320, HEIGHT = 240, COUNT = WIDTH * HEIGHT };
+
+static const celspan_box card = {-70, -50, 140, 100}; /* in its own places */
+
+/* ---------------------------------------------------------------- what is seen */
+
+static double hashed(int x, int y, uint32_t seed) {
+  uint32_t h = (uint32_t)x * 0x8da6b343u ^ (uint32_t)y * 0xd8163841u ^ seed * 0xcb1ab31fu;
+  h = (h ^ (h >> 15)) * 0x2c1b3c6du;
+  h = (h ^ (h >> 12)) * 0x297a2d39u;
+  return (double)((h ^ (h >> 15)) >> 8) * 0x1p-24;
+}
+
+/* Numbers at whole places, and smoothly from one to the next: 0..1. */
+static double smooth(double x, double y, uint32_t seed) {
+  int i = (int)floor(x), k = (int)floor(y);
+  double u = x - i, v = y - k;
+  u = u * u * u * (u * (6 * u - 15) + 10);
+  v = v * v * v * (v * (6 * v - 15) + 10);
+  double above = hashed(i, k, seed) * (1 - u) + hashed(i + 1, k, seed) * u;
+  double below = hashed(i, k + 1, seed) * (1 - u) + hashed(i + 1, k + 1, seed) * u;
+  return above * (1 - v) + below * v;
+}
+
+static double pattern(double x, double y, uint32_t seed) {
+  return 0.15 + 0.4 * smooth(x / 7, y / 7, seed) + 0.35 * smooth(x / 17, y / 17, seed + 1);
+}
+
+typedef struct sequence {
+  celspan_motion model;
+  double noise; /* the greatest error of a pixel */
+  double light; /* how much the card's light changes */
+  int covered_from, covered_to;
+  double covered_share; /* of the card, from its left */
+} sequence;
+
+/* How the card lies in frame i. */
+static celspan_matrix pose(const sequence *s, int i) {
+  double t = i / 10.0, x = 160 + 30 * sin(t), y = 120 + 18 * sin(1.3 * t);
+  celspan_matrix placed = celspan_matrix_translation(x, y);
+  if (s->model == CELSPAN_MOTION_TRANSLATION)
+    return placed;
+  double scale = 1 + 0.15 * sin(0.7 * t);
+  celspan_matrix turned = celspan_matrix_then(
+      celspan_matrix_rotation(0.4 * sin(0.8 * t), (celspan_point){0, 0}),
+      celspan_matrix_scaling(scale, scale));
+  if (s->model == CELSPAN_MOTION_SIMILARITY)
+    return celspan_matrix_then(turned, placed);
+  celspan_matrix bent = {{1, 0.1 * sin(t), 0, 0, 1, 0, 6e-4 * sin(0.9 * t), 8e-4 * sin(0.6 * t), 1}};
+  return celspan_matrix_then(celspan_matrix_then(bent, turned), placed);
+}
+
+static celspan_point moved(celspan_matrix matrix, double x, double y) {
+  const double *m = matrix.m;
+  double w = m[6] * x + m[7] * y + m[8];
+  return (celspan_point){(m[0] * x + m[1] * y + m[2]) / w, (m[3] * x + m[4] * y + m[5]) / w};
+}
+
+static double value_at(const sequence *s, int i, celspan_point at, double x, double y) {
+  bool is_card = at.x >= card.x && at.x < card.x + card.width && at.y >= card.y &&
+                 at.y < card.y + card.height;
+  bool is_covered = i >= s->covered_from && i < s->covered_to &&
+                    at.x < card.x + s->covered_share * card.width && is_card;
+  if (is_covered)
+    return pattern(x + 5 * i, y - 3 * i, 77);
+  double light = 1 + s->light * sin(i / 6.0);
+  return is_card ? light * pattern(at.x, at.y, 5) : pattern(x, y, 40);
+}
+
+static void draw_frame(const sequence *s, int i, float *out) {
+  celspan_matrix back;
+  test_random random = {(uint64_t)i + 1};
+  CHECK(celspan_matrix_inverse(pose(s, i), &back));
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 0; x < WIDTH; x++) {
+      double value = value_at(s, i, moved(back, x, y), x, y);
+      out[y * WIDTH + x] = (float)(value + random_between(&random, -s->noise, s->noise));
+    }
+}
+
+/* ---------------------------------------------------------------- following it */
+
+static celspan_tracker *start(celspan_context *context, const sequence *s, float *values) {
+  celspan_matrix first = pose(s, 0);
+  celspan_tracker_desc desc = {.model = s->model,
+                               .region = {first.m[2] - 68, first.m[5] - 48, 136, 96}};
+  celspan_tracker *tracker = NULL;
+  draw_frame(s, 0, values);
+  CHECK(celspan_tracker_create(context, &(celspan_luma){WIDTH, HEIGHT, values}, &desc, &tracker) ==
+        CELSPAN_OK);
+  return tracker;
+}
+
+/* The squares of how far five places of the card are from where they are. */
+static double squares_of(const sequence *s, int i, celspan_matrix found) {
+  static const double places[5][2] = {{-60, -40}, {60, -40}, {60, 40}, {-60, 40}, {0, 0}};
+  double sum = 0;
+  for (int k = 0; k < 5; k++) {
+    celspan_point first = moved(pose(s, 0), places[k][0], places[k][1]);
+    celspan_point is = moved(pose(s, i), places[k][0], places[k][1]);
+    celspan_point said = moved(found, first.x, first.y);
+    sum += (said.x - is.x) * (said.x - is.x) + (said.y - is.y) * (said.y - is.y);
+  }
+  return sum;
+}
+
+/* Follows `frames` frames: within 0.1 pixel, and lost where all is covered alone. */
+static void follow_sequence(celspan_context *context, const char *name, sequence s, int frames) {
+  float *values = malloc(COUNT * sizeof *values);
+  celspan_tracker *tracker = start(context, &s, values);
+  double squares = 0;
+  int found = 0, lost = 0, wrong = 0;
+  for (int i = 1; tracker && i < frames; i++) {
+    celspan_sighting sighting;
+    draw_frame(&s, i, values);
+    CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
+          CELSPAN_OK);
+    bool is_hidden = i >= s.covered_from && i < s.covered_to && s.covered_share == 1;
+    lost += !sighting.is_found;
+    wrong += sighting.is_found == is_hidden;
+    if (!sighting.is_found)
+      continue;
+    found++;
+    squares += squares_of(&s, i, sighting.matrix);
+  }
+  double rms = sqrt(squares / (5.0 * (found ? found : 1)));
+  printf("track: %s: %.4f pixels rms over %d frames, %d lost\n", name, rms, found, lost);
+  CHECK(rms < 0.1);
+  CHECK(wrong == 0);
+  celspan_tracker_destroy(tracker);
+  free(values);
+}
+
+static void known_motion_is_found(celspan_context *context) {
+  int many = check_is_for_threads() ? 8 : 100, few = check_is_for_threads() ? 4 : 20;
+  follow_sequence(context, "translation", (sequence){.model = CELSPAN_MOTION_TRANSLATION}, few);
+  follow_sequence(context, "turned and scaled", (sequence){.model = CELSPAN_MOTION_SIMILARITY},
+                  few);
+  follow_sequence(context, "in perspective", (sequence){.model = CELSPAN_MOTION_PERSPECTIVE}, few);
+  follow_sequence(context, "in perspective, noise and light",
+                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.03, 0.3, 0, 0, 0}, many);
+  follow_sequence(context, "turned and scaled, noise and light, half covered",
+                  (sequence){CELSPAN_MOTION_SIMILARITY, 0.04, 0.3, 20, 60, 0.5}, many);
+  follow_sequence(context, "in perspective, a third covered",
+                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.01, 0.1, 5, 15, 0.33}, few);
+  follow_sequence(context, "in perspective, wholly covered",
+                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.02, 0.2, 40, 50, 1}, many);
+}
+
+static void another_scene_is_no_sighting(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  sequence s = {.model = CELSPAN_MOTION_PERSPECTIVE};
+  celspan_tracker *tracker = start(context, &s, values);
+  for (uint32_t seed = 100; seed < 110; seed++) {
+    celspan_sighting sighting;
+    for (int i = 0; i < COUNT; i++)
+      values[i] = (float)pattern(i % WIDTH, i / WIDTH, seed);
+    CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
+              CELSPAN_OK &&
+          !sighting.is_found && sighting.corner_count > 50);
+  }
+  celspan_tracker_destroy(tracker);
+  free(values);
+}
+
+static void a_mask_leaves_out_what_it_does_not_cover(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  uint8_t *mask = calloc(COUNT, 1);
+  sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
+  celspan_tracker_desc desc = {s.model, {0, 0, WIDTH, HEIGHT}, mask};
+  celspan_matrix back;
+  draw_frame(&s, 0, values);
+  CHECK(celspan_matrix_inverse(pose(&s, 0), &back));
+  for (int i = 0; i < COUNT; i++) {
+    celspan_point at = moved(back, i % WIDTH, i / WIDTH);
+    mask[i] = fabs(at.x) < 55 && fabs(at.y) < 35;
+  }
+  celspan_luma luma = {WIDTH, HEIGHT, values};
+  celspan_tracker *tracker = NULL;
+  celspan_sighting sighting;
+  CHECK(celspan_tracker_create(context, &luma, &desc, &tracker) == CELSPAN_OK);
+  draw_frame(&s, 3, values); /* of the whole frame, most stands still */
+  CHECK(celspan_tracker_follow(tracker, &luma, &sighting) == CELSPAN_OK && sighting.is_found);
+  CHECK(squares_of(&s, 3, sighting.matrix) < 5 * 0.1 * 0.1);
+  celspan_tracker_destroy(tracker);
+  free(mask);
+  free(values);
+}
+
+static void a_rewound_tracker_goes_the_other_way(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
+  celspan_tracker *tracker = start(context, &s, values);
+  for (int way = 1; way >= -1; way -= 2) {
+    for (int i = 1; i < 12; i++) {
+      celspan_sighting sighting;
+      draw_frame(&s, way * i, values);
+      CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
+                CELSPAN_OK &&
+            sighting.is_found);
+      CHECK(squares_of(&s, way * i, sighting.matrix) < 5 * 0.1 * 0.1);
+    }
+    celspan_tracker_rewind(tracker);
+  }
+  celspan_tracker_destroy(tracker);
+  free(values);
+}
+
+/* ---------------------------------------------------------------- wrong arguments, no memory */
+
+static void check_refused(celspan_context *context, celspan_luma luma, celspan_tracker_desc desc,
+                          const char *message) {
+  celspan_tracker *tracker = NULL;
+  CHECK(celspan_tracker_create(context, &luma, &desc, &tracker) == CELSPAN_BAD_ARGUMENT);
+  CHECK(!tracker);
+  if (!CHECK(strstr(celspan_context_error(context), message)))
+    fprintf(stderr, "it says: %s\n", celspan_context_error(context));
+}
+
+static void wrong_arguments_are_refused(celspan_context *context) {
+  float *values = malloc(COUNT * sizeof *values);
+  sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
+  celspan_tracker *tracker = start(context, &s, values);
+  celspan_luma luma = {WIDTH, HEIGHT, values};
+  celspan_tracker_desc desc = {s.model, {80, 60, 160, 120}, NULL};
+  celspan_sighting sighting;
+  check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, 10, 30}, NULL}, "10 x 30");
+  check_refused(context, luma, (celspan_tracker_desc){s.model, {900, 5, 30, 30}, NULL}, "texture");
+  check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, NAN, 30}, NULL}, "nan x 30");
+  check_refused(context, luma, (celspan_tracker_desc){s.model, {NAN, 5, 30, 30}, NULL}, "finite");
+  check_refused(context, luma, (celspan_tracker_desc){(celspan_motion)7, {5, 5, 50, 50}, NULL},
+                "model 7");
+  check_refused(context, (celspan_luma){0, HEIGHT, values}, desc, "1 to 65536");
+  check_refused(context, (celspan_luma){WIDTH, HEIGHT, NULL}, desc, "values");
+  values[1000] = NAN;
+  check_refused(context, luma, desc, "pixel 1000");
+  CHECK(celspan_tracker_follow(tracker, &luma, &sighting) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, 100, values + WIDTH * 10},
+                               &sighting) == CELSPAN_BAD_ARGUMENT &&
+        strstr(celspan_context_error(context), "320 x 100"));
+  for (int i = 0; i < COUNT; i++)
+    values[i] = 0.5F;
+  check_refused(context, luma, desc, "0 corners were found, and 4 are needed");
+  celspan_tracker_destroy(tracker);
+  celspan_tracker_destroy(NULL);
+  free(values);
+}
+
+static celspan_status create_and_follow(celspan_context *context, const float *values) {
+  celspan_luma luma = {WIDTH, HEIGHT, values};
+  celspan_tracker_desc desc = {CELSPAN_MOTION_SIMILARITY, {92, 72, 136, 96}, NULL};
+  celspan_tracker *tracker;
+  celspan_sighting sighting;
+  celspan_status status = celspan_tracker_create(context, &luma, &desc, &tracker);
+  if (status == CELSPAN_OK)
+    status = celspan_tracker_follow(tracker, &luma, &sighting);
+  celspan_tracker_destroy(tracker);
+  return status;
+}
+
+static void every_allocation_may_fail(void) {
+  float *values = malloc(COUNT * sizeof *values);
+  sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
+  memory_watch watch = {0};
+  celspan_context *context = memory_watch_context(&watch);
+  celspan_status status = CELSPAN_NO_MEMORY;
+  size_t blocks = watch.blocks, fail_at = 0;
+  draw_frame(&s, 0, values);
+  while (status == CELSPAN_NO_MEMORY && fail_at < 1000) {
+    watch.fail_at = watch.allocations + ++fail_at;
+    status = create_and_follow(context, values);
+    CHECK(watch.blocks == blocks);
+  }
+  CHECK(status == CELSPAN_OK && fail_at > 8);
+  celspan_context_destroy(context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  free(values);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
+    return check_done();
+  known_motion_is_found(context);
+  another_scene_is_no_sighting(context);
+  a_mask_leaves_out_what_it_does_not_cover(context);
+  a_rewound_tracker_goes_the_other_way(context);
+  wrong_arguments_are_refused(context);
+  celspan_context_destroy(context);
+  every_allocation_may_fail();
+  return check_done();
+}
