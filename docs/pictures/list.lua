@@ -45,6 +45,7 @@ return {
   { name = "exposure_sheet", script = "scripts/exposure_sheet.lua", frame = 8, size = "640x360" },
   { name = "night", page = "docs/guide-shot.md", frame = 40 },
   { name = "balloon", page = "docs/guide.md", frame = 24 },
+  { name = "hat", script = "scripts/hat.lua", frame = 40, size = "640x360" },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
   { name = "paper-01", script = "scripts/paper/figure01.lua", size = "640x480", allow = "scripts" },

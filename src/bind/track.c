@@ -84,8 +84,8 @@ int cs_track_tracker(lua_State *L) {
   int32_t width = (int32_t)luaL_checkinteger(L, 2), height = (int32_t)luaL_checkinteger(L, 3);
   celspan_tracker_desc desc = {.model = (celspan_motion)luaL_checkinteger(L, 4)};
   luaL_checktype(L, 5, LUA_TTABLE);
-  desc.region = (celspan_box){number_in(L, 5, 1), number_in(L, 5, 2), number_in(L, 5, 3),
-                              number_in(L, 5, 4)};
+  desc.region =
+      (celspan_box){number_in(L, 5, 1), number_in(L, 5, 2), number_in(L, 5, 3), number_in(L, 5, 4)};
   celspan_context *context = cs_host_context(L);
   celspan_luma luma = push_luma(L, 1, width, height);
   desc.mask = push_mask(L, 6, (size_t)width * (size_t)height);

@@ -113,8 +113,9 @@ static cs_exit call(cs_script *script, job *j) {
 
 cs_exit cs_verb_track(celspan_context *context, const cs_request *request) {
   if (!request->from.is_given || !request->at[2])
-    return cs_report_usage("track needs --from N and --at X,Y,W,H: the frame in which the region is "
-                           "given, and the region there");
+    return cs_report_usage(
+        "track needs --from N and --at X,Y,W,H: the frame in which the region is "
+        "given, and the region there");
   job j = {.request = request};
   cs_script script;
   cs_exit outcome = cs_script_start(context, &script);

@@ -14,9 +14,7 @@ static celspan_status allocate(celspan_context *context, int32_t width, int32_t 
   return CELSPAN_OK;
 }
 
-static int32_t held(int32_t at, int32_t size) {
-  return at < 0 ? 0 : at < size ? at : size - 1;
-}
+static int32_t held(int32_t at, int32_t size) { return at < 0 ? 0 : at < size ? at : size - 1; }
 
 /* The mean of the pixels 2 i - 1 .. 2 i + 2 of a line by the weights 1 3 3 1; `stride` is from one
  * to the next. */

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "track/corners.h"
+#include "track/features.h"
 #include "track/motion.h"
 #include "track/patch.h"
 
@@ -25,9 +25,9 @@ enum { LEAST_REGION = 2 * CS_PATCH_RADIUS, MOST_SIDE = 1 << 16 };
 
 enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 }; /* the latter in pixels of the coarsest level */
 
-#define LEAST_LIKENESS 0.8   /* of a patch with where it is found */
+#define LEAST_LIKENESS 0.8     /* of a patch with where it is found */
 #define LEAST_FAR_LIKENESS 0.6 /* the same from afar */
-#define COARSE_TOLERANCE 3.0 /* pixels that a corner may be off the common motion */
+#define COARSE_TOLERANCE 3.0   /* pixels that a corner may be off the common motion */
 #define FINE_TOLERANCE 1.0
 #define FARTHEST_BACK 0.5 /* pixels from where a patch came to where it is found again */
 #define LEAST_SHARE 0.2   /* of the corners in the frame that must agree */
@@ -38,10 +38,10 @@ struct celspan_tracker {
   celspan_motion model;
   cs_planes first;
   size_t count; /* of corners */
-  celspan_point corners[CS_CORNERS_MOST];
-  cs_patch *patches[CS_PLANE_LEVELS];        /* by level, `count` of each */
-  bool is_patch[CS_PLANE_LEVELS][CS_CORNERS_MOST]; /* whether there is one at that level */
-  celspan_matrix last, before_last;          /* the motions of the last frames where it was found */
+  celspan_point corners[CS_FEATURES_MOST];
+  cs_patch *patches[CS_PLANE_LEVELS];               /* by level, `count` of each */
+  bool is_patch[CS_PLANE_LEVELS][CS_FEATURES_MOST]; /* whether there is one at that level */
+  celspan_matrix last, before_last; /* the motions of the last frames where it was found */
 };
 
 /* ---------------------------------------------------------------- corners in a frame */
@@ -93,8 +93,10 @@ static bool find_corner(const celspan_tracker *tracker, const cs_planes *frame, 
 static bool comes_back(const celspan_tracker *tracker, const cs_planes *frame, size_t i,
                        const cs_patch_place *guess, const cs_patch_place *found) {
   double determinant = found->a * found->d - found->b * found->c;
-  cs_patch_place back = {.a = found->d / determinant, .b = -found->b / determinant,
-                         .c = -found->c / determinant, .d = found->a / determinant};
+  cs_patch_place back = {.a = found->d / determinant,
+                         .b = -found->b / determinant,
+                         .c = -found->c / determinant,
+                         .d = found->a / determinant};
   double dx = guess->x - found->x, dy = guess->y - found->y;
   celspan_point corner = tracker->corners[i];
   cs_patch_place square = {found->x, found->y, 1, 0, 0, 1};
@@ -135,7 +137,7 @@ static size_t find_pairs(const celspan_tracker *tracker, const cs_planes *frame,
  * finer places. */
 static bool move_guess(const celspan_tracker *tracker, const cs_motion_pair *found, size_t count,
                        double tolerance, celspan_matrix *guess) {
-  cs_motion_pair pairs[CS_CORNERS_MOST];
+  cs_motion_pair pairs[CS_FEATURES_MOST];
   cs_motion_verdict verdict;
   celspan_motion model = tracker->model;
   for (size_t i = 0; i < count; i++) {
@@ -154,7 +156,7 @@ static bool move_guess(const celspan_tracker *tracker, const cs_motion_pair *fou
 /* The motion that begins with a guess; false where there is none to rely on. */
 static bool follow_guess(const celspan_tracker *tracker, const cs_planes *frame,
                          celspan_matrix guess, celspan_sighting *out) {
-  cs_motion_pair pairs[CS_CORNERS_MOST];
+  cs_motion_pair pairs[CS_FEATURES_MOST];
   cs_motion_verdict verdict;
   size_t in_frame;
   size_t count = find_pairs(tracker, frame, &guess, CS_PLANE_LEVELS - 1, false, pairs, &in_frame);
@@ -226,19 +228,19 @@ static celspan_status check_luma(celspan_context *context, const celspan_luma *l
   if (!luma || !luma->values || luma->width < 1 || luma->height < 1 || luma->width > MOST_SIDE ||
       luma->height > MOST_SIDE)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "track: a frame must have values and be 1 to %d pixels wide and high", MOST_SIDE);
+                   "track: a frame must have values and be 1 to %d pixels wide and high",
+                   MOST_SIDE);
   for (size_t i = 0; i < (size_t)luma->width * (size_t)luma->height; i++)
     if (!isfinite(luma->values[i]))
-      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "track: the value of pixel %zu is not finite", i);
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT, "track: the value of pixel %zu is not finite",
+                     i);
   return CELSPAN_OK;
 }
 
-static int32_t held(double at, int32_t size) {
-  return at < 0 ? 0 : at > size ? size : (int32_t)at;
-}
+static int32_t held(double at, int32_t size) { return at < 0 ? 0 : at > size ? size : (int32_t)at; }
 
 static celspan_status check_region(celspan_context *context, const celspan_tracker_desc *desc,
-                                   const celspan_luma *luma, cs_corners_region *out) {
+                                   const celspan_luma *luma, cs_features_region *out) {
   const celspan_box *box = &desc->region;
   if ((unsigned)desc->model > CELSPAN_MOTION_PERSPECTIVE)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "track: model %d is none", (int)desc->model);
@@ -248,14 +250,14 @@ static celspan_status check_region(celspan_context *context, const celspan_track
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "track: the region is %g x %g pixels; it must be %d x %d or larger", box->width,
                    box->height, LEAST_REGION, LEAST_REGION);
-  *out = (cs_corners_region){held(floor(box->x), luma->width), held(floor(box->y), luma->height),
-                             held(ceil(box->x + box->width), luma->width),
-                             held(ceil(box->y + box->height), luma->height), desc->mask};
+  *out = (cs_features_region){held(floor(box->x), luma->width), held(floor(box->y), luma->height),
+                              held(ceil(box->x + box->width), luma->width),
+                              held(ceil(box->y + box->height), luma->height), desc->mask};
   return CELSPAN_OK;
 }
 
 /* As many levels as leave the region a few patches wide on the coarsest. */
-static int32_t levels_for(const cs_corners_region *region) {
+static int32_t levels_for(const cs_features_region *region) {
   int32_t width = region->x1 - region->x0, height = region->y1 - region->y0, count = 1;
   for (int32_t side = width < height ? width : height;
        count < CS_PLANE_LEVELS && side / 2 >= CS_PATCH_SIDE; side /= 2)
@@ -266,7 +268,11 @@ static int32_t levels_for(const cs_corners_region *region) {
 static void take_level(celspan_tracker *tracker, int32_t level) {
   for (size_t i = 0; i < tracker->count; i++) {
     cs_patch_place place = {cs_plane_down(tracker->corners[i].x, level),
-                            cs_plane_down(tracker->corners[i].y, level), 1, 0, 0, 1};
+                            cs_plane_down(tracker->corners[i].y, level),
+                            1,
+                            0,
+                            0,
+                            1};
     tracker->is_patch[level][i] =
         cs_patch_take(&tracker->first.levels[level], &place, &tracker->patches[level][i]);
   }
@@ -286,13 +292,13 @@ static celspan_status take_patches(celspan_tracker *tracker) {
 static celspan_status fill(celspan_tracker *tracker, const celspan_luma *luma,
                            const celspan_tracker_desc *desc) {
   celspan_context *context = tracker->context;
-  cs_corners_region region;
+  cs_features_region region;
   CS_TRY(check_luma(context, luma));
   CS_TRY(check_region(context, desc, luma, &region));
   CS_TRY(cs_planes_make(context, luma->values, luma->width, luma->height, levels_for(&region),
                         &tracker->first));
-  CS_TRY(cs_corners_find(context, &tracker->first.levels[0], &region, tracker->corners,
-                         &tracker->count));
+  CS_TRY(cs_features_find(context, &tracker->first.levels[0], &region, tracker->corners,
+                          &tracker->count));
   if (tracker->count < cs_motion_least(desc->model))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "track: the region has too little texture: %zu corners were found, and %zu are "

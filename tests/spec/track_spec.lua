@@ -131,6 +131,21 @@ describe("a track", function()
   end)
 end)
 
+describe("the hat of scripts/hat.lua", function()
+  it("is placed by its track within half a pixel of the head", function()
+    package.path = "scripts/?.lua;" .. package.path
+    local head, t = require "hat.head", assert(track.read "../../scripts/hat/track.json")
+    for n = 1, head.frames do
+      for _, at in ipairs { { -60, -40 }, { 60, -40 }, { 0, 60 } } do
+        local x, y = centre(head.pose(dot(at[1], at[2]), n - 1))
+        local said_x, said_y = centre(t:place(head.pose(dot(at[1], at[2]), 0), n))
+        assert.near(x, said_x, 0.5)
+        assert.near(y, said_y, 0.5)
+      end
+    end
+  end)
+end)
+
 describe("following", function()
   local function follow(options, pattern)
     local t, message = track.follow(pattern or folder .. "/card.####.png", options)

@@ -50,12 +50,13 @@ static celspan_matrix pose(const sequence *s, int i) {
   if (s->model == CELSPAN_MOTION_TRANSLATION)
     return placed;
   double scale = 1 + 0.15 * sin(0.7 * t);
-  celspan_matrix turned = celspan_matrix_then(
-      celspan_matrix_rotation(0.4 * sin(0.8 * t), (celspan_point){0, 0}),
-      celspan_matrix_scaling(scale, scale));
+  celspan_matrix turned =
+      celspan_matrix_then(celspan_matrix_rotation(0.4 * sin(0.8 * t), (celspan_point){0, 0}),
+                          celspan_matrix_scaling(scale, scale));
   if (s->model == CELSPAN_MOTION_SIMILARITY)
     return celspan_matrix_then(turned, placed);
-  celspan_matrix bent = {{1, 0.1 * sin(t), 0, 0, 1, 0, 6e-4 * sin(0.9 * t), 8e-4 * sin(0.6 * t), 1}};
+  celspan_matrix bent = {
+      {1, 0.1 * sin(t), 0, 0, 1, 0, 6e-4 * sin(0.9 * t), 8e-4 * sin(0.6 * t), 1}};
   return celspan_matrix_then(celspan_matrix_then(bent, turned), placed);
 }
 
@@ -66,8 +67,8 @@ static celspan_point moved(celspan_matrix matrix, double x, double y) {
 }
 
 static double value_at(const sequence *s, int i, celspan_point at, double x, double y) {
-  bool is_card = at.x >= card.x && at.x < card.x + card.width && at.y >= card.y &&
-                 at.y < card.y + card.height;
+  bool is_card =
+      at.x >= card.x && at.x < card.x + card.width && at.y >= card.y && at.y < card.y + card.height;
   bool is_covered = i >= s->covered_from && i < s->covered_to &&
                     at.x < card.x + s->covered_share * card.width && is_card;
   if (is_covered)

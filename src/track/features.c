@@ -1,4 +1,4 @@
-#include "track/corners.h"
+#include "track/features.h"
 
 #include <math.h>
 
@@ -50,7 +50,7 @@ static float strength_in(const map *m, int32_t x, int32_t y) {
   return m->strengths[(size_t)y * (size_t)m->width + (size_t)x];
 }
 
-static void measure(const cs_plane *plane, const cs_corners_region *region, map *m) {
+static void measure(const cs_plane *plane, const cs_features_region *region, map *m) {
   for (int32_t y = 0; y < m->height; y++)
     for (int32_t x = 0; x < m->width; x++) {
       int32_t column = m->x0 + x, row = m->y0 + y;
@@ -90,7 +90,7 @@ static celspan_status list_peaks(celspan_context *context, const map *m, candida
 /* Of the candidates, strongest first, those that are not nearer than `apart` to one before them. */
 static size_t spread(const candidate *list, size_t count, double apart, celspan_point *out) {
   size_t taken = 0;
-  for (size_t i = 0; i < count && taken < CS_CORNERS_MOST; i++) {
+  for (size_t i = 0; i < count && taken < CS_FEATURES_MOST; i++) {
     bool is_free = (double)list[i].strength >= LEAST_SHARE * (double)list[0].strength;
     for (size_t k = 0; k < taken && is_free; k++)
       is_free = hypot(out[k].x - list[i].x, out[k].y - list[i].y) >= apart;
@@ -105,10 +105,12 @@ static int32_t clamp(int32_t value, int32_t low, int32_t high) {
 }
 
 /* The part of the region around whose pixels slopes can be summed. */
-static map map_of(const cs_plane *plane, const cs_corners_region *region) {
+static map map_of(const cs_plane *plane, const cs_features_region *region) {
   enum { BORDER = SQUARE + 1 };
-  int32_t x0 = clamp(region->x0, BORDER, plane->width), x1 = clamp(region->x1, 0, plane->width - BORDER);
-  int32_t y0 = clamp(region->y0, BORDER, plane->height), y1 = clamp(region->y1, 0, plane->height - BORDER);
+  int32_t x0 = clamp(region->x0, BORDER, plane->width),
+          x1 = clamp(region->x1, 0, plane->width - BORDER);
+  int32_t y0 = clamp(region->y0, BORDER, plane->height),
+          y1 = clamp(region->y1, 0, plane->height - BORDER);
   return (map){x0, y0, x1 > x0 ? x1 - x0 : 0, y1 > y0 ? y1 - y0 : 0, NULL};
 }
 
@@ -119,16 +121,16 @@ static celspan_status choose(celspan_context *context, const map *m, celspan_poi
   celspan_status status = list_peaks(context, m, &list, &capacity, &found);
   if (status == CELSPAN_OK) {
     sort_candidates(list, found);
-    double apart = sqrt((double)m->width * m->height / CS_CORNERS_MOST) * 0.6;
+    double apart = sqrt((double)m->width * m->height / CS_FEATURES_MOST) * 0.6;
     *count = spread(list, found, apart > 4 ? apart : 4, out);
   }
   cs_mem_free(context->memory, list, capacity * sizeof *list);
   return status;
 }
 
-celspan_status cs_corners_find(celspan_context *context, const cs_plane *plane,
-                               const cs_corners_region *region, celspan_point *out,
-                               size_t *count) {
+celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
+                                const cs_features_region *region, celspan_point *out,
+                                size_t *count) {
   map m = map_of(plane, region);
   size_t size = (size_t)m.width * (size_t)m.height;
   *count = 0;
