@@ -54,7 +54,7 @@ end
 --- Stops a render by a signal; nothing is left of frames that were not finished.
 local function stop(text, signal, code)
   bench:write("film.lua", text)
-  local started = ("%s render film.lua -o out/f.##.png --progress none"):format(
+  local started = ("%s render --trust film.lua -o out/f.##.png --progress none"):format(
     workbench.binary:sub(1, 1) == "/" and workbench.binary or "$OLDPWD/" .. workbench.binary)
   local got, out, err = bench:shell(([[cd '%s' && mkdir out && { %s & pid=$!; sleep %g
     kill -%s $pid; before=$(date +%%s%%N); wait $pid; code=$?; echo $(( ($(date +%%s%%N) - before) / 1000000 ))

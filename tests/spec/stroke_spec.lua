@@ -302,7 +302,7 @@ describe("a stroke in a scene", function()
         return celspan.film { size = { 512, 512 }, frames = 1,
           frame = function() return celspan.rostrum { celspan.cel(art) } end }]]):format(width))
       file:close()
-      local pipe = assert(io.popen(os.getenv "CELSPAN" .. " spans --stats " .. path))
+      local pipe = assert(io.popen(os.getenv "CELSPAN" .. " spans --stats --workers 1 " .. path))
       local out = pipe:read "a"
       pipe:close()
       os.remove(path)
