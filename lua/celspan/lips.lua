@@ -6,9 +6,10 @@
 -- Frame n (from 1) shows the time from (n-1)/fps to n/fps: the shape that covers most of it. A
 -- shape stays for at least `hold` frames, so that mouths do not flicker. Closed mouths (A, MBP, X,
 -- rest), which are missed when they are missing, are never dropped.
-local core = require "celspan.core"
 local cues = require "celspan.cues"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
+local json = require "celspan.json"
 local mouths = require "celspan.mouths"
 
 local lips = {}
@@ -78,14 +79,8 @@ function lips.read(path, options)
   options = options or {}
   fields.check("lips", options, known)
   check_ranges(options)
-  local found_at, tried = core.find(path)
-  local file, message = io.open(found_at, "rb")
-  local text = file and file:read "a"
-  if file then file:close() end
-  if not text then
-    message = message or ("%s: cannot be read"):format(found_at)
-    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
-  end
+  local text, message = files.read_found(path, json.most_bytes)
+  if not text then return nil, message end
   local found, problem = cues.read(text)
   if not found then return nil, ("%s: %s"):format(path, problem) end
   local fps = options.fps or 24

@@ -8,6 +8,7 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
 local json = require "celspan.json"
 
 local oca = {}
@@ -178,11 +179,9 @@ end
 ---@return string? message
 function oca.read(folder, document)
   local path = folder .. "/" .. document
-  local file, message = io.open(path, "rb")
-  if not file then return nil, message end
-  local text = file:read(json.most_bytes + 1)
-  file:close()
-  local good, read = pcall(read_document, folder, text or "")
+  local text, message = files.read(path, json.most_bytes)
+  if not text then return nil, message end
+  local good, read = pcall(read_document, folder, text)
   if good then return read end
   if type(read) ~= "table" then error(read, 0) end
   return nil, ("%s: %s"):format(path, read.message)

@@ -9,6 +9,7 @@ local celspan = require "celspan"
 local columns = require "celspan.columns"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
 local sheet_csv = require "celspan.sheet_csv"
 local sheet_oca = require "celspan.sheet_oca"
 local sheet_text = require "celspan.sheet_text"
@@ -267,16 +268,7 @@ local function read_whole(path)
     if not document then return nil, path .. ": the folder holds no OCA document" end
     path = document
   end
-  local file, message = io.open(path, "rb")
-  if not file then return nil, message end
-  local text, problem = file:read(sheet.most_bytes + 1)
-  file:close()
-  if problem then return nil, ("%s: %s"):format(path, problem) end
-  text = text or ""
-  if #text > sheet.most_bytes then
-    return nil, ("%s: it has more than %d bytes, which is the limit"):format(path, sheet.most_bytes)
-  end
-  return text
+  return files.read(path, sheet.most_bytes)
 end
 
 ---@param path string Relative to the caller's file, else to the script
@@ -385,11 +377,11 @@ end
 local function by_pattern(name, layer, pattern, level)
   local before, star, after = pattern:match "^(.*)(%*)([^*]*)$"
   if star then return before .. safe_name(name, level + 1) .. after end
-  local first, last = pattern:find "#+[^#]*$"
+  local first = pattern:find "#+[^#]*$"
   if not first then
     error(("sheet: drawing: the pattern %q has neither # nor *"):format(pattern), level + 1)
   end
-  last = pattern:find("[^#]", first) or #pattern + 1
+  local last = pattern:find("[^#]", first) or #pattern + 1
   local start, digits, letter = name:match "^(.-)(%d+)(%a?)$"
   if not digits or start ~= "" and start:gsub("[ _.-]$", "") ~= layer then
     error(("sheet: drawing: %q has no number, for %q; a * takes the name as it stands")
@@ -476,18 +468,7 @@ function methods:write(path)
   end
   local text, refused = caught(encode, plain(self))
   if not text then return nil, ("%s: %s"):format(path, refused) end
-  local part = path .. ".part"
-  local file, message = io.open(part, "wb")
-  if not file then return nil, message end
-  local good, problem = file:write(text)
-  local closed, unclosed = file:close()
-  if not good or not closed then
-    os.remove(part)
-    return nil, ("%s: %s"):format(path, problem or unclosed)
-  end
-  good, problem = os.rename(part, path)
-  if not good then os.remove(part) end
-  return good, problem
+  return files.write(path, text)
 end
 
 -- ---------------------------------------------------------------- the sheet of a film

@@ -10,6 +10,7 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local files = require "celspan.files"
 local json = require "celspan.json"
 
 local track = {}
@@ -307,15 +308,7 @@ function methods:write(path)
   if type(path) ~= "string" then
     error("track: write takes the name of a file, got " .. fields.kind(path), 2)
   end
-  local part = path .. ".part"
-  local file, message = io.open(part, "wb")
-  if not file then return nil, message end
-  local good, problem = file:write(self:text())
-  local closed, close_problem = file:close()
-  if good and closed then good, problem = os.rename(part, path) end
-  if good and closed then return true end
-  os.remove(part)
-  return nil, ("%s: %s"):format(path, problem or close_problem)
+  return files.write(path, self:text())
 end
 
 --- Raises what is wrong with a value of a file, with its path there.
@@ -373,14 +366,8 @@ end
 ---@return string? message
 function track.read(path)
   if type(path) ~= "string" then error("track: read takes a file name, got " .. type(path), 2) end
-  local found_at, tried = core.find(path)
-  local file, message = io.open(found_at, "rb")
-  local text = file and file:read(MOST_BYTES + 1)
-  if file then file:close() end
-  if not text then
-    message = message or ("%s: cannot be read"):format(found_at)
-    return nil, tried and ("%s; nor is it there: %s"):format(message, tried) or message
-  end
+  local text, message = files.read_found(path, MOST_BYTES)
+  if not text then return nil, message end
   local value, problem = json.decode(text)
   if value == nil then return nil, ("%s: %s"):format(path, problem or "holds null") end
   local good, result = pcall(from_value, value)

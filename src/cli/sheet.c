@@ -2,14 +2,13 @@
  *
  * The work is that of the Lua module celspan.sheet, called with celspan's rules for scripts. */
 #include <lauxlib.h>
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "cli/confine.h"
-#include "cli/lines.h"
+#include "cli/document.h"
 #include "cli/script.h"
 #include "cli/target.h"
 #include "cli/verbs.h"
@@ -36,8 +35,8 @@ static void push_frames(lua_State *L, const cs_sequence *frames) {
   lua_setfield(L, -2, "frames");
 }
 
-/* Pushes the sheet; false: it is reported why there is none. Raises. */
-static bool push_sheet(lua_State *L, job *j) {
+/* Pushes the sheet. OK, or reported, and nothing is pushed. Raises. */
+static cs_exit push_sheet(lua_State *L, const job *j) {
   lua_getglobal(L, "require");
   lua_pushliteral(L, "celspan.sheet");
   lua_call(L, 1, 1);
@@ -49,53 +48,15 @@ static bool push_sheet(lua_State *L, job *j) {
   bool has_frames = j->frames.count > 0;
   if (has_frames)
     push_frames(L, &j->frames);
-  lua_call(L, has_frames ? 2 : 1, 2);
-  if (!lua_isnil(L, -2)) {
-    lua_pop(L, 1);
-    return true;
-  }
-  cs_report_error("%s", lua_tostring(L, -1));
-  j->outcome = CS_EXIT_INPUT;
-  return false;
-}
-
-/* The sheet on top of the stack, to standard output. Raises. */
-static void print_sheet(lua_State *L, job *j) {
-  lua_getfield(L, -1, "text");
-  lua_pushvalue(L, -2);
-  lua_call(L, 1, 2);
-  if (lua_isnil(L, -2)) {
-    cs_report_error("%s: %s", j->request->operands[0], lua_tostring(L, -1));
-    j->outcome = CS_EXIT_LIMIT;
-    return;
-  }
-  lua_pop(L, 1);
-  size_t size;
-  const char *text = lua_tolstring(L, -1, &size);
-  fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
-}
-
-static void write_sheet(lua_State *L, job *j) {
-  (void)cs_lines_make_folders_for(j->request->output); /* where it fails, so does writing */
-  lua_getfield(L, -1, "write");
-  lua_pushvalue(L, -2);
-  lua_pushstring(L, j->request->output);
-  lua_call(L, 2, 2);
-  if (lua_toboolean(L, -2))
-    return;
-  cs_report_error("%s", lua_tostring(L, -1));
-  j->outcome = CS_EXIT_OUTPUT;
+  return cs_document_make(L, has_frames ? 2 : 1);
 }
 
 /* [film,] light userdata: the job. Runs protected. */
 static int run(lua_State *L) {
   job *j = lua_touserdata(L, -1);
-  if (!push_sheet(L, j))
-    return 0;
-  if (j->request->output && strcmp(j->request->output, "-") != 0)
-    write_sheet(L, j);
-  else
-    print_sheet(L, j);
+  j->outcome = push_sheet(L, j);
+  if (j->outcome == CS_EXIT_OK)
+    j->outcome = cs_document_put(L, j->request->output, j->request->operands[0]);
   return 0;
 }
 

@@ -3,10 +3,9 @@
  * The work is that of the Lua module celspan.track, called with celspan's rules for scripts. */
 #include <lauxlib.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "bind/lua_error.h"
-#include "cli/lines.h"
+#include "cli/document.h"
 #include "cli/script.h"
 #include "cli/verbs.h"
 
@@ -31,22 +30,15 @@ static void push_options(lua_State *L, const cs_request *request) {
   lua_setfield(L, -2, "model");
 }
 
-/* Pushes the track; false: it is reported why there is none. Raises. */
-static bool push_track(lua_State *L, job *j) {
+/* Pushes the track. OK, or reported, and nothing is pushed. Raises. */
+static cs_exit push_track(lua_State *L, const cs_request *request) {
   lua_getglobal(L, "require");
   lua_pushliteral(L, "celspan.track");
   lua_call(L, 1, 1);
   lua_getfield(L, -1, "follow");
-  lua_pushstring(L, j->request->operands[0]);
-  push_options(L, j->request);
-  lua_call(L, 2, 2);
-  if (!lua_isnil(L, -2)) {
-    lua_pop(L, 1);
-    return true;
-  }
-  cs_report_error("%s", lua_tostring(L, -1));
-  j->outcome = CS_EXIT_INPUT;
-  return false;
+  lua_pushstring(L, request->operands[0]);
+  push_options(L, request);
+  return cs_document_make(L, 2);
 }
 
 /* What was found of the track on top of the stack, on standard error. */
@@ -65,47 +57,22 @@ static void report(lua_State *L) {
   lua_pop(L, 2);
 }
 
-static void print_track(lua_State *L) {
-  lua_getfield(L, -1, "text");
-  lua_pushvalue(L, -2);
-  lua_call(L, 1, 1);
-  size_t size;
-  const char *text = lua_tolstring(L, -1, &size);
-  fwrite(text, 1, size, stdout); /* failures are found when standard output is closed */
-}
-
-static void write_track(lua_State *L, job *j) {
-  (void)cs_lines_make_folders_for(j->request->output); /* where it fails, so does writing */
-  lua_getfield(L, -1, "write");
-  lua_pushvalue(L, -2);
-  lua_pushstring(L, j->request->output);
-  lua_call(L, 2, 2);
-  if (lua_toboolean(L, -2))
-    return;
-  cs_report_error("%s", lua_tostring(L, -1));
-  j->outcome = CS_EXIT_OUTPUT;
-}
-
 /* Light userdata: the job. Runs protected. */
 static int run(lua_State *L) {
   job *j = lua_touserdata(L, -1);
-  if (!push_track(L, j))
+  j->outcome = push_track(L, j->request);
+  if (j->outcome != CS_EXIT_OK)
     return 0;
   report(L);
-  if (j->request->output && strcmp(j->request->output, "-") != 0)
-    write_track(L, j);
-  else
-    print_track(L);
+  j->outcome = cs_document_put(L, j->request->output, j->request->operands[0]);
   return 0;
 }
 
 static cs_exit call(cs_script *script, job *j) {
   lua_State *L = script->L;
-  cs_lua_error_push_handler(L, "", run);
-  int handler = lua_gettop(L);
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, j);
-  int outcome = lua_pcall(L, 1, 0, handler);
+  int outcome = cs_lua_error_call(L, 1, 0);
   if (outcome == LUA_OK)
     return j->outcome;
   return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
