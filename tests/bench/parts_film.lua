@@ -21,7 +21,7 @@ end
 --- celspan with the script of the layers, which must stand beside the film's own files.
 local function layers(runner, verb, ...)
   return "CELSPAN_PATH='scripts/?.lua' " .. Command(runner.celspan, verb,
-    runner.folder .. "/layers/layers.lua", ...)
+    runner.folder .. "/layers/layers.lua", "--trust", ...)
 end
 
 --- How many cels each exposure of the film has at its end.

@@ -38,7 +38,7 @@ local function read(path)
 end
 
 local function compare(folder, picture, depth, pixel_size)
-  local command = ("%s render %s/film.lua --progress none --depth %s -o %%s -- %s"):format(
+  local command = ("%s render %s/film.lua --trust --progress none --depth %s -o %%s -- %s"):format(
     BINARY, folder, depth, picture)
   run(command:format(folder .. "/####.span"))
   local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}
