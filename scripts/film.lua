@@ -1,6 +1,7 @@
--- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute.
+-- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute. ./run film makes its
+-- sound, too, and renders it with
 --
---   celspan render scripts/film.lua -o out/film.mp4 [-- SOUND]      (./run film makes the sound)
+--   celspan render scripts/film.lua -o out/film.mp4 --allow FOLDER -- FOLDER/sound.wav
 --
 -- The cutting: which shot is seen when, and how one dissolves into the next. What happens in a shot
 -- is in film/shots/, the set and the figure beside it, and film/timing.lua is the clock of them
