@@ -358,10 +358,10 @@ int main(void) {
   check_arguments();
   check_facts(path);
   check_lifetimes(path);
-  check_allocations(path, false);
-  check_allocations(path, true);
-  check_rows(path, false);
-  check_rows(path, true);
+  for (int is_for_good = 0; is_for_good < 2 && !check_is_for_threads(); is_for_good++) {
+    check_allocations(path, is_for_good);
+    check_rows(path, is_for_good);
+  }
   check_archives();
   check_failure(path);
   check_claims(path);
