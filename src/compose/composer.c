@@ -187,9 +187,10 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   return CELSPAN_OK;
 }
 
-/* What contributes of the layers present. */
+/* What contributes of the layers present. A boolean without operands is a tree without layers: there is
+ * nothing to copy then, and nowhere to copy it. */
 static const uint64_t *resolve(cs_composer *composer) {
-  if (composer->stack->tree_count == 0)
+  if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)
     return composer->set;
   memcpy(composer->contributing, composer->set,
          cs_stack_words(composer->stack) * sizeof *composer->set);

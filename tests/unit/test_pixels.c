@@ -37,7 +37,11 @@ static void check_half(void) {
     wrong += code_half(nextafterf(middle, HUGE_VALF)) != half + 1;
   }
   CHECK(wrong == 0);
-  CHECK(code_half(65504) == 0x7bff && code_half(65519) == 0x7bff && code_half(1e30f) == 0x7bff);
+  /* From the middle between the greatest half and the next power of two, rounding would overflow. */
+  static const float large[] = {65504, 65519, 65520, 65535, 65536, 1e30f, 3.4e38f};
+  for (size_t i = 0; i < sizeof large / sizeof *large; i++)
+    CHECK(code_half(large[i]) == 0x7bff && code_half(-large[i]) == 0xfbff);
+  CHECK(code_half(nextafterf(65520, 0)) == 0x7bff && code_half(nextafterf(65520, 1e9f)) == 0x7bff);
   CHECK(code_half(HUGE_VALF) == 0x7bff && code_half(-HUGE_VALF) == 0xfbff);
   CHECK((code_half(NAN) & 0x7fff) > 0x7c00);
 }
