@@ -157,7 +157,13 @@ describe("the commands of", function()
           it(place(page, block) .. line .. " run", function()
             local command = line:find "%$first" and "first=1; last=2; " .. line or line
             if laid then command = ("rm -rf %s; %s"):format(laid, line) end
+            -- A search for leaks looks into the process from another one, which --strict does not let it.
+            local is_strict = line:find("--strict", 1, true)
+            if is_strict then command = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 " .. command end
             local code, _, message = run(command, here)
+            if is_strict and code == 6 and message:find("--strict: ", 1, true) then
+              return pending "the kernel cannot confine a process"
+            end
             check_code(code, message)
           end)
         elseif line:find "^%./run " then
