@@ -86,22 +86,6 @@ function methods:motion(f)
   return matrix, found[number] and true or false
 end
 
---- The inverse of a matrix of nine numbers, nil where there is none.
-local function inverse(m)
-  local a = m[5] * m[9] - m[6] * m[8]
-  local b = m[6] * m[7] - m[4] * m[9]
-  local c = m[4] * m[8] - m[5] * m[7]
-  local determinant = m[1] * a + m[2] * b + m[3] * c
-  if math.abs(determinant) < 1e-12 then return nil end
-  local adjoint = {
-    a, m[3] * m[8] - m[2] * m[9], m[2] * m[6] - m[3] * m[5],
-    b, m[1] * m[9] - m[3] * m[7], m[3] * m[4] - m[1] * m[6],
-    c, m[2] * m[7] - m[1] * m[8], m[1] * m[5] - m[2] * m[4],
-  }
-  for i = 1, 9 do adjoint[i] = adjoint[i] / determinant end
-  return adjoint
-end
-
 local function check_object(method, object)
   local noun = tostring(object)
   if type(object) ~= "userdata" or noun:find "^frame" or noun:find "^paint" then
@@ -128,7 +112,7 @@ end
 function methods:steady(object, f)
   check_object("steady", object)
   number_of("steady", f)
-  return object:transform(assert(inverse(self:motion(f))))
+  return object:transform(assert(core.inverse(self:motion(f))))
 end
 
 -- ---------------------------------------------------------------- following
@@ -332,7 +316,7 @@ end
 local function sighting_in(entry, where)
   if entry.lost == true then return false end
   local matrix = numbers_in(entry.matrix, 9, where .. ".matrix")
-  demand(inverse(matrix), where .. ".matrix", "one that has an inverse")
+  demand(core.inverse(matrix), where .. ".matrix", "one that has an inverse")
   local error_of = entry.error
   demand(fields.is_finite(error_of) and error_of >= 0, where .. ".error", "a number, 0 or more")
   return { matrix = matrix, corners = whole_in(entry.corners, where .. ".corners"),

@@ -91,6 +91,12 @@ cs_host *cs_host_get(lua_State *L) {
 
 celspan_context *cs_host_context(lua_State *L) { return cs_host_get(L)->context; }
 
+int cs_host_push_failure(lua_State *L) {
+  luaL_pushfail(L);
+  lua_pushstring(L, celspan_context_error(cs_host_context(L)));
+  return 2;
+}
+
 lua_State *cs_host_enter(lua_State *L) {
   cs_host *host = cs_host_get(L);
   lua_State *before = host->state;

@@ -62,6 +62,8 @@ void cs_host_leave(lua_State *L, lua_State *before);
 
 /* Raises the context's sentence at the caller's line, "noun: sentence", unless status is OK. */
 void cs_host_try(lua_State *L, const char *noun, celspan_status status);
+/* Pushes nil and the context's sentence, as the results of a function: their number. */
+int cs_host_push_failure(lua_State *L);
 /* The status of a message that was raised: the core's own when the message contains the core's
  * sentence, else CALLBACK. */
 celspan_status cs_host_blame(lua_State *L, const char *message);

@@ -9,6 +9,7 @@
 #include "bind/difference.h"
 #include "bind/drawing.h"
 #include "bind/files.h"
+#include "bind/frames.h"
 #include "bind/host.h"
 #include "bind/painting.h"
 #include "bind/parts.h"
@@ -55,8 +56,9 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"tracker", cs_track_tracker},
                                        {"follow", cs_track_follow},
                                        {"rewind", cs_track_rewind},
-                                       {"frames", cs_track_frames},
-                                       {"frame_name", cs_track_frame_name},
+                                       {"inverse", cs_track_inverse},
+                                       {"frames", cs_frames_list},
+                                       {"frame_name", cs_frames_name},
                                        {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);

@@ -46,12 +46,6 @@ static int get(lua_State *L) {
   return 4;
 }
 
-static int fail(lua_State *L, celspan_context *context) {
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
-}
-
 /* ---------------------------------------------------------------- coded */
 
 /* A row as one span. */
@@ -108,13 +102,13 @@ static int write_image(lua_State *L) {
   file.place_y = picture->y;
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
-    return fail(L, context);
+    return cs_host_push_failure(L);
   celspan_sink sink;
   celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
   if (status == CELSPAN_OK)
     status = sink.end(sink.user, context, write_rows(context, &sink, picture));
   if (status != CELSPAN_OK)
-    return fail(L, context);
+    return cs_host_push_failure(L);
   lua_pushboolean(L, true);
   return 1;
 }
@@ -172,7 +166,7 @@ static int pixels(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_status status = cs_subject_read(&form, &frame.desc);
   if (status != CELSPAN_OK)
-    return fail(L, context);
+    return cs_host_push_failure(L);
   image *picture = push_image(&form, &frame.desc);
   picture->is_opaque = celspan_frame_is_opaque(&frame.desc);
   picture->x = frame.desc.crop_x;
@@ -183,7 +177,7 @@ static int pixels(lua_State *L) {
   status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
                                 (size_t)picture->width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
-  return status == CELSPAN_OK ? 1 : fail(L, context);
+  return status == CELSPAN_OK ? 1 : cs_host_push_failure(L);
 }
 
 void cs_open_pixels(lua_State *L) {

@@ -2,6 +2,7 @@
 
 #include <lauxlib.h>
 
+#include "base/splitmix.h"
 #include "bind/caller.h"
 #include "bind/numbers.h"
 #include "bind/userdata.h"
@@ -22,12 +23,7 @@ uint64_t cs_random_integer(uint64_t hash, uint64_t number) {
   return hash;
 }
 
-static uint64_t finalise(uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
+static uint64_t finalise(uint64_t hash) { return cs_splitmix_next(&hash); }
 
 /* 0..span-1, each equally likely: the few values that would make some likelier are drawn again. */
 static uint64_t below(uint64_t hash, uint64_t span) {

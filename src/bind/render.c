@@ -167,11 +167,8 @@ static int render(lua_State *L) {
     return cs_caller_error(L,
                            "render: argument 2 must be a file name like \"shot.####.png\", got %s",
                            cs_userdata_type(L, 2));
-  if (!cs_host_may_write(L, lua_tostring(L, 2))) {
-    luaL_pushfail(L);
-    lua_pushstring(L, celspan_context_error(cs_host_context(L)));
-    return 2;
-  }
+  if (!cs_host_may_write(L, lua_tostring(L, 2)))
+    return cs_host_push_failure(L);
   cs_form form = cs_options_open(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);

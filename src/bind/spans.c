@@ -95,24 +95,18 @@ static int fill_protected(lua_State *L) {
   return 1;
 }
 
-static int fail(lua_State *L) {
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(cs_host_context(L)));
-  return 2;
-}
-
 static int spans(lua_State *L) {
   lua_settop(L, 2);
   cs_form form = cs_options_open(L, &noun_spans, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
   if (cs_subject_read(&form, &frame.desc) != CELSPAN_OK)
-    return fail(L);
+    return cs_host_push_failure(L);
   int32_t range[2];
   celspan_rows **rows = push_rows(L);
   int32_t height = frame.desc.crop_height ? frame.desc.crop_height : frame.desc.height;
   if (celspan_rows_create(cs_host_context(L), &frame.desc, rows) != CELSPAN_OK)
-    return fail(L);
+    return cs_host_push_failure(L);
   read_row_range(&form, height, range);
   lua_newtable(L);
   int result = lua_gettop(L);
@@ -129,7 +123,7 @@ static int spans(lua_State *L) {
     return lua_error(L);
   bool is_good = lua_tointeger(L, -1) == CELSPAN_OK;
   lua_settop(L, result);
-  return is_good ? 1 : fail(L);
+  return is_good ? 1 : cs_host_push_failure(L);
 }
 
 static int probe(lua_State *L) {
@@ -141,13 +135,13 @@ static int probe(lua_State *L) {
   cs_form_numbers(&form, "film", 2, film);
   celspan_frame_desc desc = {.film_width = film[0], .film_height = film[1]};
   if (cs_subject_read(&form, &desc) != CELSPAN_OK)
-    return fail(L);
+    return cs_host_push_failure(L);
   lua_State *before = cs_host_enter(L);
   celspan_status status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
                                         desc.film_width, desc.film_height, point, rgba);
   cs_host_leave(L, before);
   if (status != CELSPAN_OK)
-    return fail(L);
+    return cs_host_push_failure(L);
   for (int c = 0; c < 4; c++)
     lua_pushnumber(L, rgba[c]);
   return 4;

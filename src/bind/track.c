@@ -1,12 +1,10 @@
 #include "bind/track.h"
 
-#include <limits.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "bind/form.h"
 #include "bind/host.h"
-#include "film/sequence.h"
 
 #define TRACKER "celspan.tracker"
 enum { PIXEL = 4 * sizeof(uint16_t) }; /* bytes */
@@ -23,6 +21,7 @@ static celspan_luma push_luma(lua_State *L, int index, int32_t width, int32_t he
   for (size_t i = 0; i < count; i++) {
     uint16_t rgba[4];
     memcpy(rgba, bytes + i * PIXEL, PIXEL);
+    /* The weights of coded light: ITU-R BT.601. */
     values[i] = (0.299F * rgba[0] + 0.587F * rgba[1] + 0.114F * rgba[2]) / 65535;
   }
   return (celspan_luma){width, height, values};
@@ -42,12 +41,6 @@ static const uint8_t *push_mask(lua_State *L, int index, size_t count) {
     mask[i] = alpha >= 0x8000;
   }
   return mask;
-}
-
-static int fail(lua_State *L, celspan_context *context) {
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
 }
 
 /* ---------------------------------------------------------------- a tracker */
@@ -91,7 +84,7 @@ int cs_track_tracker(lua_State *L) {
   desc.mask = push_mask(L, 6, (size_t)width * (size_t)height);
   celspan_tracker **holder = push_holder(L);
   if (celspan_tracker_create(context, &luma, &desc, holder) != CELSPAN_OK)
-    return fail(L, context);
+    return cs_host_push_failure(L);
   return 1;
 }
 
@@ -101,11 +94,7 @@ static celspan_tracker *tracker_at(lua_State *L, int index) {
   return *holder;
 }
 
-/* The matrix of a sighting, for places that count from the corner of the first pixel. */
 static void push_matrix(lua_State *L, celspan_matrix matrix) {
-  celspan_matrix to_corner = celspan_matrix_translation(0.5, 0.5);
-  celspan_matrix to_centre = celspan_matrix_translation(-0.5, -0.5);
-  matrix = celspan_matrix_then(celspan_matrix_then(to_centre, matrix), to_corner);
   lua_createtable(L, 9, 0);
   for (int i = 0; i < 9; i++) {
     lua_pushnumber(L, matrix.m[i] / matrix.m[8]);
@@ -113,19 +102,25 @@ static void push_matrix(lua_State *L, celspan_matrix matrix) {
   }
 }
 
+/* The motion of a sighting, for places that count from the corner of the first pixel. */
+static celspan_matrix from_corners(celspan_matrix motion) {
+  celspan_matrix to_corner = celspan_matrix_translation(0.5, 0.5);
+  celspan_matrix to_centre = celspan_matrix_translation(-0.5, -0.5);
+  return celspan_matrix_then(celspan_matrix_then(to_centre, motion), to_corner);
+}
+
 int cs_track_follow(lua_State *L) {
   celspan_tracker *tracker = tracker_at(L, 1);
-  celspan_context *context = cs_host_context(L);
   celspan_luma luma =
       push_luma(L, 2, (int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4));
   celspan_sighting sighting;
   if (celspan_tracker_follow(tracker, &luma, &sighting) != CELSPAN_OK)
-    return fail(L, context);
+    return cs_host_push_failure(L);
   if (!sighting.is_found) {
     luaL_pushfail(L);
     return 1;
   }
-  push_matrix(L, sighting.matrix);
+  push_matrix(L, from_corners(sighting.matrix));
   lua_pushinteger(L, sighting.corner_count);
   lua_pushinteger(L, sighting.agreeing_count);
   lua_pushnumber(L, sighting.error);
@@ -137,51 +132,14 @@ int cs_track_rewind(lua_State *L) {
   return 0;
 }
 
-/* ---------------------------------------------------------------- files of a pattern */
-
-static void push_numbers(lua_State *L, const cs_sequence *sequence) {
-  lua_createtable(L, sequence->count < INT_MAX ? (int)sequence->count : 0, 0);
-  for (size_t i = 0; i < sequence->count; i++) {
-    lua_pushinteger(L, sequence->frames[i]);
-    lua_rawseti(L, -2, (lua_Integer)i + 1);
-  }
-}
-
-static int release_sequence(lua_State *L) {
-  cs_sequence_finish(lua_touserdata(L, 1));
-  return 0;
-}
-
-/* A sequence that is released whatever happens. */
-static cs_sequence *push_sequence(lua_State *L) {
-  cs_sequence *sequence = lua_newuserdatauv(L, sizeof *sequence, 0);
-  *sequence = (cs_sequence){0};
-  if (luaL_newmetatable(L, "celspan.sequence")) {
-    lua_pushcfunction(L, release_sequence);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return sequence;
-}
-
-int cs_track_frames(lua_State *L) {
-  const char *pattern = luaL_checkstring(L, 1), *list = luaL_optstring(L, 2, NULL);
-  celspan_context *context = cs_host_context(L);
-  cs_sequence *sequence = push_sequence(L);
-  celspan_status status = list ? cs_sequence_parse(context, list, sequence)
-                               : cs_sequence_list(context, pattern, sequence);
-  if (status != CELSPAN_OK)
-    return fail(L, context);
-  push_numbers(L, sequence);
-  return 1;
-}
-
-int cs_track_frame_name(lua_State *L) {
-  char name[4096];
-  celspan_context *context = cs_host_context(L);
-  if (cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name,
-                       sizeof name) != CELSPAN_OK)
-    return fail(L, context);
-  lua_pushstring(L, name);
+int cs_track_inverse(lua_State *L) {
+  celspan_matrix matrix;
+  luaL_checktype(L, 1, LUA_TTABLE);
+  for (int i = 0; i < 9; i++)
+    matrix.m[i] = number_in(L, 1, i + 1);
+  if (celspan_matrix_inverse(matrix, &matrix))
+    push_matrix(L, matrix);
+  else
+    luaL_pushfail(L);
   return 1;
 }

@@ -12,10 +12,7 @@ int cs_track_tracker(lua_State *L);
 int cs_track_follow(lua_State *L);
 /* rewind(tracker) */
 int cs_track_rewind(lua_State *L);
-/* frames(pattern [, list]) -> the numbers of the files that are there, or those of a list | nil,
- * message */
-int cs_track_frames(lua_State *L);
-/* frame_name(pattern, number) -> the name of a file */
-int cs_track_frame_name(lua_State *L);
+/* inverse(matrix) -> the inverse of nine numbers; nil: there is none */
+int cs_track_inverse(lua_State *L);
 
 #endif

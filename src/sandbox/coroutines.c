@@ -77,12 +77,5 @@ void cs_library_push_coroutine(lua_State *L) {
   static const luaL_Reg own[] = {
       {"create", create}, {"resume", resume_thread}, {"wrap", wrap}, {NULL, NULL}};
   static const char *const same[] = {"isyieldable", "running", "status", "yield", NULL};
-  lua_getglobal(L, "coroutine");
-  lua_newtable(L);
-  for (int i = 0; same[i]; i++) {
-    lua_getfield(L, -2, same[i]);
-    lua_setfield(L, -2, same[i]);
-  }
-  luaL_setfuncs(L, own, 0);
-  lua_remove(L, -2);
+  cs_library_push_part(L, "coroutine", same, own);
 }

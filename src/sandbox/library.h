@@ -12,9 +12,16 @@
 #ifndef CS_SANDBOX_LIBRARY_H
 #define CS_SANDBOX_LIBRARY_H
 
+#include <lauxlib.h>
 #include <lua.h>
 #include <stdbool.h>
 #include <stdint.h>
+
+/* Copies fields of the table at `from` into the one on top; names: NULL after the last. */
+void cs_library_copy_fields(lua_State *L, int from, const char *const *names);
+/* Pushes a table with what Lua's own library `name` has under the names of `same`, and with `own`. */
+void cs_library_push_part(lua_State *L, const char *name, const char *const *same,
+                          const luaL_Reg *own);
 
 /* Each pushes a table of functions. */
 void cs_library_push_string(lua_State *L);

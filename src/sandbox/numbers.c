@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "base/splitmix.h"
 #include "sandbox/library.h"
 
 /* celspan's functions are for finite numbers, and angles that are not a great many turns; of others
@@ -84,15 +85,11 @@ static int logarithm(lua_State *L) {
 
 static const char seed_key = 0; /* its address, in the registry: a userdata that holds the state */
 
-/* A counter whose values are mixed: a step apart they have nothing in common. */
 static uint64_t next_word(lua_State *L) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, &seed_key);
   uint64_t *state = lua_touserdata(L, -1);
   lua_pop(L, 1);
-  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return z ^ (z >> 31);
+  return cs_splitmix_next(state);
 }
 
 void cs_library_seed(lua_State *L, uint64_t seed) {
@@ -163,12 +160,5 @@ void cs_library_push_math(lua_State *L) {
   uint64_t *state = lua_newuserdatauv(L, sizeof *state, 0);
   *state = 0;
   lua_rawsetp(L, LUA_REGISTRYINDEX, &seed_key);
-  lua_getglobal(L, "math");
-  lua_newtable(L);
-  for (int i = 0; same[i]; i++) {
-    lua_getfield(L, -2, same[i]);
-    lua_setfield(L, -2, same[i]);
-  }
-  luaL_setfuncs(L, own, 0);
-  lua_remove(L, -2);
+  cs_library_push_part(L, "math", same, own);
 }

@@ -122,11 +122,8 @@ void cs_sandbox_attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
 static int open_file(lua_State *L) {
   const char *path = luaL_checkstring(L, 1), *mode = luaL_optstring(L, 2, "r");
   if (mode[0] != 'r' || strchr(mode, '+')) {
-    if (!cs_host_may_write(L, path)) {
-      luaL_pushfail(L);
-      lua_pushstring(L, celspan_context_error(cs_host_context(L)));
-      return 2;
-    }
+    if (!cs_host_may_write(L, path))
+      return cs_host_push_failure(L);
   } else {
     cs_host_admit(L, path);
   }
@@ -205,20 +202,12 @@ static int tell_absent(lua_State *L) {
   return 0;
 }
 
-/* Copies fields of the table at `from` into the one on top. */
-static void copy_fields(lua_State *L, int from, const char *const *names) {
-  for (; *names; names++) {
-    lua_getfield(L, from, *names);
-    lua_setfield(L, -2, *names);
-  }
-}
-
 static void push_utf8(lua_State *L) {
   static const char *const names[] = {"char", "charpattern", "codepoint", "codes",
                                       "len",  "offset",      NULL};
   lua_getglobal(L, "utf8");
   lua_newtable(L);
-  copy_fields(L, lua_gettop(L) - 1, names);
+  cs_library_copy_fields(L, lua_gettop(L) - 1, names);
   lua_remove(L, -2);
 }
 
@@ -270,7 +259,7 @@ void cs_sandbox_open_globals(cs_sandbox *sandbox, lua_State *L) {
   int globals = lua_gettop(L);
   lua_pushglobaltable(L);
   lua_pushvalue(L, globals);
-  copy_fields(L, globals + 1, same);
+  cs_library_copy_fields(L, globals + 1, same);
   cs_library_add_values(L);
   cs_library_add_running(L);
   add_libraries(L);

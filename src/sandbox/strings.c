@@ -290,15 +290,11 @@ void cs_library_push_string(lua_State *L) {
   static const char *const rep_name[] = {"rep", NULL}, *const format_name[] = {"format", NULL};
   static const luaL_Reg own[] = {
       {"find", find}, {"match", match}, {"gmatch", gmatch}, {"gsub", gsub}, {NULL, NULL}};
+  cs_library_push_part(L, "string", same, own);
   lua_getglobal(L, "string");
-  lua_newtable(L);
-  for (int i = 0; same[i]; i++) {
-    lua_getfield(L, -2, same[i]);
-    lua_setfield(L, -2, same[i]);
-  }
+  lua_insert(L, -2);
   wrap(L, by_length, charged);
   wrap(L, rep_name, rep);
   wrap(L, format_name, format);
-  luaL_setfuncs(L, own, 0);
   lua_remove(L, -2);
 }

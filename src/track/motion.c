@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/splitmix.h"
+
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
 
 #define TUKEY 4.685          /* where a pair's weight falls to 0, in deviations */
@@ -132,17 +134,12 @@ static double distance(const celspan_matrix *matrix, const cs_motion_pair *pair)
 
 /* ---------------------------------------------------------------- who agrees */
 
-static uint32_t next_random(uint64_t *state) {
-  *state = *state * 6364136223846793005u + 1442695040888963407u;
-  return (uint32_t)(*state >> 33);
-}
-
 /* As few different pairs as determine a motion. */
 static void draw(const cs_motion_pair *pairs, size_t count, int wanted, uint64_t *state,
                  cs_motion_pair *out) {
   size_t taken[MOST_UNKNOWNS / 2];
   for (int i = 0; i < wanted;) {
-    taken[i] = next_random(state) % count;
+    taken[i] = cs_splitmix_next(state) % count;
     bool is_new = true;
     for (int k = 0; k < i; k++)
       is_new = is_new && taken[k] != taken[i];
@@ -163,7 +160,7 @@ static size_t count_agreeing(const celspan_matrix *matrix, const cs_motion_pair 
 static size_t search(celspan_motion model, const cs_motion_pair *pairs, size_t count,
                      double tolerance, celspan_matrix *out) {
   const int wanted = unknowns[model] / 2;
-  uint64_t state = 0x9e3779b97f4a7c15u;
+  uint64_t state = 0;
   size_t most = 0;
   for (int i = 0; i < SAMPLES && most < count; i++) {
     cs_motion_pair few[MOST_UNKNOWNS / 2];
