@@ -4,21 +4,18 @@ local celspan = require "celspan"
 
 local pixels = {}
 
---- Art of `w` x `h` units as a picture of as many pixels, with alpha.
-function pixels.of(art, w, h, light)
+local function coded(art, w, h, light, depth, colour)
   local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
   local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
-  return { pixels = image:bytes { depth = 8, colour = "srgb", alpha = "straight" }, size = { w, h },
-    format = "rgba8", colour = "srgb" }
+  return { pixels = image:bytes { depth = depth, colour = colour, alpha = "straight" },
+    size = { w, h }, format = "rgba" .. depth, colour = colour }
 end
 
---- The same as film that is coded by its density: 16 bits, Cineon's curve, no alpha.
-function pixels.film(art, w, h, light)
-  local rostrum = celspan.rostrum { celspan.cel { art, front = light } }
-  local image = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
-  return { pixels = image:bytes { depth = 16, colour = "cineon", alpha = "straight" },
-    size = { w, h }, format = "rgba16", colour = "cineon" }
-end
+--- Art of `w` x `h` units as a picture of as many pixels, with alpha.
+function pixels.of(art, w, h, light) return coded(art, w, h, light, 8, "srgb") end
+
+--- The same as film that is coded by its density: 16 bits, Cineon's curve.
+function pixels.film(art, w, h, light) return coded(art, w, h, light, 16, "cineon") end
 
 --- The fields of celspan.picture for a file that is given, else what `make` returns.
 function pixels.given(file, make)
