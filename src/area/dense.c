@@ -4,7 +4,8 @@
 #include "base/number.h"
 #include "paint/colours.h"
 
-#define SUB_ROWS 64     /* in a whole row */
+#define SUB_ROWS 64  /* in a whole row */
+#define TOGETHER 8   /* sub-rows, for which the members are walked once */
 #define PARTS 256    /* of a pixel's width */
 #define LEAST 2048   /* boundaries of a dense interval */
 #define DIGIT_BITS 11 /* in sorting */
@@ -13,6 +14,7 @@
 void cs_dense_finish(cs_dense *dense, cs_memory *memory) {
   cs_mem_free(memory, dense->places, dense->place_capacity * sizeof *dense->places);
   cs_mem_free(memory, dense->spare, dense->spare_capacity * sizeof *dense->spare);
+  cs_mem_free(memory, dense->crossings, dense->crossing_capacity * sizeof *dense->crossings);
   cs_mem_free(memory, dense->sums, dense->sum_capacity * sizeof *dense->sums);
   *dense = (cs_dense){0};
 }
@@ -64,17 +66,29 @@ static inline bool is_there(const cs_member *member, double y) {
   return member->points[0].y < y && member->points[member->point_count - 1].y >= y;
 }
 
-/* Where the members are at a height; how many. */
-static size_t find_places(drawing *d, double y) {
-  size_t count = 0;
+/* Sub-rows that follow each other: their heights, and how many places are found in each. The places
+ * of sub-row k are the k-th part of the places, which has room for all members. */
+typedef struct sub_rows {
+  int count; /* TOGETHER at most */
+  double y[TOGETHER];
+  size_t places[TOGETHER];
+} sub_rows;
+
+static void add_place(const drawing *d, sub_rows *rows, int k, size_t i, double x) {
+  cs_dense_place *places = d->dense->places + (size_t)k * d->members;
+  double from = cs_number_clamp(x - d->first, 0, d->count);
+  places[rows->places[k]++] = (cs_dense_place){(uint32_t)(from * PARTS + 0.5), (uint32_t)i};
+}
+
+/* Where the members are in sub-rows. Members are many and far apart in memory: each is fetched once
+ * for all of the sub-rows. */
+static void find_places(const drawing *d, sub_rows *rows) {
   for (size_t i = 0; i < d->members; i++) {
     cs_member *member = member_of(d, i);
-    if (!is_there(member, y))
-      continue;
-    double x = cs_number_clamp(x_at(member, y) - d->first, 0, d->count);
-    d->dense->places[count++] = (cs_dense_place){(uint32_t)(x * PARTS + 0.5), (uint32_t)i};
+    for (int k = 0; k < rows->count; k++)
+      if (is_there(member, rows->y[k]))
+        add_place(d, rows, k, i, x_at(member, rows->y[k]));
   }
-  return count;
 }
 
 /* Sorts by one digit of x, keeping the order of those that have the same. */
@@ -88,9 +102,9 @@ static void sort_digit(const cs_dense_place *from, cs_dense_place *to, size_t co
     to[--ends[from[i].x >> shift & (DIGIT - 1)]] = from[i];
 }
 
-/* Sorts the places by x, from the lowest digit on; where they are then. */
-static const cs_dense_place *sort_places(const drawing *d, size_t count) {
-  cs_dense_place *places = d->dense->places, *spare = d->dense->spare;
+/* Sorts places by x, from the lowest digit on; where they are then. */
+static const cs_dense_place *sort_places(const drawing *d, cs_dense_place *places, size_t count) {
+  cs_dense_place *spare = d->dense->spare;
   for (int shift = 0; (uint64_t)d->count * PARTS >> shift != 0; shift += DIGIT_BITS) {
     sort_digit(places, spare, count, shift);
     cs_dense_place *kept = places;
@@ -103,12 +117,11 @@ static const cs_dense_place *sort_places(const drawing *d, size_t count) {
 /* ---------------------------------------------------------------- sub-rows */
 
 static inline void cross(const drawing *d, const cs_dense_place *place, int32_t sign) {
-  const cs_member *member = member_of(d, place->member);
-  if (member->span == UINT32_MAX)
-    cs_composer_cross(d->sweep->composer, member->layer, sign * member->direction);
+  const cs_dense_crossing *at = &d->dense->crossings[place->member];
+  if (at->span == UINT32_MAX)
+    cs_composer_cross(d->sweep->composer, at->layer, sign * at->direction);
   else
-    cs_composer_cross_span(d->sweep->composer, member->layer, member->span,
-                           sign * member->direction);
+    cs_composer_cross_span(d->sweep->composer, at->layer, at->span, sign * at->direction);
 }
 
 static celspan_status colour_of(const drawing *d, const cs_cell *cell, int32_t pixel,
@@ -139,13 +152,13 @@ static celspan_status add_cell(const drawing *d, uint32_t from, uint32_t to) {
   return CELSPAN_OK;
 }
 
-/* Adds the cells at a height to all pixels. */
-static celspan_status add_sub_row(drawing *d, double y) {
+/* Adds the cells at a height, between so many places, to all pixels. */
+static celspan_status add_sub_row(const drawing *d, cs_dense_place *unsorted, size_t count) {
   cs_local_sweep *sweep = d->sweep;
-  size_t count = find_places(d, y), i = 0;
-  const cs_dense_place *places = sort_places(d, count);
+  const cs_dense_place *places = sort_places(d, unsorted, count);
   celspan_status status = CELSPAN_OK;
   uint32_t from = 0;
+  size_t i = 0;
   for (; i < count && status == CELSPAN_OK; i++) {
     status = add_cell(d, from, places[i].x);
     from = places[i].x;
@@ -160,6 +173,18 @@ static celspan_status add_sub_row(drawing *d, double y) {
   return status == CELSPAN_OK ? sweep->composer->failure : status;
 }
 
+/* Adds the cells of sub-rows first .. end - 1 of `all`. */
+static celspan_status add_sub_rows(const drawing *d, int first, int end, int all) {
+  double height = d->sweep->y1 - d->sweep->y0;
+  sub_rows rows = {.count = end - first};
+  for (int k = 0; k < rows.count; k++)
+    rows.y[k] = d->sweep->y0 + height * (first + k + 0.5) / all;
+  find_places(d, &rows);
+  for (int k = 0; k < rows.count; k++)
+    CS_TRY(add_sub_row(d, d->dense->places + (size_t)k * d->members, rows.places[k]));
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- cells */
 
 static celspan_status add_segment(const drawing *d, int32_t column, const cs_cell *left,
@@ -171,13 +196,13 @@ static celspan_status add_segment(const drawing *d, int32_t column, const cs_cel
 }
 
 /* Draws every pixel as a cell of its mean colour. */
-static celspan_status draw_means(const drawing *d, int sub_rows, const cs_cell *right) {
+static celspan_status draw_means(const drawing *d, int all, const cs_cell *right) {
   const cs_cell *left = d->sweep->left;
   cs_cell *cells = cs_arena_take(d->context, d->sweep->arena, (size_t)d->count * sizeof *cells);
   if (!cells)
     return CELSPAN_NO_MEMORY;
   for (int32_t i = 0; i < d->count; i++) {
-    cs_sum4 mean = d->dense->sums[i] * (1.0 / (PARTS * sub_rows));
+    cs_sum4 mean = d->dense->sums[i] * (1.0 / (PARTS * all));
     cells[i] = (cs_cell){.colour = cs_v4_bounded(__builtin_convertvector(mean, cs_v4))};
     CS_TRY(add_segment(d, d->first + i, left, &cells[i]));
     left = &cells[i];
@@ -187,12 +212,21 @@ static celspan_status draw_means(const drawing *d, int sub_rows, const cs_cell *
 
 static celspan_status reserve(const drawing *d) {
   cs_dense *dense = d->dense;
-  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->places, &dense->place_capacity, d->members,
-                        sizeof *dense->places));
+  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->places, &dense->place_capacity,
+                        TOGETHER * d->members, sizeof *dense->places));
+  CS_TRY(cs_mem_reserve(d->context, (void **)&dense->crossings, &dense->crossing_capacity,
+                        d->members, sizeof *dense->crossings));
   CS_TRY(cs_mem_reserve(d->context, (void **)&dense->spare, &dense->spare_capacity, d->members,
                         sizeof *dense->spare));
   return cs_mem_reserve(d->context, (void **)&dense->sums, &dense->sum_capacity, (size_t)d->count,
                         sizeof *dense->sums);
+}
+
+static void list_crossings(const drawing *d) {
+  for (size_t i = 0; i < d->members; i++) {
+    const cs_member *member = member_of(d, i);
+    d->dense->crossings[i] = (cs_dense_crossing){member->layer, member->span, member->direction};
+  }
 }
 
 celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, const cs_cell *right) {
@@ -203,11 +237,14 @@ celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, const cs_ce
                .members = sweep->count + sweep->begin_count,
                .centre = floor(sweep->y0) + 0.5};
   double height = sweep->y1 - sweep->y0;
-  int sub_rows = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1;
+  int all = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1; /* sub-rows */
   find_pixels(&d);
   CS_TRY(reserve(&d));
   memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
-  for (int sub_row = 0; sub_row < sub_rows; sub_row++)
-    CS_TRY(add_sub_row(&d, sweep->y0 + height * (sub_row + 0.5) / sub_rows));
-  return draw_means(&d, sub_rows, right);
+  list_crossings(&d);
+  for (int first = 0, end; first < all; first = end) {
+    end = first + TOGETHER < all ? first + TOGETHER : all;
+    CS_TRY(add_sub_rows(&d, first, end, all));
+  }
+  return draw_means(&d, all, right);
 }

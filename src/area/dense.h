@@ -28,9 +28,17 @@ typedef struct cs_dense_place {
   uint32_t member;
 } cs_dense_place;
 
+/* What crossing a member changes. */
+typedef struct cs_dense_crossing {
+  uint32_t layer, span; /* span: as a member's */
+  int32_t direction;
+} cs_dense_crossing;
+
 typedef struct cs_dense {
-  cs_dense_place *places, *spare; /* room for all members each */
-  size_t place_capacity, spare_capacity;
+  cs_dense_place *places;       /* of several sub-rows, room for all members each */
+  cs_dense_place *spare;        /* room for all members */
+  cs_dense_crossing *crossings; /* by member */
+  size_t place_capacity, spare_capacity, crossing_capacity;
   cs_sum4 *sums; /* by pixel of the interval */
   size_t sum_capacity;
 } cs_dense;

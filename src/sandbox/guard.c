@@ -112,14 +112,19 @@ static void raise_limit(lua_State *L, cs_guard *guard) {
 
 static void trip_steps(cs_guard *guard) {
   snprintf(guard->tripped, sizeof guard->tripped,
-           "more than %llu steps in a frame (--limit steps=N allows more)",
-           (unsigned long long)guard->limits.steps);
+           "more than %llu step%s in a frame (--limit steps=N allows more)",
+           (unsigned long long)guard->limits.steps, guard->limits.steps == 1 ? "" : "s");
+}
+
+static void tell_time(const cs_guard *guard, char *sentence, size_t size) {
+  double seconds = guard->limits.seconds;
+  snprintf(sentence, size,
+           "the script ran for more than %g second%s (--limit time=SECONDS allows more)", seconds,
+           seconds == 1 ? "" : "s");
 }
 
 static void trip_time(cs_guard *guard) {
-  snprintf(guard->tripped, sizeof guard->tripped,
-           "the script ran for more than %g seconds (--limit time=SECONDS allows more)",
-           guard->limits.seconds);
+  tell_time(guard, guard->tripped, sizeof guard->tripped);
 }
 
 static void trip_memory(cs_guard *guard) {
@@ -196,9 +201,7 @@ static void kill_late(cs_guard *guard) {
   int64_t deadline = atomic_load_explicit(&guard->deadline, memory_order_relaxed);
   if (!deadline || now() <= deadline + GRACE)
     return;
-  snprintf(sentence, sizeof sentence,
-           "the script ran for more than %g seconds (--limit time=SECONDS allows more)",
-           guard->limits.seconds);
+  tell_time(guard, sentence, sizeof sentence);
   guard->kill(sentence);
 }
 
