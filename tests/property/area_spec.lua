@@ -1,14 +1,14 @@
 -- Exact area antialiasing against many pixel centres, and its promise that abutting shapes never
 -- leak.
 --
--- CASE=n runs one random scene alone and prints it; CELSPAN_SCENES=n sets how many are tried.
+-- CASE=n runs one random scene alone and prints it; tests/support/cases.lua tells which are tried.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local scenes = require "tests.support.scenes"
 local supersample = require "tests.support.supersample"
 
-local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 3
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 100, cases.only
 local CODE = 1 / 255
 local MOST = 2 * CODE -- what one pixel may be off
 local RMS = 0.1 * CODE
@@ -47,7 +47,7 @@ end
 describe("area antialiasing", function()
   it("is the mean of many centres, in random scenes of small shapes", function()
     local failures = {}
-    for case = ONLY or 1, ONLY or COUNT do failures[#failures + 1] = judge(case) end
+    for _, case in cases.of(COUNT) do failures[#failures + 1] = judge(case) end
     assert.are.equal("", table.concat(failures, "\n"))
   end)
 end)

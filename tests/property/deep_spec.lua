@@ -3,12 +3,12 @@
 --
 -- CASE=n runs one random scene alone.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 local supersample = require "tests.support.supersample"
 
-local COUNT = math.max(4, (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 20)
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT = 15
 local SIZE = { 48, 40 }
 local CODE = 1 / 255
 
@@ -48,7 +48,7 @@ local function deep_scene(seed)
 end
 
 local function each_scene(test)
-  for case = ONLY or 1, ONLY or COUNT do
+  for _, case in cases.of(COUNT) do
     local rostrum, random = deep_scene(case)
     test(rostrum, random, "CASE=" .. case)
   end

@@ -3,16 +3,16 @@
 --
 -- Strips and rows on demand are tested from C: tests/unit/test_render.c.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
-local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 6
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 50, cases.only
 
 --- Calls test(exposures, options, random, case) with random scenes.
 local function each_scene(test)
-  for case = ONLY or 1, ONLY or COUNT do
+  for _, case in cases.of(COUNT) do
     local script, traits = scenes.script(case)
     if ONLY then print(script) end
     local film = scenes.load(script)

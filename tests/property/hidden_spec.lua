@@ -3,11 +3,11 @@
 --
 -- CASE=n runs one random scene alone.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 
-local ONLY = tonumber(os.getenv "CASE")
-local COUNT = math.max(6, (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 6)
+local COUNT, ONLY = 50, cases.only
 local WIDTH, HEIGHT = 300, 200
 local SIZE = { WIDTH, HEIGHT }
 local file, folder
@@ -117,7 +117,7 @@ end
 describe("a deep stack of pictures, gradients, groups and soft cels", function()
   it("is what the oracle says at pixel centres", function()
     local compared = 0
-    for case = ONLY or 1, ONLY or COUNT do
+    for _, case in cases.of(COUNT) do
       local rostrum, random, rims = stack(case)
       local list = spans(rostrum)
       for _ = 1, 300 do
@@ -135,11 +135,11 @@ describe("a deep stack of pictures, gradients, groups and soft cels", function()
         end
       end
     end
-    assert.is_true(compared > 100 * (ONLY and 0 or COUNT))
+    assert.is_true(compared > 100 * (ONLY and 0 or cases.count(COUNT)))
   end)
 
   it("is the same on several workers, and each row alone", function()
-    for case = ONLY or 1, ONLY or math.max(2, COUNT // 5) do
+    for _, case in cases.of(COUNT // 5) do
       local rostrum, random = stack(case)
       local list = spans(rostrum)
       local again = spans(rostrum, { workers = 3 })

@@ -1,11 +1,11 @@
 -- Filter kernels: normalised, separable, seeing artwork beyond the crop; against sums of many pixel
 -- centres under the kernel.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local scenes = require "tests.support.scenes"
 
-local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 15
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 20, cases.only
 local kernels = {
   { kernel = "box" }, { kernel = "gaussian" }, { kernel = "mitchell" }, { kernel = "lanczos" },
   { kernel = "box", radius = 1.25 }, { kernel = "gaussian", radius = 0.8, rows = 32 },
@@ -39,7 +39,7 @@ end
 
 --- Calls test(exposures, traits, film, where, random) with random scenes, small.
 local function each_scene(options, test)
-  for case = ONLY or 1, ONLY or COUNT do
+  for _, case in cases.of(COUNT) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
     test(scenes.load(script):at(1), traits, { traits.width, traits.height }, "CASE=" .. case, prng.new(case))

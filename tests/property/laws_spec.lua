@@ -1,15 +1,15 @@
 -- Laws that hold for every scene: boolean algebra, hidden and clear cels, moves, scales, cuts.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
-local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 6
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 50, cases.only
 local AREA = 1e-5 -- what floats may differ when one picture is summed in two ways
 
 local function each_case(test)
-  for case = ONLY or 1, ONLY or COUNT do test(case) end
+  for _, case in cases.of(COUNT) do test(case) end
 end
 
 local function shot(rostrum, size, film, antialias, crop)

@@ -3,9 +3,10 @@
 --
 -- CASE=n runs that case alone and prints it as a script.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local scenes = require "tests.support.scenes"
 
-local COUNT, ONLY = 300, tonumber(os.getenv "CASE")
+local COUNT, ONLY = 300, cases.only
 local ALIKE = 1 / 65535
 local modes = { "none", "area", { kernel = "mitchell" } }
 
@@ -38,7 +39,7 @@ end
 
 local function each_case(check, options)
   options = options or { is_single = true }
-  for case = ONLY or 1, ONLY or COUNT do
+  for _, case in cases.of(COUNT) do
     local antialias = modes[case % #modes + 1]
     local rostrum, size, brightest = random_rostrum(case, options)
     local edge = type(antialias) == "table" and 3 or 0

@@ -2,14 +2,14 @@
 -- equals the direct evaluation of the tree at the centres of its pixels.
 --
 -- A failure prints the number of its case; CASE=n runs that one alone and prints it as a script.
--- CELSPAN_SCENES=n sets how many are tried instead of 2,000.
+-- tests/support/cases.lua tells which are tried.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
-local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 2000
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 2000, cases.only
 local POINTS = 240 -- of a scene
 local EDGE = 1e-6 -- pixels: so near a straight edge either side may be seen
 local CURVED_EDGE = 0.03 -- the polyline that is swept lies within 0.02 of the curve
@@ -71,7 +71,7 @@ end
 --- All cases of such scenes: failures as text, points tried, points excused by whether edges are curved.
 local function try(count, options)
   local failures, tried, excused = {}, 0, { [true] = 0, [false] = 0 }
-  for case = ONLY or 1, ONLY or count do
+  for _, case in cases.of(count) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
     local failure, points, near = compare(scenes.load(script):at(1), traits, case)

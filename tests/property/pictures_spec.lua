@@ -1,12 +1,12 @@
 -- Pictures in scenes: seen as they are at their own size, never read when hidden, interpolated as
 -- the oracle does when enlarged.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local pieces = require "tests.support.pieces"
 local prng = require "tests.support.prng"
 local rows = require "tests.support.rows"
 
-local ONLY = tonumber(os.getenv "CASE")
-local COUNT = (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 10
+local COUNT = 30
 local WIDTH, HEIGHT = 24, 18
 
 local file, folder
@@ -109,7 +109,7 @@ end
 
 describe("an enlarged picture", function()
   it("is what the oracle samples, at pixel centres", function()
-    for case = ONLY or 1, ONLY or COUNT do
+    for _, case in cases.of(COUNT) do
       local random = prng.new(case)
       local ground = celspan.rect { 0, 0, 60, 45, texture = "#4080c0" }
       local picture = celspan.cel { placed(random), opacity = 0.8 }

@@ -1,10 +1,11 @@
 -- Scene to span file to pixels equals scene to pixels, byte for byte: random scenes, every fourth with
 -- a picture, in both depths; read back by the decoder that was written from docs/spanfile.md alone.
 --
--- A failure prints the number of its scene. CELSPAN_SCENES=n sets how many are tried.
+-- A failure prints the number of its scene.
+local cases = require "tests.support.cases"
 local decode = dofile "subprojects/spanfile/tests/decode.lua"
 
-local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 500
+local COUNT = cases.count(500)
 local BINARY = os.getenv "CELSPAN" or "build/celspan"
 local WIDTH, HEIGHT = 61, 47
 

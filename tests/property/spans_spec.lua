@@ -1,13 +1,13 @@
 -- What rows of spans are like: table 1 of the paper, order, size.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
 
-local COUNT = tonumber(os.getenv "CELSPAN_SCENES") or 300
-local ONLY = tonumber(os.getenv "CASE")
+local COUNT, ONLY = 300, cases.only
 
 local function each_scene(count, antialias, options, test)
-  for case = ONLY or 1, ONLY or count do
+  for _, case in cases.of(count) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
     local list = assert(celspan.spans(scenes.load(script):at(1), {

@@ -3,13 +3,13 @@
 --
 -- CASE=n runs one random drawing alone; REPORT=1 prints how far each was off.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local trace = require "celspan.trace"
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
-local ONLY = tonumber(os.getenv "CASE")
 local REPORT = os.getenv "REPORT"
-local COUNT = math.max(8, (tonumber(os.getenv "CELSPAN_SCENES") or 300) // 30)
+local COUNT = 10
 local FINE = 4 -- places a source pixel is looked at along each axis
 
 local path -- of each drawing another: a picture is read once
@@ -158,7 +158,7 @@ end
 local it_traces = has_pictures() and it or pending
 
 describe("a drawing that is traced", function()
-  for case = ONLY or 1, ONLY or COUNT do
+  for _, case in cases.of(COUNT) do
     it_traces("keeps its edges within half a pixel and lets nothing through, number " .. case, function()
       local off, object, w, h = retrace(case, "area")
       assert.is_true(off <= 0.5, ("off by %.3f pixels"):format(off))

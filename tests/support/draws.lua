@@ -53,7 +53,7 @@ local function count_items(file, open, draws)
       count, has_draw = count + (has_draw and 1 or 0), false
     end
     local last = file.close[i] or i
-    for at = i, i < file.close[open] and last or 0 do has_draw = has_draw or draws[at] end
+    if i < file.close[open] then has_draw = has_draw or draws.are_in(i, last) end
     i = last + 1
   end
   return count
@@ -63,8 +63,8 @@ end
 local function check_operands(file, open, draws, fault)
   local count, i = 0, open + 1
   while i < file.close[open] do
-    local last, draw = file.close[i] or i, false
-    for at = i, last do draw = draw or draws[at] end
+    local last = file.close[i] or i
+    local draw = draws.are_in(i, last)
     local is_apart = last > i
       and (CONTROL[file.text[i - 1]] or file.text[i] == "{" and is_block(file, i))
     if ORDERED[file.text[i]] or is_apart then
@@ -77,10 +77,20 @@ local function check_operands(file, open, draws, fault)
   end
 end
 
+--- Whether there is a draw at each token, and draws.are_in(from, to), whether there is one among some.
+local function list_draws(file)
+  local is_draw, draws, before = draw_finder(file), {}, { 0 }
+  for i = 1, #file.text do
+    draws[i] = is_draw(i)
+    before[i + 1] = before[i] + (draws[i] and 1 or 0)
+  end
+  function draws.are_in(from, to) return before[to + 1] > before[from] end
+  return draws
+end
+
 local function check_file(path, fault)
   local file = c_source.read(path)
-  local is_draw, draws = draw_finder(file), {}
-  for i = 1, #file.text do draws[i] = is_draw(i) end
+  local draws = list_draws(file)
   local function found(i) fault("%s:%d: two draws in no order of their own", path, file.line[i]) end
   for open in pairs(file.close) do
     local is_list = file.text[open] == "(" and not CONTROL[file.text[open - 1]]

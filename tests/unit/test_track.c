@@ -142,7 +142,7 @@ static void follow_sequence(celspan_context *context, const char *name, sequence
 }
 
 static void known_motion_is_found(celspan_context *context) {
-  int many = check_is_for_threads() ? 8 : 100, few = check_is_for_threads() ? 4 : 20;
+  int many = 100, few = 20;
   follow_sequence(context, "translation", (sequence){.model = CELSPAN_MOTION_TRANSLATION}, few);
   follow_sequence(context, "turned and scaled", (sequence){.model = CELSPAN_MOTION_SIMILARITY},
                   few);
