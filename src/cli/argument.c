@@ -95,6 +95,14 @@ cs_argument_outcome cs_argument_onion(const char *text, void *field) {
   return CS_ARGUMENT_READ;
 }
 
+cs_argument_outcome cs_argument_share(const char *text, void *field) {
+  int32_t share[2];
+  if (!read_integers(text, '/', 1, INT32_MAX, share, 2) || share[0] > share[1])
+    return CS_ARGUMENT_BAD;
+  memcpy(field, share, sizeof share);
+  return CS_ARGUMENT_READ;
+}
+
 cs_argument_outcome cs_argument_workers(const char *text, void *field) {
   return read_integers(text, 0, 1, 1024, field, 1) ? CS_ARGUMENT_READ : CS_ARGUMENT_BAD;
 }

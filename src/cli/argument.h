@@ -87,6 +87,7 @@ cs_argument_outcome cs_argument_alpha(const char *text, void *field);     /* cel
 cs_argument_outcome cs_argument_count(const char *text, void *field);    /* cs_given_integer, 0.. */
 cs_argument_outcome cs_argument_every(const char *text, void *field);    /* cs_given_integer, 1.. */
 cs_argument_outcome cs_argument_grid(const char *text, void *field);     /* int32_t[2], 1..100 */
+cs_argument_outcome cs_argument_share(const char *text, void *field);    /* int32_t[2]: "3/24" */
 cs_argument_outcome cs_argument_onion(const char *text, void *field);    /* int32_t[2], 0..16 */
 cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
 cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */

@@ -101,6 +101,11 @@ static const cs_verb VERBS[] = {
      "PATTERN names pictures with a number, such as head.####.png. Frames in which the region was\n"
      "not found are told as lost. The track is for celspan.track, which places art on it.\n",
      cs_verb_track},
+    {CS_VERB_JOIN, "join", "STRIP ... -o OUT", 1, CS_OPERANDS_MAX,
+     "Puts strips of a frame together, without unpacking them.",
+     "STRIPs are PNG, Targa or span files of 'celspan render --strip', from the top down, or a pattern\n"
+     "such as strips/####.png. OUT shows what the whole frame would, and appears whole or not at all.\n",
+     cs_verb_join},
     {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
      "Runs specs in busted, with the assertions of celspan.spec.",
      "A SPEC is a file, or a folder whose files that end in _spec.lua are run; default: spec. "

@@ -44,6 +44,8 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   cs_hash_word(&hash, (uint64_t)coding->transfer);
   cs_hash_word(&hash, (uint64_t)coding->alpha);
   cs_hash_text(&hash, request->format);
+  if (request->strip[1])
+    cs_hash_text(&hash, "strip");
   cs_hash_text(&hash, script->film.title);
   cs_hash_number(&hash, script->film.frames_second);
   return cs_hash_end(hash);

@@ -153,6 +153,14 @@ static cs_exit report_end(render_job *job, cs_exit outcome) {
 
 /* ---------------------------------------------------------------- the run */
 
+static celspan_file_desc describe_file(const render_job *job) {
+  celspan_file_desc file = cs_target_file(job->request);
+  bool is_strip = job->request->strip[1] > 0;
+  file.strip_row = is_strip ? job->frame.crop_y : 0;
+  file.strip_height = is_strip ? job->frame.height : 0;
+  return file;
+}
+
 static cs_exit shoot(render_job *job) {
   const cs_request *request = job->request;
   bool is_stream = request->output && cs_target_is_stream(request->output);
@@ -161,7 +169,7 @@ static cs_exit shoot(render_job *job) {
                           .frames = &job->frames,
                           .pattern = is_stream || job->is_video ? NULL : request->output,
                           .frame = job->frame,
-                          .file = cs_target_file(request),
+                          .file = describe_file(job),
                           .has_digests = request->hash,
                           .keeps_going = request->keeps_going,
                           .keeps_nothing = request->memory.is_given && request->memory.value == 0,
@@ -249,6 +257,20 @@ static cs_exit refuse_dither(const cs_request *request) {
              : CS_EXIT_OK;
 }
 
+/* Strips and tasks are files, which go their own ways. */
+static cs_exit refuse_division(const cs_request *request) {
+  const char *option = request->strip[1] ? "--strip" : request->task[1] ? "--task" : NULL;
+  if (!option)
+    return CS_EXIT_OK;
+  if (request->output && cs_target_is_stream(request->output))
+    return cs_report_usage("%s makes files: give -o shot.####.png", option);
+  if (cs_video_is_wanted(request, 0))
+    return cs_report_usage("%s: a video is made of all its frames in one run; render frames, and "
+                           "make the video of them",
+                           option);
+  return CS_EXIT_OK;
+}
+
 /* Refuses what can be refused without running the script. */
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   if (!request->output && !request->hash)
@@ -256,6 +278,8 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
   cs_exit outcome = refuse_resume(request);
   if (outcome == CS_EXIT_OK)
     outcome = refuse_dither(request);
+  if (outcome == CS_EXIT_OK)
+    outcome = refuse_division(request);
   if (outcome != CS_EXIT_OK)
     return outcome;
   if (request->output && cs_target_is_stream(request->output))
@@ -273,6 +297,18 @@ static cs_exit open_video(render_job *job) {
   return is_named ? refuse_output(job->script->context, request, job->frames.count) : CS_EXIT_OK;
 }
 
+/* A film may have become shorter than the tasks that it was divided into. */
+static cs_exit make_frames(render_job *job) {
+  if (job->frames.count == 0) {
+    cs_report_note("task %d of %d has no frames", job->request->task[0], job->request->task[1]);
+    return CS_EXIT_OK;
+  }
+  cs_exit outcome = cs_change_refuse(job->script, job->request, &job->frames);
+  if (outcome == CS_EXIT_OK)
+    outcome = open_video(job);
+  return outcome == CS_EXIT_OK ? resume_all(job) : outcome;
+}
+
 static cs_exit run(cs_script *script, const cs_request *request) {
   render_job job = {.script = script, .request = request};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);
@@ -281,11 +317,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
   if (outcome == CS_EXIT_OK)
     outcome = cs_target_frames(script, request, &job.frames);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_change_refuse(script, request, &job.frames);
-  if (outcome == CS_EXIT_OK)
-    outcome = open_video(&job);
-  if (outcome == CS_EXIT_OK)
-    outcome = resume_all(&job);
+    outcome = make_frames(&job);
   cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
   cs_sequence_finish(&job.frames);
   return outcome;

@@ -22,6 +22,7 @@ typedef struct cs_request {
   int32_t size[2]; /* 0 0: not given */
   double scale;    /* 0: not given */
   int32_t crop[4]; /* width 0: not given */
+  int32_t strip[2], task[2]; /* number from 1, count; 0 0: not given */
   int32_t rows[2]; /* first and last, both included; last -1: not given */
   cs_given_antialias antialias;
   celspan_coding coding;
@@ -74,6 +75,7 @@ typedef enum cs_verb_set {
   CS_VERB_CONTACT = 1 << 11,
   CS_VERB_TRACE = 1 << 12,
   CS_VERB_TRACK = 1 << 13,
+  CS_VERB_JOIN = 1 << 14,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
                          CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT
 } cs_verb_set;

@@ -17,6 +17,7 @@ celspan_file_desc cs_target_file(const cs_request *request) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = request->format;
   file.coding = cs_target_coding(request);
+  file.strip_height = request->strip[1]; /* rows at least, until the view is known */
   return file;
 }
 
@@ -55,6 +56,17 @@ static celspan_status list_frames(const cs_script *script, const cs_request *req
   return status;
 }
 
+/* Leaves the frames of the request's task, as many as in any other or one less. */
+static void take_task(const cs_request *request, cs_sequence *frames) {
+  const int32_t *task = request->task;
+  if (!task[1])
+    return;
+  size_t count = frames->count, of = (size_t)task[1];
+  size_t begin = count * ((size_t)task[0] - 1) / of, end = count * (size_t)task[0] / of;
+  memmove(frames->frames, frames->frames + begin, (end - begin) * sizeof *frames->frames);
+  frames->count = end - begin;
+}
+
 cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_sequence *out) {
   celspan_status status = list_frames(script, request, out);
   if (status == CELSPAN_BAD_ARGUMENT)
@@ -67,5 +79,6 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_
     return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
                            "shot.####.png",
                            request->output, out->count);
+  take_task(request, out);
   return CS_EXIT_OK;
 }

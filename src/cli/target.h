@@ -10,10 +10,11 @@
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request);
 /* The coding of pixels under the options, with defaults, but for --dither. */
 celspan_coding cs_target_coding(const cs_request *request);
-/* The description of a file under the options, without a frame's own metadata. */
+/* The description of a file under the options, without a frame's own metadata, and without the place of
+ * a strip. */
 celspan_file_desc cs_target_file(const cs_request *request);
-/* The frames of --frames, or all; each is in the film and has a name of its own. out: new. OK, or
- * reported. */
+/* The frames of --frames, or all, and of these the ones of --task, perhaps none; each is in the film
+ * and has a name of its own. out: new. OK, or reported. */
 cs_exit cs_target_frames(const cs_script *script, const cs_request *request, cs_sequence *out);
 /* Standard output, for raw frames. */
 bool cs_target_is_stream(const char *path);

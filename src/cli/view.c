@@ -1,6 +1,7 @@
 #include "cli/view.h"
 
 #include "cli/interrupt.h"
+#include "output/strip.h"
 
 /* Film units to pixels, rounded, at least 1; -1 when that is more than a frame can have. */
 static int32_t pixels(double units, double scale) {
@@ -36,6 +37,24 @@ static cs_exit set_crop(const int32_t crop[4], celspan_frame_desc *out) {
   return CS_EXIT_OK;
 }
 
+/* Strips are as even as their grid of CS_STRIP_ROWS rows allows. */
+static cs_exit set_strip(const cs_request *request, celspan_frame_desc *out) {
+  const int32_t *strip = request->strip;
+  if (!strip[1])
+    return CS_EXIT_OK;
+  if (request->crop[2])
+    return cs_report_usage("--strip and --crop both say which part to make: give one of them");
+  int64_t bands = (out->height + CS_STRIP_ROWS - 1) / CS_STRIP_ROWS;
+  if (strip[1] > bands)
+    return cs_report_usage("--strip %d/%d: strips begin at every %d rows, so a frame of %d rows "
+                           "makes at most %d",
+                           strip[0], strip[1], CS_STRIP_ROWS, out->height, (int)bands);
+  int32_t begin = (int32_t)(bands * (strip[0] - 1) / strip[1]) * CS_STRIP_ROWS;
+  int32_t end = (int32_t)(bands * strip[0] / strip[1]) * CS_STRIP_ROWS;
+  end = end < out->height ? end : out->height;
+  return set_crop((int32_t[4]){0, begin, out->width, end - begin}, out);
+}
+
 cs_exit cs_view_frame(const cs_request *request, double film_width, double film_height,
                       celspan_frame_desc *out) {
   *out = CELSPAN_FRAME_DESC;
@@ -46,5 +65,7 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
   out->antialias = request->antialias.is_given ? &request->antialias.mode : NULL;
   out->filter = request->antialias.filter;
   cs_exit outcome = set_size(request, out);
-  return outcome == CS_EXIT_OK ? set_crop(request->crop, out) : outcome;
+  if (outcome == CS_EXIT_OK)
+    outcome = set_crop(request->crop, out);
+  return outcome == CS_EXIT_OK ? set_strip(request, out) : outcome;
 }

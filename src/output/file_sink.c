@@ -44,6 +44,9 @@ static celspan_status create(celspan_context *context, const char *path,
     return create_pixels(context, path, file, is_targa ? cs_sink_tga : cs_sink_png, out);
   if (strcasecmp(format, "span") == 0)
     return cs_sink_span(context, path, file, out);
+  if (file->strip_height != 0)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: strips can be joined in PNG, Targa and span files alone", path);
   return cs_sink_picture(context, path, file, out);
 }
 

@@ -15,6 +15,7 @@
 #include "output/shares.h"
 #include "output/single_colours.h"
 #include "output/sink.h"
+#include "output/strip.h"
 
 enum { CHUNK = 4096 };
 
@@ -31,6 +32,7 @@ typedef struct span_sink {
   size_t allocated;
   celspan_context *context; /* of the call in progress, for put_bytes */
   celspan_coding coding;
+  cs_strip strip;
   spanfile_writer_desc desc; /* from begin on */
   cs_file *file;             /* from begin to end */
   packer packer;             /* likewise its writer */
@@ -116,11 +118,14 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   sink->desc = (spanfile_writer_desc){
       .width = (uint32_t)width,
       .height = (uint32_t)height,
+      .strip_row = (uint32_t)sink->strip.row,
+      .strip_height = (uint32_t)sink->strip.height,
       .format = sink->coding.depth == CELSPAN_DEPTH_HALF ? SPANFILE_HALF : SPANFILE_SRGB8,
       .write = put_bytes,
       .user = sink,
       .resize = resize,
       .resize_user = context->memory};
+  CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return report(sink, context, spanfile_writer_create(&sink->desc, &sink->packer.writer));
 }
@@ -177,6 +182,7 @@ celspan_status cs_sink_span(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   sink->allocated = sizeof *sink + path_size;
   sink->coding = coding;
+  sink->strip = cs_strip_of(file);
   sink->packer.coding = &sink->coding;
   memcpy(sink->path, path, path_size);
   *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};

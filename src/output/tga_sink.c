@@ -1,6 +1,6 @@
 /* Targa 2.0 (Truevision, 1991), true colour in packets, straight from spans:
  *
- *   header (18 bytes) | packets of row 0 | ... | extension (495) | footer (26)
+ *   header (18 bytes) | image ID of a strip (12) | packets of row 0 | ... | extension (495) | footer (26)
  *
  *   a run       1nnnnnnn  B G R A              n + 1 equal pixels, 128 at most
  *   plain       0nnnnnnn  B G R A  B G R A...  n + 1 pixels, each with its bytes
@@ -12,15 +12,13 @@
 #include "output/file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
+#include "output/strip.h"
+#include "output/tga.h"
 
 enum {
-  SIDE_MOST = 65535,
   PACKET_MOST = 128,
   WORST_PIXEL = 5, /* bytes of a pixel that is a packet of its own */
-  CHUNK = 256,
-  HEADER_BYTES = 18,
-  EXTENSION_BYTES = 495,
-  FOOTER_BYTES = 26
+  CHUNK = 256
 };
 
 typedef struct tga_sink {
@@ -28,6 +26,7 @@ typedef struct tga_sink {
   const char *path, *title; /* title: "" without one */
   cs_file *file;            /* from begin to end */
   celspan_coding coding;
+  cs_strip strip;
   size_t pixel_size; /* 3 without alpha, else 4 */
   int32_t width;
   unsigned char *row; /* packets of a row; from begin to end */
@@ -106,24 +105,20 @@ static void add_spans(tga_sink *sink, const celspan_span *spans, size_t span_cou
 
 /* ---------------------------------------------------------------- around the rows */
 
-static void store_16(unsigned char *at, unsigned number) {
-  at[0] = (unsigned char)number;
-  at[1] = (unsigned char)(number >> 8);
-}
-
-static void store_32(unsigned char *at, uint32_t number) {
-  store_16(at, number & 0xffff);
-  store_16(at + 2, number >> 16);
-}
-
 static celspan_status put_header(tga_sink *sink, celspan_context *context, int32_t height) {
   bool has_alpha = sink->pixel_size == 4;
-  unsigned char header[HEADER_BYTES] = {[2] = 10}; /* run-length coded true colour */
-  store_16(header + 12, (unsigned)sink->width);
-  store_16(header + 14, (unsigned)height);
+  unsigned char header[CS_TGA_HEADER] = {[2] = 10}; /* run-length coded true colour */
+  unsigned char place[CS_TGA_PLACE] = CS_STRIP_MARK;
+  bool is_strip = sink->strip.height > 0;
+  header[0] = is_strip ? CS_TGA_PLACE : 0;
+  cs_tga_store_16(header + 12, (unsigned)sink->width);
+  cs_tga_store_16(header + 14, (unsigned)height);
   header[16] = has_alpha ? 32 : 24;
   header[17] = has_alpha ? 0x28 : 0x20; /* 8 bits of alpha; rows from the top */
-  return cs_file_write(sink->file, context, header, sizeof header);
+  cs_tga_store_32(place + 4, (uint32_t)sink->strip.row);
+  cs_tga_store_32(place + 8, (uint32_t)sink->strip.height);
+  CS_TRY(cs_file_write(sink->file, context, header, sizeof header));
+  return is_strip ? cs_file_write(sink->file, context, place, sizeof place) : CELSPAN_OK;
 }
 
 /* As much of the text as fits, cut between UTF-8 characters. */
@@ -137,34 +132,30 @@ static void store_text(unsigned char *at, size_t room, const char *text) {
 
 static celspan_status put_footer(tga_sink *sink, celspan_context *context) {
   bool is_straight = sink->coding.alpha == CELSPAN_ALPHA_STRAIGHT;
-  uint64_t offset = cs_file_size(sink->file);
-  unsigned char tail[EXTENSION_BYTES + FOOTER_BYTES] = {0};
-  unsigned char *footer = tail + EXTENSION_BYTES;
-  store_16(tail, EXTENSION_BYTES);
+  unsigned char tail[CS_TGA_EXTENSION] = {0};
+  cs_tga_store_16(tail, CS_TGA_EXTENSION);
   store_text(tail + 379, 41, sink->title); /* the job's name */
   store_text(tail + 426, 41, "celspan");
-  store_16(tail + 467, 100 * CELSPAN_VERSION_MAJOR + 10 * CELSPAN_VERSION_MINOR);
+  cs_tga_store_16(tail + 467, 100 * CELSPAN_VERSION_MAJOR + 10 * CELSPAN_VERSION_MINOR);
   tail[469] = ' ';                                        /* the version has no letter */
   if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR) { /* gamma, as a fraction */
-    store_16(tail + 478, 1);
-    store_16(tail + 480, 1);
+    cs_tga_store_16(tail + 478, 1);
+    cs_tga_store_16(tail + 480, 1);
   }
   tail[494] = sink->pixel_size == 3 ? 0 : is_straight ? 3 : 4;
-  store_32(footer, offset <= UINT32_MAX ? (uint32_t)offset : 0);
-  memcpy(footer + 8, "TRUEVISION-XFILE.", 18);
-  bool is_near = offset <= UINT32_MAX; /* else nothing can point to the extension */
-  return cs_file_write(sink->file, context, is_near ? tail : footer,
-                       is_near ? sizeof tail : FOOTER_BYTES);
+  return cs_tga_put_end(sink->file, context, tail);
 }
 
 /* ---------------------------------------------------------------- the sink */
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   tga_sink *sink = user;
-  if (width > SIDE_MOST || height > SIDE_MOST)
+  int32_t whole = sink->strip.height > height ? sink->strip.height : height;
+  if (width > CS_TGA_SIDE_MOST || whole > CS_TGA_SIDE_MOST)
     return cs_fail(context, CELSPAN_LIMIT,
                    "%s: the frame is %d x %d pixels; targa files hold at most %d a side",
-                   sink->path, (int)width, (int)height, SIDE_MOST);
+                   sink->path, (int)width, (int)whole, CS_TGA_SIDE_MOST);
+  CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   sink->width = width;
   sink->row = cs_mem_array(context->memory, (size_t)width, WORST_PIXEL);
   if (!sink->row)
@@ -219,6 +210,7 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   sink->allocated = size;
   sink->coding = coding;
+  sink->strip = cs_strip_of(file);
   sink->pixel_size = file->is_opaque ? 3 : 4;
   sink->path = memcpy(sink->text, path, path_size);
   sink->title = memcpy(sink->text + path_size, title, title_size);

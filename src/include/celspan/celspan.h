@@ -1299,6 +1299,10 @@ typedef struct celspan_file_desc {
   /* Of the sink's first pixel in the whole frame, where the depth dithers; celspan_frame_write adds
    * the corner of the crop. */
   int32_t place_x, place_y;
+  /* Of a strip, which `celspan join` puts under those above it: the row of the whole picture that its
+   * row 0 is, and how many rows that has. strip_height 0: a picture by itself. PNG, Targa and span
+   * files; BAD_ARGUMENT for others, and for a strip that is not within its picture. */
+  int32_t strip_row, strip_height;
 } celspan_file_desc;
 
 static inline celspan_file_desc celspan_file_desc_default(void) {

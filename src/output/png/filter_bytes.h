@@ -6,11 +6,14 @@
 #define CS_OUTPUT_PNG_FILTER_BYTES_H
 
 #include "deflate/deflate.h"
+#include "output/png/bytes.h"
 
-/* size: bytes of the row. */
+/* most: the last filter that is tried; None and Sub come first, which do not look at the row above.
+ * size: bytes of the row. */
 CELSPAN_CHECKED celspan_status cs_png_filter_bytes_put(cs_deflate *deflate,
-                                                       celspan_context *context, size_t pixel_size,
-                                                       size_t size, const unsigned char *row,
+                                                       celspan_context *context, cs_png_filter most,
+                                                       size_t pixel_size, size_t size,
+                                                       const unsigned char *row,
                                                        const unsigned char *above);
 
 #endif

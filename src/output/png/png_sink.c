@@ -1,16 +1,14 @@
 /* PNG files (PNG 3rd edition, 5 and 11): chunks around the image data that strips.c makes.
  *
- *   signature | IHDR | sRGB or gAMA | tEXt, iTXt | IDAT, IDAT, ... | IEND
- *
- *   a chunk: size of the data (4 bytes) | type (4) | data | CRC-32 of type and data (4)
+ *   signature | IHDR | sRGB or gAMA | tEXt, iTXt | csST, of a strip | IDAT, IDAT, ... | IEND
  */
 #include <string.h>
-#include <zlib.h>
 
-#include "output/file.h"
 #include "output/pixels.h"
+#include "output/png/chunk.h"
 #include "output/png/strips.h"
 #include "output/sink.h"
+#include "output/strip.h"
 
 typedef struct png_sink {
   size_t allocated;
@@ -19,6 +17,7 @@ typedef struct png_sink {
   cs_png_strips *strips; /* likewise */
   celspan_coding coding;
   bool is_opaque;
+  cs_strip strip;
   int workers;
   size_t title_size;
   unsigned char title[]; /* the bytes of its chunk */
@@ -26,21 +25,9 @@ typedef struct png_sink {
 
 /* ---------------------------------------------------------------- chunks */
 
-static void store_32(unsigned char *at, uint32_t number) {
-  for (int i = 0; i < 4; i++)
-    at[i] = (unsigned char)(number >> (24 - 8 * i));
-}
-
 static celspan_status put_chunk(png_sink *sink, celspan_context *context, const char *type,
                                 const void *bytes, size_t size) {
-  unsigned char head[8], tail[4];
-  store_32(head, (uint32_t)size);
-  memcpy(head + 4, type, 4);
-  uLong sum = crc32_z(crc32_z(0, head + 4, 4), bytes, size);
-  store_32(tail, (uint32_t)sum);
-  CS_TRY(cs_file_write(sink->file, context, head, sizeof head));
-  CS_TRY(cs_file_write(sink->file, context, bytes, size));
-  return cs_file_write(sink->file, context, tail, sizeof tail);
+  return cs_png_chunk_put(sink->file, context, type, bytes, size);
 }
 
 static celspan_status put_image_data(void *user, celspan_context *context, const void *bytes,
@@ -51,7 +38,7 @@ static celspan_status put_image_data(void *user, celspan_context *context, const
 static celspan_status put_colour_space(png_sink *sink, celspan_context *context) {
   static const unsigned char perceptual[1] = {0};
   unsigned char gamma[4];
-  store_32(gamma, 100000);
+  cs_png_store_32(gamma, 100000);
   if (sink->coding.transfer == CELSPAN_TRANSFER_SRGB)
     return put_chunk(sink, context, "sRGB", perceptual, sizeof perceptual);
   if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR)
@@ -59,21 +46,29 @@ static celspan_status put_colour_space(png_sink *sink, celspan_context *context)
   return CELSPAN_OK;
 }
 
+static celspan_status put_place(png_sink *sink, celspan_context *context) {
+  unsigned char place[8];
+  cs_png_store_32(place, (uint32_t)sink->strip.row);
+  cs_png_store_32(place + 4, (uint32_t)sink->strip.height);
+  return sink->strip.height == 0 ? CELSPAN_OK
+                                 : put_chunk(sink, context, CS_STRIP_MARK, place, sizeof place);
+}
+
 static celspan_status put_start(png_sink *sink, celspan_context *context, int32_t width,
                                 int32_t height) {
-  static const unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   static const char software[] = "Software\0celspan";
-  unsigned char header[13] = {0};
-  store_32(header, (uint32_t)width);
-  store_32(header + 4, (uint32_t)height);
+  unsigned char header[CS_PNG_HEADER] = {0};
+  cs_png_store_32(header, (uint32_t)width);
+  cs_png_store_32(header + 4, (uint32_t)height);
   header[8] = sink->coding.depth == CELSPAN_DEPTH_16 ? 16 : 8;
   header[9] = sink->is_opaque ? 2 : 6; /* RGB or RGBA */
-  CS_TRY(cs_file_write(sink->file, context, signature, sizeof signature));
+  CS_TRY(cs_file_write(sink->file, context, cs_png_signature, sizeof cs_png_signature));
   CS_TRY(put_chunk(sink, context, "IHDR", header, sizeof header));
   CS_TRY(put_colour_space(sink, context));
   CS_TRY(put_chunk(sink, context, "tEXt", software, sizeof software - 1));
-  return sink->title_size == 0 ? CELSPAN_OK
-                               : put_chunk(sink, context, "iTXt", sink->title, sink->title_size);
+  if (sink->title_size > 0)
+    CS_TRY(put_chunk(sink, context, "iTXt", sink->title, sink->title_size));
+  return put_place(sink, context);
 }
 
 /* ---------------------------------------------------------------- the sink */
@@ -86,7 +81,13 @@ static void destroy(png_sink *sink, celspan_context *context) {
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   png_sink *sink = user;
-  cs_png_picture picture = {sink->coding, sink->is_opaque, width, height, sink->workers};
+  cs_png_picture picture = {.coding = sink->coding,
+                            .is_opaque = sink->is_opaque,
+                            .is_strip = sink->strip.height > 0,
+                            .width = width,
+                            .height = height,
+                            .workers = sink->workers};
+  CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   CS_TRY(cs_png_strips_create(context, &picture, put_image_data, sink, &sink->strips));
   CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return put_start(sink, context, width, height);
@@ -149,6 +150,7 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
   sink->allocated = size;
   sink->coding = coding;
   sink->is_opaque = file->is_opaque;
+  sink->strip = cs_strip_of(file);
   sink->workers = file->workers;
   sink->title_size = title_size;
   if (title > 0) {

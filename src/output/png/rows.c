@@ -209,8 +209,10 @@ celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
   cs_png_row *row = &rows->rows[!rows->current], *above = &rows->rows[rows->current];
   if (!row->is_bytes)
     return cs_png_filter_runs_put(&rows->filter, context, &row->runs, &above->runs, deflate);
+  bool is_first = !above->is_bytes && above->runs.count == 0;
+  cs_png_filter most = is_first && rows->is_strip ? CS_PNG_SUB : CS_PNG_PAETH;
   if (!above->is_bytes)
     CS_TRY(runs_to_bytes(rows, context, above));
-  return cs_png_filter_bytes_put(deflate, context, rows->pixel_size,
+  return cs_png_filter_bytes_put(deflate, context, most, rows->pixel_size,
                                  (size_t)rows->width * rows->pixel_size, row->bytes, above->bytes);
 }

@@ -31,6 +31,7 @@ typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
   size_t coded_size, pixel_size; /* bytes of a pixel, as coded and as in the file */
+  bool is_strip;                 /* the first row's filter may not look up; false after begin */
   uint64_t stored;               /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that are set in all coded pixels of the row */
   cs_png_row rows[2];

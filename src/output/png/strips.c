@@ -236,6 +236,7 @@ static celspan_status init_worker(cs_png_strips *strips, celspan_context *contex
   w->strips = strips;
   cs_png_rows_begin(&w->rows, strips->picture.coding, strips->picture.width,
                     strips->picture.is_opaque);
+  w->rows.is_strip = strips->picture.is_strip;
   return report(context,
                 cs_deflate_create(&w->context, w->rows.pixel_size, append, &w->packed, &w->deflate),
                 w->context.error);

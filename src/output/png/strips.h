@@ -17,6 +17,7 @@ typedef struct cs_png_strips cs_png_strips;
 typedef struct cs_png_picture {
   celspan_coding coding; /* resolved, 8 or 16 bit */
   bool is_opaque;
+  bool is_strip; /* there are rows above row 0, which is filtered without them */
   int32_t width, height;
   int workers; /* 0: one a processor */
 } cs_png_picture;

@@ -77,6 +77,9 @@ typedef struct spanfile_writer_desc {
   void *user;
   spanfile_resize resize; /* NULL: the C library's */
   void *resize_user;
+  /* Of a strip, some rows of a larger picture: the row there that its row 0 is, and how many rows that
+   * has; strip_height 0: a picture by itself. See spanfile_joiner. */
+  uint32_t strip_row, strip_height;
 } spanfile_writer_desc;
 
 /* desc: borrowed, its functions used until the end. out: new. */
@@ -143,6 +146,7 @@ typedef struct spanfile_source {
 typedef struct spanfile_info {
   uint32_t width, height;
   spanfile_format format;
+  uint32_t strip_row, strip_height; /* of a strip; strip_height 0: a picture by itself */
 } spanfile_info;
 
 /* The bytes from the start that spanfile_is needs. */
@@ -170,6 +174,24 @@ typedef struct spanfile_counts {
 } spanfile_counts;
 spanfile_status spanfile_reader_check(spanfile_reader *reader, spanfile_counts *counts,
                                       spanfile_fault *fault);
+
+/* ---------------------------------------------------------------- strips */
+
+/* Puts strips, which are files of their own, under one another: their records are copied, not
+ * unpacked. The bytes are those that one writer would have written of all rows. Strips begin at
+ * multiples of SPANFILE_PART_ROWS. Memory: less than 1 MiB, whatever is in the files. */
+typedef struct spanfile_joiner spanfile_joiner;
+
+/* desc: of the whole picture. Otherwise as spanfile_writer_create. */
+spanfile_status spanfile_joiner_create(const spanfile_writer_desc *desc, spanfile_joiner **out);
+/* The next strip. source: borrowed during the call. BAD_FILE, with the fault: not a span file, or not
+ * the strip that comes next, or a record is wrong. After a failure the joiner can only be destroyed. */
+spanfile_status spanfile_joiner_add(spanfile_joiner *joiner, const spanfile_source *source,
+                                    spanfile_fault *fault);
+/* After the last strip: index and trailer. BAD_ARGUMENT: rows are missing. */
+spanfile_status spanfile_joiner_finish(spanfile_joiner *joiner);
+/* NULL is ignored. */
+void spanfile_joiner_destroy(spanfile_joiner *joiner);
 
 /* The pixels of columns [x0, x1), within the row, as bytes. Any thread. */
 void spanfile_row_pixels(spanfile_format format, const spanfile_row *row, uint32_t x0, uint32_t x1,

@@ -45,6 +45,15 @@ static const unsigned char sf_end_magic[8] = {'s', 'p', 'a', 'n', 's', 'e', 'n',
 /* No extension area and no developer directory: their offsets have 32 bits. */
 static const unsigned char sf_footer[SF_FOOTER_BYTES] = "\0\0\0\0\0\0\0\0TRUEVISION-XFILE.";
 
+/* Whether a picture may have the place that it claims in a larger one. */
+static inline bool sf_has_place(const spanfile_info *info) {
+  uint64_t end = (uint64_t)info->strip_row + info->height;
+  if (info->strip_height == 0)
+    return info->strip_row == 0;
+  return info->strip_row % SPANFILE_PART_ROWS == 0 && end <= info->strip_height &&
+         (end % SPANFILE_PART_ROWS == 0 || end == info->strip_height);
+}
+
 /* To little endian, and back. */
 static inline uint32_t sf_little_32(uint32_t number) {
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__

@@ -33,17 +33,32 @@ size_t sf_record_seal(unsigned char *payload, size_t payload_size, unsigned char
 
 /* ---------------------------------------------------------------- bytes */
 
-sf_output *sf_output_create(const sf_memory *memory,
-                            bool (*write)(void *user, const void *bytes, size_t size), void *user) {
+static void put_header(sf_output *out, const spanfile_writer_desc *desc) {
+  unsigned char header[SF_HEADER_BYTES] = {0};
+  header[0] = SF_ID_BYTES;
+  header[2] = SF_IMAGE_TYPE;
+  header[16] = (unsigned char)(8 * spanfile_pixel_size(desc->format));
+  header[17] = 0x20 | (desc->format == SPANFILE_SRGB8 ? 8 : 0); /* from the top; bits of alpha */
+  memcpy(header + 18, sf_magic, sizeof sf_magic);
+  sf_store_32(header + 26, desc->width);
+  sf_store_32(header + 30, desc->height);
+  sf_store_32(header + 34, desc->format);
+  sf_store_32(header + 38, desc->strip_row);
+  sf_store_32(header + 42, sf_crc32c(0, header, 42));
+  (void)sf_output_put(out, header, sizeof header); /* fits the buffer */
+}
+
+sf_output *sf_output_create(const sf_memory *memory, const spanfile_writer_desc *desc) {
   sf_output *out = sf_allocate(memory, sizeof *out);
   if (!out)
     return NULL;
-  out->write = write;
-  out->user = user;
+  out->write = desc->write;
+  out->user = desc->user;
   out->flushed = 0;
   out->buffered = 0;
   for (int level = 0; level < SF_LEVELS; level++)
     out->nodes[level].count = 0;
+  put_header(out, desc);
   return out;
 }
 
@@ -138,20 +153,21 @@ static bool finish_index(sf_output *out, uint64_t *root, int *levels) {
 
 /* ---------------------------------------------------------------- the end */
 
-static bool put_end(sf_output *out, uint32_t height, uint64_t root, int levels) {
+static bool put_end(sf_output *out, const spanfile_info *info, uint64_t root, int levels) {
   unsigned char trailer[SF_TRAILER_BYTES] = {0};
   memcpy(trailer, sf_end_magic, sizeof sf_end_magic);
   sf_store_64(trailer + 8, root);
   sf_store_64(trailer + 16, sf_output_position(out) + SF_END_BYTES);
-  sf_store_32(trailer + 24, height);
+  sf_store_32(trailer + 24, info->height);
   sf_store_32(trailer + 28, (uint32_t)levels);
+  sf_store_32(trailer + 32, info->strip_height);
   sf_store_32(trailer + 36, sf_crc32c(0, trailer, 36));
   return sf_output_put(out, trailer, sizeof trailer) &&
          sf_output_put(out, sf_footer, sizeof sf_footer);
 }
 
-bool sf_output_end(sf_output *out, uint32_t height) {
+bool sf_output_end(sf_output *out, const spanfile_info *info) {
   uint64_t root;
   int levels;
-  return finish_index(out, &root, &levels) && put_end(out, height, root, levels) && flush(out);
+  return finish_index(out, &root, &levels) && put_end(out, info, root, levels) && flush(out);
 }

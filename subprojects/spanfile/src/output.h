@@ -21,15 +21,14 @@ size_t sf_record_seal(unsigned char *payload, size_t payload_size, unsigned char
 
 typedef struct sf_output sf_output;
 
-/* NULL: no memory. */
-sf_output *sf_output_create(const sf_memory *memory,
-                            bool (*write)(void *user, const void *bytes, size_t size), void *user);
+/* NULL: no memory. The header of the file is in the buffer. */
+sf_output *sf_output_create(const sf_memory *memory, const spanfile_writer_desc *desc);
 void sf_output_destroy(const sf_memory *memory, sf_output *out); /* NULL is ignored */
 uint64_t sf_output_position(const sf_output *out);
 bool sf_output_put(sf_output *out, const void *bytes, size_t size);
 /* The record that comes next is that of a key row. */
 bool sf_output_key(sf_output *out, uint32_t row);
-/* Index and trailer of a file of `height` rows, and all bytes to `write`. */
-bool sf_output_end(sf_output *out, uint32_t height);
+/* Index and trailer, and all bytes to `write`. */
+bool sf_output_end(sf_output *out, const spanfile_info *info);
 
 #endif

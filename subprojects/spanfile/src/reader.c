@@ -438,7 +438,9 @@ static spanfile_status read_header(spanfile_reader *reader, uint64_t size) {
   if (sf_load_32(header + 42) != sf_crc32c(0, header, 42))
     return REFUSE(reader, 0, "the checksum of the header is wrong");
   uint32_t format = sf_load_32(header + 34);
-  reader->info = (spanfile_info){sf_load_32(header + 26), sf_load_32(header + 30), 0};
+  reader->info = (spanfile_info){.width = sf_load_32(header + 26),
+                                 .height = sf_load_32(header + 30),
+                                 .strip_row = sf_load_32(header + 38)};
   if (reader->info.width == 0 || reader->info.height == 0)
     return REFUSE(reader, 26, "a picture without pixels");
   if (format != SPANFILE_SRGB8 && format != SPANFILE_HALF)
@@ -465,6 +467,10 @@ static spanfile_status read_trailer(spanfile_reader *reader, uint64_t size) {
   if (sf_load_32(trailer + 24) != reader->info.height)
     return REFUSE(reader, at + 24, "of %" PRIu32 " rows, but its trailer tells of %" PRIu32,
                   reader->info.height, sf_load_32(trailer + 24));
+  reader->info.strip_height = sf_load_32(trailer + 32);
+  if (!sf_has_place(&reader->info))
+    return REFUSE(reader, at + 32, "rows from %" PRIu32 " on are no strip of %" PRIu32 " rows",
+                  reader->info.strip_row, reader->info.strip_height);
   reader->root = sf_load_64(trailer + 8);
   if (reader->root < SF_HEADER_BYTES || reader->root >= at)
     return REFUSE(reader, at + 8, "the index is not in the file");

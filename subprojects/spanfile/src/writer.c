@@ -42,7 +42,7 @@ struct spanfile_writer {
   sf_memory memory;
   sf_output *output; /* NULL: a part */
   part_bytes *part;  /* NULL: a file */
-  uint32_t width, height;
+  uint32_t width, height, strip_height;
   spanfile_format format;
   size_t pixel_size;
   spanfile_status status;
@@ -306,24 +306,12 @@ spanfile_status spanfile_writer_row(spanfile_writer *writer) {
 
 /* ---------------------------------------------------------------- the beginning */
 
-static bool put_header(spanfile_writer *writer) {
-  unsigned char header[SF_HEADER_BYTES] = {0};
-  header[0] = SF_ID_BYTES;
-  header[2] = SF_IMAGE_TYPE;
-  header[16] = (unsigned char)(8 * writer->pixel_size);
-  header[17] = 0x20 | (writer->format == SPANFILE_SRGB8 ? 8 : 0); /* from the top; bits of alpha */
-  memcpy(header + 18, sf_magic, sizeof sf_magic);
-  sf_store_32(header + 26, writer->width);
-  sf_store_32(header + 30, writer->height);
-  sf_store_32(header + 34, writer->format);
-  sf_store_32(header + 42, sf_crc32c(0, header, 42));
-  return put(writer, header, sizeof header);
-}
-
 /* A writer with neither file nor part yet. */
 static spanfile_status create(const spanfile_writer_desc *desc, spanfile_writer **out) {
   bool has_format = desc->format == SPANFILE_SRGB8 || desc->format == SPANFILE_HALF;
-  if (desc->width == 0 || desc->height == 0 || !has_format)
+  spanfile_info info = {desc->width, desc->height, desc->format, desc->strip_row,
+                        desc->strip_height};
+  if (desc->width == 0 || desc->height == 0 || !has_format || !sf_has_place(&info))
     return SPANFILE_BAD_ARGUMENT;
   sf_memory memory = sf_memory_of(desc->resize, desc->resize_user);
   spanfile_writer *writer = sf_allocate(&memory, sizeof *writer);
@@ -332,6 +320,7 @@ static spanfile_status create(const spanfile_writer_desc *desc, spanfile_writer 
   *writer = (spanfile_writer){.memory = memory,
                               .width = desc->width,
                               .height = desc->height,
+                              .strip_height = desc->strip_height,
                               .format = desc->format,
                               .pixel_size = spanfile_pixel_size(desc->format)};
   *out = writer;
@@ -343,13 +332,12 @@ spanfile_status spanfile_writer_create(const spanfile_writer_desc *desc, spanfil
   spanfile_status status = desc->write ? create(desc, &writer) : SPANFILE_BAD_ARGUMENT;
   if (status != SPANFILE_OK)
     return status;
-  writer->output = sf_output_create(&writer->memory, desc->write, desc->user);
+  writer->output = sf_output_create(&writer->memory, desc);
   if (!writer->output) {
     spanfile_writer_destroy(writer);
     return SPANFILE_NO_MEMORY;
   }
   writer->end = desc->height;
-  (void)put_header(writer); /* fits the buffer */
   *out = writer;
   return SPANFILE_OK;
 }
@@ -418,7 +406,8 @@ spanfile_status spanfile_writer_finish(spanfile_writer *writer) {
     return writer->status;
   if (writer->part || writer->y != writer->height || writer->row.count > 0)
     return fail(writer, SPANFILE_BAD_ARGUMENT);
-  if (!sf_output_end(writer->output, writer->height))
+  const spanfile_info info = {.height = writer->height, .strip_height = writer->strip_height};
+  if (!sf_output_end(writer->output, &info))
     fail(writer, SPANFILE_WRITE_FAILED);
   writer->y = (uint64_t)writer->height + 1; /* nothing may follow */
   return writer->status;

@@ -474,6 +474,129 @@ static void test_memory(void) {
   free(p.pixels);
 }
 
+/* ---------------------------------------------------------------- strips */
+
+static memory_file write_strip(const picture *p, uint32_t first, uint32_t count) {
+  memory_file file = {0};
+  spanfile_writer_desc desc = desc_of(p);
+  desc.height = p->height - first < count ? p->height - first : count;
+  desc.strip_row = first;
+  desc.strip_height = p->height;
+  desc.write = memory_write;
+  desc.user = &file;
+  spanfile_writer *writer;
+  CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_OK);
+  put_rows(writer, p, first, desc.height);
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+  return file;
+}
+
+typedef struct joined {
+  memory_file file;
+  meter meter;
+  spanfile_status status;
+} joined;
+
+static joined join_strips(const picture *p, memory_file *strips, uint32_t count, int allocations) {
+  joined out = {.meter = {.left = allocations}};
+  spanfile_writer_desc desc = desc_of(p);
+  spanfile_joiner *joiner = NULL;
+  desc.write = memory_write;
+  desc.user = &out.file;
+  desc.resize = metered;
+  desc.resize_user = &out.meter;
+  out.status = spanfile_joiner_create(&desc, &joiner);
+  for (uint32_t i = 0; i < count && out.status == SPANFILE_OK; i++) {
+    spanfile_source source = memory_source(&strips[i]);
+    source.resize = metered;
+    source.resize_user = &out.meter;
+    out.status = spanfile_joiner_add(joiner, &source, NULL);
+  }
+  if (out.status == SPANFILE_OK)
+    out.status = spanfile_joiner_finish(joiner);
+  spanfile_joiner_destroy(joiner);
+  CHECK(out.meter.bytes == 0);
+  return out;
+}
+
+static void check_join(const picture *p, memory_file *strips, uint32_t count, memory_file whole) {
+  joined made = join_strips(p, strips, count, -1);
+  CHECK(made.status == SPANFILE_OK && made.meter.peak < 1024 * 1024);
+  CHECK(made.file.size == whole.size && memcmp(made.file.bytes, whole.bytes, whole.size) == 0);
+  free(made.file.bytes);
+  for (int left = 0; left < 3; left++) {
+    made = join_strips(p, strips, 1, left);
+    CHECK(made.status == SPANFILE_NO_MEMORY);
+    free(made.file.bytes);
+  }
+}
+
+/* Every byte of a strip counts: one that differs, or a file that is cut, is refused, or it is joined
+ * to what the strip was; and memory stays what it is. */
+static void check_damage(const picture *p, memory_file *strips, uint32_t count, memory_file whole) {
+  random_state random = {77};
+  for (int i = 0; i < 400; i++) {
+    uint32_t which = random_below(&random, count);
+    size_t at = random_below(&random, (uint32_t)strips[which].size), size = strips[which].size;
+    unsigned char *byte = &strips[which].bytes[at], was = *byte;
+    *byte ^= (unsigned char)(1 + random_below(&random, 255));
+    if (i % 4 == 0)
+      strips[which].size = at;
+    joined made = join_strips(p, strips, count, -1);
+    bool is_same =
+        made.file.size == whole.size && memcmp(made.file.bytes, whole.bytes, whole.size) == 0;
+    CHECK(made.status == SPANFILE_BAD_FILE || (made.status == SPANFILE_OK && is_same));
+    CHECK(made.meter.peak < 1024 * 1024);
+    free(made.file.bytes);
+    *byte = was;
+    strips[which].size = size;
+  }
+}
+
+static void check_strips(uint64_t seed, uint32_t rows) {
+  picture p = random_picture(seed, seed % 3 == 0 ? 4000 : 60, 3000);
+  memory_file strips[12] = {{0}}, whole = {0};
+  uint32_t count = 0;
+  spanfile_writer *writer = open_writer(&p, &whole);
+  put_rows(writer, &p, 0, p.height);
+  CHECK(spanfile_writer_finish(writer) == SPANFILE_OK);
+  spanfile_writer_destroy(writer);
+  for (uint32_t y = 0; y < p.height; y += rows)
+    strips[count++] = write_strip(&p, y, rows);
+  check_join(&p, strips, count, whole);
+  check_damage(&p, strips, count, whole);
+  if (count > 1) {
+    joined made = join_strips(&p, strips, count - 1, -1);
+    CHECK(made.status == SPANFILE_BAD_ARGUMENT);
+    free(made.file.bytes);
+    made = join_strips(&p, strips + 1, 1, -1);
+    CHECK(made.status == SPANFILE_BAD_FILE);
+    free(made.file.bytes);
+  }
+  joined made = join_strips(&p, &whole, 1, -1);
+  CHECK(made.status == SPANFILE_BAD_FILE);
+  free(made.file.bytes);
+  while (count > 0)
+    free(strips[--count].bytes);
+  free(whole.bytes);
+  free(p.pixels);
+}
+
+static void test_strips(void) {
+  for (uint64_t seed = 60; seed < 66; seed++)
+    check_strips(seed, seed % 2 == 0 ? 256 : 1024);
+  spanfile_writer_desc desc = {
+      .width = 1, .height = 300, .format = SPANFILE_SRGB8, .write = memory_write};
+  spanfile_writer *writer;
+  desc.strip_row = 100;
+  CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_BAD_ARGUMENT); /* no strip */
+  desc.strip_height = 1000;
+  CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_BAD_ARGUMENT); /* not at 256 */
+  desc.strip_row = 256;
+  CHECK(spanfile_writer_create(&desc, &writer) == SPANFILE_BAD_ARGUMENT); /* ends at 556 */
+}
+
 /* A few bytes that claim millions of pixels do not get memory for them. */
 static void test_claims(void) {
   memory_file file = write_slanted(4000000000u, 2, 3, 1);
@@ -610,6 +733,7 @@ int main(void) {
   test_tall();
   test_wide();
   test_memory();
+  test_strips();
   test_claims();
   test_misuse();
   test_failing_calls();

@@ -1,0 +1,44 @@
+/* How the strips of each format are put together: what join.c asks of them.
+ *
+ *   inspect, for every part --> begin --> add, for every part --> end
+ *
+ * INVARIANT: inspect reads what tells about the rows, add reads the rows; neither unpacks a pixel, and
+ * memory is that of a cs_joining whatever the files hold.
+ */
+#ifndef CS_OUTPUT_JOIN_FORMAT_H
+#define CS_OUTPUT_JOIN_FORMAT_H
+
+#include <spanfile.h>
+
+#include "deflate/deflate.h"
+#include "output/file.h"
+#include "output/join/part.h"
+#include "output/tga.h"
+
+enum { CS_JOIN_START = 26, CS_JOIN_PIECE = 1 << 16 };
+
+typedef struct cs_joining {
+  cs_file *file;             /* what is made */
+  celspan_context *context;  /* of the call in progress, for callbacks of the library spanfile */
+  cs_deflate_sum sum;        /* PNG: of the rows so far */
+  spanfile_joiner *spanfile; /* span files; owned */
+  unsigned char extension[CS_TGA_EXTENSION];
+  unsigned char piece[CS_JOIN_PIECE]; /* of a part, on its way */
+} cs_joining;
+
+typedef struct cs_join_format {
+  const char *name;       /* in messages */
+  const char *endings[3]; /* of the file that is made; NULL after the last */
+  /* Whether a file that begins so claims to be one. */
+  bool (*claims)(const unsigned char start[CS_JOIN_START]);
+  /* Fills in all of an open part. Errors: INPUT. */
+  celspan_status (*inspect)(celspan_context *context, cs_join_part *part);
+  /* first: inspected and open. Errors: INPUT, OUTPUT, NO_MEMORY, here and below. */
+  celspan_status (*begin)(cs_joining *joining, celspan_context *context, const cs_join_part *first);
+  celspan_status (*add)(cs_joining *joining, celspan_context *context, const cs_join_part *part);
+  celspan_status (*end)(cs_joining *joining, celspan_context *context);
+} cs_join_format;
+
+extern const cs_join_format cs_join_png, cs_join_tga, cs_join_span;
+
+#endif

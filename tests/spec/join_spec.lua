@@ -1,0 +1,266 @@
+-- Strips of a frame, and celspan join: the same picture as the whole, and what is refused.
+local workbench = require "tests.support.workbench"
+
+local function has_pictures()
+  local place = workbench.new()
+  local _, _, err = place:celspan "convert none.png none.png"
+  place:remove()
+  return not err:find("celspan-picture.so", 1, true)
+end
+local it_compares = has_pictures() and it or pending -- pictures are read to be compared
+
+local bench
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("film.lua", [[
+local celspan = require "celspan"
+local sky = celspan.linear { from = { 0, 0 }, to = { 0, 900 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
+local place = ...
+-- Each pixel half the one before: what PNG's filter Average foretells in a row without one above.
+local codes = {}
+for x = 0, 299 do codes[x + 1] = string.char(224 >> x % 8, 224 >> x % 8, 224 >> x % 8, 255) end
+local halves = celspan.image { x = 0, y = 0, size = { 300, 1 }, format = "rgba8",
+  sampling = "nearest", pixels = table.concat(codes) }
+return celspan.film { size = { 300, 900 }, frames = 3, title = "strips", frame = function(f)
+  local art = { celspan.circle { centre = { 150, 450 }, radius = 140 + f.number },
+                celspan.polygon { { 3, 5 }, { 290, 300 }, { 40, 890 }, texture = "#40a06080" } }
+  if place == "sky" then
+    table.insert(art, 1, celspan.rect { 0, 0, 300, 900, texture = sky })
+  elseif place == "halves" then
+    art = { halves:scale(1, 900) }
+  end
+  return celspan.rostrum { celspan.cel(art) }
+end }
+]])
+end)
+after_each(function() bench:remove() end)
+
+local function celspan(arguments, ...)
+  return bench:shell(("cd '%s' && %s %s"):format(bench.folder, workbench.absolute,
+    arguments:format(...)))
+end
+
+local function done(arguments, ...)
+  local code, out, err = celspan(arguments, ...)
+  assert.equal(0, code, err)
+  return out
+end
+
+local function refused(code, text, arguments, ...)
+  local got, _, err = celspan(arguments, ...)
+  assert.equal(code, got, err)
+  assert.is_truthy(err:find(text, 1, true), err)
+end
+
+local function render(options, args)
+  done("render film.lua --frames 1 --progress none %s%s", options, args and " -- " .. args or "")
+end
+
+local function render_strips(ending, count, options, args)
+  for i = 1, count do
+    render(("--strip %d/%d -o s/%d.%s %s"):format(i, count, i, ending, options or ""), args)
+  end
+end
+
+describe("joined strips", function()
+  for _, ending in ipairs { "tga", "span" } do
+    it("are the bytes of the whole in " .. ending, function()
+      for _, args in ipairs { "flat", "sky" } do
+        render("-o whole." .. ending, args)
+        render_strips(ending, 4, nil, args)
+        done("join s/#.%s -o joined.%s", ending, ending)
+        assert.equal(bench:read("whole." .. ending), bench:read("joined." .. ending))
+      end
+    end)
+  end
+
+  for _, options in ipairs { "", "--depth 16", "--background '#102030'", "--dither",
+                             "--workers 3" } do
+    it_compares("show what the whole shows in PNG " .. options, function()
+      for _, args in ipairs { "flat", "sky", "halves" } do
+        render("-o whole.png " .. options, args)
+        render_strips("png", 4, options, args)
+        done("join s/#.png -o joined.png")
+        done("compare whole.png joined.png")
+      end
+    end)
+  end
+
+  it("may be larger than the film, and as few as one", function()
+    render "--size 700x2000 -o whole.span"
+    render "--size 700x2000 --strip 1/1 -o one.span"
+    done "join one.span -o joined.span"
+    assert.equal(bench:read "whole.span", bench:read "joined.span")
+  end)
+
+  it("are half floats in span files", function()
+    render "--depth half -o whole.span"
+    render_strips("span", 3, "--depth half")
+    done "join s/1.span s/2.span s/3.span -o joined.span"
+    assert.equal(bench:read "whole.span", bench:read "joined.span")
+  end)
+
+  it_compares("are pictures by themselves; others do not tell a place", function()
+    render_strips("png", 2)
+    render_strips("span", 2)
+    render "--crop 0,0,300,512 -o top.png"
+    render "--crop 0,0,300,512 -o top.span"
+    done "compare s/1.png top.png"
+    done "compare s/1.span top.span"
+    assert.is_nil(bench:read "top.png":find("csST", 1, true))
+  end)
+end)
+
+describe("what join refuses, and says which file and what to do:", function()
+  for _, ending in ipairs { "png", "tga", "span" } do
+    it("an order or a number that is wrong, in " .. ending, function()
+      render_strips(ending, 4)
+      local function names(...)
+        local list = {}
+        for _, i in ipairs { ... } do list[#list + 1] = ("s/%d.%s"):format(i, ending) end
+        return table.concat(list, " ") .. " -o joined." .. ending
+      end
+      refused(4, "s/3." .. ending .. ": begins at row 512, where row 256 comes next", "join %s",
+        names(1, 3, 2, 4))
+      refused(4, "s/2." .. ending .. ": begins at row 256, where row 0 comes next", "join %s",
+        names(2, 3, 4))
+      refused(4, "s/1." .. ending .. ": begins at row 0, where row 256 comes next", "join %s",
+        names(1, 1, 2))
+      refused(4, "s/3." .. ending .. ": ends before row 768, but the picture has 900", "join %s",
+        names(1, 2, 3))
+      assert.is_nil(bench:read("joined." .. ending))
+    end)
+
+    it("strips of another picture, in " .. ending, function()
+      render_strips(ending, 2)
+      render(("--strip 2/2 --size 299x900 -o other.%s"):format(ending))
+      refused(4, "other." .. ending .. ": is not of the same picture as s/1." .. ending,
+        "join s/1.%s other.%s -o joined.%s", ending, ending, ending)
+      render(("--strip 2/2 --size 300x901 -o other.%s"):format(ending))
+      refused(4, "other." .. ending .. ": is of a picture of 901 rows",
+        "join s/1.%s other.%s -o joined.%s", ending, ending, ending)
+    end)
+
+    it("pictures that are no strips, in " .. ending, function()
+      render("-o whole." .. ending)
+      refused(4, "whole." .. ending, "join whole.%s -o joined.%s", ending, ending)
+      assert.is_nil(bench:read("joined." .. ending))
+    end)
+
+    it("files that are cut or damaged, without leaving anything, in " .. ending, function()
+      render_strips(ending, 2, nil, "sky")
+      local whole = bench:read("s/2." .. ending)
+      for _, share in ipairs { 0, 0.01, 0.3, 0.9, 0.999 } do
+        bench:write("s/2." .. ending, whole:sub(1, math.floor(share * #whole)))
+        refused(4, "s/2." .. ending, "join s/#.%s -o joined.%s", ending, ending)
+      end
+      bench:write("s/2." .. ending, whole .. "more")
+      refused(4, "s/2." .. ending, "join s/#.%s -o joined.%s", ending, ending)
+      assert.same({ "film.lua", "s", "stderr", "stdout" }, bench:files())
+    end)
+  end
+
+  it("a byte that differs, where the format has checksums", function()
+    for _, ending in ipairs { "png", "span" } do
+      render_strips(ending, 2)
+      local whole = bench:read("s/1." .. ending)
+      for at = 1, #whole, #whole // 97 do
+        local other = string.char(whole:byte(at) ~ 0x41)
+        bench:write("s/1." .. ending, whole:sub(1, at - 1) .. other .. whole:sub(at + 1))
+        local code, _, err = celspan("join s/#.%s -o joined.%s", ending, ending)
+        assert.equal(4, code, ("byte %d of %s: %s"):format(at, ending, err))
+      end
+    end
+  end)
+
+  it("sizes that are claimed and not there", function()
+    render_strips("png", 2)
+    local whole = bench:read "s/1.png"
+    local huge = ("\xff"):rep(4)
+    bench:write("s/1.png", whole:sub(1, 8) .. huge .. whole:sub(13))
+    refused(4, "there is no proper chunk", "join s/#.png -o joined.png")
+    bench:write("s/1.png", whole:sub(1, 8) .. "\x7f\xff\xff\xff" .. whole:sub(13))
+    refused(4, "is cut", "join s/#.png -o joined.png")
+    bench:write("s/1.png", whole:sub(1, 16) .. huge .. whole:sub(21))
+    refused(4, "its size", "join s/#.png -o joined.png")
+  end)
+
+  it("other kinds of files", function()
+    render_strips("png", 2)
+    bench:write("text.png", ("no picture "):rep(10))
+    refused(4, "text.png: is no strip", "join text.png -o joined.png")
+    refused(4, "none.png: No such file", "join none.png -o joined.png")
+    refused(4, ".: is not a file", "join . -o joined.png")
+    refused(4, "there are no files of this pattern", "join none.####.png -o joined.png")
+    refused(2, "the name must end in .png", "join s/#.png -o joined.tga")
+    refused(2, "s/1.png is one of the strips", "join s/#.png -o s/1.png")
+    refused(2, "give -o", "join s/#.png")
+    done "join s/#.png -o joined.png"
+  end)
+
+  it("an output that cannot be written, leaving an older one as it is", function()
+    render_strips("png", 2)
+    bench:write("joined.png", "older")
+    bench:write("s/2.png", bench:read "s/2.png":sub(1, -60))
+    refused(4, "s/2.png", "join s/#.png -o joined.png")
+    assert.equal("older", bench:read "joined.png")
+    render_strips("png", 2)
+    refused(5, "film.lua", "join s/#.png -o film.lua/joined.png")
+  end)
+end)
+
+describe("render --strip", function()
+  it("refuses what has no strips", function()
+    refused(2, "a frame of 900 rows makes at most 4",
+      "render film.lua --frames 1 --strip 1/5 -o s.png")
+    refused(2, "--strip: '0/4' is not", "render film.lua --frames 1 --strip 0/4 -o s.png")
+    refused(2, "--strip: '5/4' is not", "render film.lua --frames 1 --strip 5/4 -o s.png")
+    refused(2, "--strip and --crop",
+      "render film.lua --frames 1 --strip 1/2 --crop 0,0,9,9 -o s.png")
+    refused(2, "--strip makes files", "render film.lua --frames 1 --strip 1/2 -o -")
+    refused(2, "--strip: a video", "render film.lua --strip 1/2 -o film.mp4")
+  end)
+
+  it("refuses formats whose strips cannot be joined", function()
+    local code, _, err = celspan "render film.lua --frames 1 --strip 1/2 -o s.exr"
+    assert.is_truthy(code == 2 or err:find("celspan-picture.so", 1, true), err)
+    assert.is_truthy(err:find("PNG, Targa and span", 1, true), err)
+  end)
+
+  it("resumes, and tells a strip from a crop of the same rows", function()
+    done "render film.lua --frames 1 --strip 1/2 -o s.png --resume"
+    local _, _, err =
+      celspan "render film.lua --frames 1 --strip 1/2 -o s.png --resume --progress lines"
+    assert.is_truthy(err:find("kept", 1, true), err)
+    done "render film.lua --frames 1 --crop 0,0,300,512 -o s.png --resume"
+    assert.is_nil(bench:read "s.png":find("csST", 1, true))
+  end)
+end)
+
+describe("render --task", function()
+  local function frames_of(task, list)
+    for _, name in ipairs(bench:files "o") do os.remove(bench.folder .. "/o/" .. name) end
+    done("render film.lua --task %s -o o/#.png --size 30x90 %s --progress none", task, list or "")
+    return table.concat(bench:files "o", " ")
+  end
+
+  it("makes its share of the frames, all of them once", function()
+    assert.equal("1.png", frames_of "1/2")
+    assert.equal("2.png 3.png", frames_of "2/2")
+    assert.equal("1.png 2.png 3.png", frames_of "1/1")
+    assert.equal("3.png", frames_of("1/2", "--frames 3,1"))
+    assert.equal("1.png", frames_of("2/2", "--frames 3,1"))
+  end)
+
+  it("has nothing to do where the film has become shorter", function()
+    local code, _, err = celspan "render film.lua --task 1/9 -o o/#.png"
+    assert.equal(0, code, err)
+    assert.is_truthy(err:find("task 1 of 9 has no frames", 1, true), err)
+  end)
+
+  it("is of files", function()
+    refused(2, "--task makes files", "render film.lua --task 1/2 -o -")
+    refused(2, "--task: a video", "render film.lua --task 1/2 -o film.mp4")
+  end)
+end)
