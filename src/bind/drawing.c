@@ -236,11 +236,7 @@ static int read(lua_State *L) {
   cs_named_begin(L, context);
   celspan_status status = cs_svg_read_file(context, path, &options, &made->svg);
   cs_named_end(context);
-  if (status == CELSPAN_OK)
-    return 1;
-  lua_pushnil(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
 void cs_drawing_open(lua_State *L) {

@@ -38,7 +38,7 @@ int cs_frames_list(lua_State *L) {
   celspan_status status = list ? cs_sequence_parse(context, list, sequence)
                                : cs_sequence_list(context, pattern, sequence);
   if (status != CELSPAN_OK)
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, status);
   push_numbers(L, sequence);
   return 1;
 }
@@ -46,9 +46,10 @@ int cs_frames_list(lua_State *L) {
 int cs_frames_name(lua_State *L) {
   char name[4096];
   celspan_context *context = cs_host_context(L);
-  if (cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name,
-                       sizeof name) != CELSPAN_OK)
-    return cs_host_push_failure(L);
+  celspan_status status = cs_sequence_name(context, luaL_checkstring(L, 1),
+                                           luaL_checkinteger(L, 2), name, sizeof name);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   lua_pushstring(L, name);
   return 1;
 }

@@ -91,12 +91,6 @@ cs_host *cs_host_get(lua_State *L) {
 
 celspan_context *cs_host_context(lua_State *L) { return cs_host_get(L)->context; }
 
-int cs_host_push_failure(lua_State *L) {
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(cs_host_context(L)));
-  return 2;
-}
-
 lua_State *cs_host_enter(lua_State *L) {
   cs_host *host = cs_host_get(L);
   lua_State *before = host->state;
@@ -122,6 +116,13 @@ void cs_host_try(lua_State *L, const char *noun, celspan_status status) {
   cs_host *host = cs_host_get(L);
   host->failure = status;
   cs_caller_error(L, "%s: %s", noun, sentence_of(host));
+}
+
+int cs_host_fail(lua_State *L, celspan_status status) {
+  cs_host_get(L)->failure = status;
+  luaL_pushfail(L);
+  lua_pushstring(L, celspan_context_error(cs_host_context(L)));
+  return 2;
 }
 
 celspan_status cs_host_blame(lua_State *L, const char *message) {

@@ -42,7 +42,7 @@ typedef struct cs_host {
   lua_State *state;  /* the thread that Lua callbacks run on */
   celspan_context *context;
   bool owns_context;
-  celspan_status failure; /* of the last core call that raised; its sentence is in the context */
+  celspan_status failure; /* of the last core call that failed; its sentence is in the context */
   const cs_host_rules *rules; /* borrowed; NULL: the state has no sandbox and no limits */
 } cs_host;
 
@@ -62,8 +62,9 @@ void cs_host_leave(lua_State *L, lua_State *before);
 
 /* Raises the context's sentence at the caller's line, "noun: sentence", unless status is OK. */
 void cs_host_try(lua_State *L, const char *noun, celspan_status status);
-/* Pushes nil and the context's sentence, as the results of a function: their number. */
-int cs_host_push_failure(lua_State *L);
+/* Pushes nil and the context's sentence, for a function that answers so what went wrong; a script
+ * that raises the sentence raises it with this status. Returns 2, which is how many were pushed. */
+int cs_host_fail(lua_State *L, celspan_status status);
 /* The status of a message that was raised: the core's own when the message contains the core's
  * sentence, else CALLBACK. */
 celspan_status cs_host_blame(lua_State *L, const char *message);

@@ -1,10 +1,11 @@
 #include "bind/lua_text.h"
 
 #include <ctype.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/open.h"
 
 enum { HEAD = 4096, ESCAPE = 27 };
 
@@ -34,7 +35,7 @@ static bool is_text_picture(const char *head) {
 bool cs_lua_text_accepts(const char *path) {
   char head[HEAD + 1];
   struct stat status;
-  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int descriptor = cs_open_to_read(path);
   bool is_file = descriptor >= 0 && fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   ssize_t size = is_file ? read(descriptor, head, HEAD) : 0;
   if (descriptor >= 0)

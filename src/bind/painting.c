@@ -100,11 +100,9 @@ int cs_painting_read(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_painting **painting = push_holder(L);
   int32_t width, height;
-  if (celspan_painting_read(context, path, painting) != CELSPAN_OK) {
-    lua_pushnil(L);
-    lua_pushstring(L, celspan_context_error(context));
-    return 2;
-  }
+  celspan_status status = celspan_painting_read(context, path, painting);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   celspan_painting_size(*painting, &width, &height);
   lua_createtable(L, 0, 4);
   set_integer(L, "width", width);

@@ -102,13 +102,13 @@ static int write_image(lua_State *L) {
   file.place_y = picture->y;
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, CELSPAN_OUTPUT);
   celspan_sink sink;
   celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
   if (status == CELSPAN_OK)
     status = sink.end(sink.user, context, write_rows(context, &sink, picture));
   if (status != CELSPAN_OK)
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, status);
   lua_pushboolean(L, true);
   return 1;
 }
@@ -166,7 +166,7 @@ static int pixels(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_status status = cs_subject_read(&form, &frame.desc);
   if (status != CELSPAN_OK)
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, status);
   image *picture = push_image(&form, &frame.desc);
   picture->is_opaque = celspan_frame_is_opaque(&frame.desc);
   picture->x = frame.desc.crop_x;
@@ -177,7 +177,7 @@ static int pixels(lua_State *L) {
   status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
                                 (size_t)picture->width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
-  return status == CELSPAN_OK ? 1 : cs_host_push_failure(L);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
 void cs_open_pixels(lua_State *L) {

@@ -168,7 +168,7 @@ static int render(lua_State *L) {
                            "render: argument 2 must be a file name like \"shot.####.png\", got %s",
                            cs_userdata_type(L, 2));
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, CELSPAN_OUTPUT);
   cs_form form = cs_options_open(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);
@@ -184,11 +184,10 @@ static int render(lua_State *L) {
     lua_pushboolean(L, true);
     return 1;
   }
+  if (!j->has_error)
+    return cs_host_fail(L, status);
   luaL_pushfail(L);
-  if (j->has_error)
-    lua_insert(L, -2);
-  else
-    lua_pushstring(L, celspan_context_error(j->context));
+  lua_insert(L, -2);
   return 2;
 }
 

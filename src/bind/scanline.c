@@ -163,7 +163,7 @@ static void create(const cs_form *form, cs_userdata *value) {
   procedure *p = cs_mem_array(host->memory, 1, sizeof *p);
   if (!p) {
     luaL_unref(L, LUA_REGISTRYINDEX, function);
-    cs_form_fail(form, "not enough memory");
+    cs_form_try(form, cs_fail_memory(host->context));
   }
   *p = (procedure){host, function};
   host->references++;

@@ -100,13 +100,15 @@ static int spans(lua_State *L) {
   cs_form form = cs_options_open(L, &noun_spans, 2);
   cs_options_frame frame;
   cs_options_read(&form, &frame);
-  if (cs_subject_read(&form, &frame.desc) != CELSPAN_OK)
-    return cs_host_push_failure(L);
+  celspan_status status = cs_subject_read(&form, &frame.desc);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   int32_t range[2];
   celspan_rows **rows = push_rows(L);
   int32_t height = frame.desc.crop_height ? frame.desc.crop_height : frame.desc.height;
-  if (celspan_rows_create(cs_host_context(L), &frame.desc, rows) != CELSPAN_OK)
-    return cs_host_push_failure(L);
+  status = celspan_rows_create(cs_host_context(L), &frame.desc, rows);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   read_row_range(&form, height, range);
   lua_newtable(L);
   int result = lua_gettop(L);
@@ -121,9 +123,9 @@ static int spans(lua_State *L) {
   *rows = NULL;
   if (outcome != LUA_OK)
     return lua_error(L);
-  bool is_good = lua_tointeger(L, -1) == CELSPAN_OK;
+  status = (celspan_status)lua_tointeger(L, -1);
   lua_settop(L, result);
-  return is_good ? 1 : cs_host_push_failure(L);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
 static int probe(lua_State *L) {
@@ -134,14 +136,15 @@ static int probe(lua_State *L) {
   double film[2] = {1920, 1080}, rgba[4];
   cs_form_numbers(&form, "film", 2, film);
   celspan_frame_desc desc = {.film_width = film[0], .film_height = film[1]};
-  if (cs_subject_read(&form, &desc) != CELSPAN_OK)
-    return cs_host_push_failure(L);
+  celspan_status status = cs_subject_read(&form, &desc);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   lua_State *before = cs_host_enter(L);
-  celspan_status status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
+  status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
                                         desc.film_width, desc.film_height, point, rgba);
   cs_host_leave(L, before);
   if (status != CELSPAN_OK)
-    return cs_host_push_failure(L);
+    return cs_host_fail(L, status);
   for (int c = 0; c < 4; c++)
     lua_pushnumber(L, rgba[c]);
   return 4;

@@ -129,19 +129,14 @@ static void push_result(lua_State *L, const celspan_trace *trace) {
   lua_setfield(L, -2, "shapes");
 }
 
-static int fail(lua_State *L, celspan_context *context) {
-  lua_pushnil(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
-}
-
 int cs_tracing_make(lua_State *L) {
   unsigned char codes[3 * MOST_COLOURS];
   celspan_context *context = cs_host_context(L);
   celspan_trace_desc desc = read_options(L, codes);
   celspan_trace **trace = push_holder(L);
-  if (cs_result_make(context, &desc, trace) != CELSPAN_OK)
-    return fail(L, context);
+  celspan_status status = cs_result_make(context, &desc, trace);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   push_result(L, *trace);
   return 1;
 }

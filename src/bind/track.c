@@ -83,9 +83,8 @@ int cs_track_tracker(lua_State *L) {
   celspan_luma luma = push_luma(L, 1, width, height);
   desc.mask = push_mask(L, 6, (size_t)width * (size_t)height);
   celspan_tracker **holder = push_holder(L);
-  if (celspan_tracker_create(context, &luma, &desc, holder) != CELSPAN_OK)
-    return cs_host_push_failure(L);
-  return 1;
+  celspan_status status = celspan_tracker_create(context, &luma, &desc, holder);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
 static celspan_tracker *tracker_at(lua_State *L, int index) {
@@ -114,8 +113,9 @@ int cs_track_follow(lua_State *L) {
   celspan_luma luma =
       push_luma(L, 2, (int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4));
   celspan_sighting sighting;
-  if (celspan_tracker_follow(tracker, &luma, &sighting) != CELSPAN_OK)
-    return cs_host_push_failure(L);
+  celspan_status status = celspan_tracker_follow(tracker, &luma, &sighting);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   if (!sighting.is_found) {
     luaL_pushfail(L);
     return 1;

@@ -1,11 +1,11 @@
 #include "cli/artwork_info.h"
 
-#include <fcntl.h>
 #include <lauxlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/open.h"
 #include "cli/script.h"
 
 enum { HEAD = 64 };
@@ -27,7 +27,7 @@ static void read_head(int descriptor, char head[HEAD + 1]) {
 cs_artwork cs_artwork_info_kind(const char *path) {
   char head[HEAD + 1] = "";
   struct stat status;
-  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int descriptor = cs_open_to_read(path);
   if (descriptor < 0)
     return CS_ARTWORK_NONE;
   bool is_known = fstat(descriptor, &status) == 0;

@@ -1,7 +1,6 @@
 #include "cli/record.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
+#include "base/open.h"
 #include "cli/lines.h"
 #include "cli/target.h"
 #include "output/file_copy.h"
@@ -62,7 +62,7 @@ static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
 /* What a file has that is there already; false when it cannot be read. */
 static bool read_contents(const char *path, cs_file_contents *out) {
-  int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int descriptor = cs_open_to_read(path);
   if (descriptor < 0)
     return false;
   bool is_read = cs_file_contents_read(descriptor, out);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
+#include "base/open.h"
 #include "cli/argument.h"
 #include "colour/transfer.h"
 
@@ -70,7 +71,7 @@ static celspan_status report(const cs_span_reader *file, spanfile_status status,
 
 bool cs_span_reader_accepts(const char *path) {
   unsigned char start[SPANFILE_MAGIC_BYTES];
-  int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+  int descriptor = cs_open_to_read(path);
   bool is_span = descriptor >= 0 && read_all(descriptor, 0, start, sizeof start) &&
                  spanfile_is(start, sizeof start);
   if (descriptor >= 0)
@@ -80,7 +81,7 @@ bool cs_span_reader_accepts(const char *path) {
 
 static celspan_status open_file(cs_span_reader *file) {
   struct stat there;
-  file->descriptor = open(file->path, O_RDONLY | O_CLOEXEC);
+  file->descriptor = cs_open_to_read(file->path);
   if (file->descriptor < 0 || fstat(file->descriptor, &there) != 0)
     return cs_fail(file->context, CELSPAN_INPUT, "%s: %s", file->path, strerror(errno));
   file->bytes = (uint64_t)there.st_size;

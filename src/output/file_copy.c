@@ -1,11 +1,11 @@
 #include "output/file_copy.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/open.h"
 #include "output/file.h"
 
 enum { CHUNK = 1 << 16 };
@@ -63,7 +63,7 @@ static celspan_status copy(celspan_context *context, int descriptor, const cs_fi
 celspan_status cs_file_copy(celspan_context *context, const char *from, const cs_file_stamp *stamp,
                             const char *to, bool *copied) {
   *copied = false;
-  int descriptor = open(from, O_RDONLY | O_CLOEXEC);
+  int descriptor = cs_open_to_read(from);
   if (descriptor < 0)
     return CELSPAN_OK;
   celspan_status status = CELSPAN_OK;

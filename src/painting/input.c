@@ -1,12 +1,13 @@
 #include "painting/input.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/open.h"
 
 celspan_status cs_input_fail(celspan_context *context, const cs_input *input, int64_t offset,
                              celspan_status status, const char *format, ...) {
@@ -22,7 +23,9 @@ celspan_status cs_input_fail(celspan_context *context, const cs_input *input, in
 
 static celspan_status check_facts(celspan_context *context, cs_input *input) {
   struct stat found;
-  if (fstat(input->descriptor, &found) != 0 || !S_ISREG(found.st_mode))
+  if (fstat(input->descriptor, &found) != 0)
+    return cs_input_fail(context, input, -1, CELSPAN_INPUT, "cannot be read: %s", strerror(errno));
+  if (!S_ISREG(found.st_mode))
     return cs_input_fail(context, input, -1, CELSPAN_INPUT,
                          "is not a file; a painting must be one");
   int64_t time = (int64_t)found.st_mtim.tv_sec * 1000000000 + found.st_mtim.tv_nsec;
@@ -39,8 +42,7 @@ static celspan_status check_facts(celspan_context *context, cs_input *input) {
 celspan_status cs_input_open(celspan_context *context, cs_input *input) {
   if (input->bytes)
     return CELSPAN_OK;
-  /* NONBLOCK: opening a pipe that nobody writes to must not wait. */
-  input->descriptor = open(input->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  input->descriptor = cs_open_to_read(input->path);
   if (input->descriptor < 0)
     return cs_input_fail(context, input, -1, CELSPAN_INPUT, "cannot be opened: %s",
                          strerror(errno));

@@ -24,7 +24,7 @@ static celspan_status note(const image *of, const char *reason) {
 
 /* A failure that tells of what the image shows is noted; others stay failures. */
 static celspan_status note_failure(const image *of, celspan_status status) {
-  if (status != CELSPAN_INPUT && status != CELSPAN_LIMIT)
+  if ((status != CELSPAN_INPUT && status != CELSPAN_LIMIT) || of->reading->has_failed)
     return status;
   return note(of, of->reading->context->error);
 }
@@ -143,23 +143,33 @@ static celspan_status show_drawing_file(image *of, const cs_svg_image_file *file
   char *bytes;
   of->reading->has_other_files = true;
   CS_TRY(cs_svg_image_count(of->reading, of->node, file->size));
-  CS_TRY(cs_svg_image_file_load(context, file, &bytes));
+  celspan_status status = cs_svg_image_file_load(context, file, &bytes);
+  of->reading->has_failed = status == CELSPAN_INPUT;
+  if (status != CELSPAN_OK)
+    return status;
   if (!bytes)
     return note(of, "the file changed while it was read");
-  celspan_status status = show_drawing(of, inner, bytes, (size_t)file->size);
+  status = show_drawing(of, inner, bytes, (size_t)file->size);
   cs_mem_free(context->memory, bytes, (size_t)file->size + 1);
   return status;
 }
 
 static celspan_status show_linked(image *of, const char *href) {
+  cs_svg_reading *reading = of->reading;
   cs_svg_image_file file;
-  const char *reason = cs_svg_image_file_find(of->reading->source->file, href, &file);
-  if (reason)
-    return cs_svg_skip(of->reading, of->node, "image %.40s: %s", href, reason);
-  if (cs_svg_image_is_drawing(file.head, file.head_size))
+  const char *reason;
+  celspan_status status =
+      cs_svg_image_file_find(reading->context, reading->source->file, href, &file, &reason);
+  reading->has_failed = status == CELSPAN_INPUT;
+  if (status != CELSPAN_OK)
+    return status;
+  if (!reason && cs_svg_image_is_drawing(file.head, file.head_size))
     return show_drawing_file(of, &file);
   celspan_picture_desc picture = {.file = file.path};
-  return note_failure(of, show_picture(of, &picture));
+  status = reason ? cs_svg_skip(reading, of->node, "image %.40s: %s", href, reason)
+                  : show_picture(of, &picture);
+  reading->has_other_files = reading->has_other_files || reason || status != CELSPAN_OK;
+  return reason ? status : note_failure(of, status);
 }
 
 /* ---------------------------------------------------------------- its place */

@@ -1,13 +1,14 @@
 #include "svg/image_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/error_text.h"
+#include "base/open.h"
 #include "svg/image_data.h"
 
 /* Whether a name begins with a scheme, such as "http:". */
@@ -51,82 +52,129 @@ static bool join(const char *file, const char *name, char out[CS_SVG_PATH]) {
   return true;
 }
 
+/* Records what errno says of the file: why nothing is drawn, or that the system failed. */
+static celspan_status fail(celspan_context *context, const cs_svg_image_file *file,
+                           const char **reason) {
+  char text[CS_ERROR_TEXT_SIZE];
+  *reason = strerror(errno);
+  if (cs_open_tells_of_file(errno))
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_INPUT, "%s: %s", file->path, cs_error_text(errno, text));
+}
+
 /* Whether a file lies below the folder of another, links followed. Both are there. */
-static bool is_below(const char *file, const char *path) {
+static celspan_status check_below(celspan_context *context, const char *file,
+                                  const cs_svg_image_file *image, const char **reason) {
   char folder[CS_SVG_PATH];
   bool is_inside = false;
+  celspan_status status = CELSPAN_OK;
+  *reason = "its name is too long";
   if (!join(file, ".", folder))
-    return false;
-  char *above = realpath(folder, NULL), *whole = realpath(path, NULL);
-  if (above && whole) {
+    return CELSPAN_OK;
+  char *above = realpath(folder, NULL), *whole = above ? realpath(image->path, NULL) : NULL;
+  if (whole) {
     size_t size = strlen(above);
     is_inside = strncmp(whole, above, size) == 0 && (whole[size] == '/' || size == 1);
+    *reason = is_inside ? NULL : "it lies outside of the drawing's folder";
+  } else {
+    status = fail(context, image, reason);
   }
   free(above);
   free(whole);
-  return is_inside;
+  return status;
 }
 
-static const char *read_facts(int descriptor, cs_svg_image_file *out) {
+/* pread(2), again where a signal came. */
+static ssize_t read_from(int descriptor, void *bytes, size_t size, off_t offset) {
+  ssize_t got;
+  do
+    got = pread(descriptor, bytes, size, offset);
+  while (got < 0 && errno == EINTR);
+  return got;
+}
+
+static celspan_status read_facts(celspan_context *context, int descriptor, cs_svg_image_file *out,
+                                 const char **reason) {
   struct stat about;
-  if (fstat(descriptor, &about) != 0 || !S_ISREG(about.st_mode))
-    return "it is no file";
+  if (fstat(descriptor, &about) != 0)
+    return fail(context, out, reason);
+  if (!S_ISREG(about.st_mode)) {
+    *reason = "it is no file";
+    return CELSPAN_OK;
+  }
   out->size = (uint64_t)about.st_size;
   out->device = (uint64_t)about.st_dev;
   out->number = (uint64_t)about.st_ino;
-  ssize_t got = pread(descriptor, out->head, sizeof out->head, 0);
+  ssize_t got = read_from(descriptor, out->head, sizeof out->head, 0);
   out->head_size = got > 0 ? (size_t)got : 0;
-  return got < 0 ? strerror(errno) : NULL;
+  return got < 0 ? fail(context, out, reason) : CELSPAN_OK;
 }
 
-static const char *find_named(const char *file, const char *name, cs_svg_image_file *out) {
+static const char *refuse_name(const char *file, const char *name, char path[CS_SVG_PATH]) {
   if (name[0] == '/')
     return "its name is absolute; only files below the drawing's folder are read";
   if (has_parent_folder(name))
     return "its name has ..; only files below the drawing's folder are read";
   if (!file)
     return "the drawing has no folder";
-  if (!join(file, name, out->path))
-    return "its name is too long";
-  /* NONBLOCK: opening a pipe that nobody writes to must not wait. */
-  int descriptor = open(out->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0)
-    return strerror(errno);
-  const char *reason = is_below(file, out->path) ? read_facts(descriptor, out)
-                                                 : "it lies outside of the drawing's folder";
-  close(descriptor);
-  return reason;
+  return join(file, name, path) ? NULL : "its name is too long";
 }
 
-const char *cs_svg_image_file_find(const char *file, const char *href, cs_svg_image_file *out) {
+static const char *refuse(const char *file, const char *href, char path[CS_SVG_PATH]) {
   char name[CS_SVG_PATH];
-  *out = (cs_svg_image_file){.path = ""};
   if (has_scheme(href))
     return "it is an address; only files below the drawing's folder are read";
   if (!unescape(href, name))
     return "its name is none of a file";
-  return find_named(file, name, out);
+  return refuse_name(file, name, path);
+}
+
+celspan_status cs_svg_image_file_find(celspan_context *context, const char *file, const char *href,
+                                      cs_svg_image_file *out, const char **reason) {
+  *out = (cs_svg_image_file){.path = ""};
+  *reason = refuse(file, href, out->path);
+  if (*reason)
+    return CELSPAN_OK;
+  int descriptor = cs_open_to_read(out->path);
+  if (descriptor < 0)
+    return fail(context, out, reason);
+  celspan_status status = check_below(context, file, out, reason);
+  if (status == CELSPAN_OK && !*reason)
+    status = read_facts(context, descriptor, out, reason);
+  close(descriptor);
+  return status;
+}
+
+/* Reads until there is no more; less than `size` bytes are in the file then. */
+static celspan_status read_all(celspan_context *context, const cs_svg_image_file *file,
+                               int descriptor, char *bytes, size_t size, bool *is_whole) {
+  size_t done = 0;
+  const char *reason;
+  for (ssize_t got = 1; done < size && got > 0; done += got > 0 ? (size_t)got : 0) {
+    got = read_from(descriptor, bytes + done, size - done, (off_t)done);
+    if (got < 0)
+      return fail(context, file, &reason);
+  }
+  *is_whole = done == size;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_svg_image_file_load(celspan_context *context, const cs_svg_image_file *file,
                                       char **out) {
   *out = NULL;
-  int descriptor = open(file->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const char *reason;
+  int descriptor = cs_open_to_read(file->path);
   if (descriptor < 0)
-    return CELSPAN_OK;
-  size_t size = (size_t)file->size, done = 0;
+    return fail(context, file, &reason);
+  bool is_whole = false;
+  size_t size = (size_t)file->size;
   char *bytes = cs_mem_resize(context->memory, NULL, 0, size + 1);
-  ssize_t got = bytes ? 1 : -1;
-  while (done < size && got > 0) {
-    got = pread(descriptor, bytes + done, size - done, (off_t)done);
-    done += got > 0 ? (size_t)got : 0;
-  }
+  celspan_status status = bytes ? read_all(context, file, descriptor, bytes, size, &is_whole)
+                                : cs_fail_memory(context);
   close(descriptor);
-  if (!bytes)
-    return cs_fail_memory(context);
-  if (done == size)
+  if (is_whole)
     *out = bytes;
   else
     cs_mem_free(context->memory, bytes, size + 1);
-  return CELSPAN_OK;
+  return status;
 }

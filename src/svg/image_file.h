@@ -20,11 +20,13 @@ typedef struct cs_svg_image_file {
   uint64_t device, number;
 } cs_svg_image_file;
 
-/* Finds the file that `href` names for the drawing in `file`, NULL for one without a file. The
- * answer is NULL, or why there is none. */
-const char *cs_svg_image_file_find(const char *file, const char *href, cs_svg_image_file *out);
-/* All bytes of the file, in *out of new memory, size bytes; NULL when it cannot be read any more.
- * Errors: NO_MEMORY. */
+/* Finds the file that `href` names for the drawing in `file`, NULL for one without a file. *reason:
+ * NULL, or why there is none. Errors: INPUT where the system failed, which another time may not. */
+CELSPAN_CHECKED celspan_status cs_svg_image_file_find(celspan_context *context, const char *file,
+                                                      const char *href, cs_svg_image_file *out,
+                                                      const char **reason);
+/* All bytes of the file, in *out of new memory, size bytes; NULL when it is no more what was found.
+ * Errors: INPUT where the system failed; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_image_file_load(celspan_context *context,
                                                       const cs_svg_image_file *file, char **out);
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/open.h"
 #include "scene/check.h"
 #include "svg/build.h"
 #include "svg/read.h"
@@ -163,6 +164,7 @@ static celspan_status read_inner(cs_svg_reading *outer, const cs_svg_source *sou
   outer->drawn = inner.drawn;
   outer->image_bytes = inner.image_bytes;
   outer->has_other_files = outer->has_other_files || inner.has_other_files;
+  outer->has_failed = outer->has_failed || inner.has_failed;
   return status;
 }
 
@@ -280,7 +282,7 @@ static celspan_status check_fonts(celspan_context *context, const cs_svg_options
 celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                 const cs_svg_options *options, celspan_svg **out) {
   CS_TRY(check_fonts(context, options));
-  int descriptor = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int descriptor = cs_open_to_read(file);
   if (descriptor < 0)
     return fail_file(context, file);
   celspan_svg *art = NULL;

@@ -44,7 +44,10 @@ typedef struct cs_svg_reading {
   uint32_t depth;       /* elements being built, one inside the other */
   uint64_t image_bytes; /* of images so far */
   cs_svg_kept_images images;
-  bool has_other_files; /* drawings in files of their own are part of it */
+  /* Drawings in files of their own are part of it, or a file that it names could not be shown: read
+   * another time it may be another drawing. */
+  bool has_other_files;
+  bool has_failed; /* the system could not read a file, which tells nothing of the drawing */
   cs_svg_skipped *skipped;
   size_t skipped_count, skipped_capacity;
 } cs_svg_reading;

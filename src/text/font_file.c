@@ -1,13 +1,13 @@
 #include "text/font_file.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "artwork/type.h"
 #include "base/error_text.h"
+#include "base/open.h"
 
 /* ---------------------------------------------------------------- reading */
 
@@ -40,7 +40,7 @@ static int read_all(int descriptor, uint8_t *bytes, size_t size) {
 }
 
 static int read_file(const char *file, uint8_t *bytes, size_t size) {
-  int descriptor = open(file, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int descriptor = cs_open_to_read(file);
   if (descriptor < 0)
     return errno;
   int error = read_all(descriptor, bytes, size);

@@ -1,8 +1,9 @@
 /* A memory hook for tests: counts what is held, checks the sizes it is told, and can make the n-th
- * allocation fail, once or with all that follow. */
+ * allocation fail, once or with all that follow. Threads may share one. */
 #ifndef CELSPAN_TESTS_MEMORY_H
 #define CELSPAN_TESTS_MEMORY_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,9 +11,9 @@
 #include "celspan/celspan.h"
 
 typedef struct memory_watch {
-  size_t blocks, bytes;
-  size_t size_errors; /* blocks resized or freed with another size than they had */
-  size_t allocations; /* made so far, failed ones included */
+  atomic_size_t blocks, bytes;
+  atomic_size_t size_errors; /* blocks resized or freed with another size than they had */
+  atomic_size_t allocations; /* made so far, failed ones included */
   size_t fail_at;     /* the allocation of this number fails, counted from 1; 0: none */
   bool is_for_good;   /* all later ones fail, too */
 } memory_watch;
