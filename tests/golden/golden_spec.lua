@@ -1,14 +1,13 @@
--- Every script below tests/golden gives the spans that were accepted, to the last digit.
--- Frames of films that ship have the digests that were accepted.
+-- Every script below tests/golden gives the spans that were accepted, to the last digit, and what
+-- ships gives the digests that were.
 -- After a change that is meant: lua5.4 tests/golden/accept.lua, and read what it prints.
 local golden = require "tests.support.golden"
-
-local lacks_art = golden.lacks_art()
+local shipped = require "tests.support.shipped"
 
 describe("the spans of", function()
   for _, case in ipairs(golden.cases()) do
     it(case:match "golden/(.*)", function()
-      if lacks_art and case:find "/text/" then pending "the art module was not built" end
+      if not shipped.has_art and case:find "/text/" then pending "the art module was not built" end
       local text = assert(golden.actual(case))
       local accepted = assert(golden.expected(case), case .. ".spans is missing: see tests/golden/accept.lua")
       assert.are.equal("", golden.difference(accepted, text))
@@ -17,19 +16,27 @@ describe("the spans of", function()
   end
 end)
 
--- Built without the libraries for type and XML, there are no drawings and paintings; without
--- OpenImageIO, no pictures.
-local command = os.getenv "CELSPAN" or "build/celspan"
-local pipe = assert(io.popen(command .. " check scripts/title.lua 2>&1; true"))
-local has_art = not pipe:read "a":find("celspan-art.so", 1, true)
-pipe:close()
+--- Whether a question is about what was not built.
+local function lacks(question)
+  local script = question:match "^render (%S+)"
+  if not script then return not shipped.has_art end
+  return shipped.lacks_module(script) or script:find "/text/" and not shipped.has_art
+end
 
 describe("the digests of", function()
-  for _, path in ipairs(golden.films()) do
-    local test = has_art and it or pending
-    test(path:match "golden/(.*)", function()
-      local accepted, now, message = golden.digests(path)
-      assert.are.equal(accepted, now, message)
+  local digests = golden.digests()
+
+  it("every script that ships and every scene here are kept", function()
+    local missing = {}
+    for i, drawn in ipairs(golden.unasked(digests)) do missing[i] = drawn[1] end
+    assert.are.same({}, missing)
+  end)
+
+  for _, digest in ipairs(digests) do
+    local test = lacks(digest[1]) and pending or it
+    test(digest[1], function()
+      local now, message = golden.answer(digest[1])
+      assert.are.equal(digest[2], now, message)
     end)
   end
 end)

@@ -1,4 +1,6 @@
 -- Goldens: small scripts and the text of their spans, which is the truth.
+local shipped = require "tests.support.shipped"
+
 local golden = {}
 
 local command = os.getenv "CELSPAN" or "build/celspan"
@@ -21,14 +23,6 @@ function golden.actual(case)
   return nil, "celspan spans " .. case .. ".lua failed"
 end
 
---- Whether celspan was built without the module that sets type.
-function golden.lacks_art()
-  local pipe = assert(io.popen(command .. " check tests/golden/text/layout.lua --allow scripts 2>&1"))
-  local text = pipe:read "a"
-  pipe:close()
-  return text:find("celspan-art.so", 1, true) ~= nil
-end
-
 --- What was accepted; nil when nothing was.
 function golden.expected(case)
   local file = io.open(case .. ".spans")
@@ -38,28 +32,86 @@ function golden.expected(case)
   return text
 end
 
---- Files of digests of a shipped film's frames, in order. The first line of such a file is what
---- `celspan render --hash` is asked for, the others are its answer.
-function golden.films()
-  local list = {}
-  local pipe = assert(io.popen "ls tests/golden/*.digests")
-  for path in pipe:lines() do list[#list + 1] = path end
-  pipe:close()
+-- ---------------------------------------------------------------- digests
+
+--- The file of digests: blocks between empty lines. The first line of a block asks, the others are
+--- the answer: `render SCRIPT ...` is answered by `celspan render --hash`, a line a frame;
+--- `example NAME ...` by the digest of what the program prints.
+golden.digests_path = "tests/golden/digests.txt"
+
+--- What was accepted, as a list of { question, answer }.
+function golden.digests()
+  local file = assert(io.open(golden.digests_path))
+  local text, list = file:read "a", {}
+  file:close()
+  for question, answer in (text .. "\n"):gmatch "([^\n]+)\n(.-\n)\n" do
+    list[#list + 1] = { question, answer }
+  end
   return list
 end
 
---- What a file of digests says; and what it would say now, or nil and a message.
-function golden.digests(path)
-  local file = assert(io.open(path))
-  local accepted = file:read "a"
-  file:close()
-  local asked = accepted:match "^[^\n]*"
-  local pipe = assert(io.popen(("%s render %s --hash --progress none"):format(command, asked)))
-  local lines = {}
-  for line in pipe:lines() do lines[#lines + 1] = line end
-  if not pipe:close() then return accepted, nil, "celspan render " .. asked .. " failed" end
+--- The lines of a shell command's output; nil and a message when it fails.
+local function lines_of(line)
+  local pipe, lines = assert(io.popen(line)), {}
+  for text in pipe:lines() do lines[#lines + 1] = text end
+  if pipe:close() then return lines end
+  return nil, line .. " failed"
+end
+
+--- The frames' digests in order: workers end in any.
+local function ask_render(arguments)
+  local lines, message = lines_of(("%s render %s --hash --progress none"):format(command, arguments))
+  if not lines then return nil, message end
   table.sort(lines, function(a, b) return tonumber(a:match "%S+") < tonumber(b:match "%S+") end)
-  return accepted, asked .. "\n" .. table.concat(lines, "\n") .. "\n"
+  return table.concat(lines, "\n") .. "\n"
+end
+
+local function ask_example(arguments)
+  local build = os.getenv "CELSPAN_BUILD" or "build"
+  local lines, message = lines_of(("%s/examples/example_%s | md5sum"):format(build, arguments))
+  if not lines then return nil, message end
+  return lines[1]:match "%x+" .. "\n"
+end
+
+--- The answer to a question now; nil and a message when there is none.
+function golden.answer(question)
+  local kind, arguments = question:match "^(%S+) (.*)$"
+  return (kind == "example" and ask_example or ask_render)(arguments)
+end
+
+--- Frames of a film that tell the most: the first, one in the middle, the last.
+local function frames_of(script)
+  local told = assert(lines_of(("%s info %s"):format(command, script)))
+  local text = table.concat(told, "\n")
+  local first, last = tonumber(text:match "first (%-?%d+)"), tonumber(text:match "last (%-?%d+)")
+  if last - first < 2 then return ("%d-%d"):format(first, last) end
+  return ("%d,%d,%d"):format(first, (first + last) // 2, last)
+end
+
+--- Every script that ships and every scene of the goldens, as { path, function that makes a question }.
+function golden.drawn()
+  local list = {}
+  for _, path in ipairs(shipped.scripts()) do
+    list[#list + 1] = { path, function()
+      local script = path .. shipped.options(path)
+      return ("render %s --size 96x54 --frames %s"):format(script, frames_of(script))
+    end }
+  end
+  for _, case in ipairs(golden.cases()) do
+    local path = case .. ".lua"
+    list[#list + 1] = { path, function() return ("render %s --allow scripts"):format(path) end }
+  end
+  return list
+end
+
+--- Those of golden.drawn() that no question of the list names.
+function golden.unasked(digests)
+  local is_asked, list = {}, {}
+  for _, digest in ipairs(digests) do is_asked[digest[1]:match "^render (%S+)" or ""] = true end
+  for _, drawn in ipairs(golden.drawn()) do
+    if not is_asked[drawn[1]] then list[#list + 1] = drawn end
+  end
+  return list
 end
 
 --- Lines of the two texts that are not in both, "- " the old and "+ " the new.
