@@ -1,0 +1,112 @@
+-- ./run mutate: which faults it makes in a source, and which places it passes over.
+local equal = require "tests.mutate.equal"
+local mutants = require "tests.mutate.mutants"
+local nearest = require "tests.mutate.nearest"
+
+--- What may become of a source, each mutant in a line.
+local function told(text)
+  local lines = {}
+  for i, mutant in ipairs(mutants.of(text)) do
+    lines[i] = ("%d %s"):format(mutant.line, mutants.tell(mutant))
+  end
+  return table.concat(lines, "\n")
+end
+
+--- Of the body of a function.
+local function told_of(body) return told("void f(void) {\n" .. body .. "\n}\n") end
+
+local function lines(...) return table.concat({ ... }, "\n") end
+
+local function read(path)
+  local file = assert(io.open(path))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+describe("mutants", function()
+  it("are made of comparisons, bounds and conditions", function()
+    assert.are.equal(lines("2 `a < b` to `!(a < b)`", "2 `<` to `<=`", "2 `<` to `>`",
+      "2 drop `return;`"), told_of "if (a < b) return;")
+  end)
+
+  it("are made of operators between operands and of signs, not of pointers and casts", function()
+    assert.are.equal(lines("2 drop `x = a * -b;`", "2 `*` to `/`", "2 `-` to `nothing`"),
+      told_of "x = a * -b;")
+    assert.are.equal("2 drop `x = (double)*p;`", told_of "x = (double)*p;")
+    assert.are.equal("2 drop `g((const cs_row *)p);`", told_of "g((const cs_row *)p);")
+    assert.are.equal("2 drop `*p = &a;`", told_of "*p = &a;")
+  end)
+
+  it("are made of constants", function()
+    assert.are.equal(lines("2 `3u` to `2u`", "2 `3u` to `4u`"), told_of "return 3u;")
+    assert.are.equal("2 `0` to `1`", told_of "return 0;")
+    assert.are.equal("2 `1.5` to `3.0`", told_of "return 1.5;")
+    assert.are.equal("2 `0.25f` to `0.5f`", told_of "return 0.25f;")
+    assert.are.equal("2 `true` to `false`", told_of "return true;")
+  end)
+
+  it("are made of arguments that are swapped, where their order tells", function()
+    assert.are.equal(lines("2 drop `g(a, b);`", "2 `a, b` to `b, a`"), told_of "g(a, b);")
+    assert.are.equal("2 drop `fmin(a, b);`", told_of "fmin(a, b);")
+    assert.are.equal("2 drop `g(a, a);`", told_of "g(a, a);")
+  end)
+
+  it("are not made of declarations, types, labels and claims", function()
+    assert.are.equal("", told "struct pair { double x[2 + 1]; };\nint f(int a, int b);\n")
+    assert.are.equal("", told_of "double *p, a[4 * 2];")
+    assert.are.equal("2 `1` to `0`\n2 `1` to `2`", told_of "const double *p = g(x[1]);")
+    assert.are.equal("2 drop `break;`", told_of "switch (a) { case 3: break; }")
+    assert.are.equal("", told_of "static_assert(A < B, \"\");\nCS_SELF_CHECK(a < b);")
+    assert.are.equal("", told_of "/* a < b; */ // a + b;\n#define X (1 + 2)")
+    assert.are.equal("2 drop `h();`", told_of "h();\n#ifdef CELSPAN_CHECKS\ng(1);\n#endif")
+    assert.are.equal("2 drop `g(\"a < 1\", '+');`\n2 `\"a < 1\", '+'` to `'+', \"a < 1\"`",
+      told_of "g(\"a < 1\", '+');")
+    assert.are.equal("2 drop `n = sizeof(x[3]);`", told_of "n = sizeof(x[3]);")
+  end)
+
+  it("are not made of what a choice says of equals, which is the same", function()
+    assert.are.equal("2 `<` to `>`", told_of "return a->x < b ? a->x : b;")
+    assert.are.equal("2 `>` to `<`", told_of "return a > b[i] ? b[i] : a;")
+    assert.are.equal("2 `<` to `<=`\n2 `<` to `>`", told_of "return a < b ? b : c;")
+  end)
+
+  it("have as many lines as the source, and differ in one place", function()
+    local text = "void f(void) {\n  g(a,\n    b);\n  return;\n}\n"
+    for _, mutant in ipairs(mutants.of(text)) do
+      local changed = mutants.apply(text, mutant)
+      assert.are.equal(select(2, text:gsub("\n", "")), select(2, changed:gsub("\n", "")))
+      assert.are_not.equal(text, changed)
+    end
+  end)
+end)
+
+describe("the lists", function()
+  it("of mutants that change nothing have only such as can be made, with reasons", function()
+    for path, entries in pairs(equal) do
+      local text, is_made = read(path), {}
+      for _, mutant in ipairs(mutants.of(text)) do
+        is_made[mutants.line_of(text, mutant) .. ": " .. mutants.tell(mutant)] = true
+      end
+      for _, entry in ipairs(entries) do
+        local name = entry[1] .. ": " .. entry[2]
+        assert.is_true(is_made[name], path .. ": " .. name)
+        assert.is_true(#entry[3] > 20)
+      end
+    end
+  end)
+
+  it("of the nearest tests name tests that there are", function()
+    local units = read "tests/unit/meson.build" .. read "tests/meson.build"
+    for _, list in pairs(nearest) do
+      for _, name in ipairs(list) do
+        local folder, rest = name:match "^(%w+)/(.*)$"
+        if folder == "unit" then
+          assert.is_truthy(units:find("'" .. rest .. "'", 1, true) or rest:find "^fuzz%-", name)
+        else
+          read(("tests/%s_spec.lua"):format(name))
+        end
+      end
+    end
+  end)
+end)
