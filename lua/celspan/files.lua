@@ -3,6 +3,21 @@ local core = require "celspan.core"
 
 local files = {}
 
+local PIECE = 65536 -- bytes; what is asked for is allocated before it is known how much there is
+
+--- The text of an open file, or what of it is enough to know that it is too long.
+local function read_pieces(file, most)
+  local pieces, size = {}, 0
+  while size <= most do
+    local piece, problem = file:read(PIECE)
+    if problem then return nil, problem end
+    if not piece then break end
+    pieces[#pieces + 1] = piece
+    size = size + #piece
+  end
+  return table.concat(pieces)
+end
+
 ---@param path string
 ---@param most integer Bytes
 ---@return string? text
@@ -10,10 +25,9 @@ local files = {}
 function files.read(path, most)
   local file, message = io.open(path, "rb")
   if not file then return nil, message end
-  local text, problem = file:read(most + 1)
+  local text, problem = read_pieces(file, most)
   file:close()
-  if problem then return nil, ("%s: %s"):format(path, problem) end
-  text = text or "" -- of an empty file
+  if not text then return nil, ("%s: %s"):format(path, problem) end
   if #text > most then
     return nil, ("%s: it has more than %d bytes, which is the limit"):format(path, most)
   end

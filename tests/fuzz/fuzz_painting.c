@@ -4,17 +4,15 @@
  *   zip, psd   the bytes are the file
  *   ora, kra   the file is an archive made around them: two bytes tell how many of the next ones are
  *              stack.xml (maindoc.xml); what follows is the picture "a.png" (the tiles "f/layers/a")
- *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); else its own
- * main runs the files that it is given, and each once more for every allocation, which then fails.
  */
-#include <stdio.h>
+#include "tests/fuzz/target.h"
+
 #include <sys/mman.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include "pictures/surface.h"
-#include "tests/support/memory.h"
+#include "tests/fuzz/meter.h"
 
 #define ZIP 1
 #define PSD 2
@@ -23,15 +21,6 @@
 
 #define MOST_BYTES ((size_t)256 << 20)
 #define MOST_PIXELS ((int64_t)1 << 18)
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
 
 /* ---------------------------------------------------------------- the file */
 
@@ -162,18 +151,6 @@ static void check_layers(celspan_context *context, const celspan_painting *paint
     demand(at <= count, "a note on no layer");
 }
 
-typedef struct meter {
-  memory_watch watch;
-  size_t peak;
-} meter;
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  meter *m = user;
-  void *out = memory_watch_resize(&m->watch, block, old_size, new_size);
-  m->peak = m->watch.bytes > m->peak ? m->watch.bytes : m->peak;
-  return out;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   char path[64];
   if (descriptor < 0)
@@ -183,12 +160,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   written = 0;
   put_file(data, size);
   snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
-  meter m = {{.fail_at = fail_at}, 0};
-  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
-  desc.resize = metered;
-  desc.resize_user = &m;
-  celspan_context *context = NULL;
-  if (celspan_context_create(&desc, &context) == CELSPAN_OK) {
+  meter m = {{.fail_at = fail_at}, 0, SIZE_MAX};
+  celspan_context *context = meter_context(&m);
+  if (context) {
     celspan_painting *painting = NULL;
     celspan_status status = celspan_painting_read(context, path, &painting);
     if (status == CELSPAN_OK)
@@ -202,11 +176,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     celspan_context_destroy(context);
   }
   allocations = m.watch.allocations;
-  demand(m.watch.blocks == 0 && m.watch.size_errors == 0, "memory is kept, or its size forgotten");
+  meter_close(&m);
   demand(m.peak <= MOST_BYTES, "memory that nothing pays for");
   return 0;
 }
 
 #ifdef REPLAY_MAIN
+#define REPLAY_FAILURES
 #include "tests/fuzz/replay.h"
 #endif

@@ -4,65 +4,21 @@
  *   bytes   0: cap, join, closed and which line it is    1: degree    2: dashes, 0 to 3
  *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from, to
  *           and the dashes; the rest is path data, or points with their widths
- *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); with
- * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
- * allocation can fail.
  */
-#include <math.h>
-#include <stdio.h>
+#include "tests/fuzz/target.h"
 
 #include "scene/inside.h"
 #include "stroke/outliner.h"
-#include "tests/support/memory.h"
+#include "tests/fuzz/bytes.h"
+#include "tests/fuzz/meter.h"
 
-#define MOST_BYTES ((size_t)256 << 20)
+#define MOST_BYTES ((size_t)2 << 20) /* so that dashes in thousands end early */
 #define POINTS 64
 #define DASHES 3
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static size_t fail_at, allocations;
 
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
-
-/* ---------------------------------------------------------------- memory */
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  const memory_watch *watch = user;
-  if (new_size > 0 && watch->bytes + new_size > MOST_BYTES)
-    return NULL;
-  return memory_watch_resize(user, block, old_size, new_size);
-}
-
 /* ---------------------------------------------------------------- a stroke of bytes */
-
-typedef struct reader {
-  const uint8_t *bytes;
-  size_t size;
-} reader;
-
-static int read_byte(reader *r) {
-  if (r->size == 0)
-    return 0;
-  r->size--;
-  return *r->bytes++;
-}
-
-/* From tiny to huge, of either sign, and things that are no numbers. */
-static double read_number(reader *r) {
-  static const double scales[4] = {1, 10, 1e-7, 1e7};
-  int high = read_byte(r), low = read_byte(r);
-  double number = (high & 31) + low / 256.0;
-  if (high == 255 && low >= 254)
-    return low == 254 ? (double)NAN : HUGE_VAL;
-  return (high & 128 ? -number : number) * scales[high >> 5 & 3];
-}
 
 typedef struct sketch {
   celspan_stroke_desc desc;
@@ -71,7 +27,7 @@ typedef struct sketch {
   char data[4096];
 } sketch;
 
-static void read_line(reader *r, sketch *s, bool is_path, bool has_widths) {
+static void read_line(bytes_reader *r, sketch *s, bool is_path, bool has_widths) {
   if (is_path) {
     size_t size = r->size < sizeof s->data - 1 ? r->size : sizeof s->data - 1;
     memcpy(s->data, r->bytes, size);
@@ -79,31 +35,31 @@ static void read_line(reader *r, sketch *s, bool is_path, bool has_widths) {
     return;
   }
   for (; r->size > 0 && s->desc.point_count < POINTS; s->desc.point_count++) {
-    s->points[s->desc.point_count].x = read_number(r);
-    s->points[s->desc.point_count].y = read_number(r);
-    s->widths[s->desc.point_count] = has_widths ? read_number(r) : 0;
+    s->points[s->desc.point_count].x = bytes_number(r);
+    s->points[s->desc.point_count].y = bytes_number(r);
+    s->widths[s->desc.point_count] = has_widths ? bytes_number(r) : 0;
   }
   s->desc.points = s->points;
   s->desc.widths = has_widths ? s->widths : NULL;
 }
 
-static void read_sketch(reader r, sketch *s) {
+static void read_sketch(bytes_reader r, sketch *s) {
   *s = (sketch){.desc = CELSPAN_STROKE_DESC};
-  int what = read_byte(&r);
+  int what = bytes_take(&r);
   s->desc.cap = (celspan_stroke_cap)(what & 3);
   s->desc.join = (celspan_stroke_join)(what >> 2 & 3);
   s->desc.closed = what & 16;
-  s->desc.degree = read_byte(&r) & 31;
-  s->desc.dash_count = (size_t)read_byte(&r) & 3;
-  s->desc.width = read_number(&r);
-  s->desc.miter = read_number(&r);
-  s->desc.dash_offset = read_number(&r);
-  s->desc.taper[0] = read_number(&r);
-  s->desc.taper[1] = read_number(&r);
-  s->desc.from = read_number(&r) / 10;
-  s->desc.to = read_number(&r) / 10;
+  s->desc.degree = bytes_take(&r) & 31;
+  s->desc.dash_count = (size_t)bytes_take(&r) & 3;
+  s->desc.width = bytes_number(&r);
+  s->desc.miter = bytes_number(&r);
+  s->desc.dash_offset = bytes_number(&r);
+  s->desc.taper[0] = bytes_number(&r);
+  s->desc.taper[1] = bytes_number(&r);
+  s->desc.from = bytes_number(&r) / 10;
+  s->desc.to = bytes_number(&r) / 10;
   for (size_t i = 0; i < s->desc.dash_count; i++)
-    s->dashes[i] = read_number(&r);
+    s->dashes[i] = bytes_number(&r);
   s->desc.dashes = s->desc.dash_count > 0 ? s->dashes : NULL;
   read_line(&r, s, what & 32, what & 64);
 }
@@ -153,12 +109,10 @@ static void check_stroke(celspan_context *context, const celspan_object *object)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static sketch s;
-  memory_watch watch = {.fail_at = fail_at};
-  celspan_context_desc context_desc = {
-      .struct_size = sizeof context_desc, .resize = metered, .resize_user = &watch};
-  celspan_context *context = NULL;
-  read_sketch((reader){data, size}, &s);
-  if (celspan_context_create(&context_desc, &context) == CELSPAN_OK) {
+  meter m = {{.fail_at = fail_at}, 0, MOST_BYTES};
+  celspan_context *context = meter_context(&m);
+  read_sketch((bytes_reader){data, size}, &s);
+  if (context) {
     celspan_object *object = NULL;
     celspan_status status = celspan_object_create_stroke(context, &s.desc, &object);
     demand(is_expected(status), "a refusal of another kind");
@@ -168,11 +122,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     celspan_object_unref(object);
     celspan_context_destroy(context);
   }
-  allocations = watch.allocations;
-  demand(watch.blocks == 0 && watch.size_errors == 0, "memory is kept, or its size forgotten");
+  allocations = m.watch.allocations;
+  meter_close(&m);
   return 0;
 }
 
 #ifdef REPLAY_MAIN
+#define REPLAY_FAILURES
 #include "tests/fuzz/replay.h"
 #endif

@@ -1,45 +1,16 @@
 /* Any bytes as a drawing: no fault, no memory beyond a bound, nothing kept, every refusal with a
  * sentence that names the drawing, and parts that can be changed.
- *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); with
- * REPLAY_MAIN its own main runs the files that it is given, and for each all the ways in which an
- * allocation can fail.
  */
-#include <stdio.h>
+#include "tests/fuzz/target.h"
 
-#include "tests/support/memory.h"
+#include "tests/fuzz/meter.h"
 
 #define MOST_BYTES ((size_t)512 << 20)
 #ifndef TEST_ROOT
-#define TEST_ROOT "." /* the fuzzer runs there */
+#define TEST_ROOT "." /* where fuzzers run */
 #endif
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 static size_t fail_at, allocations;
-
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
-
-/* ---------------------------------------------------------------- memory */
-
-typedef struct meter {
-  memory_watch watch;
-  size_t peak;
-} meter;
-
-static void *metered(void *user, void *block, size_t old_size, size_t new_size) {
-  meter *m = user;
-  if (m->watch.bytes + new_size > MOST_BYTES)
-    return NULL;
-  void *made = memory_watch_resize(&m->watch, block, old_size, new_size);
-  m->peak = m->watch.bytes > m->peak ? m->watch.bytes : m->peak;
-  return made;
-}
 
 /* ---------------------------------------------------------------- a drawing */
 
@@ -84,18 +55,16 @@ static void check_drawing(celspan_context *context, const celspan_svg *svg) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  meter m = {.watch.fail_at = fail_at};
-  celspan_context_desc context_desc = {
-      .struct_size = sizeof context_desc, .resize = metered, .resize_user = &m};
+  meter m = {{.fail_at = fail_at}, 0, MOST_BYTES};
   celspan_svg_desc desc = CELSPAN_SVG_DESC;
-  celspan_context *context = NULL;
+  celspan_context *context = meter_context(&m);
   desc.bytes = size > 0 ? (const void *)data : "";
   desc.size = size;
   desc.name = "fuzz.svg";
   const celspan_svg_font font = {"default", {.file = TEST_ROOT "/scripts/type/block.ttf"}};
   desc.fonts = &font;
   desc.font_count = 1;
-  if (celspan_context_create(&context_desc, &context) == CELSPAN_OK) {
+  if (context) {
     celspan_svg *svg = NULL;
     celspan_status status = celspan_svg_read(context, &desc, &svg);
     demand(is_expected(status), "a refusal of another kind");
@@ -108,10 +77,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     celspan_context_destroy(context);
   }
   allocations = m.watch.allocations;
-  demand(m.watch.blocks == 0 && m.watch.size_errors == 0, "memory is kept, or its size forgotten");
+  meter_close(&m);
   return 0;
 }
 
 #ifdef REPLAY_MAIN
+#define REPLAY_FAILURES
 #include "tests/fuzz/replay.h"
 #endif

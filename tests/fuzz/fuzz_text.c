@@ -4,27 +4,16 @@
  *   byte 0   how the text is set, see the flags
  *   byte 1   how many of the next bytes are the text
  *   then     the text, and the file of the font
- *
- * With clang's -fsanitize=fuzzer this is a fuzz target (tests/fuzz/fuzzer.sh builds it); else its
- * own main runs the files that it is given, each as it is and cut to a half.
  */
+#include "tests/fuzz/target.h"
+
 #include <math.h>
-#include <stdio.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include "tests/support/memory.h"
 
 enum { WRAPS = 1, LEFTWARD = 2, VARIES = 4, FEATURES = 8, LANGUAGE = 16, TWICE = 32, TRACKED = 64 };
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void demand(bool holds, const char *text) {
-  if (holds)
-    return;
-  fprintf(stderr, "%s\n", text);
-  abort();
-}
 
 static void check_letters(const celspan_glyphs *letters, size_t text_size) {
   size_t bytes = 0;
@@ -105,22 +94,5 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 }
 
 #ifdef REPLAY_MAIN
-
-static void replay(const char *path) {
-  static uint8_t bytes[1 << 20];
-  FILE *file = fopen(path, "rb");
-  demand(file != NULL, path);
-  size_t size = fread(bytes, 1, sizeof bytes, file);
-  fclose(file);
-  LLVMFuzzerTestOneInput(bytes, size);
-  LLVMFuzzerTestOneInput(bytes, size / 2);
-}
-
-int main(int count, char **arguments) {
-  for (int i = 1; i < count; i++)
-    replay(arguments[i]);
-  printf("%d checks passed\n", count - 1);
-  return 0;
-}
-
+#include "tests/fuzz/replay.h"
 #endif

@@ -1,33 +1,112 @@
 #!/usr/bin/env bash
-# Builds the core, and a fuzz target on it, with clang's libFuzzer, the address and the undefined
-# sanitizer, and runs it, beginning with its corpus. Finds are left in the current folder.
+# Runs fuzz targets of a build with the option `fuzz`, one after the other, each for its share of the
+# time, and prints how often each was executed and what was found.
 #
-#   tests/fuzz/fuzzer.sh zip|ora|kra|psd|stroke|svg|text FOLDER [options of libFuzzer]
+#   tests/fuzz/fuzzer.sh BUILD FOLDER SECONDS [TARGET...]
 #
-# From the root of the tree. FOLDER gets the build, the program and what it learns; targets may share
-# it. The libraries under the art module are those that are installed, and are not watched.
-set -e -u
-usage() {
-  sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
-  exit 2
+# From the root of the tree. FOLDER gets, by the target's name, the bytes of each finding, the log that
+# tells of it, and under learned/ what the next run begins with beside the corpus. Exit code 1: there
+# are findings in celspan. One inside of another library, which no line of celspan above it made, is
+# listed, and the target goes on.
+set -u
+build=$1 folder=$2 seconds=$3
+shift 3
+export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=1:handle_abort=1
+export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
+export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan.supp:print_suppressions=0"
+
+# The program and the corpus of the subproject's target lie elsewhere.
+program_of() {
+  if [ "$1" = spanfile ]; then
+    echo "$build/subprojects/spanfile/tests/fuzz_reader"
+  else
+    echo "$build/tests/fuzz/fuzz_$1"
+  fi
 }
-[ $# -ge 2 ] || usage
-kind=$1 folder=$2
-shift 2
-case $kind in
-zip | ora | kra | psd) source=painting ;;
-stroke | svg | text) source=$kind ;;
-*) usage ;;
-esac
-mkdir -p "$folder/$kind.learned"
-folder=$(cd "$folder" && pwd)
-[ -f "$folder/build/build.ninja" ] || CC=clang meson setup "$folder/build" -Dlua=disabled \
-  -Dpictures=disabled -Dart=enabled -Dtests=false -Db_sanitize=address,undefined -Db_lundef=false \
-  -Dc_args=-fsanitize=fuzzer-no-link
-ninja -C "$folder/build" src/libcelspan.a src/art/celspan-art.so
-clang -std=c17 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -D_GNU_SOURCE \
-  -DCELSPAN_BUILD "-DFUZZ_KIND=${kind^^}" -ffp-contract=off -Isrc/include -Isrc -I. \
-  -o "$folder/fuzz_$kind" "tests/fuzz/fuzz_$source.c" "$folder/build/src/libcelspan.a" \
-  -lz -ldl -lpthread -lm
-export CELSPAN_ART_MODULE=$folder/build/src/art/celspan-art.so
-exec "$folder/fuzz_$kind" "$@" "$folder/$kind.learned" "tests/fuzz/corpus/$kind"
+
+corpus_of() {
+  if [ "$1" = spanfile ]; then
+    echo subprojects/spanfile/corpus
+  else
+    echo "tests/fuzz/corpus/$1"
+  fi
+}
+
+# Whether the first frame of the log's first stack that is neither of the sanitizer, nor of the C and
+# C++ libraries, lies in a library of the system's. Lua's counts as celspan's: its frames are celspan's
+# own work.
+is_foreign() {
+  awk '
+    $1 ~ /^#[0-9]+$/ && $3 == "in" {
+      if ($0 ~ /compiler-rt|__asan|__sanitizer|__interceptor|fuzzer::|operator (new|delete)/) next
+      if ($0 ~ /\/(libc|libm|libstdc\+\+|libgcc_s)[.-]/) next
+      foreign = $0 ~ /\(\/(usr\/)?lib\// && $0 !~ /liblua/
+      exit
+    }
+    END { exit !foreign }' "$1"
+}
+
+# fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding.
+fuzz_once() {
+  local name=$1 share=$2
+  nice "$(program_of "$name")" -max_total_time="$share" -timeout=60 -rss_limit_mb=3072 \
+    -malloc_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$folder/$name-" -verbosity=1 \
+    "$folder/learned/$name" "$(corpus_of "$name")" >"$folder/$name.log" 2>&1
+}
+
+executions_in() { awk '/^stat::number_of_executed_units/ { n = $2 } END { print n + 0 }' "$1"; }
+
+# The file that a log says it wrote, or the log itself.
+finding_in() {
+  local file
+  file=$(awk '/Test unit written to/ { print $NF }' "$1" | tail -1)
+  echo "${file:-$1}"
+}
+
+own=0
+
+# fuzz NAME SECONDS: until the time is over or there is a finding of celspan's own.
+fuzz() {
+  local name=$1 end=$((SECONDS + $2)) runs=0 foreign=0 found='' file log
+  mkdir -p "$folder/learned/$name"
+  while [ "$SECONDS" -lt "$end" ] && [ -z "$found" ]; do
+    if fuzz_once "$name" $((end - SECONDS)); then
+      runs=$((runs + $(executions_in "$folder/$name.log")))
+      break
+    fi
+    runs=$((runs + $(executions_in "$folder/$name.log")))
+    file=$(finding_in "$folder/$name.log")
+    log=$folder/$(basename "$file" .log).log
+    [ "$log" -ef "$folder/$name.log" ] || mv "$folder/$name.log" "$log"
+    if is_foreign "$log"; then
+      foreign=$((foreign + 1))
+      printf '   %s: in another library: %s\n' "$name" "$file"
+    else
+      found=$file
+    fi
+  done
+  printf '%-12s %10d executions, %d findings' "$name" "$runs" "$([ -z "$found" ] && echo 0 || echo 1)"
+  [ "$foreign" = 0 ] || printf ', %d in other libraries' "$foreign"
+  printf '\n'
+  if [ -n "$found" ]; then
+    own=$((own + 1))
+    printf '   %s\n' "$found"
+  fi
+}
+
+targets=("$@")
+if [ "${#targets[@]}" = 0 ]; then
+  mapfile -t targets < <(find "$build/tests/fuzz" -maxdepth 1 -type f -name 'fuzz_*' -perm -u+x \
+    -printf '%f\n' | sed 's/^fuzz_//' | sort)
+  targets+=(spanfile)
+fi
+for target in "${targets[@]}"; do
+  [ -x "$(program_of "$target")" ] || {
+    echo "fuzz: there is no target '$target' in $build" >&2
+    exit 2
+  }
+done
+for target in "${targets[@]}"; do
+  fuzz "$target" $((seconds / ${#targets[@]} > 0 ? seconds / ${#targets[@]} : 1))
+done
+[ "$own" = 0 ]

@@ -1,27 +1,64 @@
-/* A fuzz target over its corpus, without a fuzzer: every file named on the command line goes through
- * it as it is, and then with each of its allocations failing once.
+/* A fuzz target without a fuzzer: every file named on the command line, or in a folder named there,
+ * goes through it whole and cut to a half. A target that defines REPLAY_FAILURES is run once more for
+ * each of its allocations, which then fails; it has
  *
- * The target defines fail_at, the number of the allocation that fails (0: none), and allocations,
- * how many the last run made.
+ *   fail_at       the number of the allocation that fails, 0: none
+ *   allocations   how many the last run made
  */
 #ifndef CELSPAN_TESTS_FUZZ_REPLAY_H
 #define CELSPAN_TESTS_FUZZ_REPLAY_H
 
-int main(int count, char **arguments) {
+#include <dirent.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+#ifndef REPLAY_FAILURES
+static size_t fail_at, allocations;
+#endif
+
+/* How many runs it took. */
+static size_t replay_bytes(const uint8_t *bytes, size_t size) {
+  fail_at = 0;
+  LLVMFuzzerTestOneInput(bytes, size);
+  size_t count = allocations;
+  for (fail_at = 1; fail_at <= count; fail_at++)
+    LLVMFuzzerTestOneInput(bytes, size);
+  fail_at = 0;
+  LLVMFuzzerTestOneInput(bytes, size / 2);
+  return count + 2;
+}
+
+static size_t replay_file(const char *path) {
   static uint8_t bytes[1 << 20];
+  FILE *file = fopen(path, "rb");
+  demand(file, path);
+  size_t size = fread(bytes, 1, sizeof bytes, file);
+  fclose(file);
+  return replay_bytes(bytes, size);
+}
+
+static size_t replay_folder(const char *path) {
+  size_t runs = 0;
+  DIR *folder = opendir(path);
+  demand(folder, path);
+  for (struct dirent *entry; (entry = readdir(folder));) {
+    char file[4096];
+    snprintf(file, sizeof file, "%s/%s", path, entry->d_name);
+    if (entry->d_name[0] != '.')
+      runs += replay_file(file);
+  }
+  closedir(folder);
+  return runs;
+}
+
+int main(int count, char **arguments) {
   size_t runs = 0;
   for (int i = 1; i < count; i++) {
-    FILE *file = fopen(arguments[i], "rb");
-    demand(file, arguments[i]);
-    size_t size = fread(bytes, 1, sizeof bytes, file);
-    fclose(file);
-    fail_at = 0;
-    LLVMFuzzerTestOneInput(bytes, size);
-    size_t count_of_whole = allocations;
-    for (fail_at = 1; fail_at <= count_of_whole; fail_at++)
-      LLVMFuzzerTestOneInput(bytes, size);
-    runs += 1 + count_of_whole;
+    struct stat found;
+    demand(stat(arguments[i], &found) == 0, arguments[i]);
+    runs += S_ISDIR(found.st_mode) ? replay_folder(arguments[i]) : replay_file(arguments[i]);
   }
+  demand(runs > 0, "no file to replay");
   printf("%zu checks passed\n", runs);
   return 0;
 }

@@ -1,4 +1,5 @@
--- Exposure sheets that are damaged in every way, but the same ways each time:
+-- Exposure sheets of any bytes, of which the first chooses the format (the fuzz target), and such as are
+-- damaged in every way, but the same ways each time:
 --
 --   lua_host tests/fuzz/sheets.lua [ROUNDS [SEED]]     a round is a damaged text of each format
 --
@@ -113,10 +114,10 @@ local function ask(made, path)
   assert(again:text() == made:text(), "its text is read as another sheet")
 end
 
---- Reads a damaged text from `folder`; raises where it is answered by anything but a sheet or a sentence. A
---- sheet is answered.
-function fuzz.try(format, text, folder)
-  local path = folder .. "/damaged." .. format
+--- Reads a damaged text from a file whose name begins with `start`; raises where it is answered by anything
+--- but a sheet or a sentence. A sheet is answered.
+function fuzz.try(format, text, start)
+  local path = start .. "." .. format
   local file = assert(io.open(path, "wb"))
   file:write(text)
   file:close()
@@ -124,9 +125,19 @@ function fuzz.try(format, text, folder)
   local made, message = sheet.read(path)
   assert(made or type(message) == "string" and message:find(path, 1, true) and #message < #path + 500,
     "no sentence that names the file")
-  if made then ask(made, folder .. "/again.txt") end
+  if made then ask(made, start .. ".again.txt") end
   assert(os.clock() - begun < 5, "it took more than five seconds")
   return made
+end
+
+local own = os.tmpname()
+os.remove(own)
+
+function fuzz.try_bytes(bytes)
+  local format = formats[(bytes:byte() or 0) % #formats + 1]
+  fuzz.try(format, bytes:sub(2), own)
+  os.remove(own .. "." .. format)
+  os.remove(own .. ".again.txt")
 end
 
 --- Rounds of all formats; gives how many texts were read as sheets. Raises with the round that is wrong.
@@ -135,7 +146,7 @@ function fuzz.run(rounds, seed, folder)
   for round = 1, rounds do
     for _, format in ipairs(formats) do
       local text = fuzz.damaged(format, round, seed)
-      local good, answer = pcall(fuzz.try, format, text, folder)
+      local good, answer = pcall(fuzz.try, format, text, folder .. "/damaged")
       if not good then
         error(("%s, round %d of seed %d: %s\n%q"):format(format, round, seed, tostring(answer), text:sub(1, 2000)), 0)
       end

@@ -542,6 +542,14 @@ it("damaged sheets of every format are read or refused, and what is read can be 
   assert.is_true(fuzz.run(300, 1, folder) > 150)
 end)
 
+it("a small sheet is read by a script that may have little memory", function()
+  write("small.txt", "celspan sheet 1\nfps 12\nframes 2\nlayers A\n 1 a\n")
+  write("small.lua", [[local celspan, sheet = require "celspan", require "celspan.sheet"
+    local s = assert(sheet.read "small.txt")
+    return celspan.film { size = { 8, 8 }, frames = s.frames, frame = function() return celspan.rostrum {} end }]])
+  assert.is_true(os.execute(("%s check %s/small.lua --limit memory=60M >/dev/null"):format(BINARY, folder)))
+end)
+
 describe("a sheet of few words and millions of frames", function()
   local text = "celspan sheet 1\nfps 24\nframes 10000000\nnote camera A 2-9000000 PAN\n"
     .. "layers A B C D E F G H I J\n1 1 1 1 1 1 1 1 1 1 1\n9999999 2" .. (" |"):rep(9) .. "\n"

@@ -1,0 +1,32 @@
+/* The bytes of a fuzzer as choices, taken one after the other. When there are none left all are 0, so
+ * that every input is a whole one. */
+#ifndef CELSPAN_TESTS_FUZZ_BYTES_H
+#define CELSPAN_TESTS_FUZZ_BYTES_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct bytes_reader {
+  const uint8_t *bytes;
+  size_t size;
+} bytes_reader;
+
+static inline int bytes_take(bytes_reader *r) {
+  if (r->size == 0)
+    return 0;
+  r->size--;
+  return *r->bytes++;
+}
+
+/* From tiny to huge, of either sign, and things that are no numbers. */
+static inline double bytes_number(bytes_reader *r) {
+  static const double scales[4] = {1, 10, 1e-7, 1e7};
+  int high = bytes_take(r), low = bytes_take(r);
+  double number = (high & 31) + low / 256.0;
+  if (high == 255 && low >= 254)
+    return low == 254 ? (double)NAN : HUGE_VAL;
+  return (high & 128 ? -number : number) * scales[high >> 5 & 3];
+}
+
+#endif

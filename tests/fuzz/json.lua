@@ -1,0 +1,33 @@
+--- Any bytes as JSON: a value of numbers, strings, booleans, null and tables of them, or nil and a
+--- sentence that names a line of the text.
+local json = require "celspan.json"
+
+local target = {}
+
+--- Raises where a value holds anything that JSON has not, or is deeper than is allowed.
+local function check(value, depth)
+  assert(depth <= json.most_depth + 1, "deeper than is allowed")
+  if type(value) == "table" and value ~= json.null then
+    for name, one in pairs(value) do
+      assert(type(name) == "string" or math.type(name) == "integer", "a name of another kind")
+      check(one, depth + 1)
+    end
+  elseif type(value) == "number" then
+    assert(value == value, "a number that is none")
+  else
+    assert(type(value) == "string" or type(value) == "boolean" or value == json.null, "a value of another kind")
+  end
+end
+
+function target.try_bytes(bytes)
+  local value, message = json.decode(bytes)
+  if value == nil then
+    local line = tonumber(message:match "^line (%d+): %g")
+    local _, ends = bytes:gsub("\n", "")
+    assert(line and line <= ends + 1 and #message < 300, "no sentence that names the line")
+  else
+    check(value, 1)
+  end
+end
+
+return target

@@ -1,0 +1,36 @@
+/* A context's memory function that knows how much was held at most, and refuses what goes beyond a
+ * bound. */
+#ifndef CELSPAN_TESTS_FUZZ_METER_H
+#define CELSPAN_TESTS_FUZZ_METER_H
+
+#include "tests/support/memory.h"
+
+typedef struct meter {
+  memory_watch watch;
+  size_t peak, limit; /* bytes */
+} meter;
+
+static inline void *meter_resize(void *user, void *block, size_t old_size, size_t new_size) {
+  meter *m = user;
+  if (new_size > m->limit - m->watch.bytes)
+    return NULL;
+  void *made = memory_watch_resize(&m->watch, block, old_size, new_size);
+  m->peak = m->watch.bytes > m->peak ? m->watch.bytes : m->peak;
+  return made;
+}
+
+/* NULL where even that cannot be had. */
+static inline celspan_context *meter_context(meter *m) {
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  celspan_context *context = NULL;
+  desc.resize = meter_resize;
+  desc.resize_user = m;
+  return celspan_context_create(&desc, &context) == CELSPAN_OK ? context : NULL;
+}
+
+/* After everything is gone. */
+static inline void meter_close(const meter *m) {
+  demand(m->watch.blocks == 0 && m->watch.size_errors == 0, "memory is kept, or its size forgotten");
+}
+
+#endif

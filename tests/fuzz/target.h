@@ -1,0 +1,25 @@
+/* What every fuzz target begins with.
+ *
+ * Built with the option `fuzz`, a target is a program of clang's libFuzzer; else replay.h gives it a
+ * main that runs the files that it is given. A target aborts where a promise is broken: `./run fuzz`
+ * keeps the bytes that led there.
+ */
+#ifndef CELSPAN_TESTS_FUZZ_TARGET_H
+#define CELSPAN_TESTS_FUZZ_TARGET_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+static inline void demand(bool holds, const char *text) {
+  if (holds)
+    return;
+  fprintf(stderr, "%s\n", text);
+  abort();
+}
+
+#endif
