@@ -14,6 +14,7 @@
 #include "bind/painting.h"
 #include "bind/parts.h"
 #include "bind/random.h"
+#include "bind/relight.h"
 #include "bind/suggest.h"
 #include "bind/tracing.h"
 #include "bind/track.h"
@@ -44,9 +45,13 @@ static int nearest(lua_State *L) {
   return 1;
 }
 
+/* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
+static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
+
 int luaopen_celspan_core(lua_State *L) {
   static const luaL_Reg functions[] = {{"find", find},
                                        {"nearest", nearest},
+                                       {"refuse", refuse},
                                        {"difference", cs_difference_of},
                                        {"painting", cs_painting_read},
                                        {"parts", cs_parts_list},
@@ -59,6 +64,14 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"inverse", cs_track_inverse},
                                        {"frames", cs_frames_list},
                                        {"frame_name", cs_frames_name},
+                                       {"picture_size", cs_relight_size},
+                                       {"light_estimate", cs_relight_estimate},
+                                       {"light_shape", cs_relight_shape},
+                                       {"relight_picture", cs_relight_picture},
+                                       {"relight_exposures", cs_relight_exposures},
+                                       {"relight_grounds", cs_relight_grounds},
+                                       {"relight_write", cs_relight_write},
+                                       {"relight_read", cs_relight_read},
                                        {NULL, NULL}};
   cs_host_open(L, NULL);
   luaL_newlib(L, functions);

@@ -68,6 +68,7 @@ typedef struct cs_stack {
   size_t light_count, light_capacity;
   size_t step_count, step_capacity;
   size_t tree_count, tree_capacity;
+  float span_error;     /* that gradient spans may have, of full scale; 0: 1/1023 */
   size_t step_depth;    /* results a tree may need room for at a time */
   bool has_group_light; /* any group has a light with a shape */
 } cs_stack;

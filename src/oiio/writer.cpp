@@ -140,6 +140,10 @@ void describe_rate(ImageSpec &spec, double rate) {
 ImageSpec make_spec(const cs_picture_output &output) {
   ImageSpec spec(output.width, output.height, output.channels, type_of(output.depth));
   std::string format = output.format;
+  if (output.names) {
+    spec.channelnames.assign(output.names, output.names + output.channels);
+    spec.alpha_channel = 3;
+  }
   spec.attribute("Software", std::string("celspan ") + CELSPAN_MODULE_RELEASE);
   if (output.title)
     spec.attribute("ImageDescription", output.title);

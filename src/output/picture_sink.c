@@ -1,6 +1,6 @@
 /* Frames in the formats of the picture module: coded here, row by row, and passed on in batches.
  *
- *   spans --cs_pixels_row--> RGBA --pack--> the file's own channels --batch--> module --put--> file
+ *   spans --cs_pixels_row--> RGBA --pack--> the file's own channels --batch--> picture_file.h
  *           R G B A of a depth        R G B, or R G B A
  *
  * The limits of a format are checked before its writer is opened: some writers end the process,
@@ -12,10 +12,9 @@
 
 #include "output/dither.h"
 #include "output/ending.h"
-#include "output/file.h"
+#include "output/picture_file.h"
 #include "output/pixels.h"
 #include "output/sink.h"
-#include "pictures/store.h"
 
 #define BATCH_BYTES ((size_t)4 << 20)
 #define BATCH_ROWS 64
@@ -59,20 +58,15 @@ static const file_format formats[] = {
 };
 
 typedef struct picture_sink {
-  celspan_context *context; /* of the call in progress, for put */
   const file_format *format;
   celspan_coding coding; /* of `pixels` */
   celspan_depth depth;   /* in the file */
   int bits;              /* of each value that are used; 0: all */
-  celspan_status put_status;
-  bool is_abandoned;
-  char *path, *title; /* title: may be NULL */
+  char *path, *title;    /* title: may be NULL */
   double frames_second;
   int32_t frame;
   int32_t width, height;
-  const cs_picture_module *module;
-  cs_picture_writer *writer;
-  cs_file *file;
+  cs_picture_file file;
   unsigned char *pixels; /* one row of RGBA */
   unsigned char *batch;  /* rows as the file has them */
   int32_t batch_rows, batch_first, batch_count;
@@ -181,33 +175,14 @@ static void pack_row(const picture_sink *sink, unsigned char *out) {
     memcpy(out + (size_t)x * to, sink->pixels + (size_t)x * from, to);
 }
 
-/* Where writing the file failed, its own error says more than the module's. */
-static celspan_status report(const picture_sink *sink, celspan_context *context,
-                             celspan_status status, const cs_picture_failure *failure) {
-  if (status == CELSPAN_OK || sink->put_status != CELSPAN_OK)
-    return sink->put_status == CELSPAN_OK ? status : sink->put_status;
-  return cs_fail(context, status, "%s", failure->text);
-}
-
-static bool put(void *user, uint64_t offset, const void *bytes, size_t size) {
-  picture_sink *sink = user;
-  if (sink->is_abandoned || sink->put_status != CELSPAN_OK)
-    return false;
-  sink->put_status = offset == cs_file_size(sink->file)
-                         ? cs_file_write(sink->file, sink->context, bytes, size)
-                         : cs_file_write_at(sink->file, sink->context, offset, bytes, size);
-  return sink->put_status == CELSPAN_OK;
-}
-
 static celspan_status flush(picture_sink *sink, celspan_context *context) {
-  cs_picture_failure failure;
   if (sink->batch_count == 0)
     return CELSPAN_OK;
-  celspan_status status = sink->module->write_rows(sink->writer, sink->batch_first,
-                                                   sink->batch_count, sink->batch, &failure);
+  celspan_status status =
+      cs_picture_file_rows(&sink->file, context, sink->batch_first, sink->batch_count, sink->batch);
   sink->batch_first += sink->batch_count;
   sink->batch_count = 0;
-  return report(sink, context, status, &failure);
+  return status;
 }
 
 /* ---------------------------------------------------------------- the sink */
@@ -219,10 +194,7 @@ static void free_text(cs_memory *memory, char *text) {
 
 static void destroy(picture_sink *sink, celspan_context *context) {
   cs_memory *memory = context->memory;
-  sink->is_abandoned = true;
-  if (sink->writer)
-    sink->module->write_abandon(sink->writer);
-  cs_file_discard(sink->file, context);
+  cs_picture_file_discard(&sink->file, context);
   if (sink->pixels)
     cs_mem_free(memory, sink->pixels,
                 (size_t)sink->width * celspan_coding_pixel_size(&sink->coding));
@@ -232,10 +204,8 @@ static void destroy(picture_sink *sink, celspan_context *context) {
   cs_mem_free(memory, sink, sizeof *sink);
 }
 
-static celspan_status open_writer(picture_sink *sink, celspan_context *context) {
-  cs_picture_output output = {.put = put,
-                              .user = sink,
-                              .name = sink->path,
+static celspan_status open_file(picture_sink *sink, celspan_context *context) {
+  cs_picture_output output = {.name = sink->path,
                               .format = sink->format->name,
                               .width = sink->width,
                               .height = sink->height,
@@ -247,17 +217,12 @@ static celspan_status open_writer(picture_sink *sink, celspan_context *context) 
                               .title = sink->title,
                               .frames_second = sink->frames_second,
                               .frame = sink->frame};
-  cs_picture_failure failure;
-  CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
-  celspan_status status = sink->module->write_open(&output, &sink->writer, &failure);
-  return report(sink, context, status, &failure);
+  return cs_picture_file_open(context, &output, &sink->file);
 }
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   picture_sink *sink = user;
   CS_TRY(check_size(context, sink, width, height));
-  CS_TRY(cs_store_module(context, CELSPAN_OUTPUT, &sink->module));
-  sink->context = context;
   sink->width = width;
   sink->height = height;
   size_t fitting = BATCH_BYTES / row_size(sink);
@@ -267,50 +232,22 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   sink->batch = cs_mem_array(context->memory, (size_t)sink->batch_rows, row_size(sink));
   if (!sink->pixels || !sink->batch)
     return cs_fail_memory(context);
-  return open_writer(sink, context);
+  return open_file(sink, context);
 }
 
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   picture_sink *sink = user;
   (void)y;
-  sink->context = context;
   cs_pixels_row(&sink->coding, spans, span_count, sink->pixels);
   pack_row(sink, sink->batch + (size_t)sink->batch_count * row_size(sink));
   sink->batch_count++;
   return sink->batch_count == sink->batch_rows ? flush(sink, context) : CELSPAN_OK;
 }
 
-/* Some writers report success for a file that cannot be read. */
-static celspan_status check_file(const picture_sink *sink, celspan_context *context) {
-  cs_picture_request request = {0};
-  CS_TRY(cs_file_temporary(sink->file, context, &request.file));
-  cs_picture_header header;
-  cs_picture_failure failure;
-  cs_picture_reader *reader;
-  celspan_status status = sink->module->open(&request, &reader, &header, &failure);
-  if (status == CELSPAN_OK) {
-    sink->module->close(reader);
-    if (header.info.width == sink->width && header.info.height == sink->height)
-      return CELSPAN_OK;
-  }
-  return cs_fail(context, CELSPAN_OUTPUT,
-                 "%s: what was written as %s cannot be read back, so it is not kept (%s)",
-                 sink->path, sink->format->name,
-                 status == CELSPAN_OK ? "its size is wrong" : failure.text);
-}
-
 static celspan_status finish(picture_sink *sink, celspan_context *context) {
-  cs_picture_failure failure;
-  sink->context = context;
   CS_TRY(flush(sink, context));
-  cs_picture_writer *writer = sink->writer;
-  sink->writer = NULL;
-  CS_TRY(report(sink, context, sink->module->write_close(writer, &failure), &failure));
-  CS_TRY(check_file(sink, context));
-  cs_file *file = sink->file;
-  sink->file = NULL;
-  return cs_file_commit(file, context);
+  return cs_picture_file_close(&sink->file, context);
 }
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {

@@ -44,15 +44,34 @@ static void sample_procedure(const cs_procedure_span *span, const cs_batch *batc
   }
 }
 
+static celspan_status sample(cs_painter *painter, const cs_sampler *sampler, const cs_batch *batch,
+                             float (*rgba)[4]) {
+  if (batch->columns)
+    return cs_sampler_at(painter->blocks, sampler, batch->columns, batch->count, batch->y, rgba);
+  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
+  return cs_sampler_run(painter->blocks, sampler, run, rgba);
+}
+
 static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
                                      const cs_batch *batch, float (*rgba)[4]) {
   const cs_image_view *view;
   CS_TRY(cs_painter_image(painter, layer->index, &view));
-  if (batch->columns)
-    return cs_sampler_at(painter->blocks, &view->sampler, batch->columns, batch->count, batch->y,
-                         rgba);
-  cs_run run = {batch->x0, batch->x0 + batch->count, batch->y};
-  return cs_sampler_run(painter->blocks, &view->sampler, run, rgba);
+  return sample(painter, &view->sampler, batch, rgba);
+}
+
+/* The same of a picture with a medium of its own: its paints. */
+static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
+                                   const cs_batch *batch, samples *out) {
+  const cs_image_view *view;
+  CS_TRY(cs_painter_image(painter, layer->index, &view));
+  CS_TRY(sample(painter, &view->sampler, batch, out->s));
+  CS_TRY(sample(painter, &view->medium, batch, out->rgba));
+  for (int32_t k = 0; k < batch->count; k++) {
+    cs_paint paint = cs_paint_from_picture(out->rgba[k], CELSPAN_PICTURE_GEL);
+    out->s[k][3] = 0;
+    cs_v4_store(out->t[k], (cs_v4){paint.t[0], paint.t[1], paint.t[2], 0});
+  }
+  return CELSPAN_OK;
 }
 
 /* The same, of pictures that are shown as they are. */
@@ -93,13 +112,15 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
     cs_over_row_add_layer(over, layer);
     return CELSPAN_OK;
   }
-  if (layer->kind == CS_LAYER_PICTURE) {
+  if (layer->kind == CS_LAYER_PICTURE && !stack->images[layer->index].texture->medium) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
     return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->use,
                                    (const float(*)[4])room->rgba);
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
     CS_TRY(sample_defocused(painter, layer, batch, room));
+  else if (layer->kind == CS_LAYER_PICTURE)
+    CS_TRY(sample_media(painter, layer, batch, room));
   else if (layer->kind == CS_LAYER_SHADED)
     sample_shade(&stack->shades[layer->index], batch, room);
   else
@@ -130,8 +151,8 @@ bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
   const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
   return layer->kind == CS_LAYER_PICTURE && layer->role == CS_LAYER_PAINT &&
-         layer->group == CS_STACK_NONE && layer->fade == 1 && layer->front[0] == 1 &&
-         layer->front[1] == 1 && layer->front[2] == 1 &&
+         !stack->images[layer->index].texture->medium && layer->group == CS_STACK_NONE &&
+         layer->fade == 1 && layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1 &&
          (stack->light_count == 0 || stack->lights[0].below <= item.layer);
 }
 

@@ -61,7 +61,7 @@ static celspan_status test(cs_curve *curve, const cs_halving_point *first,
   double columns = last->column - first->column;
   double near = cs_number_least(first->at + taken_off(a, first->column),
                                 last->at + taken_off(a, last->column));
-  double limit = CS_HALVING_TOLERANCE;
+  double limit = (double)curve->tolerance;
   *is_straight = true;
   if (columns < 2 || columns * columns * a->bend * a->steepness <= 8 * limit * near * near * near)
     return CELSPAN_OK;
@@ -181,7 +181,8 @@ bool cs_gradient_run_fits(const cs_gradient_table *table) {
 celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table, cs_run run,
                                cs_row *row) {
   const double *p = table->shade->plane[0], *q = table->shade->plane[1];
-  arc a = {.curve = {painter->context, row, test, split},
+  arc a = {.curve = {painter->context, cs_halving_tolerance(painter->stack->span_error), row, test,
+                     split},
            .painter = painter,
            .table = table,
            .u = p[1] * run.y + p[2],

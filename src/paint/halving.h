@@ -20,8 +20,8 @@
 #include "span/row.h"
 #include "span/run.h"
 
-/* How far a line may be from the curve at its quarters: half the error that spans may have. */
-#define CS_HALVING_TOLERANCE (0.5f / 1023)
+/* The error that spans may have, unless the frame says another one. */
+#define CS_HALVING_ERROR (1.0f / 1023)
 
 /* A point of a curve: at the middle of a column. */
 typedef struct cs_halving_point {
@@ -33,7 +33,8 @@ typedef struct cs_halving_point {
 typedef struct cs_curve cs_curve;
 struct cs_curve {
   celspan_context *context;
-  cs_row *row; /* that the spans are appended to */
+  float tolerance; /* how far a line may be from the curve at its quarters: cs_halving_tolerance */
+  cs_row *row;     /* that the spans are appended to */
   /* Whether the line from one point to another is near the curve between them. */
   celspan_status (*test)(cs_curve *curve, const cs_halving_point *first,
                          const cs_halving_point *last, bool *is_straight);
@@ -59,13 +60,18 @@ static inline cs_run cs_halving_run(const cs_halving_point *first, const cs_halv
   return (cs_run){first->column, last->column + 1, 0};
 }
 
+/* Half the error that the frame's spans may have; error 0: the usual one. */
+static inline float cs_halving_tolerance(float error) {
+  return 0.5f * (error > 0 ? error : CS_HALVING_ERROR);
+}
+
 /* Whether a colour is near the line between two points, which are more than a column apart. */
-static inline bool cs_halving_is_near(const cs_halving_point *first, const cs_halving_point *last,
-                                      int32_t column, cs_v4 colour) {
+static inline bool cs_halving_is_near(const cs_curve *curve, const cs_halving_point *first,
+                                      const cs_halving_point *last, int32_t column, cs_v4 colour) {
   float share = (float)(column - first->column) / (float)(last->column - first->column);
   cs_v4 line = first->colour + share * (last->colour - first->colour);
   for (int c = 0; c < 4; c++)
-    if (!(__builtin_fabsf(colour[c] - line[c]) <= CS_HALVING_TOLERANCE))
+    if (!(__builtin_fabsf(colour[c] - line[c]) <= curve->tolerance))
       return false;
   return true;
 }

@@ -28,11 +28,11 @@ static celspan_status find_colours(const colour_curve *c, const int32_t *columns
 }
 
 /* inner: the colours at the quarters. */
-static bool is_straight(const cs_halving_point *first, const cs_halving_point *last,
-                        const float (*inner)[4]) {
+static bool is_straight(const cs_curve *curve, const cs_halving_point *first,
+                        const cs_halving_point *last, const float (*inner)[4]) {
   cs_run run = cs_halving_run(first, last);
   for (int quarter = 1; quarter <= 3 && run.x1 - run.x0 > 2; quarter++)
-    if (!cs_halving_is_near(first, last, cs_halving_quarter(run, quarter),
+    if (!cs_halving_is_near(curve, first, last, cs_halving_quarter(run, quarter),
                             cs_v4_load(inner[quarter - 1])))
       return false;
   return true;
@@ -46,7 +46,7 @@ static celspan_status test_program(cs_curve *curve, const cs_halving_point *firs
     columns[k] = cs_halving_quarter(cs_halving_run(first, last), k + 1);
   if (last->column - first->column > 1)
     CS_TRY(find_colours((colour_curve *)curve, columns, 3, inner));
-  *out = is_straight(first, last, (const float(*)[4])inner);
+  *out = is_straight(curve, first, last, (const float(*)[4])inner);
   return CELSPAN_OK;
 }
 
@@ -97,7 +97,7 @@ static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
   cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[shape - 1])};
   if (shape == STEPPED)
     return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
-  if (shape == CURVED && !is_straight(&first, &last, rgba + 1))
+  if (shape == CURVED && !is_straight(&c->curve, &first, &last, rgba + 1))
     return cs_halving_split(&c->curve, &first, &last);
   return cs_halving_put(&c->curve, &first, &last);
 }
@@ -126,7 +126,9 @@ static celspan_status put_lines(colour_curve *c, const cs_ends *ends) {
 
 celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_run run,
                             cs_row *row) {
-  colour_curve c = {.curve = {.context = painter->context, .row = row},
+  colour_curve c = {.curve = {.context = painter->context,
+                              .tolerance = cs_halving_tolerance(painter->stack->span_error),
+                              .row = row},
                     .painter = painter,
                     .program = program,
                     .y = run.y};

@@ -51,23 +51,21 @@ void cs_painter_finish(cs_painter *painter) {
 
 /* ---------------------------------------------------------------- image layers */
 
-static void prepare_view(const cs_painter *painter, const cs_image_layer *layer,
-                         const celspan_picture_info *info, cs_image_view *view) {
-  const celspan_texture *texture = layer->texture;
+static void prepare_sampler(const cs_painter *painter, const cs_image_layer *layer,
+                            const cs_picture *picture, const celspan_picture_info *info,
+                            cs_sampler *sampler) {
   const celspan_box *box = &layer->box;
   celspan_matrix to_picture = {{info->width / box->width, 0, -box->x * info->width / box->width, 0,
                                 info->height / box->height, -box->y * info->height / box->height, 0,
                                 0, 1}};
-  view->sampler = (cs_sampler){.picture = texture->picture,
-                               .inverse = celspan_matrix_then(layer->inverse, to_picture),
-                               .width = info->width,
-                               .height = info->height,
-                               .sampling = texture->sampling,
-                               .wrap = layer->wrap,
-                               .isa = painter->isa};
-  cs_sampler_prepare(&view->sampler);
-  view->is_opaque = !info->has_alpha && cs_image_layer_hides(layer);
-  view->is_ready = true;
+  *sampler = (cs_sampler){.picture = picture,
+                          .inverse = celspan_matrix_then(layer->inverse, to_picture),
+                          .width = info->width,
+                          .height = info->height,
+                          .sampling = layer->texture->sampling,
+                          .wrap = layer->wrap,
+                          .isa = painter->isa};
+  cs_sampler_prepare(sampler);
 }
 
 celspan_status cs_painter_image(cs_painter *painter, uint32_t image, const cs_image_view **out) {
@@ -76,9 +74,16 @@ celspan_status cs_painter_image(cs_painter *painter, uint32_t image, const cs_im
   if (view->is_ready)
     return CELSPAN_OK;
   const cs_image_layer *layer = &painter->stack->images[image];
-  celspan_picture_info info;
-  CS_TRY(cs_store_info(painter->context, layer->texture->picture, &info));
-  prepare_view(painter, layer, &info, view);
+  const cs_picture *picture = layer->texture->picture, *medium = layer->texture->medium;
+  celspan_picture_info info, medium_info;
+  CS_TRY(cs_store_info(painter->context, picture, &info));
+  if (medium) {
+    CS_TRY(cs_store_info(painter->context, medium, &medium_info));
+    prepare_sampler(painter, layer, medium, &medium_info, &view->medium);
+  }
+  prepare_sampler(painter, layer, picture, &info, &view->sampler);
+  view->is_opaque = !info.has_alpha && cs_image_layer_hides(layer);
+  view->is_ready = true;
   return CELSPAN_OK;
 }
 

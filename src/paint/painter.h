@@ -29,6 +29,7 @@
 typedef struct cs_image_view {
   bool is_ready, is_opaque;
   cs_sampler sampler;
+  cs_sampler medium; /* where the texture has one */
 } cs_image_view;
 
 /* What of a program shows over some columns: shown.h. */

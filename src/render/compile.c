@@ -160,6 +160,7 @@ celspan_status cs_compile(celspan_context *context, const celspan_rostrum *rostr
   cs_boundary_builder boundaries;
   begin(&c, &boundaries, context, &plan, view->first_row, view->end_row);
   c.workers = workers;
+  plan.stack.span_error = view->span_error;
   return finish(&c, compile_rostrum(&c, rostrum, view->film_width, view->film_height), out);
 }
 

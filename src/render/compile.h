@@ -29,6 +29,7 @@ typedef struct cs_view {
   double film_width, film_height;
   int32_t width, height;
   int32_t first_row, end_row;
+  float span_error; /* see compose/stack.h */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

@@ -66,13 +66,18 @@ static void set_crop(cs_frame *frame, const celspan_frame_desc *desc) {
   frame->crop_height = is_whole ? desc->height : desc->crop_height;
 }
 
+/* picture: may be NULL. */
+static bool picture_stays_on_thread(const cs_picture *picture) {
+  return picture && picture->surface && cs_surface_stays_on_thread(picture->surface);
+}
+
 static bool stays_on_thread(const cs_plan *plan) {
   for (size_t k = 0; k < plan->stack.procedure_count; k++)
     if (!plan->stack.procedures[k].desc->any_thread)
       return true;
   for (size_t k = 0; k < plan->stack.image_count; k++) {
-    const celspan_surface *surface = plan->stack.images[k].texture->picture->surface;
-    if (surface && cs_surface_stays_on_thread(surface))
+    const celspan_texture *texture = plan->stack.images[k].texture;
+    if (picture_stays_on_thread(texture->picture) || picture_stays_on_thread(texture->medium))
       return true;
   }
   for (size_t k = 0; k < plan->defocus_count; k++)
@@ -115,7 +120,8 @@ static celspan_status compile_exposure(celspan_context *context, const celspan_f
                   .width = desc->width,
                   .height = desc->height,
                   .first_row = frame->crop_y,
-                  .end_row = frame->crop_y + frame->crop_height};
+                  .end_row = frame->crop_y + frame->crop_height,
+                  .span_error = (float)desc->tolerance};
   CS_TRY(cs_compile(context, exposure->rostrum, &view,
                     antialias ? antialias : &exposure->rostrum->antialias,
                     cs_frame_workers(desc->workers), &frame->plans[frame->count]));
@@ -154,6 +160,9 @@ celspan_status cs_frame_check(celspan_context *context, const celspan_frame_desc
   CS_TRY(cs_check_given(context, "frame", "the description", desc));
   CS_TRY(check_size(context, desc));
   CS_TRY(check_crop(context, desc));
+  if (desc->tolerance != 0)
+    CS_TRY(cs_check_item(context, (cs_check_field){"frame", "tolerance", 0, ""}, desc->tolerance,
+                         1.0 / 1048576, 1));
   return check_exposures(context, desc);
 }
 

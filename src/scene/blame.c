@@ -38,6 +38,12 @@ static const celspan_object *find_in_rostrum(const celspan_rostrum *rostrum, con
   return found;
 }
 
+/* picture: may be NULL. */
+static bool is_about(const char *sentence, const cs_picture *picture) {
+  size_t length = picture ? strlen(picture->file) : 0;
+  return picture && strncmp(sentence, picture->file, length) == 0 && sentence[length] == ':';
+}
+
 /* The object whose picture's file the sentence begins with, in a list or deeper; else NULL.
  * Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static const celspan_object *find(celspan_object *const *objects, size_t count,
@@ -45,9 +51,8 @@ static const celspan_object *find(celspan_object *const *objects, size_t count,
   const celspan_object *found = NULL;
   for (size_t i = 0; i < count && !found; i++) {
     const cs_primitive_data *data = objects[i]->data;
-    const cs_picture *picture = data->texture ? data->texture->picture : NULL;
-    size_t length = picture ? strlen(picture->file) : 0;
-    if (picture && strncmp(sentence, picture->file, length) == 0 && sentence[length] == ':')
+    const celspan_texture *texture = data->texture;
+    if (texture && (is_about(sentence, texture->picture) || is_about(sentence, texture->medium)))
       found = objects[i];
     else if (data->rostrum)
       found = find_in_rostrum(data->rostrum, sentence);

@@ -61,6 +61,8 @@ static celspan_status examine(const cs_walk *walk, const cs_primitive_data *prim
   if (!texture || !texture->picture)
     return CELSPAN_OK;
   celspan_status status = cs_inspection_examine(to->inspection, texture->picture);
+  if (status == CELSPAN_OK && texture->medium)
+    status = cs_inspection_examine(to->inspection, texture->medium);
   celspan_fault fault = {.status = status,
                          .message = celspan_context_error(walk->context),
                          .cel = to->cel,

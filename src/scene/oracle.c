@@ -1,6 +1,7 @@
 #include "scene/oracle.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "pictures/load.h"
@@ -117,19 +118,24 @@ static celspan_status add_texel(celspan_context *context, const cs_picture *pict
 
 /* u, v: picture pixels. Beyond the centres of the outermost texels their colours continue, unless
  * the picture repeats: the edge of a picture is not blurred. */
-static celspan_status read_bilinear(celspan_context *context, const celspan_texture *texture,
-                                    const celspan_picture_info *info, double u, double v,
-                                    double rgba[4]) {
-  double left = floor(u - 0.5), top = floor(v - 0.5);
-  double share_x = u - 0.5 - left, share_y = v - 0.5 - top;
+/* u, v: from 0 to 1 over the picture. */
+static celspan_status read_bilinear(celspan_context *context, const cs_picture *picture,
+                                    celspan_wrap wrap, double u, double v, float out[4]) {
+  celspan_picture_info info;
+  CS_TRY(cs_store_info(context, picture, &info));
+  double left = floor(u * info.width - 0.5), top = floor(v * info.height - 0.5);
+  double share_x = u * info.width - 0.5 - left, share_y = v * info.height - 0.5 - top;
+  double rgba[4] = {0, 0, 0, 0};
   for (int corner = 0; corner < 4; corner++) {
     int dx = corner % 2, dy = corner / 2;
     double weight = (dx ? share_x : 1 - share_x) * (dy ? share_y : 1 - share_y);
     if (weight == 0)
       continue;
-    CS_TRY(add_texel(context, texture->picture, wrap_texel(left + dx, info->width, texture->wrap),
-                     wrap_texel(top + dy, info->height, texture->wrap), weight, rgba));
+    CS_TRY(add_texel(context, picture, wrap_texel(left + dx, info.width, wrap),
+                     wrap_texel(top + dy, info.height, wrap), weight, rgba));
   }
+  for (int c = 0; c < 4; c++)
+    out[c] = (float)rgba[c];
   return CELSPAN_OK;
 }
 
@@ -143,12 +149,14 @@ static celspan_status shade_picture(celspan_context *context, const celspan_text
   if (texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR &&
       !(u >= 0 && u < 1 && v >= 0 && v < 1))
     return CELSPAN_OK;
-  celspan_picture_info info;
-  CS_TRY(cs_store_info(context, texture->picture, &info));
-  double rgba[4] = {0, 0, 0, 0};
-  CS_TRY(read_bilinear(context, texture, &info, u * info.width, v * info.height, rgba));
-  float sample[4] = {(float)rgba[0], (float)rgba[1], (float)rgba[2], (float)rgba[3]};
+  float sample[4];
+  CS_TRY(read_bilinear(context, texture->picture, texture->wrap, u, v, sample));
   cs_paint paint = cs_paint_from_picture(sample, texture->use);
+  if (texture->medium) {
+    CS_TRY(read_bilinear(context, texture->medium, texture->wrap, u, v, sample));
+    const cs_paint medium = cs_paint_from_picture(sample, CELSPAN_PICTURE_GEL);
+    memcpy(paint.t, medium.t, sizeof paint.t);
+  }
   *out = widen(&paint);
   return CELSPAN_OK;
 }

@@ -27,6 +27,8 @@ static celspan_status create(celspan_context *context, cs_texture_kind kind,
 
 static void hash_picture(cs_hash *hash, const celspan_texture *texture) {
   cs_hash_hash(hash, cs_picture_hash(texture->picture));
+  if (texture->medium)
+    cs_hash_hash(hash, cs_picture_hash(texture->medium));
   cs_hash_word(hash, texture->sampling);
   cs_hash_word(hash, texture->use);
   cs_hash_word(hash, texture->wrap);
@@ -263,6 +265,34 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
   return finish(texture, out);
 }
 
+/* ---------------------------------------------------------------- media */
+
+celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_texture *texture,
+                                      cs_picture *medium, celspan_texture **out) {
+  celspan_texture *copy;
+  CS_TRY(
+      cs_texture_copy(context, texture, texture->stop_count, cs_mark_keep(texture->mark), &copy));
+  if (copy->medium)
+    cs_picture_unref(copy->medium);
+  copy->medium = medium ? cs_picture_ref(medium) : NULL;
+  return finish(copy, out);
+}
+
+celspan_status celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
+                                           const celspan_picture_desc *medium,
+                                           celspan_texture **out) {
+  CS_TRY(cs_check_given(context, "medium", "the texture", texture));
+  CS_TRY(check_picture(context, medium));
+  if (texture->kind != CS_TEXTURE_PICTURE || texture->use != CELSPAN_PICTURE_PAINT)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "medium: the texture must be a picture that is used as paint");
+  cs_picture *picture;
+  CS_TRY(cs_picture_create(context, medium, &picture));
+  celspan_status status = cs_texture_copy_medium(context, texture, picture, out);
+  cs_picture_unref(picture);
+  return status;
+}
+
 /* ---------------------------------------------------------------- lights */
 
 static cs_paint light_paint(const cs_paint *paint) {
@@ -289,6 +319,8 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
   celspan_texture *light;
   if (texture->kind == CS_TEXTURE_PICTURE && texture->use == CELSPAN_PICTURE_GEL)
     return create_flat(context, &clear, out);
+  if (texture->medium)
+    return cs_texture_copy_medium(context, texture, NULL, out);
   if (texture->kind == CS_TEXTURE_PICTURE) {
     *out = celspan_texture_ref(texture);
     return CELSPAN_OK;
@@ -330,8 +362,9 @@ static bool all_paints_are_grey(const celspan_texture *texture) {
 }
 
 bool cs_texture_is_grey(const celspan_texture *texture) {
-  return texture->kind == CS_TEXTURE_PICTURE ? texture->use == CELSPAN_PICTURE_PAINT
-                                             : all_paints_are_grey(texture);
+  return texture->kind == CS_TEXTURE_PICTURE
+             ? texture->use == CELSPAN_PICTURE_PAINT && !texture->medium
+             : all_paints_are_grey(texture);
 }
 
 /* ---------------------------------------------------------------- copies */
@@ -357,6 +390,8 @@ celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *
     memcpy(stops, texture->stops, kept * sizeof *stops);
   if (copy->picture)
     cs_picture_ref(copy->picture);
+  if (copy->medium)
+    cs_picture_ref(copy->medium);
   if (copy->origin)
     celspan_texture_ref(copy->origin);
   *out = copy;
@@ -393,6 +428,8 @@ void celspan_texture_unref(celspan_texture *texture) {
   cs_mem_free(memory, texture->stops, texture->stop_count * sizeof *texture->stops);
   if (texture->picture)
     cs_picture_unref(texture->picture);
+  if (texture->medium)
+    cs_picture_unref(texture->medium);
   celspan_texture_unref(texture->origin);
   cs_mark_drop(texture->mark);
   cs_mem_free(memory, texture, sizeof *texture);

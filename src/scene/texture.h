@@ -43,6 +43,7 @@ struct celspan_texture {
   celspan_matrix matrix, inverse; /* from the units of points to the primitive's */
   celspan_texture *origin; /* what was unrolled to this one, a reference; NULL: nothing was */
   cs_picture *picture;     /* PICTURE */
+  cs_picture *medium; /* PICTURE, of a paint: its rgb is T; NULL: T is 1 - alpha of `picture` */
   celspan_sampling sampling;
   celspan_picture_use use;
   celspan_wrap wrap;
@@ -65,11 +66,15 @@ CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
                                                const celspan_texture *texture, size_t stop_count,
                                                cs_mark mark, celspan_texture **out);
+/* A copy with another medium, which is kept, or none. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_texture_copy_medium(celspan_context *context,
+                                                      const celspan_texture *texture,
+                                                      cs_picture *medium, celspan_texture **out);
 /* To be called when a copy was changed. */
 void cs_texture_rehash(celspan_texture *texture);
 
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
- * unless it is a gel. */
+ * unless it is a gel or has a medium. */
 bool cs_texture_is_grey(const celspan_texture *texture);
 
 #endif

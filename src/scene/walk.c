@@ -44,6 +44,10 @@ static const cs_picture *picture_of(const celspan_texture *texture) {
   return texture ? texture->picture : NULL;
 }
 
+static const cs_picture *medium_of(const celspan_texture *texture) {
+  return texture ? texture->medium : NULL;
+}
+
 static celspan_status count_primitive(const cs_walk *walk, const cs_primitive_data *primitive,
                                       const celspan_texture *texture) {
   celspan_rostrum_counts *counts = walk->user;
@@ -64,8 +68,10 @@ static celspan_status check_primitive(const cs_walk *walk, const cs_primitive_da
                                       const celspan_texture *texture) {
   (void)primitive;
   celspan_picture_info info;
-  const cs_picture *picture = picture_of(texture);
-  return picture ? cs_store_info(walk->context, picture, &info) : CELSPAN_OK;
+  const cs_picture *picture = picture_of(texture), *medium = medium_of(texture);
+  if (picture)
+    CS_TRY(cs_store_info(walk->context, picture, &info));
+  return medium ? cs_store_info(walk->context, medium, &info) : CELSPAN_OK;
 }
 
 celspan_status celspan_rostrum_check(celspan_context *context, const celspan_rostrum *rostrum) {
@@ -73,27 +79,31 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
   return cs_walk_rostrum(&walk, rostrum);
 }
 
-static celspan_status hash_file(const cs_walk *walk, const cs_primitive_data *primitive,
-                                const celspan_texture *texture) {
-  (void)primitive;
-  const cs_picture *picture = picture_of(texture);
+static void hash_file(cs_hash *hash, const cs_picture *picture) {
   struct stat found = {0};
   if (!picture)
-    return CELSPAN_OK;
+    return;
   if (picture->surface) { /* of its content, or what the host says is that */
-    cs_hash_hash(walk->user, cs_picture_hash(picture));
-    return CELSPAN_OK;
+    cs_hash_hash(hash, cs_picture_hash(picture));
+    return;
   }
-  cs_hash_word(walk->user, stat(picture->file, &found) == 0);
-  cs_hash_word(walk->user, (uint64_t)found.st_size);
-  cs_hash_word(walk->user, (uint64_t)found.st_mtim.tv_sec);
-  cs_hash_word(walk->user, (uint64_t)found.st_mtim.tv_nsec);
+  cs_hash_word(hash, stat(picture->file, &found) == 0);
+  cs_hash_word(hash, (uint64_t)found.st_size);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_sec);
+  cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
+}
+
+static celspan_status hash_files(const cs_walk *walk, const cs_primitive_data *primitive,
+                                 const celspan_texture *texture) {
+  (void)primitive;
+  hash_file(walk->user, picture_of(texture));
+  hash_file(walk->user, medium_of(texture));
   return CELSPAN_OK;
 }
 
 cs_hash cs_walk_hash_files(const celspan_exposure *exposures, size_t count) {
   cs_hash hash = cs_hash_begin(count);
-  cs_walk walk = {.call = hash_file, .user = &hash};
+  cs_walk walk = {.call = hash_files, .user = &hash};
   for (size_t i = 0; i < count; i++) {
     celspan_status never_fails = cs_walk_rostrum(&walk, exposures[i].rostrum);
     (void)never_fails;

@@ -303,6 +303,13 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_c
  * of no size draws nothing. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_picture(
     celspan_context *context, const celspan_picture_desc *desc, celspan_texture **out);
+/* A picture used as paint with a medium of its own: S is its rgb, beta its alpha, and T the rgb of
+ * the picture `medium`, which lies where the texture's does. The colour, layer, subimage and source
+ * of `medium` count, its sampling, use, wrap and box do not. As a light the texture is its picture
+ * alone. out: new      Errors: NO_MEMORY; BAD_ARGUMENT for a texture that is no picture, or a gel. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_medium(
+    celspan_context *context, celspan_texture *texture, const celspan_picture_desc *medium,
+    celspan_texture **out);
 /* _ref gives the value back, counted once more; _unref ignores NULL. Here and below: any thread. */
 CELSPAN_API celspan_texture *celspan_texture_ref(celspan_texture *texture);
 CELSPAN_API void celspan_texture_unref(celspan_texture *texture);
@@ -1184,6 +1191,9 @@ typedef struct celspan_frame_desc {
   /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
   void *progress_user;
+  /* How far gradient spans may be from the colours that they stand for, as a share of full scale:
+   * 2^-20 .. 1; 0: 1/1023. Finer ones are more spans. */
+  double tolerance;
 } celspan_frame_desc;
 
 static inline celspan_frame_desc celspan_frame_desc_default(void) {
@@ -1341,6 +1351,106 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context 
                                                                 const celspan_frame_desc *desc,
                                                                 const celspan_coding *coding,
                                                                 uint64_t digest[2]);
+
+/* ---------------------------------------------------------------- relighting */
+
+/* The light in which a picture was taken: one colour, or a field that changes slowly over the
+ * picture. At x and y, from -1 at the left and the top edge of the picture to 1 at the right and the
+ * bottom one, channel c is
+ *
+ *   colour[c] * exp(sum over k of terms[c][k] * b[k]),  b = x, y, xx, xy, yy, xxx, xxy, xyy, yyy
+ *
+ * A plain value, checked where it is used: colours are above 0, and so is the field everywhere. */
+#define CELSPAN_LIGHT_FIELD_TERMS 9
+typedef struct celspan_light_field {
+  double colour[3];
+  double terms[3][CELSPAN_LIGHT_FIELD_TERMS];
+} celspan_light_field;
+
+/* The same light everywhere. Any thread. */
+CELSPAN_API celspan_light_field celspan_light_field_flat(double r, double g, double b);
+/* The light at a place, from 0, 0 at the picture's top left corner to 1, 1. Any thread. */
+CELSPAN_API void celspan_light_field_at(const celspan_light_field *field, double u, double v,
+                                        double rgb[3]);
+/* The field as a light with a shape, or as the paint that shows it: an opaque picture of so many
+ * pixels. out: new      Errors: NO_MEMORY; BAD_ARGUMENT for the field or the size. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_light_field_texture(celspan_context *context, const celspan_light_field *field,
+                            int32_t width, int32_t height, celspan_texture **out);
+
+/* What is known of a picture whose light is to be found. */
+typedef enum celspan_light_clue {
+  CELSPAN_LIGHT_CLUE_GREY = 0, /* the mean pigment of the picture is `colour` */
+  CELSPAN_LIGHT_CLUE_PATCH,    /* the pigment of a patch is `colour` */
+  CELSPAN_LIGHT_CLUE_LIGHT     /* the mean of the light is `colour` */
+} celspan_light_clue;
+
+typedef struct celspan_light_estimate_desc {
+  size_t struct_size;             /* sizeof(celspan_light_estimate_desc) */
+  const celspan_texture *picture; /* borrowed; a picture, of which its pixels count */
+  celspan_light_clue clue;
+  double colour[3];  /* above 0; 0.18 each, which is what light meters take for grey */
+  celspan_box patch; /* pixels of the picture */
+  /* The light is uneven, so that a field is fitted: to the picture, whose pigments are then taken to
+   * be alike in every part of it, or to `blank`, the same light on something white or grey. */
+  bool is_uneven;
+  const celspan_texture *blank; /* borrowed; NULL: the picture itself */
+} celspan_light_estimate_desc;
+
+static inline celspan_light_estimate_desc celspan_light_estimate_desc_default(void) {
+  celspan_light_estimate_desc desc = CELSPAN_ZERO;
+  desc.struct_size = sizeof desc;
+  desc.colour[0] = desc.colour[1] = desc.colour[2] = 0.18;
+  return desc;
+}
+#define CELSPAN_LIGHT_ESTIMATE_DESC (celspan_light_estimate_desc_default())
+
+/* Finds the light of a picture. desc: borrowed
+ * Errors: those of pictures; BAD_ARGUMENT for the description, and where the picture tells too
+ * little: a patch or a channel without light, too few places that are lit for a field. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_light_estimate(
+    celspan_context *context, const celspan_light_estimate_desc *desc, celspan_light_field *out);
+
+/* Light taken off pictures, R = S F + T I at every pixel: textures of their own S, T and beta, which
+ * take any light. Values of S above 1, such as highlights, are kept; up to 65504. The textures are
+ * pictures in memory, of 16 bytes a pixel, or of 32 with a medium; at most 268,435,456 pixels. All
+ * that are given are textures that are pictures, borrowed, and so are fields; the sampling, the wrap
+ * and the box of the first one are those of the texture that is made. out: new
+ * Errors: those of pictures; BAD_ARGUMENT for a field, for pictures of different sizes, and where
+ * the pictures cannot have been taken in that light, with what was found; LIMIT; NO_MEMORY.
+ *
+ * _picture: one picture, its alpha the share of it that is paint, and the rest clear.
+ * _exposures: lit from the front alone, and from behind alone.
+ * _grounds: twice in the same light, before two different grounds. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_picture(
+    celspan_context *context, const celspan_texture *picture, const celspan_light_field *light,
+    celspan_texture **out);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_exposures(
+    celspan_context *context, const celspan_texture *front, const celspan_light_field *front_light,
+    const celspan_texture *back, const celspan_light_field *back_light, celspan_texture **out);
+
+typedef struct celspan_relight_ground {
+  const celspan_texture *picture; /* what is relit, before the ground */
+  const celspan_texture *ground;  /* the ground alone, in the same light */
+  double colour[3];               /* the light that it sends, where `ground` is NULL */
+} celspan_relight_ground;
+
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_relight_grounds(celspan_context *context, const celspan_relight_ground grounds[2],
+                        const celspan_light_field *light, celspan_texture **out);
+
+/* Writes a picture texture as an EXR of 32-bit floats with seven channels, whole or not at all:
+ * R, G, B are S and A is beta, so that other programs show it in white light; medium.R, medium.G and
+ * medium.B are T. Errors: those of pictures; OUTPUT; BAD_ARGUMENT for a texture that is no picture
+ * used as paint, and for another ending than .exr. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_write(celspan_context *context,
+                                                                 const celspan_texture *texture,
+                                                                 const char *path);
+/* Such a file as a texture. Its header is read at once. tried: as in celspan_picture_desc
+ * out: new      Errors: those of pictures; INPUT for a file without these channels. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_read(celspan_context *context,
+                                                                const char *path, const char *tried,
+                                                                celspan_texture **out);
 
 /* ---------------------------------------------------------------- following what moves */
 

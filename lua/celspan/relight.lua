@@ -1,0 +1,219 @@
+--- The light taken off pictures, so that they can be lit anew.
+--
+--   local house = assert(relight.from { picture = "house.jpg", light = "#ffe0b0" })
+--   local cel = celspan.cel { celspan.rect { 0, 0, 1920, 1080, texture = house }, front = dusk }
+--   assert(relight.write(house, "house.exr"))                   -- and relight.read "house.exr"
+--
+-- What is left is a texture with its own S, T and beta: as paint that is S times the front light,
+-- and lets T of the light behind it through. In the light it was taken in it is the picture again,
+-- its highlights included.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local relight = {}
+
+local WHITE = { 1, 1, 1 }
+local GREY = { 0.18, 0.18, 0.18 }
+local clues = { grey = 0, patch = 1, light = 2 }
+
+-- ---------------------------------------------------------------- what is given
+
+--- A colour string as three numbers in linear light; nil for what is none.
+local function parse(text)
+  local good, paint = pcall(celspan.rgb, text)
+  return good and paint.beta == 1 and paint.pigment or nil
+end
+
+--- Raises a sentence at the line of the nearest caller that is not celspan's own.
+local function refuse(text, ...) core.refuse("relight: " .. text:format(...)) end
+
+local function numbers_of(name, value, count, shape)
+  if type(value) ~= "table" then refuse("%s must be %s, got %s", name, shape, fields.kind(value)) end
+  for i = 1, count do
+    if not fields.is_finite(value[i]) then
+      refuse("%s[%d] must be a finite number, got %s", name, i, fields.shown(value[i]))
+    end
+  end
+  return value
+end
+
+--- A light or a pigment: {r, g, b}, or a colour.
+local function colour_of(name, value)
+  local colour = type(value) == "string" and parse(value) or value
+  if type(colour) == "string" then
+    refuse('%s must be {r, g, b} or a colour like "#ffe0b0", got "%s"', name, value)
+  end
+  numbers_of(name, colour, 3, "{r, g, b} or a colour")
+  for i = 1, 3 do
+    if colour[i] < 0 then
+      refuse("%s[%d] must be 0 or more, got %s", name, i, fields.shown(colour[i]))
+    end
+  end
+  return colour
+end
+
+--- A picture: a file's name or a celspan.picture.
+local function picture_of(name, value)
+  if type(value) == "string" then return celspan.picture { file = value } end
+  if type(value) ~= "userdata" or not tostring(value):find "^picture" then
+    refuse("%s must be a file's name or a celspan.picture, got %s", name, fields.kind(value))
+  end
+  return value
+end
+
+-- ---------------------------------------------------------------- lights
+
+--- What is known of the light: its clue, a colour, and a patch.
+local function clue_of(options)
+  local estimate = options.estimate
+  if options.light then return clues.light, colour_of("light", options.light) end
+  if estimate == "grey" then return clues.grey, GREY end
+  return clues.patch, colour_of("estimate.colour", estimate.colour or GREY),
+    numbers_of("estimate.at", estimate.at, 4, "{x, y, w, h}")
+end
+
+--- The field of the light, and as what `front` takes.
+local function find_light(picture, options)
+  local clue, colour, patch = clue_of(options)
+  local uneven = options.uneven
+  if clue == clues.light and not uneven then return colour, colour end
+  local blank = uneven and uneven ~= true and picture_of("uneven", uneven) or nil
+  local field, message = core.light_estimate(picture, clue, colour, patch, uneven and true or false,
+    blank)
+  if not field then return nil, message end
+  if not uneven then return field, field end
+  local w, h = core.picture_size(picture)
+  if not w then return nil, h end
+  local shape
+  shape, message = core.light_shape(field, w, h)
+  if not shape then return nil, message end
+  return field, shape
+end
+
+-- ---------------------------------------------------------------- ways
+
+local function from_picture(options)
+  local estimate = options.estimate
+  if (options.light == nil) == (estimate == nil) then
+    refuse "a picture needs its light, or an estimate of it, and not both"
+  end
+  if type(estimate) == "table" then
+    fields.check("relight: estimate", estimate, { at = "any", colour = "any" }, 4)
+  elseif estimate ~= nil and estimate ~= "grey" then
+    refuse('estimate must be "grey" or { at = {x, y, w, h}, colour = ... }, got %s',
+      type(estimate) == "string" and ("%q"):format(estimate) or fields.kind(estimate))
+  end
+  local picture = picture_of("picture", options.picture)
+  local field, light = find_light(picture, options)
+  if not field then return nil, light end
+  local texture, message = core.relight_picture(picture, field)
+  return texture, texture and light or message
+end
+
+local function from_exposures(options)
+  local known = { picture = "any", light = "any" }
+  local front, back = options.front, options.back
+  if front == nil or back == nil then
+    refuse "two exposures are front = { picture =, light = } and back, likewise"
+  end
+  fields.check("relight: front", front, known, 4)
+  fields.check("relight: back", back, known, 4)
+  local light = colour_of("front.light", front.light)
+  local texture, message = core.relight_exposures(picture_of("front.picture", front.picture), light,
+    picture_of("back.picture", back.picture), colour_of("back.light", back.light))
+  return texture, texture and light or message
+end
+
+--- A ground: a picture of it, or the light that it sends.
+local function ground_of(name, value)
+  local is_colour = type(value) == "table" or type(value) == "string" and parse(value)
+  return is_colour and colour_of(name, value) or picture_of(name, value)
+end
+
+local function from_grounds(options)
+  local over = options.over
+  if type(over) ~= "table" or #over ~= 2 then
+    refuse "over must be two pictures, { { picture =, ground = }, { picture =, ground = } }"
+  end
+  local given = {}
+  for i, shot in ipairs(over) do
+    local name = ("over[%d]"):format(i)
+    fields.check("relight: " .. name, shot, { picture = "any", ground = "any" }, 4)
+    given[2 * i - 1] = picture_of(name .. ".picture", shot.picture)
+    given[2 * i] = ground_of(name .. ".ground", shot.ground)
+  end
+  given[5] = colour_of("light", options.light or WHITE)
+  local texture, message = core.relight_grounds(table.unpack(given))
+  return texture, texture and given[5] or message
+end
+
+-- ---------------------------------------------------------------- the module
+
+---@class celspan.relight.options
+---@field picture? string|celspan.texture A file's name or a celspan.picture
+---@field light? number[]|string The light that it was taken in; of `over` the same in both; default white there
+---@field estimate? "grey"|{at: number[], colour?: number[]|string} Instead of the light: the mean of the picture is a grey of 0.18; or the pigment of a patch, x, y, w, h in pixels
+---@field uneven? boolean|string|celspan.texture The light varies slowly: as the picture's own brightness does, or as that of a picture of something white or grey does
+---@field front? {picture: string|celspan.texture, light: number[]|string} Lit from the front alone
+---@field back? {picture: string|celspan.texture, light: number[]|string} Lit from behind alone
+---@field over? {picture: string|celspan.texture, ground: string|number[]|celspan.texture}[] Twice, before two grounds
+
+local known = { picture = "any", light = "any", estimate = "any", uneven = "any", front = "table",
+  back = "table", over = "table" }
+
+--- Which fields go with which way.
+local ways = {
+  { "picture", from_picture, { picture = true, light = true, estimate = true, uneven = true } },
+  { "front", from_exposures, { front = true, back = true } },
+  { "over", from_grounds, { over = true, light = true } },
+}
+
+---@param options celspan.relight.options
+---@return celspan.texture? texture
+---@return number[]|celspan.texture|string light What it was taken in, as `front` takes it; or what is wrong
+function relight.from(options)
+  fields.check("relight", options, known)
+  for _, way in ipairs(ways) do
+    if options[way[1]] ~= nil then
+      for name in pairs(options) do
+        if not way[3][name] then
+          refuse("'%s' does not go with '%s'", name, way[1])
+        end
+      end
+      local texture, light = way[2](options) -- no tail call: checks count the levels above them
+      return texture, light
+    end
+  end
+  refuse "it takes a picture, or front and back, or over"
+end
+
+local function check_path(name, path)
+  if type(path) ~= "string" then
+    refuse("%s takes the name of a file, got %s", name, fields.kind(path))
+  end
+end
+
+--- Keeps a picture that was relit, or any picture, as an EXR file of seven channels.
+---@param texture celspan.texture
+---@param path string It ends in .exr
+---@return true?
+---@return string? message
+function relight.write(texture, path)
+  local noun = tostring(texture)
+  if type(texture) ~= "userdata" or not (noun:find "^relit" or noun:find "^picture") then
+    refuse("write takes a relit picture, got %s", fields.kind(texture))
+  end
+  check_path("write", path)
+  return core.relight_write(texture, path)
+end
+
+---@param path string Relative to the caller's file, else to the script
+---@return celspan.texture? texture
+---@return string? message
+function relight.read(path)
+  check_path("read", path)
+  return core.relight_read(path)
+end
+
+return fields.seal("relight", relight)

@@ -1,0 +1,313 @@
+/* Light taken off pictures, through the public header: what is left of pictures whose S and T are
+ * known, fields of light, refusals, and memory that fails anywhere. tests/spec/relight_spec.lua has
+ * the pictures as they are rendered. */
+#include <stdlib.h>
+
+#include "celspan/celspan.h"
+#include "tests/support/check.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+
+enum { WIDTH = 70, HEIGHT = 66, COUNT = WIDTH * HEIGHT };
+
+typedef float pixels[COUNT][4];
+
+/* What a card scatters and lets through, and what is made of it. */
+static pixels s_of, t_of, room[4];
+
+static void make_card(void) {
+  test_random random = {5};
+  for (int i = 0; i < COUNT; i++) {
+    float beta = i % 7 == 0 ? 0 : i % 5 == 0 ? 1 : random_unit(&random);
+    for (int c = 0; c < 3; c++) {
+      s_of[i][c] = beta * random_unit(&random) * (i % 11 == 0 ? 12 : 1);
+      t_of[i][c] = (1 - beta) * random_unit(&random);
+    }
+    s_of[i][3] = beta;
+    t_of[i][3] = 1;
+  }
+}
+
+static void light_card(const float front[3], const float behind[3], pixels out) {
+  for (int i = 0; i < COUNT; i++) {
+    for (int c = 0; c < 3; c++)
+      out[i][c] = s_of[i][c] * front[c] + t_of[i][c] * behind[c];
+    out[i][3] = 1;
+  }
+}
+
+static celspan_status make_texture(celspan_context *context, const void *values, int32_t height,
+                                   celspan_texture **out) {
+  celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
+  celspan_picture_desc desc = CELSPAN_ZERO;
+  surface.width = WIDTH;
+  surface.height = height;
+  surface.format = CELSPAN_SURFACE_RGBAF;
+  surface.pixels = values;
+  celspan_status status = celspan_surface_create(context, &surface, &desc.surface);
+  if (status == CELSPAN_OK)
+    status = celspan_texture_create_picture(context, &desc, out);
+  celspan_surface_unref(desc.surface);
+  return status;
+}
+
+/* The texture in a light, before a ground. */
+static celspan_status render(celspan_context *context, celspan_texture *texture,
+                             celspan_light front, celspan_light back, pixels out) {
+  celspan_object *object = NULL;
+  celspan_cel *cel = NULL;
+  celspan_rostrum *rostrum = NULL;
+  celspan_rect_desc rect = {.width = WIDTH, .height = HEIGHT, .texture = texture};
+  celspan_cel_desc of_cel = CELSPAN_CEL_DESC;
+  celspan_rostrum_desc of_rostrum = CELSPAN_ROSTRUM_DESC;
+  celspan_status status = celspan_object_create_rect(context, &rect, &object);
+  of_cel.objects = &object;
+  of_cel.object_count = 1;
+  of_cel.has_front = true;
+  of_cel.front = front;
+  of_cel.back = back;
+  if (status == CELSPAN_OK)
+    status = celspan_cel_create(context, &of_cel, &cel);
+  of_rostrum.cels = &cel;
+  of_rostrum.cel_count = 1;
+  if (status == CELSPAN_OK)
+    status = celspan_rostrum_create(context, &of_rostrum, &rostrum);
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
+  frame.exposures = &exposure;
+  frame.exposure_count = 1;
+  frame.width = WIDTH;
+  frame.height = HEIGHT;
+  frame.workers = 1;
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  if (status == CELSPAN_OK)
+    status = celspan_frame_pixels(context, &frame, &coding, out, sizeof out[0] * WIDTH, NULL);
+  celspan_rostrum_unref(rostrum);
+  celspan_cel_unref(cel);
+  celspan_object_unref(object);
+  return status;
+}
+
+static const float lamp[3] = {1.5f, 0.75f, 0.25f}, box[3] = {0.5f, 1, 2};
+static const float none[3] = {0, 0, 0};
+
+static celspan_light_field field_of(const float light[3]) {
+  return celspan_light_field_flat((double)light[0], (double)light[1], (double)light[2]);
+}
+
+/* Compares a texture with the card in other lights. */
+static void check_card(celspan_context *context, celspan_texture *texture) {
+  static pixels expected, found;
+  const float front[3] = {0.2f, 0.4f, 3}, behind[3] = {0.9f, 0.3f, 0.6f};
+  double worst = 0;
+  light_card(front, behind, expected);
+  if (!CHECK(render(context, texture, (celspan_light){front[0], front[1], front[2], 1},
+                    (celspan_light){behind[0], behind[1], behind[2], 1}, found) == CELSPAN_OK))
+    return;
+  for (int i = 0; i < COUNT; i++)
+    for (int c = 0; c < 4; c++)
+      worst =
+          fmax(worst, fabs((double)(found[i][c] - expected[i][c])) / (1 + (double)expected[i][c]));
+  CHECK_NEAR(worst, 0, 2e-5);
+}
+
+/* ---------------------------------------------------------------- what is left */
+
+static celspan_status from_exposures(celspan_context *context, celspan_texture **out) {
+  celspan_texture *front = NULL, *back = NULL;
+  celspan_light_field front_light = field_of(lamp), back_light = field_of(box);
+  light_card(lamp, none, room[0]);
+  light_card(none, box, room[1]);
+  celspan_status status = make_texture(context, room[0], HEIGHT, &front);
+  if (status == CELSPAN_OK)
+    status = make_texture(context, room[1], HEIGHT, &back);
+  if (status == CELSPAN_OK)
+    status = celspan_relight_exposures(context, front, &front_light, back, &back_light, out);
+  celspan_texture_unref(front);
+  celspan_texture_unref(back);
+  return status;
+}
+
+static celspan_status from_grounds(celspan_context *context, celspan_texture **out) {
+  celspan_texture *first = NULL, *second = NULL, *ground = NULL;
+  celspan_light_field light = field_of(lamp);
+  light_card(lamp, none, room[0]);
+  light_card(lamp, box, room[1]);
+  for (int i = 0; i < COUNT; i++)
+    memcpy(room[2][i], (const float[4]){box[0], box[1], box[2], 1}, sizeof room[2][i]);
+  celspan_status status = make_texture(context, room[0], HEIGHT, &first);
+  if (status == CELSPAN_OK)
+    status = make_texture(context, room[1], HEIGHT, &second);
+  if (status == CELSPAN_OK)
+    status = make_texture(context, room[2], HEIGHT, &ground);
+  const celspan_relight_ground grounds[2] = {{.picture = first},
+                                             {.picture = second, .ground = ground}};
+  if (status == CELSPAN_OK)
+    status = celspan_relight_grounds(context, grounds, &light, out);
+  celspan_texture_unref(first);
+  celspan_texture_unref(second);
+  celspan_texture_unref(ground);
+  return status;
+}
+
+static void both_ways_find_the_card(celspan_context *context) {
+  celspan_texture *texture;
+  if (CHECK(from_exposures(context, &texture) == CELSPAN_OK)) {
+    check_card(context, texture);
+    celspan_texture_unref(texture);
+  }
+  if (CHECK(from_grounds(context, &texture) == CELSPAN_OK)) {
+    check_card(context, texture);
+    celspan_texture_unref(texture);
+  }
+}
+
+/* ---------------------------------------------------------------- fields */
+
+/* A white sheet in a field of light: the field is found again, and taken off it leaves white. */
+static void fields_are_fitted(celspan_context *context) {
+  celspan_light_field truth = celspan_light_field_flat(0.8, 0.5, 0.3), found;
+  celspan_texture *sheet = NULL, *white = NULL;
+  for (int c = 0; c < 3; c++) {
+    truth.terms[c][0] = 0.5 - 0.2 * c;
+    truth.terms[c][3] = -0.3;
+    truth.terms[c][7] = 0.1 * c;
+  }
+  if (!CHECK(celspan_light_field_texture(context, &truth, WIDTH, HEIGHT, &sheet) == CELSPAN_OK))
+    return;
+  celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
+  desc.picture = sheet;
+  desc.is_uneven = true;
+  desc.clue = CELSPAN_LIGHT_CLUE_PATCH;
+  desc.patch = (celspan_box){10, 10, 5, 5};
+  for (int c = 0; c < 3; c++)
+    desc.colour[c] = 1;
+  if (CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_OK)) {
+    for (int i = 0; i < 25; i++) {
+      double a[3], b[3];
+      celspan_light_field_at(&truth, i % 5 / 4.0, i / 5 / 4.0, a);
+      celspan_light_field_at(&found, i % 5 / 4.0, i / 5 / 4.0, b);
+      for (int c = 0; c < 3; c++)
+        CHECK_NEAR(b[c] / a[c], 1, 2e-3);
+    }
+    if (CHECK(celspan_relight_picture(context, sheet, &found, &white) == CELSPAN_OK)) {
+      CHECK(render(context, white, (celspan_light){1, 1, 1, 1}, (celspan_light){0, 0, 0, 0},
+                   room[0]) == CELSPAN_OK);
+      CHECK_NEAR(room[0][COUNT / 2][1], 1, 2e-3);
+    }
+  }
+  celspan_texture_unref(white);
+  celspan_texture_unref(sheet);
+}
+
+/* ---------------------------------------------------------------- refusals */
+
+static void lights_are_checked(celspan_context *context, celspan_texture *picture) {
+  celspan_texture *out;
+  celspan_light_field light = celspan_light_field_flat(1, 0, 1);
+  CHECK(celspan_relight_picture(context, picture, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "there is no green in the light") != NULL);
+  light.colour[1] = NAN;
+  CHECK(celspan_relight_picture(context, picture, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  light.colour[1] = 1e-5; /* S would be 1,200,000 */
+  CHECK(celspan_relight_picture(context, picture, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "too dim") != NULL);
+  light = celspan_light_field_flat(1, 1, 1);
+  light.terms[2][8] = 21;
+  CHECK(celspan_relight_picture(context, picture, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_light_field_texture(context, &light, 4, 4, &out) == CELSPAN_BAD_ARGUMENT);
+  light.terms[2][8] = 0;
+  CHECK(celspan_light_field_texture(context, &light, 0, 4, &out) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void textures_are_checked(celspan_context *context, celspan_texture *picture) {
+  celspan_texture *out, *paint = NULL, *small = NULL;
+  celspan_light_field light = celspan_light_field_flat(1, 1, 1);
+  celspan_picture_desc medium = {.file = "none.exr"};
+  const celspan_paint red = celspan_paint_rgb(1, 0, 0, 1);
+  if (!CHECK(celspan_texture_create_paint(context, &red, &paint) == CELSPAN_OK) ||
+      !CHECK(make_texture(context, room[0], HEIGHT - 1, &small) == CELSPAN_OK))
+    return;
+  CHECK(celspan_relight_picture(context, paint, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_relight_picture(context, NULL, &light, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_texture_with_medium(context, paint, &medium, &out) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_relight_write(context, paint, "/tmp/paint.exr") == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_relight_write(context, picture, "/tmp/paint.png") == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_relight_exposures(context, picture, &light, small, &light, &out) ==
+        CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "70 x 66 pixels, and ") != NULL);
+  celspan_texture_unref(paint);
+  celspan_texture_unref(small);
+}
+
+static void estimates_are_checked(celspan_context *context, celspan_texture *picture) {
+  celspan_light_field found;
+  celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
+  desc.picture = picture;
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_OK);
+  desc.colour[0] = 0;
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
+  desc.colour[0] = 0.5;
+  desc.clue = CELSPAN_LIGHT_CLUE_PATCH;
+  desc.patch = (celspan_box){-9, 0, 5, 5};
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "there is nothing in the patch") != NULL);
+  desc.struct_size = 3;
+  CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void refusals(celspan_context *context) {
+  celspan_texture *picture;
+  light_card(lamp, none, room[0]);
+  if (!CHECK(make_texture(context, room[0], HEIGHT, &picture) == CELSPAN_OK))
+    return;
+  lights_are_checked(context, picture);
+  textures_are_checked(context, picture);
+  estimates_are_checked(context, picture);
+  celspan_texture_unref(picture);
+}
+
+/* ---------------------------------------------------------------- memory */
+
+static celspan_status make_and_show(celspan_context *context) {
+  celspan_texture *texture = NULL;
+  celspan_status status = from_grounds(context, &texture);
+  if (status == CELSPAN_OK)
+    status =
+        render(context, texture, (celspan_light){1, 1, 1, 1}, (celspan_light){1, 1, 1, 1}, room[3]);
+  celspan_texture_unref(texture);
+  return status;
+}
+
+static void memory_may_fail_anywhere(bool is_for_good) {
+  memory_watch watch = {.is_for_good = is_for_good};
+  celspan_context *context = memory_watch_context(&watch);
+  if (!CHECK(context && make_and_show(context) == CELSPAN_OK))
+    return;
+  celspan_status status;
+  size_t fail_at = 0;
+  do {
+    watch.fail_at = watch.allocations + ++fail_at;
+    status = make_and_show(context);
+    watch.fail_at = 0;
+  } while (CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY) && status != CELSPAN_OK &&
+           fail_at < 100000);
+  CHECK(fail_at > 20 && watch.size_errors == 0);
+  celspan_context_destroy(context);
+  CHECK(watch.blocks == 0);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (celspan_context_create(NULL, &context) != CELSPAN_OK)
+    return 1;
+  make_card();
+  both_ways_find_the_card(context);
+  fields_are_fitted(context);
+  refusals(context);
+  celspan_context_destroy(context);
+  memory_may_fail_anywhere(false);
+  memory_may_fail_anywhere(true);
+  return check_done();
+}
