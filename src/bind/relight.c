@@ -22,12 +22,6 @@ static const cs_field no_fields[] = {{0}};
 static const cs_noun noun = {
     .name = "relit", .kind = &cs_kind_texture, .fields = no_fields, .create = refuse_with};
 
-static int fail(lua_State *L, celspan_context *context) {
-  luaL_pushfail(L);
-  lua_pushstring(L, celspan_context_error(context));
-  return 2;
-}
-
 /* Pushes a value that is to be filled: before the core makes what it holds. */
 static cs_userdata *push_value(lua_State *L, celspan_context *context) {
   cs_named_begin(L, context);
@@ -42,7 +36,7 @@ static int finish(lua_State *L, celspan_context *context, cs_userdata *value, ce
                   celspan_texture *texture) {
   cs_named_end(context);
   if (status != CELSPAN_OK)
-    return fail(L, context);
+    return cs_host_fail(L, status);
   value->handle = texture;
   return 1;
 }
@@ -103,8 +97,9 @@ int cs_relight_size(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_picture_info info;
   luaL_argcheck(L, texture->picture, 1, "must be a picture");
-  if (cs_store_info(context, texture->picture, &info) != CELSPAN_OK)
-    return fail(L, context);
+  celspan_status status = cs_store_info(context, texture->picture, &info);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   lua_pushinteger(L, info.width);
   lua_pushinteger(L, info.height);
   return 2;
@@ -123,8 +118,9 @@ int cs_relight_estimate(lua_State *L) {
   desc.is_uneven = lua_toboolean(L, 5);
   desc.blank = lua_isnoneornil(L, 6) ? NULL : texture_at(L, 6);
   celspan_light_field field;
-  if (celspan_light_estimate(context, &desc, &field) != CELSPAN_OK)
-    return fail(L, context);
+  celspan_status status = celspan_light_estimate(context, &desc, &field);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   push_field(L, &field, desc.is_uneven);
   return 1;
 }
@@ -188,8 +184,11 @@ int cs_relight_write(lua_State *L) {
   const celspan_texture *texture = texture_at(L, 1);
   const char *path = luaL_checkstring(L, 2);
   celspan_context *context = cs_host_context(L);
-  if (!cs_host_may_write(L, path) || celspan_relight_write(context, texture, path) != CELSPAN_OK)
-    return fail(L, context);
+  if (!cs_host_may_write(L, path))
+    return cs_host_fail(L, CELSPAN_OUTPUT);
+  celspan_status status = celspan_relight_write(context, texture, path);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
   lua_pushboolean(L, true);
   return 1;
 }
