@@ -101,6 +101,11 @@ static const cs_verb VERBS[] = {
      "PATTERN names pictures with a number, such as head.####.png. Frames in which the region was\n"
      "not found are told as lost. The track is for celspan.track, which places art on it.\n",
      cs_verb_track},
+    {CS_VERB_FARM, "farm", "SCRIPT -o OUT", 1, 1,
+     "Writes a job for a render farm: a Slurm array script, or an Open Job Description.",
+     "The job goes to standard output. Its tasks render the frames to OUT as 'celspan render' would, in\n"
+     "chunks that go on where they were stopped, or one frame in strips, which are joined at the end.\n",
+     cs_verb_farm},
     {CS_VERB_JOIN, "join", "STRIP ... -o OUT", 1, CS_OPERANDS_MAX,
      "Puts strips of a frame together, without unpacking them.",
      "STRIPs are PNG, Targa or span files of 'celspan render --strip', from the top down, or a pattern\n"

@@ -18,7 +18,7 @@ typedef struct option {
 } option;
 
 #define FIELD(field) offsetof(cs_request, field)
-#define CODED (CS_VERB_RENDER | CS_VERB_CONVERT)
+#define CODED (CS_VERB_RENDER | CS_VERB_CONVERT | CS_VERB_FARM)
 
 static const option OPTIONS[] = {
     {"-o", "DIR", "the name of a folder", CS_VERB_TILES, FIELD(output), cs_argument_text,
@@ -34,6 +34,25 @@ static const option OPTIONS[] = {
      "art.svg, or art.lua: a script that shows the drawing, and is a module"},
     {"-o", "OUT", "the name of a file", CS_VERB_JOIN, FIELD(output), cs_argument_text,
      "the picture to make; its ending is that of the strips"},
+    {"-o", "OUT", "the name of a file", CS_VERB_FARM, FIELD(output), cs_argument_text,
+     "what the job makes, as for render: shot.####.png, one.png for a single frame"},
+    {"--slurm", NULL, NULL, CS_VERB_FARM, FIELD(slurm), NULL, "an array script for Slurm"},
+    {"--openjd", NULL, NULL, CS_VERB_FARM, FIELD(openjd), NULL,
+     "a template of Open Job Description 2023-09, in JSON"},
+    {"--chunk", "N", "a whole number, 1 or more", CS_VERB_FARM, FIELD(chunk), cs_argument_every,
+     "at most N frames a task; default: 10"},
+    {"--strips", "N", "a whole number, 1 or more", CS_VERB_FARM, FIELD(strips), cs_argument_every,
+     "one frame in N strips, a task each, and a join behind them"},
+    {"--job-name", "NAME", "a name", CS_VERB_FARM, FIELD(name), cs_argument_text,
+     "the name of the job; default: that of the script"},
+    {"--job-memory", "MiB", "a whole number of MiB, 1 or more", CS_VERB_FARM, FIELD(task_memory),
+     cs_argument_every, "what each task is given; default: what the farm gives"},
+    {"--job-time", "MINUTES", "a whole number of minutes, 1 or more", CS_VERB_FARM,
+     FIELD(task_minutes), cs_argument_every, "how long each task may take; default: as above"},
+    {"--logs", "DIR", "the name of a folder", CS_VERB_FARM, FIELD(logs), cs_argument_text,
+     "where Slurm puts what tasks say; default: where it was told to"},
+    {"--workers", "N", "a whole number from 1 to 1024", CS_VERB_FARM, FIELD(workers),
+     cs_argument_workers, "processors, and threads, of each task; default: what the farm gives"},
     {"--colours", "N|LIST", "a whole number from 1 to 64, or colours like #ffffff,#203040",
      CS_VERB_TRACE, FIELD(colours), cs_argument_colours,
      "how many colours are found in the picture, or which there are; default: 2"},
@@ -53,15 +72,16 @@ static const option OPTIONS[] = {
      cs_argument_model,
      "translation, similarity (turned and scaled too) or perspective; default: similarity"},
     {"--frames", "LIST", "a list of frames such as 1-10,20-30:2,45",
-     CS_VERB_RENDER | CS_VERB_CHECK | CS_VERB_CONTACT | CS_VERB_SHEET | CS_VERB_TRACK, FIELD(frames),
-     cs_argument_text,
+     CS_VERB_RENDER | CS_VERB_CHECK | CS_VERB_CONTACT | CS_VERB_SHEET | CS_VERB_TRACK |
+         CS_VERB_FARM,
+     FIELD(frames), cs_argument_text,
      "the frames, such as 1-10,20-30:2,45; default: all"},
     {"--frame", "N", "the number of one frame", CS_VERB_SPANS | CS_VERB_PROBE | CS_VERB_TILES,
      FIELD(frame), cs_argument_integer, "the frame; default: the first"},
     {"--size", "WxH", "width x height in whole pixels, 1 to 1048576, such as 1920x1080",
      CODED | CS_VERB_SPANS | CS_VERB_TILES, FIELD(size), cs_argument_size,
      "pixels of the whole frame; each axis is scaled on its own"},
-    {"--scale", "S", "a number above 0 such as 0.5", CS_VERB_RENDER | CS_VERB_TILES, FIELD(scale),
+    {"--scale", "S", "a number above 0 such as 0.5", CS_VERB_RENDER | CS_VERB_FARM | CS_VERB_TILES, FIELD(scale),
      cs_argument_scale, "pixels a film unit, instead of --size"},
     {"--crop", "X,Y,W,H", "four whole numbers of pixels, width and height above 0", CODED,
      FIELD(crop), cs_argument_crop, "the part to make, in pixels of the output"},
@@ -76,7 +96,7 @@ static const option OPTIONS[] = {
     {"--antialias", "MODE",
      "'area', 'none', or 'box', 'gaussian', 'mitchell' or 'lanczos' with ':ROWS' (1 to 256) or "
      "without",
-     CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_TILES, FIELD(antialias), cs_argument_antialias,
+     CS_VERB_RENDER | CS_VERB_FARM | CS_VERB_SPANS | CS_VERB_TILES, FIELD(antialias), cs_argument_antialias,
      "area (the mean over each pixel), none (pixel centres), or KERNEL[:ROWS]: box,\n"
      "                     gaussian, mitchell, lanczos; ROWS: parts of a pixel row, 16"},
     {"--format", "NAME", "dzi or iiif", CS_VERB_TILES, FIELD(layout), cs_argument_layout,
@@ -89,19 +109,19 @@ static const option OPTIONS[] = {
      cs_argument_colour, "srgb, linear, rec709 or cineon; default: srgb, floats linear"},
     {"--alpha", "KIND", "straight or premultiplied", CODED, FIELD(coding.alpha), cs_argument_alpha,
      "straight or premultiplied; default: straight, floats premultiplied"},
-    {"--dither", NULL, NULL, CS_VERB_RENDER, FIELD(dithers), NULL,
+    {"--dither", NULL, NULL, CS_VERB_RENDER | CS_VERB_FARM, FIELD(dithers), NULL,
      "8 bits without bands: rounded up or down by the place of the pixel"},
     {"--quality", "Q", "a whole number from 0 to 100", CS_VERB_RENDER, FIELD(quality),
      cs_argument_quality, "of a video: 0 (small) to 100 (hardly any loss); default: 75"},
-    {"--background", "RGB", "a colour like #336699", CS_VERB_RENDER, FIELD(background),
+    {"--background", "RGB", "a colour like #336699", CS_VERB_RENDER | CS_VERB_FARM, FIELD(background),
      cs_argument_tint, "a back light of this colour and matte 1 behind everything"},
-    {"--cel", "NAME", "the name of a cel", CS_VERB_RENDER, FIELD(cel), cs_argument_text,
+    {"--cel", "NAME", "the name of a cel", CS_VERB_RENDER | CS_VERB_FARM, FIELD(cel), cs_argument_text,
      "the cels of this name alone (cel:named), with their lights"},
     {"--grid", "CxR", "columns x rows, each 1 to 100, such as 6x4", CS_VERB_CONTACT, FIELD(grid),
      cs_argument_grid, "columns and rows of a page; default: 6x4"},
     {"--every", "N", "a whole number, 1 or more", CS_VERB_CONTACT, FIELD(every), cs_argument_every,
      "one frame in N; default: as many as fit on one page"},
-    {"--onion", "B,A", "two numbers of frames, 0 to 16, not both 0, such as 2,1", CS_VERB_RENDER,
+    {"--onion", "B,A", "two numbers of frames, 0 to 16, not both 0, such as 2,1", CS_VERB_RENDER | CS_VERB_FARM,
      FIELD(onion), cs_argument_onion,
      "lay B frames before (red) and A after (green) over each frame"},
     {"--only", "PATTERN", "a pattern of names", CS_VERB_TEST, FIELD(only), cs_argument_text,
@@ -144,9 +164,9 @@ static const option OPTIONS[] = {
      "largest difference of coded values (0..1) that is let pass; default 0"},
     {"--resume", NULL, NULL, CS_VERB_RENDER, FIELD(resumes), NULL,
      "keep the frames of earlier runs with --resume that would come out the same"},
-    {"--force", NULL, NULL, CS_VERB_RENDER, FIELD(is_forced), NULL,
+    {"--force", NULL, NULL, CS_VERB_RENDER | CS_VERB_FARM, FIELD(is_forced), NULL,
      "with --resume: keep every frame that stands there whole, whatever it shows"},
-    {"--keep-going", NULL, NULL, CS_VERB_RENDER, FIELD(keeps_going), NULL,
+    {"--keep-going", NULL, NULL, CS_VERB_RENDER | CS_VERB_FARM, FIELD(keeps_going), NULL,
      "go on after frames that fail; the exit code is then 1"},
     {"--deep", NULL, NULL, CS_VERB_CHECK, FIELD(is_deep), NULL,
      "read pictures whole, not only their headers"},
@@ -161,7 +181,7 @@ static const option OPTIONS[] = {
      CS_VERBS_WITH_SCRIPT, FIELD(limits), cs_argument_limits,
      "limits of the script: memory=512M, steps=2e9 (a frame), time=60 (seconds a call),\n"
      "                     print=1M (a frame) are the defaults; several with commas; 0: none"},
-    {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS,
+    {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_FARM,
      FIELD(memory), cs_argument_memory,
      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"
      "                     as if it were the first"},
@@ -202,10 +222,22 @@ static cs_exit refuse_unknown(const cs_verb *verb, const char *name) {
                          verb->name);
 }
 
-static cs_exit read_value(const option *known, const char *text, cs_request *out) {
+/* What a farm's job gives to its tasks: the options that it has from render. */
+static cs_exit pass_on(const cs_verb *verb, const option *known, const char *text,
+                       cs_request *out) {
+  if (verb->self != CS_VERB_FARM || !(known->verbs & CS_VERB_RENDER))
+    return CS_EXIT_OK;
+  if (out->passed_count == CS_PASSED_MOST)
+    return cs_report_usage("%s: there are more than %d options", known->name, CS_PASSED_MOST);
+  out->passed[out->passed_count++] = (cs_passed){known->name, text};
+  return CS_EXIT_OK;
+}
+
+static cs_exit read_value(const cs_verb *verb, const option *known, const char *text,
+                          cs_request *out) {
   void *field = (char *)out + known->offset;
   if (known->read(text, field) == CS_ARGUMENT_READ)
-    return CS_EXIT_OK;
+    return pass_on(verb, known, text, out);
   return cs_report_usage("%s: '%s' is not %s", known->name, text, known->allowed);
 }
 
@@ -226,7 +258,7 @@ static cs_exit parse_option(parser *p) {
     return cs_report_usage("%s takes no value", name);
   if (!known->read) {
     *(bool *)((char *)p->out + known->offset) = true;
-    return CS_EXIT_OK;
+    return pass_on(p->verb, known, NULL, p->out);
   }
   if (known->value && !value) {
     if (p->next == p->count)
@@ -234,7 +266,7 @@ static cs_exit parse_option(parser *p) {
                              known->allowed ? known->allowed : known->value);
     value = p->arguments[p->next++];
   }
-  return read_value(known, value, p->out);
+  return read_value(p->verb, known, value, p->out);
 }
 
 /* "-" alone is a file, and "-3" a number. */

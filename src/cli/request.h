@@ -12,6 +12,13 @@
 
 #define CS_OPERANDS_MAX 1024
 
+/* An option as it was given. */
+typedef struct cs_passed {
+  const char *name, *value; /* value NULL: a flag */
+} cs_passed;
+
+enum { CS_PASSED_MOST = 128 };
+
 typedef struct cs_request {
   const char *operands[CS_OPERANDS_MAX]; /* borrowed from argv, as are all texts here */
   size_t operand_count;
@@ -58,6 +65,12 @@ typedef struct cs_request {
   cs_given_integer from;  /* the frame in which `at` is */
   int32_t at[4];          /* x, y, width, height; width 0: not given */
   const char *model;      /* NULL: not given */
+  bool slurm, openjd;
+  cs_given_integer chunk, strips;             /* frames of a task; strips of a frame */
+  cs_given_integer task_memory, task_minutes; /* MiB */
+  const char *name, *logs;                    /* of a job; NULL: not given */
+  cs_passed passed[CS_PASSED_MOST];           /* of a farm's job: what its tasks are given */
+  size_t passed_count;
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -76,8 +89,9 @@ typedef enum cs_verb_set {
   CS_VERB_TRACE = 1 << 12,
   CS_VERB_TRACK = 1 << 13,
   CS_VERB_JOIN = 1 << 14,
+  CS_VERB_FARM = 1 << 15,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
-                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT
+                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT | CS_VERB_FARM
 } cs_verb_set;
 
 typedef struct cs_verb {

@@ -14,6 +14,7 @@
 extern const unsigned char cs_desk_test[];
 extern const unsigned char cs_desk_contact[];
 extern const unsigned char cs_desk_onion[];
+extern const unsigned char cs_farm_text[];
 
 /* Runs a text with the `count` values on top of the stack as its arguments, which are popped, and
  * leaves `results` values. name: what tracebacks call it, "@celspan/desk/test.lua". Runs unprotected. */
