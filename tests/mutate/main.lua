@@ -5,8 +5,8 @@
 --
 -- A PLACE is a folder of src/, a file, or FILE:LINE; without one, the folders that decide what a
 -- pixel shows. N mutants of a folder are tried (20; 0: all), chosen by S (1). --near runs the
--- nearest tests alone. The exit status is 0 when every mutant was seen, 1 when one lived, and 2 when tests
--- fail without a mutant or the build does.
+-- nearest tests alone. The exit status is 0 when every mutant was seen, 1 when one lived, and 2 when
+-- tests fail without a mutant or the build does.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
@@ -95,8 +95,8 @@ local function split_tests(all, folder)
     if not is_near[test.name] then near[#near + 1] = test end
     is_near[test.name] = true
   end
-  for entry in workshop.source("tests/unit/meson.build"):gmatch "%b[]" do
-    local name, room = entry:match "^%['([%w_]+)', '(%w+)'%]$"
+  local listed = workshop.source "tests/unit/meson.build"
+  for name, room in listed:gmatch "%['([%w_]+)', '(%w+)'%]" do
     if room == folder and by_name["unit/" .. name] then add(by_name["unit/" .. name]) end
   end
   for _, name in ipairs(nearest[folder] or {}) do
@@ -108,10 +108,14 @@ local function split_tests(all, folder)
   return near, rest
 end
 
+--- Unit tests need a program each, specs all of celspan: no batch has both.
 local function batches_of(list)
-  local batches = {}
-  for i = 1, #list, BATCH do
-    batches[#batches + 1] = table.move(list, i, math.min(i + BATCH - 1, #list), 1, {})
+  local batches, batch = {}, {}
+  for i, test in ipairs(list) do
+    local is_other = i > 1 and (#test.targets > 1) ~= (#list[i - 1].targets > 1)
+    if #batch == BATCH or is_other then batch = {} end
+    if #batch == 0 then batches[#batches + 1] = batch end
+    batch[#batch + 1] = test
   end
   return batches
 end

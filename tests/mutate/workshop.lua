@@ -48,25 +48,24 @@ local function files_of(root)
     .. "-o -type f -print"):format(quote(root)))
 end
 
---- Makes the copy as the tree is; whether something changed.
+--- Makes the copy as the tree is; the paths that differed.
 local function refresh()
   local is_here, different = {}, {}
   for _, path in ipairs(files_of ".") do
     is_here[path] = true
-    if read(path) ~= read(COPY .. "/" .. path) then different[#different + 1] = quote(path) end
+    if read(path) ~= read(COPY .. "/" .. path) then different[#different + 1] = path end
   end
   if #different > 0 then
     write(FOLDER .. "/list", table.concat(different, "\n"))
-    assert(os.execute(("xargs cp --parents -t %s <%s/list"):format(COPY, FOLDER)))
+    assert(os.execute(("xargs -d '\\n' cp --parents -t %s <%s/list"):format(COPY, FOLDER)))
   end
-  local is_changed = #different > 0
   for _, path in ipairs(files_of(COPY)) do
     if not is_here[path] then
-      is_changed = true
+      different[#different + 1] = path
       assert(os.remove(COPY .. "/" .. path))
     end
   end
-  return is_changed
+  return different
 end
 
 --- Which objects are made from each source and header: the path of the tree to a list of targets.
@@ -143,7 +142,7 @@ end
 --- Opens the workshop: the copy is made and built, which takes minutes the first time.
 function workshop.open()
   assert(os.execute("mkdir -p " .. COPY))
-  local is_changed = refresh()
+  local changed = refresh()
   if not read(COPY .. "/build/build.ninja") then
     local set_up = "cd %s && CC='ccache gcc' CXX='ccache g++' meson setup build %s >../log 2>&1"
     if not os.execute(set_up:format(COPY, OPTIONS)) then
@@ -157,15 +156,21 @@ function workshop.open()
   for _, spec in ipairs(specs()) do tests[#tests + 1] = spec end
   local self = { dependents = read_dependents(), digests = {}, times = {}, tests = tests }
   setmetatable(self, workshop)
-  if not is_changed then self:read_times() end
+  self:read_times(changed)
   return self
 end
 
---- How long the tests took that passed without a mutant, in seconds; forgotten when the tree
---- changes.
-function workshop:read_times()
+--- How long the tests took that passed without a mutant, in seconds. That of a test is forgotten when
+--- its source changes, all of them when anything else does.
+function workshop:read_times(changed)
+  local is_forgotten = {}
+  for _, path in ipairs(changed) do
+    local test = path:match "^%./tests/unit/test_([%w_]+)%.c$"
+    local name = test and "unit/" .. test or path:match "^%./tests/([%w_/]+)_spec%.lua$"
+    if name then is_forgotten[name] = true elseif not path:find "^%./tests/mutate/" then return end
+  end
   for name, seconds in (read(FOLDER .. "/times") or ""):gmatch "(%S+) (%S+)\n" do
-    self.times[name] = tonumber(seconds)
+    if not is_forgotten[name] then self.times[name] = tonumber(seconds) end
   end
 end
 

@@ -278,6 +278,31 @@ describe("a picture's words", function()
     assert.are.equal("rrrbbb", row { wrap = "clamp" })
     assert.are.equal("rbrbrb", row { wrap = "repeat" })
   end)
+
+  it("is opaque or not, whatever is behind it: faded, it lets that much of it through", function()
+    local behind = celspan.rect { 0, 0, 96, 40, texture = "#f00" }
+    local greys = { rgb8 = "\128\128\128", rgba8 = "\128\128\128\255" }
+    for _, wrap in ipairs { "clamp", "repeat", "clear" } do
+      for format, texel in pairs(greys) do
+        local antialias = wrap == "clamp" and "none" or "area"
+        local grey = celspan.picture { pixels = texel:rep(64 * 64), size = { 64, 64 },
+          format = format, box = { 0, 0, 64, 64 }, wrap = wrap }
+        local sheet = celspan.rect { 0, 0, 64, 40, texture = grey }
+        local function reddest(...)
+          local image = assert(celspan.pixels(celspan.rostrum { antialias = antialias, ... },
+            { size = { 96, 40 } }))
+          local r, g = image:get(20, 20)
+          return r - g
+        end
+        local back = celspan.cel { behind }
+        assert.are.near(0, reddest(back, celspan.cel { sheet }), 1e-6)
+        assert.are.near(0.25, reddest(back, celspan.cel { sheet:fade(0.75) }), 1e-6)
+        assert.are.near(0.25, reddest(back, celspan.cel { sheet }:fade(0.75)), 1e-6)
+        local pair = sheet:fade(0.5) | sheet:translate(70, 0)
+        assert.are.near(0.5, reddest(back, celspan.cel { pair }), 1e-6)
+      end
+    end
+  end)
 end)
 
 describe("a film, frame by frame", function()

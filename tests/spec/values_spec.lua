@@ -251,6 +251,28 @@ describe("the parts of a value", function()
   end)
 end)
 
+describe("a fade", function()
+  -- What is there at the middle of a white disc on black: its opacity.
+  local function shown(value)
+    local cel = tostring(value):find "^cel" and value or celspan.cel { value }
+    local r, _, _, a = assert(celspan.probe(celspan.rostrum { cel }, 50, 50, { film = { 100, 100 } }))
+    assert.are.equal(r, a)
+    return a
+  end
+
+  it("is kept by one :with and by the next, and multiplies", function()
+    local circle = celspan.circle { centre = { 50, 50 }, radius = 9, texture = "#fff" }
+    for _, value in ipairs { circle, circle | circle:translate(1, 0), celspan.cel { circle } } do
+      local faded = value:fade(0.5)
+      assert.are.equal(0.5, shown(faded))
+      assert.are.equal(0.5, shown(faded:with {}))
+      assert.are.equal(0.5, shown(faded:with {}:with {}))
+      assert.are.equal(0.25, shown(faded:with {}:fade(0.5):with {}))
+      assert.are.equal(0.25, shown(faded:fade(0.5):with {}))
+    end
+  end)
+end)
+
 describe("a colour as a string", function()
   it("makes paints as numbers do", function()
     local orange = celspan.rgb("#ff8000").pigment
