@@ -106,6 +106,8 @@ local function read_pgo1(text)
     at = at + 1
     return lines[at] or ""
   end
+  --- The length of the list that follows: no longer than what is left of the file.
+  local function next_count() return math.min(tonumber(next_line()) or 0, #lines - at) end
   next_line() -- the sound's name
   local fps, count = tonumber(next_line()), tonumber(next_line())
   local voices = tonumber(next_line())
@@ -115,11 +117,11 @@ local function read_pgo1(text)
   next_line() -- the voice's name
   next_line() -- its text
   local marks = {}
-  for _ = 1, tonumber(next_line()) or 0 do
+  for _ = 1, next_count() do
     at = at + 3 -- text, start, end
     local stop = tonumber(lines[at])
-    for _ = 1, tonumber(next_line()) or 0 do
-      local phonemes = tonumber(next_line():match "(%d+)$")
+    for _ = 1, next_count() do
+      local phonemes = tonumber(next_line():match "%d+$")
       if not phonemes then return nil, ("line %d is not a word"):format(at) end
       for _ = 1, phonemes do
         local frame, shape = next_line():match "^(%d+)%s+(%S+)$"
@@ -133,15 +135,24 @@ local function read_pgo1(text)
   return { marks = marks, count = count, fps = fps }
 end
 
+--- What was found, unless its frames a second, where it has any, are none.
+local function with_rate(found, message)
+  local fps = found and found.fps
+  if fps and not (fps > 0 and fps <= 1000) then
+    return nil, ("its frames a second are %.14g: they must be above 0 and at most 1000"):format(fps)
+  end
+  return found, message
+end
+
 --- Tells the format by the text itself, so that a wrong ending does not matter.
 ---@param text string
 ---@return table? found
 ---@return string? message
 function cues.read(text)
   local start = text:gsub("^\239\187\191", "")
-  if start:find "^%s*{" then return read_json(start) end
+  if start:find "^%s*{" then return with_rate(read_json(start)) end
   if start:find "^%s*<" then return read_xml(start) end
-  if start:find "^lipsync version 1" then return read_pgo1(start) end
+  if start:find "^lipsync version 1" then return with_rate(read_pgo1(start)) end
   if start:find "^MohoSwitch1" then return read_dat(start) end
   if start:find "^%s*%d+%.%d+%s" then return read_tsv(start) end
   if start:find "^%s*%d+%s+%S+" then return read_dat(start) end

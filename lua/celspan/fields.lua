@@ -6,7 +6,7 @@ local fields = {}
 --- The least unknown name, so that what is reported does not depend on the order of the table.
 local function unknown_in(given, known)
   local least
-  for name in pairs(given) do
+  for name in next, given do
     if type(name) == "string" and not known[name] and (not least or name < least) then
       least = name
     end

@@ -25,6 +25,7 @@ function mouths.from_cues(given, fps)
   for _, cue in ipairs(list) do stop = math.max(stop, cue[2]) end
   local count = math.ceil(stop * fps - 1e-6)
   if count > most_frames then return nil, "the recording is longer than a day" end
+  if count < 1 then return nil, "it ends before its first frame" end
   local shapes, best = {}, {}
   for i, cue in ipairs(list) do
     -- a cue ends where the next one starts, whether they overlap or leave a gap
@@ -52,6 +53,7 @@ function mouths.from_marks(marks, count, scale)
   end)
   local last = math.max(sorted[#sorted].frame, count and math.floor(count * scale + 0.5) or 0)
   if last > most_frames then return nil, "the recording is longer than a day" end
+  if last < 1 then return nil, "it ends before its first frame" end
   local shapes, at = {}, 1
   local shape = sorted[1].frame > 1 and "rest" or sorted[1].shape
   for n = 1, last do

@@ -127,7 +127,7 @@ local known_fields = { name = "string", scene = "string", cut = "string", fps = 
 --- A table from frames as a list in their order: { frame =, value = }.
 local function by_frame(given, what)
   local list = {}
-  for frame, value in pairs(given) do
+  for frame, value in next, given do
     if math.type(frame) ~= "integer" or frame < 1 or frame > columns.most_frames then
       columns.fail("%s: a frame must be a whole number from 1 to %d, got %s", what,
         columns.most_frames, fields.shown(frame))
@@ -191,7 +191,7 @@ local function make(given)
     list[i], places[name] = columns.new(name), i
   end
   for _, field in ipairs { "drawings", "marks" } do
-    for name, value in pairs(given[field] or {}) do
+    for name, value in next, given[field] or {} do
       if not places[name] or type(value) ~= "table" then
         columns.fail("%s: %s must be a layer, with a table from frames", field, tostring(name))
       end

@@ -53,7 +53,7 @@ function Art:with(changes)
   local names = {}
   for name in pairs(self.parts) do names[#names + 1] = name end
   table.sort(names)
-  for name, change in pairs(changes) do
+  for name, change in next, changes do
     if type(name) ~= "string" or rawget(self.parts, name) == nil then
       local hint = type(name) == "string" and core.nearest(name, names)
       error(("svg: the drawing has no part '%s'%s"):format(tostring(name),
@@ -72,7 +72,7 @@ end
 --- The fonts as a list in the order of their families.
 local function list_fonts(options, find)
   local list = {}
-  for family, file in pairs(options.fonts or {}) do
+  for family, file in next, options.fonts or {} do
     if type(family) ~= "string" or type(file) ~= "string" then
       return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, got %s = %s")
         :format(tostring(family), fields.kind(file))
@@ -85,7 +85,7 @@ end
 
 local function check_options(options)
   if type(options) ~= "table" then return "svg: read's options are a table, got " .. fields.kind(options) end
-  for name in pairs(options) do
+  for name in next, options do
     if name ~= "fonts" then return ("svg: read has no option '%s'; it has fonts"):format(tostring(name)) end
   end
   if options.fonts ~= nil and type(options.fonts) ~= "table" then

@@ -126,17 +126,17 @@ local function check_options(options)
   for i, name in ipairs(models) do place = name == model and i - 1 or place end
   if not place then
     error(("track: field 'model' must be \"%s\", got \"%s\""):format(
-      table.concat(models, '", "'), model), 4)
+      table.concat(models, '", "'), model), 3)
   end
   if not options.from or math.type(math.tointeger(options.from)) ~= "integer" then
     error("track: field 'from' must be the number of a frame, got "
-      .. fields.shown(options.from), 4)
+      .. fields.shown(options.from), 3)
   end
   local at = options.at
   if type(at) == "table" then
-    fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 4)
+    fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 3)
   elseif type(at) ~= "userdata" then
-    error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 4)
+    error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 3)
   end
   return place
 end

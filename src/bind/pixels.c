@@ -37,8 +37,17 @@ static int32_t coordinate(lua_State *L, int index, const char *name, int32_t siz
   return (int32_t)at;
 }
 
+/* The `self` of a method; raises for anything but an image. */
+static const image *self(lua_State *L, const char *method) {
+  const image *picture = luaL_testudata(L, 1, IMAGE);
+  if (!picture)
+    cs_caller_error(L, "%s: call it as a method, image:%s(...), got %s", method, method,
+                    cs_userdata_type(L, 1));
+  return picture;
+}
+
 static int get(lua_State *L) {
-  const image *picture = luaL_checkudata(L, 1, IMAGE);
+  const image *picture = self(L, "get");
   int32_t x = coordinate(L, 2, "x", picture->width), y = coordinate(L, 3, "y", picture->height);
   const float *pixel = picture->pixels + 4 * ((size_t)y * (size_t)picture->width + (size_t)x);
   for (int c = 0; c < 4; c++)
@@ -57,7 +66,7 @@ static celspan_span span_of(const image *picture, int32_t y) {
 
 /* image:bytes{ depth =, colour =, alpha = }: RGBA, rows from top to bottom. */
 static int bytes(lua_State *L) {
-  const image *picture = luaL_checkudata(L, 1, IMAGE);
+  const image *picture = self(L, "bytes");
   lua_settop(L, 2);
   cs_form form = cs_options_open(L, &noun_bytes, 2);
   celspan_coding coding = CELSPAN_ZERO;
@@ -88,7 +97,7 @@ static celspan_status write_rows(celspan_context *context, const celspan_sink *s
 
 /* image:write(path [, options]) -> true | nil, message */
 static int write_image(lua_State *L) {
-  const image *picture = luaL_checkudata(L, 1, IMAGE);
+  const image *picture = self(L, "write");
   lua_settop(L, 3);
   if (lua_type(L, 2) != LUA_TSTRING)
     return cs_caller_error(L, "write: argument 1 must be a file name like \"one.png\", got %s",

@@ -40,7 +40,8 @@ typedef struct stretch {
 static void add_segment(const cs_kernel *kernel, const stretch *s, double x, float weight,
                         float *sums) {
   double column = floor(x - 0.5), phase = (x - 0.5 - column) * kernel->phases;
-  int32_t row = (int32_t)phase, stride = kernel->stride;
+  /* Just left of a centre, phase rounds to `phases`. */
+  int32_t row = cs_number_row(phase, kernel->phases), stride = kernel->stride;
   float t = (float)(phase - row);
   const float *low = kernel->shares + (size_t)row * (size_t)stride, *high = low + stride;
   float *out = sums + ((int32_t)column - kernel->columns - s->first);

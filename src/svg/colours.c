@@ -242,7 +242,9 @@ static bool take_function(const char **text, bool is_hue, cs_svg_colour *out) {
   if (**text != ')' && !take_share(text, 1, &out->alpha))
     return false;
   *text = cs_svg_skip_space(*text);
-  return *(*text)++ == ')';
+  bool is_closed = **text == ')';
+  *text += is_closed;
+  return is_closed;
 }
 
 static int compare_name(const void *key, const void *item) {

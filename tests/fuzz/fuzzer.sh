@@ -11,7 +11,7 @@
 set -u
 build=$1 folder=$2 seconds=$3
 shift 3
-export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=1:handle_abort=1
+export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=0:handle_abort=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan.supp:print_suppressions=0"
 
@@ -49,7 +49,7 @@ is_foreign() {
 # fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding.
 fuzz_once() {
   local name=$1 share=$2
-  nice "$(program_of "$name")" -max_total_time="$share" -timeout=60 -rss_limit_mb=3072 \
+  nice "$(program_of "$name")" -max_total_time="$share" -timeout=60 -detect_leaks=0 -rss_limit_mb=3072 \
     -malloc_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$folder/$name-" -verbosity=1 \
     "$folder/learned/$name" "$(corpus_of "$name")" >"$folder/$name.log" 2>&1
 }

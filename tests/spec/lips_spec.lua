@@ -126,6 +126,30 @@ describe("a file", function()
     assert.are.equal("B B C C", shapes(json, { fps = 10, hold = 1 }))
   end)
 
+  it("that ends before its first frame is refused", function()
+    for _, text in ipairs { "MohoSwitch1\n0 rest\n", '{"mouthCues":[{"start":0,"end":0,"value":"X"}]}' } do
+      local track, message = lips.read(write(text))
+      assert.is_nil(track)
+      assert.is_truthy(message:find(": it ends before its first frame", 1, true), message)
+    end
+  end)
+
+  it("that counts more than it holds is read to its end, at once", function()
+    local head = "lipsync version 1\na.wav\n%s\n48\n1\nvoice\nhello\n%s\nhello\n3\n30\n%s\nhello 3 9 %s\n3 E\n"
+    local begun = os.clock()
+    assert.is_truthy(shapes(head:format(24, "1e18", "1", "1")):find "E")
+    assert.is_nil((lips.read(write(head:format(24, "1", "1", "99999999999")))))
+    assert.is_true(os.clock() - begun < 1)
+  end)
+
+  it("whose frames a second are none is refused", function()
+    for _, fps in ipairs { "0", "-1", "1e999", "1001" } do
+      local track, message = lips.read(write(("lipsync version 1\na.wav\n%s\n48\n1\nv\nt\n1\nt\n3\n30\n1\nt 3 9 1\n3 E\n"):format(fps)))
+      assert.is_nil(track)
+      assert.is_truthy(message:find("its frames a second are", 1, true), message)
+    end
+  end)
+
   it("that is missing or foreign gives nil and a message with its name", function()
     local track, message = lips.read "no/such/file.tsv"
     assert.is_nil(track)

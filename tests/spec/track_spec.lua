@@ -175,7 +175,10 @@ describe("following", function()
 
   it("refuses wrong fields at the caller's line", function()
     local function refused(options)
-      return raised.message(function() track.follow("a.#.png", options) end)
+      local here = debug.getinfo(1, "l").currentline
+      local message, line = raised.sentence(function() track.follow("a.#.png", options) end)
+      assert.are.equal(here + 1, line)
+      return message
     end
     local at = { 1, 2, 30, 40 }
     local function has(message, words) assert.is_truthy(message:find(words, 1, true), message) end

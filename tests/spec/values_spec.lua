@@ -361,4 +361,14 @@ describe("the inside of a value", function()
     end
     metatable.__celspan = nil
   end)
+
+  it("is told in one sentence where a method of an image is given another", function()
+    for _, name in ipairs { "get", "bytes", "write" } do
+      local sentence = raised.sentence(function()
+        local answer = image[name](circle, 0, 0)
+        return answer
+      end)
+      assert.are.equal(("%s: call it as a method, image:%s(...), got a circle"):format(name, name), sentence)
+    end
+  end)
 end)

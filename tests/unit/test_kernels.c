@@ -156,6 +156,34 @@ static void check_edges(void) {
   celspan_context_destroy(s.context);
 }
 
+/* Memory with NaN behind every block: what is read there by mistake shows. */
+static void *with_nan_behind(void *user, void *block, size_t old_size, size_t new_size) {
+  const size_t behind = 4096;
+  (void)user;
+  (void)old_size;
+  char *made = new_size > 0 ? realloc(block, new_size + behind) : NULL;
+  if (made)
+    memset(made + new_size, 0xff, behind);
+  else if (new_size == 0)
+    free(block);
+  return made;
+}
+
+/* An edge so little left of a pixel's centre that its distance rounds to a whole pixel. */
+static void check_edge_beside_centre(void) {
+  static studio s;
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = with_nan_behind;
+  CHECK(celspan_context_create(&desc, &s.context) == CELSPAN_OK);
+  celspan_filter_desc f = filter(CELSPAN_KERNEL_GAUSSIAN, 1.5);
+  image i = whole(&s, half_plane(&s, nextafter(0.5, 0), 0, 0), &f);
+  for (int32_t p = 0; p < SIDE; p++)
+    CHECK_NEAR((double)at(&i, p, 13)[3], below(gaussian_profile, 1.5, p), 0.002);
+  free(i.rgba);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
 /* An edge at any angle under a kernel that has no direction: a Gaussian of its sigma. */
 static void check_slanted(void) {
   static studio s;
@@ -384,6 +412,7 @@ static void check_door(void) {
 
 int main(void) {
   check_edges();
+  check_edge_beside_centre();
   check_slanted();
   check_light();
   check_constants();

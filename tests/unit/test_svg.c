@@ -1,5 +1,6 @@
 /* Drawings through the C face: reading, questions, parts changed, and memory that fails at any place. */
 #include "celspan/celspan.h"
+#include "svg/colours.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 
@@ -107,6 +108,17 @@ static void faults_are_told(celspan_context *context) {
   CHECK(strstr(celspan_context_error(context), "a.svg:2: stroke-width is \"nan\""));
 }
 
+/* The reader of a colour stays inside of its text. */
+static void a_colour_may_lack_its_end(void) {
+  static const char *const texts[] = {"rgb(1, 2, 3", "hsl(1, 2%, 3%, .5", "rgba(1"};
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    const char *end = texts[i];
+    cs_svg_colour colour;
+    CHECK(!cs_svg_take_colour(&end, &colour));
+    CHECK(end <= texts[i] + strlen(texts[i]));
+  }
+}
+
 /* Reads the drawing and changes a part; the allocation of number `fail_at` of these fails. */
 static celspan_status read_and_change(celspan_context *context, memory_watch *watch,
                                       size_t fail_at) {
@@ -151,6 +163,7 @@ int main(void) {
   parts_are_changed(context);
   faults_are_told(context);
   celspan_context_destroy(context);
+  a_colour_may_lack_its_end();
   memory_may_fail_anywhere();
   return check_done();
 }
