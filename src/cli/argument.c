@@ -217,6 +217,41 @@ cs_argument_outcome cs_argument_layout(const char *text, void *field) {
   return CHOOSE(text, field, choices);
 }
 
+/* "r,g,b": numbers, 0 or more. */
+static bool read_triple(const char *text, float rgb[3]) {
+  for (int c = 0; c < 3; c++) {
+    char *end;
+    double value = strtod(text, &end);
+    if (end == text || !(value >= 0 && value <= 1e6) || *end != (c < 2 ? ',' : '\0'))
+      return false;
+    rgb[c] = (float)value;
+    text = end + 1;
+  }
+  return true;
+}
+
+cs_argument_outcome cs_argument_light(const char *text, void *field) {
+  cs_given_light light = {.is_given = true};
+  cs_given_colour colour;
+  if (cs_argument_tint(text, &colour) == CS_ARGUMENT_READ)
+    memcpy(light.rgb, colour.rgb, sizeof light.rgb);
+  else if (!read_triple(text, light.rgb))
+    return CS_ARGUMENT_BAD;
+  *(cs_given_light *)field = light;
+  return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_lamp(const char *text, void *field) {
+  cs_given_light light = {.is_given = true, .is_grey = true};
+  if (strcmp(text, "grey") != 0) {
+    if (cs_argument_light(text, &light) != CS_ARGUMENT_READ ||
+        !(light.rgb[0] > 0 && light.rgb[1] > 0 && light.rgb[2] > 0))
+      return CS_ARGUMENT_BAD;
+  }
+  *(cs_given_light *)field = light;
+  return CS_ARGUMENT_READ;
+}
+
 cs_argument_outcome cs_argument_tint(const char *text, void *field) {
   celspan_paint paint;
   if (!celspan_paint_parse(text, &paint) || paint.beta != 1)

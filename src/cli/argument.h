@@ -60,6 +60,13 @@ typedef struct cs_given_colour {
   float rgb[3];
 } cs_given_colour;
 
+/* A light: a colour as above or "r,g,b" in linear light, each above 0; or one to be estimated. */
+typedef struct cs_given_light {
+  bool is_given;
+  bool is_grey; /* it is to be estimated: the mean of the picture is grey */
+  float rgb[3];
+} cs_given_light;
+
 /* How many colours, or which. */
 typedef struct cs_given_colours {
   int32_t count; /* 0: not given */
@@ -84,16 +91,19 @@ cs_argument_outcome cs_argument_antialias(const char *text, void *field); /* cs_
 cs_argument_outcome cs_argument_depth(const char *text, void *field);     /* celspan_depth */
 cs_argument_outcome cs_argument_colour(const char *text, void *field);    /* celspan_transfer */
 cs_argument_outcome cs_argument_alpha(const char *text, void *field);     /* celspan_alpha */
-cs_argument_outcome cs_argument_count(const char *text, void *field);    /* cs_given_integer, 0.. */
-cs_argument_outcome cs_argument_every(const char *text, void *field);    /* cs_given_integer, 1.. */
-cs_argument_outcome cs_argument_grid(const char *text, void *field);     /* int32_t[2], 1..100 */
-cs_argument_outcome cs_argument_share(const char *text, void *field);    /* int32_t[2]: "3/24" */
-cs_argument_outcome cs_argument_onion(const char *text, void *field);    /* int32_t[2], 0..16 */
-cs_argument_outcome cs_argument_layout(const char *text, void *field);   /* cs_pyramid_layout */
-cs_argument_outcome cs_argument_tint(const char *text, void *field);     /* cs_given_colour */
-cs_argument_outcome cs_argument_colours(const char *text, void *field);  /* cs_given_colours */
-cs_argument_outcome cs_argument_smooth(const char *text, void *field);   /* double, 0..16 */
-cs_argument_outcome cs_argument_model(const char *text, void *field);    /* const char *, of a track */
+cs_argument_outcome cs_argument_count(const char *text, void *field);  /* cs_given_integer, 0.. */
+cs_argument_outcome cs_argument_every(const char *text, void *field);  /* cs_given_integer, 1.. */
+cs_argument_outcome cs_argument_grid(const char *text, void *field);   /* int32_t[2], 1..100 */
+cs_argument_outcome cs_argument_share(const char *text, void *field);  /* int32_t[2]: "3/24" */
+cs_argument_outcome cs_argument_onion(const char *text, void *field);  /* int32_t[2], 0..16 */
+cs_argument_outcome cs_argument_layout(const char *text, void *field); /* cs_pyramid_layout */
+cs_argument_outcome cs_argument_tint(const char *text, void *field);   /* cs_given_colour */
+cs_argument_outcome cs_argument_lamp(const char *text, void *field);   /* cs_given_light */
+/* cs_given_light: a colour alone, and channels may be 0 */
+cs_argument_outcome cs_argument_light(const char *text, void *field);
+cs_argument_outcome cs_argument_colours(const char *text, void *field); /* cs_given_colours */
+cs_argument_outcome cs_argument_smooth(const char *text, void *field);  /* double, 0..16 */
+cs_argument_outcome cs_argument_model(const char *text, void *field); /* const char *, of a track */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
 cs_argument_outcome cs_argument_texts(const char *text, void *field);    /* cs_given_texts: adds */
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M" */

@@ -88,6 +88,14 @@ static const cs_verb VERBS[] = {
      "Without --every the frames are thinned until they fit on one page. With it, SHEET needs a\n"
      "number such as sheet.####.png when there are more frames than cells.\n",
      cs_verb_contact},
+    {CS_VERB_RELIGHT, "relight", "IN -o OUT", 1, 1,
+     "Takes the light off a picture, and shows it in another light.",
+     "IN is any picture, and --light what it was taken in; highlights are kept. Without --to OUT is "
+     "an\n"
+     "EXR file of seven channels, which takes any light: for celspan.relight, or as IN of another "
+     "run,\n"
+     "which needs no --light.\n",
+     cs_verb_relight},
     {CS_VERB_TRACE, "trace", "IN -o OUT", 1, 1,
      "Turns a scanned or flat-coloured drawing into shapes: SVG, or a script.",
      "IN is any picture. Areas of one colour become closed paths of lines and cubics; those that "

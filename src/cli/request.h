@@ -71,6 +71,7 @@ typedef struct cs_request {
   const char *name, *logs;                    /* of a job; NULL: not given */
   cs_passed passed[CS_PASSED_MOST];           /* of a farm's job: what its tasks are given */
   size_t passed_count;
+  cs_given_light light, to;
 } cs_request;
 
 typedef enum cs_verb_set {
@@ -90,6 +91,7 @@ typedef enum cs_verb_set {
   CS_VERB_TRACK = 1 << 13,
   CS_VERB_JOIN = 1 << 14,
   CS_VERB_FARM = 1 << 15,
+  CS_VERB_RELIGHT = 1 << 16,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
                          CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT | CS_VERB_FARM
 } cs_verb_set;

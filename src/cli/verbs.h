@@ -21,6 +21,7 @@ cs_exit cs_verb_init(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_contact(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_farm(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_join(celspan_context *context, const cs_request *request);
+cs_exit cs_verb_relight(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_trace(celspan_context *context, const cs_request *request);
 
 #endif

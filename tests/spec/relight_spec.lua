@@ -338,6 +338,57 @@ describe("a relit picture in a file", function()
   end)
 end)
 
+describe("celspan relight", function()
+  local function write_photograph(light)
+    local path = bench.folder .. "/photo.exr"
+    assert(show(photograph(light)):write(path, { depth = "float" }))
+    return path
+  end
+
+  it_reads("shows a picture in another light, highlights included", function()
+    local path, out = write_photograph(LAMP), bench.folder .. "/dusk.exr"
+    assert.are.same({ 0, "", "" }, { bench:celspan(
+      "relight %s -o %s --light 1.4,0.8,0.35 --to 0.2,0.3,0.9 --depth float", path, out) })
+    assert.is_true(difference(show(photograph { 0.2, 0.3, 0.9 }),
+      show(celspan.picture { file = out })) < 1 / 1023)
+  end)
+
+  it_reads("takes the light off into a file that it shows in any light", function()
+    local path, bare = write_photograph(LAMP), bench.folder .. "/bare.exr"
+    assert.are.equal(0, (bench:celspan("relight %s -o %s --light 1.4,0.8,0.35", path, bare)))
+    local back = bench.folder .. "/back.exr"
+    assert.are.equal(0, (bench:celspan("relight %s -o %s --to 1.4,0.8,0.35 --depth float", bare,
+      back)))
+    assert.is_true(difference(show(photograph(LAMP)), show(celspan.picture { file = back }))
+      < 1 / 1023)
+  end)
+
+  it_reads("refuses what is missing or cannot be, with the documented exit codes", function()
+    local path, bare = write_photograph(LAMP), bench.folder .. "/bare.exr"
+    assert(relight.write((assert(relight.from { picture = photograph(LAMP), light = LAMP })), bare))
+    local black = bench.folder .. "/black.png"
+    assert(show("#000000"):write(black))
+    local cases = {
+      { 2, path .. " --light grey", "-o is needed" },
+      { 2, path .. " -o x.exr", "--light is needed" },
+      { 2, path .. " -o x.exr --light 1,0,1", "--light: '1,0,1' is not a colour" },
+      { 2, path .. " -o x.exr --light warm", "--light: 'warm' is not a colour" },
+      { 2, bare .. " -o x.exr", "--to is needed" },
+      { 2, bare .. " -o x.png --light grey --to 1,1,1", "has been taken off already" },
+      { 2, path .. " -o x.xyz --light grey --to 1,1,1", "xyz" },
+      { 3, path .. " -o x.png --light grey", "must end in .exr" },
+      { 3, black .. " -o x.exr --light grey", "there is no red in the picture" },
+      { 4, bench.folder .. "/none.png -o x.exr --light grey", "none.png" },
+      { 5, path .. " -o /proc/none/x.exr --light grey", "/proc/none" },
+    }
+    for _, case in ipairs(cases) do
+      local code, out, err = bench:celspan("relight %s", case[2])
+      assert.are.same({ case[1], "" }, { code, out }, err)
+      assert.is_truthy(err:find(case[3], 1, true), err)
+    end
+  end)
+end)
+
 describe("relight.from", function()
   it("raises what is given wrongly, at the caller's line", function()
     local taken = photograph(LAMP)
