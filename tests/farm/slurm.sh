@@ -1,0 +1,196 @@
+#!/usr/bin/env bash
+# celspan farm on a Slurm of its own: an array of frames, of which one task is killed and put back into
+# the queue, and a large frame in strips, joined, that is the same as the one made whole.
+#
+#   tests/farm/slurm.sh [SIDE]       pixels of the large frame's side; 100000
+#
+# Needs Debian's slurmctld, slurmd and munge, root (as in a container), and build/celspan, or what
+# CELSPAN names. Everything is in a temporary folder and on ports of its own; what is left of it is
+# ended and removed.
+set -u -o pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+side=${1:-100000}
+celspan=$(realpath "${CELSPAN:-$root/build/celspan}")
+work=$(mktemp -d)
+ports=$((20000 + RANDOM % 20000))
+processes=()
+
+say() { printf '== %s\n' "$*"; }
+
+die() {
+  printf 'slurm.sh: %s\n' "$*" >&2
+  tail -n 20 "$work"/*.log 2>/dev/null >&2
+  exit 1
+}
+
+finish() {
+  scancel --user=root >/dev/null 2>&1
+  sleep 1
+  for process in "${processes[@]}"; do kill "$process" 2>/dev/null; done
+  wait 2>/dev/null
+  rm -rf "$work"
+}
+trap finish EXIT
+
+# ---------------------------------------------------------------- a Slurm of one machine
+
+configure() {
+  local name
+  name=$(hostname -s)
+  mkdir -p "$work"/{state,spool,run}
+  chmod 755 "$work"
+  head -c 1024 /dev/urandom >"$work/munge.key"
+  chmod 400 "$work/munge.key"
+  cat >"$work/slurm.conf" <<TEXT
+ClusterName=celspan
+SlurmctldHost=$name(127.0.0.1)
+SlurmctldPort=$ports
+SlurmdPort=$((ports + 1))
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=$work/run/munge.socket
+CredType=cred/munge
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/run/slurmctld.pid
+SlurmdPidFile=$work/run/slurmd.pid
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+SchedulerType=sched/backfill
+ReturnToService=2
+SlurmdTimeout=300
+RebootProgram=/bin/false
+NodeName=$name NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=$name Default=YES MaxTime=INFINITE State=UP
+TEXT
+  export SLURM_CONF=$work/slurm.conf CELSPAN=$celspan
+}
+
+start() {
+  munged --foreground --force --key-file="$work/munge.key" --socket="$work/run/munge.socket" \
+    --pid-file="$work/run/munge.pid" --seed-file="$work/run/munge.seed" \
+    --log-file="$work/munge.log" >"$work/munged.log" 2>&1 &
+  processes+=($!)
+  sleep 1
+  slurmctld -D >"$work/ctld.log" 2>&1 &
+  processes+=($!)
+  slurmd -D >"$work/d.log" 2>&1 &
+  processes+=($!)
+  for ((i = 0; i < 60; i++)); do
+    [ "$(sinfo -h -o %T 2>/dev/null)" = idle ] && return
+    sleep 1
+  done
+  die "Slurm did not start"
+}
+
+# ---------------------------------------------------------------- jobs
+
+# How many tasks of a job are left; those that Slurm forgot are none.
+left() { squeue -h -r -j "$1" 2>/dev/null | wc -l; }
+
+wait_for() {
+  while [ "$(left "$1")" -gt 0 ]; do sleep 1; done
+}
+
+number_of() { sed -n 's/.*Submitted batch job //p' | head -n 1; }
+
+# The state of a task, as long as Slurm remembers it.
+state_of() { scontrol show job "$1" | grep -o 'JobState=[A-Z_]*\|Restarts=[0-9]*' | tr '\n' ' '; }
+
+film() {
+  cat >"$work/film.lua" <<'TEXT'
+local celspan = require "celspan"
+return celspan.film { size = { 1000, 1000 }, frames = 240, frame = function(f)
+  local discs = {}
+  for i = 1, 200 do
+    discs[i] = celspan.circle { centre = { i * 37 % 1000, i * 61 % 1000 }, radius = 5 + i % 50,
+      texture = i % 2 == 0 and "#c04030" or "#30508080" }:translate(f.number, 0)
+  end
+  return celspan.rostrum { celspan.cel(discs) }
+end }
+TEXT
+}
+
+# ---------------------------------------------------------------- what is shown
+
+# 240 frames in 24 tasks. While one runs, its celspan is killed: the task goes back into the queue.
+array() {
+  local job victim restarts
+  say "an array of 24 tasks, one of them killed"
+  "$celspan" farm film.lua -o 'shots of film/####.png' --slurm --chunk 10 --workers 1 \
+    --logs 'logs of it' >array.sh || die "farm failed"
+  job=$(bash array.sh | number_of)
+  [ -n "$job" ] || die "the array was not put into the queue"
+  while ! victim=$(pgrep -f -- "--task 2/24"); do
+    [ "$(left "$job")" -gt 0 ] || die "task 2 was never seen"
+  done
+  for process in $victim; do
+    [ "$(cat "/proc/$process/comm" 2>/dev/null)" = celspan ] && kill -KILL "$process"
+  done
+  wait_for "$job"
+  restarts=$(state_of "${job}_2")
+  say "task 2: $restarts"
+  case $restarts in *COMPLETED*Restarts=1*) ;; *) die "task 2 was not put back" ;; esac
+  "$celspan" render film.lua -o whole/####.png --progress none || die "render failed"
+  for frame in whole/*.png; do
+    cmp "$frame" "shots of film/${frame##*/}" || die "a frame differs"
+  done
+  say "240 frames, the same as in one run; $(find 'logs of it' -name '*.log' | wc -l) logs"
+}
+
+# A frame of SIDE x SIDE in 16 strips, as a span file and as PNG.
+strips() {
+  local ending=$1 job whole
+  say "a frame of $side x $side in 16 strips: $ending"
+  "$celspan" farm film.lua -o "large.$ending" --frames 1 --size "${side}x$side" --slurm --strips 16 \
+    --workers 1 >"strips.sh" || die "farm failed"
+  SECONDS=0
+  bash strips.sh >jobs.txt || die "the strips were not put into the queue"
+  for job in $(sed -n 's/Submitted batch job //p' jobs.txt); do wait_for "$job"; done
+  [ -f "large.$ending" ] || die "the strips were not joined"
+  say "made and joined in $SECONDS s"
+  SECONDS=0
+  "$celspan" render film.lua -o "whole.$ending" --frames 1 --size "${side}x$side" --progress none ||
+    die "render failed"
+  say "made whole in $SECONDS s"
+  SECONDS=0
+  "$celspan" join "large.$ending".strips/{1..16}."$ending" -o "again.$ending" || die "join failed"
+  say "joined once more in $SECONDS s"
+  if [ "$ending" = png ]; then
+    same_pictures "large.$ending" "whole.$ending"
+  else
+    cmp "large.$ending" "whole.$ending" || die "the frames differ"
+    say "the same bytes: $(stat -c %s "large.$ending")"
+  fi
+  rm -rf "large.$ending"* "whole.$ending" "again.$ending"
+}
+
+# By a reader that has nothing of celspan in it, which holds two rows.
+same_pictures() {
+  cc -O2 -o png_sums "$root/tests/farm/png_sums.c" -lz || die "no compiler"
+  ./png_sums "$1" >one.txt && ./png_sums "$2" >two.txt && cmp one.txt two.txt ||
+    die "the pictures differ"
+  say "the same pixels: $(cat one.txt); $(stat -c %s "$1") and $(stat -c %s "$2") bytes"
+}
+
+[ "$(id -u)" = 0 ] || die "run it as root, in a container"
+for program in munged slurmctld slurmd sbatch; do
+  command -v "$program" >/dev/null || die "$program is missing: install slurmctld, slurmd and munge"
+done
+configure
+start
+cd "$work" || exit 1
+film
+array
+strips span
+strips png
+say "all of it holds"
