@@ -122,19 +122,25 @@ TEXT
 
 # ---------------------------------------------------------------- what is shown
 
+# Kills the celspan of a task while it runs, not the script that called it.
+kill_task() {
+  local process
+  for process in $(pgrep -f -- "--task $1"); do
+    [ "$(readlink "/proc/$process/exe")" = "$celspan" ] && kill -KILL "$process" && return
+  done
+  return 1
+}
+
 # 240 frames in 24 tasks. While one runs, its celspan is killed: the task goes back into the queue.
 array() {
-  local job victim restarts
+  local job restarts
   say "an array of 24 tasks, one of them killed"
   "$celspan" farm film.lua -o 'shots of film/####.png' --slurm --chunk 10 --workers 1 \
     --logs 'logs of it' >array.sh || die "farm failed"
   job=$(bash array.sh | number_of)
   [ -n "$job" ] || die "the array was not put into the queue"
-  while ! victim=$(pgrep -f -- "--task 2/24"); do
+  until kill_task 2/24; do
     [ "$(left "$job")" -gt 0 ] || die "task 2 was never seen"
-  done
-  for process in $victim; do
-    [ "$(cat "/proc/$process/comm" 2>/dev/null)" = celspan ] && kill -KILL "$process"
   done
   wait_for "$job"
   restarts=$(state_of "${job}_2")
@@ -149,13 +155,14 @@ array() {
 
 # A frame of SIDE x SIDE in 16 strips, as a span file and as PNG.
 strips() {
-  local ending=$1 job whole
+  local ending=$1 job jobs
   say "a frame of $side x $side in 16 strips: $ending"
   "$celspan" farm film.lua -o "large.$ending" --frames 1 --size "${side}x$side" --slurm --strips 16 \
     --workers 1 >"strips.sh" || die "farm failed"
   SECONDS=0
   bash strips.sh >jobs.txt || die "the strips were not put into the queue"
-  for job in $(sed -n 's/Submitted batch job //p' jobs.txt); do wait_for "$job"; done
+  mapfile -t jobs < <(sed -n 's/Submitted batch job //p' jobs.txt)
+  for job in "${jobs[@]}"; do wait_for "$job"; done
   [ -f "large.$ending" ] || die "the strips were not joined"
   say "made and joined in $SECONDS s"
   SECONDS=0
@@ -177,8 +184,9 @@ strips() {
 # By a reader that has nothing of celspan in it, which holds two rows.
 same_pictures() {
   cc -O2 -o png_sums "$root/tests/farm/png_sums.c" -lz || die "no compiler"
-  ./png_sums "$1" >one.txt && ./png_sums "$2" >two.txt && cmp one.txt two.txt ||
-    die "the pictures differ"
+  ./png_sums "$1" >one.txt || die "$1 cannot be read"
+  ./png_sums "$2" >two.txt || die "$2 cannot be read"
+  cmp one.txt two.txt || die "the pictures differ"
   say "the same pixels: $(cat one.txt); $(stat -c %s "$1") and $(stat -c %s "$2") bytes"
 }
 

@@ -101,6 +101,17 @@ describe("joined strips", function()
     assert.equal(bench:read "whole.span", bench:read "joined.span")
   end)
 
+  it("are the bits of the whole, whatever is drawn", function()
+    for _, name in ipairs { "strokes", "kernels", "rack_focus", "scanline" } do
+      local script = ("%s/scripts/%s.lua"):format(os.getenv "PWD", name)
+      local options = "--frames 1 --size 300x600 --depth half --progress none"
+      done("render '%s' %s -o whole.span", script, options)
+      for i = 1, 3 do done("render '%s' %s --strip %d/3 -o s/%d.span", script, options, i, i) end
+      done "join s/#.span -o joined.span"
+      assert.equal(bench:read "whole.span", bench:read "joined.span", name)
+    end
+  end)
+
   it_compares("are pictures by themselves; others do not tell a place", function()
     render_strips("png", 2)
     render_strips("span", 2)

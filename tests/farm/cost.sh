@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# What a task on a farm costs beside its frames: processor time in milliseconds, the mean of RUNS runs.
+#
+#   tests/farm/cost.sh [SCRIPT [SIZE]]     scripts/demo.lua 1920x1080
+#
+# Printed are: the program alone; a task without frames, which has read the script; a frame, written and
+# recorded; and a frame that an earlier run has left.
+set -eu -o pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+script=${1:-$root/scripts/demo.lua}
+size=${2:-1920x1080}
+celspan=${CELSPAN:-$root/build/celspan}
+runs=${RUNS:-20}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Milliseconds of processor time, user and system, of a command, which is run so many times.
+cost() {
+  local count=$1
+  shift
+  { TIMEFORMAT='%U %S'; time for ((i = 0; i < count; i++)); do "$@" >/dev/null 2>"$work/said" || exit; done; } \
+    2>&1 | awk -v count="$count" '{ printf "%.2f\n", 1000 * ($1 + $2) / count }'
+}
+
+tell() { printf '%-44s %8s ms\n' "$1" "$2"; }
+
+task() { "$celspan" render "$script" -o "$work/out/####.png" --size "$size" --workers 1 --resume "$@"; }
+
+many=10
+frames() { rm -rf "$work/out"; task --frames 1-$many; }
+resumed() { task --frames 1-$many; }
+
+start=$(cost "$runs" "$celspan" --version)
+empty=$(cost "$runs" task --frames 1 --task 1/2)
+made=$(cost 2 frames)
+kept=$(cost "$runs" resumed)
+tell "the program" "$start"
+tell "and the script ($(basename "$script"))" "$empty"
+tell "a frame of $size, made" "$(awk "BEGIN { printf \"%.2f\", ($made - $empty) / $many }")"
+tell "a frame of $size, kept by --resume" "$(awk "BEGIN { printf \"%.2f\", ($kept - $empty) / $many }")"
