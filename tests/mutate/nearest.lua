@@ -1,18 +1,19 @@
--- Which tests know most about a folder of src/, the quickest first. A mutant meets these, then all
--- others. Unit tests that are linked with a folder and no more are near it without being named.
+-- Which tests know most about a folder of src/, the quickest first; those of the folders that decide
+-- what a pixel shows take seconds in all. A mutant meets these, then all others. Unit tests that are
+-- linked with a folder and no more are near it without being named.
 return {
-  sweep = { "unit/direct", "unit/intersections", "golden/golden", "property/oracle",
-    "property/hidden" },
-  compose = { "unit/over_table", "unit/over_tree", "unit/probe", "property/nested",
-    "spec/composition", "golden/golden", "property/oracle", "property/hidden" },
-  area = { "unit/direct", "unit/intersections", "unit/wide", "unit/light", "property/area",
-    "property/dense", "golden/golden" },
-  row = { "unit/picture_rows", "property/spans", "golden/golden", "property/oracle" },
-  paint = { "unit/dither", "unit/picture_rows", "unit/light", "property/spans", "property/pictures",
-    "golden/golden", "spec/change" },
-  kernel = { "unit/kernels", "property/kernels", "golden/golden", "spec/filters" },
-  defocus = { "unit/defocus", "property/defocus", "golden/golden", "spec/filters" },
-  stroke = { "unit/stroke", "unit/fuzz-stroke", "spec/stroke", "golden/golden" },
+  sweep = { "unit/direct", "unit/intersections", "unit/probe", "unit/kernels", "unit/light",
+    "unit/through", "unit/torture" },
+  compose = { "unit/over_table", "unit/over_tree", "unit/operands", "unit/probe", "unit/light",
+    "unit/through", "unit/torture" },
+  area = { "unit/wide", "unit/direct", "unit/intersections", "unit/light", "unit/kernels",
+    "unit/torture" },
+  row = { "unit/kernels", "unit/picture_rows", "unit/light", "unit/through", "unit/torture" },
+  paint = { "unit/dither", "unit/defocus_rows", "unit/picture_rows", "unit/probe", "unit/light",
+    "unit/through", "unit/torture" },
+  kernel = { "unit/kernels", "unit/picture_rows", "unit/light", "unit/defocus" },
+  defocus = { "unit/light", "unit/defocus", "unit/through" },
+  stroke = { "unit/fuzz-stroke", "unit/stroke" },
   geometry = { "unit/scanline", "unit/probe", "unit/stroke", "property/oracle", "golden/golden" },
   scene = { "spec/values", "spec/camera", "spec/layers", "golden/golden" },
   sample = { "unit/sampler", "unit/picture_rows", "property/pictures", "golden/golden" },
@@ -22,7 +23,8 @@ return {
   output = { "unit/embedding", "spec/formats", "property/spanfile", "spec/cli" },
   render = { "spec/render", "spec/tiles", "golden/golden" },
   film = { "spec/film", "spec/motion", "spec/timing", "golden/golden" },
-  bind = { "unit/embedding", "golden/golden", "spec/values", "spec/errors", "spec/meta" },
+  bind = { "unit/embedding", "spec/values", "spec/composition", "golden/golden", "spec/errors",
+    "spec/meta" },
   cli = { "golden/golden", "spec/cli", "spec/sequence", "spec/video" },
   sandbox = { "sandbox/sandbox", "spec/source" },
   svg = { "spec/svg", "unit/fuzz-svg" },
