@@ -5,8 +5,8 @@
 --
 -- A PLACE is a folder of src/, a file, or FILE:LINE; without one, the folders that decide what a
 -- pixel shows. N mutants of a folder are tried (20; 0: all), chosen by S (1). --near runs the
--- nearest tests alone. The exit status is 0 when every mutant was seen, 1 when one lived, and 2 when
--- tests fail without a mutant or the build does.
+-- nearest tests alone. The exit status is 0 when every mutant was seen, 1 when one lived, and 2
+-- when tests fail without a mutant or the build does.
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
@@ -97,7 +97,9 @@ local function split_tests(all, folder)
   end
   local listed = workshop.source "tests/unit/meson.build"
   for name, room in listed:gmatch "%['([%w_]+)', '(%w+)'%]" do
-    if room == folder and by_name["unit/" .. name] then add(by_name["unit/" .. name]) end
+    local test = by_name["unit/" .. name]
+    if test then test.room = room end
+    if test and room == folder then add(test) end
   end
   for _, name in ipairs(nearest[folder] or {}) do
     if by_name[name] then add(by_name[name]) end
@@ -109,11 +111,16 @@ local function split_tests(all, folder)
   return near, rest
 end
 
---- Unit tests need a program each, specs all of celspan: no batch has both.
-local function batches_of(list)
+--- How much is built for a test: a program of a folder and what is below it, a program of more, or
+--- all of celspan. No batch has two kinds.
+local function kind_of(test, folder)
+  return #test.targets > 1 and "all" or test.room == folder and "own" or "more"
+end
+
+local function batches_of(list, folder)
   local batches, batch = {}, {}
   for i, test in ipairs(list) do
-    local is_other = i > 1 and (#test.targets > 1) ~= (#list[i - 1].targets > 1)
+    local is_other = i > 1 and kind_of(test, folder) ~= kind_of(list[i - 1], folder)
     if #batch == BATCH or is_other then batch = {} end
     if #batch == 0 then batches[#batches + 1] = batch end
     batch[#batch + 1] = test
@@ -179,7 +186,7 @@ function Trial:try(mutant, text)
   local compiled = self.shop:compile(mutant.path)
   if compiled ~= "different" then return compiled end
   for _, list in ipairs { self.near, self.rest } do
-    for _, batch in ipairs(batches_of(list)) do
+    for _, batch in ipairs(batches_of(list, self.folder)) do
       self:learn(batch, mutant, text)
       local how, test = self:run_batch(batch)
       if how then
@@ -200,6 +207,7 @@ local WORDS = { killed = "killed", late = "timed out", lived = "LIVED", equal = 
 local function try_place(trial, place, asked)
   local counts = setmetatable({}, { __index = function() return 0 end })
   local folder = place:match "^src/(%w+)"
+  trial.folder = folder
   trial.near, trial.rest = split_tests(trial.shop.tests, folder)
   if asked.near then trial.rest = {} end
   local is_noted, is_line = {}, place:find ":%d+$"

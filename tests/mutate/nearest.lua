@@ -1,6 +1,6 @@
--- Which tests know most about a folder of src/, the quickest first; those of the folders that decide
--- what a pixel shows take seconds in all. A mutant meets these, then all others. Unit tests that are
--- linked with a folder and no more are near it without being named.
+-- Which tests know most about a folder of src/, the quickest first; those of the folders that
+-- decide what a pixel shows take seconds in all. A mutant meets these, then all others. Unit tests
+-- that are linked with a folder and no more are near it without being named.
 return {
   sweep = { "unit/direct", "unit/intersections", "unit/probe", "unit/kernels", "unit/light",
     "unit/through", "unit/torture" },
@@ -23,8 +23,7 @@ return {
   output = { "unit/embedding", "spec/formats", "property/spanfile", "spec/cli" },
   render = { "spec/render", "spec/tiles", "golden/golden" },
   film = { "spec/film", "spec/motion", "spec/timing", "golden/golden" },
-  bind = { "unit/embedding", "spec/values", "spec/composition", "golden/golden", "spec/errors",
-    "spec/meta" },
+  bind = { "unit/embedding", "spec/values", "spec/composition", "spec/errors", "spec/meta" },
   cli = { "golden/golden", "spec/cli", "spec/sequence", "spec/video" },
   sandbox = { "sandbox/sandbox", "spec/source" },
   svg = { "spec/svg", "unit/fuzz-svg" },

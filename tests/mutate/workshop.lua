@@ -160,8 +160,8 @@ function workshop.open()
   return self
 end
 
---- How long the tests took that passed without a mutant, in seconds. That of a test is forgotten when
---- its source changes, all of them when anything else does.
+--- How long the tests took that passed without a mutant, in seconds. That of a test is forgotten
+--- when its source changes, all of them when anything else does.
 function workshop:read_times(changed)
   local is_forgotten = {}
   for _, path in ipairs(changed) do
