@@ -107,7 +107,7 @@ static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const
   cs_named_end(context);
   value->handle = object;
   value->is_chain = true;
-  value->shown = count + 1;
+  value->shown = (int32_t)(count + 1); /* of at most CS_SCENE_PRIMITIVES operands */
   push_operands(L, count);
   lua_setiuservalue(L, 3, 1);
   return 1;

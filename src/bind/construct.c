@@ -13,24 +13,9 @@
 
 /* ---------------------------------------------------------------- making */
 
-static void set_presets(lua_State *L, const cs_noun *noun, int table) {
-  for (const cs_field *field = noun->fields; field->name; field++) {
-    if (!field->preset)
-      continue;
-    lua_pushstring(L, field->name);
-    if (lua_rawget(L, table) == LUA_TNIL) {
-      lua_pushstring(L, field->name);
-      if (!lua_stringtonumber(L, field->preset))
-        lua_pushstring(L, field->preset);
-      lua_rawset(L, table);
-    }
-    lua_pop(L, 1);
-  }
-}
-
 void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields) {
   cs_userdata_push_copy(L, fields, PRESETS);
-  set_presets(L, noun, lua_gettop(L));
+  cs_packed_set_presets(L, noun, lua_gettop(L));
   if (noun->complete)
     noun->complete(L, lua_gettop(L));
 }
@@ -49,14 +34,22 @@ static void make(lua_State *L, const cs_noun *noun, int fields, const cs_userdat
     cs_named_begin_as(context, like);
   else
     cs_named_begin(L, context);
-  cs_userdata *value = cs_userdata_push(L, noun);
+  cs_packed packed;
+  cs_packed_push_other(L, noun, form.table, &packed);
+  cs_userdata *value = cs_userdata_push_packed(L, noun, like && like->is_placed, &packed);
   int place = lua_gettop(L);
   noun->create(&form, value);
   cs_named_end(context);
   if (like)
     cs_named_copy(L, like, value);
   lua_settop(L, place);
-  freeze(L, noun, form.table);
+  lua_insert(L, place - 1);
+  if (packed.has_other && packed.size > 0)
+    lua_setiuservalue(L, -2, 1);
+  else
+    lua_pop(L, 1);
+  if (packed.size == 0)
+    freeze(L, noun, form.table);
 }
 
 void cs_construct_value(lua_State *L, const cs_noun *noun, int fields) {
@@ -123,19 +116,17 @@ static void drop_other(lua_State *L, const cs_noun *noun, int changes, int field
 static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   const cs_kind *kind = value->noun->kind;
   celspan_context *context = cs_host_context(L);
+  const cs_placement placement = cs_userdata_placement(from);
   void *changed = NULL;
-  if (kind->transform) {
-    cs_host_try(L, "with", kind->transform(context, value->handle, &from->matrix, &changed));
-    kind->unref(value->handle);
-    value->handle = changed;
-    value->matrix = from->matrix;
-  }
-  if (kind->fade) {
-    cs_host_try(L, "with", kind->fade(context, value->handle, from->fade, &changed));
-    kind->unref(value->handle);
-    value->handle = changed;
-    value->fade = from->fade;
-  }
+  if (!from->is_placed)
+    return;
+  cs_host_try(L, "with", kind->transform(context, value->handle, &placement.matrix, &changed));
+  kind->unref(value->handle);
+  value->handle = changed;
+  cs_host_try(L, "with", kind->fade(context, value->handle, placement.fade, &changed));
+  kind->unref(value->handle);
+  value->handle = changed;
+  cs_userdata_place(value, &placement);
 }
 
 int cs_construct_with(lua_State *L) {

@@ -213,7 +213,7 @@ static bool read_paint(lua_State *L, int index, celspan_paint *out) {
     return celspan_paint_parse(lua_tostring(L, index), out);
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (value)
-    *out = value->paint;
+    *out = *(const celspan_paint *)cs_userdata_own(value);
   return value != NULL;
 }
 

@@ -7,7 +7,7 @@
 #include "bind/random.h"
 #include "bind/userdata.h"
 
-const cs_kind cs_kind_frame = {.name = "celspan.frame"};
+const cs_kind cs_kind_frame = {.name = "celspan.frame", .own_size = sizeof(uint64_t)};
 
 static const cs_field fields[] = {
     {"number", NULL}, {"index", NULL}, {"time", NULL},   {"middle", NULL},   {"count", NULL},
@@ -28,7 +28,7 @@ static uint64_t seed_of(const cs_film_info *film, int64_t number) {
 /* f:random(label [, m [, n]]) */
 static int random_number(lua_State *L) {
   const cs_userdata *frame = cs_userdata_self(L, &cs_kind_frame, "random");
-  return cs_random_push(L, frame->seed, 2);
+  return cs_random_push(L, *(const uint64_t *)cs_userdata_own(frame), 2);
 }
 
 /* ---------------------------------------------------------------- holding */
@@ -71,7 +71,7 @@ static void set_number(lua_State *L, const char *name, double number) {
 void cs_lua_frame_push(lua_State *L, const cs_film_info *film, int64_t number) {
   int64_t index = number - film->first;
   cs_userdata *value = cs_userdata_push(L, &noun);
-  value->seed = seed_of(film, number);
+  *(uint64_t *)cs_userdata_own(value) = seed_of(film, number);
   lua_createtable(L, 0, 9);
   set_integer(L, "number", number);
   set_integer(L, "index", index);

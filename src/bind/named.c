@@ -95,7 +95,7 @@ int cs_named_method(lua_State *L) {
   const char *name = lua_tostring(L, 2);
   if (strlen(name) != lua_rawlen(L, 2))
     return cs_caller_error(L, "named: the name must not hold a zero byte");
-  cs_userdata *copy = cs_userdata_push_like(L, 1);
+  cs_userdata *copy = cs_userdata_push_like(L, 1, false);
   cs_host_try(L, "named", known->named(cs_host_context(L), value->handle, name, &copy->handle));
   return 1;
 }

@@ -24,7 +24,8 @@ typedef struct cs_kind {
   /* Pushes a field that is not kept but found in the core; false when there is none of this name.
    * NULL: there are none. */
   bool (*push_field)(lua_State *L, const struct cs_userdata *value, const char *key);
-  int kept; /* user values of a value beside its fields, which are the first */
+  size_t own_size; /* bytes that a value has of its own: a paint's numbers, a frame's seed */
+  int kept;        /* user values of a value beside its fields, which are the first */
 } cs_kind;
 
 typedef struct cs_field {

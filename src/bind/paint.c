@@ -9,8 +9,10 @@
 
 static void unref_paint(void *handle) { celspan_texture_unref(handle); }
 
-const cs_kind cs_kind_paint = {
-    .name = "celspan.paint", .unref = unref_paint, .push_field = cs_named_push_field};
+const cs_kind cs_kind_paint = {.name = "celspan.paint",
+                               .unref = unref_paint,
+                               .push_field = cs_named_push_field,
+                               .own_size = sizeof(celspan_paint)};
 
 /* Each paint gets a texture of that paint at once, so that the core checks it here and objects can
  * share it. */
@@ -19,7 +21,7 @@ static void fill(lua_State *L, celspan_context *context, const char *noun, cs_us
   celspan_texture *texture = NULL;
   cs_host_try(L, noun, celspan_texture_create_paint(context, &paint, &texture));
   value->handle = texture;
-  value->paint = paint;
+  *(celspan_paint *)cs_userdata_own(value) = paint;
 }
 
 static celspan_paint from_doubles(const double pigment[3], const double medium[3], double beta) {
@@ -95,37 +97,22 @@ const cs_noun cs_noun_paint = {.name = "paint",
                                .create = create_paint,
                                .complete = complete_paint};
 
-static const char black_key = 0, clear_key = 0; /* addresses in the registry */
-
-/* Sets a field of the table on top of the stack to {0, 0, 0} or {1, 1, 1}: one table that all paints
- * share, because it never changes. */
-static void set_constant(lua_State *L, const char *name, const char *key) {
-  lua_rawgetp(L, LUA_REGISTRYINDEX, key);
-  lua_setfield(L, -2, name);
-}
-
 /* pigment NULL: black; medium NULL: clear. */
 static int push_paint(lua_State *L, const char *noun, const double *pigment, const double *medium,
                       double beta) {
   static const double black[3] = {0, 0, 0}, clear[3] = {1, 1, 1};
-  cs_userdata *value = cs_userdata_push(L, &cs_noun_paint);
+  pigment = pigment ? pigment : black;
+  medium = medium ? medium : clear;
+  cs_packed packed; /* the fields of cs_noun_paint, in their order */
+  cs_packed_begin(&packed);
+  cs_packed_add_list(&packed, pigment, 3);
+  cs_packed_add_list(&packed, medium, 3);
+  cs_packed_add_number(&packed, beta);
+  cs_userdata *value = cs_userdata_push_packed(L, &cs_noun_paint, false, &packed);
   celspan_context *context = cs_host_context(L);
   cs_named_begin(L, context);
-  fill(L, context, noun, value,
-       from_doubles(pigment ? pigment : black, medium ? medium : clear, beta));
+  fill(L, context, noun, value, from_doubles(pigment, medium, beta));
   cs_named_end(context);
-  lua_createtable(L, 0, 3);
-  if (pigment)
-    set_triple(L, "pigment", pigment);
-  else
-    set_constant(L, "pigment", &black_key);
-  if (medium)
-    set_triple(L, "medium", medium);
-  else
-    set_constant(L, "medium", &clear_key);
-  lua_pushnumber(L, beta);
-  lua_setfield(L, -2, "beta");
-  lua_setiuservalue(L, -2, 1);
   return 1;
 }
 
@@ -189,7 +176,7 @@ static celspan_paint mix_argument(lua_State *L, int index) {
         L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
         lua_type(L, index) == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", lua_tostring(L, index))
                                           : cs_userdata_type(L, index));
-  return value->paint;
+  return *(const celspan_paint *)cs_userdata_own(value);
 }
 
 static int mix(lua_State *L) {
@@ -207,23 +194,12 @@ static int mix(lua_State *L) {
   return push_paint(L, "mix", pigment, medium, paint.beta);
 }
 
-static void keep_triple(lua_State *L, const char *key, lua_Number number) {
-  lua_createtable(L, 3, 0);
-  for (int i = 1; i <= 3; i++) {
-    lua_pushnumber(L, number);
-    lua_rawseti(L, -2, i);
-  }
-  lua_rawsetp(L, LUA_REGISTRYINDEX, key);
-}
-
 void cs_open_paint(lua_State *L) {
   static const luaL_Reg methods[] = {
       {"with", cs_construct_with}, {"named", cs_named_method}, {NULL, NULL}};
   static const luaL_Reg functions[] = {
       {"rgb", make_rgb}, {"gel", make_gel}, {"mix", mix}, {NULL, NULL}};
   cs_userdata_register(L, &cs_kind_paint, methods);
-  keep_triple(L, &black_key, 0);
-  keep_triple(L, &clear_key, 1);
   luaL_setfuncs(L, functions, 0);
   cs_construct_push(L, &cs_noun_paint);
   lua_setfield(L, -2, "paint");

@@ -52,10 +52,11 @@ static void add_objects(list *to, celspan_object *const *objects, size_t count, 
       one.is_known = celspan_object_hash(object, one.drawing, one.placement);
       add(to, &one);
     }
-    if (object->data->rostrum)
-      add_rostrum(to, object->data->rostrum, path);
-    else
-      add_objects(to, object->data->operands, object->data->operand_count, path);
+    const cs_primitive_data *data = object->data;
+    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      add_rostrum(to, data->rostrum, path);
+    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      add_objects(to, data->boolean->operands, data->boolean->operand_count, path);
   }
 }
 

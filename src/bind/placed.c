@@ -23,11 +23,13 @@ static cs_userdata *self(lua_State *L, const char *method) {
 
 static int push_transformed(lua_State *L, const char *method, const cs_userdata *value,
                             celspan_matrix matrix) {
-  cs_userdata *copy = cs_userdata_push_like(L, 1);
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_placement placement = cs_userdata_placement(value);
   cs_host_try(
       L, method,
       value->noun->kind->transform(cs_host_context(L), value->handle, &matrix, &copy->handle));
-  copy->matrix = celspan_matrix_then(value->matrix, matrix);
+  placement.matrix = celspan_matrix_then(placement.matrix, matrix);
+  cs_userdata_place(copy, &placement);
   return 1;
 }
 
@@ -121,10 +123,12 @@ static int quad(lua_State *L) {
 static int fade(lua_State *L) {
   const cs_userdata *value = self(L, "fade");
   double k = cs_form_argument(L, 2, "fade", "k");
-  cs_userdata *copy = cs_userdata_push_like(L, 1);
+  cs_userdata *copy = cs_userdata_push_like(L, 1, true);
+  cs_placement placement = cs_userdata_placement(value);
   cs_host_try(L, "fade",
               value->noun->kind->fade(cs_host_context(L), value->handle, k, &copy->handle));
-  copy->fade = value->fade * k;
+  placement.fade *= k;
+  cs_userdata_place(copy, &placement);
   return 1;
 }
 

@@ -96,8 +96,8 @@ int cs_relight_size(lua_State *L) {
   const celspan_texture *texture = texture_at(L, 1);
   celspan_context *context = cs_host_context(L);
   celspan_picture_info info;
-  luaL_argcheck(L, texture->picture, 1, "must be a picture");
-  celspan_status status = cs_store_info(context, texture->picture, &info);
+  luaL_argcheck(L, texture->variation->picture, 1, "must be a picture");
+  celspan_status status = cs_store_info(context, texture->variation->picture, &info);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
   lua_pushinteger(L, info.width);

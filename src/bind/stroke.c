@@ -106,18 +106,21 @@ static const cs_noun noun = {
 
 /* Places and fades the stroke on top of the stack as another value is. */
 static void place_like(lua_State *L, const cs_userdata *like) {
-  cs_userdata *value = lua_touserdata(L, -1);
+  if (!like->is_placed)
+    return;
+  const cs_userdata *plain = lua_touserdata(L, -1);
+  cs_userdata *value = cs_userdata_push_like(L, -1, true);
   const cs_kind *kind = noun.kind;
-  void *placed = NULL, *faded = NULL;
+  const cs_placement placement = cs_userdata_placement(like);
+  void *faded = NULL;
   celspan_context *context = cs_host_context(L);
-  cs_host_try(L, noun.name, kind->transform(context, value->handle, &like->matrix, &placed));
-  kind->unref(value->handle);
-  value->handle = placed;
-  cs_host_try(L, noun.name, kind->fade(context, value->handle, like->fade, &faded));
+  cs_host_try(L, noun.name,
+              kind->transform(context, plain->handle, &placement.matrix, &value->handle));
+  cs_host_try(L, noun.name, kind->fade(context, value->handle, placement.fade, &faded));
   kind->unref(value->handle);
   value->handle = faded;
-  value->matrix = like->matrix;
-  value->fade = like->fade;
+  cs_userdata_place(value, &placement);
+  lua_remove(L, -2);
 }
 
 int cs_stroke_method(lua_State *L) {

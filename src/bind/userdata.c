@@ -13,24 +13,75 @@
 
 /* ---------------------------------------------------------------- making */
 
-cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun) {
-  cs_userdata *value = lua_newuserdatauv(L, sizeof *value, 1 + noun->kind->kept);
-  *value = (cs_userdata){.noun = noun, .matrix = celspan_matrix_identity(), .fade = 1};
-  luaL_setmetatable(L, noun->kind->name);
+static size_t round_up(size_t size) { return (size + 7) & ~(size_t)7; }
+
+cs_userdata *cs_userdata_push_packed(lua_State *L, const cs_noun *noun, bool is_placed,
+                                     const cs_packed *packed) {
+  const cs_kind *kind = noun->kind;
+  size_t own = round_up(kind->own_size), placement = is_placed ? sizeof(cs_placement) : 0;
+  bool has_values = packed->size == 0 || packed->has_other;
+  cs_userdata *value = lua_newuserdatauv(L, sizeof *value + own + placement + packed->size,
+                                         has_values ? 1 + kind->kept : 0);
+  memset(value, 0, sizeof *value + own);
+  value->noun = noun;
+  value->is_placed = is_placed;
+  value->packed = (uint16_t)packed->size;
+  const cs_placement nowhere = {celspan_matrix_identity(), 1};
+  if (is_placed)
+    cs_userdata_place(value, &nowhere);
+  memcpy((char *)cs_userdata_own(value) + own + placement, packed->bytes, packed->size);
+  luaL_setmetatable(L, kind->name);
   return value;
 }
 
-cs_userdata *cs_userdata_push_like(lua_State *L, int index) {
+cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun) {
+  const cs_packed none = {.size = 0};
+  return cs_userdata_push_packed(L, noun, false, &none);
+}
+
+void *cs_userdata_own(const cs_userdata *value) { return (void *)(value + 1); }
+
+static cs_placement *placement_of(const cs_userdata *value) {
+  size_t own = round_up(value->noun->kind->own_size);
+  return (cs_placement *)((char *)cs_userdata_own(value) + own);
+}
+
+cs_placement cs_userdata_placement(const cs_userdata *value) {
+  return value->is_placed ? *placement_of(value) : (cs_placement){celspan_matrix_identity(), 1};
+}
+
+void cs_userdata_place(cs_userdata *value, const cs_placement *placement) {
+  *placement_of(value) = *placement;
+}
+
+static const unsigned char *packed_of(const cs_userdata *value) {
+  return (const unsigned char *)(placement_of(value) + (value->is_placed ? 1 : 0));
+}
+
+cs_userdata *cs_userdata_push_like(lua_State *L, int index, bool is_placed) {
   index = lua_absindex(L, index);
   const cs_userdata *from = lua_touserdata(L, index);
-  cs_userdata *copy = cs_userdata_push(L, from->noun);
-  copy->matrix = from->matrix;
-  copy->fade = from->fade;
+  bool has_value = lua_getiuservalue(L, index, 1) != LUA_TNONE;
+  cs_packed packed = {.size = from->packed, .has_other = has_value};
+  memcpy(packed.bytes, packed_of(from), packed.size);
+  cs_userdata *copy = cs_userdata_push_packed(L, from->noun, is_placed || from->is_placed, &packed);
   copy->shown = from->shown;
-  copy->paint = from->paint;
-  lua_getiuservalue(L, index, 1); /* never changed, so it can be shared */
-  lua_setiuservalue(L, -2, 1);
+  memcpy(cs_userdata_own(copy), cs_userdata_own(from), from->noun->kind->own_size);
+  const cs_placement placement = cs_userdata_placement(from);
+  if (copy->is_placed)
+    cs_userdata_place(copy, &placement);
+  lua_insert(L, -2);
+  lua_setiuservalue(L, -2, 1); /* never changed, so it can be shared */
   return copy;
+}
+
+void cs_userdata_push_kept(lua_State *L, int index) {
+  const cs_userdata *value = lua_touserdata(L, index);
+  lua_getiuservalue(L, index, 1);
+  if (!value->packed)
+    return;
+  cs_packed_push_fields(L, value->noun, packed_of(value), -1);
+  lua_remove(L, -2);
 }
 
 /* Pushes a copy of the table at index, with room for so many fields; tables deeper than `depth` are
@@ -67,7 +118,9 @@ void cs_userdata_push_copy(lua_State *L, int table, int more) {
 void cs_userdata_push_fields(lua_State *L, int index) {
   const cs_userdata *value = lua_touserdata(L, index);
   lua_Integer count = value->shown;
-  lua_getiuservalue(L, index, 1);
+  cs_userdata_push_kept(L, index);
+  if (value->packed)
+    return;
   if (count == 0)
     cs_userdata_push_copy(L, -1, 0);
   else
@@ -151,7 +204,10 @@ static bool push_read(lua_State *L, const cs_userdata *value) {
   lua_pushnil(L);
   bool is_place = lua_isinteger(L, 2);
   bool is_hidden = is_place && value->shown && lua_tointeger(L, 2) > value->shown;
-  if (is_hidden || lua_getiuservalue(L, 1, 1) != LUA_TTABLE)
+  if (is_hidden)
+    return true;
+  cs_userdata_push_kept(L, 1);
+  if (!lua_istable(L, -1))
     return true;
   lua_pushvalue(L, 2);
   int type = lua_rawget(L, -2);
@@ -181,7 +237,8 @@ static int index_value(lua_State *L) {
 static int count_items(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
-  bool has_fields = lua_getiuservalue(L, 1, 1) == LUA_TTABLE;
+  cs_userdata_push_kept(L, 1);
+  bool has_fields = lua_istable(L, -1);
   lua_Integer all = has_fields ? (lua_Integer)lua_rawlen(L, -1) : 0;
   lua_pushinteger(L, value->shown ? value->shown : all);
   return 1;
@@ -260,7 +317,8 @@ static int describe(lua_State *L) {
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
   const cs_noun *noun = value->noun;
   lua_settop(L, 1);
-  bool has_fields = lua_getiuservalue(L, 1, 1) == LUA_TTABLE;
+  cs_userdata_push_kept(L, 1);
+  bool has_fields = lua_istable(L, 2);
   lua_pushstring(L, noun->name);
   if (kind->push_field && kind->push_field(L, value, "name") && !lua_isnil(L, -1)) {
     lua_pushfstring(L, "%s \"%s\"", noun->name, lua_tostring(L, -1));

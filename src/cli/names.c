@@ -43,8 +43,10 @@ static celspan_status add_objects(cs_names *names, celspan_object *const *object
     CS_TRY(add(names, "object", objects[i]->mark, frame));
     if (data->texture)
       CS_TRY(add(names, "texture", data->texture->mark, frame));
-    CS_TRY(data->rostrum ? add_rostrum(names, data->rostrum, frame)
-                         : add_objects(names, data->operands, data->operand_count, frame));
+    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      CS_TRY(add_rostrum(names, data->rostrum, frame));
+    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      CS_TRY(add_objects(names, data->boolean->operands, data->boolean->operand_count, frame));
   }
   return CELSPAN_OK;
 }

@@ -135,10 +135,12 @@ static bool object_varies(const celspan_object *object) {
     return rostrum_varies(data->rostrum);
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
     return data->texture->kind != CS_TEXTURE_FLAT;
-  for (size_t i = 0; i < data->operand_count; i++)
-    if (object_varies(data->operands[i]))
+  if (data->kind == CS_PRIMITIVE_DATA_SCANLINE)
+    return true;
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (object_varies(data->boolean->operands[i]))
       return true;
-  return data->kind == CS_PRIMITIVE_DATA_SCANLINE;
+  return false;
 }
 
 static bool cel_varies(const celspan_cel *cel) {

@@ -89,6 +89,46 @@ celspan_status cs_outline_close(celspan_context *context, cs_outline *outline) {
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- packed */
+
+static size_t packed_size(const cs_outline *outline) {
+  return sizeof *outline + outline->point_count * sizeof *outline->points +
+         outline->piece_count * sizeof *outline->starts +
+         outline->contour_count * sizeof *outline->contours +
+         outline->piece_count * sizeof *outline->degrees;
+}
+
+/* The wider items come first, so that each is aligned. */
+celspan_status cs_outline_pack(celspan_context *context, const cs_outline *outline,
+                               cs_outline **out) {
+  cs_outline *packed = cs_mem_array(context->memory, 1, packed_size(outline));
+  if (!packed)
+    return cs_fail_memory(context);
+  *packed = (cs_outline){.points = (cs_hpoint *)(packed + 1),
+                         .point_count = outline->point_count,
+                         .piece_count = outline->piece_count,
+                         .contour_count = outline->contour_count,
+                         .is_plain = outline->is_plain};
+  packed->starts = (uint32_t *)(packed->points + packed->point_count);
+  packed->contours = packed->starts + packed->piece_count;
+  packed->degrees = (uint8_t *)(packed->contours + packed->contour_count);
+  for (size_t i = 0; i < packed->point_count; i++)
+    packed->points[i] = outline->points[i];
+  for (size_t i = 0; i < packed->contour_count; i++)
+    packed->contours[i] = outline->contours[i];
+  for (size_t i = 0; i < packed->piece_count; i++) {
+    packed->starts[i] = outline->starts[i];
+    packed->degrees[i] = outline->degrees[i];
+  }
+  *out = packed;
+  return CELSPAN_OK;
+}
+
+void cs_outline_free_packed(cs_outline *packed, cs_memory *memory) {
+  if (packed)
+    cs_mem_free(memory, packed, packed_size(packed));
+}
+
 /* ---------------------------------------------------------------- primitives */
 
 static cs_hpoint at(double x, double y) { return (cs_hpoint){x, y, 1}; }
@@ -125,6 +165,27 @@ celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline, do
   const celspan_point corners[4] = {
       {x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
   return cs_outline_polygon(context, outline, corners, 4);
+}
+
+const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room) {
+  double x = box->x, y = box->y, right = x + box->width, bottom = y + box->height;
+  *room = (cs_outline_box){
+      .points = {at(x, y), at(right, y), at(right, bottom), at(x, bottom), at(x, y)},
+      .starts = {0, 1, 2, 3},
+      .degrees = {1, 1, 1, 1}};
+  bool is_plain = true;
+  for (int i = 0; i < 4; i++)
+    is_plain =
+        is_plain && cs_number_is_sane(room->points[i].x) && cs_number_is_sane(room->points[i].y);
+  room->outline = (cs_outline){.points = room->points,
+                               .starts = room->starts,
+                               .degrees = room->degrees,
+                               .contours = &room->contour,
+                               .point_count = 5,
+                               .piece_count = 4,
+                               .contour_count = 1,
+                               .is_plain = is_plain};
+  return &room->outline;
 }
 
 celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,

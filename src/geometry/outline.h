@@ -89,6 +89,21 @@ void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
                                                     cs_outline_closed *closed, const char *data);
 
+/* An outline that will not change, in one block with its arrays: it has no room to grow. The original
+ * stays as it is. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_outline_pack(celspan_context *context, const cs_outline *outline,
+                                               cs_outline **out);
+void cs_outline_free_packed(cs_outline *packed, cs_memory *memory);
+
+/* The outline of a box that has an area, as cs_outline_rect makes it, in memory of the caller. */
+typedef struct cs_outline_box {
+  cs_outline outline;
+  cs_hpoint points[5];
+  uint32_t starts[4], contour;
+  uint8_t degrees[4];
+} cs_outline_box;
+const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room);
+
 /* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
  * front of it. */
 bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);

@@ -114,7 +114,7 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   }
   if (layer->kind == CS_LAYER_PICTURE && !stack->images[layer->index].texture->medium) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
-    return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->use,
+    return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->variation->use,
                                    (const float(*)[4])room->rgba);
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
@@ -162,7 +162,7 @@ static bool is_all_bare(const cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < program->length && bare; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     bare = cs_painter_is_bare(painter, program->items[i]) &&
-           stack->images[layer->index].texture->use == CELSPAN_PICTURE_PAINT;
+           stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_PAINT;
   }
   return bare;
 }

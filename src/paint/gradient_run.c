@@ -102,9 +102,9 @@ static celspan_status put_until(arc *a, double x) {
 static celspan_status run_linear(arc *a) {
   const celspan_texture *texture = texture_of(a);
   double step = a->table->shade->plane[0][0];
-  size_t count = step != 0 ? texture->stop_count : 0;
+  size_t count = step != 0 ? texture->variation->stop_count : 0;
   for (size_t i = 0; i < count; i++) {
-    const cs_stop *stop = &texture->stops[step > 0 ? i : count - 1 - i];
+    const cs_stop *stop = &texture->variation->stops[step > 0 ? i : count - 1 - i];
     CS_TRY(put_until(a, (stop->at - a->u) / step));
   }
   return put_until(a, a->end);
@@ -124,14 +124,14 @@ static celspan_status run_radial(arc *a) {
     return put_until(a, a->end);
   double nearest = -(a->u * su + a->v * sv) / speed;
   a->bend = cross * cross;
-  for (size_t i = texture->stop_count; i-- > 0;) {
-    double half = half_chord(a, texture->stops[i].at, speed);
+  for (size_t i = texture->variation->stop_count; i-- > 0;) {
+    double half = half_chord(a, texture->variation->stops[i].at, speed);
     if (half >= 0)
       CS_TRY(put_until(a, nearest - half));
   }
   CS_TRY(put_until(a, nearest));
-  for (size_t i = 0; i < texture->stop_count; i++) {
-    double half = half_chord(a, texture->stops[i].at, speed);
+  for (size_t i = 0; i < texture->variation->stop_count; i++) {
+    double half = half_chord(a, texture->variation->stops[i].at, speed);
     if (half >= 0)
       CS_TRY(put_until(a, nearest + half));
   }
@@ -162,14 +162,14 @@ static celspan_status run_focal(arc *a) {
   if (!(speed > 0))
     return put_until(a, a->end);
   a->bend = cross * cross;
-  for (size_t i = texture->stop_count; i-- > 0;)
-    if (find_chord(a, texture->stops[i].at, &low, &high))
+  for (size_t i = texture->variation->stop_count; i-- > 0;)
+    if (find_chord(a, texture->variation->stops[i].at, &low, &high))
       CS_TRY(put_until(a, low));
   /* Where `at` is least: beside the place that is nearest the focus. */
   double beside = e * su * fabs(cross) / (speed * sqrt(speed - e * e * su * su));
   CS_TRY(put_until(a, beside - (a->u * su + a->v * sv) / speed));
-  for (size_t i = 0; i < texture->stop_count; i++)
-    if (find_chord(a, texture->stops[i].at, &low, &high))
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    if (find_chord(a, texture->variation->stops[i].at, &low, &high))
       CS_TRY(put_until(a, high));
   return put_until(a, a->end);
 }

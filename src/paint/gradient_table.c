@@ -129,7 +129,7 @@ static size_t count_varying(const cs_stack *stack, const cs_program *program, ui
     const celspan_texture *texture =
         layer->kind == CS_LAYER_SHADED ? stack->shades[layer->index].texture : NULL;
     if (!texture || texture->kind == CS_TEXTURE_TRIANGLE ||
-        texture->stop_count >= CS_OVER_ROW_BATCH)
+        texture->variation->stop_count >= CS_OVER_ROW_BATCH)
       return 0;
     if (count++ == 0)
       *first = program->items[i].layer;
@@ -156,11 +156,11 @@ static celspan_status fold_stops(cs_gradient_tables *tables, const cs_program *p
   const cs_paint clear = CS_PAINT_CLEAR;
   cs_arena *scratch = tables->scratch;
   cs_over_row over;
-  for (size_t i = 0; i < texture->stop_count; i++)
-    put_paint(room, i, &texture->stops[i].paint);
-  put_paint(room, texture->stop_count, &clear);
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    put_paint(room, i, &texture->variation->stops[i].paint);
+  put_paint(room, texture->variation->stop_count, &clear);
   CS_TRY(cs_over_row_begin(tables->context, scratch, stack, tables->isa,
-                           (int32_t)texture->stop_count + 1, &over));
+                           (int32_t)texture->variation->stop_count + 1, &over));
   for (uint32_t i = 0; i < program->length; i++)
     CS_TRY(cs_over_row_layer(&over, program->items[i].layer, (const float(*)[4])room->s,
                              (const float(*)[4])room->t));
@@ -176,8 +176,8 @@ static double scale_from(const cs_stop *stop) {
 
 static void fill_sections(const celspan_texture *texture, const samples *folded,
                           cs_gradient_table_section *sections) {
-  size_t count = texture->stop_count;
-  const cs_stop *stops = texture->stops;
+  size_t count = texture->variation->stop_count;
+  const cs_stop *stops = texture->variation->stops;
   sections[0] = (cs_gradient_table_section){.colour = cs_v4_load(folded->rgba[0])};
   for (size_t i = 1; i < count; i++) {
     cs_v4 from = cs_v4_load(folded->rgba[i - 1]), to = cs_v4_load(folded->rgba[i]);
@@ -197,7 +197,8 @@ static celspan_status make_one(cs_gradient_tables *tables, const cs_program *pro
                                cs_gradient_table *out) {
   const celspan_texture *texture = out->shade->texture;
   samples *room = cs_arena_take(tables->context, tables->scratch, sizeof *room);
-  cs_gradient_table_section *sections = allocate(tables, texture->stop_count + 2, sizeof *sections);
+  cs_gradient_table_section *sections =
+      allocate(tables, texture->variation->stop_count + 2, sizeof *sections);
   if (!room || !sections)
     return CELSPAN_NO_MEMORY;
   CS_TRY(fold_stops(tables, program, texture, room));
@@ -219,18 +220,18 @@ static cs_gradient_table_tint tint_of(const cs_layer *layer, const cs_paint *pai
 
 static void fill_tints(const cs_layer *layer, const celspan_texture *texture,
                        cs_gradient_table_tint *tints) {
-  size_t count = texture->stop_count;
+  size_t count = texture->variation->stop_count;
   const cs_paint clear = CS_PAINT_CLEAR;
-  tints[0] = tint_of(layer, &texture->stops[0].paint);
+  tints[0] = tint_of(layer, &texture->variation->stops[0].paint);
   for (size_t i = 1; i < count; i++) {
-    cs_gradient_table_tint to = tint_of(layer, &texture->stops[i].paint);
-    tints[i] = tint_of(layer, &texture->stops[i - 1].paint);
+    cs_gradient_table_tint to = tint_of(layer, &texture->variation->stops[i].paint);
+    tints[i] = tint_of(layer, &texture->variation->stops[i - 1].paint);
     tints[i].step_s = to.s - tints[i].s;
     tints[i].step_t = to.t - tints[i].t;
-    tints[i].at = texture->stops[i - 1].at;
-    tints[i].scale = scale_from(&texture->stops[i - 1]);
+    tints[i].at = texture->variation->stops[i - 1].at;
+    tints[i].scale = scale_from(&texture->variation->stops[i - 1]);
   }
-  tints[count] = tint_of(layer, &texture->stops[count - 1].paint);
+  tints[count] = tint_of(layer, &texture->variation->stops[count - 1].paint);
   tints[count + 1] = tint_of(layer, &clear);
 }
 
@@ -240,8 +241,8 @@ static celspan_status find_tints(cs_gradient_tables *tables, const cs_layer *lay
   const celspan_texture *texture = tables->stack->shades[layer->index].texture;
   const cs_gradient_table_tint **kept = &tables->tints[layer->index];
   if (!*kept) {
-    cs_gradient_table_tint *tints =
-        cs_arena_take(tables->context, &tables->lasting, (texture->stop_count + 2) * sizeof *tints);
+    cs_gradient_table_tint *tints = cs_arena_take(
+        tables->context, &tables->lasting, (texture->variation->stop_count + 2) * sizeof *tints);
     if (!tints)
       return CELSPAN_NO_MEMORY;
     fill_tints(layer, texture, tints);
@@ -305,7 +306,7 @@ static celspan_status make(cs_gradient_tables *tables, const cs_program *program
                            size_t count, cs_set_hash name, cs_gradient_table *out) {
   const cs_stack *stack = tables->stack;
   cs_gradient_table made = {.shade = &stack->shades[stack->layers[first].index], .name = name};
-  make_way(tables, count == 1 ? made.shade->texture->stop_count + 2 : count);
+  make_way(tables, count == 1 ? made.shade->texture->variation->stop_count + 2 : count);
   cs_arena_reset(tables->scratch);
   CS_TRY(count == 1 ? make_one(tables, program, &made)
                     : make_several(tables, program, count, &made));

@@ -77,8 +77,8 @@ static inline size_t cs_gradient_table_section_at(const cs_shade *shade, double 
   const celspan_texture *texture = shade->texture;
   size_t section = 0;
   if (at != at)
-    return texture->stop_count + 1;
-  while (section < texture->stop_count && texture->stops[section].at <= at)
+    return texture->variation->stop_count + 1;
+  while (section < texture->variation->stop_count && texture->variation->stops[section].at <= at)
     section++;
   return section;
 }

@@ -62,7 +62,7 @@ static void prepare_sampler(const cs_painter *painter, const cs_image_layer *lay
                           .inverse = celspan_matrix_then(layer->inverse, to_picture),
                           .width = info->width,
                           .height = info->height,
-                          .sampling = layer->texture->sampling,
+                          .sampling = layer->texture->variation->sampling,
                           .wrap = layer->wrap,
                           .isa = painter->isa};
   cs_sampler_prepare(sampler);
@@ -74,7 +74,8 @@ celspan_status cs_painter_image(cs_painter *painter, uint32_t image, const cs_im
   if (view->is_ready)
     return CELSPAN_OK;
   const cs_image_layer *layer = &painter->stack->images[image];
-  const cs_picture *picture = layer->texture->picture, *medium = layer->texture->medium;
+  const cs_texture_variation *variation = layer->texture->variation;
+  const cs_picture *picture = variation->picture, *medium = variation->medium;
   celspan_picture_info info, medium_info;
   CS_TRY(cs_store_info(painter->context, picture, &info));
   if (medium) {

@@ -18,14 +18,14 @@ static double corner_value(const cs_paint *paint, int channel) {
  * without a length were made flat when the scene was checked. */
 static void prepare_triangle(cs_shade *shade) {
   const celspan_texture *texture = shade->texture;
-  const celspan_point *p = texture->points;
+  const celspan_point *p = texture->variation->points;
   double ux = p[1].x - p[0].x, uy = p[1].y - p[0].y;
   double vx = p[2].x - p[0].x, vy = p[2].y - p[0].y;
   double area = ux * vy - uy * vx;
   for (int channel = 0; channel < 7; channel++) {
-    double c0 = corner_value(&texture->corners[0], channel);
-    double c1 = corner_value(&texture->corners[1], channel);
-    double c2 = corner_value(&texture->corners[2], channel);
+    double c0 = corner_value(&texture->variation->corners[0], channel);
+    double c1 = corner_value(&texture->variation->corners[1], channel);
+    double c2 = corner_value(&texture->variation->corners[2], channel);
     double *plane = shade->plane[channel];
     plane[0] = ((c1 - c0) * vy - (c2 - c0) * uy) / area;
     plane[1] = ((c2 - c0) * ux - (c1 - c0) * vx) / area;
@@ -51,8 +51,8 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 /* ---------------------------------------------------------------- stops */
 
 static cs_shade_lanes stop_paint(const celspan_texture *texture, double at) {
-  const cs_stop *stops = texture->stops;
-  size_t count = texture->stop_count, next = 0;
+  const cs_stop *stops = texture->variation->stops;
+  size_t count = texture->variation->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
   if (next == 0 || next == count)
@@ -72,7 +72,8 @@ static void set_plane(cs_shade *shade, int index, double a, double b, double c) 
 
 /* 0 at `from`, 1 at `to`. */
 static void prepare_linear(cs_shade *shade) {
-  const celspan_point *from = &shade->texture->points[0], *to = &shade->texture->points[1];
+  const celspan_point *from = &shade->texture->variation->points[0],
+                      *to = &shade->texture->variation->points[1];
   double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
   set_plane(shade, 0, dx / length, dy / length, -(from->x * dx + from->y * dy) / length);
 }
@@ -80,25 +81,28 @@ static void prepare_linear(cs_shade *shade) {
 /* The legs lie along and across the way from the focus to the centre. */
 static void prepare_focal(cs_shade *shade, double distance) {
   const celspan_texture *texture = shade->texture;
-  const celspan_point *centre = &texture->points[0], *offset = &texture->points[1];
-  double e = distance / texture->radius, rest = 1 - e * e;
+  const celspan_point *centre = &texture->variation->points[0],
+                      *offset = &texture->variation->points[1];
+  double e = distance / texture->variation->radius, rest = 1 - e * e;
   double x = -offset->x / distance, y = -offset->y / distance;
   double focus_x = centre->x + offset->x, focus_y = centre->y + offset->y;
-  double along = 1 / (texture->radius * rest), across = 1 / (texture->radius * sqrt(rest));
+  double along = 1 / (texture->variation->radius * rest),
+         across = 1 / (texture->variation->radius * sqrt(rest));
   shade->eccentricity = e;
   set_plane(shade, 0, x * along, y * along, -(focus_x * x + focus_y * y) * along);
   set_plane(shade, 1, -y * across, x * across, (focus_x * y - focus_y * x) * across);
 }
 
 static void prepare_radial(cs_shade *shade) {
-  const celspan_point *centre = &shade->texture->points[0], *offset = &shade->texture->points[1];
+  const celspan_point *centre = &shade->texture->variation->points[0],
+                      *offset = &shade->texture->variation->points[1];
   double distance = sqrt(offset->x * offset->x + offset->y * offset->y);
   shade->eccentricity = 0;
   if (distance > 0) {
     prepare_focal(shade, distance);
     return;
   }
-  double share = 1 / shade->texture->radius;
+  double share = 1 / shade->texture->variation->radius;
   set_plane(shade, 0, share, 0, -centre->x * share);
   set_plane(shade, 1, 0, share, -centre->y * share);
 }
@@ -177,19 +181,20 @@ static void break_triangle(breaks *list, const cs_shade *shade, const row_map *m
 }
 
 static void break_linear(breaks *list, const celspan_texture *texture, const row_map *map) {
-  const celspan_point *from = &texture->points[0], *to = &texture->points[1];
+  const celspan_point *from = &texture->variation->points[0], *to = &texture->variation->points[1];
   double dx = to->x - from->x, dy = to->y - from->y, length = dx * dx + dy * dy;
-  for (size_t i = 0; i < texture->stop_count; i++)
-    break_plane(list, map, dx, dy, -(dx * from->x + dy * from->y) - texture->stops[i].at * length);
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    break_plane(list, map, dx, dy,
+                -(dx * from->x + dy * from->y) - texture->variation->stops[i].at * length);
 }
 
 /* Where |(u, v) - centre| = radius * at, homogeneously, and where the row is nearest the centre. */
 static void break_radial(breaks *list, const celspan_texture *texture, const row_map *map) {
-  double cx = texture->points[0].x, cy = texture->points[0].y;
+  double cx = texture->variation->points[0].x, cy = texture->variation->points[0].y;
   double bu = map->base.x - cx * map->base.w, su = map->step.x - cx * map->step.w;
   double bv = map->base.y - cy * map->base.w, sv = map->step.y - cy * map->step.w;
-  for (size_t i = 0; i < texture->stop_count; i++) {
-    double r = texture->stops[i].at * texture->radius;
+  for (size_t i = 0; i < texture->variation->stop_count; i++) {
+    double r = texture->variation->stops[i].at * texture->variation->radius;
     double a = su * su + sv * sv - r * r * map->step.w * map->step.w;
     double b = bu * su + bv * sv - r * r * map->base.w * map->step.w;
     double c = bu * bu + bv * bv - r * r * map->base.w * map->base.w;
@@ -210,8 +215,8 @@ static void break_focal(breaks *list, const cs_shade *shade, double y) {
   const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
   double bp = p[1] * y + p[2], bq = q[1] * y + q[2], bw = m[7] * y + m[8], e = shade->eccentricity;
   double speed = p[0] * p[0] + q[0] * q[0];
-  for (size_t i = 0; i < texture->stop_count; i++) {
-    double at = texture->stops[i].at;
+  for (size_t i = 0; i < texture->variation->stop_count; i++) {
+    double at = texture->variation->stops[i].at;
     double step = (shade->is_affine ? 0 : at * m[6]) + e * p[0];
     double base = at * (shade->is_affine ? 1 : bw) + e * bp;
     double a = speed - step * step, b = bp * p[0] + bq * q[0] - base * step;
@@ -226,7 +231,9 @@ static void break_focal(breaks *list, const cs_shade *shade, double y) {
 }
 
 size_t cs_shade_break_limit(const cs_shade *shade) {
-  return shade->texture->kind == CS_TEXTURE_TRIANGLE ? 21 : 2 * shade->texture->stop_count + 2;
+  return shade->texture->kind == CS_TEXTURE_TRIANGLE
+             ? 21
+             : 2 * shade->texture->variation->stop_count + 2;
 }
 
 size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *out) {

@@ -20,15 +20,15 @@ static celspan_status bound_picture(cs_painter *painter, const cs_layer *layer, 
                                     bound *out) {
   const cs_image_view *view;
   cs_picture_opacity opacity = CS_PICTURE_OPAQUE;
-  const celspan_texture *texture = painter->stack->images[layer->index].texture;
-  if (texture->medium)
+  const cs_texture_variation *variation = painter->stack->images[layer->index].texture->variation;
+  if (variation->medium)
     return CELSPAN_OK;
   CS_TRY(cs_painter_image(painter, layer->index, &view));
   if (!view->is_opaque)
     CS_TRY(cs_sampler_opacity(painter->blocks, &view->sampler, run, &opacity));
   out->is_clear = opacity == CS_PICTURE_CLEAR;
   out->is_sure = opacity != CS_PICTURE_MIXED;
-  if (opacity == CS_PICTURE_OPAQUE && texture->use != CELSPAN_PICTURE_GEL)
+  if (opacity == CS_PICTURE_OPAQUE && variation->use != CELSPAN_PICTURE_GEL)
     out->through = cs_v4_all(1 - layer->fade);
   return CELSPAN_OK;
 }

@@ -105,8 +105,8 @@ celspan_status celspan_relight_write(celspan_context *context, const celspan_tex
 
 static celspan_status check_file(celspan_context *context, const celspan_texture *texture) {
   celspan_picture_info paint, medium;
-  const char *name = cs_picture_name(texture->picture);
-  CS_TRY(cs_store_info(context, texture->picture, &paint));
+  const char *name = cs_picture_name(texture->variation->picture);
+  CS_TRY(cs_store_info(context, texture->variation->picture, &paint));
   if (cs_store_info(context, texture->medium, &medium) != CELSPAN_OK)
     return cs_fail(context, CELSPAN_INPUT,
                    "%s: is not a relit picture: its light has not been taken off, so it has no "

@@ -22,10 +22,10 @@ celspan_status cs_original_open_picture(celspan_context *context, const cs_pictu
 celspan_status cs_original_open(celspan_context *context, const char *noun,
                                 const celspan_texture *texture, cs_original *out) {
   CS_TRY(cs_check_given(context, noun, "the picture", texture));
-  if (texture->kind != CS_TEXTURE_PICTURE || texture->use != CELSPAN_PICTURE_PAINT)
+  if (texture->kind != CS_TEXTURE_PICTURE || texture->variation->use != CELSPAN_PICTURE_PAINT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: it takes pictures that are used as paint",
                    noun);
-  return cs_original_open_picture(context, texture->picture, out);
+  return cs_original_open_picture(context, texture->variation->picture, out);
 }
 
 static celspan_status read_texels(celspan_context *context, cs_original *original, int32_t x) {

@@ -76,8 +76,9 @@ static bool stays_on_thread(const cs_plan *plan) {
     if (!plan->stack.procedures[k].desc->any_thread)
       return true;
   for (size_t k = 0; k < plan->stack.image_count; k++) {
-    const celspan_texture *texture = plan->stack.images[k].texture;
-    if (picture_stays_on_thread(texture->picture) || picture_stays_on_thread(texture->medium))
+    const cs_texture_variation *variation = plan->stack.images[k].texture->variation;
+    if (picture_stays_on_thread(variation->picture) ||
+        picture_stays_on_thread(variation->medium))
       return true;
   }
   for (size_t k = 0; k < plan->defocus_count; k++)

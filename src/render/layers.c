@@ -29,8 +29,8 @@ static celspan_status fill_shaded(cs_compiler *c, cs_layer *layer, const cs_laye
   CS_TRY(CS_COMPILER_APPEND(c, shades, shade_count, shade_capacity));
   cs_shade *shade = &stack->shades[stack->shade_count];
   *shade = (cs_shade){.texture = place->texture, .inverse = place->inverse};
-  if (place->texture->has_matrix)
-    shade->inverse = celspan_matrix_then(place->inverse, place->texture->inverse);
+  if (place->texture->variation->has_matrix)
+    shade->inverse = celspan_matrix_then(place->inverse, place->texture->variation->inverse);
   cs_shade_prepare(shade);
   layer->kind = CS_LAYER_SHADED;
   layer->index = (uint32_t)stack->shade_count++;
@@ -44,15 +44,16 @@ static celspan_status fill_picture(cs_compiler *c, cs_layer *layer,
                                    const cs_layers_texture *place) {
   cs_stack *stack = &c->plan->stack;
   const celspan_texture *texture = place->texture;
-  const celspan_box *box = texture->has_box ? &texture->box : &place->bounds;
+  const celspan_box *box = texture->variation->has_box ? &texture->variation->box : &place->bounds;
   if (box->width <= 0 || box->height <= 0) {
     cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
     return CELSPAN_OK;
   }
   CS_TRY(CS_COMPILER_APPEND(c, images, image_count, image_capacity));
-  bool is_own = place->ends_at_bounds && !texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR;
-  stack->images[stack->image_count] =
-      (cs_image_layer){texture, place->inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->wrap};
+  bool is_own = place->ends_at_bounds && !texture->variation->has_box &&
+                texture->variation->wrap == CELSPAN_WRAP_CLEAR;
+  stack->images[stack->image_count] = (cs_image_layer){
+      texture, place->inverse, *box, is_own ? CELSPAN_WRAP_CLAMP : texture->variation->wrap};
   layer->kind = CS_LAYER_PICTURE;
   layer->index = (uint32_t)stack->image_count++;
   layer->t = faded_through(1, cs_v4_all(1));
@@ -158,7 +159,9 @@ static celspan_status add_outline(cs_compiler *c, const cs_primitive_data *data,
   CS_TRY(cs_layers_fill(c, layer, &place));
   if (data->stroke)
     return add_stroke(c, data, &facing, index);
-  return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
+  cs_outline_box room;
+  return cs_layers_add_outline(c, cs_primitive_data_outline(data, &room), &data->bounds, matrix,
+                               index);
 }
 
 static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data, double fade,
@@ -178,7 +181,7 @@ static celspan_status add_scanline(cs_compiler *c, const cs_primitive_data *data
     return CELSPAN_OK;
   CS_TRY(CS_COMPILER_APPEND(c, procedures, procedure_count, procedure_capacity));
   stack->procedures[stack->procedure_count] =
-      (cs_procedure){&data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
+      (cs_procedure){data->scanline, index, m[0] / m[8], m[2] / m[8], m[4] / m[8], m[5] / m[8]};
   stack->layers[index].kind = CS_LAYER_SCANLINE;
   stack->layers[index].index = (uint32_t)stack->procedure_count++;
   return CELSPAN_OK;

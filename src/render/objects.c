@@ -1,6 +1,7 @@
 #include "render/objects.h"
 
 #include "geometry/matrix.h"
+#include "render/behind.h"
 #include "render/layers.h"
 #include "render/lights.h"
 
@@ -46,8 +47,8 @@ static bool is_layer(const celspan_object *object) {
 }
 
 static bool operands_are_layers(const cs_primitive_data *data) {
-  for (size_t i = 0; i < data->operand_count; i++)
-    if (!is_layer(data->operands[i]))
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (!is_layer(data->boolean->operands[i]))
       return false;
   return true;
 }
@@ -57,21 +58,21 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
                                    const celspan_matrix *matrix) {
   uint32_t first = (uint32_t)c->plan->stack.layer_count;
   bool records = c->records, over_layers = operands_are_layers(data);
-  for (size_t i = 0; i < data->operand_count; i++) {
+  for (size_t i = 0; i < data->boolean->operand_count; i++) {
     uint32_t layer = (uint32_t)c->plan->stack.layer_count;
     c->records = records && !over_layers;
-    CS_TRY(add_object(c, data->operands[i], matrix));
-    if (c->records && is_layer(data->operands[i]))
+    CS_TRY(add_object(c, data->boolean->operands[i], matrix));
+    if (c->records && is_layer(data->boolean->operands[i]))
       CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_LAYER, .first = layer, .end = layer + 1}));
   }
   c->records = records;
   if (!records)
     return CELSPAN_OK;
   return append_step(c, (cs_step){.kind = over_layers ? CS_STEP_LAYERS : CS_STEP_OPERATOR,
-                                  .op = data->op,
+                                  .op = data->boolean->op,
                                   .first = first,
                                   .end = (uint32_t)c->plan->stack.layer_count,
-                                  .operands = (uint32_t)data->operand_count});
+                                  .operands = (uint32_t)data->boolean->operand_count});
 }
 
 /* Unions of unions need no steps: every layer that is present is painted. A rostrum has a tree of
@@ -79,10 +80,10 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
 static bool is_plain_union(const cs_primitive_data *data) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
-  if (data->op != CELSPAN_UNION)
+  if (data->boolean->op != CELSPAN_UNION)
     return false;
-  for (size_t i = 0; i < data->operand_count; i++)
-    if (!is_plain_union(data->operands[i]->data))
+  for (size_t i = 0; i < data->boolean->operand_count; i++)
+    if (!is_plain_union(data->boolean->operands[i]->data))
       return false;
   return true;
 }
@@ -142,7 +143,9 @@ static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
   cs_layer *layer = &c->plan->stack.layers[index];
   cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
   layer->t = (cs_v4){keep, keep, keep, 0};
-  return cs_layers_add_outline(c, &data->outline, &data->bounds, matrix, index);
+  cs_outline_box room;
+  return cs_layers_add_outline(c, cs_primitive_data_outline(data, &room), &data->bounds, matrix,
+                               index);
 }
 
 /* Its layers, and the step that cuts them at the frame and leaves one result. */
@@ -150,8 +153,9 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
                                  const celspan_matrix *matrix) {
   const cs_stack *stack = &inner->plan->stack;
   const celspan_rostrum *rostrum = data->rostrum;
+  cs_outline_box room;
   const cs_compiler_film film = {rostrum->width, rostrum->height, *matrix, inner->front,
-                                 &data->outline};
+                                 cs_primitive_data_outline(data, &room)};
   uint32_t first = (uint32_t)stack->layer_count;
   CS_TRY(add_frame(inner, data, matrix));
   CS_TRY(inner->compile_nested(inner, rostrum, &film));
@@ -179,7 +183,7 @@ static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
 static celspan_status add_object(cs_compiler *c, const celspan_object *object,
                                  const celspan_matrix *parent) {
   const cs_primitive_data *data = object->data;
-  celspan_matrix matrix = celspan_matrix_then(object->matrix, *parent);
+  celspan_matrix matrix = celspan_matrix_then(*object->matrix, *parent);
   if (is_layer(object))
     return cs_layers_add(c, data, object->fade, &matrix);
   cs_objects_outside outer;
@@ -190,9 +194,20 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
   return CELSPAN_OK;
 }
 
+/* Those that are not behind others. */
+static celspan_status add_visible(cs_compiler *c, celspan_object *const *objects,
+                                  const cs_behind *behind, const celspan_matrix *matrix) {
+  for (size_t i = 0; i < behind->count; i++)
+    if (!cs_behind_has(behind, i))
+      CS_TRY(add_object(c, objects[i], matrix));
+  return CELSPAN_OK;
+}
+
 celspan_status cs_objects_add(cs_compiler *c, celspan_object *const *objects, size_t count,
                               const celspan_matrix *matrix) {
-  for (size_t i = 0; i < count; i++)
-    CS_TRY(add_object(c, objects[i], matrix));
-  return CELSPAN_OK;
+  cs_behind behind;
+  CS_TRY(cs_behind_find(c, objects, count, matrix, &behind));
+  celspan_status status = add_visible(c, objects, &behind, matrix);
+  cs_behind_finish(&behind, c->context->memory);
+  return status;
 }

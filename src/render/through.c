@@ -36,8 +36,8 @@ static bool meets_horizon(const cs_shade *shade, const cs_boundary_frame *visibl
 
 static cs_v4 stops_through(const celspan_texture *texture) {
   cs_v4 most = cs_v4_all(0);
-  for (size_t i = 0; i < texture->stop_count; i++)
-    most = cs_v4_max(transmission(&texture->stops[i].paint), most);
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    most = cs_v4_max(transmission(&texture->variation->stops[i].paint), most);
   return most;
 }
 
@@ -80,7 +80,8 @@ cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs
   cs_v4 least = cs_through_least(stack, layer);
   if (layer->kind != CS_LAYER_PICTURE || least[0] == layer->t[0])
     return layer->t;
-  return has_alpha(context, stack->images[layer->index].texture->picture) ? layer->t : least;
+  return has_alpha(context, stack->images[layer->index].texture->variation->picture) ? layer->t
+                                                                                     : least;
 }
 
 double cs_through_halvings(cs_v4 t) {

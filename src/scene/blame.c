@@ -51,13 +51,14 @@ static const celspan_object *find(celspan_object *const *objects, size_t count,
   const celspan_object *found = NULL;
   for (size_t i = 0; i < count && !found; i++) {
     const cs_primitive_data *data = objects[i]->data;
-    const celspan_texture *texture = data->texture;
-    if (texture && (is_about(sentence, texture->picture) || is_about(sentence, texture->medium)))
+    const cs_texture_variation *variation = data->texture ? data->texture->variation : NULL;
+    if (variation &&
+        (is_about(sentence, variation->picture) || is_about(sentence, variation->medium)))
       found = objects[i];
-    else if (data->rostrum)
+    else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
       found = find_in_rostrum(data->rostrum, sentence);
-    else
-      found = find(data->operands, data->operand_count, sentence);
+    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      found = find(data->boolean->operands, data->boolean->operand_count, sentence);
   }
   return found;
 }

@@ -11,14 +11,15 @@ static const char *const nouns[] = {
 };
 
 static void show_operands(cs_primitive_data *data) {
-  data->operands = data->view.objects;
-  data->operand_count = data->view.count;
-  data->is_empty = data->view.count == 0;
+  const cs_operands *view = &data->boolean->view;
+  data->boolean->operands = view->objects;
+  data->boolean->operand_count = view->count;
+  data->is_empty = view->count == 0;
 }
 
 static celspan_status fill(celspan_context *context, cs_primitive_data *data, const char *noun,
                            celspan_object *const *operands, size_t count) {
-  CS_TRY(cs_operands_create(context, noun, operands, count, &data->view));
+  CS_TRY(cs_operands_create(context, noun, operands, count, &data->boolean->view));
   show_operands(data);
   CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
   return cs_primitive_data_deepen(context, noun, data);
@@ -34,7 +35,7 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
                    operand_count);
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
-  data->op = op;
+  data->boolean->op = op;
   return cs_primitive_data_wrap(context, data, fill(context, data, noun, operands, operand_count),
                                 out);
 }
@@ -43,14 +44,15 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
 static celspan_status fill_more(celspan_context *context, cs_primitive_data *data,
                                 const cs_primitive_data *from, celspan_object *const *operands,
                                 size_t count) {
-  const char *noun = nouns[from->op];
-  CS_TRY(cs_operands_extend(context, noun, &from->view, operands, count, &data->view));
+  const char *noun = nouns[from->boolean->op];
+  CS_TRY(cs_operands_extend(context, noun, &from->boolean->view, operands, count,
+                            &data->boolean->view));
   show_operands(data);
   data->depth = from->depth - 1; /* below this one */
   data->primitive_count = from->primitive_count;
   data->has_procedure = from->has_procedure;
-  data->operands_hash = from->operands_hash;
-  data->hashed_count = from->hashed_count;
+  data->boolean->operands_hash = from->boolean->operands_hash;
+  data->boolean->hashed_count = from->boolean->hashed_count;
   CS_TRY(cs_primitive_data_measure(context, noun, operands, count, data));
   return cs_primitive_data_deepen(context, noun, data);
 }
@@ -65,8 +67,8 @@ static bool is_identity(const celspan_matrix *matrix) {
 
 static bool is_extendable(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->op != CELSPAN_CLIP &&
-         is_identity(&object->matrix) && object->fade == 1;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op != CELSPAN_CLIP &&
+         is_identity(object->matrix) && object->fade == 1;
 }
 
 celspan_status celspan_object_extend_boolean(celspan_context *context, celspan_object *boolean,
@@ -79,7 +81,7 @@ celspan_status celspan_object_extend_boolean(celspan_context *context, celspan_o
                    "made, without transform and fade");
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_BOOLEAN, NULL, &data));
-  data->op = boolean->data->op;
+  data->boolean->op = boolean->data->boolean->op;
   celspan_status status = fill_more(context, data, boolean->data, operands, operand_count);
   return cs_primitive_data_wrap(context, data, status, out);
 }

@@ -67,24 +67,26 @@ static bool data_bounds(const cs_primitive_data *data, const celspan_matrix *mat
                         celspan_box *out) {
   if (data->stroke)
     return stroke_bounds(data, matrix, out);
+  cs_outline_box room;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    return cs_outline_bounds(&data->outline, matrix, out);
-  switch (data->op) {
+    return cs_outline_bounds(cs_primitive_data_outline(data, &room), matrix, out);
+  switch (data->boolean->op) {
   case CELSPAN_UNION:
   case CELSPAN_XOR:
-    return cs_primitive_data_list_bounds(data->operands, data->operand_count, matrix, out);
+    return cs_primitive_data_list_bounds(data->boolean->operands, data->boolean->operand_count,
+                                         matrix, out);
   case CELSPAN_INTERSECTION:
   case CELSPAN_CLIP:
-    return list_common(data->operands, data->operand_count, matrix, out);
+    return list_common(data->boolean->operands, data->boolean->operand_count, matrix, out);
   case CELSPAN_DIFFERENCE:
     break;
   }
-  return object_bounds(data->operands[0], matrix, out);
+  return object_bounds(data->boolean->operands[0], matrix, out);
 }
 
 static bool object_bounds(const celspan_object *object, const celspan_matrix *parent,
                           celspan_box *out) {
-  celspan_matrix whole = celspan_matrix_then(object->matrix, *parent), inverse;
+  celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent), inverse;
   if (object->data->is_empty || !celspan_matrix_inverse(whole, &inverse))
     return false;
   return data_bounds(object->data, &whole, out);

@@ -80,21 +80,20 @@ bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, cels
 static bool inside_object(const celspan_object *object, const celspan_matrix *parent,
                           celspan_point point) {
   const cs_primitive_data *data = object->data;
-  const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent);
   celspan_point own;
   if (data->is_empty)
     return false;
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
-    return cs_inside_own_point(&whole, point, &own) &&
-           cs_inside_primitive(data, own);
+    return cs_inside_own_point(&whole, point, &own) && cs_inside_primitive(data, own);
   size_t present = 0;
   bool first = false;
-  for (size_t i = 0; i < data->operand_count; i++) {
-    bool is_present = inside_object(data->operands[i], &whole, point);
+  for (size_t i = 0; i < data->boolean->operand_count; i++) {
+    bool is_present = inside_object(data->boolean->operands[i], &whole, point);
     present += is_present;
     first = first || (i == 0 && is_present);
   }
-  return cs_inside_is_present(data->op, present, data->operand_count, first);
+  return cs_inside_is_present(data->boolean->op, present, data->boolean->operand_count, first);
 }
 
 bool celspan_object_contains(const celspan_object *object, celspan_point point) {

@@ -31,8 +31,10 @@ bool cs_inside_stroke(const cs_stroke *stroke, celspan_point point);
 /* Whether a point of its own units is inside a primitive, a rostrum's frame or a procedure's
  * bounds. */
 static inline bool cs_inside_primitive(const cs_primitive_data *data, celspan_point point) {
-  return data->stroke ? cs_inside_stroke(data->stroke, point)
-                      : cs_inside_outline(&data->outline, data->rule, point);
+  cs_outline_box room;
+  if (data->stroke)
+    return cs_inside_stroke(data->stroke, point);
+  return cs_inside_outline(cs_primitive_data_outline(data, &room), data->rule, point);
 }
 
 /* Whether a boolean object is present at a point where `present` of its operands are present.

@@ -58,11 +58,11 @@ static celspan_status examine(const cs_walk *walk, const cs_primitive_data *prim
                               const celspan_texture *texture) {
   listener *to = walk->user;
   to->primitive += primitive != NULL;
-  if (!texture || !texture->picture)
+  if (!texture || !texture->variation->picture)
     return CELSPAN_OK;
-  celspan_status status = cs_inspection_examine(to->inspection, texture->picture);
-  if (status == CELSPAN_OK && texture->medium)
-    status = cs_inspection_examine(to->inspection, texture->medium);
+  celspan_status status = cs_inspection_examine(to->inspection, texture->variation->picture);
+  if (status == CELSPAN_OK && texture->variation->medium)
+    status = cs_inspection_examine(to->inspection, texture->variation->medium);
   celspan_fault fault = {.status = status,
                          .message = celspan_context_error(walk->context),
                          .cel = to->cel,

@@ -39,7 +39,7 @@ static celspan_status fill(celspan_context *context, cs_primitive_data *data,
                            celspan_rostrum *rostrum) {
   data->rostrum = celspan_rostrum_ref(rostrum);
   data->bounds = (celspan_box){0, 0, rostrum->width, rostrum->height};
-  CS_TRY(cs_outline_rect(context, &data->outline, 0, 0, rostrum->width, rostrum->height, 0));
+  CS_TRY(cs_primitive_data_set_box(context, data, &data->bounds));
   return measure(context, data);
 }
 

@@ -50,8 +50,8 @@ static double blend(const double weights[3], float a, float b, float c) {
 }
 
 static cs_oracle_paint shade_triangle(const celspan_texture *texture, celspan_point at) {
-  const celspan_point *p = texture->points;
-  const cs_paint *q = texture->corners;
+  const celspan_point *p = texture->variation->points;
+  const cs_paint *q = texture->variation->corners;
   double area = cross(p[0], p[1], p[2]);
   double weights[3] = {cross(p[1], p[2], at) / area, cross(p[2], p[0], at) / area,
                        cross(p[0], p[1], at) / area};
@@ -67,14 +67,14 @@ static cs_oracle_paint shade_triangle(const celspan_texture *texture, celspan_po
 }
 
 static cs_oracle_paint shade_stops(const celspan_texture *texture, double at) {
-  const cs_stop *stops = texture->stops;
+  const cs_stop *stops = texture->variation->stops;
   size_t next = 0;
-  while (next < texture->stop_count && stops[next].at <= at)
+  while (next < texture->variation->stop_count && stops[next].at <= at)
     next++;
   if (next == 0)
     return widen(&stops[0].paint);
   cs_oracle_paint before = widen(&stops[next - 1].paint);
-  if (next == texture->stop_count)
+  if (next == texture->variation->stop_count)
     return before;
   cs_oracle_paint after = widen(&stops[next].paint);
   return cs_oracle_mix(&before, &after,
@@ -82,7 +82,7 @@ static cs_oracle_paint shade_stops(const celspan_texture *texture, double at) {
 }
 
 static double linear_parameter(const celspan_texture *texture, celspan_point at) {
-  celspan_point from = texture->points[0], to = texture->points[1];
+  celspan_point from = texture->variation->points[0], to = texture->variation->points[1];
   double dx = to.x - from.x, dy = to.y - from.y;
   return ((at.x - from.x) * dx + (at.y - from.y) * dy) / (dx * dx + dy * dy);
 }
@@ -90,8 +90,9 @@ static double linear_parameter(const celspan_texture *texture, celspan_point at)
 /* Circles of the radius t r about focus + t (centre - focus): the greater t whose circle goes through
  * the point, which solves (r^2 - d^2) t^2 + 2 (p d) t - p^2 = 0. */
 static double radial_parameter(const celspan_texture *texture, celspan_point at) {
-  celspan_point centre = texture->points[0], offset = texture->points[1];
-  double px = at.x - centre.x - offset.x, py = at.y - centre.y - offset.y, r = texture->radius;
+  celspan_point centre = texture->variation->points[0], offset = texture->variation->points[1];
+  double px = at.x - centre.x - offset.x, py = at.y - centre.y - offset.y,
+         r = texture->variation->radius;
   double rest = r * r - offset.x * offset.x - offset.y * offset.y;
   double half = -(px * offset.x + py * offset.y);
   return (sqrt(half * half + rest * (px * px + py * py)) - half) / rest;
@@ -143,17 +144,18 @@ static celspan_status read_bilinear(celspan_context *context, const cs_picture *
 static celspan_status shade_picture(celspan_context *context, const celspan_texture *texture,
                                     const celspan_box *bounds, celspan_point at,
                                     cs_oracle_paint *out) {
-  const celspan_box *box = texture->has_box ? &texture->box : bounds;
+  const cs_texture_variation *variation = texture->variation;
+  const celspan_box *box = variation->has_box ? &variation->box : bounds;
   double u = (at.x - box->x) / box->width, v = (at.y - box->y) / box->height;
   *out = cs_oracle_clear;
-  if (texture->has_box && texture->wrap == CELSPAN_WRAP_CLEAR &&
+  if (variation->has_box && variation->wrap == CELSPAN_WRAP_CLEAR &&
       !(u >= 0 && u < 1 && v >= 0 && v < 1))
     return CELSPAN_OK;
   float sample[4];
-  CS_TRY(read_bilinear(context, texture->picture, texture->wrap, u, v, sample));
-  cs_paint paint = cs_paint_from_picture(sample, texture->use);
-  if (texture->medium) {
-    CS_TRY(read_bilinear(context, texture->medium, texture->wrap, u, v, sample));
+  CS_TRY(read_bilinear(context, variation->picture, variation->wrap, u, v, sample));
+  cs_paint paint = cs_paint_from_picture(sample, variation->use);
+  if (variation->medium) {
+    CS_TRY(read_bilinear(context, variation->medium, variation->wrap, u, v, sample));
     const cs_paint medium = cs_paint_from_picture(sample, CELSPAN_PICTURE_GEL);
     memcpy(paint.t, medium.t, sizeof paint.t);
   }
@@ -175,11 +177,11 @@ static cs_oracle_paint shade_span(const cs_scanline_span *span, const cs_paint *
 
 static celspan_status shade_procedure(celspan_context *context, const cs_primitive_data *data,
                                       celspan_point at, bool *is_there, cs_oracle_paint *out) {
-  const celspan_box *bounds = &data->scanline.bounds;
+  const celspan_box *bounds = &data->scanline->bounds;
   celspan_scanline_row row = {bounds->x, bounds->x + bounds->width, 1};
   celspan_scanline_output output;
   cs_scanline_init(&output);
-  celspan_status status = cs_scanline_collect(context, &data->scanline, at.y, &row, &output);
+  celspan_status status = cs_scanline_collect(context, data->scanline, at.y, &row, &output);
   *is_there = false;
   for (size_t i = 0; status == CELSPAN_OK && i < output.span_count; i++) {
     const cs_scanline_span *span = &output.spans[i];
@@ -204,9 +206,9 @@ static double fold(celspan_spread spread, double at) {
 /* A gradient in its own units, as it was given: not as it was unrolled. Behind the horizon of its
  * matrix it is clear. */
 static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_point point) {
-  const celspan_texture *given = texture->origin ? texture->origin : texture;
-  if (given->has_matrix) {
-    const double *m = given->inverse.m;
+  const celspan_texture *given = texture->variation->origin ? texture->variation->origin : texture;
+  if (given->variation->has_matrix) {
+    const double *m = given->variation->inverse.m;
     double w = m[6] * point.x + m[7] * point.y + m[8];
     if (!(w > 0))
       return cs_oracle_clear;
@@ -215,7 +217,7 @@ static cs_oracle_paint shade_gradient(const celspan_texture *texture, celspan_po
   }
   double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
                                                : radial_parameter(given, point);
-  return shade_stops(given, fold(given->spread, at));
+  return shade_stops(given, fold(given->variation->spread, at));
 }
 
 celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture *texture,

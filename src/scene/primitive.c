@@ -11,6 +11,15 @@ static celspan_status begin(celspan_context *context, const char *noun, celspan_
   return CELSPAN_OK;
 }
 
+static celspan_status create_rounded(celspan_context *context, cs_primitive_data *data,
+                                     const celspan_rect_desc *desc, celspan_object **out) {
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_outline_rect(context, &outline, desc->x, desc->y, desc->width, desc->height, desc->radius);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
+}
+
 celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
                                           celspan_object **out) {
   CS_TRY(cs_check_given(context, "rect", "the description", desc));
@@ -21,10 +30,10 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
   CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
   cs_primitive_data *data;
   CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
-  return cs_primitive_data_complete(context, data,
-                                    cs_outline_rect(context, &data->outline, desc->x, desc->y,
-                                                    desc->width, desc->height, desc->radius),
-                                    out);
+  if (desc->radius > 0)
+    return create_rounded(context, data, desc, out);
+  const celspan_box box = {desc->x, desc->y, desc->width, desc->height};
+  return cs_primitive_data_complete_box(context, data, &box, out);
 }
 
 static celspan_status check_points(celspan_context *context, const char *noun,
@@ -40,9 +49,10 @@ static celspan_status create_polygon(celspan_context *context, const char *noun,
   CS_TRY(check_points(context, noun, desc->points, desc->point_count));
   cs_primitive_data *data;
   CS_TRY(begin(context, noun, desc->rule, desc->texture, &data));
-  return cs_primitive_data_complete(
-      context, data, cs_outline_polygon(context, &data->outline, desc->points, desc->point_count),
-      out);
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_polygon(context, &outline, desc->points, desc->point_count);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
 celspan_status celspan_object_create_polygon(celspan_context *context,
@@ -69,10 +79,11 @@ celspan_status celspan_object_create_ellipse(celspan_context *context,
   CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
   cs_primitive_data *data;
   CS_TRY(begin(context, "ellipse", CELSPAN_RULE_NONZERO, desc->texture, &data));
-  return cs_primitive_data_complete(
-      context, data,
-      cs_outline_ellipse(context, &data->outline, desc->centre, desc->radius_x, desc->radius_y),
-      out);
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status =
+      cs_outline_ellipse(context, &outline, desc->centre, desc->radius_x, desc->radius_y);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
 celspan_status celspan_object_create_nurbs(celspan_context *context, const celspan_nurbs_desc *desc,
@@ -83,8 +94,10 @@ celspan_status celspan_object_create_nurbs(celspan_context *context, const celsp
                          CELSPAN_NURBS_CLAMPED + 1));
   cs_primitive_data *data;
   CS_TRY(begin(context, "nurbs", desc->rule, desc->texture, &data));
-  return cs_primitive_data_complete(context, data, cs_outline_nurbs(context, &data->outline, desc),
-                                    out);
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_nurbs(context, &outline, desc);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
@@ -93,8 +106,10 @@ celspan_status celspan_object_create_path(celspan_context *context, const celspa
   CS_TRY(cs_check_given(context, "path", "d", desc->data));
   cs_primitive_data *data;
   CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
-  return cs_primitive_data_complete(context, data,
-                                    cs_outline_path(context, &data->outline, desc->data), out);
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_path(context, &outline, desc->data);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
 celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline *outline,
@@ -106,9 +121,7 @@ celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline
     cs_outline_finish(outline, context->memory);
     return status;
   }
-  data->outline = *outline;
-  cs_outline_init(outline);
-  return cs_primitive_data_complete(context, data, CELSPAN_OK, out);
+  return cs_primitive_data_complete(context, data, outline, CELSPAN_OK, out);
 }
 
 celspan_status celspan_object_create_scanline(celspan_context *context,
@@ -120,14 +133,10 @@ celspan_status celspan_object_create_scanline(celspan_context *context,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "scanline: spans is missing");
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &data));
-  const celspan_box *box = &desc->bounds;
   celspan_object *object;
-  CS_TRY(cs_primitive_data_complete(
-      context, data,
-      cs_outline_rect(context, &data->outline, box->x, box->y, box->width, box->height, 0),
-      &object));
+  CS_TRY(cs_primitive_data_complete_box(context, data, &desc->bounds, &object));
   /* Not earlier: if no object is made, releasing `user` is left to the caller. */
-  data->scanline = *desc;
+  *data->scanline = *desc;
   *out = object;
   return CELSPAN_OK;
 }

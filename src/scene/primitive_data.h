@@ -41,11 +41,22 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_of_line(celspan_context *contex
                                                          const cs_outline_closed *closed,
                                                          const celspan_stroke_desc *desc,
                                                          celspan_object **out);
-/* As the outline's above, for data with an outline, whose bounds are found first. */
+/* As cs_primitive_data_wrap, for data with this outline, whose bounds are found first. It is copied,
+ * and finished in any case. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *context,
                                                           cs_primitive_data *data,
+                                                          cs_outline *outline,
                                                           celspan_status status,
                                                           celspan_object **out);
+/* The same of an upright rectangle. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_complete_box(celspan_context *context,
+                                                              cs_primitive_data *data,
+                                                              const celspan_box *box,
+                                                              celspan_object **out);
+/* Gives data, which have no outline yet, that of an upright rectangle. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *context,
+                                                         cs_primitive_data *data,
+                                                         const celspan_box *box);
 
 /* BAD_ARGUMENT when the data contain a procedure whose rows would not be parallel to the
  * frame's. */

@@ -59,7 +59,7 @@ static celspan_status primitive_present(const probe_call *probe, const cs_primit
 static celspan_status present(const probe_call *probe, const celspan_object *object,
                               const celspan_matrix *parent, bool *out) {
   const cs_primitive_data *data = object->data;
-  const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent);
   *out = false;
   if (data->is_empty)
     return CELSPAN_OK;
@@ -67,13 +67,13 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
     return primitive_present(probe, data, &whole, out);
   size_t count = 0;
   bool first = false;
-  for (size_t i = 0; i < data->operand_count; i++) {
+  for (size_t i = 0; i < data->boolean->operand_count; i++) {
     bool is_present;
-    CS_TRY(present(probe, data->operands[i], &whole, &is_present));
+    CS_TRY(present(probe, data->boolean->operands[i], &whole, &is_present));
     count += is_present;
     first = first || (i == 0 && is_present);
   }
-  *out = cs_inside_is_present(data->op, count, data->operand_count, first);
+  *out = cs_inside_is_present(data->boolean->op, count, data->boolean->operand_count, first);
   return CELSPAN_OK;
 }
 
@@ -116,15 +116,15 @@ static celspan_status paint_list(const probe_call *probe, celspan_object *const 
 static celspan_status paint(const probe_call *probe, const celspan_object *object,
                             const celspan_matrix *parent, cs_oracle_paint *out) {
   const cs_primitive_data *data = object->data;
-  const celspan_matrix whole = celspan_matrix_then(object->matrix, *parent);
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, *parent);
   celspan_point own;
   bool is_there;
   *out = cs_oracle_clear;
   if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN) {
     size_t shown = 0;
-    while (shown < data->operand_count && cs_inside_shows(data->op, shown))
+    while (shown < data->boolean->operand_count && cs_inside_shows(data->boolean->op, shown))
       shown++;
-    CS_TRY(paint_list(probe, data->operands, shown, &whole, out));
+    CS_TRY(paint_list(probe, data->boolean->operands, shown, &whole, out));
   } else if (!cs_inside_own_point(&whole, probe->point, &own)) {
     return CELSPAN_OK;
   } else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
@@ -164,8 +164,8 @@ static celspan_status sample_texture(const probe_call *probe, const cs_light *li
   *out = (light_sample){{0, 0, 0}, 0};
   if (!cs_inside_own_point(matrix, probe->point, &own))
     return CELSPAN_OK;
-  if (texture->kind == CS_TEXTURE_PICTURE && !texture->has_box &&
-      texture->wrap == CELSPAN_WRAP_CLEAR &&
+  if (texture->kind == CS_TEXTURE_PICTURE && !texture->variation->has_box &&
+      texture->variation->wrap == CELSPAN_WRAP_CLEAR &&
       !(own.x >= 0 && own.x < film.width && own.y >= 0 && own.y < film.height))
     return CELSPAN_OK;
   CS_TRY(cs_oracle_texture(probe->context, texture, &film, own, &shade));

@@ -32,30 +32,49 @@ typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_ROSTRUM
 } cs_primitive_data_kind;
 
-/* The data of an object without its transform and fade: shared by all its transformed copies. */
+/* What only booleans have. */
+typedef struct cs_boolean {
+  celspan_operator op;
+  cs_operands view;          /* keeps the operands */
+  celspan_object **operands; /* those of the view */
+  size_t operand_count;
+  cs_hash operands_hash; /* of the first hashed_count operands; more continue it */
+  size_t hashed_count;
+} cs_boolean;
+
+/* The data of an object without its transform and fade: shared by all its transformed copies. A scene
+ * may have a million of them, nearly all outlines: what other kinds have is behind a pointer, and an
+ * upright rectangle is kept as a box. cs_primitive_data_outline gives the outline of either. */
 typedef struct cs_primitive_data {
   atomic_size_t references;
   cs_memory *memory;
   cs_hash hash;
   cs_primitive_data_kind kind;
-  cs_outline outline; /* OUTLINE; SCANLINE: its bounds; ROSTRUM: its frame */
-  cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
   celspan_rule rule;
+  bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
+  bool has_procedure;       /* below or with this one */
+  bool is_box;              /* the outline is that of `box`, which has an area */
+  int depth;                /* levels of booleans and rostrums below and with this one */
+  uint32_t primitive_count; /* below and with this one, each time it occurs */
   celspan_texture *texture; /* OUTLINE; never NULL */
   celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
-  bool is_empty;      /* nothing to draw: no contour, or an operator without operands */
-  celspan_scanline_desc scanline; /* SCANLINE */
-  celspan_operator op;            /* BOOLEAN */
-  cs_operands view;               /* BOOLEAN: keeps the operands */
-  celspan_object **operands;      /* those of the view */
-  size_t operand_count;
-  cs_hash operands_hash; /* BOOLEAN: of the first hashed_count operands; more continue it */
-  size_t hashed_count;
-  struct celspan_rostrum *rostrum; /* ROSTRUM */
-  int depth; /* levels of booleans and rostrums below and with this one; 0 for primitives */
-  size_t primitive_count; /* below and with this one, each time it occurs */
-  bool has_procedure;     /* below or with this one */
+  cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
+  union {
+    celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */
+    cs_outline *outline; /* else; packed and owned. NULL of strokes and booleans */
+  };
+  union {
+    cs_boolean *boolean;             /* BOOLEAN; owned */
+    celspan_scanline_desc *scanline; /* SCANLINE; owned */
+    struct celspan_rostrum *rostrum; /* ROSTRUM; a reference */
+  };
 } cs_primitive_data;
+
+/* The outline of data that have one, else NULL. room: where that of a box is made. */
+static inline const cs_outline *cs_primitive_data_outline(const cs_primitive_data *data,
+                                                          cs_outline_box *room) {
+  return data->is_box ? cs_outline_of_box(&data->box, room) : data->outline;
+}
 
 struct celspan_object {
   atomic_size_t references;
@@ -63,8 +82,9 @@ struct celspan_object {
   cs_hash hash;
   cs_mark mark;
   cs_primitive_data *data;
-  celspan_matrix matrix; /* own units to the parent's */
-  double fade;           /* 0..1 */
+  double fade;                  /* 0..1 */
+  const celspan_matrix *matrix; /* own units to the parent's: `own`, or the identity, shared */
+  celspan_matrix own[];         /* one; none where the matrix is shared */
 };
 
 struct celspan_cel {

@@ -74,7 +74,8 @@ static celspan_status find_bounds(celspan_context *context, cs_primitive_data *d
   const cs_stroke *stroke = data->stroke;
   data->is_empty = !(stroke->around.width > 0 && stroke->around.height > 0);
   data->bounds = stroke->around;
-  if (data->is_empty || data->texture->kind != CS_TEXTURE_PICTURE || data->texture->has_box)
+  if (data->is_empty || data->texture->kind != CS_TEXTURE_PICTURE ||
+      data->texture->variation->has_box)
     return CELSPAN_OK;
   const celspan_matrix identity = celspan_matrix_identity();
   cs_outline outline;
@@ -107,8 +108,9 @@ static celspan_status create(celspan_context *context, const celspan_stroke_desc
   else if (!desc->data)
     CS_TRY(check_points(context, desc));
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
-  celspan_status status =
-      fill(context, data, desc, outlined ? &outlined->data->outline : NULL, NULL);
+  cs_outline_box room;
+  const cs_outline *outline = outlined ? cs_primitive_data_outline(outlined->data, &room) : NULL;
+  celspan_status status = fill(context, data, desc, outline, NULL);
   return cs_primitive_data_wrap(context, data, status, out);
 }
 
@@ -144,7 +146,7 @@ celspan_status celspan_object_stroke(celspan_context *context, celspan_object *o
                    "stroke: the line is the object's outline; points and d do not go with it");
   celspan_object *plain, *placed;
   CS_TRY(create(context, desc, object, &plain));
-  celspan_status status = celspan_object_transform(context, plain, &object->matrix, &placed);
+  celspan_status status = celspan_object_transform(context, plain, object->matrix, &placed);
   celspan_object_unref(plain);
   CS_TRY(status);
   status = celspan_object_fade(context, placed, object->fade, out);

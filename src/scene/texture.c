@@ -1,5 +1,6 @@
 #include "scene/texture.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -12,11 +13,28 @@
 /* A focus lies inside its circle: at most so far from the centre, as a share of the radius. */
 #define FOCUS_SHARE 0.9999
 
+static const cs_texture_variation no_variation = {.stop_count = 0};
+
+typedef struct varying {
+  celspan_texture texture;
+  cs_texture_variation variation;
+} varying;
+
+static size_t size_of(cs_texture_kind kind) {
+  return kind == CS_TEXTURE_FLAT ? sizeof(celspan_texture) : sizeof(varying);
+}
+
+cs_texture_variation *cs_texture_own(celspan_texture *texture) {
+  assert(texture->kind != CS_TEXTURE_FLAT);
+  return &((varying *)texture)->variation;
+}
+
 static celspan_status create(celspan_context *context, cs_texture_kind kind,
                              celspan_texture **out) {
-  celspan_texture *texture = cs_mem_array(context->memory, 1, sizeof *texture);
+  celspan_texture *texture = cs_mem_array(context->memory, 1, size_of(kind));
   if (!texture)
     return cs_fail_memory(context);
+  texture->variation = kind == CS_TEXTURE_FLAT ? &no_variation : &((varying *)texture)->variation;
   atomic_init(&texture->references, 1);
   texture->memory = cs_memory_ref(context->memory);
   texture->mark = cs_mark_now(context);
@@ -26,34 +44,35 @@ static celspan_status create(celspan_context *context, cs_texture_kind kind,
 }
 
 static void hash_picture(cs_hash *hash, const celspan_texture *texture) {
-  cs_hash_hash(hash, cs_picture_hash(texture->picture));
-  if (texture->medium)
-    cs_hash_hash(hash, cs_picture_hash(texture->medium));
-  cs_hash_word(hash, texture->sampling);
-  cs_hash_word(hash, texture->use);
-  cs_hash_word(hash, texture->wrap);
-  cs_hash_word(hash, texture->has_box);
-  cs_value_hash_box(hash, &texture->box);
+  cs_hash_hash(hash, cs_picture_hash(texture->variation->picture));
+  if (texture->variation->medium)
+    cs_hash_hash(hash, cs_picture_hash(texture->variation->medium));
+  cs_hash_word(hash, texture->variation->sampling);
+  cs_hash_word(hash, texture->variation->use);
+  cs_hash_word(hash, texture->variation->wrap);
+  cs_hash_word(hash, texture->variation->has_box);
+  cs_value_hash_box(hash, &texture->variation->box);
 }
 
 static cs_hash hash_texture(const celspan_texture *texture) {
+  const cs_texture_variation *variation = texture->variation;
   cs_hash hash = cs_hash_begin(CS_VALUE_TEXTURE);
   cs_hash_word(&hash, texture->kind);
   cs_value_hash_paint(&hash, &texture->flat);
   for (int i = 0; i < 3; i++) {
-    cs_value_hash_point(&hash, texture->points[i]);
-    cs_value_hash_paint(&hash, &texture->corners[i]);
+    cs_value_hash_point(&hash, variation->points[i]);
+    cs_value_hash_paint(&hash, &variation->corners[i]);
   }
-  cs_hash_number(&hash, texture->radius);
-  cs_hash_word(&hash, texture->stop_count);
-  for (size_t i = 0; i < texture->stop_count; i++) {
-    cs_hash_number(&hash, texture->stops[i].at);
-    cs_value_hash_paint(&hash, &texture->stops[i].paint);
+  cs_hash_number(&hash, variation->radius);
+  cs_hash_word(&hash, variation->stop_count);
+  for (size_t i = 0; i < variation->stop_count; i++) {
+    cs_hash_number(&hash, variation->stops[i].at);
+    cs_value_hash_paint(&hash, &variation->stops[i].paint);
   }
-  cs_hash_word(&hash, texture->spread);
-  cs_hash_word(&hash, texture->has_matrix);
-  if (texture->has_matrix)
-    cs_value_hash_matrix(&hash, &texture->matrix);
+  cs_hash_word(&hash, variation->spread);
+  cs_hash_word(&hash, variation->has_matrix);
+  if (variation->has_matrix)
+    cs_value_hash_matrix(&hash, &variation->matrix);
   if (texture->kind == CS_TEXTURE_PICTURE)
     hash_picture(&hash, texture);
   return cs_hash_end(hash);
@@ -128,8 +147,8 @@ celspan_status celspan_texture_create_gradient(celspan_context *context,
   celspan_texture *texture;
   CS_TRY(create(context, CS_TEXTURE_TRIANGLE, &texture));
   for (int i = 0; i < 3; i++) {
-    texture->points[i] = points[i];
-    texture->corners[i] = cs_paint_from_straight(&paints[i]);
+    cs_texture_own(texture)->points[i] = points[i];
+    cs_texture_own(texture)->corners[i] = cs_paint_from_straight(&paints[i]);
   }
   return finish(texture, out);
 }
@@ -161,14 +180,15 @@ static celspan_status create_stops(celspan_context *context, cs_texture_kind kin
     return create_flat_straight(context, &stops[count - 1].paint, out);
   celspan_texture *texture;
   CS_TRY(create(context, kind, &texture));
-  texture->stops = cs_mem_array(context->memory, count, sizeof *texture->stops);
-  if (!texture->stops) {
+  cs_texture_variation *variation = cs_texture_own(texture);
+  variation->stops = cs_mem_array(context->memory, count, sizeof *variation->stops);
+  if (!variation->stops) {
     celspan_texture_unref(texture);
     return cs_fail_memory(context);
   }
-  texture->stop_count = count;
+  variation->stop_count = count;
   for (size_t i = 0; i < count; i++)
-    texture->stops[i] = (cs_stop){stops[i].at, cs_paint_from_straight(&stops[i].paint)};
+    variation->stops[i] = (cs_stop){stops[i].at, cs_paint_from_straight(&stops[i].paint)};
   *out = texture;
   return CELSPAN_OK;
 }
@@ -183,8 +203,8 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
   CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
                       !(distance_squared(from, to) > 0), &texture));
   if (texture->kind == CS_TEXTURE_LINEAR) {
-    texture->points[0] = from;
-    texture->points[1] = to;
+    cs_texture_own(texture)->points[0] = from;
+    cs_texture_own(texture)->points[1] = to;
   }
   return finish(texture, out);
 }
@@ -214,9 +234,10 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
   celspan_texture *texture;
   CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
   if (texture->kind == CS_TEXTURE_RADIAL) {
-    texture->points[0] = centre;
-    texture->points[1] = focus_offset(centre, radius, focus);
-    texture->radius = radius;
+    cs_texture_variation *variation = cs_texture_own(texture);
+    variation->points[0] = centre;
+    variation->points[1] = focus_offset(centre, radius, focus);
+    variation->radius = radius;
   }
   return finish(texture, out);
 }
@@ -254,13 +275,14 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
     cs_picture_unref(picture);
   CS_TRY(status);
   if (!is_degenerate) {
-    texture->picture = picture;
-    texture->sampling = desc->sampling;
-    texture->use = desc->use;
-    texture->wrap = desc->wrap;
-    texture->has_box = desc->has_box;
+    cs_texture_variation *variation = cs_texture_own(texture);
+    variation->picture = picture;
+    variation->sampling = desc->sampling;
+    variation->use = desc->use;
+    variation->wrap = desc->wrap;
+    variation->has_box = desc->has_box;
     if (desc->has_box)
-      texture->box = desc->box;
+      variation->box = desc->box;
   }
   return finish(texture, out);
 }
@@ -271,10 +293,11 @@ celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_te
                                       cs_picture *medium, celspan_texture **out) {
   celspan_texture *copy;
   CS_TRY(
-      cs_texture_copy(context, texture, texture->stop_count, cs_mark_keep(texture->mark), &copy));
-  if (copy->medium)
-    cs_picture_unref(copy->medium);
-  copy->medium = medium ? cs_picture_ref(medium) : NULL;
+      cs_texture_copy(context, texture, texture->variation->stop_count, cs_mark_keep(texture->mark), &copy));
+  cs_texture_variation *variation = cs_texture_own(copy);
+  if (variation->medium)
+    cs_picture_unref(variation->medium);
+  variation->medium = medium ? cs_picture_ref(medium) : NULL;
   return finish(copy, out);
 }
 
@@ -283,7 +306,7 @@ celspan_status celspan_texture_with_medium(celspan_context *context, celspan_tex
                                            celspan_texture **out) {
   CS_TRY(cs_check_given(context, "medium", "the texture", texture));
   CS_TRY(check_picture(context, medium));
-  if (texture->kind != CS_TEXTURE_PICTURE || texture->use != CELSPAN_PICTURE_PAINT)
+  if (texture->kind != CS_TEXTURE_PICTURE || texture->variation->use != CELSPAN_PICTURE_PAINT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "medium: the texture must be a picture that is used as paint");
   cs_picture *picture;
@@ -302,8 +325,8 @@ static cs_paint light_paint(const cs_paint *paint) {
   return light;
 }
 
-static celspan_status copy_stops(celspan_context *context, const celspan_texture *from,
-                                 celspan_texture *to) {
+static celspan_status copy_stops(celspan_context *context, const cs_texture_variation *from,
+                                 cs_texture_variation *to) {
   to->stops = cs_mem_array(context->memory, from->stop_count, sizeof *to->stops);
   if (!to->stops)
     return cs_fail_memory(context);
@@ -313,13 +336,28 @@ static celspan_status copy_stops(celspan_context *context, const celspan_texture
   return CELSPAN_OK;
 }
 
+/* Errors: NO_MEMORY. */
+static celspan_status fill_light(celspan_context *context, const cs_texture_variation *from,
+                                 cs_texture_variation *to) {
+  to->radius = from->radius;
+  to->spread = from->spread;
+  to->has_matrix = from->has_matrix;
+  to->matrix = from->matrix;
+  to->inverse = from->inverse;
+  for (int i = 0; i < 3; i++) {
+    to->points[i] = from->points[i];
+    to->corners[i] = light_paint(&from->corners[i]);
+  }
+  return from->stop_count > 0 ? copy_stops(context, from, to) : CELSPAN_OK;
+}
+
 celspan_status cs_texture_create_light(celspan_context *context, celspan_texture *texture,
                                        celspan_texture **out) {
   const cs_paint clear = CS_PAINT_CLEAR;
   celspan_texture *light;
-  if (texture->kind == CS_TEXTURE_PICTURE && texture->use == CELSPAN_PICTURE_GEL)
+  if (texture->kind == CS_TEXTURE_PICTURE && texture->variation->use == CELSPAN_PICTURE_GEL)
     return create_flat(context, &clear, out);
-  if (texture->medium)
+  if (texture->variation->medium)
     return cs_texture_copy_medium(context, texture, NULL, out);
   if (texture->kind == CS_TEXTURE_PICTURE) {
     *out = celspan_texture_ref(texture);
@@ -327,16 +365,8 @@ celspan_status cs_texture_create_light(celspan_context *context, celspan_texture
   }
   CS_TRY(create(context, texture->kind, &light));
   light->flat = light_paint(&texture->flat);
-  light->radius = texture->radius;
-  light->spread = texture->spread;
-  light->has_matrix = texture->has_matrix;
-  light->matrix = texture->matrix;
-  light->inverse = texture->inverse;
-  for (int i = 0; i < 3; i++) {
-    light->points[i] = texture->points[i];
-    light->corners[i] = light_paint(&texture->corners[i]);
-  }
-  if (texture->stop_count > 0 && copy_stops(context, texture, light) != CELSPAN_OK) {
+  if (light->kind != CS_TEXTURE_FLAT &&
+      fill_light(context, texture->variation, cs_texture_own(light)) != CELSPAN_OK) {
     celspan_texture_unref(light);
     return CELSPAN_NO_MEMORY;
   }
@@ -350,50 +380,58 @@ static bool is_grey(const cs_paint *paint) {
 }
 
 static bool all_paints_are_grey(const celspan_texture *texture) {
-  const cs_paint *corners = texture->corners;
+  const cs_paint *corners = texture->variation->corners;
   if (texture->kind == CS_TEXTURE_FLAT)
     return is_grey(&texture->flat);
   if (texture->kind == CS_TEXTURE_TRIANGLE)
     return is_grey(&corners[0]) && is_grey(&corners[1]) && is_grey(&corners[2]);
-  for (size_t i = 0; i < texture->stop_count; i++)
-    if (!is_grey(&texture->stops[i].paint))
+  for (size_t i = 0; i < texture->variation->stop_count; i++)
+    if (!is_grey(&texture->variation->stops[i].paint))
       return false;
   return true;
 }
 
 bool cs_texture_is_grey(const celspan_texture *texture) {
   return texture->kind == CS_TEXTURE_PICTURE
-             ? texture->use == CELSPAN_PICTURE_PAINT && !texture->medium
+             ? texture->variation->use == CELSPAN_PICTURE_PAINT && !texture->variation->medium
              : all_paints_are_grey(texture);
 }
 
 /* ---------------------------------------------------------------- copies */
 
+/* The variation of a copy, with its own stops, for which there is room. */
+static void copy_variation(const cs_texture_variation *from, cs_stop *stops, size_t stop_count,
+                           cs_texture_variation *to) {
+  size_t kept = stop_count < from->stop_count ? stop_count : from->stop_count;
+  *to = *from;
+  to->stops = stops;
+  to->stop_count = stop_count;
+  if (kept > 0)
+    memcpy(stops, from->stops, kept * sizeof *stops);
+  if (to->picture)
+    cs_picture_ref(to->picture);
+  if (to->medium)
+    cs_picture_ref(to->medium);
+  if (to->origin)
+    celspan_texture_ref(to->origin);
+}
+
 celspan_status cs_texture_copy(celspan_context *context, const celspan_texture *texture,
                                size_t stop_count, cs_mark mark, celspan_texture **out) {
-  celspan_texture *copy = cs_mem_array(context->memory, 1, sizeof *copy);
+  celspan_texture *copy = NULL;
   cs_stop *stops = cs_mem_array(context->memory, stop_count, sizeof *stops);
-  if (!copy || (!stops && stop_count > 0)) {
-    cs_mem_free(context->memory, copy, sizeof *copy);
+  celspan_status status =
+      !stops && stop_count > 0 ? cs_fail_memory(context) : create(context, texture->kind, &copy);
+  if (status != CELSPAN_OK) {
     cs_mem_free(context->memory, stops, stop_count * sizeof *stops);
     cs_mark_drop(mark);
-    return cs_fail_memory(context);
+    return status;
   }
-  size_t kept = stop_count < texture->stop_count ? stop_count : texture->stop_count;
-  *copy = *texture;
-  atomic_init(&copy->references, 1);
-  copy->memory = cs_memory_ref(context->memory);
+  copy->hash = texture->hash;
   copy->mark = mark;
-  copy->stops = stops;
-  copy->stop_count = stop_count;
-  if (kept > 0)
-    memcpy(stops, texture->stops, kept * sizeof *stops);
-  if (copy->picture)
-    cs_picture_ref(copy->picture);
-  if (copy->medium)
-    cs_picture_ref(copy->medium);
-  if (copy->origin)
-    celspan_texture_ref(copy->origin);
+  copy->flat = texture->flat;
+  if (copy->kind != CS_TEXTURE_FLAT)
+    copy_variation(texture->variation, stops, stop_count, cs_texture_own(copy));
   *out = copy;
   return CELSPAN_OK;
 }
@@ -403,7 +441,7 @@ celspan_status celspan_texture_named(celspan_context *context, celspan_texture *
   CS_TRY(cs_check_given(context, "named", "the texture", texture));
   cs_mark mark;
   CS_TRY(cs_mark_named(context, texture->mark, name, &mark));
-  return cs_texture_copy(context, texture, texture->stop_count, mark, out);
+  return cs_texture_copy(context, texture, texture->variation->stop_count, mark, out);
 }
 
 const char *celspan_texture_name(const celspan_texture *texture) {
@@ -425,13 +463,14 @@ void celspan_texture_unref(celspan_texture *texture) {
   if (!texture || !cs_value_drop(&texture->references))
     return;
   cs_memory *memory = texture->memory;
-  cs_mem_free(memory, texture->stops, texture->stop_count * sizeof *texture->stops);
-  if (texture->picture)
-    cs_picture_unref(texture->picture);
-  if (texture->medium)
-    cs_picture_unref(texture->medium);
-  celspan_texture_unref(texture->origin);
+  const cs_texture_variation *variation = texture->variation;
+  cs_mem_free(memory, variation->stops, variation->stop_count * sizeof *variation->stops);
+  if (variation->picture)
+    cs_picture_unref(variation->picture);
+  if (variation->medium)
+    cs_picture_unref(variation->medium);
+  celspan_texture_unref(variation->origin);
   cs_mark_drop(texture->mark);
-  cs_mem_free(memory, texture, sizeof *texture);
+  cs_mem_free(memory, texture, size_of(texture->kind));
   cs_memory_unref(memory);
 }

@@ -3,6 +3,9 @@
  * Invariants, so that no reader checks again: a triangle has an area, a linear gradient a length, a
  * radial one a radius, a picture's box (if any) a size, and there are two stops or more. A texture
  * that would break them is made FLAT at its construction.
+ *
+ *   FLAT        [ texture ]                      most textures of most scenes: they are kept small
+ *   all others  [ texture | its variation ]      one allocation
  */
 #ifndef CS_SCENE_TEXTURE_H
 #define CS_SCENE_TEXTURE_H
@@ -25,13 +28,8 @@ typedef struct cs_stop {
   cs_paint paint;
 } cs_stop;
 
-struct celspan_texture {
-  atomic_size_t references;
-  cs_memory *memory;
-  cs_hash hash;
-  cs_mark mark;
-  cs_texture_kind kind;
-  cs_paint flat;           /* FLAT */
+/* What textures have that vary from point to point. */
+typedef struct cs_texture_variation {
   celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
                               from it to the focus, less than the radius */
   double radius;           /* RADIAL */
@@ -49,6 +47,17 @@ struct celspan_texture {
   celspan_wrap wrap;
   bool has_box;
   celspan_box box; /* where has_box; else the primitive's tight bounds */
+} cs_texture_variation;
+
+struct celspan_texture {
+  atomic_size_t references;
+  cs_memory *memory;
+  cs_hash hash;
+  cs_mark mark;
+  cs_texture_kind kind;
+  cs_paint flat; /* FLAT */
+  const cs_texture_variation
+      *variation; /* its own; FLAT: one of nothing but zeros, which all share */
 };
 
 /* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
@@ -61,6 +70,8 @@ CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
                                                        celspan_texture *texture,
                                                        celspan_texture **out);
 
+/* The variation of a texture that is being made and is not FLAT, to be filled. */
+cs_texture_variation *cs_texture_own(celspan_texture *texture);
 /* A copy with its own mark, which is taken over, and room for so many stops, of which those that fit
  * are copied. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,

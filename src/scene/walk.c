@@ -10,7 +10,7 @@ static celspan_status visit(cs_walk *walk, celspan_object *const *objects, size_
     const cs_primitive_data *data = objects[i]->data;
     walk->object = objects[i];
     if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      CS_TRY(visit(walk, data->operands, data->operand_count));
+      CS_TRY(visit(walk, data->boolean->operands, data->boolean->operand_count));
     else if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
       CS_TRY(cs_walk_rostrum(walk, data->rostrum));
     else
@@ -41,11 +41,11 @@ celspan_status cs_walk_rostrum(cs_walk *walk, const celspan_rostrum *rostrum) {
 /* ---------------------------------------------------------------- what is met */
 
 static const cs_picture *picture_of(const celspan_texture *texture) {
-  return texture ? texture->picture : NULL;
+  return texture ? texture->variation->picture : NULL;
 }
 
 static const cs_picture *medium_of(const celspan_texture *texture) {
-  return texture ? texture->medium : NULL;
+  return texture ? texture->variation->medium : NULL;
 }
 
 static celspan_status count_primitive(const cs_walk *walk, const cs_primitive_data *primitive,

@@ -37,9 +37,11 @@ static celspan_status create_object(cs_layout *layout, size_t first, size_t coun
                                   &data));
   data->rule = CELSPAN_RULE_NONZERO;
   celspan_status status = CELSPAN_OK;
+  cs_outline outline;
+  cs_outline_init(&outline);
   if (layout->desc->size > 0)
-    status = append_glyphs(layout, first, count, &data->outline);
-  return cs_primitive_data_complete(layout->context, data, status, out);
+    status = append_glyphs(layout, first, count, &outline);
+  return cs_primitive_data_complete(layout->context, data, &outline, status, out);
 }
 
 celspan_status celspan_object_create_text(celspan_context *context, const celspan_text_desc *desc,

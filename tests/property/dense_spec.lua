@@ -1,6 +1,7 @@
 -- Pixels in which very many boundaries lie: what they show, and what they cost.
 local celspan = require "celspan"
 local prng = require "tests.support.prng"
+local workbench = require "tests.support.workbench"
 
 local SIDE, FINE = 6, 32 -- pixels a side; and the factor of the exact picture
 
@@ -80,6 +81,123 @@ describe("dense pixels", function()
     local image = shot(celspan.rostrum { back = "#fff", celspan.cel(objects) }, SIDE)
     for y = 0, SIDE - 1 do
       for x = 0, SIDE - 1 do assert.are.same({ 0, 0, 0, 1 }, { image:get(x, y) }) end
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- what lies behind others
+
+--- A shape with a paint: most of them small upright rectangles that let nothing through, the others of
+--- every kind that must not be taken for one.
+local function shape(random, side)
+  local x, y, kind = side * random:between(-0.2, 1), side * random:between(-0.2, 1), random:whole(1, 12)
+  local paint = celspan.rgb(random:between(0, 1), random:between(0, 1), random:between(0, 1))
+  if kind == 1 then return celspan.circle { centre = { x, y }, radius = 3, texture = paint } end
+  if kind == 2 then return celspan.rect { x, y, 4, 4, radius = 2, texture = paint } end
+  if kind == 3 then return celspan.rect { x, y, 4, 4, texture = paint }:rotate(30, x, y) end
+  if kind == 4 then return celspan.rect { x, y, 4, 4, texture = paint }:fade(0.5) end
+  if kind == 5 then return celspan.rect { x, y, 4, 4, texture = celspan.gel(0.5, 0.7, 1) } end
+  if kind == 6 then
+    return celspan.stroke { points = { { x, y }, { x + 5, y + 3 } }, width = 2, texture = paint }
+  end
+  if kind == 7 then
+    return celspan.union { celspan.rect { x, y, 2, 3, texture = paint }, celspan.rect { x + 2, y, 2, 2 } }
+  end
+  return celspan.rect { x, y, 3 * random:between(0, 2), 4, texture = paint }
+end
+
+--- The same objects in one cel, and in many that are too short to be searched for what lies behind.
+local function both(count, seed, side, opacity)
+  local random, all, parts = prng.new(seed), {}, {}
+  for i = 1, count do
+    all[i] = shape(random, side)
+    if i % 500 == 1 then parts[#parts + 1] = {} end
+    table.insert(parts[#parts], all[i])
+  end
+  for i, part in ipairs(parts) do parts[i] = celspan.cel(part) end
+  return celspan.rostrum { back = "#fff", celspan.cel(all):fade(opacity) },
+    opacity == 1 and celspan.rostrum { back = "#fff", table.unpack(parts) } or nil
+end
+
+local function assert_alike(a, b, side, tolerance)
+  for y = 0, side - 1 do
+    for x = 0, side - 1 do
+      local one, other = { a:get(x, y) }, { b:get(x, y) }
+      for channel = 1, 4 do
+        assert.is_true(math.abs(one[channel] - other[channel]) <= tolerance,
+          ("%d, %d: %g and %g"):format(x, y, one[channel], other[channel]))
+      end
+    end
+  end
+end
+
+describe("objects behind others", function()
+  it("show nothing when they are left out", function()
+    for seed, side in ipairs { 24, 57, 300 } do
+      local one, many = both(2500, seed, side, 1)
+      for _, mode in ipairs { "none", "area", { kernel = "mitchell" } } do
+        local options = { size = { side, side }, film = { side, side }, antialias = mode, workers = 1 }
+        assert_alike(assert(celspan.pixels(one, options)), assert(celspan.pixels(many, options)), side,
+          mode == "none" and 0 or 1e-4)
+      end
+    end
+  end)
+
+  it("hide each other wholly in a cel that is faded", function()
+    local faded, plain = both(2500, 4, 24, 0.25), both(2500, 4, 24, 1)
+    local options = { size = { 24, 24 }, film = { 24, 24 }, antialias = "none", workers = 1 }
+    local image, whole = assert(celspan.pixels(faded, options)), assert(celspan.pixels(plain, options))
+    for y = 0, 23 do
+      for x = 0, 23 do
+        local seen, under = image:get(x, y), whole:get(x, y)
+        assert.is_true(math.abs(seen - (0.25 * under + 0.75)) < 1e-5,
+          ("%d, %d: %g, %g"):format(x, y, seen, under))
+      end
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- what they cost
+
+--- What one frame of a scene of `count` things cost, told by counters, which are the same on any machine.
+local function counters(scene, count)
+  local bench = workbench.new()
+  bench:write("scene.lua", ([[
+local celspan = require "celspan"
+local random = celspan.random(7)
+local function at(i, k) return 64 * random(i .. k), 48 * random(k .. i) end
+local objects = {}
+for i = 1, %d do %s end
+return celspan.rostrum { size = { 64, 48 }, celspan.cel(%s) }
+]]):format(count, scene.item, scene.cel))
+  local code, out, err = bench:celspan("spans '%s/scene.lua' --workers 1 --stats", bench.folder)
+  assert.are.equal(0, code, err)
+  bench:remove()
+  local found = {}
+  for name, number in out:gmatch "([%a_]+) (%d+)" do found[name] = tonumber(number) end
+  return found
+end
+
+describe("the cost of very many things", function()
+  local square = { cel = "objects", item = [[local x, y = at(i, "a")
+    objects[i] = celspan.rect { x, y, 3, 3, texture = celspan.rgb(random(i), 0.5, 0.5) }]] }
+  local polygon = { cel = "{ celspan.polygon(objects) }", item = "objects[i] = { at(i, \"a\") }" }
+  local curve = { cel = "{ celspan.nurbs { points = objects } }", item = polygon.item }
+
+  it("is small for each opaque square, and grows with those that are seen", function()
+    local few, many = counters(square, 4000), counters(square, 16000)
+    assert.is_true(many.peak_bytes / 16000 < 500, many.peak_bytes .. " bytes")
+    assert.is_true(many.colour_evaluations < 2 * few.colour_evaluations, many.colour_evaluations
+      .. " colours, " .. few.colour_evaluations .. " for a quarter of the squares")
+  end)
+
+  it("grows at most linearly, within two times, for polygons and curves", function()
+    for _, scene in ipairs { polygon, curve } do
+      local few, many = counters(scene, 2000), counters(scene, 8000)
+      for _, name in ipairs { "peak_bytes", "allocations", "colour_evaluations" } do
+        assert.is_true(many[name] < 8 * few[name],
+          ("%s: %d, %d for a quarter"):format(name, many[name], few[name]))
+      end
     end
   end)
 end)

@@ -107,7 +107,7 @@ static void test_refusals(studio *s) {
   for (int i = 0; i < CS_SCENE_DEPTH; i++)
     object = studio_pair(s, CELSPAN_UNION, object, rect);
   CHECK(celspan_object_extend_boolean(s->context, pair, &object, 1, &out) == CELSPAN_LIMIT);
-  CHECK(out == NULL && pair->data->operand_count == 2);
+  CHECK(out == NULL && pair->data->boolean->operand_count == 2);
 }
 
 /* ---------------------------------------------------------------- sharing */
@@ -117,15 +117,16 @@ static void test_branches(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 1, 1, NULL), *b = studio_rect(s, 2, 0, 1, 1, NULL);
   celspan_object *base = chain_of(s->context, CELSPAN_UNION, a, 3);
   celspan_object *with_a = extend(s->context, base, a), *with_b = extend(s->context, base, b);
-  CHECK(with_a->data->operands == base->data->operands); /* shared */
-  CHECK(with_b->data->operands != base->data->operands);
-  CHECK(with_a->data->operands[3] == a && with_b->data->operands[3] == b);
+  CHECK(with_a->data->boolean->operands == base->data->boolean->operands); /* shared */
+  CHECK(with_b->data->boolean->operands != base->data->boolean->operands);
+  CHECK(with_a->data->boolean->operands[3] == a && with_b->data->boolean->operands[3] == b);
   celspan_object_unref(with_a);
   celspan_object *again = extend(s->context, base, b);
-  CHECK(again->data->operands == base->data->operands && again->data->operands[3] == b);
-  CHECK(is_same(again, with_b) && base->data->operand_count == 3);
+  CHECK(again->data->boolean->operands == base->data->boolean->operands &&
+        again->data->boolean->operands[3] == b);
+  CHECK(is_same(again, with_b) && base->data->boolean->operand_count == 3);
   celspan_object_unref(base);
-  CHECK(again->data->operands[0] == a);
+  CHECK(again->data->boolean->operands[0] == a);
   celspan_object_unref(again);
   celspan_object_unref(with_b);
 }
@@ -202,8 +203,10 @@ static void test_held_steps(void) {
   size_t before = watch.bytes;
   for (size_t i = 1; i < LONG; i++)
     steps[i] = extend(context, steps[i - 1], rect);
-  CHECK((watch.bytes - before) / LONG < sizeof(celspan_object) + sizeof(cs_primitive_data) + 100);
-  CHECK(steps[LONG - 1]->data->operand_count == LONG && steps[99]->data->operand_count == 100);
+  CHECK((watch.bytes - before) / LONG <
+        sizeof(celspan_object) + sizeof(cs_primitive_data) + sizeof(cs_boolean) + 100);
+  CHECK(steps[LONG - 1]->data->boolean->operand_count == LONG &&
+        steps[99]->data->boolean->operand_count == 100);
   for (size_t i = 0; i < LONG; i++)
     celspan_object_unref(steps[i]);
   studio_finish(&s);
@@ -224,7 +227,7 @@ static void test_every_allocation_can_fail(void) {
     CHECK(status == CELSPAN_OK || (status == CELSPAN_NO_MEMORY && !longer));
     watch.fail_at = 0;
     celspan_object *after = extend(s.context, chain, rect); /* the failed one took no place */
-    CHECK(status == CELSPAN_OK || after->data->operands == chain->data->operands);
+    CHECK(status == CELSPAN_OK || after->data->boolean->operands == chain->data->boolean->operands);
     celspan_object_unref(after);
     celspan_object_unref(longer);
     celspan_object_unref(chain);
@@ -250,8 +253,9 @@ static void *extend_often(void *user) {
     celspan_object *one = NULL, *two = NULL;
     e->is_good = celspan_object_extend_boolean(context, e->base, &e->operand, 1, &one) == 0 &&
                  celspan_object_extend_boolean(context, one, &e->operand, 1, &two) == 0 &&
-                 two->data->operands[3] == e->operand && two->data->operands[4] == e->operand &&
-                 two->data->operands[2] == e->base->data->operands[2];
+                 two->data->boolean->operands[3] == e->operand &&
+                 two->data->boolean->operands[4] == e->operand &&
+                 two->data->boolean->operands[2] == e->base->data->boolean->operands[2];
     celspan_object_unref(i % 2 ? one : two);
     celspan_object_unref(i % 2 ? two : one);
   }

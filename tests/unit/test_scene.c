@@ -28,7 +28,8 @@ static void test_paint_door(studio *s) {
   REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out),
           "paint: medium[3] is -0.25; it must be between 0 and 1");
   paint = (celspan_paint){{0, 1, 0}, {1, 1, 1}, NAN};
-  REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out), "paint: beta must be a finite number, got nan");
+  REFUSED(s, celspan_texture_create_paint(s->context, &paint, &out),
+          "paint: beta must be a finite number, got nan");
   CHECK(out == NULL);
 }
 
@@ -142,10 +143,9 @@ static void test_object_doors(studio *s) {
           "transform: matrix[6] must be a finite number, got nan");
   matrix = celspan_matrix_scaling(1e9, 1);
   celspan_object *large = studio_transform(s, rect, matrix);
-  REFUSED(
-      s, celspan_object_transform(s->context, large, &matrix, &out),
-      "transform, after those that are there: matrix[1] is 1e18; it must be between -1e12 and "
-      "1e12");
+  REFUSED(s, celspan_object_transform(s->context, large, &matrix, &out),
+          "transform, after those that are there: matrix[1] is 1e18; it must be between -1e12 and "
+          "1e12");
   CHECK(out == NULL);
 }
 
@@ -317,7 +317,8 @@ static void test_image_without_reading(studio *s) {
   celspan_object *image = NULL;
   studio_check(s, celspan_object_create_image(s->context, &desc, &image));
   check_bounds(image, 1, 2, 30, 40);
-  CHECK(image->data->texture->wrap == CELSPAN_WRAP_CLAMP); /* its rectangle says where it ends */
+  CHECK(image->data->texture->variation->wrap ==
+        CELSPAN_WRAP_CLAMP); /* its rectangle says where it ends */
   celspan_object_unref(image);
   image = NULL;
   desc.width = 0;
@@ -338,7 +339,7 @@ static void check_image(studio *s, celspan_image_desc desc, celspan_box frame, c
   if (!image)
     return;
   check_bounds(image, frame.x, frame.y, frame.width, frame.height);
-  const celspan_box *own = &image->data->texture->box;
+  const celspan_box *own = &image->data->texture->variation->box;
   CHECK_NEAR(own->x, box.x, TINY);
   CHECK_NEAR(own->y, box.y, TINY);
   CHECK_NEAR(own->width, box.width, TINY);
@@ -487,7 +488,7 @@ static void test_names_of_others(studio *s) {
                       studio_linear(s, (celspan_point){0, 0}, (celspan_point){1, 0}, stops, 2),
                       "dusk", &texture));
   CHECK_TEXT(celspan_texture_name(texture), "dusk");
-  CHECK(texture->stop_count == 2 && texture->stops[1].at == 1);
+  CHECK(texture->variation->stop_count == 2 && texture->variation->stops[1].at == 1);
   celspan_texture_unref(texture);
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   celspan_cel *cel = NULL, *cel_named = NULL, *faded = NULL;
@@ -594,7 +595,7 @@ static void test_values_outlive_their_context(void) {
   celspan_context_destroy(s.context);
   studio_finish(&s);
   CHECK(watch.blocks > 0);
-  CHECK(rostrum->cels[0]->objects[0]->data->operand_count == 2);
+  CHECK(rostrum->cels[0]->objects[0]->data->boolean->operand_count == 2);
   celspan_rostrum_unref(rostrum);
   CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
 }

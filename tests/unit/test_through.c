@@ -60,8 +60,8 @@ static void check_bound(const cs_shade *shade, const cs_boundary_frame *visible)
 static bool is_tight(const cs_shade *shade, const cs_boundary_frame *visible) {
   cs_v4 bound = cs_through_shade(shade, visible);
   float most = 0;
-  for (size_t i = 0; i < shade->texture->stop_count; i++)
-    most = fmaxf(most, shade->texture->stops[i].paint.t[0]);
+  for (size_t i = 0; i < shade->texture->variation->stop_count; i++)
+    most = fmaxf(most, shade->texture->variation->stops[i].paint.t[0]);
   return bound[0] <= most * 1.00001f;
 }
 
