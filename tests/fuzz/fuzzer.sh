@@ -15,12 +15,13 @@ export ASAN_OPTIONS=allocator_may_return_null=1:detect_leaks=0:handle_abort=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export LSAN_OPTIONS="suppressions=$PWD/tests/support/lsan.supp:print_suppressions=0"
 
-# The program and the corpus of the subproject's target lie elsewhere.
+# Each folder of the corpus is a target; its program is called as the folder is, up to the first "-". The
+# subproject's lie elsewhere.
 program_of() {
   if [ "$1" = spanfile ]; then
     echo "$build/subprojects/spanfile/tests/fuzz_reader"
   else
-    echo "$build/tests/fuzz/fuzz_$1"
+    echo "$build/tests/fuzz/fuzz_${1%%-*}"
   fi
 }
 
@@ -96,8 +97,7 @@ fuzz() {
 
 targets=("$@")
 if [ "${#targets[@]}" = 0 ]; then
-  mapfile -t targets < <(find "$build/tests/fuzz" -maxdepth 1 -type f -name 'fuzz_*' -perm -u+x \
-    -printf '%f\n' | sed 's/^fuzz_//' | sort)
+  mapfile -t targets < <(find tests/fuzz/corpus -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort)
   targets+=(spanfile)
 fi
 for target in "${targets[@]}"; do
