@@ -99,7 +99,7 @@ function fields.check(noun, given, known, level)
       hint and ("; did you mean '%s'?"):format(hint)
         or "; the fields are " .. table.concat(names, ", ")), level)
   end
-  if known[1] == nil and #given > 0 then
+  if known[1] == nil and rawlen(given) > 0 then
     error(("%s: takes named fields only, but was given a list"):format(noun), level)
   end
   for _, name in ipairs(names) do

@@ -35,10 +35,10 @@ local function kind_of(value)
   if type_of == "string" or type_of == "boolean" then return "held" end
   if is_paint(value) then return "paint" end
   if type_of ~= "table" then return nil end
-  for i = 1, #value do
+  for i = 1, rawlen(value) do
     if not fields.is_finite(value[i]) then return nil end
   end
-  return #value > 0 and "array" or nil
+  return rawlen(value) > 0 and "array" or nil
 end
 
 local mixers = {}
@@ -82,13 +82,13 @@ local function problem_of(key)
 end
 
 local function copy(value)
-  return type(value) == "table" and { table.unpack(value) } or value
+  return type(value) == "table" and { table.unpack(value, 1, rawlen(value)) } or value
 end
 
 --- What colour strings are: paints, unless any key is another string or a boolean, among which they
 --- are words that hold.
 local function meaning_of_colours(list)
-  for i = 1, #list do
+  for i = 1, rawlen(list) do
     if kind_of(list[i][2]) == "held" then return "held" end
   end
   return "paint"
@@ -96,12 +96,12 @@ end
 
 local function read_keys(list)
   local keys, kind = {}, nil
-  for i = 1, #list do
+  for i = 1, rawlen(list) do
     local problem = problem_of(list[i])
     if problem then complain(i, "%s", problem) end
   end
   local colours = meaning_of_colours(list)
-  for i = 1, #list do
+  for i = 1, rawlen(list) do
     local found = kind_of(list[i][2])
     if found == "colour" then found = colours end
     kind = kind or found
@@ -110,8 +110,8 @@ local function read_keys(list)
     if found ~= kind then
       complain(i, "is of another kind (%s) than the first (%s)", found, kind)
     end
-    if kind == "array" and i > 1 and #value ~= #keys[1].value then
-      complain(i, "has %d numbers, the first has %d", #value, #keys[1].value)
+    if kind == "array" and i > 1 and rawlen(value) ~= #keys[1].value then
+      complain(i, "has %d numbers, the first has %d", rawlen(value), #keys[1].value)
     end
     if i > 1 and time < keys[i - 1].time then
       complain(i, "is at %s, before the key before it", tostring(time))
@@ -125,7 +125,7 @@ local loops = { ["repeat"] = true, mirror = true }
 
 local function new(_, list)
   fields.check("keys", list, { "keys", loop = "string" })
-  if #list == 0 then error("keys: needs at least one key {time, value}", 2) end
+  if rawlen(list) == 0 then error("keys: needs at least one key {time, value}", 2) end
   if list.loop ~= nil and not loops[list.loop] then
     error(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)), 2)
   end

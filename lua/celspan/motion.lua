@@ -26,10 +26,12 @@ local function points_of(outline)
     error("motion: along takes path data or a list of points {x, y}, got "
       .. fields.kind(outline), 3)
   end
-  for i = 1, #outline do
+  local points = {}
+  for i = 1, rawlen(outline) do
     fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}", 3)
+    points[i] = outline[i]
   end
-  return outline
+  return points
 end
 
 --- A way along path data or points, measured by arc length.

@@ -56,7 +56,7 @@ local function check(scene)
   if scene.focal and scene.focal <= 0 then
     error("multiplane: field 'focal' must be above 0, got " .. fields.shown(scene.focal), 3)
   end
-  for i = 1, #scene do
+  for i = 1, rawlen(scene) do
     local plane = scene[i]
     local cel = type(plane) == "table" and plane[1] or nil
     if getmetatable(cel) ~= cel_metatable then
@@ -83,7 +83,7 @@ local function multiplane(_, scene)
   local focal = scene.focal or 1000
   local focus, aperture = scene.focus or focal, scene.aperture or 0
   local order = {}
-  for i = 1, #scene do order[i] = i end
+  for i = 1, rawlen(scene) do order[i] = i end
   table.sort(order, function(a, b)
     local za, zb = scene[a].z or 0, scene[b].z or 0
     if za ~= zb then return za > zb end

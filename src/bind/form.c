@@ -143,14 +143,8 @@ const char *cs_form_text_or(const cs_form *form, const char *name, const char *f
   return cs_form_has(form, name) ? cs_form_text(form, name) : fallback;
 }
 
-/* The value on top of the stack as messages show it: a string is quoted. */
-static const char *push_given(lua_State *L) {
-  return lua_type(L, -1) == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", lua_tostring(L, -1))
-                                        : cs_userdata_type(L, -1);
-}
-
 static _Noreturn void fail_choice(const cs_form *form, const char *name, const char *const *names) {
-  const char *given = push_given(form->L);
+  const char *given = cs_userdata_shown(form->L, -1);
   lua_pushliteral(form->L, "");
   for (int i = 0; names[i]; i++) {
     lua_pushfstring(form->L, "%s\"%s\"", i ? names[i + 1] ? ", " : " or " : "", names[i]);
@@ -218,7 +212,7 @@ static bool read_paint(lua_State *L, int index, celspan_paint *out) {
 }
 
 static _Noreturn void fail_colour(const cs_form *form, const char *subject, const char *wanted) {
-  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, push_given(form->L));
+  cs_form_fail(form, "%s must be %s, got %s", subject, wanted, cs_userdata_shown(form->L, -1));
 }
 
 static _Noreturn void fail_field_colour(const cs_form *form, const char *name, const char *wanted) {

@@ -105,7 +105,7 @@ static celspan_depth read_depth(const cs_form *form) {
     depth++;
   if (type != LUA_TNIL && depth == 5)
     cs_form_fail(form, "field 'depth' must be 8, 16, \"half\" or \"float\", got %s",
-                 type == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", given) : given);
+                 type == LUA_TSTRING ? cs_userdata_shown(L, -1) : given);
   return type == LUA_TNIL ? CELSPAN_DEPTH_DEFAULT : (celspan_depth)depth;
 }
 

@@ -45,8 +45,8 @@ static void read_triple(const cs_form *form, const char *name, double triple[3])
   celspan_paint colour;
   const char *text = lua_tostring(L, -1);
   if (!celspan_paint_parse(text, &colour) || colour.beta != 1)
-    cs_form_fail(form, "field '%s' must be {r, g, b} or a colour like \"#rrggbb\", got \"%s\"",
-                 name, text);
+    cs_form_fail(form, "field '%s' must be {r, g, b} or a colour like \"#rrggbb\", got %s", name,
+                 cs_userdata_shown(L, -1));
   for (int i = 0; i < 3; i++)
     triple[i] = colour.pigment[i];
   lua_pop(L, 1);
@@ -128,8 +128,8 @@ static bool read_text(lua_State *L, const char *function, double rgb[3], double 
     return false;
   celspan_paint colour;
   if (!celspan_paint_parse(lua_tostring(L, 1), &colour))
-    cs_caller_error(L, "%s: takes numbers or a colour like \"#rrggbb\", got \"%s\"", function,
-                    lua_tostring(L, 1));
+    cs_caller_error(L, "%s: takes numbers or a colour like \"#rrggbb\", got %s", function,
+                    cs_userdata_shown(L, 1));
   for (int i = 0; i < 3; i++)
     rgb[i] = colour.pigment[i];
   *alpha = colour.beta;
@@ -174,8 +174,7 @@ static celspan_paint mix_argument(lua_State *L, int index) {
   if (!value)
     cs_caller_error(
         L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
-        lua_type(L, index) == LUA_TSTRING ? lua_pushfstring(L, "\"%s\"", lua_tostring(L, index))
-                                          : cs_userdata_type(L, index));
+        cs_userdata_shown(L, index));
   return *(const celspan_paint *)cs_userdata_own(value);
 }
 

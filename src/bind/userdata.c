@@ -10,6 +10,7 @@
 /* Deep enough for every field there is: a list of points. */
 #define COPY_DEPTH 3
 #define MOST_NAMES 64
+#define MOST_SHOWN 60 /* bytes of a text in a message */
 
 /* ---------------------------------------------------------------- making */
 
@@ -167,6 +168,21 @@ const char *cs_userdata_type(lua_State *L, int index) {
       return lua_pushfstring(L, "a %s", value->noun->name);
   }
   return lua_pushstring(L, luaL_typename(L, index));
+}
+
+const char *cs_userdata_shown(lua_State *L, int index) {
+  char shown[MOST_SHOWN + 1];
+  size_t size, kept;
+  if (lua_type(L, index) != LUA_TSTRING)
+    return cs_userdata_type(L, index);
+  const char *text = lua_tolstring(L, index, &size);
+  kept = size < MOST_SHOWN ? size : MOST_SHOWN;
+  while (kept < size && kept > 0 && ((unsigned char)text[kept] & 0xc0) == 0x80)
+    kept--; /* not in the middle of a character of UTF-8 */
+  for (size_t i = 0; i < kept; i++)
+    shown[i] = (unsigned char)text[i] < ' ' || text[i] == 0x7f ? '?' : text[i];
+  shown[kept] = '\0';
+  return lua_pushfstring(L, "\"%s%s\"", shown, kept < size ? "..." : "");
 }
 
 /* ---------------------------------------------------------------- metamethods */

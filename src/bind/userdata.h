@@ -73,5 +73,7 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 
 /* Pushes what the value at index is, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
+/* Pushes the same, but of a string its beginning, in quotes and without control characters. */
+const char *cs_userdata_shown(lua_State *L, int index);
 
 #endif

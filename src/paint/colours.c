@@ -112,7 +112,7 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
     cs_over_row_add_layer(over, layer);
     return CELSPAN_OK;
   }
-  if (layer->kind == CS_LAYER_PICTURE && !stack->images[layer->index].texture->medium) {
+  if (layer->kind == CS_LAYER_PICTURE && !stack->images[layer->index].texture->variation->medium) {
     CS_TRY(sample_picture(painter, layer, batch, room->rgba));
     return cs_over_row_add_samples(over, layer, stack->images[layer->index].texture->variation->use,
                                    (const float(*)[4])room->rgba);
@@ -151,7 +151,7 @@ bool cs_painter_is_bare(const cs_painter *painter, cs_item item) {
   const cs_stack *stack = painter->stack;
   const cs_layer *layer = &stack->layers[item.layer];
   return layer->kind == CS_LAYER_PICTURE && layer->role == CS_LAYER_PAINT &&
-         !stack->images[layer->index].texture->medium && layer->group == CS_STACK_NONE &&
+         !stack->images[layer->index].texture->variation->medium && layer->group == CS_STACK_NONE &&
          layer->fade == 1 && layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1 &&
          (stack->light_count == 0 || stack->lights[0].below <= item.layer);
 }

@@ -74,9 +74,9 @@ static celspan_status write_file(celspan_context *context, job *j, const char *p
 
 static celspan_status open_medium(celspan_context *context, const celspan_texture *texture,
                                   job *j) {
-  if (!texture->medium)
+  if (!texture->variation->medium)
     return CELSPAN_OK;
-  CS_TRY(cs_original_open_picture(context, texture->medium, &j->medium));
+  CS_TRY(cs_original_open_picture(context, texture->variation->medium, &j->medium));
   j->has_medium = true;
   return cs_original_same_size(context, &j->paint, &j->medium);
 }
@@ -107,7 +107,7 @@ static celspan_status check_file(celspan_context *context, const celspan_texture
   celspan_picture_info paint, medium;
   const char *name = cs_picture_name(texture->variation->picture);
   CS_TRY(cs_store_info(context, texture->variation->picture, &paint));
-  if (cs_store_info(context, texture->medium, &medium) != CELSPAN_OK)
+  if (cs_store_info(context, texture->variation->medium, &medium) != CELSPAN_OK)
     return cs_fail(context, CELSPAN_INPUT,
                    "%s: is not a relit picture: its light has not been taken off, so it has no "
                    "channels medium.R, medium.G and medium.B",

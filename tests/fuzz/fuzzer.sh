@@ -47,15 +47,21 @@ is_foreign() {
     END { exit !foreign }' "$1"
 }
 
-# fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding.
+# fuzz_once NAME SECONDS: one run of libFuzzer, to its end or to a finding. Its processor time is in NAME.time.
 fuzz_once() {
-  local name=$1 share=$2
-  nice "$(program_of "$name")" -max_total_time="$share" -timeout=60 -detect_leaks=0 -rss_limit_mb=3072 \
-    -malloc_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$folder/$name-" -verbosity=1 \
-    "$folder/learned/$name" "$(corpus_of "$name")" >"$folder/$name.log" 2>&1
+  local name=$1 share=$2 status TIMEFORMAT='%U %S'
+  {
+    time "$(program_of "$name")" -max_total_time="$share" -timeout=60 -detect_leaks=0 -rss_limit_mb=3072 \
+      -malloc_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$folder/$name-" \
+      "$folder/learned/$name" "$(corpus_of "$name")" >"$folder/$name.log" 2>&1
+    status=$?
+  } 2>"$folder/$name.time"
+  return $status
 }
 
 executions_in() { awk '/^stat::number_of_executed_units/ { n = $2 } END { print n + 0 }' "$1"; }
+
+hundredths_in() { awk '{ n = 100 * ($1 + $2) } END { printf "%d", n }' "$1"; }
 
 # The file that a log says it wrote, or the log itself.
 finding_in() {
@@ -68,14 +74,13 @@ own=0
 
 # fuzz NAME SECONDS: until the time is over or there is a finding of celspan's own.
 fuzz() {
-  local name=$1 end=$((SECONDS + $2)) runs=0 foreign=0 found='' file log
+  local name=$1 end=$((SECONDS + $2)) runs=0 spent=0 foreign=0 found='' is_done=false file log
   mkdir -p "$folder/learned/$name"
-  while [ "$SECONDS" -lt "$end" ] && [ -z "$found" ]; do
-    if fuzz_once "$name" $((end - SECONDS)); then
-      runs=$((runs + $(executions_in "$folder/$name.log")))
-      break
-    fi
+  while [ "$SECONDS" -lt "$end" ] && [ -z "$found" ] && ! $is_done; do
+    fuzz_once "$name" $((end - SECONDS)) && is_done=true
     runs=$((runs + $(executions_in "$folder/$name.log")))
+    spent=$((spent + $(hundredths_in "$folder/$name.time")))
+    $is_done && break
     file=$(finding_in "$folder/$name.log")
     log=$folder/$(basename "$file" .log).log
     [ "$log" -ef "$folder/$name.log" ] || mv "$folder/$name.log" "$log"
@@ -86,7 +91,9 @@ fuzz() {
       found=$file
     fi
   done
-  printf '%-12s %10d executions, %d findings' "$name" "$runs" "$([ -z "$found" ] && echo 0 || echo 1)"
+  rm -f "$folder/$name.time"
+  printf '%-14s %10d executions in %d s of processor time, %d findings' "$name" "$runs" $((spent / 100)) \
+    "$([ -z "$found" ] && echo 0 || echo 1)"
   [ "$foreign" = 0 ] || printf ', %d in other libraries' "$foreign"
   printf '\n'
   if [ -n "$found" ]; then

@@ -76,6 +76,26 @@ describe("an error", function()
   end)
 end)
 
+describe("a long text, or one with control characters", function()
+  it("is shown in part, and without them", function()
+    assert.are.equal(('circle: field \'texture\' must be a paint, a texture or a colour like "#rrggbb", got "%s..."'):format(("x"):rep(60)),
+      sentence(function() celspan.circle { centre = { 0, 0 }, radius = 1, texture = ("x"):rep(1 << 20) } end))
+    assert.are.equal('rgb: takes numbers or a colour like "#rrggbb", got "?[31m?"',
+      sentence(function() celspan.rgb "\27[31m\n" end))
+    assert.are.equal(('rgb: takes numbers or a colour like "#rrggbb", got "%s..."'):format(("x"):rep(59)),
+      sentence(function() celspan.rgb(("x"):rep(59) .. "é") end))
+  end)
+end)
+
+describe("a list that answers for itself", function()
+  it("is read as it is", function()
+    local keys, motion = require "celspan.keys", require "celspan.motion"
+    local long = { __len = function() return 0 / 0 end }
+    assert.are.equal(1, keys(setmetatable({ { 0, 1 } }, long)):at(0))
+    assert.are.equal(3, motion.along(setmetatable({ { 0, 0 }, { 3, 0 } }, long)).length)
+  end)
+end)
+
 describe("a wrong type", function()
   local cases = {
     { "circle: field 'radius' must be a number, got string",
