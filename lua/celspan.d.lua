@@ -629,6 +629,7 @@ function celspan.film(fields) end
 ---@field crop? integer[] {x, y, width, height} in pixels
 ---@field workers? integer Default one a processor
 ---@field antialias? celspan.antialias Instead of each rostrum's own
+---@field tolerance? number How far gradient spans may be from the colours they stand for, 2^-20 to 1; default 1/1023
 
 ---@class celspan.render.options: celspan.options
 ---@field frames? string|integer "1-10,20-30:2,45"; default all

@@ -216,4 +216,112 @@ function relight.read(path)
   return core.relight_read(path)
 end
 
+-- ---------------------------------------------------------------- frames taken apart
+
+---@class celspan.relight.stack
+---@field width integer Of the frame, in pixels
+---@field height integer
+---@field bytes integer That its rows of spans take
+local Stack = { __name = "celspan.relight.stack" }
+local methods = {}
+Stack.__index = fields.reads("a stack", methods)
+
+--- What is behind a stack: the core's value, the facts of its cels, and the rostrum's own lights. Out
+--- of the sight of scripts.
+local behind = setmetatable({}, { __mode = "k" })
+
+local NUMBERS = 8 -- of a light: r, g, b, a of its front and of its back
+
+---@class celspan.relight.stack.options
+---@field size? number[] {w, h} in pixels
+---@field film? number[] {w, h} in film units
+---@field crop? number[] {x, y, w, h} in pixels
+---@field antialias? celspan.antialias
+---@field workers? integer
+---@field frame? integer Of a film
+
+--- A frame whose lights can be changed without rendering it anew.
+---@param rostrum celspan.rostrum|celspan.film
+---@param options? celspan.relight.stack.options As for celspan.pixels
+---@return celspan.relight.stack? stack
+---@return string? message
+function relight.stack(rostrum, options)
+  local stack, facts = core.stack(rostrum, options)
+  if not stack then return nil, facts end
+  local self = setmetatable({ width = math.tointeger(facts.width),
+    height = math.tointeger(facts.height), bytes = math.tointeger(facts.bytes) }, Stack)
+  behind[self] = { stack = stack, cels = facts.cels, brightness = facts.brightness,
+    own = core.stack_lights(stack) }
+  return self
+end
+
+--- {r, g, b} or {r, g, b, a}, or a colour.
+local function light_of(name, value)
+  local alpha = type(value) == "table" and value[4]
+  local colour = colour_of(name, value)
+  if alpha and not (fields.is_finite(alpha) and alpha >= 0 and alpha <= 1) then
+    refuse("%s[4] must be from 0 to 1, got %s", name, fields.shown(alpha))
+  end
+  return colour, alpha or 1
+end
+
+--- Sets a light of cel i, 0: of the rostrum, in the list of numbers.
+local function set_light(self, lights, i, which, name, value)
+  local colour, alpha = light_of(name, value)
+  local first = NUMBERS * i + (which == "back" and 4 or 0)
+  for c = 1, 3 do lights[first + c] = colour[c] * self.brightness end
+  lights[first + 4] = alpha
+end
+
+--- The places that a key names: a cel's place, 0 for the rostrum, or the cels of a name.
+local function places_of(self, key)
+  local places = {}
+  if math.type(key) == "integer" and key >= 0 and key <= #self.cels then return { key } end
+  for i, cel in ipairs(self.cels) do
+    if cel.name == key then places[#places + 1] = i end
+  end
+  if #places > 0 then return places end
+  local names = {}
+  for _, cel in ipairs(self.cels) do names[#names + 1] = cel.name ~= "" and cel.name or nil end
+  local hint = type(key) == "string" and core.nearest(key, names)
+  refuse("light: there is no cel %s%s", type(key) == "string" and ('"%s"'):format(key)
+    or fields.shown(key), hint and ("; did you mean \"%s\"?"):format(hint) or "")
+end
+
+--- A front light of the rostrum is that of the cels that have none of their own.
+local function set_lights(self, lights, i, given)
+  local name = ("light[%s]"):format(i)
+  if given.back then set_light(self, lights, i, "back", name .. ".back", given.back) end
+  if not given.front then return end
+  for place, cel in ipairs(self.cels) do
+    if place == i or i == 0 and not cel.has_front then
+      set_light(self, lights, place, "front", name .. ".front", given.front)
+    end
+  end
+end
+
+--- The frame in other lights: those that are not given are the rostrum's.
+---@param changes? table<string|integer, {front: number[]|string, back: number[]|string}> By the names or places of cels; 0: of the rostrum itself
+---@return celspan.image? image
+---@return string? message
+function methods:light(changes)
+  local self_behind = behind[self]
+  local lights, keys = table.move(self_behind.own, 1, #self_behind.own, 1, {}), {}
+  if changes ~= nil and type(changes) ~= "table" then
+    refuse("light takes a table, got %s", fields.kind(changes))
+  end
+  for key in pairs(changes or {}) do keys[#keys + 1] = key end
+  table.sort(keys, function(a, b) -- places count more than names, and cels more than the rostrum
+    if type(a) ~= type(b) then return type(a) == "string" end
+    return a < b
+  end)
+  for _, key in ipairs(keys) do
+    fields.check("relight: light", changes[key], { front = "any", back = "any" })
+    for _, i in ipairs(places_of(self_behind, key)) do
+      set_lights(self_behind, lights, i, changes[key])
+    end
+  end
+  return core.stack_light(self_behind.stack, lights)
+end
+
 return fields.seal("relight", relight)

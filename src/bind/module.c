@@ -15,6 +15,7 @@
 #include "bind/parts.h"
 #include "bind/random.h"
 #include "bind/relight.h"
+#include "bind/stack.h"
 #include "bind/suggest.h"
 #include "bind/tracing.h"
 #include "bind/track.h"
@@ -70,6 +71,9 @@ int luaopen_celspan_core(lua_State *L) {
                                        {"relight_picture", cs_relight_picture},
                                        {"relight_exposures", cs_relight_exposures},
                                        {"relight_grounds", cs_relight_grounds},
+                                       {"stack", cs_stack_make},
+                                       {"stack_lights", cs_stack_lights},
+                                       {"stack_light", cs_stack_light},
                                        {"relight_write", cs_relight_write},
                                        {"relight_read", cs_relight_read},
                                        {NULL, NULL}};

@@ -165,6 +165,10 @@ void cs_options_read(const cs_form *form, cs_options_frame *out) {
   desc->workers = cs_form_integer_or(form, "workers", 0);
   if (desc->workers < 0)
     cs_form_fail(form, "field 'workers' must be 0 or more, got %d", desc->workers);
+  desc->tolerance = cs_form_number_or(form, "tolerance", 0);
+  if (desc->tolerance != 0 && !(desc->tolerance >= 0x1p-20 && desc->tolerance <= 1))
+    cs_form_fail(form, "field 'tolerance' must be from 2^-20 to 1, got %s",
+                 cs_form_digits(form->L, desc->tolerance));
   if (cs_options_antialias(form, &out->antialias, &desc->filter))
     desc->antialias = &out->antialias;
 }

@@ -12,13 +12,15 @@ typedef struct cs_options_frame {
 
 /* The fields that cs_options_read reads. */
 #define CS_OPTIONS_FIELDS                                                                          \
-  {"size", NULL}, {"film", NULL}, {"crop", NULL}, {"workers", NULL}, { "antialias", NULL }
+  {"size", NULL}, {"film", NULL}, {"crop", NULL}, {"workers", NULL}, {"antialias", NULL}, {        \
+    "tolerance", NULL                                                                              \
+  }
 
 /* Reads the field `antialias`; false when it is missing. A kernel function is called here, and its
  * values are scratch memory left on the stack: *filter points to them. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
                           celspan_filter_desc *filter);
-/* Reads size, film, crop, workers, antialias. Sizes that are not given are 1920 x 1080. */
+/* Reads size, film, crop, workers, antialias, tolerance. Sizes that are not given are 1920 x 1080. */
 void cs_options_read(const cs_form *form, cs_options_frame *out);
 /* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
  * left on the stack; the rostrums are borrowed from the value. name: for messages. */

@@ -1,6 +1,7 @@
 /* celspan.pixels: a frame into memory; linear, premultiplied floats, which can be coded and
  * written. */
-#include <stdint.h>
+#include "bind/pixels.h"
+
 #include <string.h>
 
 #include "base/context.h"
@@ -151,20 +152,32 @@ static int describe(lua_State *L) {
   return 1;
 }
 
-static image *push_image(const cs_form *form, const celspan_frame_desc *desc) {
+float *cs_pixels_push(lua_State *L, int32_t width, int32_t height, int32_t x, int32_t y,
+                      bool is_opaque) {
+  uint64_t count = (uint64_t)width * (uint64_t)height, pixel = 4 * sizeof(float);
+  if (count > UINT64_C(1) << 32 || count > (SIZE_MAX - sizeof(image)) / pixel)
+    return NULL;
+  image *picture = lua_newuserdatauv(L, sizeof *picture + (size_t)(count * pixel), 0);
+  picture->width = width;
+  picture->height = height;
+  picture->x = x;
+  picture->y = y;
+  picture->is_opaque = is_opaque;
+  luaL_setmetatable(L, IMAGE);
+  return picture->pixels;
+}
+
+static float *push_image(const cs_form *form, const celspan_frame_desc *desc) {
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
   int32_t height = desc->crop_height ? desc->crop_height : desc->height;
   if (width <= 0 || height <= 0)
     cs_form_fail(form, "%d x %d pixels are asked for; each side must be at least 1", width, height);
-  uint64_t count = (uint64_t)width * (uint64_t)height, pixel = 4 * sizeof(float);
-  if (count > UINT64_C(1) << 32 || count > (SIZE_MAX - sizeof(image)) / pixel)
+  float *pixels = cs_pixels_push(form->L, width, height, desc->crop_x, desc->crop_y,
+                                 celspan_frame_is_opaque(desc));
+  if (!pixels)
     cs_form_fail(form, "%d x %d pixels cannot be held in memory; render a crop, or into a file",
                  width, height);
-  image *picture = lua_newuserdatauv(form->L, sizeof *picture + (size_t)(count * pixel), 0);
-  picture->width = width;
-  picture->height = height;
-  luaL_setmetatable(form->L, IMAGE);
-  return picture;
+  return pixels;
 }
 
 static int pixels(lua_State *L) {
@@ -176,15 +189,13 @@ static int pixels(lua_State *L) {
   celspan_status status = cs_subject_read(&form, &frame.desc);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
-  image *picture = push_image(&form, &frame.desc);
-  picture->is_opaque = celspan_frame_is_opaque(&frame.desc);
-  picture->x = frame.desc.crop_x;
-  picture->y = frame.desc.crop_y;
+  float *out = push_image(&form, &frame.desc);
+  int32_t width = frame.desc.crop_width ? frame.desc.crop_width : frame.desc.width;
   celspan_coding coding = {CELSPAN_DEPTH_FLOAT, CELSPAN_TRANSFER_LINEAR,
                            CELSPAN_ALPHA_PREMULTIPLIED};
   lua_State *before = cs_host_enter(L);
-  status = celspan_frame_pixels(context, &frame.desc, &coding, picture->pixels,
-                                (size_t)picture->width * 4 * sizeof(float), NULL);
+  status = celspan_frame_pixels(context, &frame.desc, &coding, out,
+                                (size_t)width * 4 * sizeof(float), NULL);
   cs_host_leave(L, before);
   return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }

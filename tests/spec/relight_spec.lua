@@ -338,6 +338,71 @@ describe("a relit picture in a file", function()
   end)
 end)
 
+describe("relight.stack", function()
+  local function rostrum_of(lamp, ground)
+    return celspan.rostrum { back = ground, brightness = 0.5,
+      celspan.cel { celspan.circle { centre = { 12, 12 }, radius = 9, texture = "#c08040a0" },
+        front = lamp }:named "lamp",
+      celspan.cel { celspan.rect { 10.3, 8, 20, 9.5, texture = celspan.gel(0.3, 0.9, 0.5) } } }
+  end
+  local options = { size = { 40, 30 } }
+
+  it("is the frame in other lights, named by cel, by place, or as the rostrum's", function()
+    local stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#ffffff"), options))
+    assert.are.same({ 40, 30 }, { stack.width, stack.height })
+    assert.is_true(stack.bytes > 40 * 30 * 16)
+    local whole = assert(celspan.pixels(rostrum_of({ 2, 0.5, 0.1 }, { 0.3, 0.2, 0.9, 0.5 }), options))
+    for _, key in ipairs { "lamp", 1 } do
+      local image = assert(stack:light { [key] = { front = { 2, 0.5, 0.1 } },
+        [0] = { back = { 0.3, 0.2, 0.9, 0.5 } } })
+      assert.is_true(difference(whole, image) < 1 / 65535)
+    end
+    assert.is_true(difference(assert(celspan.pixels(rostrum_of({ 1, 1, 1 }, "#ffffff"), options)),
+      assert(stack:light())) < 1 / 65535) -- it starts from the rostrum's lights each time
+  end)
+
+  it("gives the rostrum's front light to cels that have none of their own", function()
+    local function make(front)
+      return celspan.rostrum { front = front, celspan.cel { front = { 0.5, 0.5, 0.5 },
+        celspan.rect { 0, 0, 8, 8, texture = "#ffffff" } },
+        celspan.cel { celspan.rect { 4, 0, 8, 8, texture = "#ffffff" } } }
+    end
+    local image = assert(assert(relight.stack(make { 1, 1, 1 }, { size = { 12, 8 } })):light {
+      [0] = { front = { 0.2, 0.4, 0.6 } } })
+    assert.is_true(difference(assert(celspan.pixels(make { 0.2, 0.4, 0.6 }, { size = { 12, 8 } })),
+      image) < 1 / 65535)
+  end)
+
+  it("is the same part of the whole under a crop, and can be written", function()
+    local stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#fff"), { size = { 40, 30 },
+      crop = { 5, 4, 20, 11 } }))
+    assert.is_true(difference(assert(celspan.pixels(rostrum_of({ 1, 1, 1 }, "#fff"),
+      { size = { 40, 30 }, crop = { 5, 4, 20, 11 } })), assert(stack:light {})) < 1 / 65535)
+    assert(assert(stack:light()):write(bench.folder .. "/lit.png"))
+  end)
+
+  it("refuses what it cannot do, with what was found", function()
+    local shaped = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 9, 9 }, front = celspan.linear {
+      from = { 0, 0 }, to = { 9, 0 }, { 0, "#000" }, { 1, "#fff" } } } }
+    local stack, message = relight.stack(shaped, options)
+    assert.is_nil(stack)
+    assert.are.equal("stack: the front light of cel 1 is a texture; a stack takes flat lights", message)
+    stack = assert(relight.stack(rostrum_of({ 1, 1, 1 }, "#fff"), options))
+    local cases = {
+      { { lmap = {} }, 'light: there is no cel "lmap"; did you mean "lamp"?' },
+      { { [3] = {} }, "light: there is no cel 3" },
+      { { lamp = { front = "red" } },
+        'light[1].front must be {r, g, b} or a colour like "#ffe0b0", got "red"' },
+      { { lamp = { front = { 1, -1, 0 } } }, "light[1].front[2] must be 0 or more, got -1" },
+      { { lamp = { back = { 1, 1, 0, 2 } } }, "light[1].back[4] must be from 0 to 1, got 2" },
+      { { lamp = { fornt = "#fff" } }, "light: unknown field 'fornt'; did you mean 'front'?" },
+    }
+    for _, case in ipairs(cases) do
+      assert.are.equal("relight: " .. case[2], (raised(function() stack:light(case[1]) end)))
+    end
+  end)
+end)
+
 describe("celspan relight", function()
   local function write_photograph(light)
     local path = bench.folder .. "/photo.exr"

@@ -268,7 +268,153 @@ static void refusals(celspan_context *context) {
   celspan_texture_unref(picture);
 }
 
+/* ---------------------------------------------------------------- frames taken apart */
+
+enum { CELS = 3, SIDE = 48 };
+
+/* A frame of three cels: discs of half clear paint, the middle one a picture of the card. */
+typedef struct scene {
+  celspan_texture *card;
+  celspan_object *objects[CELS];
+  celspan_cel *cels[CELS];
+  celspan_rostrum *rostrum;
+} scene;
+
+static void free_scene(scene *s) {
+  celspan_rostrum_unref(s->rostrum);
+  for (int i = 0; i < CELS; i++) {
+    celspan_cel_unref(s->cels[i]);
+    celspan_object_unref(s->objects[i]);
+  }
+  celspan_texture_unref(s->card);
+}
+
+static celspan_status make_cel(celspan_context *context, scene *s, int i,
+                               const celspan_stack_light *light) {
+  celspan_texture *texture = NULL;
+  const celspan_paint paint = celspan_paint_rgb(0.9f, 0.2f * (float)i, 0.4f, 0.6f);
+  celspan_status status =
+      i == 1 ? CELSPAN_OK : celspan_texture_create_paint(context, &paint, &texture);
+  celspan_ellipse_desc disc = {.centre = {14 + 9 * i, 20 + 5 * i},
+                               .radius_x = 13,
+                               .radius_y = 13,
+                               .texture = i == 1 ? s->card : texture};
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  if (status == CELSPAN_OK)
+    status = celspan_object_create_ellipse(context, &disc, &s->objects[i]);
+  celspan_texture_unref(texture);
+  desc.objects = &s->objects[i];
+  desc.object_count = 1;
+  desc.has_front = true;
+  desc.front = light->front;
+  desc.back = light->back;
+  return status == CELSPAN_OK ? celspan_cel_create(context, &desc, &s->cels[i]) : status;
+}
+
+/* lights: one for the rostrum, and one for each cel. */
+static celspan_status make_scene(celspan_context *context, const celspan_stack_light *lights,
+                                 scene *out) {
+  *out = (scene){0};
+  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+  celspan_status status = from_exposures(context, &out->card);
+  for (int i = 0; i < CELS && status == CELSPAN_OK; i++)
+    status = make_cel(context, out, i, &lights[i + 1]);
+  desc.cels = out->cels;
+  desc.cel_count = CELS;
+  desc.back = lights[0].back;
+  return status == CELSPAN_OK ? celspan_rostrum_create(context, &desc, &out->rostrum) : status;
+}
+
+static celspan_frame_desc frame_of(const celspan_exposure *exposure) {
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
+  frame.exposures = exposure;
+  frame.exposure_count = 1;
+  frame.width = frame.height = SIDE;
+  frame.workers = 2;
+  return frame;
+}
+
+static const celspan_stack_light dim[CELS + 1] = {{{0, 0, 0, 1}, {0.2f, 0.3f, 0.4f, 0.5f}},
+                                                  {{1, 0.5f, 0.2f, 1}, {0, 0, 0, 0}},
+                                                  {{0.7f, 0.7f, 0.7f, 1}, {0.1f, 0, 0.1f, 0.2f}},
+                                                  {{1, 1, 1, 1}, {0, 0, 0, 0}}};
+static const celspan_stack_light bright[CELS + 1] = {{{0, 0, 0, 1}, {1, 0, 0, 0}},
+                                                     {{0, 2, 0, 1}, {0, 0, 0, 0.9f}},
+                                                     {{3, 0.1f, 0.7f, 1}, {0, 1, 0, 0}},
+                                                     {{0.5f, 0.4f, 1.5f, 1}, {0, 0, 2, 0}}};
+
+/* The stack in some lights against a scene that has them. */
+static void compare_lights(celspan_context *context, const celspan_stack *stack,
+                           const celspan_stack_light *lights) {
+  static float expected[SIDE * SIDE][4], found[SIDE * SIDE][4];
+  scene s;
+  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  if (!CHECK(make_scene(context, lights, &s) == CELSPAN_OK))
+    return;
+  celspan_exposure exposure = {s.rostrum, 1};
+  celspan_frame_desc frame = frame_of(&exposure);
+  double worst = 0;
+  CHECK(celspan_frame_pixels(context, &frame, &coding, expected, sizeof expected[0] * SIDE, NULL) ==
+        CELSPAN_OK);
+  CHECK(celspan_stack_pixels(context, stack, lights, 2, found[0]) == CELSPAN_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    for (int c = 0; c < 4; c++)
+      worst = fmax(worst, fabs((double)(expected[i][c] - found[i][c])));
+  CHECK_NEAR(worst, 0, 1.0 / 65535);
+  free_scene(&s);
+}
+
+static void stacks_take_any_light(celspan_context *context) {
+  scene s;
+  celspan_stack *stack = NULL;
+  celspan_stack_light own[CELS + 1];
+  int32_t width, height;
+  if (!CHECK(make_scene(context, dim, &s) == CELSPAN_OK))
+    return;
+  celspan_exposure exposure = {s.rostrum, 1};
+  celspan_frame_desc frame = frame_of(&exposure);
+  if (!CHECK(celspan_stack_create(context, &frame, &stack) == CELSPAN_OK))
+    return;
+  celspan_stack_size(stack, &width, &height);
+  CHECK(width == SIDE && height == SIDE && celspan_stack_bytes(stack) > 16 * SIDE * SIDE);
+  if (CHECK(celspan_stack_light_count(stack) == CELS + 1)) {
+    celspan_stack_lights(stack, own);
+    CHECK(memcmp(&own[2], &dim[2], sizeof own[2]) == 0 && own[0].back.b == dim[0].back.b);
+  }
+  compare_lights(context, stack, dim);
+  compare_lights(context, stack, bright);
+  memcpy(own, dim, sizeof own);
+  own[2].front.g = 4; /* one light that differs is added to the frame in the others */
+  compare_lights(context, stack, own);
+  own[2].front.g = -1;
+  CHECK(celspan_stack_pixels(context, stack, own, 1, room[0][0]) == CELSPAN_BAD_ARGUMENT);
+  celspan_stack_unref(celspan_stack_ref(stack));
+  celspan_stack_unref(stack);
+  frame.exposure_count = 0;
+  CHECK(celspan_stack_create(context, &frame, &stack) == CELSPAN_BAD_ARGUMENT);
+  frame.exposure_count = 1;
+  frame.tolerance = 2;
+  CHECK(celspan_stack_create(context, &frame, &stack) == CELSPAN_BAD_ARGUMENT);
+  free_scene(&s);
+}
+
 /* ---------------------------------------------------------------- memory */
+
+static celspan_status take_apart(celspan_context *context) {
+  scene s;
+  celspan_stack *stack = NULL;
+  celspan_status status = make_scene(context, dim, &s);
+  celspan_exposure exposure = {s.rostrum, 1};
+  celspan_frame_desc frame = frame_of(&exposure);
+  frame.workers = 1;
+  if (status == CELSPAN_OK)
+    status = celspan_stack_create(context, &frame, &stack);
+  if (status == CELSPAN_OK)
+    status = celspan_stack_pixels(context, stack, bright, 1, room[3][0]);
+  celspan_stack_unref(stack);
+  free_scene(&s);
+  return status;
+}
 
 static celspan_status make_and_show(celspan_context *context) {
   celspan_texture *texture = NULL;
@@ -280,16 +426,17 @@ static celspan_status make_and_show(celspan_context *context) {
   return status;
 }
 
-static void memory_may_fail_anywhere(bool is_for_good) {
+static void memory_may_fail_anywhere(celspan_status (*work)(celspan_context *context),
+                                     bool is_for_good) {
   memory_watch watch = {.is_for_good = is_for_good};
   celspan_context *context = memory_watch_context(&watch);
-  if (!CHECK(context && make_and_show(context) == CELSPAN_OK))
+  if (!CHECK(context && work(context) == CELSPAN_OK))
     return;
   celspan_status status;
   size_t fail_at = 0;
   do {
     watch.fail_at = watch.allocations + ++fail_at;
-    status = make_and_show(context);
+    status = work(context);
     watch.fail_at = 0;
   } while (CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY) && status != CELSPAN_OK &&
            fail_at < 100000);
@@ -306,8 +453,11 @@ int main(void) {
   both_ways_find_the_card(context);
   fields_are_fitted(context);
   refusals(context);
+  stacks_take_any_light(context);
   celspan_context_destroy(context);
-  memory_may_fail_anywhere(false);
-  memory_may_fail_anywhere(true);
+  memory_may_fail_anywhere(make_and_show, false);
+  memory_may_fail_anywhere(make_and_show, true);
+  memory_may_fail_anywhere(take_apart, false);
+  memory_may_fail_anywhere(take_apart, true);
   return check_done();
 }

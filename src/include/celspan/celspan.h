@@ -1452,6 +1452,44 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_read(celspan_context 
                                                                 const char *path, const char *tried,
                                                                 celspan_texture **out);
 
+/* A rendered frame of which every light can be changed without rendering it anew: for each cel,
+ * composed first and then antialiased, what a unit of its front light and of its back light adds to
+ * each pixel, as rows of spans; a frame is the sum of these, weighted with the lights. It holds
+ * flat lights only, and agrees with a frame of the same tolerance within 1/65535 of the brightest
+ * light. Filters with negative lobes hold their values frame by frame, so that edges differ there.
+ * Immutable; shared read. */
+typedef struct celspan_stack celspan_stack;
+
+/* The lights of one cel. */
+typedef struct celspan_stack_light {
+  celspan_light front, back;
+} celspan_stack_light;
+
+/* desc: borrowed; one exposure, whose weight is not used. The tolerance is 2^-18 where it is 0.
+ * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, naming the
+ * cel, and for another number of exposures; LIMIT for more than 4,096 cels. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_create(celspan_context *context,
+                                                                const celspan_frame_desc *desc,
+                                                                celspan_stack **out);
+CELSPAN_API celspan_stack *celspan_stack_ref(celspan_stack *stack);
+CELSPAN_API void celspan_stack_unref(celspan_stack *stack);
+/* The size in pixels, of the crop. */
+CELSPAN_API void celspan_stack_size(const celspan_stack *stack, int32_t *width, int32_t *height);
+/* How many lights it takes: one for the back light of the rostrum itself, whose front does not
+ * count, then one for each cel from the rear. */
+CELSPAN_API size_t celspan_stack_light_count(const celspan_stack *stack);
+/* Those that the rostrum has, brightness included. lights: room for that many */
+CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_light *lights);
+/* Bytes that its rows of spans take. */
+CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
+/* The frame in these lights, as many as it takes, into width x height RGBA floats, linear and
+ * premultiplied, rows from top to bottom. workers: threads at most; 0: one a processor
+ * Errors: BAD_ARGUMENT for a light that is negative or not finite; NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_pixels(celspan_context *context,
+                                                                const celspan_stack *stack,
+                                                                const celspan_stack_light *lights,
+                                                                int workers, float *rgba);
+
 /* ---------------------------------------------------------------- following what moves */
 
 /* A tracker follows a region of a first frame through others: from the motion of its corners it
