@@ -46,6 +46,7 @@ return {
   { name = "night", page = "docs/guide-shot.md", frame = 40 },
   { name = "balloon", page = "docs/guide.md", frame = 24 },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "640x360" },
+  { name = "evening", script = "scripts/relight.lua", frame = 80, size = "640x360" },
   { name = "perspective", script = "scripts/perspective.lua", frame = 24, size = "640x360" },
   { name = "scanline", script = "scripts/scanline.lua", frame = 24, size = "640x360" },
   { name = "paper-01", script = "scripts/paper/figure01.lua", size = "640x480", allow = "scripts" },
