@@ -1,5 +1,6 @@
-/* Opening files to read them, as all of the library does: programs that are started do not inherit
- * them, a pipe to which nobody writes is not waited for, and a signal makes the call be made again.
+/* Opening files and reading from them, as all of the library does: programs that are started do not
+ * inherit them, a pipe to which nobody writes is not waited for, and where a signal comes the call is
+ * made again.
  */
 #ifndef CS_BASE_OPEN_H
 #define CS_BASE_OPEN_H
@@ -7,6 +8,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
+#include <unistd.h>
 
 /* A descriptor, or -1 and errno. */
 static inline int cs_open_to_read(const char *path) {
@@ -15,6 +17,15 @@ static inline int cs_open_to_read(const char *path) {
     descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   while (descriptor < 0 && errno == EINTR);
   return descriptor;
+}
+
+/* pread(2): the bytes that were read, fewer than `size` at the file's end; -1 and errno. */
+static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, off_t offset) {
+  ssize_t got;
+  do
+    got = pread(descriptor, bytes, size, offset);
+  while (got < 0 && errno == EINTR);
+  return got;
 }
 
 /* Whether this errno tells of the file: it is not there, or not to be read. Else the system failed,

@@ -140,8 +140,8 @@ static int probe(lua_State *L) {
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
   lua_State *before = cs_host_enter(L);
-  status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count,
-                                        desc.film_width, desc.film_height, point, rgba);
+  status = celspan_probe(cs_host_context(L), desc.exposures, desc.exposure_count, desc.film_width,
+                         desc.film_height, point, rgba);
   cs_host_leave(L, before);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

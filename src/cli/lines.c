@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/open.h"
+
 bool cs_lines_make_folders(char *path) {
   for (char *slash = path; (slash = strchr(slash + 1, '/'));) {
     *slash = '\0';
@@ -33,16 +35,19 @@ int cs_lines_open(const char *path) {
 }
 
 bool cs_lines_add(int descriptor, const char *text) {
-  size_t size = strlen(text);
-  ssize_t written = write(descriptor, text, size);
-  if (written >= 0 && (size_t)written != size)
-    errno = ENOSPC;
-  return written == (ssize_t)size;
+  for (size_t left = strlen(text); left > 0;) {
+    ssize_t written = write(descriptor, text, left);
+    if (written < 0 && errno != EINTR)
+      return false;
+    text += written > 0 ? written : 0;
+    left -= written > 0 ? (size_t)written : 0;
+  }
+  return true;
 }
 
 bool cs_lines_end_last(int descriptor) {
   char last = '\0';
   off_t size = lseek(descriptor, 0, SEEK_END);
-  bool is_ended = pread(descriptor, &last, 1, size - 1) == 1 && last == '\n';
+  bool is_ended = cs_open_read_at(descriptor, &last, 1, size - 1) == 1 && last == '\n';
   return is_ended || cs_lines_add(descriptor, "\n");
 }

@@ -1,4 +1,4 @@
-/* Files of lines that are only added to, each line in one write: records that a run that was
+/* Files of lines that are only added to, each line in one write where the system can: records that a run that was
  * stopped leaves readable, whatever it was doing.
  *
  * INVARIANT  A line is added whole or is the last and cut off; whoever adds the next one ends it

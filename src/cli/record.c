@@ -104,6 +104,8 @@ static celspan_status read_lines(cs_record *record, FILE *file) {
     line.order = record->count;
     record->lines[record->count++] = line;
   }
+  if (ferror(file))
+    return fail(record, "cannot read");
   if (record->count > 1)
     qsort(record->lines, record->count, sizeof *record->lines, compare);
   return CELSPAN_OK;
@@ -192,16 +194,14 @@ static celspan_status open_for_lines(cs_record *record) {
   record->descriptor = cs_lines_open(record->path);
   if (record->descriptor < 0)
     return fail(record, "cannot write");
-  off_t size = lseek(record->descriptor, 0, SEEK_END);
-  if (size > 0 &&
-      (pread(record->descriptor, head, sizeof HEAD - 1, 0) < 0 || strcmp(head, HEAD) != 0)) {
-    if (ftruncate(record->descriptor, 0) != 0) /* it was of another version */
-      return fail(record, "cannot write");
-    size = 0;
-  }
-  if (size <= 0)
-    return append(record, HEAD);
-  return cs_lines_end_last(record->descriptor) ? CELSPAN_OK : fail(record, "cannot write");
+  ssize_t size = cs_open_read_at(record->descriptor, head, sizeof HEAD - 1, 0);
+  if (size < 0)
+    return fail(record, "cannot read");
+  if (size > 0 && strcmp(head, HEAD) == 0)
+    return cs_lines_end_last(record->descriptor) ? CELSPAN_OK : fail(record, "cannot write");
+  if (size > 0 && ftruncate(record->descriptor, 0) != 0) /* it was of another version */
+    return fail(record, "cannot write");
+  return append(record, HEAD);
 }
 
 celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {

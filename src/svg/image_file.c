@@ -84,15 +84,6 @@ static celspan_status check_below(celspan_context *context, const char *file,
   return status;
 }
 
-/* pread(2), again where a signal came. */
-static ssize_t read_from(int descriptor, void *bytes, size_t size, off_t offset) {
-  ssize_t got;
-  do
-    got = pread(descriptor, bytes, size, offset);
-  while (got < 0 && errno == EINTR);
-  return got;
-}
-
 static celspan_status read_facts(celspan_context *context, int descriptor, cs_svg_image_file *out,
                                  const char **reason) {
   struct stat about;
@@ -105,7 +96,7 @@ static celspan_status read_facts(celspan_context *context, int descriptor, cs_sv
   out->size = (uint64_t)about.st_size;
   out->device = (uint64_t)about.st_dev;
   out->number = (uint64_t)about.st_ino;
-  ssize_t got = read_from(descriptor, out->head, sizeof out->head, 0);
+  ssize_t got = cs_open_read_at(descriptor, out->head, sizeof out->head, 0);
   out->head_size = got > 0 ? (size_t)got : 0;
   return got < 0 ? fail(context, out, reason) : CELSPAN_OK;
 }
@@ -151,7 +142,7 @@ static celspan_status read_all(celspan_context *context, const cs_svg_image_file
   size_t done = 0;
   const char *reason;
   for (ssize_t got = 1; done < size && got > 0; done += got > 0 ? (size_t)got : 0) {
-    got = read_from(descriptor, bytes + done, size - done, (off_t)done);
+    got = cs_open_read_at(descriptor, bytes + done, size - done, (off_t)done);
     if (got < 0)
       return fail(context, file, &reason);
   }
@@ -169,8 +160,8 @@ celspan_status cs_svg_image_file_load(celspan_context *context, const cs_svg_ima
   bool is_whole = false;
   size_t size = (size_t)file->size;
   char *bytes = cs_mem_resize(context->memory, NULL, 0, size + 1);
-  celspan_status status = bytes ? read_all(context, file, descriptor, bytes, size, &is_whole)
-                                : cs_fail_memory(context);
+  celspan_status status =
+      bytes ? read_all(context, file, descriptor, bytes, size, &is_whole) : cs_fail_memory(context);
   close(descriptor);
   if (is_whole)
     *out = bytes;

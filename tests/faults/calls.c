@@ -4,7 +4,7 @@
  *   FAULT_LASTING=1     and all after it
  *   FAULT_ERROR=ERRNO   a number; -1: reads and writes are short
  *   FAULT_CALL=NAME     only calls of this name are counted, as calls.h writes it
- *   FAULT_COUNT=FILE    how many there were, and failed, is written there at the end
+ *   FAULT_COUNT=FILE    how many there were, and which failed first, is written there at the end
  *
  * Programs that the program starts have no hooks.
  */
@@ -121,9 +121,9 @@ __attribute__((constructor)) static void read_plan(void) {
 
 __attribute__((destructor)) static void tell_count(void) {
   const char *path = getenv("FAULT_COUNT");
-  char text[64];
-  int length = snprintf(text, sizeof text, "%zu %zu\n", (size_t)fault_calls.made,
-                        (size_t)fault_calls.failed);
+  char text[96];
+  int length = snprintf(text, sizeof text, "%zu %s\n", (size_t)fault_calls.made,
+                        fault_calls.call ? fault_calls.call : "none");
   fault_disarm(&fault_calls);
   int descriptor = path ? real_open64(path, O_WRONLY | O_CREAT | O_TRUNC, 0666) : -1;
   if (descriptor >= 0 && real_write(descriptor, text, (size_t)length) == length)

@@ -41,6 +41,9 @@
   CALL(int, mkdir, -1, (const char *path, mode_t mode), (path, mode))                              \
   CALL(int, rename, -1, (const char *from, const char *to), (from, to))                            \
   CALL(int, link, -1, (const char *from, const char *to), (from, to))                              \
+  CALL(int, remove, -1, (const char *path), (path))                                                \
+  CALL(int, syncfs, -1, (int descriptor), (descriptor))                                            \
+  CALL(FILE *, tmpfile64, NULL, (void), ())                                                        \
   CALL(int, unlink, -1, (const char *path), (path))                                                \
   CALL(int, unlinkat, -1, (int folder, const char *path, int flags), (folder, path, flags))        \
   CALL(int, fcntl64, -1, (int descriptor, int what, long value), (descriptor, what, value))        \

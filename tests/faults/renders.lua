@@ -88,14 +88,16 @@ end
 
 local function painting()
   local tree = assert(require("celspan.layers").read(root .. "/tests/fuzz/corpus/psd/packbits8"))
-  local cels = { back = "#fff", camera = { centre = { tree.width / 2, tree.height / 2 }, width = tree.width } }
+  local cels = { back = "#fff",
+    camera = { centre = { tree.width / 2, tree.height / 2 }, width = tree.width } }
   for _, cel in ipairs(tree:cels()) do cels[#cels + 1] = cel end
   return celspan.rostrum(cels)
 end
 
 local function strokes()
   return celspan.rostrum { back = "#fee", celspan.cel {
-    celspan.stroke { points = { { 2, 2, 1 }, { 20, 5, 4 }, { 6, 15, 2 }, { 21, 15, 1 } }, width = 3, texture = ramp },
+    celspan.stroke { points = { { 2, 2, 1 }, { 20, 5, 4 }, { 6, 15, 2 }, { 21, 15, 1 } }, width = 3,
+      texture = ramp },
     celspan.stroke { d = "M3 9L20 9L20 15", width = 2, dash = { 3, 1.5 }, cap = "round", join = "round",
       texture = "#024" },
     celspan.circle { centre = { 12, 9 }, radius = 6 }:stroke { width = 1.5, texture = "#aa0000cc" } } }
@@ -123,7 +125,8 @@ end
 local function viewports()
   local inner = celspan.rostrum { size = { 20, 14 }, back = { 0.5, 0, 0, 0.5 },
     camera = { centre = { 10, 7 }, width = 24, rotate = 12 },
-    celspan.cel { celspan.circle { centre = { 10, 7 }, radius = 6, texture = ramp }, viewport = { 2, 2, 16, 10 } } }
+    celspan.cel { celspan.circle { centre = { 10, 7 }, radius = 6, texture = ramp },
+      viewport = { 2, 2, 16, 10 } } }
   return celspan.rostrum { back = "#111", celspan.cel { inner:translate(3, 2),
     celspan.rect { 0, 14, 24, 2, texture = "#ffff0088" } },
     celspan.cel { inner:scale(0.5), viewport = { -4, -4, 32, 26 }, opacity = 0.6 } }
@@ -133,7 +136,8 @@ local function dense()
   local points, squares = { rule = "evenodd", texture = ramp }, {}
   for i = 1, 160 do points[i] = { (i * 7.31) % 24, (i * i * 3.77) % 18 } end
   for i = 1, 120 do
-    squares[i] = celspan.rect { (i * 5.17) % 23, (i * 3.31) % 17, 0.7, 0.7, texture = celspan.rgb(i / 120, 0.5, 0.2, 0.6) }
+    squares[i] = celspan.rect { (i * 5.17) % 23, (i * 3.31) % 17, 0.7, 0.7,
+      texture = celspan.rgb(i / 120, 0.5, 0.2, 0.6) }
   end
   return celspan.rostrum { celspan.cel { celspan.polygon(points) }, celspan.cel(squares) }
 end
@@ -142,18 +146,21 @@ local function procedures()
   return celspan.rostrum { back = "#fff", celspan.cel {
     celspan.scanline { bounds = { 2, 2, 20, 14 }, spans = function(y)
       visit()
-      return { { 3 + 0.1 * y, 9, "#0f0" }, { 10, 18, "#f00", "#0000ff88" }, { 19, 22, array = { "#fff", "#000", "#888" } } }
+      return { { 3 + 0.1 * y, 9, "#0f0" }, { 10, 18, "#f00", "#0000ff88" },
+        { 19, 22, array = { "#fff", "#000", "#888" } } }
     end } } }
 end
 
 local makers = {
-  { name = "shapes", make = shapes, sinks = { "rows", "sink", "float", "png", "png16", "tga", "span" } },
+  { name = "shapes", make = shapes,
+    sinks = { "rows", "sink", "float", "png", "png16", "tga", "span" } },
   { name = "booleans", make = booleans, sinks = { "probe" } },
   { name = "light", make = light, sinks = { "dither.png", "probe" } },
   { name = "pictures", make = pictures, sinks = { "png", "probe" } },
   { name = "files", make = files, is_cold = true, sinks = { "png" }, has_modules = true },
   { name = "text", make = text, is_cold = true, sinks = {}, has_type = true },
-  { name = "drawing", make = drawing, is_cold = true, leaves_out = true, sinks = {}, has_type = true },
+  { name = "drawing", make = drawing, is_cold = true, leaves_out = true, sinks = {},
+    has_type = true },
   { name = "painting", make = painting, is_cold = true, sinks = {} },
   { name = "strokes", make = strokes, sinks = { "span" } },
   { name = "gaussian", make = function() return defocus "gaussian" end, sinks = { "png" } },
@@ -163,8 +170,10 @@ local makers = {
   { name = "dense", make = dense, sinks = { "tga" } },
   { name = "procedures", make = procedures, sinks = { "sink", "png", "rows", "probe" } },
   { name = "shapes by two", make = shapes, workers = 2, sinks = { "png", "tga", "span" } },
-  { name = "files by two", make = files, workers = 2, is_cold = true, sinks = { "png" }, has_modules = true },
-  { name = "gaussian by two", make = function() return defocus "gaussian" end, workers = 2, sinks = { "png16" } },
+  { name = "files by two", make = files, workers = 2, is_cold = true, sinks = { "png" },
+    has_modules = true },
+  { name = "gaussian by two", make = function() return defocus "gaussian" end, workers = 2,
+    sinks = { "png16" } },
   { name = "encoders", make = shapes, has_modules = true,
     sinks = { "exr", "tiff", "jpg", "dpx", "webp", "bmp", "ppm", "hdr" } },
 }

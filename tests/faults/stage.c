@@ -5,6 +5,7 @@
 #include <lualib.h>
 #include <unistd.h>
 
+#include "base/context.h"
 #include "tests/support/check.h"
 
 enum { PATH_SIZE = 512, FLOATS = 4, MOST_SIDE = 512 };
@@ -27,6 +28,12 @@ static int no_panic(lua_State *L) {
   return 0;
 }
 
+static celspan_status refuse(stage *s, celspan_context *context, const char *call) {
+  return fault_comes(&s->host, call)
+             ? celspan_context_fail(context, CELSPAN_CALLBACK, "the %s refuses", call)
+             : CELSPAN_OK;
+}
+
 /* The procedure of the host that a script calls. */
 static int visit(lua_State *L) {
   stage *s = lua_touserdata(L, lua_upvalueindex(1));
@@ -35,7 +42,8 @@ static int visit(lua_State *L) {
 
 /* Every render has its film in the registry, so that Lua needs no memory to find it. */
 static void keep_renders(stage *s) {
-  for (lua_Integer i = 1; s->item_count < STAGE_RENDERS && lua_rawgeti(s->L, 1, i) == LUA_TTABLE; i++) {
+  for (lua_Integer i = 1; s->item_count < STAGE_RENDERS && lua_rawgeti(s->L, 1, i) == LUA_TTABLE;
+       i++) {
     stage_item *item = &s->items[s->item_count++];
     lua_getfield(s->L, -1, "workers");
     item->workers = (int)luaL_optinteger(s->L, -1, 1);
@@ -46,17 +54,81 @@ static void keep_renders(stage *s) {
   lua_settop(s->L, 1);
 }
 
+/* ---------------------------------------------------------------- the surface */
+
+static celspan_status fill(void *user, celspan_context *context, const celspan_rectangle *rectangle,
+                           void *destination, size_t stride, int32_t *rows) {
+  stage *s = user;
+  for (int32_t y = 0; y < rectangle->height; y++) {
+    unsigned char *row = (unsigned char *)destination + (size_t)y * stride;
+    for (int32_t i = 0; i < 4 * rectangle->width; i++)
+      row[i] = (unsigned char)(255 - i * (rectangle->y + y + 3));
+  }
+  *rows = rectangle->height;
+  return refuse(s, context, "surface");
+}
+
+static celspan_status show(stage *s, celspan_texture *texture) {
+  const celspan_rect_desc rect = {1, 1, 22, 16, 0, texture};
+  celspan_object *object;
+  celspan_cel *cel;
+  celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;
+  celspan_rostrum_desc rostrum_desc = CELSPAN_ROSTRUM_DESC;
+  CS_TRY(celspan_object_create_rect(s->context, &rect, &object));
+  cel_desc.objects = &object;
+  cel_desc.object_count = 1;
+  celspan_status status = celspan_cel_create(s->context, &cel_desc, &cel);
+  celspan_object_unref(object);
+  if (status != CELSPAN_OK)
+    return status;
+  rostrum_desc.cels = &cel;
+  rostrum_desc.cel_count = 1;
+  status = celspan_rostrum_create(s->context, &rostrum_desc, &s->surface);
+  celspan_cel_unref(cel);
+  return status;
+}
+
+static celspan_status make_surface(stage *s) {
+  celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
+  celspan_surface *surface;
+  celspan_texture *texture;
+  desc.width = 90;
+  desc.height = 70;
+  desc.fill = fill;
+  desc.user = s;
+  desc.has_key = true;
+  CS_TRY(celspan_surface_create(s->context, &desc, &surface));
+  const celspan_picture_desc picture = {.surface = surface};
+  celspan_status status = celspan_texture_create_picture(s->context, &picture, &texture);
+  celspan_surface_unref(surface);
+  if (status != CELSPAN_OK)
+    return status;
+  status = show(s, texture);
+  celspan_texture_unref(texture);
+  return status;
+}
+
+static void add_surface(stage *s) {
+  if (CHECK(make_surface(s) == CELSPAN_OK && s->item_count < STAGE_RENDERS))
+    s->items[s->item_count++] = (stage_item){LUA_NOREF, 1};
+  else
+    fprintf(stderr, "the surface: %s\n", celspan_context_error(s->context));
+}
+
+/* A script answers a list of renders, or a function that makes them one after the other. */
 static bool run(stage *s, const char *script, const char *root) {
   bool is_done = luaL_loadfile(s->L, script) == LUA_OK;
   if (is_done) {
     lua_pushstring(s->L, root);
     lua_pushlightuserdata(s->L, s);
     lua_pushcclosure(s->L, visit, 1);
-    is_done = lua_pcall(s->L, 2, 1, 0) == LUA_OK && lua_istable(s->L, 1);
+    is_done = lua_pcall(s->L, 2, 1, 0) == LUA_OK;
   }
-  if (CHECK(is_done))
+  if (is_done && lua_istable(s->L, 1)) {
     keep_renders(s);
-  else
+    add_surface(s);
+  }
+  if (!CHECK(is_done))
     fprintf(stderr, "%s: %s\n", script, lua_tostring(s->L, -1));
   return is_done;
 }
@@ -76,6 +148,7 @@ bool stage_open(stage *s, const char *script, const char *root, const char *fold
 
 void stage_close(stage *s) {
   lua_close(s->L);
+  celspan_rostrum_unref(s->surface);
   celspan_context_destroy(s->context);
   CHECK(s->watch.blocks == 0 && s->watch.size_errors == 0);
 }
@@ -83,6 +156,8 @@ void stage_close(stage *s) {
 /* ---------------------------------------------------------------- the list of renders */
 
 const char *stage_render_text(const stage *s, size_t number, const char *field) {
+  if (s->items[number].film == LUA_NOREF)
+    return strcmp(field, "name") == 0 ? "surface" : NULL;
   lua_rawgeti(s->L, 1, (lua_Integer)number + 1);
   lua_getfield(s->L, -1, field);
   const char *text = lua_toboolean(s->L, -1) ? luaL_tolstring(s->L, -1, NULL) : NULL;
@@ -97,6 +172,8 @@ const char *stage_render_text(const stage *s, size_t number, const char *field) 
 const char *stage_render_sink(const stage *s, size_t number, size_t n) {
   if (n == 0)
     return "digest";
+  if (s->items[number].film == LUA_NOREF)
+    return n == 1 ? "png" : NULL;
   lua_rawgeti(s->L, 1, (lua_Integer)number + 1);
   lua_getfield(s->L, -1, "sinks");
   lua_rawgeti(s->L, -1, (lua_Integer)n);
@@ -135,12 +212,6 @@ typedef struct own_sink {
   stage *stage;
   stage_outcome *out;
 } own_sink;
-
-static celspan_status refuse(stage *s, celspan_context *context, const char *call) {
-  return fault_comes(&s->host, call)
-             ? celspan_context_fail(context, CELSPAN_CALLBACK, "the %s refuses", call)
-             : CELSPAN_OK;
-}
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   own_sink *sink = user;
@@ -200,7 +271,8 @@ static celspan_status to_probes(stage *s, const celspan_frame_desc *frame, stage
   begin_digest(out);
   for (int i = 0; i < 9 && status == CELSPAN_OK; i++) {
     double rgba[4];
-    celspan_point at = {frame->film_width * (1 + i % 3) / 4, frame->film_height * (1 + i / 3.0) / 4};
+    celspan_point at = {frame->film_width * (1 + i % 3) / 4,
+                        frame->film_height * (1 + i / 3.0) / 4};
     status = celspan_probe(s->context, frame->exposures, frame->exposure_count, frame->film_width,
                            frame->film_height, at, rgba);
     if (status == CELSPAN_OK)
@@ -229,10 +301,7 @@ static celspan_status to_file(stage *s, const celspan_frame_desc *frame, const c
   file.coding.depth = is_deep   ? CELSPAN_DEPTH_16
                       : dithers ? CELSPAN_DEPTH_8_DITHER
                                 : CELSPAN_DEPTH_DEFAULT;
-  snprintf(path, PATH_SIZE, "%s/frame.%s", s->folder,
-           is_deep   ? "png"
-           : dithers ? sink + 7
-                     : sink);
+  snprintf(path, PATH_SIZE, "%s/frame.%s", s->folder, is_deep ? "png" : dithers ? sink + 7 : sink);
   return celspan_frame_write(s->context, frame, path, &file, NULL);
 }
 
@@ -273,9 +342,18 @@ void stage_render(stage *s, size_t number, const char *sink, stage_outcome *out)
   char path[PATH_SIZE] = "";
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   *out = (stage_outcome){.has_result = false};
-  lua_rawgeti(s->L, LUA_REGISTRYINDEX, s->items[number].film);
-  out->status = celspan_lua_frame(s->L, -1, 1, &frame);
-  lua_settop(s->L, 1);
+  const celspan_exposure surface = {s->surface, 1};
+  bool is_surface = s->items[number].film == LUA_NOREF;
+  if (is_surface) {
+    frame.exposures = &surface;
+    frame.exposure_count = 1;
+    frame.film_width = frame.width = 24;
+    frame.film_height = frame.height = 18;
+  } else {
+    lua_rawgeti(s->L, LUA_REGISTRYINDEX, s->items[number].film);
+    out->status = celspan_lua_frame(s->L, -1, 1, &frame);
+    lua_settop(s->L, 1);
+  }
   frame.workers = s->items[number].workers;
   frame.progress = ask_progress;
   frame.progress_user = s;
@@ -289,7 +367,8 @@ void stage_render(stage *s, size_t number, const char *sink, stage_outcome *out)
   }
   if (path[0])
     take_file(path, out);
-  celspan_lua_frame_drop(&frame);
+  if (!is_surface)
+    celspan_lua_frame_drop(&frame);
 }
 
 int stage_count_files(const stage *s) {

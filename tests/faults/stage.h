@@ -1,5 +1,6 @@
 /* Where renders are made while calls fail: a context and a Lua state with the renders of a script
- * such as tests/faults/renders.lua, a folder for files, and a plan for each kind of calls.
+ * such as tests/faults/renders.lua, a folder for files, and a plan for each kind of calls. After the
+ * renders of a list comes one of a surface that this host fills, which scripts cannot make.
  */
 #ifndef CELSPAN_TESTS_STAGE_H
 #define CELSPAN_TESTS_STAGE_H
@@ -11,7 +12,7 @@
 enum { STAGE_SENTENCE = 1024, STAGE_RENDERS = 64 };
 
 typedef struct stage_item {
-  int film;    /* in Lua's registry */
+  int film;    /* in Lua's registry; LUA_NOREF: the surface */
   int workers; /* of its frames */
 } stage_item;
 
@@ -22,6 +23,7 @@ typedef struct stage {
   celspan_context *context;
   lua_State *L; /* the renders of the script at 1 */
   const char *folder;
+  celspan_rostrum *surface; /* NULL: the script makes its films one after the other */
   stage_item items[STAGE_RENDERS];
   size_t item_count;
 } stage;

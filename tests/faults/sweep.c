@@ -78,7 +78,8 @@ static bool is_wanted(const sweep *w, const stage_outcome *out) {
 
 /* Calls that a signal may interrupt are made again, and what was not taken whole is gone on with. */
 static bool is_invisible(const sweep *w) {
-  static const char *const interruptible = " open64 openat64 read write pread64 pwrite64 fsync close ";
+  static const char *const interruptible =
+      " open64 openat64 read write pread64 pwrite64 fsync close ";
   char call[32];
   if (w->kind != OF_SYSTEM || !fault_calls.call)
     return false;
@@ -144,8 +145,9 @@ static void tell(const sweep *w, size_t at, const stage_outcome *out) {
   if (w->kind == OF_SYSTEM)
     snprintf(call, sizeof call, " (%s, %s)", fault_calls.call ? fault_calls.call : "none",
              w->error == FAULT_SHORT ? "short" : strerror(w->error));
-  fprintf(stderr, "  %s to %s: %s %zu%s%s: %s: %s\n", w->name, w->sink, kind_names[w->kind], at, call,
-          w->is_for_good ? " and all after it" : "", celspan_status_name(out->status), out->sentence);
+  fprintf(stderr, "  %s to %s: %s %zu%s%s: %s: %s\n", w->name, w->sink, kind_names[w->kind], at,
+          call, w->is_for_good ? " and all after it" : "", celspan_status_name(out->status),
+          out->sentence);
 }
 
 /* Everything that this context keeps only for later frames is forgotten. */
@@ -216,7 +218,7 @@ static size_t count_held(sweep *w) {
 }
 
 static void sweep_sink(sweep *w) {
-  static const int errors[] = {EIO,    ENOSPC, EDQUOT, EACCES, EROFS,       EMFILE,
+  static const int errors[] = {EIO,    ENOSPC, EDQUOT, EACCES,       EROFS,      EMFILE,
                                ENOENT, EAGAIN, EINTR,  ENAMETOOLONG, FAULT_SHORT};
   stage_render(&w->stage, w->render, w->sink, &w->wanted);
   if (!CHECK(w->wanted.status == CELSPAN_OK && w->wanted.has_result)) {
@@ -272,7 +274,9 @@ int main(int count, char **arguments) {
   const char *seed = getenv("CELSPAN_SEED");
   if (count < 3 || !mkdtemp(folder))
     return 1;
-  sweep w = {.script = arguments[1], .root = arguments[2], .folder = folder,
+  sweep w = {.script = arguments[1],
+             .root = arguments[2],
+             .folder = folder,
              .is_whole = getenv("CELSPAN_STARVE") != NULL,
              .random = {seed ? strtoull(seed, NULL, 10) : 1}};
   if (!stage_open(&w.stage, w.script, w.root, w.folder))

@@ -14,17 +14,18 @@
 
 /* ---------------------------------------------------------------- the writing thread */
 
-static bool write_all(int descriptor, const unsigned char *bytes, size_t size) {
+/* 0, or an errno. */
+static int write_all(int descriptor, const unsigned char *bytes, size_t size) {
   while (size > 0) {
     ssize_t written = write(descriptor, bytes, size);
     if (written < 0 && errno != EINTR)
-      return false;
+      return errno;
     if (written > 0) {
       bytes += written;
       size -= (size_t)written;
     }
   }
-  return true;
+  return 0;
 }
 
 /* The place at the head of the queue; -1 when no frame follows. Locked. */
@@ -46,10 +47,11 @@ static void write_frames(void *user, int worker) {
   pthread_mutex_lock(&encoder->mutex);
   for (int place; !encoder->is_broken && (place = wait_for_frame(encoder)) >= 0;) {
     pthread_mutex_unlock(&encoder->mutex);
-    bool is_written =
+    int error =
         write_all(encoder->process.input, encoder->places[place].pixels, encoder->frame_size);
     pthread_mutex_lock(&encoder->mutex);
-    encoder->is_broken = !is_written;
+    encoder->is_broken = error != 0;
+    encoder->error = error == EPIPE ? 0 : error;
     drop_head(encoder);
     pthread_cond_broadcast(&encoder->changed);
   }
@@ -157,6 +159,9 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
     return stop(encoder);
   if (has_read_all && process->exit_code == 0)
     return CELSPAN_OK;
+  if (encoder->error)
+    return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: cannot write to ffmpeg: %s",
+                   encoder->name, strerror(encoder->error));
   cs_process_describe(process, how, sizeof how);
   return cs_fail(encoder->context, CELSPAN_OUTPUT, "%s: ffmpeg %s", encoder->name,
                  !is_over                  ? "reads no more frames, and does not end"

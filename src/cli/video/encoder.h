@@ -34,6 +34,7 @@ typedef struct cs_encoder {
   size_t head, waiting;
   int last; /* place of the frame given last; -1: none */
   bool is_complete, is_broken, is_done;
+  int error;    /* that broke it, other than that nobody reads; 0: none */
   bool is_open; /* of the calling thread alone */
 } cs_encoder;
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/open.h"
 #include "cli/video/command.h"
 #include "cli/video/planes.h"
 #include "cli/video/sound.h"
@@ -261,14 +262,24 @@ celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
 
 /* ---------------------------------------------------------------- the end */
 
+/* What a file begins with: fewer bytes where it has no more, -1 and errno where it cannot be read. */
+static ssize_t read_head(const char *name, char *bytes, size_t size) {
+  int descriptor = cs_open_to_read(name);
+  if (descriptor < 0)
+    return -1;
+  ssize_t got = cs_open_read_at(descriptor, bytes, size, 0);
+  close(descriptor);
+  return got;
+}
+
 /* An encoder that ends well has written a file of its format. */
 static celspan_status check_mark(const cs_video *video, const char *name) {
   char bytes[16] = {0};
-  FILE *file = fopen(name, "rb");
-  size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+  ssize_t size = read_head(name, bytes, sizeof bytes);
   const char *mark = video->format->mark.bytes;
-  if (file)
-    fclose(file);
+  if (size < 0)
+    return cs_fail(video->context, CELSPAN_OUTPUT, "%s: cannot be read back: %s",
+                   video->request->output, strerror(errno));
   if (size == sizeof bytes && memcmp(bytes + video->format->mark.offset, mark, 4) == 0)
     return CELSPAN_OK;
   return cs_fail(video->context, CELSPAN_OUTPUT, "%s: what ffmpeg wrote is no %s file",

@@ -1,0 +1,202 @@
+/* Random films, one after the other, in one process, one context and one Lua state: random sinks and
+ * formats, pictures, text, defocus, workers, and in every second frame a fault of a random kind. What
+ * this holds (memory, descriptors, threads) has to stay level.
+ *
+ *   faults_soak SCRIPT ROOT MINUTES [SEED]     SCRIPT: tests/faults/soak.lua
+ *
+ * A frame that fails must be the same afterwards as it was before. Figures are printed every minute; in
+ * the end they are compared with those after a tenth of the time, or after WARM films if that is later:
+ * by then everything has been loaded that is ever used.
+ */
+#include <dirent.h>
+#include <errno.h>
+#include <lauxlib.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/context.h"
+#include "output/temporary.h"
+#include "tests/faults/stage.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+/* Beyond what was held then: pages that the allocator keeps for itself. */
+#define BYTES_MORE ((long)16 << 20)
+
+enum {
+  PICTURES = 3, /* files that may be open, to be read further */
+  WARM = 200
+};
+
+typedef struct figures {
+  long resident; /* bytes */
+  long held;     /* of them by the context, when it has forgotten what it can */
+  int descriptors, threads;
+} figures;
+
+typedef struct soak {
+  stage stage;
+  test_random random;
+  size_t films, frames, faults;
+} soak;
+
+/* ---------------------------------------------------------------- figures */
+
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int count_entries(const char *folder) {
+  int count = 0;
+  DIR *entries = opendir(folder);
+  while (entries && readdir(entries))
+    count++;
+  if (entries)
+    closedir(entries);
+  return count - 2;
+}
+
+static long resident_bytes(void) {
+  long pages = 0;
+  FILE *file = fopen("/proc/self/statm", "r");
+  if (!file || fscanf(file, "%*d %ld", &pages) != 1)
+    pages = 0;
+  if (file)
+    fclose(file);
+  return pages * sysconf(_SC_PAGESIZE);
+}
+
+static figures measure(soak *k) {
+  lua_gc(k->stage.L, LUA_GCCOLLECT);
+  cs_context_trim(k->stage.context);
+  return (figures){resident_bytes(), (long)k->stage.watch.bytes, count_entries("/proc/self/fd") - 1,
+                   count_entries("/proc/self/task")};
+}
+
+static void print(const soak *k, double minutes, figures f) {
+  printf("%5.1f min: %7zu frames of %6zu films, %6zu faults; %6.1f MB resident, %6.2f MB held, %d "
+         "descriptors, %d threads\n",
+         minutes, k->frames, k->films, k->faults, (double)f.resident / 1e6, (double)f.held / 1e6,
+         f.descriptors, f.threads);
+  fflush(stdout);
+}
+
+/* ---------------------------------------------------------------- films */
+
+/* Puts a new film in the place of the one before. */
+static void take_film(soak *k) {
+  lua_State *L = k->stage.L;
+  lua_Integer seed = (lua_Integer)(random_bits(&k->random) >> 20);
+  stage_item *item = &k->stage.items[0];
+  lua_pushvalue(L, 1);
+  lua_pushinteger(L, seed);
+  lua_pushboolean(L, TEST_PICTURES && TEST_ART);
+  if (!CHECK(lua_pcall(L, 2, 1, 0) == LUA_OK))
+    fprintf(stderr, "seed %lld: %s\n", (long long)seed, lua_tostring(L, -1));
+  lua_rawseti(L, LUA_REGISTRYINDEX, item->film);
+  item->workers = 1 + random_below(&k->random, 3);
+  k->films++;
+}
+
+static const char *pick_sink(soak *k) {
+  static const char *const sinks[] = {"digest", "float", "rows",       "sink", "probe",
+                                      "png",    "png16", "dither.png", "tga",  "span",
+                                      "exr",    "tiff",  "jpg",        "ppm"};
+  int count = (int)(sizeof sinks / sizeof *sinks) - (TEST_PICTURES ? 0 : 4);
+  return sinks[random_below(&k->random, count)];
+}
+
+static void arm(soak *k) {
+  static const int errors[] = {EIO, ENOSPC, EMFILE, EACCES, EINTR, FAULT_SHORT};
+  bool is_for_good = random_below(&k->random, 2);
+  int kind = random_below(&k->random, 4);
+  fault_plan *plan = kind == 1 ? &k->stage.lua : kind == 2 ? &k->stage.host : &fault_calls;
+  size_t at = 1 + (size_t)random_below(&k->random, kind < 2 ? 300 : 20);
+  fault_calls.error = errors[random_below(&k->random, 6)];
+  if (fault_calls.error == EINTR)
+    is_for_good = false;
+  k->stage.watch.allocations = 0;
+  k->stage.watch.is_for_good = is_for_good;
+  if (kind == 0)
+    k->stage.watch.fail_at = at;
+  else
+    fault_arm(plan, at, is_for_good);
+}
+
+static bool any_name(const char *pattern, const char *name) {
+  (void)pattern, (void)name;
+  return true;
+}
+
+static bool is_same(const stage_outcome *a, const stage_outcome *b) {
+  return a->status == b->status && a->has_result == b->has_result && a->result[0] == b->result[0] &&
+         a->result[1] == b->result[1];
+}
+
+static void check_folder(const soak *k) {
+  char pattern[512];
+  snprintf(pattern, sizeof pattern, "%s/frame", k->stage.folder);
+  cs_temporary_sweep(pattern, any_name);
+  CHECK(stage_count_files(&k->stage) == 0);
+}
+
+/* A frame, the same with a fault, and the same once more. */
+static void make_frames(soak *k) {
+  stage_outcome before, out, after;
+  const char *sink = pick_sink(k);
+  stage_render(&k->stage, 0, sink, &before);
+  if (!CHECK(before.status == CELSPAN_OK))
+    fprintf(stderr, "  %s: %s\n", sink, before.sentence);
+  k->frames++;
+  if (random_below(&k->random, 2))
+    return;
+  arm(k);
+  stage_render(&k->stage, 0, sink, &out);
+  check_folder(k);
+  stage_render(&k->stage, 0, sink, &after);
+  k->frames += 2;
+  k->faults += out.status != CELSPAN_OK;
+  CHECK(out.status != CELSPAN_OK || is_same(&out, &before));
+  if (!CHECK(is_same(&after, &before)))
+    fprintf(stderr, "  %s: %s; after %s\n", sink, after.sentence, out.sentence);
+}
+
+/* ---------------------------------------------------------------- the run */
+
+static void run(soak *k, double minutes) {
+  double start = seconds(), end = start + 60 * minutes, next = start;
+  figures first = {0}, last = {0};
+  while (seconds() < end) {
+    take_film(k);
+    for (int i = random_below(&k->random, 4); i >= 0; i--)
+      make_frames(k);
+    if (seconds() >= next) {
+      print(k, (seconds() - start) / 60, last = measure(k));
+      next += 60 * (minutes < 10 ? minutes / 10 : 1);
+    }
+    if (first.resident == 0 && k->films >= WARM && seconds() - start > 6 * minutes)
+      first = measure(k);
+  }
+  print(k, (seconds() - start) / 60, last = measure(k));
+  CHECK(first.resident > 0 && last.resident <= first.resident + BYTES_MORE);
+  CHECK(last.held <= first.held + BYTES_MORE / 16);
+  CHECK(last.descriptors <= first.descriptors + PICTURES && last.threads <= first.threads);
+}
+
+int main(int count, char **arguments) {
+  char folder[] = "/tmp/celspan-soak-XXXXXX";
+  if (count < 4 || !mkdtemp(folder))
+    return 1;
+  soak k = {.random = {count > 4 ? strtoull(arguments[4], NULL, 10) : 1}};
+  if (!stage_open(&k.stage, arguments[1], arguments[2], folder))
+    return 1;
+  lua_pushboolean(k.stage.L, false);
+  k.stage.items[0].film = luaL_ref(k.stage.L, LUA_REGISTRYINDEX);
+  run(&k, strtod(arguments[3], NULL));
+  stage_close(&k.stage);
+  CHECK(rmdir(folder) == 0);
+  return check_done();
+}

@@ -1,0 +1,229 @@
+-- A program whose calls to the system fail: whichever it is, once or for good, whatever the errno and
+-- whatever is written, a render ends with the right frames, or with the exit code of the table and a
+-- sentence with a file and the reason; nothing that is wrong stands under a final name, no temporary
+-- file is left, and the same command with --resume then makes the frames.
+-- CELSPAN_STARVE=1 tries every call; else some are drawn by lot, by CELSPAN_SEED.
+local prng = require "tests.support.prng"
+local workbench = require "tests.support.workbench"
+
+local LIBRARY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/libfaulty.so"
+local ALL = os.getenv "CELSPAN_STARVE"
+local SAMPLES = 1 -- of the calls of a format that fail with an errno
+local SHORT, EINTR, EAGAIN = -1, 4, 11
+
+local errors = {
+  [28] = "No space left on device", [5] = "Input/output error", [122] = "Disk quota exceeded",
+  [13] = "Permission denied", [30] = "Read-only file system", [24] = "Too many open files",
+  [36] = "File name too long", [EAGAIN] = "Resource temporarily unavailable", [EINTR] = "Interrupted system call",
+  [SHORT] = "short",
+}
+local numbers = {}
+for number in pairs(errors) do numbers[#numbers + 1] = number end
+table.sort(numbers)
+
+local FILM = [[local celspan = require "celspan"
+return celspan.film { size = { 32, 24 }, fps = 4, frames = 2, frame = function(f)
+  return celspan.rostrum { back = "#346", celspan.cel {
+    celspan.circle { centre = { 8 * f.number, 12 }, radius = 7.5, texture = celspan.linear {
+      from = { 0, 0 }, to = { 32, 24 }, { 0, "#f80" }, { 1, "#08f" } } } } }
+end }
+]]
+
+local bench, random
+
+setup(function() random = prng.new(tonumber(os.getenv "CELSPAN_SEED") or 1) end)
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+-- ---------------------------------------------------------------- running
+
+--- Renders into the folder out of the bench, with the environment of a plan before it.
+local function render(format, plan, options)
+  local output = format.is_stream and "- > out/stream" or "out/" .. format.output
+  return bench:shell(("cd '%s' && mkdir -p out && %s %s render film.lua %s --workers 1 --progress none -o %s")
+    :format(bench.folder, plan or "", workbench.absolute, (format.options or "") .. " " .. (options or ""), output))
+end
+
+local function faulty(at, lasts, number, call)
+  return ("FAULT_AT=%d FAULT_LASTING=%d FAULT_ERROR=%d FAULT_COUNT=count %s LD_PRELOAD=%s"):format(
+    at, lasts and 1 or 0, number, call and "FAULT_CALL=" .. call or "", LIBRARY)
+end
+
+--- Every file of the folder out that is not celspan's own record, by its name.
+local function results()
+  local found = {}
+  for _, name in ipairs(bench:files "out") do
+    if not name:find "%.frames$" then found[name] = bench:read("out/" .. name) end
+  end
+  return found
+end
+
+--- How many calls there were, and the name of the first that failed.
+local function calls()
+  local count, call = (bench:read "count" or "0 none"):match "(%d+) (%S+)"
+  return tonumber(count), call
+end
+
+-- ---------------------------------------------------------------- what is right
+
+--- Exit codes: an input (the script, its modules) cannot be read; an output; no thread could be begun.
+local expected = { [4] = true, [5] = true, [6] = true }
+
+--- Modules are sought in many places, and pictures in modules: not every call has a sentence.
+local others = {
+  access = "which was not found", realpath = "which was not found", readlink = "which was not found",
+  pthread_create = "thread", fstat64 = "is not a file; a picture must be one",
+}
+
+local function is_said(err, number, call)
+  return err:find(errors[number], 1, true) or others[call] and err:find(others[call], 1, true)
+end
+
+--- Libraries behind OpenImageIO begin threads while they are loaded, and end the process where they cannot;
+-- no file has been made by then.
+local function is_end_of_libraries(format, code, err)
+  return format.has_module and code == 134 and err:find("std::system_error", 1, true)
+end
+
+--- A temporary file that could not be taken away, or that somebody else was said to take away.
+local function may_be_left(lasts, number, call)
+  return lasts or call == "unlink" or call == "flock" and number == EAGAIN
+end
+
+local function check_frames(right, is_complete, where, parts)
+  local found = results()
+  for name, bytes in pairs(found) do
+    local is_part = parts and name:find "^%..*%.part$"
+    assert.is_truthy(right[name] or is_part, where .. " left " .. name)
+    assert.is_truthy(is_part or bytes == right[name], where .. " made another " .. name)
+  end
+  for name in pairs(is_complete and right or {}) do assert.is_truthy(found[name], where .. " lacks " .. name) end
+end
+
+--- A stream is cut off where the fault came.
+local function check_stream(right, is_complete, where)
+  local found, whole = bench:read "out/stream" or "", right.stream
+  assert.is_true(is_complete and found == whole or not is_complete and whole:sub(1, #found) == found,
+    where .. " wrote another stream")
+end
+
+local function check(format, right, at, lasts, number)
+  os.execute(("rm -rf '%s/out'"):format(bench.folder))
+  local code, _, err = render(format, faulty(at, lasts, number))
+  local where = ("%s: call %d%s, %s: exit code %d: %s"):format(format.output or "stream", at,
+    lasts and " and all after it" or "", errors[number], code, err)
+  local _, call = calls()
+  if code ~= 0 and not is_end_of_libraries(format, code, err) then
+    assert.is_true(expected[code], where)
+    assert.is_truthy(is_said(err, number, call), where .. call)
+    assert.is_truthy(err:find("^celspan: "), where)
+  end
+  if format.is_stream then return check_stream(right, code == 0, where) end
+  check_frames(right, code == 0, where, may_be_left(lasts, number, call))
+  if format.is_video then return end
+  local again, _, message = render(format, nil, "--resume")
+  assert.are.equal(0, again, where .. "; then: " .. message)
+  check_frames(right, true, where .. "; then")
+end
+
+-- ---------------------------------------------------------------- the formats
+
+local formats = {
+  { output = "f.##.png" }, { output = "f.##.png", options = "--depth 16" }, { output = "f.##.tga" },
+  { output = "f.##.span" }, { is_stream = true },
+  { output = "f.##.exr", has_module = true }, { output = "f.##.tiff", has_module = true },
+  { output = "f.##.jpg", has_module = true }, { output = "f.##.dpx", has_module = true },
+  { output = "f.##.ppm", has_module = true },
+  { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
+}
+
+local function has_library()
+  local library = io.open(LIBRARY)
+  if library then library:close() end
+  return library
+end
+
+local function sweep(format, lasts)
+  if not has_library() then return pending "the library that lets calls fail is not built" end
+  bench:write("film.lua", FILM)
+  local code, _, err = render(format, faulty(0, false, 5))
+  if code ~= 0 and (format.has_module or format.is_video) then return pending(err) end
+  assert.are.equal(0, code, err)
+  local right, count = results(), calls()
+  assert.is_true(count > 10)
+  for _, number in ipairs(numbers) do
+    if not (lasts and number == EINTR) then
+      for i = 1, ALL and count or SAMPLES do
+        check(format, right, ALL and i or random:whole(1, count), lasts, number)
+      end
+    end
+  end
+end
+
+-- ---------------------------------------------------------------- the hooks
+
+--- Calls of POSIX and Linux that files, processes and threads are made with. Those for large files end in 64.
+local KNOWN = [[access faccessat open openat creat close read readv write writev pread preadv pwrite pwritev fsync
+fdatasync sync syncfs rename renameat renameat2 remove link linkat symlink unlink unlinkat mkdir mkdirat rmdir stat
+fstat lstat fstatat statx truncate ftruncate lseek fallocate posix_fallocate copy_file_range sendfile flock lockf
+fcntl fopen fdopen freopen fclose fflush fwrite tmpfile opendir fdopendir readdir scandir realpath readlink
+readlinkat mmap mremap memfd_create mkstemp mkostemp mkdtemp pipe pipe2 dup dup2 dup3 fork vfork posix_spawn
+posix_spawnp execv execvp execve popen system wait waitpid pthread_create thrd_create socket bind listen accept
+accept4 connect eventfd signalfd timerfd_create inotify_init inotify_init1 inotify_add_watch poll epoll_create1]]
+
+local function read_file(name)
+  local file = assert(io.open(name))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+local function hooks()
+  local found = {}
+  local list = read_file("tests/faults/calls.h"):match "#define FAULT_CALLS.*"
+  for kind, arguments in list:gmatch "(%u+)(%b())" do
+    local first, second = arguments:match "^%(%s*([^,()]+),?%s*([%w_]*)"
+    if kind == "CALL" then found[second] = true end
+    if kind == "DATA" or kind == "NUMBER" or kind == "CLOSE" or kind == "SYNC" then found[first] = true end
+  end
+  return found
+end
+
+describe("the hooks of tests/faults", function()
+  it("are those that the linker puts before calls", function()
+    local wrapped = read_file("tests/meson.build"):match "foreach call : (%b[])"
+    local count = 0
+    for name in pairs(hooks()) do
+      count = count + 1
+      assert.is_truthy(wrapped:find("'" .. name .. "'", 1, true), "tests/meson.build lacks " .. name)
+    end
+    assert.are.equal(select(2, wrapped:gsub("'%g-'", "")), count)
+  end)
+
+  it("stand before every call to the system that src/ makes", function()
+    local build, hooked, seen = os.getenv "CELSPAN_BUILD" or "build", hooks(), 0
+    local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' | xargs nm -u 2>&1"):format(build, build))
+    local made = {}
+    for name in list:lines() do
+      name = name:match "^%s+U ([%w_]+)$"
+      if name then made[name] = true end
+    end
+    list:close()
+    if not made.malloc and not made.realloc then return pending "nm, which lists calls, does not work" end
+    for name in KNOWN:gmatch "%S+" do
+      for _, call in ipairs { name, name .. "64" } do
+        seen = seen + (made[call] and 1 or 0)
+        assert.is_truthy(hooked[call] or not made[call], call .. " is made by src/ and is not in calls.h")
+      end
+    end
+    assert.is_true(seen > 25)
+  end)
+end)
+
+describe("where calls to the system fail", function()
+  for _, format in ipairs(formats) do
+    local name = (format.output or "a stream") .. (format.options or "")
+    it("once, " .. name .. " ends well", function() sweep(format, false) end)
+    it("for good, " .. name .. " ends well", function() sweep(format, true) end)
+  end
+end)
