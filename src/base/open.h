@@ -5,6 +5,7 @@
 #ifndef CS_BASE_OPEN_H
 #define CS_BASE_OPEN_H
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -26,6 +27,12 @@ static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, 
     got = pread(descriptor, bytes, size, offset);
   while (got < 0 && errno == EINTR);
   return got;
+}
+
+/* The next entry of a folder. NULL: errno is 0 at its end, else it says why there is no other. */
+static inline struct dirent *cs_open_entry(DIR *folder) {
+  errno = 0;
+  return readdir(folder);
 }
 
 /* Whether this errno tells of the file: it is not there, or not to be read. Else the system failed,

@@ -1,10 +1,10 @@
 #include "bind/painting.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/open.h"
 #include "bind/host.h"
 #include "bind/pixel_string.h"
 
@@ -136,19 +136,23 @@ static DIR **push_folder_holder(lua_State *L) {
   return holder;
 }
 
+/* For an errno. */
+static int fail_folder(lua_State *L, const char *path, const char *what) {
+  lua_pushnil(L);
+  lua_pushfstring(L, "%s: %s: %s", path, what, strerror(errno));
+  return 2;
+}
+
 int cs_painting_folder(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_host_admit(L, path);
   DIR **folder = push_folder_holder(L);
   *folder = opendir(path);
-  if (!*folder) {
-    lua_pushnil(L);
-    lua_pushfstring(L, "%s: cannot be opened: %s", path, strerror(errno));
-    return 2;
-  }
+  if (!*folder)
+    return fail_folder(L, path, "cannot be opened");
   lua_newtable(L);
   lua_Integer count = 0;
-  for (struct dirent *entry; (entry = readdir(*folder));) {
+  for (struct dirent *entry; (entry = cs_open_entry(*folder));) {
     if (entry->d_name[0] == '.')
       continue;
     if (count == MOST_FILES) {
@@ -159,7 +163,7 @@ int cs_painting_folder(lua_State *L) {
     lua_pushstring(L, entry->d_name);
     lua_rawseti(L, -2, ++count);
   }
-  return 1;
+  return errno ? fail_folder(L, path, "cannot be read") : 1;
 }
 
 /* Whether a resolved path lies in a resolved folder. */

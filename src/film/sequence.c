@@ -1,10 +1,11 @@
 #include "film/sequence.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "base/open.h"
 
 #define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
 #define MOST_NUMBER 1000000000000
@@ -227,19 +228,25 @@ static celspan_status add_file(reader *r, const char *pattern, const char *name,
   return append(r, out, number, number, 1);
 }
 
+static celspan_status fail_folder(celspan_context *context, const char *pattern, int error) {
+  return celspan_context_fail(context, CELSPAN_INPUT, "%s: its folder cannot be read: %s", pattern,
+                              strerror(error));
+}
+
 celspan_status cs_sequence_list(celspan_context *context, const char *pattern, cs_sequence *out) {
   const char *slash = strrchr(pattern, '/'), *name = slash ? slash + 1 : pattern;
   char path[PATH_SIZE];
   int length = snprintf(path, sizeof path, "%.*s", (int)(name - pattern), pattern);
   DIR *folder = length < PATH_SIZE ? opendir(length ? path : ".") : NULL;
   if (!folder)
-    return celspan_context_fail(context, CELSPAN_INPUT, "%s: its folder cannot be read: %s",
-                                pattern, strerror(length < PATH_SIZE ? errno : ENAMETOOLONG));
+    return fail_folder(context, pattern, length < PATH_SIZE ? errno : ENAMETOOLONG);
   reader r = {context, pattern, pattern};
   cs_sequence sequence = {0};
   celspan_status status = CELSPAN_OK;
-  for (struct dirent *entry; status == CELSPAN_OK && (entry = readdir(folder));)
+  for (struct dirent *entry; status == CELSPAN_OK && (entry = cs_open_entry(folder));)
     status = add_file(&r, name, entry->d_name, &sequence);
+  if (status == CELSPAN_OK && errno)
+    status = fail_folder(context, pattern, errno);
   closedir(folder);
   if (sequence.count > 0)
     qsort(sequence.frames, sequence.count, sizeof *sequence.frames, compare);

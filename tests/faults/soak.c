@@ -11,6 +11,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <lauxlib.h>
+#include <malloc.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
@@ -21,7 +22,7 @@
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-/* Beyond what was held then: pages that the allocator keeps for itself. */
+/* Resident beyond what was then: pages between allocations, which cannot go back. */
 #define BYTES_MORE ((long)16 << 20)
 
 enum {
@@ -30,8 +31,9 @@ enum {
 };
 
 typedef struct figures {
-  long resident; /* bytes */
-  long held;     /* of them by the context, when it has forgotten what it can */
+  long resident;  /* bytes */
+  long allocated; /* of them by whoever allocates, libraries too */
+  long held;      /* of these by the context, when it has forgotten what it can */
   int descriptors, threads;
 } figures;
 
@@ -69,18 +71,30 @@ static long resident_bytes(void) {
   return pages * sysconf(_SC_PAGESIZE);
 }
 
+/* Bytes that were allocated by whatever is in the process, and not freed; 0: not known. */
+static long allocated_bytes(void) {
+#ifdef __GLIBC__
+  malloc_trim(0); /* pages that are only kept for later go back to the system */
+  struct mallinfo2 info = mallinfo2();
+  return (long)(info.uordblks + info.hblkhd);
+#else
+  return 0;
+#endif
+}
+
 static figures measure(soak *k) {
   lua_gc(k->stage.L, LUA_GCCOLLECT);
   cs_context_trim(k->stage.context);
-  return (figures){resident_bytes(), (long)k->stage.watch.bytes, count_entries("/proc/self/fd") - 1,
-                   count_entries("/proc/self/task")};
+  long allocated = allocated_bytes();
+  return (figures){resident_bytes(), allocated, (long)k->stage.watch.bytes,
+                   count_entries("/proc/self/fd") - 1, count_entries("/proc/self/task")};
 }
 
 static void print(const soak *k, double minutes, figures f) {
-  printf("%5.1f min: %7zu frames of %6zu films, %6zu faults; %6.1f MB resident, %6.2f MB held, %d "
-         "descriptors, %d threads\n",
-         minutes, k->frames, k->films, k->faults, (double)f.resident / 1e6, (double)f.held / 1e6,
-         f.descriptors, f.threads);
+  printf("%5.1f min: %7zu frames of %6zu films, %6zu faults; %6.1f MB resident, %6.2f MB "
+         "allocated, %5.2f MB of them by the context, %d descriptors, %d threads\n",
+         minutes, k->frames, k->films, k->faults, (double)f.resident / 1e6,
+         (double)f.allocated / 1e6, (double)f.held / 1e6, f.descriptors, f.threads);
   fflush(stdout);
 }
 
@@ -182,6 +196,7 @@ static void run(soak *k, double minutes) {
   }
   print(k, (seconds() - start) / 60, last = measure(k));
   CHECK(first.resident > 0 && last.resident <= first.resident + BYTES_MORE);
+  CHECK(last.allocated <= first.allocated + BYTES_MORE / 8);
   CHECK(last.held <= first.held + BYTES_MORE / 16);
   CHECK(last.descriptors <= first.descriptors + PICTURES && last.threads <= first.threads);
 }

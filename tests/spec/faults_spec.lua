@@ -1,7 +1,7 @@
 -- A program whose calls to the system fail: whichever it is, once or for good, whatever the errno and
--- whatever is written, a render ends with the right frames, or with the exit code of the table and a
--- sentence with a file and the reason; nothing that is wrong stands under a final name, no temporary
--- file is left, and the same command with --resume then makes the frames.
+-- whatever is written, a render ends with the right frames, or with the exit code of the table and
+-- a sentence with a file and the reason; nothing that is wrong stands under a final name, no
+-- temporary file is left, and the same command with --resume then makes the frames.
 -- CELSPAN_STARVE=1 tries every call; else some are drawn by lot, by CELSPAN_SEED.
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
@@ -217,6 +217,33 @@ describe("the hooks of tests/faults", function()
       end
     end
     assert.is_true(seen > 25)
+  end)
+end)
+
+describe("a folder that cannot be read to its end", function()
+  -- It has ".", ".." and five files.
+  local function list(command, message)
+    if not has_library() then return pending "the library that lets calls fail is not built" end
+    for i = 1, 5 do bench:write(("f.%d.span"):format(i), "") end
+    for at = 1, 8 do
+      local plan = faulty(at, false, 5) .. " FAULT_CALL=readdir64 "
+      local code, _, err = bench:shell(("cd '%s' && %s %s %s"):format(bench.folder, plan,
+        workbench.absolute, command))
+      assert.is_true(code == 4 or code == 5, ("entry %d: exit code %d: %s"):format(at, code, err))
+      assert.is_truthy(err:find(message, 1, true), err)
+    end
+  end
+
+  it("is not taken for one with fewer frames", function()
+    list("compare 'f.#.span' 'f.#.span'", "its folder cannot be read: Input/output error")
+  end)
+
+  it("is not taken for an empty one", function()
+    bench:shell(("mkdir '%s/film'"):format(bench.folder))
+    local code, _, err = bench:shell(("cd '%s' && %s FAULT_CALL=readdir64 %s init film")
+      :format(bench.folder, faulty(3, false, 5), workbench.absolute))
+    assert.are.equal(5, code)
+    assert.is_truthy(err:find("film: cannot be read: Input/output error", 1, true), err)
   end)
 end)
 

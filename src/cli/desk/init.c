@@ -5,11 +5,11 @@
  * Nothing that is there is replaced: the folder must be new or empty. The picture that the spec
  * compares the film with is rendered from the film itself, so that the tests pass from the start.
  */
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/open.h"
 #include "cli/desk/project.h"
 #include "cli/script.h"
 #include "cli/verbs.h"
@@ -60,11 +60,14 @@ static cs_exit refuse_full(const char *path) {
     return CS_EXIT_OUTPUT;
   }
   bool is_empty = true;
-  for (struct dirent *entry; is_empty && (entry = readdir(folder));)
+  for (struct dirent *entry; is_empty && (entry = cs_open_entry(folder));)
     is_empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
+  int error = is_empty ? errno : 0;
   closedir(folder);
-  if (is_empty)
-    return CS_EXIT_OK;
+  if (error)
+    cs_report_error("%s: cannot be read: %s", path, strerror(error));
+  if (error || is_empty)
+    return error ? CS_EXIT_OUTPUT : CS_EXIT_OK;
   cs_report_error("%s: there is something in it already; choose another name", path);
   return CS_EXIT_OUTPUT;
 }

@@ -1,11 +1,12 @@
 #include "cli/desk/spec_list.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+#include "base/open.h"
 
 #define ENDING "_spec.lua"
 
@@ -33,14 +34,18 @@ static bool is_folder(const char *path) {
   return stat(path, &facts) == 0 && S_ISDIR(facts.st_mode);
 }
 
+static celspan_status fail_folder(celspan_context *context, const char *folder) {
+  return cs_fail(context, CELSPAN_INPUT, "%s: cannot be read: %s", folder, strerror(errno));
+}
+
 /* Recursion ends: at most FOLDERS_DEEP. */
 static celspan_status add_folder(cs_spec_list *list, celspan_context *context, const char *folder,
                                  int depth) {
   DIR *open = depth < FOLDERS_DEEP ? opendir(folder) : NULL;
   if (!open && depth < FOLDERS_DEEP)
-    return cs_fail(context, CELSPAN_INPUT, "%s: cannot be read: %s", folder, strerror(errno));
+    return fail_folder(context, folder);
   celspan_status status = CELSPAN_OK;
-  for (struct dirent *entry; open && status == CELSPAN_OK && (entry = readdir(open));) {
+  for (struct dirent *entry; open && status == CELSPAN_OK && (entry = cs_open_entry(open));) {
     char path[PATH_SIZE];
     int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
     if (entry->d_name[0] == '.' || length >= (int)sizeof path)
@@ -50,6 +55,8 @@ static celspan_status add_folder(cs_spec_list *list, celspan_context *context, c
     else if (is_spec(entry->d_name))
       status = add_file(list, context, path);
   }
+  if (open && status == CELSPAN_OK && errno)
+    status = fail_folder(context, folder);
   if (open)
     closedir(open);
   return status;
