@@ -56,6 +56,7 @@ struct celspan_context {
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes;
   cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
+  const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
   char error[CS_ERROR_SIZE];
 };

@@ -345,36 +345,66 @@ static bool read_amount(const char *text, const char *end, const char *letters, 
   return number <= 1e15;
 }
 
-static bool read_limit(const char *text, const char *end, cs_given_limits *out) {
-  static const struct limit {
-    const char *name, *letters;
-  } known[] = {{"memory=", "KMG"}, {"steps=", ""}, {"time=", ""}, {"print=", "KMG"}};
-  double value = 0;
-  int i = 0;
-  while (i < 4 && strncmp(text, known[i].name, strlen(known[i].name)) != 0)
-    i++;
-  if (i == 4 || !read_amount(text + strlen(known[i].name), end, known[i].letters, &value))
-    return false;
-  if (i == 0)
+static void set_limit(cs_given_limits *out, int index, double value) {
+  switch (index) {
+  case 0:
+    out->has_picture_memory = true, out->picture_memory = (uint64_t)value;
+    break;
+  case 1:
+    out->has_picture_time = true, out->picture_seconds = value;
+    break;
+  case 2:
     out->has_memory = true, out->values.memory = (size_t)value;
-  else if (i == 1)
+    break;
+  case 3:
     out->has_steps = true, out->values.steps = (uint64_t)value;
-  else if (i == 2)
+    break;
+  case 4:
     out->has_time = true, out->values.seconds = value;
-  else
+    break;
+  default:
     out->has_print = true, out->values.print = (size_t)value;
-  return i != 2 || value <= 1e6;
+  }
 }
 
-cs_argument_outcome cs_argument_limits(const char *text, void *field) {
+enum { LIMITS = 6, PICTURE_LIMITS = 2 };
+
+/* count: of the names that are known, from the first one on. */
+static bool read_limit(const char *text, const char *end, int count, cs_given_limits *out) {
+  static const struct limit {
+    const char *name, *letters;
+    double most;
+  } known[LIMITS] = {{"picture-memory=", "KMG", 1e15}, {"picture-time=", "", 1e6},
+                     {"memory=", "KMG", 1e15},         {"steps=", "", 1e15},
+                     {"time=", "", 1e6},               {"print=", "KMG", 1e15}};
+  double value = 0;
+  int i = 0;
+  while (i < count && strncmp(text, known[i].name, strlen(known[i].name)) != 0)
+    i++;
+  if (i == count || !read_amount(text + strlen(known[i].name), end, known[i].letters, &value) ||
+      value > known[i].most)
+    return false;
+  set_limit(out, i, value);
+  return true;
+}
+
+static cs_argument_outcome read_limits(const char *text, int count, void *field) {
   cs_given_limits given = *(cs_given_limits *)field;
   for (const char *end;; text = end + 1) {
     end = text + strcspn(text, ",");
-    if (!read_limit(text, end, &given))
+    if (!read_limit(text, end, count, &given))
       return CS_ARGUMENT_BAD;
     if (!*end)
       break;
   }
   *(cs_given_limits *)field = given;
   return CS_ARGUMENT_READ;
+}
+
+cs_argument_outcome cs_argument_limits(const char *text, void *field) {
+  return read_limits(text, LIMITS, field);
+}
+
+cs_argument_outcome cs_argument_picture_limits(const char *text, void *field) {
+  return read_limits(text, PICTURE_LIMITS, field);
 }

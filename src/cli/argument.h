@@ -48,10 +48,13 @@ typedef struct cs_given_texts {
   size_t count;
 } cs_given_texts;
 
-/* A script's limits; those that are not given have their defaults. */
+/* The limits of a script, and of the processes that decode pictures; those that are not given have
+ * their defaults. */
 typedef struct cs_given_limits {
-  bool has_memory, has_steps, has_time, has_print;
+  bool has_memory, has_steps, has_time, has_print, has_picture_memory, has_picture_time;
   cs_limits values;
+  uint64_t picture_memory; /* bytes */
+  double picture_seconds;
 } cs_given_limits;
 
 /* "#rgb" or "#rrggbb": linear light, opaque. */
@@ -106,7 +109,9 @@ cs_argument_outcome cs_argument_smooth(const char *text, void *field);  /* doubl
 cs_argument_outcome cs_argument_model(const char *text, void *field); /* const char *, of a track */
 cs_argument_outcome cs_argument_progress(const char *text, void *field); /* cs_progress_style */
 cs_argument_outcome cs_argument_texts(const char *text, void *field);    /* cs_given_texts: adds */
-/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M" */
+/* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,picture-memory=1G,picture-time=20" */
 cs_argument_outcome cs_argument_limits(const char *text, void *field);
+/* The same, but those of pictures alone. */
+cs_argument_outcome cs_argument_picture_limits(const char *text, void *field);
 
 #endif

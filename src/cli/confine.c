@@ -5,9 +5,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/decoder/keeping.h"
+#include "cli/decoder/pictures.h"
 #include "cli/interrupt.h"
 #include "cli/lines.h"
 #include "sandbox/strict.h"
+
+#define PICTURE_MEMORY ((uint64_t)1 << 30)
+#define PICTURE_SECONDS 20
 
 enum { PATH_SIZE = 4096 };
 
@@ -23,13 +28,30 @@ static cs_limits limits_of(const cs_request *request) {
   return limits;
 }
 
+cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request) {
+  const cs_given_limits *given = &request->limits;
+  const cs_decoder_limits limits = {
+      .memory = given->has_picture_memory ? given->picture_memory : PICTURE_MEMORY,
+      .seconds = given->has_picture_time ? given->picture_seconds : PICTURE_SECONDS};
+  if (!request->trusts) {
+    cs_pictures_begin(context, &limits);
+    return CS_EXIT_OK;
+  }
+  if (!given->has_picture_memory && !given->has_picture_time)
+    return CS_EXIT_OK;
+  return cs_report_usage("--trust decodes pictures in this process, which has no limits for them: leave "
+                         "--limit %s out",
+                         given->has_picture_memory ? "picture-memory" : "picture-time");
+}
+
 cs_exit cs_confine_refuse(const cs_request *request) {
   const cs_given_limits *limits = &request->limits;
   bool has_limits =
       limits->has_memory || limits->has_steps || limits->has_time || limits->has_print;
-  if (!request->trusts && !request->is_strict && !request->allowed.count && !has_limits)
+  if (!request->is_strict && !request->allowed.count && !has_limits)
     return CS_EXIT_OK;
-  return cs_report_usage("--trust, --strict, --allow and --limit are for scripts, and %s is none",
+  return cs_report_usage("--strict, --allow and all of --limit but that of pictures are for scripts, and "
+                         "%s is none",
                          request->operands[0]);
 }
 
@@ -141,8 +163,11 @@ static cs_exit enter_strict(const cs_request *request, const cs_sandbox *sandbox
   output_folder(request, folder);
   bool is_good = copy_roots(&sandbox->roots, &read) && add_own_folders(request, &read) &&
                  (!folder[0] || (cs_roots_add(&write, folder) && cs_roots_add(&read, folder)));
-  const char *refusal =
-      is_good ? cs_strict_enter(&read, &write) : "there are too many folders to read";
+  const char *refusal = is_good ? NULL : "there are too many folders to read";
+  if (!refusal && !cs_keeping_confine(&read))
+    refusal = "the decoder of pictures cannot be started";
+  if (!refusal)
+    refusal = cs_strict_enter(&read, &write);
   cs_roots_finish(&read);
   cs_roots_finish(&write);
   if (!refusal)

@@ -1,4 +1,5 @@
-/* What the command line says of a script's rights and limits: --trust, --strict, --allow, --limit.
+/* What the command line says of the rights and limits of scripts and pictures: --trust, --strict,
+ * --allow, --limit.
  */
 #ifndef CS_CLI_CONFINE_H
 #define CS_CLI_CONFINE_H
@@ -6,7 +7,9 @@
 #include "cli/request.h"
 #include "sandbox/sandbox.h"
 
-/* Refuses these options where a verb reads a FILE, in which no script is run. OK, or reported. */
+/* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
+cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
+/* Refuses the options of scripts where a verb reads a FILE, in which none is run. OK, or reported. */
 cs_exit cs_confine_refuse(const cs_request *request);
 /* Whether a script of this request has a sandbox or a limit. */
 bool cs_confine_is_needed(const cs_request *request);

@@ -3,7 +3,7 @@
  *   main -> request (what is asked) -> a verb -> report (exit code, one line of error)
  *
  * Nothing is loaded that the verb does not need: the Lua state is made by the verbs that run a
- * script, OpenImageIO by the first picture.
+ * script; OpenImageIO by the first picture, in another process (decoder/keeper.h).
  */
 #include <errno.h>
 #include <fcntl.h>
@@ -12,6 +12,9 @@
 #include <string.h>
 
 #include "bind/suggest.h"
+#include "cli/confine.h"
+#include "cli/decoder/keeper.h"
+#include "cli/decoder/pictures.h"
 #include "cli/interrupt.h"
 #include "cli/manual.h"
 #include "cli/progress.h"
@@ -194,8 +197,11 @@ static cs_exit run_verb(const cs_verb *verb, size_t count, char **arguments) {
     cs_report_error("no memory to begin");
     return CS_EXIT_MEMORY;
   }
-  outcome = verb->run(context, &request);
+  outcome = cs_confine_pictures(context, &request);
+  if (outcome == CS_EXIT_OK)
+    outcome = verb->run(context, &request);
   celspan_context_destroy(context);
+  cs_pictures_finish();
   return outcome;
 }
 
@@ -235,6 +241,8 @@ int main(int count, char **arguments) {
     return CS_EXIT_INTERNAL;
   /* Numbers are read and printed in the C locale by this thread, whatever a script may set. */
   uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+  if (cs_keeper_is_meant(count, arguments))
+    cs_keeper_run(count, arguments);
   cs_interrupt_install();
   cs_exit outcome = dispatch(count, arguments);
   outcome = cs_report_close_output(outcome);

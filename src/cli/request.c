@@ -179,16 +179,28 @@ static const option OPTIONS[] = {
     {"--deep", NULL, NULL, CS_VERB_CHECK, FIELD(is_deep), NULL,
      "read pictures whole, not only their headers"},
     {"--trust", NULL, NULL, CS_VERBS_WITH_SCRIPT, FIELD(trusts), NULL,
-     "give the script the whole of Lua: files, programs, no limits"},
+     "give the script the whole of Lua: files, programs, no limits; decode pictures in\n"
+     "                     this process, without limits"},
+    {"--trust", NULL, NULL, CS_VERBS_WITH_PICTURES, FIELD(trusts), NULL,
+     "decode pictures in this process, without limits"},
     {"--strict", NULL, NULL, CS_VERBS_WITH_SCRIPT, FIELD(is_strict), NULL,
      "confine the process too, by the kernel: no other files, programs or network"},
     {"--allow", "DIR", "the name of a folder", CS_VERBS_WITH_SCRIPT, FIELD(allowed),
      cs_argument_texts, "let the script read below this folder too; may be given several times"},
     {"--limit", "NAME=V",
-     "memory=SIZE, steps=N, time=SECONDS or print=SIZE, such as memory=512M,time=60; 0: no limit",
+     "memory=SIZE, steps=N, time=SECONDS, print=SIZE, picture-memory=SIZE or picture-time=SECONDS, "
+     "such as memory=512M,time=60; 0: no limit",
      CS_VERBS_WITH_SCRIPT, FIELD(limits), cs_argument_limits,
      "limits of the script: memory=512M, steps=2e9 (a frame), time=60 (seconds a call),\n"
-     "                     print=1M (a frame) are the defaults; several with commas; 0: none"},
+     "                     print=1M (a frame) are the defaults; of decoding a picture:\n"
+     "                     picture-memory=1G, picture-time=20 (seconds a part); several with\n"
+     "                     commas; 0: none"},
+    {"--limit", "NAME=V",
+     "picture-memory=SIZE or picture-time=SECONDS, such as picture-memory=1G,picture-time=20; 0: no "
+     "limit",
+     CS_VERBS_WITH_PICTURES, FIELD(limits), cs_argument_picture_limits,
+     "limits of decoding a picture: picture-memory=1G, picture-time=20 (seconds a part)\n"
+     "                     are the defaults; 0: none"},
     {"--memory", "MiB", "a whole number of MiB from 0 to 1048576", CS_VERB_RENDER | CS_VERB_SPANS | CS_VERB_FARM,
      FIELD(memory), cs_argument_memory,
      "pictures and defocused cels kept in memory; default: 768; 0: every frame is made\n"

@@ -93,7 +93,9 @@ typedef enum cs_verb_set {
   CS_VERB_FARM = 1 << 15,
   CS_VERB_RELIGHT = 1 << 16,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
-                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT | CS_VERB_FARM
+                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT | CS_VERB_FARM,
+  CS_VERBS_WITH_PICTURES = CS_VERB_CONVERT | CS_VERB_COMPARE | CS_VERB_TRACE | CS_VERB_TRACK |
+                           CS_VERB_RELIGHT
 } cs_verb_set;
 
 typedef struct cs_verb {

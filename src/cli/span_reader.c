@@ -71,9 +71,11 @@ static celspan_status report(const cs_span_reader *file, spanfile_status status,
 
 bool cs_span_reader_accepts(const char *path) {
   unsigned char start[SPANFILE_MAGIC_BYTES];
+  struct stat there;
   int descriptor = cs_open_to_read(path);
-  bool is_span = descriptor >= 0 && read_all(descriptor, 0, start, sizeof start) &&
-                 spanfile_is(start, sizeof start);
+  bool is_file = descriptor >= 0 && fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode);
+  bool is_span =
+      is_file && read_all(descriptor, 0, start, sizeof start) && spanfile_is(start, sizeof start);
   if (descriptor >= 0)
     close(descriptor);
   return is_span;

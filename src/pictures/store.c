@@ -88,6 +88,8 @@ static celspan_status get_store(celspan_context *context, cs_picture_store **out
 
 static celspan_status load_module(celspan_context *context, cs_picture_store *store,
                                   celspan_status failure) {
+  if (!store->module)
+    store->module = context->root->picture_module;
   if (store->module)
     return CELSPAN_OK;
   const void *table;

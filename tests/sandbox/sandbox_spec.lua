@@ -133,7 +133,7 @@ describe("the sandbox", function()
     end)
 
     it("for scripts alone", function()
-      for _, option in ipairs { "--trust", "--strict", "--allow .", "--limit time=1" } do
+      for _, option in ipairs { "--strict", "--allow .", "--limit time=1", "--limit picture-time=1,steps=9" } do
         refused(("info '%s/scripts/pictures/canal.png' %s"):format(os.getenv "PWD", option), "are for scripts")
       end
     end)

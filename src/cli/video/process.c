@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -12,11 +11,10 @@
 
 #include "cli/interrupt.h"
 #include "cli/progress.h"
+#include "cli/spawn.h"
 
 #define PIPE_BYTES (1 << 20)      /* as much as Linux lets anyone have */
 #define PAUSE_NANOSECONDS 2000000 /* between two questions whether the program has ended */
-
-extern char **environ;
 
 /* ---------------------------------------------------------------- last words */
 
@@ -62,45 +60,9 @@ static void join_lines(cs_process *process) {
 
 /* ---------------------------------------------------------------- starting */
 
-/* Signals are as a program expects them: this one ignores SIGPIPE and SIGXFSZ. */
-static int set_attributes(posix_spawnattr_t *attributes) {
-  sigset_t none, usual;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  sigaddset(&usual, SIGXFSZ);
-  posix_spawnattr_setsigmask(attributes, &none);
-  posix_spawnattr_setsigdefault(attributes, &usual);
-  posix_spawnattr_setpgroup(attributes, 0);
-  return posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
-                                                  POSIX_SPAWN_SETPGROUP);
-}
-
-static int set_files(posix_spawn_file_actions_t *files, int input, int words) {
-  int error = posix_spawn_file_actions_adddup2(files, input, STDIN_FILENO);
-  if (error == 0)
-    error = posix_spawn_file_actions_addopen(files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  return error ? error : posix_spawn_file_actions_adddup2(files, words, STDERR_FILENO);
-}
-
 static int spawn(cs_process *process, const char *const *arguments, int input, int words) {
-  posix_spawnattr_t attributes;
-  posix_spawn_file_actions_t files;
-  int error = posix_spawnattr_init(&attributes);
-  if (error)
-    return error;
-  error = posix_spawn_file_actions_init(&files);
-  if (error == 0) {
-    error = set_attributes(&attributes);
-    if (error == 0)
-      error = set_files(&files, input, words);
-    if (error == 0)
-      error = posix_spawnp(&process->id, arguments[0], &files, &attributes,
-                           (char *const *)arguments, environ);
-    posix_spawn_file_actions_destroy(&files);
-  }
-  posix_spawnattr_destroy(&attributes);
-  return error;
+  const int files[] = {input, CS_SPAWN_NULL, words};
+  return cs_spawn(&process->id, NULL, arguments, files, 3);
 }
 
 static void close_both(const int ends[2]) {

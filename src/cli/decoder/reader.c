@@ -1,0 +1,320 @@
+#include "cli/decoder/reader.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/decoder/decoder.h"
+#include "cli/decoder/refusal.h"
+
+#define PIXEL (4 * sizeof(float))
+#define KEPT ((size_t)8 << 20) /* bytes of shared memory that a decoder keeps from read to read */
+
+struct cs_picture_reader {
+  char *file, *layer, *space; /* layer and space: may be NULL */
+  int subimage;
+  cs_refusal_key key;  /* of the file that was opened */
+  cs_decoder *decoder; /* NULL: none; it may have ended */
+  uint32_t number;     /* in the decoder */
+};
+
+/* ---------------------------------------------------------------- failures */
+
+static celspan_status fail(const cs_picture_reader *reader, celspan_status status, const char *text,
+                           cs_picture_failure *failure) {
+  return cs_decoder_fail(failure, status, reader->file, text);
+}
+
+/* The decoder's outcome as the picture's. *is_worn: it ran out of memory, but had served others
+ * before, and was ended: another one may have room. The decoder is locked. */
+static celspan_status judge(const cs_picture_reader *reader, cs_decoder_outcome outcome,
+                            const cs_message *answer, bool *is_worn, cs_picture_failure *failure) {
+  cs_picture_failure reason;
+  bool has_answered = outcome == CS_DECODER_ANSWERED;
+  *is_worn = false;
+  if (has_answered && answer->status == CELSPAN_OK)
+    return CELSPAN_OK;
+  if (has_answered && answer->status != CELSPAN_NO_MEMORY)
+    return fail(reader, (celspan_status)answer->status, answer->text, failure);
+  *is_worn = has_answered && cs_decoder_retire(reader->decoder);
+  celspan_status status = cs_decoder_explain(reader->decoder, outcome, CELSPAN_INPUT, &reason);
+  if (!has_answered && outcome != CS_DECODER_STOPPED)
+    cs_refusal_add(&reader->key, &reason);
+  return fail(reader, status, reason.text, failure);
+}
+
+/* ---------------------------------------------------------------- in a decoder */
+
+/* A decoder that has not ended, locked. */
+static celspan_status take(cs_picture_reader *reader, bool is_fresh, cs_picture_failure *failure) {
+  cs_picture_failure reason;
+  for (;;) {
+    celspan_status status = cs_decoder_take(false, is_fresh, &reader->decoder, &reason);
+    if (status != CELSPAN_OK)
+      return fail(reader, status, reason.text, failure);
+    cs_decoder_lock(reader->decoder);
+    if (reader->decoder->socket >= 0)
+      return CELSPAN_OK;
+    cs_decoder_unlock(reader->decoder);
+    cs_decoder_leave(reader->decoder);
+  }
+}
+
+static void leave(cs_picture_reader *reader) {
+  cs_decoder_unlock(reader->decoder);
+  cs_decoder_leave(reader->decoder);
+  reader->decoder = NULL;
+}
+
+static celspan_status ask_to_open(cs_picture_reader *reader, int descriptor,
+                                  cs_picture_header *header, bool *is_worn,
+                                  cs_picture_failure *failure) {
+  const char *const texts[] = {reader->layer, reader->space};
+  cs_message message = {.kind = CS_MESSAGE_OPEN,
+                        .open = {.subimage = reader->subimage,
+                                 .has_layer = reader->layer != NULL,
+                                 .has_space = reader->space != NULL}};
+  *is_worn = false;
+  if (!cs_decoder_put_texts(reader->decoder, texts, 2))
+    return fail(reader, CELSPAN_BAD_ARGUMENT, "the name of its layer is too long", failure);
+  cs_decoder_outcome outcome =
+      cs_decoder_ask(reader->decoder, &(cs_decoder_request){&message, descriptor, NULL, NULL});
+  if (outcome == CS_DECODER_ANSWERED && message.status == CELSPAN_OK &&
+      !cs_message_header_of(&message, header)) {
+    cs_decoder_end(reader->decoder);
+    outcome = CS_DECODER_ASTRAY;
+  }
+  reader->number = message.number;
+  return judge(reader, outcome, &message, is_worn, failure);
+}
+
+/* Opens the file in a decoder, and in a fresh one where another had no room; leaves it locked. */
+static celspan_status attach(cs_picture_reader *reader, int descriptor, bool is_fresh,
+                             cs_picture_header *header, cs_picture_failure *failure) {
+  bool is_worn = false;
+  celspan_status status = CELSPAN_OK;
+  do {
+    status = take(reader, is_fresh || is_worn, failure);
+    if (status != CELSPAN_OK)
+      break;
+    status = ask_to_open(reader, descriptor, header, &is_worn, failure);
+    if (status != CELSPAN_OK)
+      leave(reader);
+  } while (is_worn);
+  if (status != CELSPAN_OK)
+    reader->decoder = NULL;
+  return status;
+}
+
+/* ---------------------------------------------------------------- opening */
+
+static char *copy_text(const char *text, bool *is_good) {
+  char *copy = text ? strdup(text) : NULL;
+  *is_good = *is_good && (copy || !text);
+  return copy;
+}
+
+static void destroy(cs_picture_reader *reader) {
+  free(reader->file);
+  free(reader->layer);
+  free(reader->space);
+  free(reader);
+}
+
+static cs_picture_reader *create(const cs_picture_request *request) {
+  cs_picture_reader *reader = calloc(1, sizeof *reader);
+  bool is_good = true;
+  if (!reader)
+    return NULL;
+  reader->file = copy_text(request->file, &is_good);
+  reader->layer = copy_text(request->layer, &is_good);
+  reader->space = copy_text(request->space, &is_good);
+  reader->subimage = request->subimage;
+  if (is_good)
+    return reader;
+  destroy(reader);
+  return NULL;
+}
+
+/* The file's descriptor; -1: failed. NONBLOCK: opening a pipe that nobody writes to must not wait.
+ * What is no file the module refuses. */
+static int open_file(cs_picture_reader *reader, cs_refusal_key *key, celspan_status *status,
+                     cs_picture_failure *failure) {
+  struct stat found;
+  char text[256];
+  int descriptor = open(reader->file, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor >= 0 && fstat(descriptor, &found) == 0) {
+    *key = cs_refusal_key_of(&found);
+    return descriptor;
+  }
+  snprintf(text, sizeof text, "cannot be opened: %s", strerror(errno));
+  if (descriptor >= 0)
+    close(descriptor);
+  *status = fail(reader, CELSPAN_INPUT, text, failure);
+  return -1;
+}
+
+static celspan_status open_first(cs_picture_reader *reader, cs_picture_header *header,
+                                 cs_picture_failure *failure) {
+  celspan_status status = CELSPAN_OK;
+  cs_picture_failure reason;
+  int descriptor = open_file(reader, &reader->key, &status, failure);
+  if (descriptor < 0)
+    return status;
+  if (cs_refusal_find(&reader->key, &reason)) {
+    status = fail(reader, reason.status, reason.text, failure);
+  } else {
+    status = attach(reader, descriptor, false, header, failure);
+    if (status == CELSPAN_OK)
+      cs_decoder_unlock(reader->decoder);
+  }
+  close(descriptor);
+  return status;
+}
+
+celspan_status cs_reader_open(const cs_picture_request *request, cs_picture_reader **out,
+                              cs_picture_header *header, cs_picture_failure *failure) {
+  cs_picture_reader *reader = create(request);
+  if (!reader)
+    return cs_decoder_fail(failure, CELSPAN_NO_MEMORY, request->file, "out of memory");
+  celspan_status status = open_first(reader, header, failure);
+  if (status == CELSPAN_OK)
+    *out = reader;
+  else
+    destroy(reader);
+  return status;
+}
+
+void cs_reader_close(cs_picture_reader *reader) {
+  const cs_message message = {.kind = CS_MESSAGE_CLOSE, .number = reader->number};
+  if (reader->decoder) {
+    cs_decoder_lock(reader->decoder);
+    /* One that does not take it has died, which the next question to it tells. */
+    if (reader->decoder->socket >= 0)
+      (void)!cs_message_send(reader->decoder->socket, &message, -1);
+    leave(reader);
+  }
+  destroy(reader);
+}
+
+/* ---------------------------------------------------------------- opening again */
+
+static celspan_status fail_changed(const cs_picture_reader *reader, cs_picture_failure *failure) {
+  return fail(reader, CELSPAN_INPUT, "changed while it was in use", failure);
+}
+
+static celspan_status open_again(cs_picture_reader *reader, bool is_fresh,
+                                 cs_picture_failure *failure) {
+  cs_picture_header header;
+  cs_refusal_key key;
+  cs_picture_failure reason;
+  celspan_status status = CELSPAN_OK;
+  int descriptor = open_file(reader, &key, &status, failure);
+  if (descriptor < 0)
+    return status;
+  if (!cs_refusal_is_same(&key, &reader->key))
+    status = fail_changed(reader, failure);
+  else if (cs_refusal_find(&key, &reason))
+    status = fail(reader, reason.status, reason.text, failure);
+  else
+    status = attach(reader, descriptor, is_fresh, &header, failure);
+  close(descriptor);
+  return status;
+}
+
+/* Leaves a decoder that has the picture open locked. */
+static celspan_status return_to_decoder(cs_picture_reader *reader, bool is_fresh,
+                                        cs_picture_failure *failure) {
+  struct stat found;
+  if (stat(reader->file, &found) != 0)
+    return fail_changed(reader, failure);
+  const cs_refusal_key key = cs_refusal_key_of(&found);
+  if (!cs_refusal_is_same(&key, &reader->key))
+    return fail_changed(reader, failure);
+  if (reader->decoder) {
+    cs_decoder_lock(reader->decoder);
+    if (reader->decoder->socket >= 0)
+      return CELSPAN_OK;
+    leave(reader);
+  }
+  return open_again(reader, is_fresh, failure);
+}
+
+/* ---------------------------------------------------------------- reading */
+
+static celspan_status read_once(cs_picture_reader *reader, const celspan_rectangle *at, float *rgba,
+                                bool *is_worn, cs_picture_failure *failure) {
+  cs_message message = {.kind = CS_MESSAGE_READ, .number = reader->number, .rectangle = *at};
+  size_t size = (size_t)at->width * (size_t)at->height * PIXEL;
+  cs_decoder *decoder = reader->decoder;
+  cs_decoder_outcome outcome =
+      cs_decoder_ask(decoder, &(cs_decoder_request){&message, -1, NULL, NULL});
+  celspan_status status = judge(reader, outcome, &message, is_worn, failure);
+  if (status == CELSPAN_OK)
+    memcpy(rgba, decoder->shared, size);
+  if (size > KEPT)
+    madvise(decoder->shared, CS_SHARED, MADV_REMOVE);
+  cs_decoder_unlock(decoder);
+  return status;
+}
+
+static celspan_status read_rows(cs_picture_reader *reader, const celspan_rectangle *at, float *rgba,
+                                cs_picture_failure *failure) {
+  bool is_worn = false;
+  celspan_status status;
+  do {
+    status = return_to_decoder(reader, is_worn, failure);
+    if (status == CELSPAN_OK)
+      status = read_once(reader, at, rgba, &is_worn, failure);
+    else
+      is_worn = false;
+  } while (is_worn);
+  return status;
+}
+
+celspan_status cs_reader_read(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
+                              int32_t height, float *rgba, cs_picture_failure *failure) {
+  size_t row = (size_t)width * PIXEL;
+  int32_t most = (int32_t)(CS_SHARED / row); /* of the longest row there are 4 */
+  celspan_status status = CELSPAN_OK;
+  for (int32_t done = 0; done < height && status == CELSPAN_OK; done += most) {
+    const celspan_rectangle part = {x, y + done, width,
+                                    height - done < most ? height - done : most};
+    status = read_rows(reader, &part, rgba + (size_t)done * 4 * (size_t)width, failure);
+  }
+  return status;
+}
+
+/* ---------------------------------------------------------------- listing */
+
+typedef struct listener {
+  bool (*put)(void *user, const cs_picture_part *part);
+  void *user;
+} listener;
+
+static bool put_part(void *user, const cs_message *message) {
+  const listener *to = user;
+  const cs_picture_part part = cs_message_part_of(message);
+  return message->kind == CS_MESSAGE_PART && to->put(to->user, &part);
+}
+
+celspan_status cs_reader_list(cs_picture_reader *reader,
+                              bool (*put)(void *user, const cs_picture_part *part), void *user,
+                              cs_picture_failure *failure) {
+  listener to = {put, user};
+  bool is_worn;
+  celspan_status status = return_to_decoder(reader, false, failure);
+  if (status != CELSPAN_OK)
+    return status;
+  cs_message message = {.kind = CS_MESSAGE_LIST, .number = reader->number};
+  cs_decoder_outcome outcome =
+      cs_decoder_ask(reader->decoder, &(cs_decoder_request){&message, -1, put_part, &to});
+  status = judge(reader, outcome, &message, &is_worn, failure);
+  cs_decoder_unlock(reader->decoder);
+  return status;
+}

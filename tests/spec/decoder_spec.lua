@@ -1,0 +1,199 @@
+-- Pictures are decoded by processes of their own: what a picture does to its decoder is an error that
+-- names the picture, soon and within limits, and nothing is left behind.
+local workbench = require "tests.support.workbench"
+
+local FAULTY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/faulty.so"
+if FAULTY:sub(1, 1) ~= "/" then FAULTY = os.getenv "PWD" .. "/" .. FAULTY end
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+--- Programs with a sanitizer have limits of memory of their own, and are many times slower.
+local is_slow = os.execute("grep -qaE '__(asan|tsan)_init' '" .. workbench.binary .. "'") == true
+-- A search for leaks looks into the process from another one, which --strict does not let it.
+local OPTIONS = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0"
+
+--- Runs celspan with the faulty module, in the folder of the bench.
+local function faulty(arguments)
+  return bench:shell(("cd '%s' && %s CELSPAN_PICTURE_MODULE='%s' '%s' %s")
+    :format(bench.folder, OPTIONS, FAULTY, workbench.absolute, arguments))
+end
+
+local function seconds(work)
+  local function now() return tonumber((assert(io.open "/proc/uptime"):read "n")) end
+  local start = now()
+  work()
+  return now() - start
+end
+
+--- The names, sorted.
+local function sorted(...)
+  local names = { ... }
+  table.sort(names)
+  return names
+end
+
+--- A file that is taken for a picture.
+local function write_picture(name) bench:write(name, "\x89PNG\r\n\x1a\n" .. name) end
+
+--- A film whose frames show the pictures of these names, each its own.
+local function film(names)
+  for _, name in ipairs(names) do write_picture(name) end
+  bench:write("film.lua", ([[local celspan = require "celspan"
+local names = { "%s" }
+return celspan.film { size = { 8, 8 }, frames = #names, frame = function(f)
+  return celspan.rostrum { celspan.cel { celspan.image { file = names[f.number] } } } end }]])
+    :format(table.concat(names, '", "')))
+end
+
+local function fails(code, pattern, arguments)
+  local got, _, err = faulty(arguments)
+  assert.are.equal(code, got, err)
+  assert.truthy(err:find(pattern), err)
+  assert.are.equal("", (select(2, bench:shell "pgrep -x celspan-decoder -P 1")))
+end
+
+describe("a picture that", function()
+  local ends = {
+    { "crash", 4, "it ended its decoder" }, { "abort", 4, "it ended its decoder" },
+    { "leave", 4, "it ended its decoder with exit code 3" },
+    { "hang", 6, "more than 0.3 seconds.*picture%-time" },
+  }
+  if not is_slow then
+    ends[#ends + 1] = { "eat", 33, "more than 64 MiB.*picture%-memory" }
+    ends[#ends + 1] = { "choke", 33, "more than 64 MiB.*picture%-memory" }
+  end
+  for _, one in ipairs(ends) do
+    for _, when in ipairs { "", "open-" } do
+      it("does " .. when .. one[1] .. " is an error that names it", function()
+        local name = when .. one[1] .. ".png"
+        film { name }
+        local limits = "--limit picture-memory=64M,picture-time=" .. (one[1] == "hang" and "0.3" or "30")
+        fails(one[2], name:gsub("%p", "%%%0") .. ": .*" .. one[3], "render film.lua --hash --progress none " .. limits)
+        assert.are.same(sorted(name, "film.lua", "stderr", "stdout"), sorted(table.unpack(bench:files())))
+      end)
+    end
+  end
+
+  it("has a header that no picture has is an error that names it", function()
+    film { "lie.png" }
+    fails(4, "lie%.png: its decoder answered what cannot be", "info lie.png")
+  end)
+
+  it("ended a decoder is refused afterwards without another try; others have a new decoder", function()
+    film { "hang.png", "good.png", "hang.png", "better.png", "hang.png", "hang.png" }
+    local took = seconds(function()
+      fails(1, "hang%.png: .*more than 1 seconds",
+        "render film.lua -o out/#.png --progress none --keep-going --workers 1 --limit picture-time=1")
+    end)
+    assert.are.same({ "2.png", "4.png" }, bench:files "out")
+    assert.is_true(took < (is_slow and 12 or 3), took .. " s")
+  end)
+
+  it("was open in a decoder that another one ended is opened again", function()
+    bench:write("both.lua", [[local celspan = require "celspan"
+return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
+  if f.number == 2 then return celspan.rostrum { celspan.cel { celspan.image { file = "crash.png" } } } end
+  return celspan.rostrum { celspan.cel { celspan.image { file = "good.png" } } } end }]])
+    write_picture "good.png"
+    write_picture "crash.png"
+    fails(1, "frame 2.*crash%.png", "render both.lua -o out/#.png --progress none --keep-going --workers 1")
+    assert.are.same({ "1.png" }, bench:files "out")
+  end)
+
+  if not is_slow then
+    it("has no room beside others gets a decoder of its own", function()
+      film { "keep-1.png", "keep-2.png", "keep-3.png" }
+      assert.are.equal(0, (faulty "render film.lua --hash --workers 1 --progress none --limit picture-memory=64M"))
+    end)
+  end
+end)
+
+describe("a decoder", function()
+  it("is not started where --trust is given", function()
+    film { "crash.png" }
+    local code = faulty "render film.lua --hash --progress none --trust"
+    assert.is_true(code == 139 or is_slow and code == 1, code)
+  end)
+
+  it("is confined with --strict, and reads below the script's folder", function()
+    film { "good.png" }
+    local code, _, err = faulty "render film.lua --hash --progress none --strict"
+    if code == 6 and err:find "the kernel" then return pending(err) end
+    assert.are.equal(0, code, err)
+    film { "crash.png" }
+    fails(4, "crash%.png: it ended its decoder", "render film.lua --hash --progress none --strict")
+  end)
+
+  it("that ends in writing leaves no file", function()
+    film { "good.png" }
+    for name, code in pairs { ["crash.tif"] = 5, ["abort.exr"] = 5 } do
+      fails(code, name:gsub("%p", "%%%0") .. ": writing it ended its decoder",
+        "render film.lua --progress none --frames 1 -o out/" .. name)
+      assert.are.same({}, bench:files "out")
+    end
+  end)
+
+  it("ends with the program, however that ends", function()
+    film { "hang.png" }
+    for _, signal in ipairs { "TERM", "KILL" } do
+      local code = bench:shell(([[cd '%s' && CELSPAN_PICTURE_MODULE='%s' '%s' render film.lua --hash --progress none &
+        pid=$!; for i in $(seq 100); do keeper=$(pgrep -P $pid); [ -n "$keeper" ] && one=$(pgrep -P $keeper) && break
+        sleep 0.05; done; [ -n "$one" ] || exit 99; kill -%s $pid; wait $pid; sleep %g
+        grep -q '^State:.[^Z]' /proc/$keeper/status 2>/dev/null && exit 98
+        grep -q '^State:.[^Z]' /proc/$one/status 2>/dev/null && exit 97; exit 0]])
+        :format(bench.folder, FAULTY, workbench.absolute, signal, is_slow and 3 or 0.5))
+      assert.are.equal(0, code, signal)
+    end
+  end)
+
+  it("that is killed from outside is an error, and no more", function()
+    film { "hang.png" }
+    local code = bench:shell(([[cd '%s' && CELSPAN_PICTURE_MODULE='%s' '%s' render film.lua --hash --progress none &
+      pid=$!; for i in $(seq 100); do keeper=$(pgrep -P $pid); [ -n "$keeper" ] && break; sleep 0.05; done
+      sleep 0.5; kill -KILL $keeper; wait $pid]]):format(bench.folder, FAULTY, workbench.absolute))
+    assert.are.equal(33, code)
+    assert.truthy(bench:read("stderr"):find("hang.png: the decoder of pictures was ended", 1, true))
+  end)
+
+  it("leaves descriptors as they are", function()
+    film { "good.png", "better.png", "best.png" }
+    local code, out, err = bench:shell(([[cd '%s' && CELSPAN_PICTURE_MODULE='%s' sh -c
+      'exec "%s" render film.lua -o out/#.png --progress none <&- >&- 2>&-'; ls out | wc -l]])
+      :gsub("\n%s*", " "):format(bench.folder, FAULTY, workbench.absolute))
+    assert.are.equal(0, code, err)
+    assert.are.equal("3\n", out)
+  end)
+end)
+
+describe("what is no picture", function()
+  it("is an error at once", function()
+    bench:shell(("mkfifo '%s/pipe.png'; mkdir '%s/folder.png'"):format(bench.folder, bench.folder))
+    for _, name in ipairs { "pipe.png", "folder.png", "/dev/zero", "/dev/null" } do
+      local code, _, err
+      local took = seconds(function()
+        code, _, err = bench:shell(("cd '%s' && '%s' convert %s x.png"):format(bench.folder, workbench.absolute, name))
+      end)
+      if err:find "built without OpenImageIO" then return pending "there is no picture module" end
+      assert.are.equal(4, code, err)
+      assert.truthy(err:find(name .. ": is not a file; a picture must be one", 1, true), err)
+      assert.is_true(took < (is_slow and 20 or 5), name)
+    end
+    fails(4, "none%.png: cannot be opened: No such file", "convert none.png x.png")
+  end)
+end)
+
+describe("the limits of decoding", function()
+  it("are checked numbers", function()
+    film { "good.png" }
+    for _, bad in ipairs { "picture-memory=x", "picture-memory=-1", "picture-time=2e6", "picture-time=1K", "picture=1" } do
+      fails(2, "%-%-limit: '" .. bad:gsub("%p", "%%%0") .. "' is not", "info film.lua --limit " .. bad)
+      fails(2, "%-%-limit: '" .. bad:gsub("%p", "%%%0") .. "' is not", "convert good.png x.png --limit " .. bad)
+    end
+    fails(2, "%-%-limit: 'time=1' is not", "convert good.png x.png --limit time=1")
+    fails(2, "leave %-%-limit picture%-time out", "convert good.png x.png --trust --limit picture-time=1")
+    assert.are.equal(0, (faulty "info good.png --limit picture-memory=0,picture-time=0"))
+  end)
+end)
