@@ -78,10 +78,10 @@ static celspan_status make_surface(celspan_context *context, const cs_unlit *unl
 static celspan_picture_desc desc_like(const celspan_texture *like) {
   celspan_picture_desc desc = {0};
   if (like) {
-    desc.sampling = like->sampling;
-    desc.wrap = like->wrap;
-    desc.has_box = like->has_box;
-    desc.box = like->box;
+    desc.sampling = like->variation->sampling;
+    desc.wrap = like->variation->wrap;
+    desc.has_box = like->variation->has_box;
+    desc.box = like->variation->box;
   }
   return desc;
 }

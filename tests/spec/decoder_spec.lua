@@ -2,8 +2,8 @@
 -- names the picture, soon and within limits, and nothing is left behind.
 local workbench = require "tests.support.workbench"
 
-local FAULTY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/faulty.so"
-if FAULTY:sub(1, 1) ~= "/" then FAULTY = os.getenv "PWD" .. "/" .. FAULTY end
+local HOSTILE = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/hostile_module.so"
+if HOSTILE:sub(1, 1) ~= "/" then HOSTILE = os.getenv "PWD" .. "/" .. HOSTILE end
 
 local bench
 
@@ -15,10 +15,10 @@ local is_slow = os.execute("grep -qaE '__(asan|tsan)_init' '" .. workbench.binar
 -- A search for leaks looks into the process from another one, which --strict does not let it.
 local OPTIONS = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0"
 
---- Runs celspan with the faulty module, in the folder of the bench.
-local function faulty(arguments)
+--- Runs celspan with the hostile module, in the folder of the bench.
+local function with_hostile(arguments)
   return bench:shell(("cd '%s' && %s CELSPAN_PICTURE_MODULE='%s' '%s' %s")
-    :format(bench.folder, OPTIONS, FAULTY, workbench.absolute, arguments))
+    :format(bench.folder, OPTIONS, HOSTILE, workbench.absolute, arguments))
 end
 
 local function seconds(work)
@@ -49,7 +49,7 @@ return celspan.film { size = { 8, 8 }, frames = #names, frame = function(f)
 end
 
 local function fails(code, pattern, arguments)
-  local got, _, err = faulty(arguments)
+  local got, _, err = with_hostile(arguments)
   assert.are.equal(code, got, err)
   assert.truthy(err:find(pattern), err)
   assert.are.equal("", (select(2, bench:shell "pgrep -x celspan-decoder -P 1")))
@@ -106,7 +106,7 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
   if not is_slow then
     it("has no room beside others gets a decoder of its own", function()
       film { "keep-1.png", "keep-2.png", "keep-3.png" }
-      assert.are.equal(0, (faulty "render film.lua --hash --workers 1 --progress none --limit picture-memory=64M"))
+      assert.are.equal(0, (with_hostile "render film.lua --hash --workers 1 --progress none --limit picture-memory=64M"))
     end)
   end
 end)
@@ -114,13 +114,13 @@ end)
 describe("a decoder", function()
   it("is not started where --trust is given", function()
     film { "crash.png" }
-    local code = faulty "render film.lua --hash --progress none --trust"
+    local code = with_hostile "render film.lua --hash --progress none --trust"
     assert.is_true(code == 139 or is_slow and code == 1, code)
   end)
 
   it("is confined with --strict, and reads below the script's folder", function()
     film { "good.png" }
-    local code, _, err = faulty "render film.lua --hash --progress none --strict"
+    local code, _, err = with_hostile "render film.lua --hash --progress none --strict"
     if code == 6 and err:find "the kernel" then return pending(err) end
     assert.are.equal(0, code, err)
     film { "crash.png" }
@@ -144,7 +144,7 @@ describe("a decoder", function()
         sleep 0.05; done; [ -n "$one" ] || exit 99; kill -%s $pid; wait $pid; sleep %g
         grep -q '^State:.[^Z]' /proc/$keeper/status 2>/dev/null && exit 98
         grep -q '^State:.[^Z]' /proc/$one/status 2>/dev/null && exit 97; exit 0]])
-        :format(bench.folder, FAULTY, workbench.absolute, signal, is_slow and 3 or 0.5))
+        :format(bench.folder, HOSTILE, workbench.absolute, signal, is_slow and 3 or 0.5))
       assert.are.equal(0, code, signal)
     end
   end)
@@ -153,7 +153,7 @@ describe("a decoder", function()
     film { "hang.png" }
     local code = bench:shell(([[cd '%s' && CELSPAN_PICTURE_MODULE='%s' '%s' render film.lua --hash --progress none &
       pid=$!; for i in $(seq 100); do keeper=$(pgrep -P $pid); [ -n "$keeper" ] && break; sleep 0.05; done
-      sleep 0.5; kill -KILL $keeper; wait $pid]]):format(bench.folder, FAULTY, workbench.absolute))
+      sleep 0.5; kill -KILL $keeper; wait $pid]]):format(bench.folder, HOSTILE, workbench.absolute))
     assert.are.equal(33, code)
     assert.truthy(bench:read("stderr"):find("hang.png: the decoder of pictures was ended", 1, true))
   end)
@@ -162,7 +162,7 @@ describe("a decoder", function()
     film { "good.png", "better.png", "best.png" }
     local code, out, err = bench:shell(([[cd '%s' && CELSPAN_PICTURE_MODULE='%s' sh -c
       'exec "%s" render film.lua -o out/#.png --progress none <&- >&- 2>&-'; ls out | wc -l]])
-      :gsub("\n%s*", " "):format(bench.folder, FAULTY, workbench.absolute))
+      :gsub("\n%s*", " "):format(bench.folder, HOSTILE, workbench.absolute))
     assert.are.equal(0, code, err)
     assert.are.equal("3\n", out)
   end)
@@ -194,6 +194,6 @@ describe("the limits of decoding", function()
     end
     fails(2, "%-%-limit: 'time=1' is not", "convert good.png x.png --limit time=1")
     fails(2, "leave %-%-limit picture%-time out", "convert good.png x.png --trust --limit picture-time=1")
-    assert.are.equal(0, (faulty "info good.png --limit picture-memory=0,picture-time=0"))
+    assert.are.equal(0, (with_hostile "info good.png --limit picture-memory=0,picture-time=0"))
   end)
 end)
