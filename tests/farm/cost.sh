@@ -4,7 +4,8 @@
 #   tests/farm/cost.sh [SCRIPT [SIZE]]     scripts/demo.lua 1920x1080
 #
 # Printed are: the program alone; a task without frames, which has read the script; a frame, written and
-# recorded; and a frame that an earlier run has left.
+# recorded; a frame that an earlier run has left; and a frame of 50,000 x 50,000 whole, as 16 strips
+# together, and their join.
 set -eu -o pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 script=${1:-$root/scripts/demo.lua}
@@ -34,7 +35,17 @@ start=$(cost "$runs" "$celspan" --version)
 empty=$(cost "$runs" task --frames 1 --task 1/2)
 made=$(cost 2 frames)
 kept=$(cost "$runs" resumed)
+large() { "$celspan" render "$script" --frames 1 --size 50000x50000 --workers 1 "$@"; }
+in_strips() { for ((n = 1; n <= 16; n++)); do large --strip "$n/16" -o "$work/strips/$n.png"; done; }
+join() { "$celspan" join "$work/strips/#.png" -o "$work/joined.png"; }
+
+whole=$(cost 1 large -o "$work/whole.png")
+strips=$(cost 1 in_strips)
+joined=$(cost 1 join)
 tell "the program" "$start"
 tell "and the script ($(basename "$script"))" "$empty"
 tell "a frame of $size, made" "$(awk "BEGIN { printf \"%.2f\", ($made - $empty) / $many }")"
 tell "a frame of $size, kept by --resume" "$(awk "BEGIN { printf \"%.2f\", ($kept - $empty) / $many }")"
+tell "a frame of 50000x50000, whole" "$whole"
+tell "the same as 16 strips together" "$strips"
+tell "and their join" "$joined"
