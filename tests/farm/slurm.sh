@@ -2,7 +2,8 @@
 # celspan farm on a Slurm of its own: an array of frames, of which one task is killed and put back into
 # the queue, and a large frame in strips, joined, that is the same as the one made whole.
 #
-#   tests/farm/slurm.sh [SIDE]       pixels of the large frame's side; 100000
+#   tests/farm/slurm.sh [SIDE]       pixels of the large frame's side; 100000. It is a span file; a PNG of
+#                                    a fifth of it is unpacked and compared
 #
 # Needs Debian's slurmctld, slurmd and munge, root (as in a container), and build/celspan, or what
 # CELSPAN names. Everything is in a temporary folder and on ports of its own; what is left of it is
@@ -153,9 +154,9 @@ array() {
   say "240 frames, the same as in one run; $(find 'logs of it' -name '*.log' | wc -l) logs"
 }
 
-# A frame of SIDE x SIDE in 16 strips, as a span file and as PNG.
+# A frame of so many pixels a side in 16 strips: strips ENDING SIDE.
 strips() {
-  local ending=$1 job jobs
+  local ending=$1 side=$2 job jobs
   say "a frame of $side x $side in 16 strips: $ending"
   "$celspan" farm film.lua -o "large.$ending" --frames 1 --size "${side}x$side" --slurm --strips 16 \
     --workers 1 >"strips.sh" || die "farm failed"
@@ -199,6 +200,6 @@ start
 cd "$work" || exit 1
 film
 array
-strips span
-strips png
+strips span "$side"
+strips png $((side / 5))
 say "all of it holds"
