@@ -55,6 +55,10 @@ local function numbers(text)
     if value > 0 then list.bound = ("%d%s"):format(value - 1, ending) end
     return list
   end
+  local hexadecimal, unsigned = text:match "^0[xX](%x+)([uUlL]*)$"
+  if hexadecimal then
+    return { constant = ("0x%x%s"):format(tonumber(hexadecimal, 16) + 1, unsigned) }
+  end
   local fraction, suffix = text:match "^([%d.eE+-]+)([fF]?)$"
   local value = tonumber(fraction)
   if not value then return {} end
