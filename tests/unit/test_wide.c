@@ -116,11 +116,12 @@ static void check_edges(cs_isa isa, test_random *random) {
 /* Where visible cells end under pixel centres, and the spans that are placed there. */
 static void check_centres(cs_isa isa, test_random *random) {
   double x[ROOM];
-  bool is_visible[ROOM] = {false}, is_full = true;
+  bool is_visible[ROOM], is_full = true;
   int32_t ends[ROOM + 1], last = 0;
   static celspan_span spans[ROOM + 1];
   size_t count = (size_t)random_below(random, MOST), found = 0, wrong = 0;
   fill_with_rubbish(x);
+  memset(is_visible, true, sizeof is_visible); /* beyond the count, too, where it must not tell */
   memset(spans, 1, sizeof spans);
   for (size_t i = 0; i < count; i++) {
     x[i] = random_below(random, 400) ? (WIDTH - 8) * (double)(i + 1) / MOST : random_x(random);
