@@ -167,7 +167,8 @@ function workshop:read_times(changed)
   for _, path in ipairs(changed) do
     local test = path:match "^%./tests/unit/test_([%w_]+)%.c$"
     local name = test and "unit/" .. test or path:match "^%./tests/([%w_/]+)_spec%.lua$"
-    if name then is_forgotten[name] = true elseif not path:find "^%./tests/mutate/" then return end
+    local is_read = not (path:find "^%./tests/mutate/" or path:find "%.md$")
+    if name then is_forgotten[name] = true elseif is_read then return end
   end
   for name, seconds in (read(FOLDER .. "/times") or ""):gmatch "(%S+) (%S+)\n" do
     if not is_forgotten[name] then self.times[name] = tonumber(seconds) end
