@@ -9,8 +9,9 @@ local relight = require "celspan.relight"
 local file, noon = ...
 local picture = file and celspan.picture { file = file } or photo.take()
 local bare = assert(relight.from { picture = picture, light = noon or file and "#fffaf0" or photo.light })
-local width, height = photo.width, photo.height
-if file then _, _, width, height = celspan.image { file = file }:bounds() end
+local frame = file and celspan.image { file = file }
+  or celspan.rect { 0, 0, photo.width, photo.height }
+local _, _, width, height = frame:bounds()
 
 --- The light of the sky, from the right, and that of the sun, from the left, by the share of the film:
 -- at noon both are white, in the evening the sun is red, and then only a blue sky is left.

@@ -75,6 +75,9 @@ describe("relight.stack", function()
               failures[#failures + 1] = ("CASE=%d %s lights, %.3g / 65535 at %s"):format(case, name,
                 worst * 65535, place)
             end
+            -- The usual tolerance: products of gradients are lines that are off by up to 1/1023.
+            assert.is_true(difference(assert(celspan.pixels(pair[2], options)),
+              assert(stack:light(pair[1]))) < 1 / 1023, "CASE=" .. case)
           end
         else
           assert.is_truthy(has_shape(message), message)
