@@ -5,6 +5,9 @@
 --   s:drawing("body", f, "drawings/body_####.png")     -- the picture of that drawing
 --
 -- Frames count from 1. A drawing holds until the next one. Layers are rearmost first.
+--
+-- One file, because asking a sheet, writing it and taking it from a film share how a drawing holds from
+-- mark to mark; each format has a file of its own.
 local celspan = require "celspan"
 local columns = require "celspan.columns"
 local core = require "celspan.core"

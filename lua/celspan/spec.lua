@@ -11,6 +11,9 @@
 -- The first word says what is asked about, the last one what is claimed; `is_not`, before either of
 -- them, negates. Words that luassert has for its own are no claims, so that a claim is never
 -- mistaken for a filling word that passes whatever it is given.
+--
+-- One file, because a claim is a line of a table: most of it is one list of claims, each with what it
+-- says when it fails, over a few ways to look at a frame that they share.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"

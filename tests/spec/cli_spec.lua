@@ -1,4 +1,5 @@
--- The command line: what it prints, where, and how it ends.
+-- The command line: what it prints, where, and how it ends. One file, because all verbs share options,
+-- codes and how they are told of; verbs with more to them than that have files of their own.
 
 local workbench = require "tests.support.workbench"
 

@@ -1,4 +1,5 @@
--- Layered paintings: what is in them, pixel by pixel, and what is refused.
+-- Layered paintings: what is in them, pixel by pixel, and what is refused. One file, because each of the
+-- formats is held against the same pictures.
 local celspan = require "celspan"
 local layers = require "celspan.layers"
 local merged = require "tests.support.merged"

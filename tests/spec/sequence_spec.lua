@@ -1,4 +1,5 @@
--- Sequences: frames by several workers, equal ones, failures, going on, and what is told of it all.
+-- Sequences: frames by several workers, equal ones, failures, going on, and what is told of it all. One
+-- file, because all of it is asked of the same film.
 local celspan = require "celspan"
 local json = require "celspan.json"
 local workbench = require "tests.support.workbench"

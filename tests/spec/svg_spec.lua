@@ -1,4 +1,5 @@
--- Drawings from SVG: what is drawn, parts by name, parts changed, what is refused and where.
+-- Drawings from SVG: what is drawn, parts by name, parts changed, what is refused and where. One file, a
+-- case for each element and attribute, because they are all compared in one way.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local raised = require "tests.support.raised"

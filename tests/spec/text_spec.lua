@@ -1,5 +1,6 @@
 -- Text: what is written, where it lies, what it is as a primitive, and what is refused. The font is
--- one of our own, drawn by tests/support/block.lua, so that these run everywhere.
+-- one of our own, drawn by tests/support/block.lua, so that these run everywhere. One file, because what
+-- is written and where it lies is told by the same few letters.
 local celspan = require "celspan"
 local block = require "tests.support.block"
 local truetype = require "tests.support.truetype"

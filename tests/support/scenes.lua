@@ -4,6 +4,8 @@
 --
 -- traits: width, height (of the film), size (in pixels), is_curved (edges that are flattened),
 -- light (the brightest that can leave the frame), has_rows (scan-line primitives: placed upright).
+--
+-- One file, because every kind of thing is made of every other, and all draw from one row of numbers.
 local prng = require "tests.support.prng"
 
 local scenes = {}

@@ -1,5 +1,6 @@
 /* Boundaries against the half-open rule, reversed copies, their own walks, the true curve, exact
- * conics and exact insides. Random cases are numbered by their seed.
+ * conics and exact insides. Random cases are numbered by their seed. One file, because all are asked
+ * of the same boundaries.
  */
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Pictures out and in: what is written is read back as light, and broken files are refused.
- */
+ * One file, because formats differ in little: what is painted, written and read back is shared. */
 #include <pthread.h>
 #include <sys/stat.h>
 

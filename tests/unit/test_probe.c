@@ -1,4 +1,5 @@
-/* The oracle against values worked out by hand. The film is 100 x 50 units. */
+/* The oracle against values worked out by hand. The film is 100 x 50 units. One list of cases, each of
+ * which stands alone. */
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 

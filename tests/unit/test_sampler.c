@@ -1,5 +1,5 @@
 /* Pictures along rows: exact where they must be, the mean where they shrink, brute force elsewhere.
- */
+ * One file, because every way of sampling is held against the same sums. */
 #include "colour/srgb8.h"
 #include "sample/sampler.h"
 #include "sample/sampler_codes.h"

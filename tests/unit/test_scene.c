@@ -1,5 +1,5 @@
 /* Scene values: which descriptions are refused with which sentence, bounds, hashes, limits, counts,
- * and that a failed allocation leaves nothing behind.
+ * and that a failed allocation leaves nothing behind. One list of cases, as long as there are fields.
  */
 #include "scene/scene.h"
 

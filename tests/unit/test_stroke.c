@@ -2,6 +2,7 @@
  *
  * CELSPAN_STROKES=n tries n strokes instead of 400; CASE=n tries that one alone. Each is seen at 1,024
  * and at 1,048,576 pixels a side, at POINTS points each: half of them anywhere, half near an edge.
+ * One file, because lines, joins, caps, dashes and tapers are drawn by one lot and judged by one rule.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 /* Surfaces: pictures in memory equal the same pictures in files to the bit, and functions that fill
- * rectangles are asked for what is seen, by the right threads, and may fail. */
+ * rectangles are asked for what is seen, by the right threads, and may fail. One file, because both
+ * kinds are held against the same pictures. */
 #include <pthread.h>
 
 #include "pictures/surface.h"

@@ -26,6 +26,9 @@
  *
  * Threads: a context belongs to one thread at a time. Scene values are immutable and counted
  * atomically: they may be shared by all threads ("shared read").
+ *
+ * One file, because it is the manual too: read from top to bottom it goes from values to frames, and
+ * no part of it can be used without the one before.
  */
 #ifndef CELSPAN_H
 #define CELSPAN_H
