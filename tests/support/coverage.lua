@@ -1,0 +1,103 @@
+-- Which lines and branches of src/ were run, of a build with -Db_coverage=true: file by file, the least
+-- covered first, and of all together.
+--
+--   build/tests/lua_host tests/support/coverage.lua BUILD     celspan.json comes with the module
+--
+--      lines        branches           handing on
+--     1180  95.1%    642  91.3%    55/ 60  91.7%   src/...
+--
+-- Branches are those of conditions in C; those that C++ makes of what may throw are left out. Branches of
+-- a line with CS_TRY hand on what failed below, and most need memory to run out in one place: they are
+-- counted among the others, and beside them on their own.
+--
+-- A file that is compiled several times, for several kinds of processors, counts once: a line is run when
+-- it is in any of them. Threads count without locks, so a count may come out below 0; it was run then.
+-- What runs only while building is left out.
+local json = require "celspan.json"
+
+local build = assert(arg[1], "coverage.lua BUILD")
+local LEFT_OUT = { ["src/bind/embed.c"] = true, ["src/colour/make_transfer_tables.c"] = true }
+
+local files = {} -- by name: { lines = { [number] = count }, branches = { [number] = { count, ... } } }
+
+local function lines_of(command)
+  local list, pipe = {}, assert(io.popen(command))
+  for line in pipe:lines() do list[#list + 1] = line end
+  assert(pipe:close(), command)
+  return list
+end
+
+local function add(file, line)
+  local number = line.line_number
+  file.lines[number] = (file.lines[number] or 0) + math.abs(line.count)
+  local sums = file.branches[number] or {}
+  local k = 0
+  for _, branch in ipairs(line.branches) do
+    if not branch.throw then
+      k = k + 1
+      sums[k] = (sums[k] or 0) + math.abs(branch.count)
+    end
+  end
+  file.branches[number] = sums
+end
+
+--- The name of a source below src/ as the tree has it; nil for what the build made and what lies elsewhere.
+local function name_of(path) return path:match "^%.%./(src/.*)" end
+
+for _, data in ipairs(lines_of(("cd '%s' && find . -name '*.gcda' | sort"):format(build))) do
+  local report = lines_of(("cd '%s' && gcov --json-format --stdout --branch-probabilities '%s'"):format(build, data))
+  for _, found in ipairs(assert(json.decode(report[1])).files) do
+    local name = name_of(found.file)
+    if name and not LEFT_OUT[name] then
+      local file = files[name] or { lines = {}, branches = {} }
+      files[name] = file
+      for _, line in ipairs(found.lines) do add(file, line) end
+    end
+  end
+end
+
+--- How many there are, and how many of those were run: lines, branches, and branches that hand on.
+local function new_tally() return { lines = { 0, 0 }, branches = { 0, 0 }, handing = { 0, 0 } } end
+
+local function count(pair, is_run)
+  pair[1], pair[2] = pair[1] + 1, pair[2] + (is_run and 1 or 0)
+end
+
+local function tally_of(name, file)
+  local tally, text = new_tally(), {}
+  for line in assert(io.open(name)):lines() do text[#text + 1] = line end
+  for number, times in pairs(file.lines) do
+    count(tally.lines, times > 0)
+    local hands_on = (text[number] or ""):find("CS_TRY(", 1, true)
+    for _, taken in ipairs(file.branches[number]) do
+      count(tally.branches, taken > 0)
+      if hands_on then count(tally.handing, taken > 0) end
+    end
+  end
+  return tally
+end
+
+local function percent(pair) return pair[1] == 0 and 100 or 100 * pair[2] / pair[1] end
+
+local function show(tally, name)
+  local l, b, h = tally.lines, tally.branches, tally.handing
+  print(("%6d %5.1f%%  %6d %5.1f%%  %5d/%5d %5.1f%%   %s"):format(
+    l[1], percent(l), b[1], percent(b), h[2], h[1], percent(h), name))
+end
+
+local total, list = new_tally(), {}
+for name, file in pairs(files) do
+  local tally = tally_of(name, file)
+  list[#list + 1] = { name, tally }
+  for what, pair in pairs(tally) do
+    for i = 1, 2 do total[what][i] = total[what][i] + pair[i] end
+  end
+end
+table.sort(list, function(a, b)
+  local p, q = percent(a[2].lines), percent(b[2].lines)
+  if p ~= q then return p < q end
+  return a[1] < b[1]
+end)
+print "      lines        branches      handing on"
+for _, entry in ipairs(list) do show(entry[2], entry[1]) end
+show(total, "all of src/")
