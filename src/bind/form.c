@@ -132,11 +132,10 @@ int cs_form_integer_or(const cs_form *form, const char *name, int fallback) {
 const char *cs_form_text(const cs_form *form, const char *name) {
   if (get_field(form, name) != LUA_TSTRING)
     fail_type(form, name, "a string");
-  const char *text = lua_tostring(form->L, -1); /* the table keeps it alive */
+  const char *text = lua_tostring(form->L, -1);
   if (strlen(text) != lua_rawlen(form->L, -1))
     cs_form_fail(form, "field '%s' must not hold a zero byte", name);
-  lua_pop(form->L, 1);
-  return text;
+  return text; /* the stack holds it: a finaliser may take it out of the table */
 }
 
 const char *cs_form_text_or(const cs_form *form, const char *name, const char *fallback) {
@@ -248,7 +247,7 @@ celspan_texture *cs_form_texture(const cs_form *form, const char *name) {
   if (!value)
     value = cs_userdata_test(L, -1, &cs_kind_paint);
   if (value)
-    return value->handle; /* kept alive by the table */
+    return value->handle; /* the stack holds it */
   celspan_paint paint;
   if (!read_paint(L, -1, &paint))
     fail_field_colour(form, name, "a paint, a texture or a colour like \"#rrggbb\"");

@@ -32,6 +32,7 @@ bool cs_form_has(const cs_form *form, const char *name);
 double cs_form_number(const cs_form *form, const char *name);
 double cs_form_number_or(const cs_form *form, const char *name, double fallback);
 int cs_form_integer_or(const cs_form *form, const char *name, int fallback);
+/* The string is left on the stack, which holds it. */
 const char *cs_form_text(const cs_form *form, const char *name);
 const char *cs_form_text_or(const cs_form *form, const char *name, const char *fallback);
 /* The place of a word among names (ended by NULL); 0 when it is missing. */

@@ -67,7 +67,7 @@ static void read_kernel(const cs_form *form, celspan_filter_desc *filter) {
   }
   cs_form_text(form, "kernel");
   filter->kernel = (celspan_kernel)cs_form_choice(form, "kernel", kernels);
-  lua_pop(form->L, 1);
+  lua_pop(form->L, 2);
 }
 
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,

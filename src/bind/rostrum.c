@@ -32,13 +32,15 @@ static void read_camera(const cs_form *form, celspan_rostrum_desc *desc) {
 static celspan_cel **read_cels(const cs_form *form, int count) {
   lua_State *L = form->L;
   celspan_cel **cels = cs_form_scratch(L, (size_t)count, sizeof *cels);
+  lua_createtable(L, count, 0); /* holds them, as cs_shape_items does objects */
+  int kept = lua_gettop(L);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
     cs_userdata *item = cs_userdata_test(L, -1, &cs_kind_cel);
     if (!item)
       cs_form_fail(form, "item %d must be a cel, got %s", i + 1, cs_userdata_type(L, -1));
     cels[i] = item->handle;
-    lua_pop(L, 1);
+    lua_rawseti(L, kept, i + 1);
   }
   return cels;
 }

@@ -24,19 +24,15 @@ cs_userdata *cs_shape_at(lua_State *L, int index) {
 celspan_object **cs_shape_items(const cs_form *form, int count) {
   lua_State *L = form->L;
   celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
-  lua_newtable(L); /* the objects that rostrums become, so that they live as long */
+  lua_createtable(L, count, 0); /* holds them: a finaliser may take them out of the list */
   int kept = lua_gettop(L);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);
-    bool is_rostrum = cs_userdata_test(L, -1, &cs_kind_rostrum) != NULL;
     const cs_userdata *value = cs_shape_at(L, -1);
     if (!value)
       cs_form_fail(form, "item %d must be an object, got %s", i + 1, cs_userdata_type(L, -1));
     objects[i] = value->handle;
-    if (is_rostrum)
-      lua_rawseti(L, kept, i + 1);
-    else
-      lua_pop(L, 1);
+    lua_rawseti(L, kept, i + 1);
   }
   return objects;
 }
