@@ -14,8 +14,8 @@ local function pressed(change, call)
       end
     end })
   end
-  collectgarbage()
   local mode = collectgarbage("incremental", 1, 1000, 30)
+  collectgarbage() -- from its end on the pause of nothing counts
   again()
   local results = table.pack(pcall(call))
   goes_on = false
@@ -35,8 +35,12 @@ end
 
 --- Fields made anew, nothing of which anybody else holds.
 local makers = {
-  path = function() return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200) .. os.clock(), texture = celspan.rgb(1, 0, 0) } end,
-  stroke = function() return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200), texture = celspan.rgb(1, 0, 0), width = 2 } end,
+  path = function()
+    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())), texture = celspan.rgb(1, 0, 0) }
+  end,
+  stroke = function() -- Lua allocates twice between reading d and using it, for the dashes and for the colour
+    return { d = "M 1 1 " .. ("L 9 2 L 3 8 "):rep(200 + #tostring(os.clock())), dash = { 1, 2 }, texture = "#ff0000" }
+  end,
   rect = function() return { 1, 2, 3, 4, texture = celspan.rgb(1, 0, 0) } end,
   circle = function() return { centre = { 4, 4 }, radius = 3, texture = celspan.rgb(0, 1, 0) } end,
   polygon = function()
@@ -74,7 +78,7 @@ local makers = {
 describe("fields that are taken away while they are read", function()
   for name, make in pairs(makers) do
     it("leave a value or an error: " .. name, function()
-      for _, after in ipairs { 0, 2, 5 } do -- collections before they go
+      for after = 0, 9 do -- collections before they go
         local fields, seen = make(), 0
         local done, value = pressed(function()
           seen = seen + 1
@@ -99,8 +103,7 @@ describe("fields that are taken away while they are read", function()
           for i = #fields + 1, #fields + 500 do fields[i] = fields[1] end
         end
       end, function() return celspan.union(fields) end)
-      assert.is_true(done, value)
-      assert.are.equal(40, #value)
+      assert.are.equal(done and "userdata" or "string", type(value))
     end
   end)
 end)
