@@ -78,7 +78,7 @@ local makers = {
 describe("fields that are taken away while they are read", function()
   for name, make in pairs(makers) do
     it("leave a value or an error: " .. name, function()
-      for after = 0, 9 do -- collections before they go
+      for after = 0, 40 do -- collections before they go
         local fields, seen = make(), 0
         local done, value = pressed(function()
           seen = seen + 1
