@@ -57,6 +57,8 @@ static celspan_status check_file(const cs_picture_file *file, celspan_context *c
     if (header.info.width == output->width && header.info.height == output->height)
       return CELSPAN_OK;
   }
+  if (status == CELSPAN_NO_MEMORY || status == CELSPAN_CANCELLED)
+    return cs_fail(context, status, "%s: reading it back: %s", output->name, failure.text);
   return cs_fail(context, CELSPAN_OUTPUT,
                  "%s: what was written as %s cannot be read back, so it is not kept (%s)",
                  output->name, output->format,

@@ -3,10 +3,12 @@
  *
  *   STARVE_AT=N        the N-th allocation fails, counted from 1; 0: none
  *   STARVE_LASTING=1   and all after it
+ *   STARVE_FORKED=1    in processes that were forked alone, from the fork on
  *   STARVE_COUNT=FILE  how many there were is written there at the end
  */
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,14 +23,27 @@ void *__libc_realloc(void *block, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
 static atomic_long made, fail_at = -1;
-static atomic_bool lasts;
+static atomic_bool lasts, is_waiting; /* for a fork */
 
 static long read_number(const char *name) {
   const char *text = getenv(name);
   return text ? atol(text) : 0;
 }
 
+static void begin(void) {
+  is_waiting = false;
+  made = 0;
+}
+
+__attribute__((constructor)) static void prepare(void) {
+  is_waiting = read_number("STARVE_FORKED") != 0;
+  if (is_waiting)
+    pthread_atfork(NULL, NULL, begin);
+}
+
 static bool fails(void) {
+  if (is_waiting)
+    return false;
   if (fail_at < 0) {
     lasts = read_number("STARVE_LASTING") != 0;
     fail_at = read_number("STARVE_AT");

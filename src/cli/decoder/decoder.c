@@ -251,8 +251,7 @@ static celspan_status explain_death(const cs_decoder *decoder, celspan_status ot
   if (ending == -1)
     return fail(failure, CELSPAN_NO_MEMORY,
                 "the decoder of pictures was ended: the memory of the system may be full");
-  if ((WIFEXITED(ending) && WEXITSTATUS(ending) == CS_SERVER_NO_MEMORY) ||
-      (WIFSIGNALED(ending) && WTERMSIG(ending) == SIGKILL)) /* as the system does without memory */
+  if (cs_server_is_starved(ending))
     return explain_memory(decoder, failure);
   failure->status = other;
   if (WIFSIGNALED(ending))

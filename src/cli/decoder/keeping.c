@@ -98,11 +98,9 @@ static celspan_status fail(cs_picture_failure *failure, celspan_status status, c
 static celspan_status explain(cs_message_arrival arrival, celspan_status other,
                               cs_picture_failure *failure) {
   int ending = finish();
-  bool is_starved = (WIFEXITED(ending) && WEXITSTATUS(ending) == CS_SERVER_NO_MEMORY) ||
-                    (WIFSIGNALED(ending) && WTERMSIG(ending) == SIGKILL);
   if (arrival == CS_MESSAGE_LATE)
     return fail(failure, CELSPAN_CANCELLED, "a signal asked to stop");
-  if (is_starved)
+  if (cs_server_is_starved(ending))
     return fail(failure, CELSPAN_NO_MEMORY, "out of memory in starting the decoder of pictures");
   fail(failure, other, "");
   snprintf(failure->text, sizeof failure->text,

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "sandbox/strict.h"
@@ -39,10 +40,17 @@ static void end_by_fault(int number) {
   raise(number);
 }
 
+bool cs_server_is_starved(int ending) {
+  if (WIFSIGNALED(ending))
+    return WTERMSIG(ending) == SIGKILL;
+  return WIFEXITED(ending) && (WEXITSTATUS(ending) == CS_SERVER_NO_MEMORY ||
+                               WEXITSTATUS(ending) == CS_SERVER_NOT_LOADED);
+}
+
 void cs_server_watch_faults(void) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   static char stack[FAULT_STACK];
-  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTRAP};
   const stack_t apart = {.ss_sp = stack, .ss_size = sizeof stack};
   struct sigaction action;
   memset(&action, 0, sizeof action);

@@ -13,6 +13,13 @@
 
 /* How a decoder and the keeper end by a fault when an allocation has failed. */
 #define CS_SERVER_NO_MEMORY 33
+/* How the system's loader ends a process: the libraries are there, for the program has them, so it has
+ * no memory. */
+#define CS_SERVER_NOT_LOADED 127
+
+/* Whether a process that ended so, as waitpid tells it, had no memory. Without memory the system ends
+ * processes by SIGKILL. */
+bool cs_server_is_starved(int ending);
 
 typedef struct cs_server_desc {
   const cs_picture_module *module;
