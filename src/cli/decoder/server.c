@@ -42,7 +42,7 @@ static void end_by_fault(int number) {
 
 bool cs_server_is_starved(int ending) {
   if (WIFSIGNALED(ending))
-    return WTERMSIG(ending) == SIGKILL;
+    return WTERMSIG(ending) == SIGKILL || WTERMSIG(ending) == SIGTRAP;
   return WIFEXITED(ending) && (WEXITSTATUS(ending) == CS_SERVER_NO_MEMORY ||
                                WEXITSTATUS(ending) == CS_SERVER_NOT_LOADED);
 }
@@ -50,7 +50,7 @@ bool cs_server_is_starved(int ending) {
 void cs_server_watch_faults(void) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   static char stack[FAULT_STACK];
-  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTRAP};
+  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
   const stack_t apart = {.ss_sp = stack, .ss_size = sizeof stack};
   struct sigaction action;
   memset(&action, 0, sizeof action);

@@ -18,7 +18,7 @@
 #define CS_SERVER_NOT_LOADED 127
 
 /* Whether a process that ended so, as waitpid tells it, had no memory. Without memory the system ends
- * processes by SIGKILL. */
+ * processes by SIGKILL, and GLib, which libraries behind OpenImageIO use, its own by SIGTRAP. */
 bool cs_server_is_starved(int ending);
 
 typedef struct cs_server_desc {
