@@ -81,21 +81,21 @@ static uint64_t data_bytes(void) {
   return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-/* Programs that check themselves need memory of their own, by the terabyte. */
-static void limit_memory(uint64_t memory) {
+/* Programs that check themselves need memory of their own, by the terabyte, and tell what they find. */
+static void limit_memory_and_files(uint64_t memory) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   (void)memory, (void)data_bytes;
 #else
   if (memory)
     limit(RLIMIT_DATA, (rlim_t)(data_bytes() + memory));
+  limit(RLIMIT_FSIZE, 0);
 #endif
 }
 
 static void confine(const cs_server_desc *desc) {
   cs_roots none = {.count = 0}, all = {.count = 0};
-  limit_memory(desc->start.memory);
+  limit_memory_and_files(desc->start.memory);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, 0);
   bool is_known = desc->roots || cs_roots_add(&all, "/");
   const char *refusal = is_known ? cs_strict_enter(desc->roots ? desc->roots : &all, &none) : "";
   cs_roots_finish(&all);
