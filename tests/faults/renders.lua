@@ -69,11 +69,11 @@ local function pictures()
       { { 0, 0 }, { 24, 0 }, { 24, 18 }, { 0, 18 } }, { { 2, 1 }, { 22, 4 }, { 20, 17 }, { 4, 14 } }) } }
 end
 
-local function files()
+local function files(large)
   return celspan.rostrum { back = "#123", celspan.cel {
-    celspan.image { file = root .. "/scripts/pictures/wood.png", w = 24 },
-    celspan.rect { 2, 2, 12, 10, texture = celspan.picture { file = root .. "/scripts/pictures/canal.png",
-      box = { 2, 2, 12, 10 } } } } }
+    celspan.image { file = root .. large, w = 24 },
+    celspan.rect { 2, 2, 12, 10, texture = celspan.picture { box = { 2, 2, 12, 10 },
+      file = root .. "/tests/faults/pixels.png" } } } }
 end
 
 local function text()
@@ -157,7 +157,8 @@ local makers = {
   { name = "booleans", make = booleans, sinks = { "probe" } },
   { name = "light", make = light, sinks = { "dither.png", "probe" } },
   { name = "pictures", make = pictures, sinks = { "png", "probe" } },
-  { name = "files", make = files, is_cold = true, sinks = { "png" }, has_modules = true },
+  { name = "files", make = function() return files "/scripts/pictures/scan.png" end, is_cold = true,
+    sinks = { "png" }, has_modules = true },
   { name = "text", make = text, is_cold = true, sinks = {}, has_type = true },
   { name = "drawing", make = drawing, is_cold = true, leaves_out = true, sinks = {},
     has_type = true },
@@ -170,8 +171,8 @@ local makers = {
   { name = "dense", make = dense, sinks = { "tga" } },
   { name = "procedures", make = procedures, sinks = { "sink", "png", "rows", "probe" } },
   { name = "shapes by two", make = shapes, workers = 2, sinks = { "png", "tga", "span" } },
-  { name = "files by two", make = files, workers = 2, is_cold = true, sinks = { "png" },
-    has_modules = true },
+  { name = "files by two", make = function() return files "/tests/faults/pixels.png" end,
+    workers = 2, is_cold = true, sinks = { "png" }, has_modules = true },
   { name = "gaussian by two", make = function() return defocus "gaussian" end, workers = 2,
     sinks = { "png16" } },
   { name = "encoders", make = shapes, has_modules = true,
