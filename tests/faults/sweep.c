@@ -283,6 +283,8 @@ int main(int count, char **arguments) {
     return 1;
   for (size_t i = 0; i < w.stage.item_count; i++) {
     const char *name = stage_render_text(&w.stage, i, "name");
+    if (check_is_for_threads() && w.stage.items[i].workers == 1)
+      continue;
     if (count < 4 || strcmp(name, arguments[3]) == 0)
       sweep_render(&w, i);
   }
