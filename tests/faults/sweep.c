@@ -171,7 +171,8 @@ static bool try_one(sweep *w, size_t at) {
                       ? is_wanted(w, &out) || may_leave_out(w)
                       : has_come && !is_invisible(w) && is_status_right(w, &out) &&
                             (!out.has_result || is_wanted(w, &out));
-  if (!CHECK(is_right) | !CHECK(is_folder_empty(w)))
+  bool is_clean = CHECK(is_folder_empty(w));
+  if (!CHECK(is_right) || !is_clean)
     tell(w, at, &out);
   stage_render(&w->stage, w->render, w->sink, &out);
   if (!CHECK(out.status == CELSPAN_OK && is_wanted(w, &out)))
