@@ -243,14 +243,14 @@ void cs_drawing_open(lua_State *L) {
   static const luaL_Reg methods[] = {{"key", key},   {"object", object},   {"parts", parts},
                                      {"size", size}, {"skipped", skipped}, {"with", with},
                                      {NULL, NULL}};
-  if (luaL_newmetatable(L, METATABLE)) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-    luaL_newlib(L, methods);
-    lua_setfield(L, -2, "__index");
-    lua_pushliteral(L, METATABLE);
-    lua_setfield(L, -2, "__metatable");
-  }
+  /* Also where there is one: without memory it may have been left half made. */
+  luaL_newmetatable(L, METATABLE);
+  lua_pushcfunction(L, release);
+  lua_setfield(L, -2, "__gc");
+  luaL_newlib(L, methods);
+  lua_setfield(L, -2, "__index");
+  lua_pushliteral(L, METATABLE);
+  lua_setfield(L, -2, "__metatable");
   lua_pop(L, 1);
   lua_pushcfunction(L, read);
   lua_setfield(L, -2, "read_svg");
