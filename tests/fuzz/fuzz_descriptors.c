@@ -497,13 +497,13 @@ static void render(program *p) {
 /* A file's sink, its functions called in any order, with rows of any kind; at last its end. */
 static void misuse_sink(program *p) {
   static const char *const paths[] = {"/dev/null/no.png", "/dev/shm/celspan-fuzz.png", "/dev/shm/celspan-fuzz.tga",
-                                      "/dev/shm/celspan-fuzz.span", "/dev/shm/celspan-fuzz.ppm"};
+                                      "/dev/shm/celspan-fuzz.span"};
   const float array[4 * SIDE] = {0};
   celspan_sink sink;
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.workers = 1;
   file.coding = (celspan_coding){(celspan_depth)word(p, 6), (celspan_transfer)word(p, 5), (celspan_alpha)word(p, 3)};
-  if (celspan_file_sink_create(p->context, paths[take(p, 5)], take(p, 4) ? &file : NULL, &sink) != CELSPAN_OK)
+  if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) != CELSPAN_OK)
     return;
   for (int calls = take(p, 12); calls > 0; calls--) {
     celspan_span spans[2] = {{.x1 = take(p, SIDE + 1), .kind = (celspan_span_kind)take(p, 3), .array = array},

@@ -1,7 +1,8 @@
 /* Any bytes as a stroke: no fault, no memory beyond a bound, nothing kept, every refusal with a
  * sentence; and what is taken is drawn, with curves in number and place that can be drawn.
  *
- *   bytes   0: cap, join, closed and which line it is    1: degree    2: dashes, 0 to 3
+ *   bytes   0: cap, join, closed, which line it is and whether the fine outline is left out, which takes
+ *           most of the time    1: degree    2: dashes, 0 to 3
  *           3..: numbers, two bytes each, beginning with width, miter, dash offset, tapers, from, to
  *           and the dashes; the rest is path data, or points with their widths
  */
@@ -100,10 +101,12 @@ static void draw(celspan_context *context, const cs_stroke *stroke) {
   }
 }
 
-static void check_stroke(celspan_context *context, const celspan_object *object) {
+static void check_stroke(celspan_context *context, const celspan_object *object, bool is_fine) {
   celspan_box box;
-  (void)celspan_object_bounds(object, &box);
-  (void)celspan_object_contains(object, (celspan_point){1, 1});
+  if (is_fine) {
+    (void)celspan_object_bounds(object, &box);
+    (void)celspan_object_contains(object, (celspan_point){1, 1});
+  }
   draw(context, object->data->stroke);
 }
 
@@ -118,7 +121,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     demand(is_expected(status), "a refusal of another kind");
     demand(status == CELSPAN_OK || celspan_context_error(context)[0], "a refusal without a word");
     if (status == CELSPAN_OK)
-      check_stroke(context, object);
+      check_stroke(context, object, size == 0 || data[0] < 128);
     celspan_object_unref(object);
     celspan_context_destroy(context);
   }
