@@ -8,6 +8,7 @@
  */
 #include "tests/fuzz/target.h"
 
+#include "base/number.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/meter.h"
 
@@ -105,7 +106,7 @@ static void make_surface(program *p) {
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
   celspan_surface *made = NULL;
   int size = take(p, 16);
-  desc.width = size == 15 ? (int32_t)number(p) : size;
+  desc.width = size == 15 ? cs_number_to_int32(number(p)) : size;
   desc.height = take(p, 16);
   desc.format = (celspan_surface_format)word(p, 5);
   desc.alpha = (celspan_alpha)word(p, 3);
@@ -130,7 +131,7 @@ static celspan_picture_desc picture(program *p) {
   celspan_picture_desc desc = CELSPAN_ZERO;
   desc.surface = ANY(p, surfaces);
   desc.colour = take(p, 4) == 3 ? "rec709" : NULL;
-  desc.subimage = take(p, 16) == 15 ? (int)number(p) : 0;
+  desc.subimage = take(p, 16) == 15 ? cs_number_to_int32(number(p)) : 0;
   desc.sampling = (celspan_sampling)word(p, 4);
   desc.use = (celspan_picture_use)word(p, 2);
   desc.wrap = (celspan_wrap)word(p, 3);
