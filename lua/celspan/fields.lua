@@ -40,6 +40,13 @@ local function refuse_name(noun, name, names, level)
     or #names > 0 and "; there are " .. table.concat(names, ", ") or ""), level + 1)
 end
 
+--- Raises, at the line of the caller's caller, unless `self` is a value of this class (its metatable).
+function fields.self(noun, class, self, method)
+  if getmetatable(self) ~= class then
+    error(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method, fields.kind(self)), 3)
+  end
+end
+
 --- The __index of a class whose values have `methods` and fields of their own. optional: the
 --- fields that may be nil, as keys.
 function fields.reads(noun, methods, optional)

@@ -158,6 +158,7 @@ end
 ---@param time number
 ---@return any
 function Track:at(time)
+  fields.self("keys", Track, self, "at")
   if not fields.is_finite(time) then
     error("keys: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end
@@ -167,7 +168,12 @@ function Track:at(time)
   if not before then return copy(after.value) end
   if not after then return copy(before.value) end
   local u = (time - before.time) / (after.time - before.time)
-  if after.ease then u = after.ease(u) end
+  if after.ease then
+    u = after.ease(u)
+    if not fields.is_finite(u) then
+      error("keys: an ease must give a finite number, got " .. fields.shown(u), 2)
+    end
+  end
   return mixers[self.kind](before.value, after.value, u)
 end
 

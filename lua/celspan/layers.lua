@@ -296,6 +296,7 @@ end
 ---@param path string
 ---@return celspan.layers.entry? entry
 function methods:find(path)
+  fields.self("layers", Tree, self, "find")
   if type(path) ~= "string" then
     error("layers: find takes a path like \"group/layer\", got " .. fields.kind(path), 2)
   end
@@ -367,6 +368,7 @@ end
 ---@param options? { only?: string[], front?: any, back?: any, viewport?: number[], defocus?: any, opacity?: number }
 ---@return celspan.cel[] cels
 function methods:cels(options)
+  fields.self("layers", Tree, self, "cels")
   options = options or {}
   fields.check("layers: cels", options, known)
   local cels = {}

@@ -58,6 +58,7 @@ end
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)
+  fields.self("lips", Track, self, "at")
   if not fields.is_finite(frame) then
     error("lips: at takes a frame's number, a finite number, got " .. fields.shown(frame), 2)
   end

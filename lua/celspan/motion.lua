@@ -68,6 +68,7 @@ end
 ---@param u number
 ---@return number x, number y, number degrees
 function Way:at(u)
+  fields.self("motion", Way, self, "at")
   if not fields.is_finite(u) then
     error("motion: at takes a share of the way, a finite number, got " .. fields.shown(u), 2)
   end
@@ -119,6 +120,7 @@ end
 ---@param time number Seconds
 ---@return number
 function Wiggle:at(time)
+  fields.self("motion", Wiggle, self, "at")
   if not fields.is_finite(time) then
     error("motion: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end

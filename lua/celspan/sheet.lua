@@ -325,6 +325,7 @@ end
 ---@param frame integer From 1
 ---@return string? drawing
 function methods:at(layer, frame)
+  fields.self("sheet", Sheet, self, "at")
   local column = column_of(self, layer, "at")
   frame = check_frame(frame, "at")
   if frame < 1 or frame > self.frames then return nil end
@@ -336,6 +337,7 @@ end
 ---@param frame integer
 ---@return table<string, true> marks
 function methods:marks(layer, frame)
+  fields.self("sheet", Sheet, self, "marks")
   local column = column_of(self, layer, "marks")
   local marks = {}
   for mark in pairs(column.marks[check_frame(frame, "marks")] or {}) do marks[mark] = true end
@@ -346,6 +348,7 @@ end
 ---@param layer string|integer
 ---@return { frame: integer, drawing?: string }[] changes
 function methods:changes(layer)
+  fields.self("sheet", Sheet, self, "changes")
   local column, list = column_of(self, layer, "changes"), {}
   for i, frame in ipairs(column.at) do
     list[i] = { frame = frame, drawing = column.names[i] or nil }
@@ -357,6 +360,7 @@ end
 ---@param frame integer
 ---@return celspan.sheet.note[] notes
 function methods:notes_at(frame)
+  fields.self("sheet", Sheet, self, "notes_at")
   frame = check_frame(frame, "notes_at")
   local list = {}
   for _, note in ipairs(self.notes) do
@@ -421,6 +425,7 @@ local function frame_at(self, time) return math.floor(time * self.fps + 1e-6) + 
 ---@param drawings table|string|fun(name: string): celspan.object A table by name, "hand_####.png", "hand_*.png", layers, or a function
 ---@return celspan.object? object
 function methods:drawing(layer, f, drawings)
+  fields.self("sheet", Sheet, self, "drawing")
   local place = place_of(self, layer, "drawing", 2)
   local name_of_layer = self.layers[place]
   local frame = f
@@ -453,7 +458,10 @@ end
 --- The sheet as plain text.
 ---@return string? text nil where it would be too long
 ---@return string? message
-function methods:text() return caught(sheet_text.encode, plain(self)) end
+function methods:text()
+  fields.self("sheet", Sheet, self, "text")
+  return caught(sheet_text.encode, plain(self))
+end
 
 local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.encode }
 
@@ -462,6 +470,7 @@ local writers = { xdts = xdts.encode, csv = sheet_csv.encode, txt = sheet_text.e
 ---@return true? done
 ---@return string? message
 function methods:write(path)
+  fields.self("sheet", Sheet, self, "write")
   if type(path) ~= "string" then
     error("sheet: write takes the name of a file, got " .. fields.kind(path), 2)
   end

@@ -47,6 +47,7 @@ end
 ---@param changes table<string, fun(object: celspan.object): celspan.object>
 ---@return celspan.svg.art
 function Art:with(changes)
+  fields.self("svg", Art, self, "with")
   if type(changes) ~= "table" then
     error("svg: with takes a table of functions by part, got " .. fields.kind(changes), 2)
   end

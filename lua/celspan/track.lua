@@ -77,6 +77,7 @@ end
 ---@return number[] matrix Nine numbers, by rows
 ---@return boolean is_found In that very frame
 function methods:motion(f)
+  fields.self("track", Track, self, "motion")
   local number = number_of("motion", f)
   local found = sightings[self]
   local before, after = around(self, number)
@@ -99,6 +100,7 @@ end
 ---@param f celspan.frame|number
 ---@return T
 function methods:place(object, f)
+  fields.self("track", Track, self, "place")
   check_object("place", object)
   number_of("place", f)
   return object:transform(self:motion(f))
@@ -110,6 +112,7 @@ end
 ---@param f celspan.frame|number
 ---@return T
 function methods:steady(object, f)
+  fields.self("track", Track, self, "steady")
   check_object("steady", object)
   number_of("steady", f)
   return object:transform(assert(core.inverse(self:motion(f))))
@@ -276,6 +279,7 @@ end
 
 --- The track as JSON: one line a frame.
 function methods:text()
+  fields.self("track", Track, self, "text")
   local lines = {}
   for i, number in ipairs(self.frames) do
     lines[i] = frame_text(number, sightings[self][number])
@@ -289,6 +293,7 @@ end
 ---@return true?
 ---@return string? message
 function methods:write(path)
+  fields.self("track", Track, self, "write")
   if type(path) ~= "string" then
     error("track: write takes the name of a file, got " .. fields.kind(path), 2)
   end

@@ -87,6 +87,37 @@ describe("a long text, or one with control characters", function()
   end)
 end)
 
+describe("a method of the animation library", function()
+  local keys, motion = require "celspan.keys", require "celspan.motion"
+  local sheet = require "celspan.sheet"
+
+  it("is refused for what it is not a method of", function()
+    local s = sheet.new { layers = { "A" } }
+    local cases = { { keys { { 0, 1 } }, "keys", "at" }, { motion.along "M0 0H9", "motion", "at" },
+                    { motion.wiggle "x", "motion", "at" }, { s, "sheet", "at" }, { s, "sheet", "text" },
+                    { s, "sheet", "notes_at" }, { s, "sheet", "drawing" } }
+    for _, case in ipairs(cases) do
+      local subject, noun, method = table.unpack(case)
+      for _, other in ipairs { {}, 1, "x", celspan.rostrum {} } do
+        local kind = type(other) == "userdata" and "a rostrum" or type(other)
+        assert.are.equal(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method, kind),
+          sentence(function()
+            local answer = subject[method](other, 1)
+            return answer
+          end))
+      end
+    end
+  end)
+
+  it("tells of an ease that gives no number", function()
+    local track = keys { { 0, 1 }, { 1, 2, function() return "x" end } }
+    assert.are.equal("keys: an ease must give a finite number, got string", sentence(function()
+      local value = track:at(0.5)
+      return value
+    end))
+  end)
+end)
+
 describe("a list that answers for itself", function()
   it("is read as it is", function()
     local keys, motion = require "celspan.keys", require "celspan.motion"
