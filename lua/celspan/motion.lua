@@ -125,6 +125,8 @@ function Wiggle:at(time)
     error("motion: at takes a time, a finite number, got " .. fields.shown(time), 2)
   end
   local at = time * self.frequency
+  -- Beyond 2^53 there are no shares of a change any more: it goes on from 0; infinity is 0.
+  if math.abs(at) >= 2 ^ 53 then at = fields.is_finite(at) and math.fmod(at, 2 ^ 53) or 0 end
   local n = math.floor(at)
   local t = at - n
   local a, b = value_at(self.seed, n), value_at(self.seed, n + 1)

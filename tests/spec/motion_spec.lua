@@ -74,3 +74,11 @@ describe("wiggle", function()
     end
   end)
 end)
+
+it("a wiggle has a number at every time", function()
+  local wiggle = require "celspan.motion".wiggle("x", { frequency = 1e10 })
+  for _, time in ipairs { 1e300, -1e300, 2 ^ 60, 1e12, math.mininteger } do
+    local value = wiggle:at(time)
+    assert.is_true(value >= -1 and value <= 1, tostring(value))
+  end
+end)
