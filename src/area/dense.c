@@ -4,10 +4,10 @@
 #include "base/number.h"
 #include "paint/colours.h"
 
-#define SUB_ROWS 64  /* in a whole row */
-#define TOGETHER 8   /* sub-rows, for which the members are walked once */
-#define PARTS 256    /* of a pixel's width */
-#define LEAST 2048   /* boundaries of a dense interval */
+#define SUB_ROWS 64   /* in a whole row */
+#define TOGETHER 8    /* sub-rows, for which the members are walked once */
+#define PARTS 256     /* of a pixel's width */
+#define LEAST 2048    /* boundaries of a dense interval */
 #define DIGIT_BITS 11 /* in sorting */
 #define DIGIT (1 << DIGIT_BITS)
 

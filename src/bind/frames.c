@@ -46,8 +46,8 @@ int cs_frames_list(lua_State *L) {
 int cs_frames_name(lua_State *L) {
   char name[4096];
   celspan_context *context = cs_host_context(L);
-  celspan_status status = cs_sequence_name(context, luaL_checkstring(L, 1),
-                                           luaL_checkinteger(L, 2), name, sizeof name);
+  celspan_status status =
+      cs_sequence_name(context, luaL_checkstring(L, 1), luaL_checkinteger(L, 2), name, sizeof name);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
   lua_pushstring(L, name);

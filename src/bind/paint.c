@@ -172,9 +172,8 @@ static celspan_paint mix_argument(lua_State *L, int index) {
     return paint;
   const cs_userdata *value = cs_userdata_test(L, index, &cs_kind_paint);
   if (!value)
-    cs_caller_error(
-        L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s", index,
-        cs_userdata_shown(L, index));
+    cs_caller_error(L, "mix: argument %d must be a paint or a colour like \"#rrggbb\", got %s",
+                    index, cs_userdata_shown(L, index));
   return *(const celspan_paint *)cs_userdata_own(value);
 }
 

@@ -374,9 +374,12 @@ static bool read_limit(const char *text, const char *end, int count, cs_given_li
   static const struct limit {
     const char *name, *letters;
     double most;
-  } known[LIMITS] = {{"picture-memory=", "KMG", 1e15}, {"picture-time=", "", 1e6},
-                     {"memory=", "KMG", 1e15},         {"steps=", "", 1e15},
-                     {"time=", "", 1e6},               {"print=", "KMG", 1e15}};
+  } known[LIMITS] = {{"picture-memory=", "KMG", 1e15},
+                     {"picture-time=", "", 1e6},
+                     {"memory=", "KMG", 1e15},
+                     {"steps=", "", 1e15},
+                     {"time=", "", 1e6},
+                     {"print=", "KMG", 1e15}};
   double value = 0;
   int i = 0;
   while (i < count && strncmp(text, known[i].name, strlen(known[i].name)) != 0)

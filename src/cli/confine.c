@@ -39,9 +39,10 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
   }
   if (!given->has_picture_memory && !given->has_picture_time)
     return CS_EXIT_OK;
-  return cs_report_usage("--trust decodes pictures in this process, which has no limits for them: leave "
-                         "--limit %s out",
-                         given->has_picture_memory ? "picture-memory" : "picture-time");
+  return cs_report_usage(
+      "--trust decodes pictures in this process, which has no limits for them: leave "
+      "--limit %s out",
+      given->has_picture_memory ? "picture-memory" : "picture-time");
 }
 
 cs_exit cs_confine_refuse(const cs_request *request) {
@@ -50,9 +51,10 @@ cs_exit cs_confine_refuse(const cs_request *request) {
       limits->has_memory || limits->has_steps || limits->has_time || limits->has_print;
   if (!request->is_strict && !request->allowed.count && !has_limits)
     return CS_EXIT_OK;
-  return cs_report_usage("--strict, --allow and all of --limit but that of pictures are for scripts, and "
-                         "%s is none",
-                         request->operands[0]);
+  return cs_report_usage(
+      "--strict, --allow and all of --limit but that of pictures are for scripts, and "
+      "%s is none",
+      request->operands[0]);
 }
 
 static cs_exit refuse_both(const cs_request *request) {

@@ -93,7 +93,8 @@ static const cs_verb VERBS[] = {
      cs_verb_contact},
     {CS_VERB_RELIGHT, "relight", "IN -o OUT", 1, 1,
      "Takes the light off a picture, and shows it in another light.",
-     "IN is any picture, and --light what it was taken in; highlights are kept. Without --to OUT is "
+     "IN is any picture, and --light what it was taken in; highlights are kept. Without --to OUT "
+     "is "
      "an\n"
      "EXR file of seven channels, which takes any light: for celspan.relight, or as IN of another "
      "run,\n"
@@ -114,13 +115,17 @@ static const cs_verb VERBS[] = {
      cs_verb_track},
     {CS_VERB_FARM, "farm", "SCRIPT -o OUT", 1, 1,
      "Writes a job for a render farm: a Slurm array script, or an Open Job Description.",
-     "The job goes to standard output. Its tasks render the frames to OUT as 'celspan render' would, in\n"
-     "chunks that go on where they were stopped, or one frame in strips, which are joined at the end.\n",
+     "The job goes to standard output. Its tasks render the frames to OUT as 'celspan render' "
+     "would, in\n"
+     "chunks that go on where they were stopped, or one frame in strips, which are joined at the "
+     "end.\n",
      cs_verb_farm},
     {CS_VERB_JOIN, "join", "STRIP ... -o OUT", 1, CS_OPERANDS_MAX,
      "Puts strips of a frame together, without unpacking them.",
-     "STRIPs are PNG, Targa or span files of 'celspan render --strip', from the top down, or a pattern\n"
-     "such as strips/####.png. OUT shows what the whole frame would, and appears whole or not at all.\n",
+     "STRIPs are PNG, Targa or span files of 'celspan render --strip', from the top down, or a "
+     "pattern\n"
+     "such as strips/####.png. OUT shows what the whole frame would, and appears whole or not at "
+     "all.\n",
      cs_verb_join},
     {CS_VERB_TEST, "test", "[SPEC ...]", 0, CS_OPERANDS_MAX,
      "Runs specs in busted, with the assertions of celspan.spec.",

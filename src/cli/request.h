@@ -26,11 +26,11 @@ typedef struct cs_request {
   size_t script_argument_count;
   const char *output, *format, *frames; /* NULL: not given */
   cs_given_integer frame;
-  int32_t size[2]; /* 0 0: not given */
-  double scale;    /* 0: not given */
-  int32_t crop[4]; /* width 0: not given */
+  int32_t size[2];           /* 0 0: not given */
+  double scale;              /* 0: not given */
+  int32_t crop[4];           /* width 0: not given */
   int32_t strip[2], task[2]; /* number from 1, count; 0 0: not given */
-  int32_t rows[2]; /* first and last, both included; last -1: not given */
+  int32_t rows[2];           /* first and last, both included; last -1: not given */
   cs_given_antialias antialias;
   celspan_coding coding;
   bool dithers;
@@ -55,16 +55,16 @@ typedef struct cs_request {
   cs_given_integer every; /* 1 or more */
   int32_t onion[2];       /* frames before and after; both 0: not given */
   bool trusts, is_strict;
-  bool makes_folder; /* the output is one */
+  bool makes_folder;      /* the output is one */
   cs_given_texts allowed; /* folders */
   cs_given_limits limits;
   cs_given_colours colours;
   double smooth;            /* below 0: not given */
   cs_given_integer speckle; /* pixels */
   bool lines;
-  cs_given_integer from;  /* the frame in which `at` is */
-  int32_t at[4];          /* x, y, width, height; width 0: not given */
-  const char *model;      /* NULL: not given */
+  cs_given_integer from; /* the frame in which `at` is */
+  int32_t at[4];         /* x, y, width, height; width 0: not given */
+  const char *model;     /* NULL: not given */
   bool slurm, openjd;
   cs_given_integer chunk, strips;             /* frames of a task; strips of a frame */
   cs_given_integer task_memory, task_minutes; /* MiB */
@@ -93,9 +93,10 @@ typedef enum cs_verb_set {
   CS_VERB_FARM = 1 << 15,
   CS_VERB_RELIGHT = 1 << 16,
   CS_VERBS_WITH_SCRIPT = CS_VERB_RENDER | CS_VERB_INFO | CS_VERB_CHECK | CS_VERB_SPANS |
-                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT | CS_VERB_FARM,
-  CS_VERBS_WITH_PICTURES = CS_VERB_CONVERT | CS_VERB_COMPARE | CS_VERB_TRACE | CS_VERB_TRACK |
-                           CS_VERB_RELIGHT
+                         CS_VERB_PROBE | CS_VERB_TILES | CS_VERB_SHEET | CS_VERB_CONTACT |
+                         CS_VERB_FARM,
+  CS_VERBS_WITH_PICTURES =
+      CS_VERB_CONVERT | CS_VERB_COMPARE | CS_VERB_TRACE | CS_VERB_TRACK | CS_VERB_RELIGHT
 } cs_verb_set;
 
 typedef struct cs_verb {

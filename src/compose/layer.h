@@ -80,8 +80,7 @@ typedef struct cs_image_layer {
 /* Whether nothing shines through the layer wherever it is present if its picture has no alpha. */
 static inline bool cs_image_layer_hides(const cs_image_layer *image) {
   return image->texture->variation->use == CELSPAN_PICTURE_PAINT &&
-         !image->texture->variation->medium &&
-         image->wrap != CELSPAN_WRAP_CLEAR;
+         !image->texture->variation->medium && image->wrap != CELSPAN_WRAP_CLEAR;
 }
 
 typedef struct cs_procedure {

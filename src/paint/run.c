@@ -17,8 +17,8 @@ static celspan_status needs_array(cs_painter *painter, const cs_program *program
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
     CS_TRY(cs_painter_image(painter, layer->index, &view));
-    *out =
-        !cs_sampler_is_grid(&view->sampler) || painter->stack->images[layer->index].texture->variation->medium;
+    *out = !cs_sampler_is_grid(&view->sampler) ||
+           painter->stack->images[layer->index].texture->variation->medium;
   }
   return CELSPAN_OK;
 }

@@ -71,10 +71,10 @@ typedef struct cs_picture_output {
   const char *name;   /* for messages and for the format's own header */
   const char *format; /* "openexr", "tiff", ... */
   int32_t width, height;
-  int channels;        /* 1 grey, 3, 4 with alpha, or as many as there are names */
+  int channels;             /* 1 grey, 3, 4 with alpha, or as many as there are names */
   const char *const *names; /* of the channels, the fourth being alpha; NULL: the usual ones */
-  celspan_depth depth; /* never DEFAULT */
-  int bits;            /* of each value that are used: 10 in a depth of 16 for film; 0: all */
+  celspan_depth depth;      /* never DEFAULT */
+  int bits;                 /* of each value that are used: 10 in a depth of 16 for film; 0: all */
   bool is_straight;
   celspan_transfer transfer; /* for the header */
   const char *title;         /* NULL: none */

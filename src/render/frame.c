@@ -77,8 +77,7 @@ static bool stays_on_thread(const cs_plan *plan) {
       return true;
   for (size_t k = 0; k < plan->stack.image_count; k++) {
     const cs_texture_variation *variation = plan->stack.images[k].texture->variation;
-    if (picture_stays_on_thread(variation->picture) ||
-        picture_stays_on_thread(variation->medium))
+    if (picture_stays_on_thread(variation->picture) || picture_stays_on_thread(variation->medium))
       return true;
   }
   for (size_t k = 0; k < plan->defocus_count; k++)

@@ -123,9 +123,7 @@ static void tell_time(const cs_guard *guard, char *sentence, size_t size) {
            seconds == 1 ? "" : "s");
 }
 
-static void trip_time(cs_guard *guard) {
-  tell_time(guard, guard->tripped, sizeof guard->tripped);
-}
+static void trip_time(cs_guard *guard) { tell_time(guard, guard->tripped, sizeof guard->tripped); }
 
 static void trip_memory(cs_guard *guard) {
   bool is_large = guard->limits.memory >= (size_t)1 << 20;

@@ -292,8 +292,8 @@ celspan_status celspan_texture_create_picture(celspan_context *context,
 celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_texture *texture,
                                       cs_picture *medium, celspan_texture **out) {
   celspan_texture *copy;
-  CS_TRY(
-      cs_texture_copy(context, texture, texture->variation->stop_count, cs_mark_keep(texture->mark), &copy));
+  CS_TRY(cs_texture_copy(context, texture, texture->variation->stop_count,
+                         cs_mark_keep(texture->mark), &copy));
   cs_texture_variation *variation = cs_texture_own(copy);
   if (variation->medium)
     cs_picture_unref(variation->medium);

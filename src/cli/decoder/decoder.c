@@ -256,7 +256,8 @@ static celspan_status explain_death(const cs_decoder *decoder, celspan_status ot
   failure->status = other;
   if (WIFSIGNALED(ending))
     snprintf(failure->text, sizeof failure->text, "%s ended its decoder by signal %d (%s)%s",
-             decoder->is_writer ? "writing it" : "it", WTERMSIG(ending), strsignal(WTERMSIG(ending)),
+             decoder->is_writer ? "writing it" : "it", WTERMSIG(ending),
+             strsignal(WTERMSIG(ending)),
              decoder->is_writer ? "" : "; it is damaged, or made to do harm");
   else
     snprintf(failure->text, sizeof failure->text, "%s ended its decoder with exit code %d",

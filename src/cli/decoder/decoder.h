@@ -28,12 +28,12 @@ typedef struct cs_decoder_limits {
 typedef struct cs_decoder {
   struct cs_decoder *next;
   bool is_writer;
-  bool has_served;        /* a reader before the present one */
-  int users;              /* readers, or the writer */
-  uint32_t number;        /* in the keeper */
-  int socket;             /* -1: it has ended */
-  int ending;             /* then: how, as cs_keeping_end tells it */
-  unsigned char *shared;  /* CS_SHARED bytes */
+  bool has_served;       /* a reader before the present one */
+  int users;             /* readers, or the writer */
+  uint32_t number;       /* in the keeper */
+  int socket;            /* -1: it has ended */
+  int ending;            /* then: how, as cs_keeping_end tells it */
+  unsigned char *shared; /* CS_SHARED bytes */
   pthread_mutex_t asking;
 } cs_decoder;
 

@@ -57,8 +57,8 @@ cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descript
     return CS_MESSAGE_LATE;
   if (descriptor)
     *descriptor = got < 0 ? -1 : enclosed_descriptor(&letter);
-  if (got > (ssize_t)HEAD && memchr(out->text, 0, (size_t)got - HEAD) && out->status >= CELSPAN_OK &&
-      out->status <= CELSPAN_INTERNAL)
+  if (got > (ssize_t)HEAD && memchr(out->text, 0, (size_t)got - HEAD) &&
+      out->status >= CELSPAN_OK && out->status <= CELSPAN_INTERNAL)
     return CS_MESSAGE_ARRIVED;
   if (descriptor && *descriptor >= 0)
     close(*descriptor);
@@ -101,7 +101,8 @@ static bool is_name(const char text[16]) {
 
 bool cs_message_header_of(const cs_message *message, cs_picture_header *out) {
   const cs_message_header *from = &message->header;
-  if (!is_between(from->width, 1, CS_PICTURE_SIDE) || !is_between(from->height, 1, CS_PICTURE_SIDE) ||
+  if (!is_between(from->width, 1, CS_PICTURE_SIDE) ||
+      !is_between(from->height, 1, CS_PICTURE_SIDE) ||
       !is_between(from->channels, 1, CS_PICTURE_CHANNELS) || !is_between(from->bits, 0, 16) ||
       !is_between(from->alpha, CS_PICTURE_ALPHA_STRAIGHT, CS_PICTURE_ALPHA_CODED) ||
       !is_name(from->format) || !is_name(from->colour))

@@ -27,13 +27,13 @@ typedef enum cs_message_kind {
   CS_MESSAGE_OPEN,      /* with the file; in shared memory: the layer, then the space */
   CS_MESSAGE_READ,
   CS_MESSAGE_LIST,
-  CS_MESSAGE_CLOSE,     /* not answered */
-  CS_MESSAGE_WRITE,     /* in shared memory: name, format, title, names of channels */
+  CS_MESSAGE_CLOSE, /* not answered */
+  CS_MESSAGE_WRITE, /* in shared memory: name, format, title, names of channels */
   CS_MESSAGE_ROWS,
   CS_MESSAGE_COMPLETE,
-  CS_MESSAGE_DONE,      /* the last answer; its status is the outcome, `text` the sentence */
-  CS_MESSAGE_PART,      /* of LIST; to be answered by a status, OK: go on */
-  CS_MESSAGE_PUT        /* of WRITE, ROWS and COMPLETE; likewise */
+  CS_MESSAGE_DONE, /* the last answer; its status is the outcome, `text` the sentence */
+  CS_MESSAGE_PART, /* of LIST; to be answered by a status, OK: go on */
+  CS_MESSAGE_PUT   /* of WRITE, ROWS and COMPLETE; likewise */
 } cs_message_kind;
 
 typedef struct cs_message_start {

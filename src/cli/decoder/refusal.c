@@ -17,7 +17,8 @@ cs_refusal_key cs_refusal_key_of(const struct stat *file) {
   return (cs_refusal_key){.device = (uint64_t)file->st_dev,
                           .number = (uint64_t)file->st_ino,
                           .size = (int64_t)file->st_size,
-                          .time = (int64_t)file->st_mtim.tv_sec * 1000000000 + file->st_mtim.tv_nsec};
+                          .time =
+                              (int64_t)file->st_mtim.tv_sec * 1000000000 + file->st_mtim.tv_nsec};
 }
 
 bool cs_refusal_is_same(const cs_refusal_key *a, const cs_refusal_key *b) {

@@ -141,12 +141,15 @@ static void conclude(const server *s, cs_message *message, celspan_status status
   message->kind = CS_MESSAGE_DONE;
   message->status = is_starved ? CELSPAN_NO_MEMORY : status;
   snprintf(message->text, sizeof message->text, "%s",
-           status == CELSPAN_OK ? "" : is_starved ? "out of memory" : sentence_of(name, failure->text));
+           status == CELSPAN_OK ? ""
+           : is_starved         ? "out of memory"
+                                : sentence_of(name, failure->text));
   answer(s, message);
 }
 
 static void refuse(const server *s, cs_message *message) {
-  const cs_picture_failure failure = {CELSPAN_INTERNAL, "the decoder was asked for what it has not"};
+  const cs_picture_failure failure = {CELSPAN_INTERNAL,
+                                      "the decoder was asked for what it has not"};
   errno = 0;
   conclude(s, message, CELSPAN_INTERNAL, "", &failure);
 }
@@ -191,9 +194,8 @@ static void read_rectangle(server *s, cs_message *message) {
   cs_picture_failure failure = {CELSPAN_OK, ""};
   char name[32];
   name_file(s->descriptors[message->number], name);
-  celspan_status status =
-      s->module->read(s->readers[message->number], at->x, at->y, at->width, at->height,
-                      (float *)(void *)s->shared, &failure);
+  celspan_status status = s->module->read(s->readers[message->number], at->x, at->y, at->width,
+                                          at->height, (float *)(void *)s->shared, &failure);
   conclude(s, message, status, name, &failure);
 }
 
@@ -310,8 +312,7 @@ static void serve(server *s) {
 
 void cs_server_run(const cs_server_desc *desc) {
   server *s = calloc(1, sizeof *s);
-  void *shared =
-      mmap(NULL, CS_SHARED, PROT_READ | PROT_WRITE, MAP_SHARED, desc->memory, 0);
+  void *shared = mmap(NULL, CS_SHARED, PROT_READ | PROT_WRITE, MAP_SHARED, desc->memory, 0);
   if (!s || shared == MAP_FAILED)
     _exit(CS_SERVER_NO_MEMORY);
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != desc->keeper)

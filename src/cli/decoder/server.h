@@ -23,10 +23,11 @@ bool cs_server_is_starved(int ending);
 
 typedef struct cs_server_desc {
   const cs_picture_module *module;
-  const cs_roots *roots; /* what may be read, where the kernel must hold the process to it; NULL: all
+  const cs_roots
+      *roots; /* what may be read, where the kernel must hold the process to it; NULL: all
                             files, and a kernel that cannot confine is let pass */
   cs_message_start start;
-  int keeper; /* its process */
+  int keeper;         /* its process */
   int socket, memory; /* to the program; the shared memory */
 } cs_server_desc;
 

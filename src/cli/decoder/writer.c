@@ -29,8 +29,8 @@ static celspan_status ask(cs_picture_writer *writer, cs_message *message,
   cs_picture_failure reason;
   cs_decoder_outcome outcome = CS_DECODER_DIED;
   if (writer->decoder->socket >= 0)
-    outcome = cs_decoder_ask(writer->decoder,
-                             &(cs_decoder_request){message, -1, put_bytes, writer});
+    outcome =
+        cs_decoder_ask(writer->decoder, &(cs_decoder_request){message, -1, put_bytes, writer});
   if (outcome == CS_DECODER_ANSWERED && message->status != CELSPAN_NO_MEMORY) {
     failure->status = (celspan_status)message->status;
     snprintf(failure->text, sizeof failure->text, "%s", message->text);
@@ -107,7 +107,8 @@ celspan_status cs_writer_open(const cs_picture_output *output, cs_picture_writer
 
 celspan_status cs_writer_rows(cs_picture_writer *writer, int32_t y, int32_t count, const void *rows,
                               cs_picture_failure *failure) {
-  int32_t most = (int32_t)(CS_SHARED_PUT / writer->row); /* a row of seven floats at the widest fits */
+  int32_t most =
+      (int32_t)(CS_SHARED_PUT / writer->row); /* a row of seven floats at the widest fits */
   celspan_status status = CELSPAN_OK;
   for (int32_t done = 0; done < count && status == CELSPAN_OK; done += most) {
     int32_t part = count - done < most ? count - done : most;
