@@ -20,13 +20,18 @@ static inline int cs_open_to_read(const char *path) {
   return descriptor;
 }
 
-/* pread(2): the bytes that were read, fewer than `size` at the file's end; -1 and errno. */
+/* The bytes that were read, fewer than `size` at the file's end alone; -1 and errno. */
 static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, off_t offset) {
-  ssize_t got;
-  do
-    got = pread(descriptor, bytes, size, offset);
-  while (got < 0 && errno == EINTR);
-  return got;
+  size_t done = 0;
+  while (done < size) {
+    ssize_t got = pread(descriptor, (char *)bytes + done, size - done, offset + (off_t)done);
+    if (got < 0 && errno != EINTR)
+      return -1;
+    if (got == 0)
+      break;
+    done += got > 0 ? (size_t)got : 0;
+  }
+  return (ssize_t)done;
 }
 
 /* The next entry of a folder. NULL: errno is 0 at its end, else it says why there is no other. */

@@ -112,7 +112,7 @@ static int write_image(lua_State *L) {
   file.place_y = picture->y;
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
-    return cs_host_fail(L, CELSPAN_OUTPUT);
+    return cs_host_fail(L, CELSPAN_CALLBACK);
   celspan_sink sink;
   celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
   if (status == CELSPAN_OK)

@@ -185,7 +185,7 @@ int cs_relight_write(lua_State *L) {
   const char *path = luaL_checkstring(L, 2);
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, path))
-    return cs_host_fail(L, CELSPAN_OUTPUT);
+    return cs_host_fail(L, CELSPAN_CALLBACK);
   celspan_status status = celspan_relight_write(context, texture, path);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

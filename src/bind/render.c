@@ -168,7 +168,7 @@ static int render(lua_State *L) {
                            "render: argument 2 must be a file name like \"shot.####.png\", got %s",
                            cs_userdata_type(L, 2));
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
-    return cs_host_fail(L, CELSPAN_OUTPUT);
+    return cs_host_fail(L, CELSPAN_CALLBACK);
   cs_form form = cs_options_open(L, &noun, 3);
   job *j = push_job(L);
   j->pattern = lua_tostring(L, 2);

@@ -141,14 +141,15 @@ static float beta_of(const float t[4]) {
 static celspan_status finish(celspan_context *context, solver *s, celspan_status status,
                              const celspan_texture *like, const char *advice,
                              celspan_texture **out) {
-  const cs_original *first = &s->all.list[0], *last = &s->all.list[s->all.count - 1];
+  const cs_original *first = &s->all.list[0];
   if (status == CELSPAN_OK)
     status =
         cs_unlit_create(context, first->info.width, first->info.height, advice != NULL, &s->unlit);
   if (status == CELSPAN_OK)
     status = solve(context, s);
   if (status == CELSPAN_OK && are_many(&s->shares, &first->info))
-    status = fail_share(context, &s->shares, cs_picture_name(last->picture), advice);
+    status = fail_share(context, &s->shares, cs_picture_name(s->all.list[s->all.count - 1].picture),
+                        advice);
   close_all(context, &s->all);
   if (status == CELSPAN_OK)
     return cs_unlit_finish(context, &s->unlit, like, out);

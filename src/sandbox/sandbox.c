@@ -123,7 +123,7 @@ static int open_file(lua_State *L) {
   const char *path = luaL_checkstring(L, 1), *mode = luaL_optstring(L, 2, "r");
   if (mode[0] != 'r' || strchr(mode, '+')) {
     if (!cs_host_may_write(L, path))
-      return cs_host_fail(L, CELSPAN_OUTPUT);
+      return cs_host_fail(L, CELSPAN_CALLBACK);
   } else {
     cs_host_admit(L, path);
   }

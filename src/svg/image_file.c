@@ -136,20 +136,6 @@ celspan_status cs_svg_image_file_find(celspan_context *context, const char *file
   return status;
 }
 
-/* Reads until there is no more; less than `size` bytes are in the file then. */
-static celspan_status read_all(celspan_context *context, const cs_svg_image_file *file,
-                               int descriptor, char *bytes, size_t size, bool *is_whole) {
-  size_t done = 0;
-  const char *reason;
-  for (ssize_t got = 1; done < size && got > 0; done += got > 0 ? (size_t)got : 0) {
-    got = cs_open_read_at(descriptor, bytes + done, size - done, (off_t)done);
-    if (got < 0)
-      return fail(context, file, &reason);
-  }
-  *is_whole = done == size;
-  return CELSPAN_OK;
-}
-
 celspan_status cs_svg_image_file_load(celspan_context *context, const cs_svg_image_file *file,
                                       char **out) {
   *out = NULL;
@@ -157,13 +143,14 @@ celspan_status cs_svg_image_file_load(celspan_context *context, const cs_svg_ima
   int descriptor = cs_open_to_read(file->path);
   if (descriptor < 0)
     return fail(context, file, &reason);
-  bool is_whole = false;
   size_t size = (size_t)file->size;
   char *bytes = cs_mem_resize(context->memory, NULL, 0, size + 1);
-  celspan_status status =
-      bytes ? read_all(context, file, descriptor, bytes, size, &is_whole) : cs_fail_memory(context);
+  ssize_t got = bytes ? cs_open_read_at(descriptor, bytes, size, 0) : -1;
+  celspan_status status = !bytes    ? cs_fail_memory(context)
+                          : got < 0 ? fail(context, file, &reason)
+                                    : CELSPAN_OK;
   close(descriptor);
-  if (is_whole)
+  if (got == (ssize_t)size)
     *out = bytes;
   else
     cs_mem_free(context->memory, bytes, size + 1);

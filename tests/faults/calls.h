@@ -50,6 +50,9 @@
   CALL(size_t, fwrite, 0, (const void *bytes, size_t size, size_t count, FILE *stream),            \
        (bytes, size, count, stream))                                                               \
   CALL(int, fflush, EOF, (FILE * stream), (stream))                                                \
+  CALL(void *, mmap64, MAP_FAILED,                                                                 \
+       (void *at, size_t size, int may, int flags, int descriptor, off_t offset),                  \
+       (at, size, may, flags, descriptor, offset))                                                 \
   CALL(int, memfd_create, -1, (const char *name, unsigned flags), (name, flags))                   \
   CALL(int, pipe2, -1, (int ends[2], int flags), (ends, flags))                                    \
   CALL(int, dup2, -1, (int from, int to), (from, to))                                              \

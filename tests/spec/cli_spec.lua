@@ -291,9 +291,11 @@ describe("the command line", function()
     end)
 
     it_reads_pictures("comes with the first file that needs it", function()
-      local opened = libraries("render " .. plain .. " --progress none --frames 1 -o " .. folder
+      local opened = libraries("render " .. plain .. " --progress none --trust --frames 1 -o " .. folder
         .. "/f.exr")
       assert.truthy(opened:find "OpenImageIO" and opened:find "celspan%-picture")
+      opened = libraries("render " .. plain .. " --progress none --frames 1 -o " .. folder .. "/f.exr")
+      assert.falsy(opened:find "OpenImageIO", "a process of its own has it")
     end)
   end)
 

@@ -38,7 +38,8 @@ static void destroy(cs_decoder *decoder) {
   free(decoder);
 }
 
-/* Memory whose size neither side can change: what is cut off could not be read any more. */
+/* Memory whose size neither side can change: what is cut off could not be read any more. A
+ * descriptor, or -1 and errno. */
 static int share_memory(cs_decoder *decoder) {
   int memory = memfd_create("celspan pictures", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (memory < 0)
@@ -51,7 +52,9 @@ static int share_memory(cs_decoder *decoder) {
     decoder->shared = shared;
     return memory;
   }
+  int error = errno;
   close(memory);
+  errno = error;
   return -1;
 }
 
@@ -66,7 +69,7 @@ static celspan_status start(cs_decoder *decoder, cs_picture_failure *failure) {
                                  .is_writer = decoder->is_writer};
   int memory = share_memory(decoder);
   if (memory < 0)
-    return fail(failure, CELSPAN_NO_MEMORY, "out of memory to share with the decoder of pictures");
+    return cs_keeping_refuse(errno, decoder->is_writer ? CELSPAN_OUTPUT : CELSPAN_INPUT, failure);
   celspan_status status =
       cs_keeping_start(&desc, memory, &decoder->socket, &decoder->number, failure);
   close(memory);

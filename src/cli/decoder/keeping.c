@@ -110,7 +110,7 @@ static celspan_status explain(cs_message_arrival arrival, celspan_status other,
   return other;
 }
 
-static celspan_status refuse_spawn(int error, celspan_status other, cs_picture_failure *failure) {
+celspan_status cs_keeping_refuse(int error, celspan_status other, cs_picture_failure *failure) {
   bool is_starved = error == ENOMEM || error == EAGAIN;
   fail(failure, is_starved ? CELSPAN_NO_MEMORY : other, "");
   snprintf(failure->text, sizeof failure->text,
@@ -126,7 +126,7 @@ static celspan_status start(cs_message *message, int memory, int *socket,
   const struct timeval pause = {.tv_usec = PAUSE_MICROSECONDS};
   int error = keeper.id ? 0 : spawn(NULL);
   if (error)
-    return refuse_spawn(error, other, failure);
+    return cs_keeping_refuse(error, other, failure);
   cs_message_arrival arrival = ask(message, memory, socket);
   if (arrival != CS_MESSAGE_ARRIVED)
     return explain(arrival, other, failure);
