@@ -77,8 +77,10 @@ local others = {
   pthread_create = "thread", fstat64 = "is not a file; a picture must be one",
 }
 
-local function is_said(err, number, call)
+--- The thread that hears ffmpeg may not begin: it is told as a lack of threads, whatever failed first.
+local function is_said(err, number, call, lasts)
   return err:find(errors[number], 1, true) or others[call] and err:find(others[call], 1, true)
+    or (lasts or call == "pthread_create") and err:find("cannot be started: " .. errors[EAGAIN], 1, true)
 end
 
 --- Libraries behind OpenImageIO begin threads while they are loaded, and end the process where they cannot;
@@ -117,7 +119,7 @@ local function check(format, right, at, lasts, number)
   local _, call = calls()
   if code ~= 0 and not is_end_of_libraries(format, code, err) then
     assert.is_true((format.is_apart and expected_apart or expected)[code], where)
-    assert.is_truthy(format.is_apart or is_said(err, number, call), where .. call)
+    assert.is_truthy(format.is_apart or is_said(err, number, call, lasts), where .. call)
     assert.is_truthy(err:find("^celspan: "), where)
   end
   if format.is_stream then return check_stream(right, code == 0, where) end
@@ -244,6 +246,7 @@ describe("a folder that cannot be read to its end", function()
   end)
 
   it("is not taken for an empty one", function()
+    if not has_library() then return pending "the library that lets calls fail is not built" end
     bench:shell(("mkdir '%s/film'"):format(bench.folder))
     local code, _, err = bench:shell(("cd '%s' && %s FAULT_CALL=readdir64 %s init film")
       :format(bench.folder, faulty(3, false, 5), workbench.absolute))
