@@ -35,10 +35,6 @@ bool cs_sequence_has_number(const char *pattern);
 /* Whether a name could be that of a frame of the pattern; both without their folder. */
 bool cs_sequence_matches(const char *pattern, const char *name);
 /* The numbers of the files of a pattern that are there, ascending. out: new, perhaps empty. Errors:
- * INPUT when the folder cannot be read, NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const char *pattern,
-                                                cs_sequence *out);
-/* The numbers of the files of a pattern that are there, ascending. out: new, perhaps empty. Errors:
  * INPUT when the folder cannot be read, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const char *pattern,
                                                 cs_sequence *out);
