@@ -1,10 +1,13 @@
 #include "base/module.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "base/error_text.h"
 
 #ifndef CELSPAN_MODULE_FOLDER
 #define CELSPAN_MODULE_FOLDER "/usr/local/lib/celspan"
@@ -28,8 +31,27 @@ static const char *const folders[] = {
     ".",
 };
 
+/* Where a module was looked for, and the first error but absence that the system gave for it: a
+ * module that may not be read, or a system without descriptors, is no module that is missing. */
+typedef struct {
+  char path[PATH_SIZE];
+  int error;
+} cs_module_search;
+
+static bool is_absence(int error) { return error == ENOENT || error == ENOTDIR; }
+
+static bool note_error(cs_module_search *search) {
+  if (!search->error && !is_absence(errno))
+    search->error = errno;
+  return false;
+}
+
+static bool is_readable(cs_module_search *search) {
+  return access(search->path, R_OK) == 0 || note_error(search);
+}
+
 /* The folder of the running object, without the final slash; false when it is not known. */
-static bool own_folder(char path[PATH_SIZE]) {
+static bool own_folder(cs_module_search *search, char path[PATH_SIZE]) {
   Dl_info info;
   static const char mark = 0;
   if (!dladdr(&mark, &info) || !info.dli_fname)
@@ -40,13 +62,13 @@ static bool own_folder(char path[PATH_SIZE]) {
   if (!strchr(name, '/')) {
     ssize_t size = readlink("/proc/self/exe", resolved, sizeof resolved - 1);
     if (size < 0)
-      return false;
+      return note_error(search);
     resolved[size] = 0;
     name = resolved;
   }
   char *whole = realpath(name, NULL);
   if (!whole)
-    return false;
+    return note_error(search);
   int size = snprintf(path, PATH_SIZE, "%s", whole);
   free(whole);
   char *slash = size < PATH_SIZE ? strrchr(path, '/') : NULL;
@@ -55,39 +77,52 @@ static bool own_folder(char path[PATH_SIZE]) {
   return slash;
 }
 
-static bool exists(char path[PATH_SIZE], const char *folder, const char *inner,
+static bool exists(cs_module_search *search, const char *folder, const char *inner,
                    const cs_module_desc *desc) {
   size_t length = strlen(inner);
   const char *last = length > 0 && inner[length - 1] == '/' ? desc->folder : "";
-  int size = snprintf(path, PATH_SIZE, "%s/%s%s/%s", folder, inner, last, desc->file);
-  return size < PATH_SIZE && access(path, R_OK) == 0;
+  int size = snprintf(search->path, PATH_SIZE, "%s/%s%s/%s", folder, inner, last, desc->file);
+  return size < PATH_SIZE && is_readable(search);
 }
 
-static bool find(const cs_module_desc *desc, char path[PATH_SIZE]) {
+static const char *named_file(const cs_module_desc *desc) {
   const char *named = getenv(desc->override);
-  if (named && *named) {
-    snprintf(path, PATH_SIZE, "%s", named);
-    return access(path, R_OK) == 0;
+  return named && *named ? named : NULL;
+}
+
+static bool find(const cs_module_desc *desc, cs_module_search *search) {
+  const char *named = named_file(desc);
+  if (named) {
+    int size = snprintf(search->path, PATH_SIZE, "%s", named);
+    return size < PATH_SIZE && is_readable(search);
   }
   char own[PATH_SIZE];
-  if (own_folder(own))
+  if (own_folder(search, own))
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
-      if (exists(path, own, folders[i], desc))
+      if (exists(search, own, folders[i], desc))
         return true;
-  return exists(path, CELSPAN_MODULE_FOLDER, "", desc);
+  return exists(search, CELSPAN_MODULE_FOLDER, "", desc);
+}
+
+static celspan_status fail_search(celspan_context *context, const cs_module_desc *desc,
+                                  celspan_status failure, const cs_module_search *search) {
+  char text[CS_ERROR_TEXT_SIZE];
+  if (search->error)
+    return cs_fail(context, failure, "%s needs the module %s, which cannot be read: %s",
+                   desc->purpose, desc->file, cs_error_text(search->error, text));
+  const char *named = named_file(desc);
+  return cs_fail(context, failure,
+                 "%s needs the module %s, which was not found%s%s: %s, or name the file in %s",
+                 desc->purpose, desc->file, named ? " at " : "", named ? named : "", desc->advice,
+                 desc->override);
 }
 
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                               celspan_status failure, const void **table) {
-  char path[PATH_SIZE];
-  if (!find(desc, path)) {
-    const char *named = getenv(desc->override);
-    return cs_fail(context, failure,
-                   "%s needs the module %s, which was not found%s%s: %s, or name the file in %s",
-                   desc->purpose, desc->file, named && *named ? " at " : "",
-                   named && *named ? named : "", desc->advice, desc->override);
-  }
-  void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  cs_module_search search = {.error = 0};
+  if (!find(desc, &search))
+    return fail_search(context, desc, failure, &search);
+  void *handle = dlopen(search.path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle)
     return cs_fail(context, failure, "%s needs a module that cannot be loaded: %s", desc->purpose,
                    dlerror());
@@ -97,8 +132,8 @@ celspan_status cs_module_load(celspan_context *context, const cs_module_desc *de
   const void *found = symbol ? entry() : NULL;
   dlclose(handle);
   if (!found)
-    return cs_fail(context, failure, "%s is not a module of this celspan (it lacks %s)", path,
-                   desc->symbol);
+    return cs_fail(context, failure, "%s is not a module of this celspan (it lacks %s)",
+                   search.path, desc->symbol);
   *table = found;
   return CELSPAN_OK;
 }

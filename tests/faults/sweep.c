@@ -90,9 +90,9 @@ static bool is_invisible(const sweep *w) {
 /* Modules are sought in many places: one that cannot be looked at has none. */
 static bool is_search(void) { return strstr(" access realpath readlink ", fault_calls.call); }
 
-static bool is_search_right(const stage_outcome *out) {
-  return is_search() && strstr(out->sentence, "needs the module") &&
-         strstr(out->sentence, "which was not found");
+/* A module that is in none of the places is told with all that can be done about it. */
+static bool is_absence_right(const sweep *w, const stage_outcome *out) {
+  return w->error == ENOENT && strstr(out->sentence, "which was not found");
 }
 
 /* A file that was read and is not closed well is as good; what comes after it counts. */
@@ -111,7 +111,7 @@ static bool is_status_right(const sweep *w, const stage_outcome *out) {
     return status == CELSPAN_CALLBACK || status == CELSPAN_CANCELLED;
   default:
     return (status == CELSPAN_INPUT || status == CELSPAN_OUTPUT || status == CELSPAN_CALLBACK) &&
-           (strstr(out->sentence, strerror(w->error)) || is_search_right(out));
+           (strstr(out->sentence, strerror(w->error)) || is_absence_right(w, out));
   }
 }
 
