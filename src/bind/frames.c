@@ -3,6 +3,7 @@
 #include <lauxlib.h>
 #include <limits.h>
 
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "film/sequence.h"
 
@@ -21,14 +22,7 @@ static int release(lua_State *L) {
 
 /* A sequence that is released whatever happens. */
 static cs_sequence *push_sequence(lua_State *L) {
-  cs_sequence *sequence = lua_newuserdatauv(L, sizeof *sequence, 0);
-  *sequence = (cs_sequence){0};
-  if (luaL_newmetatable(L, "celspan.sequence")) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return sequence;
+  return cs_holder_push(L, "celspan.sequence", sizeof(cs_sequence), release);
 }
 
 int cs_frames_list(lua_State *L) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/open.h"
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/pixel_string.h"
 
@@ -21,14 +22,7 @@ static int release(lua_State *L) {
 
 /* Pushes a place for a painting that is released whatever happens. */
 static celspan_painting **push_holder(lua_State *L) {
-  celspan_painting **holder = lua_newuserdatauv(L, sizeof(celspan_painting *), 0);
-  *holder = NULL;
-  if (luaL_newmetatable(L, "celspan.painting")) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return holder;
+  return cs_holder_push(L, "celspan.painting", sizeof(celspan_painting *), release);
 }
 
 static void set_number(lua_State *L, const char *name, double number) {
@@ -126,14 +120,7 @@ static int close_folder(lua_State *L) {
 
 /* Pushes a place for an open folder that is closed whatever happens. */
 static DIR **push_folder_holder(lua_State *L) {
-  DIR **holder = lua_newuserdatauv(L, sizeof(DIR *), 0);
-  *holder = NULL;
-  if (luaL_newmetatable(L, "celspan.folder")) {
-    lua_pushcfunction(L, close_folder);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return holder;
+  return cs_holder_push(L, "celspan.folder", sizeof(DIR *), close_folder);
 }
 
 /* For an errno. */

@@ -9,6 +9,7 @@
  */
 #include "bind/pixel_string.h"
 
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/userdata.h"
 
@@ -88,13 +89,8 @@ static bool is_same(const celspan_surface_desc *a, const celspan_surface_desc *b
 }
 
 static box *push_empty_box(lua_State *L, const celspan_surface_desc *desc) {
-  box *b = lua_newuserdatauv(L, sizeof *b, 1);
-  *b = (box){NULL, *desc};
-  if (luaL_newmetatable(L, "celspan.surface")) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
+  box *b = cs_holder_push(L, "celspan.surface", sizeof *b, release);
+  b->desc = *desc;
   return b;
 }
 

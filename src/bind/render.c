@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "bind/caller.h"
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/lua_error.h"
 #include "bind/lua_film.h"
@@ -36,13 +37,9 @@ static int finish_job(lua_State *L) {
 }
 
 static job *push_job(lua_State *L) {
-  job *j = lua_newuserdatauv(L, sizeof *j, 0);
-  *j = (job){.L = L, .context = cs_host_context(L)};
-  if (luaL_newmetatable(L, "celspan.job")) {
-    lua_pushcfunction(L, finish_job);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
+  job *j = cs_holder_push(L, "celspan.job", sizeof *j, finish_job);
+  j->L = L;
+  j->context = cs_host_context(L);
   return j;
 }
 

@@ -1,4 +1,5 @@
 /* celspan.spans: rows of spans as tables; celspan.probe: one point by direct evaluation. */
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/openers.h"
 #include "bind/subject.h"
@@ -19,10 +20,7 @@ static int finish_rows(lua_State *L) {
 }
 
 static celspan_rows **push_rows(lua_State *L) {
-  celspan_rows **rows = lua_newuserdatauv(L, sizeof *rows, 0);
-  *rows = NULL;
-  luaL_setmetatable(L, ROWS);
-  return rows;
+  return cs_holder_push(L, ROWS, sizeof(celspan_rows *), finish_rows);
 }
 
 /* The colours of a span as numbers 1, 2, ...: one RGBA of a single span, those of the first and
@@ -152,9 +150,5 @@ static int probe(lua_State *L) {
 
 void cs_open_spans(lua_State *L) {
   static const luaL_Reg functions[] = {{"spans", spans}, {"probe", probe}, {NULL, NULL}};
-  luaL_newmetatable(L, ROWS);
-  lua_pushcfunction(L, finish_rows);
-  lua_setfield(L, -2, "__gc");
-  lua_pop(L, 1);
   luaL_setfuncs(L, functions, 0);
 }

@@ -2,6 +2,7 @@
 
 #include <lauxlib.h>
 
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/pixels.h"
 #include "bind/subject.h"
@@ -28,16 +29,7 @@ static int release(lua_State *L) {
 }
 
 static holder *push_holder(lua_State *L) {
-  holder *held = lua_newuserdatauv(L, sizeof *held, 0);
-  *held = (holder){NULL, 0, 0};
-  if (luaL_newmetatable(L, STACK)) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, false);
-    lua_setfield(L, -2, "__metatable");
-  }
-  lua_setmetatable(L, -2);
-  return held;
+  return cs_holder_push(L, STACK, sizeof(holder), release);
 }
 
 static const holder *holder_at(lua_State *L, int index) {

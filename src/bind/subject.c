@@ -1,6 +1,7 @@
 #include "bind/subject.h"
 
 #include "base/context.h"
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/lua_film.h"
 #include "bind/userdata.h"
@@ -16,14 +17,7 @@ static int finish_frame(lua_State *L) {
 
 /* Pushes the owner of a frame that is built later. */
 static cs_film_frame *push_frame(lua_State *L) {
-  cs_film_frame *frame = lua_newuserdatauv(L, sizeof *frame, 0);
-  *frame = (cs_film_frame){0};
-  if (luaL_newmetatable(L, FRAME)) {
-    lua_pushcfunction(L, finish_frame);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return frame;
+  return cs_holder_push(L, FRAME, sizeof(cs_film_frame), finish_frame);
 }
 
 /* ---------------------------------------------------------------- films */

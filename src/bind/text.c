@@ -6,6 +6,7 @@
 #include "bind/construct.h"
 #include "bind/files.h"
 #include "bind/form.h"
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "bind/named.h"
 #include "bind/openers.h"
@@ -202,9 +203,7 @@ static int release(lua_State *L) {
 static celspan_glyphs **push_letters(const cs_form *form) {
   lua_State *L = form->L;
   celspan_text_desc desc = read_text(form);
-  celspan_glyphs **holder = lua_newuserdatauv(L, sizeof *holder, 0);
-  *holder = NULL;
-  luaL_setmetatable(L, HOLDER);
+  celspan_glyphs **holder = cs_holder_push(L, HOLDER, sizeof *holder, release);
   cs_form_try(form, celspan_glyphs_create(cs_host_context(L), &desc, holder));
   return holder;
 }
@@ -279,10 +278,6 @@ static int glyphs(lua_State *L) {
 }
 
 void cs_open_text(lua_State *L) {
-  luaL_newmetatable(L, HOLDER);
-  lua_pushcfunction(L, release);
-  lua_setfield(L, -2, "__gc");
-  lua_pop(L, 1);
   cs_construct_push(L, &noun_text);
   lua_setfield(L, -2, noun_text.name);
   lua_pushcfunction(L, glyphs);

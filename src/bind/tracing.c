@@ -3,6 +3,7 @@
 #include <lauxlib.h>
 #include <stdio.h>
 
+#include "bind/holder.h"
 #include "bind/host.h"
 #include "colour/transfer.h"
 #include "trace/result.h"
@@ -20,14 +21,7 @@ static int release(lua_State *L) {
 
 /* Pushes a place for a tracing that is released whatever happens. */
 static celspan_trace **push_holder(lua_State *L) {
-  celspan_trace **holder = lua_newuserdatauv(L, sizeof(celspan_trace *), 0);
-  *holder = NULL;
-  if (luaL_newmetatable(L, "celspan.tracing")) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-  }
-  lua_setmetatable(L, -2);
-  return holder;
+  return cs_holder_push(L, "celspan.tracing", sizeof(celspan_trace *), release);
 }
 
 /* ---------------------------------------------------------------- options */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bind/form.h"
+#include "bind/holder.h"
 #include "bind/host.h"
 
 #define TRACKER "celspan.tracker"
@@ -53,16 +54,7 @@ static int release(lua_State *L) {
 }
 
 static celspan_tracker **push_holder(lua_State *L) {
-  celspan_tracker **holder = lua_newuserdatauv(L, sizeof *holder, 0);
-  *holder = NULL;
-  if (luaL_newmetatable(L, TRACKER)) {
-    lua_pushcfunction(L, release);
-    lua_setfield(L, -2, "__gc");
-    lua_pushboolean(L, false);
-    lua_setfield(L, -2, "__metatable");
-  }
-  lua_setmetatable(L, -2);
-  return holder;
+  return cs_holder_push(L, TRACKER, sizeof(celspan_tracker *), release);
 }
 
 static double number_in(lua_State *L, int index, int i) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bind/caller.h"
+#include "bind/holder.h"
 #include "bind/unknown.h"
 
 /* Deep enough for every field there is: a list of points. */
@@ -360,10 +361,11 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *met
                                    {"__tostring", describe},
                                    {"__gc", release},
                                    {NULL, NULL}};
-  if (!luaL_newmetatable(L, kind->name)) {
-    lua_pop(L, 1);
+  bool is_known = luaL_getmetatable(L, kind->name) == LUA_TTABLE;
+  lua_pop(L, 1);
+  if (is_known)
     return;
-  }
+  lua_newtable(L);
   lua_pushlightuserdata(L, (void *)kind);
   luaL_setfuncs(L, plain, 1);
   lua_newtable(L);
@@ -372,7 +374,5 @@ void cs_userdata_register(lua_State *L, const cs_kind *kind, const luaL_Reg *met
   lua_pushlightuserdata(L, (void *)kind);
   lua_pushcclosure(L, index_value, 2);
   lua_setfield(L, -2, "__index");
-  lua_pushstring(L, kind->name); /* all that getmetatable tells: no script can call __gc */
-  lua_setfield(L, -2, "__metatable");
-  lua_pop(L, 1);
+  cs_holder_keep_metatable(L, kind->name);
 }

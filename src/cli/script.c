@@ -76,6 +76,10 @@ static lua_State *new_state(const cs_script *script) {
   return L;
 }
 
+/* Lua has no memory, or the core has none for the module and its first values: neither may have had
+ * a context yet to say it to, but all say it. */
+static bool lacks_memory(const char *message) { return !message || strstr(message, "memory"); }
+
 static cs_exit open_state(cs_script *script) {
   script->L = new_state(script);
   if (!script->L) {
@@ -87,9 +91,8 @@ static cs_exit open_state(cs_script *script) {
   if (lua_pcall(script->L, 1, 0, 0) == LUA_OK)
     return CS_EXIT_OK;
   const char *message = lua_tostring(script->L, -1);
-  bool has_room = message && !strstr(message, "not enough memory");
   cs_report_error("Lua could not be started: %s", message ? message : "not enough memory");
-  return has_room ? CS_EXIT_INTERNAL : CS_EXIT_MEMORY;
+  return lacks_memory(message) ? CS_EXIT_MEMORY : CS_EXIT_INTERNAL;
 }
 
 static cs_exit start(cs_script *out) {
