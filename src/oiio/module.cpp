@@ -1,7 +1,31 @@
 /* The table of functions that the core finds in this module, and the settings of the library. */
+#include <atomic>
+#include <cerrno>
 #include <mutex>
 
 #include "oiio/shared.h"
+
+namespace {
+
+std::atomic<bool> is_watched{false}, has_run_out{false};
+
+[[noreturn]] void note_lack() {
+  has_run_out = true;
+  throw std::bad_alloc();
+}
+
+} // namespace
+
+void watch_memory() {
+  is_watched = true;
+  std::set_new_handler(note_lack);
+}
+
+/* The libraries in C tell it by errno alone. */
+void check_memory() {
+  if (is_watched && (has_run_out.exchange(false) || errno == ENOMEM))
+    throw std::bad_alloc();
+}
 
 void prepare_library() {
   static std::once_flag once;
@@ -31,6 +55,7 @@ const void *celspan_picture_module(void) {
                                           open_writer,
                                           write_writer,
                                           close_writer,
-                                          abandon_writer};
+                                          abandon_writer,
+                                          watch_memory};
   return &table;
 }

@@ -557,21 +557,29 @@ celspan_status open_reader(const cs_picture_request *request, cs_picture_reader 
   return fence(failure, CELSPAN_INPUT, request->file, [&] {
     prepare_library();
     auto reader = make_reader(*request);
-    describe(*reader, header);
+    cs_picture_header made;
+    describe(*reader, &made);
+    check_memory();
+    *header = made;
     *out = reader.release();
   });
 }
 
 celspan_status read_reader(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
                            int32_t height, float *rgba, cs_picture_failure *failure) {
-  return fence(failure, CELSPAN_INPUT, reader->name,
-               [&] { read_rectangle(*reader, x, y, width, height, rgba); });
+  return fence(failure, CELSPAN_INPUT, reader->name, [&] {
+    read_rectangle(*reader, x, y, width, height, rgba);
+    check_memory();
+  });
 }
 
 celspan_status list_reader(cs_picture_reader *reader,
                            bool (*put)(void *user, const cs_picture_part *part), void *user,
                            cs_picture_failure *failure) {
-  return fence(failure, CELSPAN_INPUT, reader->name, [&] { list_parts(*reader, put, user); });
+  return fence(failure, CELSPAN_INPUT, reader->name, [&] {
+    list_parts(*reader, put, user);
+    check_memory();
+  });
 }
 
 void close_reader(cs_picture_reader *reader) {

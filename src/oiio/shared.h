@@ -55,6 +55,12 @@ celspan_status fence(cs_picture_failure *failure, celspan_status other, const st
 /* The library's settings, made once: no threads of its own, no plug-ins from outside. */
 void prepare_library();
 
+/* Whether memory that ran out is noted from now on. For the table. */
+void watch_memory();
+/* Throws std::bad_alloc where memory that ran out was noted since the last time. To be called before
+ * anything is given away, since libraries catch the exception and go on. */
+void check_memory();
+
 /* The first line of one of the library's messages, without trailing blanks and full stop. */
 std::string first_line(const std::string &message);
 

@@ -190,6 +190,7 @@ celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **
     if (!writer->output->open(own_name(output->name), writer->spec))
       fail_output(*writer, writer->output->geterror());
     writer->target->check();
+    check_memory();
     *out = writer.release();
   });
 }
@@ -200,6 +201,7 @@ celspan_status write_writer(cs_picture_writer *writer, int32_t y, int32_t count,
     if (!writer->output->write_scanlines(y, y + count, 0, writer->spec.format, rows))
       fail_output(*writer, writer->output->geterror());
     writer->target->check();
+    check_memory();
   });
 }
 
@@ -210,6 +212,7 @@ celspan_status close_writer(cs_picture_writer *writer, cs_picture_failure *failu
     if (!owned->output->close())
       fail_output(*owned, owned->output->geterror());
     owned->target->check();
+    check_memory();
   });
 }
 

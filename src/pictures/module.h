@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 3u
+#define CS_PICTURE_MODULE_VERSION 4u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 64
 
@@ -102,6 +102,10 @@ typedef struct cs_picture_module {
   /* Completes the file and frees the writer, whatever happens. */
   celspan_status (*write_close)(cs_picture_writer *writer, cs_picture_failure *failure);
   void (*write_abandon)(cs_picture_writer *writer);
+  /* For a process that does nothing but this, with errno at 0 before each call: from now on a call
+   * fails with NO_MEMORY when memory ran out in it, even where the library went on without what it
+   * could not keep, such as a part of the header or the last rows. */
+  void (*watch_memory)(void);
 } cs_picture_module;
 
 /* The module's one symbol. */

@@ -153,6 +153,8 @@ static celspan_status complete_output(cs_picture_writer *writer, cs_picture_fail
 
 static void abandon_output(cs_picture_writer *writer) { free(writer); }
 
+static void watch_memory(void) {}
+
 CELSPAN_API const void *celspan_picture_module(void) {
   static const cs_picture_module table = {CS_PICTURE_MODULE_VERSION,
                                           open_file,
@@ -162,6 +164,7 @@ CELSPAN_API const void *celspan_picture_module(void) {
                                           open_output,
                                           write_output,
                                           complete_output,
-                                          abandon_output};
+                                          abandon_output,
+                                          watch_memory};
   return &table;
 }

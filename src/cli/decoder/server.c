@@ -322,6 +322,7 @@ void cs_server_run(const cs_server_desc *desc) {
   s->socket = desc->socket;
   s->shared = shared;
   confine(desc);
+  s->module->watch_memory();
   for (;;)
     serve(s);
 }
