@@ -48,6 +48,50 @@ static int faulty_mkdir(const char *path, mode_t mode) { return fails() ? -1 : m
 static const cs_file_system faulty = {faulty_open,  faulty_pwrite, faulty_fstat,  faulty_fsync,
                                       faulty_close, faulty_rename, faulty_unlink, faulty_mkdir};
 
+/* ---------------------------------------------------------------- a system that takes notes */
+
+/* A letter a call: `w`rite, `s`ync and `c`lose of the file, `r`ename, sync of the `f`older,
+ * `u`nlink. */
+static char notes[64];
+static int noted_folder; /* the descriptor of the last folder that was opened; -1: none */
+
+static void note(char call) {
+  size_t length = strlen(notes);
+  if (length + 1 < sizeof notes && (length == 0 || notes[length - 1] != call))
+    notes[length] = call;
+}
+
+static int noting_open(const char *path, int flags, mode_t mode) {
+  int descriptor = open(path, flags, mode);
+  if (flags & O_DIRECTORY)
+    noted_folder = descriptor;
+  return descriptor;
+}
+static ssize_t noting_pwrite(int descriptor, const void *bytes, size_t size, off_t offset) {
+  note('w');
+  return pwrite(descriptor, bytes, size, offset);
+}
+static int noting_fsync(int descriptor) {
+  note(descriptor == noted_folder ? 'f' : 's');
+  return fsync(descriptor);
+}
+static int noting_close(int descriptor) {
+  if (descriptor != noted_folder)
+    note('c');
+  return close(descriptor);
+}
+static int noting_rename(const char *from, const char *to) {
+  note('r');
+  return rename(from, to);
+}
+static int noting_unlink(const char *path) {
+  note('u');
+  return unlink(path);
+}
+
+static const cs_file_system noting = {noting_open,  noting_pwrite, fstat,         noting_fsync,
+                                      noting_close, noting_rename, noting_unlink, mkdir};
+
 /* ---------------------------------------------------------------- helpers */
 
 enum { CONTENT = 150000 };
@@ -128,6 +172,19 @@ static void sweep(celspan_context *context, int error, bool had_old) {
       break;
     }
   }
+  unlink(path);
+}
+
+/* Power may go at any moment: the bytes are on the disk before the name is, and the name before the
+ * frame is said to be done. */
+static void check_order(celspan_context *context) {
+  char path[256];
+  in_root(path, "frame.png");
+  memset(notes, 0, sizeof notes);
+  noted_folder = -1;
+  CHECK(write_content(context, &noting, path) == CELSPAN_OK && state_of(path) == 2);
+  if (!CHECK(strcmp(notes, "wscrf") == 0))
+    fprintf(stderr, "  %s\n", notes);
   unlink(path);
 }
 
@@ -234,6 +291,7 @@ int main(void) {
   static const int errors[] = {ENOSPC, EIO, EDQUOT, EROFS, EACCES, EMFILE};
   for (int i = 0; i < 12; i++)
     sweep(context, errors[i / 2], i % 2);
+  check_order(context);
   check_interruptions(context);
   check_folders(context);
   check_refusals(context);
