@@ -4,7 +4,16 @@
 
 namespace {
 
-enum { HEADER = 26, LARGE = 2, USER_MASK = -2, WHOLE_MASK = -3, CHANNELS = 56 };
+enum {
+  HEADER = 26,
+  LARGE = 2,
+  USER_MASK = -2,
+  WHOLE_MASK = -3,
+  CHANNELS = 56,
+  OLD_THUMBNAIL = 1033, /* the numbers of resources; 0 is that of none */
+  THUMBNAIL = 1036,
+  THUMBNAILS = 16 /* of which the programs that write documents write one */
+};
 
 /* Big-endian numbers, one after the other; 0 from the end of the file on. */
 class Numbers {
@@ -33,6 +42,24 @@ private:
   uint64_t at_;
   bool is_over_ = false;
 };
+
+/* Resources: a signature, a number, a name, the length of the data, the data; name and data have an
+ * even number of bytes. numbers: at the first one; a copy, for a wrong length leads anywhere. */
+void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
+  uint64_t end = numbers.at() + size;
+  for (int hidden = 0; numbers.at() < end && !numbers.is_over();) {
+    numbers.skip(4);
+    uint64_t at = numbers.at(), number = numbers.next(2);
+    numbers.skip(numbers.next(1) | 1);
+    uint64_t length = numbers.next(4);
+    numbers.skip(length + (length & 1));
+    if (number != THUMBNAIL && number != OLD_THUMBNAIL)
+      continue;
+    if (++hidden > THUMBNAILS)
+      throw Failure(CELSPAN_INPUT, "is damaged: it has more than 16 thumbnails");
+    source.blank(int64_t(at), 2);
+  }
+}
 
 /* The rows of a rectangle; the numbers are left behind it. */
 uint64_t rows_of(Numbers &numbers) {
@@ -71,7 +98,9 @@ void check_psd_size(Source &source) {
   int length_bytes = numbers.next(2) == LARGE ? 8 : 4;
   numbers.skip(HEADER - 6);
   numbers.skip(numbers.next(4)); /* the colour table */
-  numbers.skip(numbers.next(4)); /* resources */
+  uint64_t resources = numbers.next(4);
+  hide_thumbnails(source, numbers, resources);
+  numbers.skip(resources);
   uint64_t section = numbers.next(length_bytes), list = numbers.next(length_bytes), rows = 0;
   if (section == 0 || list == 0)
     return;

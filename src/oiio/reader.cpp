@@ -101,18 +101,24 @@ void open_input(cs_picture_reader &reader) {
   reader.spec = reader.input->spec(reader.subimage);
 }
 
-/* The readers of film formats return black for missing pixels. The header has the file's size. */
+/* The readers of film formats return black for missing pixels. The header has the file's size, and in
+ * DPX that of data for other programs, for which the reader takes memory before it looks for them. */
 void check_film_end(Source &source, const std::string &format) {
-  unsigned char head[24] = {0};
+  unsigned char head[36] = {0};
   source.pread(head, sizeof head, 0);
-  bool is_big = head[0] == 'S' || head[0] == 0x80;
-  const unsigned char *at = head + (format == "dpx" ? 16 : 20);
-  uint64_t size = 0;
-  for (int i = 0; i < 4; i++)
-    size = size << 8 | at[is_big ? i : 3 - i];
-  if (size != 0xffffffff && source.size() < size)
+  bool is_big = head[0] == 'S' || head[0] == 0x80, is_dpx = format == "dpx";
+  auto number_at = [&](int place) {
+    uint64_t number = 0;
+    for (int i = 0; i < 4; i++)
+      number = number << 8 | head[place + (is_big ? i : 3 - i)];
+    return number == 0xffffffff ? 0 : number; /* all ones: it is not told */
+  };
+  uint64_t size = number_at(is_dpx ? 16 : 20);
+  if (source.size() < size)
     throw Failure(CELSPAN_INPUT, "is truncated: it has " + std::to_string(source.size()) +
                                      " of the " + std::to_string(size) + " bytes it tells of");
+  if (is_dpx && source.size() < number_at(32))
+    throw Failure(CELSPAN_INPUT, "is damaged: it tells of more user data than it has bytes");
 }
 
 int find_channel(const ImageSpec &spec, const std::string &prefix, const char *name) {

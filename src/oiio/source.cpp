@@ -71,7 +71,17 @@ size_t Source::read_file(void *bytes, size_t size, int64_t offset) {
       break;
     done += size_t(got);
   }
+  for (const Stretch &blank : blanks_) {
+    int64_t from = std::max(blank.from, offset), to = std::min(blank.to, offset + int64_t(done));
+    if (from < to)
+      memset(static_cast<char *>(bytes) + (from - offset), 0, size_t(to - from));
+  }
   return done;
+}
+
+void Source::blank(int64_t offset, int64_t size) {
+  blanks_.push_back({offset, offset + size});
+  ahead_.clear();
 }
 
 bool Source::is_unchanged() const {
