@@ -229,6 +229,9 @@ static celspan_status add_file(reader *r, const char *pattern, const char *name,
 }
 
 static celspan_status fail_folder(celspan_context *context, const char *pattern, int error) {
+  if (error == ENOMEM)
+    return celspan_context_fail(context, CELSPAN_NO_MEMORY,
+                                "%s: its folder cannot be read: out of memory", pattern);
   return celspan_context_fail(context, CELSPAN_INPUT, "%s: its folder cannot be read: %s", pattern,
                               strerror(error));
 }

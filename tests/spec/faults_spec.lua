@@ -1,13 +1,15 @@
 -- A program whose calls to the system fail: whichever it is, once or for good, whatever the errno and
 -- whatever is written, a render ends with the right frames, or with the exit code of the table and
 -- a sentence with a file and the reason; nothing that is wrong stands under a final name, no
--- temporary file is left, and the same command with --resume then makes the frames.
--- CELSPAN_STARVE=1 tries every call; else some are drawn by lot, by CELSPAN_SEED.
+-- temporary file is left, and the same command with --resume then makes the frames. So does joining
+-- strips, which is begun again.
+-- CELSPAN_STARVE=1 tries every call, CELSPAN_STARVE=N one in N; else some are drawn by lot, by
+-- CELSPAN_SEED.
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
 local LIBRARY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/libfaulty.so"
-local ALL = os.getenv "CELSPAN_STARVE"
+local ALL = tonumber(os.getenv "CELSPAN_STARVE") -- one call in so many
 local SAMPLES = 1 -- of the calls of a format that fail with an errno
 local SHORT, EINTR, EAGAIN = -1, 4, 11
 
@@ -37,11 +39,22 @@ after_each(function() bench:remove() end)
 
 -- ---------------------------------------------------------------- running
 
---- Renders into the folder out of the bench, with the environment of a plan before it.
-local function render(format, plan, options)
+--- Renders, or joins strips, into the folder out of the bench, with the environment of a plan before it.
+local function make(format, plan, options)
   local output = format.is_stream and "- > out/stream" or "out/" .. format.output
-  return bench:shell(("cd '%s' && mkdir -p out && %s %s render film.lua %s --workers 1 --progress none -o %s")
-    :format(bench.folder, plan or "", workbench.absolute, (format.options or "") .. " " .. (options or ""), output))
+  local command = format.joins and "join 'strips/#." .. format.joins .. "'"
+    or ("render film.lua --workers 1 --progress none %s %s"):format(format.options or "", options or "")
+  return bench:shell(("cd '%s' && mkdir -p out && %s %s %s -o %s"):format(bench.folder, plan or "",
+    workbench.absolute, command, output))
+end
+
+--- The strips that a format joins.
+local function make_strips(ending)
+  for i = 1, 2 do
+    local code, _, err = bench:shell(("cd '%s' && %s render film.lua --frames 1 --size 40x300 --strip %d/2 "
+      .. "--progress none -o strips/%d.%s"):format(bench.folder, workbench.absolute, i, i, ending))
+    assert.are.equal(0, code, err)
+  end
 end
 
 local function faulty(at, lasts, number, call)
@@ -112,7 +125,7 @@ end
 
 local function check(format, right, at, lasts, number)
   os.execute(("rm -rf '%s/out'"):format(bench.folder))
-  local code, _, err = render(format, faulty(at, lasts, number))
+  local code, _, err = make(format, faulty(at, lasts, number))
   local where = ("%s: call %d%s, %s: exit code %d: %s"):format(format.output or "stream", at,
     lasts and " and all after it" or "", errors[number], code, err)
   local _, call = calls()
@@ -124,7 +137,7 @@ local function check(format, right, at, lasts, number)
   if format.is_stream then return check_stream(right, code == 0, where) end
   check_frames(right, code == 0, where, may_be_left(lasts, number, call))
   if format.is_video then return end
-  local again, _, message = render(format, nil, "--resume")
+  local again, _, message = make(format, nil, "--resume")
   assert.are.equal(0, again, where .. "; then: " .. message)
   check_frames(right, true, where .. "; then")
 end
@@ -141,6 +154,7 @@ local formats = {
   { output = "f.##.ppm", has_module = true, options = "--trust" },
   { output = "f.##.exr", has_module = true, is_apart = true }, -- by processes of their own, which fail too
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
+  { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" }, { output = "f.span", joins = "span" },
 }
 
 local function has_library()
@@ -152,14 +166,15 @@ end
 local function sweep(format, lasts)
   if not has_library() then return pending "the library that lets calls fail is not built" end
   bench:write("film.lua", FILM)
-  local code, _, err = render(format, faulty(0, false, 5))
+  if format.joins then make_strips(format.joins) end
+  local code, _, err = make(format, faulty(0, false, 5))
   if code ~= 0 and (format.has_module or format.is_video) then return pending(err) end
   assert.are.equal(0, code, err)
   local right, count = results(), calls()
   assert.is_true(count > 10)
   for _, number in ipairs(numbers) do
     if not (lasts and number == EINTR) then
-      for i = 1, ALL and count or SAMPLES do
+      for i = ALL and random:whole(1, ALL) or 1, ALL and count or SAMPLES, ALL or 1 do
         check(format, right, ALL and i or random:whole(1, count), lasts, number)
       end
     end
@@ -256,7 +271,7 @@ end)
 
 describe("where calls to the system fail", function()
   for _, format in ipairs(formats) do
-    local name = (format.output or "a stream") .. (format.options or "")
+    local name = (format.joins and "joining " or "") .. (format.output or "a stream") .. (format.options or "")
     it("once, " .. name .. " ends well", function() sweep(format, false) end)
     it("for good, " .. name .. " ends well", function() sweep(format, true) end)
   end

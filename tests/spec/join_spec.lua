@@ -123,6 +123,24 @@ describe("joined strips", function()
   end)
 end)
 
+describe("what a join that was killed has left", function()
+  it("is removed by the next one, and nothing else is", function()
+    render_strips("tga", 2)
+    for _, name in ipairs { ".joined.tga.00ff.part", ".other.tga.00ff.part", "joined.tga.00ff.part" } do
+      bench:write(name, "half")
+    end
+    bench:write(".joined.tga.0001.part", "of a run that goes on")
+    local code, _, err = bench:shell(("cd '%s' && flock .joined.tga.0001.part %s join s/#.tga -o joined.tga")
+      :format(bench.folder, workbench.absolute))
+    assert.equal(0, code, err)
+    local left = table.concat(bench:files(), " ")
+    assert.is_nil(left:find(" .joined.tga.00ff", 1, true), left)
+    for _, name in ipairs { ".joined.tga.0001.part", ".other.tga.00ff.part", "joined.tga.00ff.part", "joined.tga" } do
+      assert.is_truthy(left:find(name, 1, true), name)
+    end
+  end)
+end)
+
 describe("what join refuses, and says which file and what to do:", function()
   for _, ending in ipairs { "png", "tga", "span" } do
     it("an order or a number that is wrong, in " .. ending, function()

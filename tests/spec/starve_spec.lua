@@ -27,19 +27,22 @@ return celspan.rostrum { back = "#fff",
                 celspan.circle { centre = { 20, 15 }, radius = 5 } - celspan.rect { 18, 10, 9, 9 } } }]],
 }
 
+local RENDER = "render film.lua --workers 1 --progress none -o out/f.##."
+local JOIN = "join 'strips/#.png' -o out/f.01."
+
 --- forked: in the processes that were forked alone; nil: in all.
-local function starve(at, lasts, ending, forked)
+local function starve(at, lasts, ending, forked, command)
   return bench:shell(("cd '%s' && rm -rf out && STARVE_AT=%d STARVE_LASTING=%d STARVE_COUNT=count STARVE_FORKED=%d "
-    .. "LD_PRELOAD=%s %s render film.lua -o out/f.##.%s --workers 1 --progress none")
-    :format(bench.folder, at, lasts and 1 or 0, forked and 1 or 0, LIBRARY, bench.absolute, ending))
+    .. "LD_PRELOAD=%s %s %s%s"):format(bench.folder, at, lasts and 1 or 0, forked and 1 or 0, LIBRARY,
+    bench.absolute, command or RENDER, ending))
 end
 
 local function frames(ending)
   return { bench:read("out/f.01." .. ending), bench:read("out/f.02." .. ending) }
 end
 
-local function check(at, lasts, ending, right, forked)
-  local code, _, err = starve(at, lasts, ending, forked)
+local function check(at, lasts, ending, right, forked, command)
+  local code, _, err = starve(at, lasts, ending, forked, command)
   local where = ("allocation %d%s: %s"):format(at, lasts and " and all after it" or "", err)
   for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.", where .. " left " .. name) end
   if code == 0 then
@@ -87,7 +90,25 @@ end }]]):format(scenes.outlines))
   end
 end
 
+--- Joining makes few allocations: each of them fails.
+local function sweep_join(lasts)
+  local library = io.open(LIBRARY)
+  if not library then return pending "the library that takes memory away is not built" end
+  library:close()
+  bench:write("film.lua", "local celspan, f = require 'celspan', { number = 1 }\n" .. scenes.outlines)
+  for i = 1, 2 do
+    local code, _, err = bench:shell(("cd '%s' && %s render film.lua --size 40x300 --strip %d/2 --progress none "
+      .. "-o strips/%d.png"):format(bench.folder, bench.absolute, i, i))
+    assert.are.equal(0, code, err)
+  end
+  assert.are.equal(0, (starve(0, false, "png", false, JOIN)))
+  local right = frames "png"
+  for at = 1, tonumber(bench:read "count") do check(at, lasts, "png", right, false, JOIN) end
+end
+
 describe("without memory", function()
+  it("for once, strips are joined or not", function() sweep_join(false) end)
+  it("for good, strips are joined or not", function() sweep_join(true) end)
   it("for once, what OpenImageIO writes ends well", function() sweep_apart(false) end)
   it("for good, what OpenImageIO writes ends well", function() sweep_apart(true) end)
   for scene, ending in pairs { outlines = "png", procedures = "span" } do

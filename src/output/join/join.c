@@ -6,6 +6,7 @@
 
 #include "output/ending.h"
 #include "output/join/format.h"
+#include "output/temporary.h"
 
 static const cs_join_format *const FORMATS[] = {&cs_join_png, &cs_join_tga, &cs_join_span};
 
@@ -153,7 +154,11 @@ static celspan_status write_parts(celspan_context *context, job *j, cs_joining *
   return cs_file_commit(file, context);
 }
 
+static bool is_name(const char *wanted, const char *name) { return strcmp(wanted, name) == 0; }
+
+/* Strips are large, and so is what a run that was killed has left of their picture. */
 static celspan_status write_file(celspan_context *context, job *j) {
+  cs_temporary_sweep(j->output, is_name);
   cs_joining *joining = cs_mem_array(context->memory, 1, sizeof *joining);
   if (!joining)
     return cs_fail_memory(context);

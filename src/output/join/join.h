@@ -6,7 +6,8 @@
  * of PNG to its pixels, for their first rows are filtered otherwise.
  *
  * INVARIANT: the file appears whole or not at all (output/file.h), and only from parts that are one
- * picture from its first row to its last. Memory does not depend on what is in the parts.
+ * picture from its first row to its last. Memory does not depend on what is in the parts. Unfinished
+ * files of this name that nobody writes any more are removed.
  */
 #ifndef CS_OUTPUT_JOIN_JOIN_H
 #define CS_OUTPUT_JOIN_JOIN_H

@@ -1,12 +1,12 @@
 #include "output/join/part.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
+
+#include "base/open.h"
 
 celspan_status cs_join_part_fail(celspan_context *context, const cs_join_part *part,
                                  const char *format, ...) {
@@ -18,11 +18,10 @@ celspan_status cs_join_part_fail(celspan_context *context, const cs_join_part *p
   return cs_fail(context, CELSPAN_INPUT, "%s: %s", part->path, reason);
 }
 
-/* Without O_NONBLOCK a pipe would wait for its writer. */
 celspan_status cs_join_part_open(celspan_context *context, const char *path, cs_join_part *out) {
   struct stat there;
   *out = (cs_join_part){.path = path};
-  out->descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  out->descriptor = cs_open_to_read(path);
   if (out->descriptor < 0 || fstat(out->descriptor, &there) != 0) {
     cs_join_part_fail(context, out, "%s", strerror(errno));
     cs_join_part_close(out);
@@ -43,21 +42,14 @@ void cs_join_part_close(cs_join_part *part) {
 
 celspan_status cs_join_part_read(celspan_context *context, const cs_join_part *part,
                                  uint64_t offset, void *bytes, size_t size) {
-  unsigned char *at = bytes;
   if (offset > part->size || size > part->size - offset)
     return cs_join_part_fail(context, part, "is cut: it ends at byte %llu; render the strip again",
                              (unsigned long long)part->size);
-  while (size > 0) {
-    ssize_t got = pread(part->descriptor, at, size, (off_t)offset);
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got <= 0)
-      return cs_join_part_fail(context, part, "byte %llu cannot be read: %s",
-                               (unsigned long long)offset,
-                               got < 0 ? strerror(errno) : "the file has become shorter");
-    at += got;
-    offset += (uint64_t)got;
-    size -= (size_t)got;
-  }
+  ssize_t got = cs_open_read_at(part->descriptor, bytes, size, (off_t)offset);
+  if (got < 0)
+    return cs_join_part_fail(context, part, "bytes from %llu on cannot be read: %s",
+                             (unsigned long long)offset, strerror(errno));
+  if ((size_t)got < size)
+    return cs_join_part_fail(context, part, "has become shorter while it was read");
   return CELSPAN_OK;
 }
