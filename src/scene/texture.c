@@ -1,9 +1,9 @@
 #include "scene/texture.h"
 
-#include <assert.h>
 #include <math.h>
 #include <string.h>
 
+#include "base/self_check.h"
 #include "pictures/store.h"
 #include "scene/check.h"
 #include "scene/value.h"
@@ -25,7 +25,7 @@ static size_t size_of(cs_texture_kind kind) {
 }
 
 cs_texture_variation *cs_texture_own(celspan_texture *texture) {
-  assert(texture->kind != CS_TEXTURE_FLAT);
+  CS_SELF_CHECK(texture->kind != CS_TEXTURE_FLAT);
   return &((varying *)texture)->variation;
 }
 

@@ -91,6 +91,19 @@ bool cs_tile_log_has(const cs_tile_log *log, cs_tile_row row) {
   return false;
 }
 
+/* ---------------------------------------------------------------- one run at a time */
+
+/* Opens the record, which is made where there is none. */
+static celspan_status lock(celspan_context *context, cs_tile_log *log) {
+  log->descriptor = cs_lines_open(log->path);
+  if (log->descriptor < 0)
+    return fail(context, log->path, "cannot write");
+  if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan is at work on these tiles",
+                   log->path);
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- starting over */
 
 static int remove_one(const char *path, const struct stat *found, int kind, struct FTW *where) {
@@ -103,11 +116,14 @@ celspan_status cs_tile_log_clear(celspan_context *context, const cs_pyramid *pyr
                                  cs_tile_log *log) {
   char folder[4096];
   log->count = log->written = 0;
+  CS_TRY(lock(context, log));
   if (cs_pyramid_tiles_folder(pyramid, folder, sizeof folder) && is_there(folder) &&
       nftw(folder, remove_one, OPEN_FOLDERS, FTW_DEPTH | FTW_PHYS) != 0)
     return fail(context, folder, "cannot remove the tiles there");
   if (unlink(log->path) != 0 && errno != ENOENT)
     return fail(context, log->path, "cannot remove");
+  close(log->descriptor);
+  log->descriptor = -1;
   return CELSPAN_OK;
 }
 
@@ -122,12 +138,7 @@ celspan_status cs_tile_log_open(celspan_context *context, cs_tile_log *log) {
   char head[LINE_SIZE];
   if (!cs_lines_make_folders(log->path))
     return fail(context, log->path, "cannot make its folder");
-  log->descriptor = cs_lines_open(log->path);
-  if (log->descriptor < 0)
-    return fail(context, log->path, "cannot write");
-  if (flock(log->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    return cs_fail(context, CELSPAN_OUTPUT, "%s: another celspan is at work on these tiles",
-                   log->path);
+  CS_TRY(lock(context, log));
   off_t size = lseek(log->descriptor, 0, SEEK_END);
   write_head(log, head);
   if (size <= 0)

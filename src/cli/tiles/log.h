@@ -33,7 +33,7 @@ typedef enum cs_tile_log_state {
 CELSPAN_CHECKED celspan_status cs_tile_log_read(celspan_context *context, const cs_pyramid *pyramid,
                                                 cs_hash digest, cs_tile_log *log,
                                                 cs_tile_log_state *state);
-/* Removes record and tiles. */
+/* Removes record and tiles, where no other process is at work on them. */
 CELSPAN_CHECKED celspan_status cs_tile_log_clear(celspan_context *context,
                                                  const cs_pyramid *pyramid, cs_tile_log *log);
 /* Opens the record for more lines, for one process at a time. Its folder is made; a new record gets
