@@ -1,6 +1,7 @@
 /* Readers of option values. */
 #include "cli/argument.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -28,6 +29,9 @@ static cs_argument_outcome choose(const char *text, void *field, const choice *c
   return CS_ARGUMENT_BAD;
 }
 
+/* strtol and its like skip what space stands before a number; here nothing may. */
+static bool has_space(const char *text) { return isspace((unsigned char)text[0]) != 0; }
+
 /* Reads `count` whole numbers in [least, most] with `separator` between them, and nothing else. */
 static bool read_integers(const char *text, char separator, int64_t least, int64_t most,
                           int32_t *out, size_t count) {
@@ -36,7 +40,7 @@ static bool read_integers(const char *text, char separator, int64_t least, int64
     errno = 0;
     long long number = strtoll(text, &end, 10);
     bool is_last = i + 1 == count;
-    if (end == text || text[0] == ' ' || errno || number < least || number > most)
+    if (end == text || has_space(text) || errno || number < least || number > most)
       return false;
     if (*end != (is_last ? '\0' : separator))
       return false;
@@ -49,7 +53,7 @@ static bool read_integers(const char *text, char separator, int64_t least, int64
 static bool read_number(const char *text, double *out) {
   char *end = NULL;
   double number = strtod(text, &end);
-  if (end == text || *end || text[0] == ' ' || !isfinite(number))
+  if (end == text || *end || has_space(text) || !isfinite(number))
     return false;
   *out = number;
   return true;
@@ -222,7 +226,8 @@ static bool read_triple(const char *text, float rgb[3]) {
   for (int c = 0; c < 3; c++) {
     char *end;
     double value = strtod(text, &end);
-    if (end == text || !(value >= 0 && value <= 1e6) || *end != (c < 2 ? ',' : '\0'))
+    if (end == text || has_space(text) || !(value >= 0 && value <= 1e6) ||
+        *end != (c < 2 ? ',' : '\0'))
       return false;
     rgb[c] = (float)value;
     text = end + 1;
@@ -333,7 +338,7 @@ cs_argument_outcome cs_argument_texts(const char *text, void *field) {
  * `end`. */
 static bool read_amount(const char *text, const char *end, const char *letters, double *out) {
   char *after = NULL;
-  double number = text < end && text[0] != ' ' ? strtod(text, &after) : -1;
+  double number = text < end && !has_space(text) ? strtod(text, &after) : -1;
   if (!after || after == text || after > end || !(number >= 0 && number <= 1e15))
     return false;
   const char *letter = after < end ? strchr(letters, *after) : NULL;

@@ -10,7 +10,7 @@
  *                                      NAME: one render alone
  *
  * Where a render makes many calls of a kind, SAMPLES of them are drawn by lot, by CELSPAN_SEED; with
- * CELSPAN_STARVE=1 all are tried.
+ * CELSPAN_STARVE=1 all are tried, and with CELSPAN_STARVE=memory every allocation of the core, once.
  */
 #include <errno.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static const char *const kind_names[KINDS] = {"allocation", "allocation of Lua",
 
 typedef struct sweep {
   const char *script, *root, *folder;
-  bool is_whole; /* every call, without samples */
+  const char *starve; /* CELSPAN_STARVE: NULL, or what is tried without samples */
   test_random random;
   stage stage;
   size_t tries, faults;
@@ -198,12 +198,17 @@ static size_t count_calls(sweep *w) {
   return count;
 }
 
+static bool is_whole(const sweep *w) {
+  bool is_memory = w->starve && strcmp(w->starve, "memory") == 0;
+  return is_memory ? w->kind == OF_MEMORY && !w->is_for_good : w->starve != NULL;
+}
+
 static void try_all(sweep *w, fault_kind kind, bool is_for_good, int error) {
   w->kind = kind;
   w->is_for_good = is_for_good;
   w->error = error;
   size_t count = count_calls(w);
-  if (w->is_whole || count <= SAMPLES) {
+  if (is_whole(w) || count <= SAMPLES) {
     for (size_t at = 1; at < TRIES_MOST && try_one(w, at); at++)
       continue;
     return;
@@ -278,7 +283,7 @@ int main(int count, char **arguments) {
   sweep w = {.script = arguments[1],
              .root = arguments[2],
              .folder = folder,
-             .is_whole = getenv("CELSPAN_STARVE") != NULL,
+             .starve = getenv("CELSPAN_STARVE"),
              .random = {seed ? strtoull(seed, NULL, 10) : 1}};
   if (!stage_open(&w.stage, w.script, w.root, w.folder))
     return 1;

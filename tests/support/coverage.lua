@@ -1,7 +1,7 @@
 -- Which lines and branches of src/ were run, of a build with -Db_coverage=true: file by file, the least
 -- covered first, and of all together.
 --
---   build/tests/lua_host tests/support/coverage.lua BUILD     celspan.json comes with the module
+--   build/tests/lua_host tests/support/coverage.lua BUILD [PLACE...]    celspan.json comes with the module
 --
 --      lines        branches           handing on
 --     1180  95.1%    642  91.3%    55/ 60  91.7%   src/...
@@ -9,6 +9,12 @@
 -- Branches are those of conditions in C; those that C++ makes of what may throw are left out. Branches of
 -- a line with CS_TRY hand on what failed below, and most need memory to run out in one place: they are
 -- counted among the others, and beside them on their own.
+--
+-- Of files that a PLACE is part of the name of, the lines are shown that did not run (-) or did so with
+-- branches that were not taken (2/4: two of four):
+--
+--      src/scene/value.c:27: -     return false;
+--      src/scene/value.c:31: 2/4   if (a && b)
 --
 -- A file that is compiled several times, for several kinds of processors, counts once: a line is run when
 -- it is in any of them. Threads count without locks, so a count may come out below 0; it was run then.
@@ -85,6 +91,30 @@ local function show(tally, name)
     l[1], percent(l), b[1], percent(b), h[2], h[1], percent(h), name))
 end
 
+local function is_asked_for(name)
+  for i = 2, #arg do
+    if name:find(arg[i], 1, true) then return true end
+  end
+  return false
+end
+
+--- What did not run of a line: "-", "2/4" branches, or nil.
+local function what_lacks(times, branches)
+  local taken = 0
+  for _, sum in ipairs(branches) do taken = taken + (sum > 0 and 1 or 0) end
+  if times == 0 then return "-" end
+  return taken < #branches and ("%d/%d"):format(taken, #branches) or nil
+end
+
+local function show_lacking(name, file)
+  local number = 0
+  for text in assert(io.open(name)):lines() do
+    number = number + 1
+    local lacks = file.lines[number] and what_lacks(file.lines[number], file.branches[number])
+    if lacks then print(("%s:%d: %-5s %s"):format(name, number, lacks, text)) end
+  end
+end
+
 local total, list = new_tally(), {}
 for name, file in pairs(files) do
   local tally = tally_of(name, file)
@@ -98,6 +128,9 @@ table.sort(list, function(a, b)
   if p ~= q then return p < q end
   return a[1] < b[1]
 end)
+for _, entry in ipairs(list) do
+  if is_asked_for(entry[1]) then show_lacking(entry[1], files[entry[1]]) end
+end
 print "      lines        branches      handing on"
 for _, entry in ipairs(list) do show(entry[2], entry[1]) end
 show(total, "all of src/")
