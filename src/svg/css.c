@@ -60,17 +60,22 @@ static char *copy_without_comments(celspan_context *context, cs_arena *arena, co
 
 /* ---------------------------------------------------------------- declarations */
 
+/* Which quote is open behind `c`, where `quote` was before it; 0: none. A string ends with its line at
+ * the latest. */
+static char open_quote(char quote, char c) {
+  if (quote)
+    return c == quote || c == '\n' ? 0 : quote;
+  return c == '"' || c == '\'' ? c : 0;
+}
+
 /* The end of a declaration's value: the next ';' that is in no string and no parentheses. */
 static const char *value_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
   for (; text < end; text++) {
-    if (quote) {
-      quote = *text == quote ? 0 : quote;
+    quote = open_quote(quote, *text);
+    if (quote)
       continue;
-    }
-    if (*text == '"' || *text == '\'')
-      quote = *text;
     depth += (*text == '(') - (*text == ')');
     if (*text == ';' && depth <= 0)
       break;
@@ -324,6 +329,14 @@ static int compare_rules(const void *a, const void *b) {
   return first->order < second->order ? -1 : first->order > second->order;
 }
 
+/* The next '}' that is in no string, or the end. */
+static const char *body_end(const char *text) {
+  char quote = 0;
+  while (*text && (quote || *text != '}'))
+    quote = open_quote(quote, *text++);
+  return text;
+}
+
 static celspan_status parse_sheet(parser *p, const char *text) {
   for (text = skip_space(text); *text; text = skip_space(text)) {
     if (*text == '@') {
@@ -334,8 +347,7 @@ static celspan_status parse_sheet(parser *p, const char *text) {
     const char *brace = strchr(text, '{');
     if (!brace)
       break;
-    const char *end = strchr(brace, '}');
-    end = end ? end : brace + strlen(brace);
+    const char *end = body_end(brace);
     cs_css_declarations declarations;
     CS_TRY(parse_declarations(p->context, p->arena, brace + 1, end, &declarations));
     CS_TRY(add_selectors(p, text, brace, declarations));

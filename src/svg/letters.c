@@ -36,12 +36,13 @@ static celspan_status shape(cs_svg_reading *reading, const cs_svg_written *writt
 static celspan_status note_faces(cs_svg_reading *reading, const cs_svg_node *node,
                                  const cs_svg_style *style, const cs_svg_faces *faces) {
   const char *family = style->text.font_family ? style->text.font_family : "no family";
+  bool is_bold = style->text.is_bold, is_italic = style->text.is_italic;
   if (faces->count == 0)
     return cs_svg_skip(reading, node, "text in %.60s, for which no font is given", family);
   if (faces->is_plain)
-    return cs_svg_skip(reading, node, "%s%s of text in %.60s, for which that font is not given",
-                       style->text.is_bold ? "bold" : "", style->text.is_italic ? "italic" : "",
-                       family);
+    return cs_svg_skip(reading, node, "%s%s%s of text in %.60s, for which that font is not given",
+                       is_bold ? "bold" : "", is_bold && is_italic ? " " : "",
+                       is_italic ? "italic" : "", family);
   return CELSPAN_OK;
 }
 
