@@ -15,9 +15,10 @@ local paintings = {}
 
 -- ---------------------------------------------------------------- archives
 
---- members: { name =, data =, deflate =, and what a damaged archive tells instead: size, packed,
---- method, flags }. comment: behind the table.
-function paintings.zip(members, comment)
+--- members: { name =, data =, deflate =, extra =, and what a damaged archive tells instead: size, packed,
+--- method, flags }. comment: behind the table. is_wide: offsets and sizes are 64-bit numbers, in extra
+--- fields and before the end of the table.
+function paintings.zip(members, comment, is_wide)
   local out, entries, at = {}, {}, 0
   for _, member in ipairs(members) do
     local data = member.deflate and stored.deflate(member.data) or member.data
@@ -27,14 +28,23 @@ function paintings.zip(members, comment)
       member.size or #member.data, #member.name)
     local header = "PK\3\4" .. string.pack("<I2", 20) .. facts .. string.pack("<I2", 0)
       .. member.name
+    local extra = member.extra or ""
+    if is_wide then
+      facts = facts:sub(1, 12) .. ("\255"):rep(8) .. facts:sub(21)
+      extra = extra .. string.pack("<I2I2I8I8I8", 1, 24, #member.data, #data, at)
+    end
     entries[#entries + 1] = "PK\1\2" .. string.pack("<I2I2", 20, 20) .. facts
-      .. string.pack("<I2I2I2I2I4I4", 0, 0, 0, 0, 0, member.at or at) .. member.name
+      .. string.pack("<I2I2I2I2I4I4", #extra, 0, 0, 0, 0, is_wide and 0xFFFFFFFF or member.at or at)
+      .. member.name .. extra
     out[#out + 1] = header .. data
     at = at + #header + #data
   end
   local table_text = table.concat(entries)
-  return table.concat(out) .. table_text .. "PK\5\6"
-    .. string.pack("<I2I2I2I2I4I4I2", 0, 0, #members, #members, #table_text, at, #(comment or ""))
+  local wide_end = is_wide and "PK\6\6" .. string.pack("<I8I2I2I4I4I8I8I8I8", 44, 45, 45, 0, 0, #members, #members,
+    #table_text, at) .. "PK\6\7" .. string.pack("<I4I8I4", 0, at + #table_text, 1) or ""
+  return table.concat(out) .. table_text .. wide_end .. "PK\5\6"
+    .. string.pack("<I2I2I2I2I4I4I2", 0, 0, is_wide and 65535 or #members, is_wide and 65535 or #members,
+      is_wide and 0xFFFFFFFF or #table_text, is_wide and 0xFFFFFFFF or at, #(comment or ""))
     .. (comment or "")
 end
 
@@ -327,7 +337,8 @@ local function predicted(row, depth)
 end
 
 --- A channel: rows of numbers as the file has them.
-local function psd_channel(layer, w, h, depth, value_at)
+local function psd_channel(layer, w, h, painting, value_at)
+  local depth = painting.depth or 8
   local format, rows = depth == 16 and ">I2" or "B", {}
   for y = 0, h - 1 do
     local row = {}
@@ -344,7 +355,7 @@ local function psd_channel(layer, w, h, depth, value_at)
   local sizes = {}
   for y, row in ipairs(rows) do
     rows[y] = packbits(row)
-    sizes[y] = string.pack(">I2", #rows[y])
+    sizes[y] = string.pack(painting.large and ">I4" or ">I2", #rows[y])
   end
   return "\0\1" .. table.concat(sizes) .. table.concat(rows)
 end
@@ -357,6 +368,11 @@ end
 local function utf16(text)
   local out, count = {}, 0
   for _, code in utf8.codes(text) do
+    if code >= 0x10000 then
+      out[#out + 1] = string.pack(">I2", 0xD800 + (code - 0x10000 >> 10))
+      code = 0xDC00 + (code & 0x3FF)
+      count = count + 1
+    end
     out[#out + 1] = string.pack(">I2", code)
     count = count + 1
   end
@@ -365,35 +381,35 @@ end
 
 local function psd_mask(mask)
   if not mask then return string.pack(">I4", 0) end
-  return string.pack(">I4i4i4i4i4BBI2", 20, mask.y, mask.x, mask.y + mask.h, mask.x + mask.w,
-    mask.beyond or 0, mask.off and 2 or 0, 0)
+  local more = mask.more or "\0\0"
+  return string.pack(">I4i4i4i4i4BB", 18 + #more, mask.y, mask.x, mask.y + mask.h, mask.x + mask.w,
+    mask.beyond or 0, mask.flags or mask.off and 2 or 0) .. more
 end
 
 --- Appends the record of a layer to `records` and its channels to `data`.
 local function psd_layer(layer, painting, records, data)
   local channels, ids = {}, {}
   local function add(id, channel)
-    ids[#ids + 1] = string.pack(">i2I4", id, #channel)
+    ids[#ids + 1] = string.pack(painting.large and ">i2I8" or ">i2I4", id, #channel)
     channels[#channels + 1] = channel
   end
-  local depth = painting.depth or 8
   local w, h = layer.w or 0, layer.h or 0
   if layer.pixel then
-    add(-1, layer.alpha or psd_channel(layer, w, h, depth, function(x, y)
+    add(-1, layer.alpha or psd_channel(layer, w, h, painting, function(x, y)
       return (select(4, layer.pixel(x, y)))
     end))
     for c = 1, painting.grey and 1 or 3 do
-      add(c - 1, psd_channel(layer, w, h, depth, function(x, y)
+      add(c - 1, psd_channel(layer, w, h, painting, function(x, y)
         return (select(c, layer.pixel(x, y)))
       end))
     end
   end
   local mask = layer.mask
-  if mask then add(-2, psd_channel(layer, mask.w, mask.h, depth, mask.value)) end
+  if mask then add(-2, psd_channel(layer, mask.w, mask.h, painting, mask.value)) end
   local name = layer.name:sub(1, 255)
   local short = string.char(#name) .. name
   short = short .. ("\0"):rep(-#short % 4)
-  local extra = psd_mask(mask) .. string.pack(">I4", 0) .. short .. tag("luni", utf16(layer.name))
+  local extra = psd_mask(mask) .. string.pack(">s4", layer.ranges or "") .. short .. tag("luni", utf16(layer.name))
     .. (layer.divider and tag("lsct", string.pack(">I4", layer.divider) .. "8BIM"
       .. (layer.blend or "pass")) or "") .. (layer.tags or "")
   records[#records + 1] = string.pack(">i4i4i4i4I2", layer.y or 0, layer.x or 0, (layer.y or 0) + h,
@@ -428,21 +444,23 @@ local function psd_resources(painting)
     .. ("\0"):rep(#profile % 2)
 end
 
---- mode: 3 RGB; merged: what follows the layers.
+--- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes. Of a layer:
+--- tags: blocks behind its record; ranges: the bytes of its blending ranges. Of a mask: flags, and more:
+--- what follows them.
 function paintings.psd(painting)
   local records, data = {}, {}
   psd_list(painting.layers or {}, painting, records, data)
   local info = string.pack(">i2", -#records) .. table.concat(records) .. table.concat(data)
   info = info .. ("\0"):rep(#info % 2)
-  local is_deep = painting.depth == 16
-  local section = is_deep and string.pack(">I4I4", 0, 0) .. tag("Lr16", info)
-    or string.pack(">I4", #info) .. info .. string.pack(">I4", 0)
+  local is_deep, size = painting.depth == 16, painting.large and ">I8" or ">I4"
+  local section = is_deep and string.pack(size .. "I4", 0, 0) .. "8BIMLr16" .. string.pack(size, #info) .. info
+    or string.pack(size, #info) .. info .. string.pack(">I4", 0)
   if #records == 0 then section = "" end
   local channels = painting.channels or (painting.grey and 1 or 3)
-  return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", 1, 0, 0, channels, painting.h, painting.w,
+  return "8BPS" .. string.pack(">I2I4I2I2I4I4I2I2", painting.version or painting.large and 2 or 1, 0, 0, channels, painting.h, painting.w,
       painting.depth or 8, painting.mode or (painting.grey and 1 or 3))
     .. string.pack(">I4", 0) .. string.pack(">s4", psd_resources(painting))
-    .. string.pack(">I4", #section) .. section
+    .. string.pack(size, #section) .. section
     .. (painting.merged or "\0\0" .. ("\0"):rep(channels * painting.w * painting.h
       * ((painting.depth or 8) // 8)))
 end

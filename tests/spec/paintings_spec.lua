@@ -1,0 +1,369 @@
+-- Layered paintings as programs of every kind write them: large documents and archives, names in every
+-- script, the words of blend modes, what Photoshop, Krita and others tell beside the pixels; and the
+-- places where such a file may be damaged. tests/spec/layers_spec.lua holds the formats against each other.
+local celspan = require "celspan"
+local layers = require "celspan.layers"
+local paintings = require "tests.support.paintings"
+local stored = require "tests.support.stored"
+local workbench = require "tests.support.workbench"
+
+local bench, count = workbench.new(), 0
+
+local function write(bytes)
+  count = count + 1
+  return bench:write("painting-" .. count, bytes)
+end
+
+local function read(bytes) return assert(layers.read(write(bytes))) end
+
+local function refused(bytes, pattern)
+  local tree, message = layers.read(write(bytes))
+  assert.is_nil(tree)
+  assert.matches(pattern, message)
+end
+
+local function seen(tree)
+  return celspan.pixels(celspan.rostrum(tree:cels()), { size = { tree.width, tree.height } })
+end
+
+local function fails_when_seen(bytes, pattern)
+  local image, message = seen(read(bytes))
+  assert.is_nil(image)
+  assert.matches(pattern, message)
+end
+
+--- "layer: what" of each thing that is not shown.
+local function told(tree)
+  local list = {}
+  for i, one in ipairs(tree.skipped) do list[i] = one.layer .. ": " .. one.what end
+  return list
+end
+
+local function speckle(x, y) return (x * 7 + y * 13) % 256, x * 3 % 256, 255 - y, (x + y) % 3 * 127 end
+
+local function layer_of(fields)
+  local layer = { name = "ink", x = 1, y = 2, w = 9, h = 7, pixel = speckle }
+  for name, value in pairs(fields or {}) do layer[name] = value end
+  return layer
+end
+
+local function psd(fields, document)
+  local given = { w = 12, h = 10, layers = { layer_of(fields) } }
+  for name, value in pairs(document or {}) do given[name] = value end
+  return paintings.psd(given)
+end
+
+local has_art = layers.read "../../scripts/paintings/valley.ora" ~= nil
+local it_reads_archives = has_art and it or pending
+
+teardown(function() bench:remove() end)
+
+-- ---------------------------------------------------------------- Photoshop
+
+describe("a Photoshop document", function()
+  it("may be a large one, in every packing and depth", function()
+    for _, packing in ipairs { "raw", "packbits", "zip", "predicted" } do
+      for _, depth in ipairs { 8, 16 } do
+        local small = psd({ packing = packing }, { depth = depth })
+        local large = psd({ packing = packing }, { depth = depth, large = true })
+        assert.are_not.equal(small, large)
+        assert.is_true(assert(seen(read(large))):bytes() == assert(seen(read(small))):bytes(), packing)
+      end
+    end
+  end)
+
+  it("may be a large one without layers", function()
+    local packed = "\0\1" .. (">I4"):rep(6):gsub(">I4", function() return "\0\0\0\3" end)
+      .. "\1\1\2\1\3\4\1\5\6\1\7\8\1\9\10\1\11\12"
+    local tree = read(paintings.psd { w = 2, h = 2, large = true, merged = packed })
+    assert.are.equal("\4\8\12\255", assert(seen(tree)):bytes():sub(13, 16))
+  end)
+
+  it("has names in every script, cut where they are long", function()
+    for _, name in ipairs { "Ebene", "\xC3\xA4\xC3\x9F", "\xE6\xBC\xA2\xE5\xAD\x97", "a\xF0\x9F\x8E\xA8b" } do
+      assert.are.equal(name, read(psd { name = name })[1].name)
+    end
+    local long = read(psd { name = "x", tags = paintings.tag("luni", string.pack(">I4", 300) .. ("\0y"):rep(300)) })[1].name
+    assert.matches("^y+$", long)
+    assert.is_true(#long > 200 and #long < 300)
+  end)
+
+  it("has names whose characters are mended or left as they were", function()
+    local function named(units)
+      return read(psd { name = "x", tags = paintings.tag("luni", string.pack(">I4", #units // 2) .. units) })[1].name
+    end
+    assert.are.equal("a?b", named "\0a\0\7\0b")
+    assert.are.equal("a?b", named "\0a\0\x85\0b")
+    assert.matches("^%?+$", named "\xD8\x00")
+    assert.matches("^%?+$", named "\xDC\x00")
+    local false_size = read(psd { name = "x", tags = paintings.tag("luni", string.pack(">I4", 99) .. "\0a") })
+    assert.are.equal("x", false_size[1].name)
+  end)
+
+  it("has the words of every blend mode, and keeps those it does not know", function()
+    local words = { norm = "normal", ["mul "] = "multiply", lddg = "add", scrn = "screen", over = "overlay", ["lum "] = "luminosity",
+      fdiv = "divide", ["zz 9"] = "zz9", ["\1\200x\127"] = "x" }
+    for key, word in pairs(words) do assert.are.equal(word, read(psd { blend = key })[1].blend) end
+    local group = paintings.psd { w = 4, h = 4, layers = { { name = "g", blend = "scrn", layers = { layer_of() } } } }
+    assert.are.equal("screen", read(group)[1].blend)
+  end)
+
+  it("has groups that are told by two kinds of blocks, long or short", function()
+    local function of(tag, data) return { name = "g", tags = paintings.tag(tag, data) } end
+    for _, tag in ipairs { "lsct", "lsdk" } do
+      for _, open in ipairs { 1, 2 } do
+        local tree = read(paintings.psd { w = 12, h = 10, layers = { of(tag, string.pack(">I4", 3)), layer_of(),
+          of(tag, string.pack(">I4", open)) } })
+        assert.are.equal("ink", tree[1].children[1].name)
+        assert.are.equal("normal", tree[1].blend)
+      end
+    end
+    local plain = read(paintings.psd { w = 12, h = 10, layers = { of("lsct", string.pack(">I4", 0)), of("lsct", "\0\0") } })
+    assert.are.equal(2, #plain)
+    assert.is_nil(plain[1].children)
+  end)
+
+  it("multiplies the opacity of a layer by that of its fill", function()
+    assert.are.equal(102 * 127, read(psd { opacity = 0.4, tags = paintings.tag("iOpa", "\127\0\0\0") })[1].opacity * 255 * 255)
+    assert.are.equal(1, read(psd { tags = paintings.tag("iOpa", "") })[1].opacity)
+  end)
+
+  it("has blocks that are padded in every way, and blocks that mean nothing", function()
+    for padding = 0, 3 do
+      local tags = paintings.tag("zzzz", "\1\2") .. ("\0"):rep(padding) .. paintings.tag("iOpa", "\0\0") .. ("\0"):rep(3)
+      assert.are.equal(0, read(psd { tags = tags })[1].opacity, padding)
+    end
+    local after = read(psd { tags = ("\0"):rep(4) .. paintings.tag("iOpa", "\0\0") })
+    assert.are.equal(1, after[1].opacity) -- what follows such a hole is no block
+    local foreign = read(psd { tags = "8B64" .. paintings.tag("iOpa", "\0\0"):sub(5) })
+    assert.are.equal(0, foreign[1].opacity)
+  end)
+
+  it("tells what of a layer is not shown", function()
+    local tag = paintings.tag
+    local cases = {
+      { { tags = tag("curv", "\0\0") }, "an adjustment: it changes nothing here" },
+      { { tags = tag("lfx2", "\0\0") }, "layer effects: they are not drawn" },
+      { { tags = tag("vmsk", "\0\0") }, "a vector mask: it is shown whole" },
+      { { ranges = string.pack(">I4I4", 0xFFFF, 0x10FFFF) },
+        "blended by lightness ranges: it is shown whole" },
+    }
+    for _, case in ipairs(cases) do assert.are.same({ "ink: " .. case[2] }, told(read(psd(case[1])))) end
+    local fill = paintings.psd { w = 4, h = 4, layers = { { name = "ink", tags = tag("SoCo", "\0\0") } } }
+    assert.are.same({ "ink: a fill without pixels: it is empty" }, told(read(fill)))
+    assert.are.same({}, told(read(psd { tags = tag("SoCo", "\0\0") .. tag("vsms", "\0\0") })))
+    assert.are.same({}, told(read(psd { ranges = string.pack(">I4I4", 0xFFFF, 0xFFFF) .. "\0" })))
+  end)
+
+  local function mask(fields)
+    local given = { x = 0, y = 0, w = 12, h = 10, value = function(x) return x < 6 and 255 or 0 end }
+    for name, value in pairs(fields) do given[name] = value end
+    return given
+  end
+
+  it("has masks that are off, inverted, thinner, or beyond which is something", function()
+    local opaque = function() return 10, 20, 30, 255 end
+    local function alpha(fields, x)
+      local image = assert(seen(read(psd { x = 0, y = 0, w = 12, h = 10, pixel = opaque, mask = mask(fields) })))
+      return math.floor(255 * select(4, image:get(x, 5)) + 0.5)
+    end
+    assert.are.same({ 255, 0 }, { alpha({}, 2), alpha({}, 9) })
+    assert.are.same({ 255, 255 }, { alpha({ flags = 2 }, 2), alpha({ flags = 2 }, 9) })
+    assert.are.same({ 0, 255 }, { alpha({ flags = 4 }, 2), alpha({ flags = 4 }, 9) })
+    local half = { flags = 16, more = "\1\127" }
+    assert.are.same({ 255, 128 }, { alpha(half, 2), alpha(half, 9) })
+    local small = { w = 3, beyond = 255, value = function() return 0 end }
+    assert.are.same({ 0, 255 }, { alpha(small, 2), alpha(small, 9) })
+    assert.are.same({ 255, 255 }, { alpha({ w = 0 }, 2), alpha({ w = 0 }, 9) })
+    local first = { flags = 0, more = ("\0"):rep(18) } -- with the mask before that of a path
+    assert.are.same({ 255, 0 }, { alpha(first, 2), alpha(first, 9) })
+  end)
+
+  it("tells masks that are feathered or thinned as paths", function()
+    local sentence = "ink: a mask with feather, or a vector mask of less density: it is as it is stored"
+    local zero, one = ("\0"):rep(8), "\63\240" .. ("\0"):rep(6)
+    for parameters,
+    is_told in pairs { ["\2" .. one] = true, ["\2" .. zero] = false, ["\4\9"] = true, ["\4\255"] = false,
+      ["\8" .. one] = true, ["\15\255" .. zero .. "\255" .. zero] = false } do
+      local tree = read(psd { mask = mask { flags = 16, more = parameters } })
+      assert.are.same(is_told and { sentence } or {}, told(tree))
+    end
+  end)
+
+  it("is refused where it tells what cannot be", function()
+    refused(psd({}, { version = 3 }), "an unknown version")
+    refused(psd({}, { channels = 2 }), "no such number of channels")
+    refused(psd({}, { channels = 57 }), "no such number of channels")
+    refused(psd({}, { mode = 11 }), "in an unknown kind of colour")
+    refused((psd { tags = "" }):gsub("8BIMnorm", "8BIXnorm", 1), "the record of a layer is damaged")
+    refused(psd { tags = "8BIMzzzz" .. string.pack(">I4", 0x7FFFFFFF) }, "a block of a layer")
+    local counted = psd {}
+    local at = counted:find(string.pack(">i2", -1) .. string.pack(">i4i4i4i4I2", 2, 1, 9, 10, 4), 1, true)
+    refused(counted:sub(1, at - 1) .. string.pack(">i2", 30000) .. counted:sub(at + 2), "tells of more layers than it can have")
+    refused(counted:sub(1, at + 17) .. string.pack(">I2", 57) .. counted:sub(at + 20), "a layer has more than 56 channels")
+    refused(paintings.psd { w = 2, h = 2, merged = "\0\2" .. ("\0"):rep(99) }, "the merged picture is packed in an unknown way")
+    fails_when_seen(paintings.psd { w = 2, h = 2, merged = "\0\0\1\2" }, "ends")
+    refused(paintings.psd { w = 2, h = 2, merged = "\0\1\0\1\0" }, "the table of the merged picture's row sizes is cut off")
+    refused(paintings.psd { w = 2, h = 2, merged = "\0\1" .. ("\0\99"):rep(6) }, "the merged picture is cut off")
+    refused(psd { alpha = "\0\4" .. ("\0"):rep(99) }, "a channel is packed in an unknown way")
+    refused(psd { alpha = "\0\1\0\1" }, "the table of a channel's row sizes is cut off")
+  end)
+end)
+
+-- ---------------------------------------------------------------- archives
+
+describe("an archive", function()
+  local stack = '<image w="4" h="3"><stack><layer name="ink" src="a.png"/></stack></image>'
+  local picture = paintings.png_of(4, 3, 8, 6, ("\0" .. ("\9\8\7\255"):rep(4)):rep(3))
+  local function members(more)
+    local list = { { name = "stack.xml", data = stack, deflate = true }, { name = "a.png", data = picture } }
+    for name, value in pairs(more or {}) do list[2][name] = value end
+    return list
+  end
+
+  it_reads_archives("may have 64-bit numbers, extra fields and a comment", function()
+    local plain = assert(seen(read(paintings.zip(members())))):bytes()
+    assert.are.equal("\9\8\7\255", plain:sub(1, 4))
+    for _,
+    bytes in ipairs { paintings.zip(members(), "", true), paintings.zip(members(), ("c"):rep(9000), true), paintings.zip(members(), ("PK\5"):rep(9000)),
+      paintings.zip(members { extra = string.pack("<I2I2", 0x5455, 3) .. "abc" }, "", true),
+      paintings.zip(members { extra = "ab" }),
+      paintings.zip(members { extra = string.pack("<I2I2", 1, 99) .. "abc" }),
+      paintings.zip(members { extra = string.pack("<I2I2", 1, 0) }) } do
+      assert.is_true(assert(seen(read(bytes))):bytes() == plain)
+    end
+  end)
+
+  it_reads_archives("is refused where its 64-bit numbers lie", function()
+    local wide = paintings.zip(members(), "", true)
+    local locator = wide:find("PK\6\7", 1, true)
+    refused(wide:sub(1, locator + 7) .. string.pack("<I8", 1 << 40) .. wide:sub(locator + 16), "the end of the table lies outside")
+    refused(wide:sub(1, locator + 7) .. string.pack("<I8", 3) .. wide:sub(locator + 16), "the 64%-bit end of the table is missing")
+    refused(wide:gsub("PK\6\7", "PK\6\8"), "the table of members lies outside")
+    local function extra(data) return paintings.zip({ { name = "stack.xml", data = stack, size = 0xFFFFFFFF, extra = data } }) end
+    refused(extra(string.pack("<I2I2I4", 1, 4, 9)), "a member lies outside the archive")
+    refused(extra(string.pack("<I2I2I8", 1, 8, -1)), "a member lies outside the archive")
+    refused("PK\5\6" .. ("\0"):rep(4) .. ("\255"):rep(12) .. "\0\0", "lies outside")
+  end)
+
+  it_reads_archives("is refused where its table is damaged", function()
+    local whole = paintings.zip(members())
+    local entry = whole:find("PK\1\2", 1, true)
+    refused(whole:gsub("PK\1\2", "PK\1\3", 1), "an entry of the table of members is damaged")
+    refused(whole:sub(1, entry + 27) .. "\255\255" .. whole:sub(entry + 30), "an entry of the table of members is cut off")
+    refused(whole:gsub("PK\3\4", "PK\3\5", 1), 'the header of "stack.xml" is missing')
+    local local_name = whole:find("PK\3\4", 5, true)
+    refused(whole:sub(1, local_name + 25) .. "\255\255" .. whole:sub(local_name + 28), '"a.png" is cut off')
+    local many = whole:sub(1, -15) .. string.pack("<I2I2", 60000, 60000) .. whole:sub(-10)
+    refused(many, "the table of members is too short")
+  end)
+end)
+
+-- ---------------------------------------------------------------- OpenRaster and its pictures
+
+describe("an OpenRaster file", function()
+  local rows = { [1] = "\0\0\0\0", [8] = "\0\1\2\3\4" }
+  local function ora(content, more)
+    local list = { { name = "stack.xml", data = '<image w="4" h="4">' .. content .. "</image>" },
+      { name = "a.png", data = paintings.png_of(1, 1, 8, 6, "\0\9\8\7\255") } }
+    for _, one in ipairs(more or {}) do list[#list + 1] = one end
+    return paintings.zip(list)
+  end
+
+  it_reads_archives("tells what of its layers is not shown", function()
+    local tree = read(ora '<stack><text name="t"/><layer name="s" src="a.svg"/><unheard/><layer name="l" src="a.png" visibility="hidden"/></stack>')
+    assert.are.same({ "t: text: it is empty" }, { told(tree)[1] })
+    assert.matches("^s: ", told(tree)[2])
+    assert.is_false(tree:find("l").visible)
+    local shifted = read(ora '<stack><stack name="g" x="3" y="2"><layer name="l" src="a.png" x="1"/></stack></stack>')
+    assert.matches("^g: ", told(shifted)[1])
+    assert.are.same({ 1, 0 }, { shifted:find("g/l").x, shifted:find("g/l").y })
+    local through = read(ora('<stack><stack name="g" isolation="auto"><layer src="a.png"/></stack>'
+      .. '<stack name="h" isolation="auto" opacity=".5"/><stack name="i" isolation="isolate"/></stack>'))
+    assert.are.same({ "normal", "normal", "pass-through" }, { through[1].blend, through[2].blend, through[3].blend })
+  end)
+
+  it_reads_archives("fails when a damaged PNG is seen", function()
+    local function png(width, height, depth, colour, data, palette) return paintings.png_of(width, height, depth, colour, data, palette) end
+    local function fails(picture, pattern)
+      local bytes = ora('<stack><layer src="b.png"/></stack>', { { name = "b.png", data = picture } })
+      local tree, message = layers.read(write(bytes))
+      if tree then message = select(2, seen(tree)) end
+      assert.matches(pattern, message)
+    end
+    for _, form in ipairs { { 3, 0 }, { 16, 3 }, { 4, 2 }, { 8, 5 }, { 2, 6 }, { 1, 4 } } do
+      fails(png(1, 1, form[1], form[2], rows[8]), "its PNG header is damaged")
+    end
+    local indexed = stored.chunk("PLTE", "\1\2\3")
+    fails(png(1, 1, 8, 3, "\0\0", stored.chunk("PLTE", "\1\2")), "its palette is damaged")
+    fails(png(1, 1, 8, 3, "\0\0", stored.chunk("PLTE", ("\1"):rep(771))), "its palette is damaged")
+    fails(png(1, 1, 8, 3, "\0\0", indexed .. stored.chunk("tRNS", ("\1"):rep(300))), "its transparency is damaged")
+    fails(png(1, 1, 8, 0, "\0\0", stored.chunk("tRNS", "\1")), "its transparency is damaged")
+    fails(png(1, 1, 8, 2, "\0\0\0\0", stored.chunk("tRNS", "\1\2\3\4\5")), "its transparency is damaged")
+  end)
+
+  it_reads_archives("has pictures of every depth of grey and of palettes", function()
+    for depth,
+    data in pairs { [1] = "\0\128", [2] = "\0\192", [4] = "\0\240", [8] = "\0\255", [16] = "\0\255\255" } do
+      local tree = read(ora('<stack><layer src="b.png"/></stack>', { { name = "b.png", data = paintings.png_of(1, 1, depth, 0, data) } }))
+      assert.are.equal("\255\255\255\255", assert(seen(tree)):bytes():sub(1, 4), depth)
+      if depth < 16 then
+        local palette = stored.chunk("PLTE", ("\1\2\3"):rep((1 << depth) - 1) .. "\9\8\7") .. stored.chunk("tRNS", "\0")
+        tree = read(ora('<stack><layer src="b.png"/></stack>', { { name = "b.png", data = paintings.png_of(1, 1, depth, 3, data, palette) } }))
+        assert.are.equal("\9\8\7\255", assert(seen(tree)):bytes():sub(1, 4), depth)
+      end
+    end
+  end)
+end)
+
+-- ---------------------------------------------------------------- Krita
+
+describe("a Krita document", function()
+  local HEAD = "VERSION 2\nTILEWIDTH 64\nTILEHEIGHT 64\nPIXELSIZE 4\nDATA %s\n"
+  local function krita(tiles) return paintings.krita { w = 12, h = 10, layers = { layer_of { tiles = tiles } } } end
+
+  it_reads_archives("is refused, or fails when it is seen, where its tiles are damaged", function()
+    local cases = {
+      { "", "too early" },
+      { "VERSION 3\nTILEWIDTH 64\nTILEHEIGHT 64\nPIXELSIZE 4\nDATA 0\n", "unknown kind" },
+      { "VERSION x\n", "the head of the layer's tiles is damaged" },
+      { "VERSION 2\nTILEWIDTH 64\nTILEHEIGHT 64\nPIXELSIZE -4\nDATA 0\n", "head" },
+      { "VERSION 2\nTILEWIDTH 64 \n", "head" }, { "VERSION 12345678901\n", "head" },
+      { ("V"):rep(500), "a line of the layer's tiles is too long" },
+      { HEAD:format "999" .. "0,0,LZF,1\n\0", "too early" },
+    }
+    for _,
+    line in ipairs { "1,0,LZF,1\n\0", "0,7,LZF,1\n\0", "x,0,LZF,1\n\0", "0;0,LZF,1\n\0", "0,x,LZF,1\n\0", "0,0,LZF,x\n\0", "0,0,LZF,0\n\0",
+      "0,0,LZF,99999\n\0", "0,0,LZF,1 \n\0" } do
+      cases[#cases + 1] = { HEAD:format "1" .. line, "the line of a tile is damaged" }
+    end
+    for _, case in ipairs(cases) do
+      local tree, message = layers.read(write(krita(case[1])))
+      if tree then message = select(2, seen(tree)) end
+      assert.is_string(message, case[1])
+      assert.matches(case[2], message)
+    end
+  end)
+
+  it_reads_archives("may have layers without a tile, and tiles in any order", function()
+    local empty = read(krita(HEAD:format "0"))
+    assert.are.equal(("\0"):rep(4 * 12 * 10), assert(seen(empty)):bytes())
+    local tile = "\0" .. ("\7"):rep(64 * 64) .. ("\8"):rep(64 * 64) .. ("\9"):rep(64 * 64) .. ("\255"):rep(64 * 64)
+    local function at(x, y) return ("%d,%d,LZF,%d\n%s"):format(x, y, #tile, tile) end
+    local ordered = assert(seen(read(krita(HEAD:format "4" .. at(0, 0) .. at(64, 0) .. at(-64, 64) .. at(0, 64))))):bytes()
+    local mixed = assert(seen(read(krita(HEAD:format "4" .. at(0, 64) .. at(64, 0) .. at(0, 0) .. at(-64, 64))))):bytes()
+    assert.are_not.equal(("\0"):rep(4 * 12 * 10), ordered)
+    assert.is_true(ordered == mixed)
+    assert.is_true(assert(seen(read(krita(HEAD:format "2" .. at(0, 0) .. at(0, 0))))):bytes() == ordered)
+  end)
+
+  it_reads_archives("tells what of its layers is not shown", function()
+    local function attributes(text) return told(read(paintings.krita { w = 12, h = 10, layers = { layer_of { attributes = text } } })) end
+    assert.are.same({}, attributes ' channelflags="1111"')
+    assert.are.same({}, attributes ' channelflags=""')
+    assert.are.equal(1, #attributes ' channelflags="0111"')
+    assert.are_not.same(attributes ' channelflags="0111"', attributes ' channelflags="1110"')
+    local through = read(paintings.krita { w = 12, h = 10, layers = { { name = "g", attributes = ' passthrough="1"', layers = { layer_of() } } } })
+    assert.are.equal("pass-through", through[1].blend)
+  end)
+end)
