@@ -80,7 +80,7 @@ static celspan_status read_element(reader *r, cs_sequence *out) {
     return status;
   if (step == 0)
     return refuse(r, "a step of 0 ends");
-  if ((to - from) / step < 0 || (to != from && (to < from) != (step < 0)))
+  if (to != from && (to < from) != (step < 0))
     return refuse(r, to < from ? "a range that goes down needs a step below 0"
                                : "a range that goes up needs a step above 0");
   return append(r, out, from, to, step);
@@ -231,9 +231,9 @@ static celspan_status add_file(reader *r, const char *pattern, const char *name,
 static celspan_status fail_folder(celspan_context *context, const char *pattern, int error) {
   if (error == ENOMEM)
     return celspan_context_fail(context, CELSPAN_NO_MEMORY,
-                                "%s: its folder cannot be read: out of memory", pattern);
-  return celspan_context_fail(context, CELSPAN_INPUT, "%s: its folder cannot be read: %s", pattern,
-                              strerror(error));
+                                "%.600s: its folder cannot be read: out of memory", pattern);
+  return celspan_context_fail(context, CELSPAN_INPUT, "%.600s: its folder cannot be read: %s",
+                              pattern, strerror(error));
 }
 
 celspan_status cs_sequence_list(celspan_context *context, const char *pattern, cs_sequence *out) {

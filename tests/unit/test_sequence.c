@@ -1,0 +1,178 @@
+/* Lists of frames and the names of their files: what lists mean, where they are wrong, and which files
+ * are those of a pattern. */
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "film/sequence.h"
+#include "tests/support/check.h"
+
+/* The frames of a list with blanks between, or the sentence of the refusal. */
+static const char *read_list(celspan_context *context, const char *list, char text[256]) {
+  cs_sequence sequence = {0};
+  size_t size = 0;
+  if (cs_sequence_parse(context, list, &sequence) != CELSPAN_OK) {
+    CHECK(sequence.count == 0 && !sequence.frames);
+    return celspan_context_error(context);
+  }
+  text[0] = 0;
+  for (size_t i = 0; i < sequence.count && size < 240; i++)
+    size += (size_t)snprintf(text + size, 256 - size, "%s%lld", i ? " " : "",
+                             (long long)sequence.frames[i]);
+  cs_sequence_finish(&sequence);
+  return text;
+}
+
+static void lists_mean_frames(celspan_context *context) {
+  static const char *const cases[][2] = {
+      {"7", "7"},
+      {"-7", "-7"},
+      {" 1 , 3 ", "1 3"},
+      {"1-4", "1 2 3 4"},
+      {"-2--1", "-2 -1"},
+      {"-1-1", "-1 0 1"},
+      {"5-5", "5"},
+      {"5-5:-3", "5"},
+      {"1-9:3", "1 4 7"},
+      {"9-1:-4", "9 5 1"},
+      {"1\t-\t6 : 5,2", "1 6 2"},
+      {"3,1,2", "3 1 2"},
+      {"1000000000000", "1000000000000"},
+  };
+  char text[256];
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    CHECK_TEXT(read_list(context, cases[i][0], text), cases[i][1]);
+}
+
+static void lists_are_refused_where_they_are_wrong(celspan_context *context) {
+  static const char *const cases[][2] = {
+      {"", "a whole number is missing at character 1"},
+      {"1,", "a whole number is missing at character 3"},
+      {"1-", "a whole number is missing at character 3"},
+      {"--1", "a whole number is missing at character 1"},
+      {"1-4:", "a whole number is missing at character 5"},
+      {"1-4:x", "a whole number is missing at character 5"},
+      {"x", "a whole number is missing at character 1"},
+      {"1.5", "something that does not belong to a list at character 2"},
+      {"1 2", "something that does not belong to a list at character 3"},
+      {"1-4:2:1", "something that does not belong to a list at character 6"},
+      {"1-4:0", "a step of 0 ends"},
+      {"4-1", "a range that goes down needs a step below 0"},
+      {"4-1:2", "a range that goes down needs a step below 0"},
+      {"1-4:-1", "a range that goes up needs a step above 0"},
+      {"1-3,2", "frame 2 stands in it twice"},
+      {"5,-5,5", "frame 5 stands in it twice"},
+      {"1000000000001", "the number is too large"},
+      {"1-99999999999999999999", "the number is too large"},
+      {"1-10000001", "more than 10000000 frames in one list"},
+      {"1-9999999,-1,-2", "more than 10000000 frames in one list"},
+  };
+  char text[256];
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+    if (!CHECK(strstr(read_list(context, cases[i][0], text), cases[i][1])))
+      fprintf(stderr, "  '%s': %s\n", cases[i][0], celspan_context_error(context));
+}
+
+static void frames_lie_within_a_film(celspan_context *context) {
+  cs_sequence all;
+  if (!CHECK(cs_sequence_count(context, -3, 5, &all) == CELSPAN_OK))
+    return;
+  CHECK(all.count == 5 && all.frames[0] == -3 && all.frames[4] == 1);
+  CHECK(cs_sequence_within(context, &all, -3, 5) == CELSPAN_OK);
+  CHECK(cs_sequence_within(context, &all, -2, 9) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "frame -3 is outside"));
+  CHECK(cs_sequence_within(context, &all, -3, 4) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(context), "frame 1 is outside"));
+  cs_sequence_finish(&all);
+  CHECK(cs_sequence_count(context, 1, 10000001, &all) == CELSPAN_LIMIT);
+}
+
+static void names_have_their_number_in_one_place(celspan_context *context) {
+  static const struct {
+    const char *pattern;
+    int64_t frame;
+    const char *name;
+  } cases[] = {
+      {"a.#.png", 7, "a.7.png"},
+      {"a.####.png", 7, "a.0007.png"},
+      {"a.##.png", 12345, "a.12345.png"},
+      {"a.####.png", -7, "a.-007.png"},
+      {"#/##/b.##.##", 3, "#/##/b.##.03"},
+      {"a.%04d.png", 7, "a.0007.png"},
+      {"a.%d.png", 7, "a.7.png"},
+      {"%d.%x.%1234d.%", 7, "7.%x.%1234d.%"},
+      {"a.%099d", 7, "a.00000000000000000007"},
+      {"########################", 7, "00000000000000000007"},
+      {"one.png", 7, "one.png"},
+  };
+  char name[64], small[4];
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    CHECK(cs_sequence_name(context, cases[i].pattern, cases[i].frame, name, sizeof name) ==
+          CELSPAN_OK);
+    CHECK_TEXT(name, cases[i].name);
+    const char *slash = strrchr(cases[i].pattern, '/');
+    CHECK(cs_sequence_matches(slash ? slash + 1 : cases[i].pattern,
+                              slash ? strrchr(name, '/') + 1 : name));
+  }
+  CHECK(!cs_sequence_has_number("a/#/one.png") && cs_sequence_has_number("a/one.%3d"));
+  CHECK(cs_sequence_name(context, "a.##.png", 1, small, sizeof small) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(context), "the file name \"a.##.png...\" is too long");
+  static const char *const others[] = {"a.png",    "a..png",   "b.07.png",
+                                       "a.07.exr", "a.x7.png", "a.07.png.part"};
+  for (size_t i = 1; i < sizeof others / sizeof *others; i++)
+    CHECK(cs_sequence_matches("a.##.png", others[i]) == (strcmp(others[i], "a..png") == 0));
+  CHECK(!cs_sequence_matches("a.##.png", others[0]) && !cs_sequence_matches("one.png", "two.png"));
+}
+
+static void make(const char *folder, const char *name) {
+  char path[256];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  FILE *file = fopen(path, "w");
+  if (CHECK(file))
+    fclose(file);
+}
+
+static void files_are_found_by_their_pattern(celspan_context *context) {
+  static const char *const names[] = {"a.0010.png", "a.0002.png",  "a.-001.png", "a.12345.png",
+                                      "a.2.png",    "a.00002.png", "a. 002.png", "a.0003.exr",
+                                      "b.0004.png", "a..png",      "a.png"};
+  char folder[] = "/tmp/celspan-sequence-XXXXXX", pattern[256], path[256];
+  cs_sequence found;
+  if (!CHECK(mkdtemp(folder)))
+    return;
+  snprintf(pattern, sizeof pattern, "%s/a.####.png", folder);
+  if (CHECK(cs_sequence_list(context, pattern, &found) == CELSPAN_OK))
+    CHECK(found.count == 0);
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    make(folder, names[i]);
+  if (CHECK(cs_sequence_list(context, pattern, &found) == CELSPAN_OK)) {
+    static const int64_t frames[] = {-1, 2, 10, 12345};
+    CHECK(found.count == 4 && memcmp(found.frames, frames, sizeof frames) == 0);
+    cs_sequence_finish(&found);
+  }
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+    CHECK(unlink(path) == 0);
+  }
+  CHECK(rmdir(folder) == 0);
+  CHECK(cs_sequence_list(context, pattern, &found) == CELSPAN_INPUT);
+  CHECK(strstr(celspan_context_error(context), "its folder cannot be read: No such file"));
+  char *longest = malloc(9000);
+  memset(longest, 'x', 9000);
+  strcpy(longest + 8000, "/#.png");
+  CHECK(cs_sequence_list(context, longest, &found) == CELSPAN_INPUT);
+  CHECK(strstr(celspan_context_error(context), "File name too long"));
+  free(longest);
+}
+
+int main(void) {
+  celspan_context *context;
+  if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
+    return check_done();
+  lists_mean_frames(context);
+  lists_are_refused_where_they_are_wrong(context);
+  frames_lie_within_a_film(context);
+  names_have_their_number_in_one_place(context);
+  files_are_found_by_their_pattern(context);
+  celspan_context_destroy(context);
+  return check_done();
+}
