@@ -11,11 +11,12 @@
 enum { CAP_POINTS = 12, MOST_POINTS = 1000000 };
 
 static const cs_fit_rules rules = {.tolerance = 0.05,
+                                   .mean = 0.05,
+                                   .straight = 0.0375,
                                    .about = 3,
                                    .turn = 0.5,
-                                   .evening = 0,
-                                   .near = 2,
-                                   .smooth = 0.03,
+                                   .near = 4,
+                                   .rounding = 0.2,
                                    .noise = 0.02};
 
 typedef struct drawer {

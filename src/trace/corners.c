@@ -2,199 +2,190 @@
 
 #include <math.h>
 
-/* The points about a corner that are not asked, on either side; the fewest that are; how many points
- * lie at least between two corners; and the most that a corner may be away from its point. */
-enum { SKIPPED = 1, FEWEST = 3, APART = 3 };
-#define FAR 1.15
+#include "trace/stretches.h"
 
-/* ---------------------------------------------------------------- parabolas */
-
-static celspan_point at(const cs_points *points, ptrdiff_t i) {
-  ptrdiff_t count = (ptrdiff_t)points->count;
-  return points->items[((i % count) + count) % count];
-}
-
-/* The length from the origin to a point, along the points between; below 0 against the steps. */
-static double length_to(const cs_stretch_of_points *s, int offset) {
-  double length = 0;
-  int sign = offset < 0 ? -1 : 1;
-  for (int i = 0; i != offset; i += sign) {
-    celspan_point a = at(s->points, s->origin + s->step * i);
-    celspan_point b = at(s->points, s->origin + s->step * (i + sign));
-    length += sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
-  }
-  return sign * length;
-}
-
-/* Sums of the powers of the lengths, and of points times them. */
-typedef struct sums {
-  double power[5];
-  celspan_point moment[3];
-  double squares;
-} sums;
-
-static sums sum_up(const cs_stretch_of_points *s) {
-  sums sum = {.power = {0}};
-  double u = length_to(s, s->skipped);
-  for (int i = s->skipped; i < s->skipped + s->count; i++) {
-    celspan_point p = at(s->points, s->origin + s->step * i), middle = at(s->points, s->origin);
-    p.x -= middle.x, p.y -= middle.y;
-    double powers[5] = {1, u, u * u, u * u * u, u * u * u * u};
-    for (int k = 0; k < 5; k++)
-      sum.power[k] += powers[k];
-    sum.squares += p.x * p.x + p.y * p.y;
-    for (int k = 0; k < 3; k++) {
-      sum.moment[k].x += powers[k] * p.x;
-      sum.moment[k].y += powers[k] * p.y;
-    }
-    celspan_point next = at(s->points, s->origin + s->step * (i + 1));
-    next.x -= middle.x, next.y -= middle.y;
-    u += sqrt((next.x - p.x) * (next.x - p.x) + (next.y - p.y) * (next.y - p.y));
-  }
-  return sum;
-}
-
-/* The coefficients of the parabola, by Cramer's rule; of the line where there are but two points, or
- * all are in one place. */
-static void coefficients(const double p[5], const double m[3], double out[3]) {
-  double a = p[2] * p[4] - p[3] * p[3], b = p[1] * p[4] - p[2] * p[3];
-  double c = p[1] * p[3] - p[2] * p[2], all = p[0] * a - p[1] * b + p[2] * c;
-  if (all > 1e-6 && p[0] > 2.5) {
-    double d = p[0] * p[4] - p[2] * p[2], e = p[0] * p[3] - p[1] * p[2];
-    double f = p[0] * p[2] - p[1] * p[1];
-    out[0] = (a * m[0] - b * m[1] + c * m[2]) / all;
-    out[1] = (-b * m[0] + d * m[1] - e * m[2]) / all;
-    out[2] = (c * m[0] - e * m[1] + f * m[2]) / all;
-    return;
-  }
-  double line = p[0] * p[2] - p[1] * p[1];
-  out[0] = line > 1e-9 ? (p[2] * m[0] - p[1] * m[1]) / line : m[0] / p[0];
-  out[1] = line > 1e-9 ? (p[0] * m[1] - p[1] * m[0]) / line : 0;
-  out[2] = 0;
-}
-
-cs_parabola cs_parabola_at(const cs_stretch_of_points *stretch) {
-  sums s = sum_up(stretch);
-  celspan_point middle = at(stretch->points, stretch->origin);
-  double x[3], y[3], explained = 0;
-  coefficients(s.power, (double[]){s.moment[0].x, s.moment[1].x, s.moment[2].x}, x);
-  coefficients(s.power, (double[]){s.moment[0].y, s.moment[1].y, s.moment[2].y}, y);
-  for (int k = 0; k < 3; k++)
-    explained += x[k] * s.moment[k].x + y[k] * s.moment[k].y;
-  cs_parabola out = {.point = {middle.x + x[0], middle.y + y[0]},
-                     .error = (s.squares - explained) / stretch->count};
-  double length = sqrt(x[1] * x[1] + y[1] * y[1]);
-  if (length > 1e-9)
-    out.tangent = (celspan_point){x[1] / length, y[1] / length};
-  return out;
-}
-
-/* ---------------------------------------------------------------- angles */
+/* Points on either side of doubtful ones that are taken apart with them. */
+enum { MARGIN = 24 };
+/* Points between two stretches at most that meet in a corner. */
+enum { GAP_MOST = 4 };
+/* How far a corner may be from the points about it. */
+#define FAR 2.5
+/* How much more than the noise points may be off an arc that is no corner. */
+#define DOUBT 1.4
 
 typedef struct finder {
+  celspan_context *context;
   const cs_points *points;
   bool is_closed;
   const cs_fit_rules *rules;
-  double *turns, *errors; /* by point */
+  cs_stretches stretches; /* of the range that is taken apart */
+  cs_corner_list *out;
 } finder;
 
-/* The border before (step -1) or after (1) a point, prolonged to it. false: there are too few points.
- */
-static bool come_in(const finder *f, size_t i, int step, cs_parabola *out) {
-  ptrdiff_t count = (ptrdiff_t)f->points->count;
-  ptrdiff_t room = f->is_closed ? count / 2 : step > 0 ? count - 1 - (ptrdiff_t)i : (ptrdiff_t)i;
-  int most = f->rules->about < room - SKIPPED ? f->rules->about : (int)(room - SKIPPED);
-  if (most < FEWEST)
-    return false;
-  for (int asked = most; asked >= FEWEST; asked--) {
-    const cs_stretch_of_points side = {f->points, (ptrdiff_t)i, step, SKIPPED + 1, asked};
-    *out = cs_parabola_at(&side);
-    if (out->error <= f->rules->noise * f->rules->noise)
-      break;
+static ptrdiff_t point_count(const finder *f) { return (ptrdiff_t)f->points->count; }
+
+/* Whether one arc goes through the points about one. */
+static bool is_smooth(const finder *f, ptrdiff_t i) {
+  ptrdiff_t count = point_count(f), from = i - f->rules->near, to = i + f->rules->near + 1;
+  if (!f->is_closed) {
+    from = from < 0 ? 0 : from;
+    to = to > count ? count : to;
   }
-  return true;
+  cs_arc_sums sums = cs_arc_begin(cs_points_at(f->points, i));
+  for (ptrdiff_t k = from; k < to && k - from < count; k++)
+    cs_arc_add(&sums, cs_points_at(f->points, k));
+  double most = DOUBT * f->rules->noise;
+  return cs_arc_line_error(&sums) <= most * most || cs_arc_error(&sums) <= most * most;
 }
 
-/* Whether one parabola goes through the points about one. */
-static bool is_smooth(const finder *f, size_t i) {
-  ptrdiff_t count = (ptrdiff_t)f->points->count, near = f->rules->near;
-  bool has_room =
-      f->is_closed ? 2 * near + 1 <= count : (ptrdiff_t)i >= near && (ptrdiff_t)i + near < count;
-  const cs_stretch_of_points both = {f->points, (ptrdiff_t)i, 1, -(int)near, 2 * (int)near + 1};
-  return has_room && cs_parabola_at(&both).error <= f->rules->smooth * f->rules->smooth;
-}
+/* ---------------------------------------------------------------- one corner */
 
-/* The cosine of the turn at a point, 1 straight on, -1 back, and how far points are off its sides. */
-static void measure(const finder *f, size_t i) {
-  cs_parabola before, after;
-  f->turns[i] = 1;
-  if (is_smooth(f, i) || !come_in(f, i, -1, &before) || !come_in(f, i, 1, &after))
-    return;
-  f->turns[i] = -(before.tangent.x * after.tangent.x + before.tangent.y * after.tangent.y);
-  double dx = before.point.x - after.point.x, dy = before.point.y - after.point.y;
-  f->errors[i] = before.error + after.error + 0.1 * (dx * dx + dy * dy);
-}
-
-/* Where the lines of both sides intersect, or on the way there, where that is too far away: of a sharp
- * corner antialiasing takes more. */
-static celspan_point corner_at(const finder *f, size_t i) {
-  cs_parabola before, after;
-  celspan_point point = f->points->items[i];
-  if (!come_in(f, i, -1, &before) || !come_in(f, i, 1, &after))
-    return point;
-  celspan_point in = before.tangent, out = after.tangent;
-  double area = in.x * out.y - in.y * out.x;
-  if (fabs(area) < 0.05)
-    return point;
-  double dx = after.point.x - before.point.x, dy = after.point.y - before.point.y;
-  double way = (dx * out.y - dy * out.x) / area;
-  dx = before.point.x + way * in.x - point.x;
-  dy = before.point.y + way * in.y - point.y;
-  double far = sqrt(dx * dx + dy * dy);
-  double most = f->turns[i] < 0 ? FAR * (1 - 0.4 * f->turns[i]) : FAR;
-  double held = far > most ? most / far : 1;
-  return (celspan_point){point.x + held * dx, point.y + held * dy};
-}
-
-/* Whether of all points that turn enough, within `about` of it, none is nearer to its sides; of equals
- * the first. */
-static bool is_best(const finder *f, size_t i) {
-  ptrdiff_t count = (ptrdiff_t)f->points->count;
-  for (ptrdiff_t k = -APART; k <= APART; k++) {
-    ptrdiff_t other = (ptrdiff_t)i + k;
-    if (k == 0 || (!f->is_closed && (other < 0 || other >= count)))
-      continue;
-    size_t at = (size_t)(((other % count) + count) % count);
-    bool is_corner = at != i && f->turns[at] <= f->rules->turn;
-    if (is_corner && (f->errors[at] < f->errors[i] || (f->errors[at] == f->errors[i] && k < 0)))
+/* Goes to where both intersect; false: they do not, or too far away. */
+static bool intersect(const cs_arc *a, const cs_arc *b, celspan_point *point) {
+  celspan_point begun = *point, u, v;
+  for (int step = 0; step < 5; step++) {
+    double off_a = cs_arc_off(a, *point, &u), off_b = cs_arc_off(b, *point, &v);
+    double area = u.x * v.y - u.y * v.x;
+    if (fabs(area) < 0.05)
+      return false;
+    point->x -= (off_a * v.y - off_b * u.y) / area;
+    point->y -= (off_b * u.x - off_a * v.x) / area;
+    double dx = point->x - begun.x, dy = point->y - begun.y;
+    if (dx * dx + dy * dy > FAR * FAR)
       return false;
   }
   return true;
 }
 
-static celspan_status find(celspan_context *context, const finder *f, cs_corner_list *out) {
-  for (size_t i = 0; i < f->points->count; i++)
-    measure(f, i);
-  for (size_t i = 0; i < f->points->count; i++) {
-    if (f->turns[i] > f->rules->turn || !is_best(f, i))
+/* The direction of a stretch where it gets to a point, seen from another of its points; step: 1 to it,
+ * -1 from it. */
+static celspan_point direction_at(const cs_arc *arc, celspan_point point, celspan_point seen,
+                                  int step) {
+  celspan_point across;
+  (void)cs_arc_off(arc, point, &across);
+  double length = sqrt(across.x * across.x + across.y * across.y);
+  celspan_point along = {-across.y / length, across.x / length};
+  double ahead = along.x * (point.x - seen.x) + along.y * (point.y - seen.y);
+  double sign = ahead * step < 0 ? -1 : 1;
+  return (celspan_point){sign * along.x, sign * along.y};
+}
+
+/* Whether two stretches, one after the other, meet in a corner. */
+static bool meet(const finder *f, const cs_stretch *a, const cs_stretch *b, celspan_point *point) {
+  celspan_point last = cs_points_at(f->points, a->to - 1), first = cs_points_at(f->points, b->from);
+  *point = (celspan_point){0.5 * (last.x + first.x), 0.5 * (last.y + first.y)};
+  if (b->from - a->to > GAP_MOST || !intersect(&a->arc, &b->arc, point))
+    return false;
+  celspan_point in = direction_at(&a->arc, *point, cs_points_at(f->points, a->to - 2), 1);
+  celspan_point out = direction_at(&b->arc, *point, cs_points_at(f->points, b->from + 1), -1);
+  return in.x * out.x + in.y * out.y <= f->rules->turn;
+}
+
+/* Whether points between two stretches, and next to them, are so near to both sides of their corner
+ * as rounding takes them: on the rim of a bend they are not. */
+static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b) {
+  for (ptrdiff_t i = a->to - 1; i <= b->from; i++) {
+    celspan_point own = cs_points_at(f->points, i), across;
+    double off_a = fabs(cs_arc_off(&a->arc, own, &across));
+    double off_b = fabs(cs_arc_off(&b->arc, own, &across));
+    if (off_a > f->rules->rounding && off_b > f->rules->rounding)
+      return false;
+  }
+  return true;
+}
+
+/* The one of points [from, to) that is nearest. */
+static size_t nearest(const finder *f, celspan_point point, ptrdiff_t from, ptrdiff_t to) {
+  ptrdiff_t best = from, count = point_count(f);
+  double least = HUGE_VAL;
+  for (ptrdiff_t i = from; i < to; i++) {
+    celspan_point own = cs_points_at(f->points, i);
+    double dx = own.x - point.x, dy = own.y - point.y, far = dx * dx + dy * dy;
+    if (far < least) {
+      least = far;
+      best = i;
+    }
+  }
+  return (size_t)(((best % count) + count) % count);
+}
+
+static celspan_status add(const finder *f, size_t at, celspan_point point) {
+  cs_corner_list *out = f->out;
+  if (out->count > 0 && out->items[out->count - 1].at == at)
+    return CELSPAN_OK;
+  CS_TRY(cs_mem_reserve(f->context, (void **)&out->items, &out->capacity, out->count + 1,
+                        sizeof *out->items));
+  out->items[out->count++] = (cs_corner){at, point};
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- ranges */
+
+/* The corners at points [from, to), found with `margin` points on either side. */
+static celspan_status find_between(finder *f, ptrdiff_t from, ptrdiff_t to, ptrdiff_t margin) {
+  ptrdiff_t begin = from - margin, end = to + margin, count = point_count(f);
+  if (!f->is_closed) {
+    begin = begin < 0 ? 0 : begin;
+    end = end > count ? count : end;
+  }
+  CS_TRY(cs_stretches_find(f->context, f->points, begin, end, f->rules->noise, &f->stretches));
+  for (size_t i = 0; i + 1 < f->stretches.count; i++) {
+    const cs_stretch *a = &f->stretches.items[i], *b = a + 1;
+    celspan_point point;
+    if (a->to < from || a->to >= to || !is_filled(f, a, b) || !meet(f, a, b, &point))
       continue;
-    CS_TRY(cs_mem_reserve(context, (void **)&out->items, &out->capacity, out->count + 1,
-                          sizeof *out->items));
-    out->items[out->count++] = (cs_corner){i, corner_at(f, i)};
+    CS_TRY(add(f, nearest(f, point, a->to - 1, b->from + 1), point));
   }
   return CELSPAN_OK;
 }
 
+/* A point from which on all within the margin are smooth; the count of points: there is none. */
+static ptrdiff_t find_smooth(const finder *f) {
+  ptrdiff_t count = point_count(f), run = 0;
+  for (ptrdiff_t i = 0; i < count; i++) {
+    run = is_smooth(f, i) ? run + 1 : 0;
+    if (run > 2 * MARGIN)
+      return i - MARGIN;
+  }
+  return count;
+}
+
+/* From `begin` on, once around or to the end: doubtful points that are near each other together. */
+static celspan_status find_all(finder *f, ptrdiff_t begin) {
+  ptrdiff_t end = begin + point_count(f);
+  for (ptrdiff_t i = begin; i < end;) {
+    if (is_smooth(f, i)) {
+      i++;
+      continue;
+    }
+    ptrdiff_t last = i;
+    for (ptrdiff_t k = i; k < end && k - last <= MARGIN; k++)
+      last = is_smooth(f, k) ? last : k;
+    ptrdiff_t from = i - f->rules->near, to = last + f->rules->near + 1;
+    CS_TRY(find_between(f, from > begin ? from : begin, to < end ? to : end, MARGIN));
+    i = to;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status find(finder *f) {
+  ptrdiff_t count = point_count(f);
+  if (!f->is_closed)
+    return find_all(f, 0);
+  ptrdiff_t begin = find_smooth(f);
+  return begin < count ? find_all(f, begin)
+                       : find_between(f, 0, count, count < MARGIN ? count : MARGIN);
+}
+
 celspan_status cs_corners_find(celspan_context *context, const cs_points *points, bool is_closed,
                                const cs_fit_rules *rules, cs_corner_list *out) {
-  size_t count = points->count;
-  finder f = {points, is_closed, rules, NULL, NULL};
-  if (count == 0)
-    return CELSPAN_OK;
-  f.turns = cs_mem_array(context->memory, count, sizeof *f.turns);
-  f.errors = cs_mem_array(context->memory, count, sizeof *f.errors);
-  celspan_status status = f.turns && f.errors ? find(context, &f, out) : cs_fail_memory(context);
-  cs_mem_free(context->memory, f.turns, count * sizeof *f.turns);
-  cs_mem_free(context->memory, f.errors, count * sizeof *f.errors);
+  finder f = {context, points, is_closed, rules, {.items = NULL}, out};
+  celspan_status status = points->count > 0 ? find(&f) : CELSPAN_OK;
+  cs_stretches_finish(context, &f.stretches);
   return status;
+}
+
+void cs_corners_finish(celspan_context *context, cs_corner_list *corners) {
+  cs_mem_free(context->memory, corners->items, corners->capacity * sizeof *corners->items);
+  *corners = (cs_corner_list){.items = NULL};
 }

@@ -180,20 +180,27 @@ static double far_from(const cubic *c, celspan_point point, double t) {
   return length(at.x - point.x, at.y - point.y);
 }
 
-/* The distance of the farthest point, after parameters have come nearer. step: of points. */
-static double bring_nearer(const cubic *c, const celspan_point *points, size_t count, size_t step,
-                           double *parameters) {
-  double most = 0;
+/* How far points are off: the farthest, and root mean square. */
+typedef struct distances {
+  double most, mean;
+} distances;
+
+/* After parameters have come nearer. step: of points. */
+static distances bring_nearer(const cubic *c, const celspan_point *points, size_t count,
+                              size_t step, double *parameters) {
+  double most = 0, squares = 0, asked = 0;
   for (size_t i = 0; i < count; i += step) {
     parameters[i] = nearer(c, points[i], parameters[i]);
     double far = far_from(c, points[i], parameters[i]);
     most = far > most ? far : most;
+    squares += far * far;
+    asked++;
   }
-  return most;
+  return (distances){most, sqrt(squares / asked)};
 }
 
 bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
-                  double tolerance, double *parameters, celspan_point control[2]) {
+                  double tolerance, double mean, double *parameters, celspan_point control[2]) {
   size_t step = count / ASKED + 1;
   begin_parameters(points, count, ends, parameters);
   place_plainly(ends, control);
@@ -205,10 +212,14 @@ bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end 
       add_point(&s, ends, points[i], parameters[i]);
     place_controls(&s, ends, control);
     const cubic c = {{ends[0].point, control[0], control[1], ends[1].point}};
-    double most = bring_nearer(&c, points, count, step, parameters);
-    if (most <= tolerance)
-      return step == 1 || bring_nearer(&c, points, count, 1, parameters) <= tolerance;
-    if (most > HOPELESS * tolerance)
+    distances off = bring_nearer(&c, points, count, step, parameters);
+    if (off.most <= tolerance && off.mean <= mean) {
+      if (step == 1)
+        return true;
+      off = bring_nearer(&c, points, count, 1, parameters);
+      return off.most <= tolerance && off.mean <= mean;
+    }
+    if (off.most > HOPELESS * tolerance)
       return false;
   }
   return false;

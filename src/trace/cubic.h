@@ -23,6 +23,6 @@ typedef struct cs_cubic_end {
 /* `parameters` is room for count numbers; the points lie between the ends, which are not among them.
  * Returns whether no point is farther away than the tolerance. */
 bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
-                  double tolerance, double *parameters, celspan_point control[2]);
+                  double tolerance, double mean, double *parameters, celspan_point control[2]);
 
 #endif

@@ -17,17 +17,34 @@ typedef struct maker {
 
 static double least(double a, double b) { return a < b ? a : b; }
 
-/* A picture of whole pixels does not tell where within half a pixel an edge is: its points are made
- * even first, and have more room. */
+static double most(double a, double b) { return a > b ? a : b; }
+
+static cs_fit_rules rules_of_mixed(double smooth) {
+  return (cs_fit_rules){.tolerance = 0.15 * smooth,
+                        .mean = 0.15 * smooth,
+                        .straight = 0.1125 * smooth,
+                        .about = (int)least(3 + 2 * smooth, 12),
+                        .near = 4,
+                        .rounding = 0.5,
+                        .noise = 0.055 * most(smooth, 1)};
+}
+
+/* A picture of whole pixels does not tell where within half a pixel of a side an edge is: that is
+ * noise of the square root of 1/12. */
+static cs_fit_rules rules_of_whole(double smooth) {
+  return (cs_fit_rules){.tolerance = 0.3 + 0.25 * smooth,
+                        .mean = 0.1 + 0.15 * smooth,
+                        .straight = 0.3 + 0.3 * smooth,
+                        .about = 8,
+                        .near = 8,
+                        .rounding = 0.7,
+                        .noise = 0.28 * most(smooth, 1)};
+}
+
 static cs_fit_rules rules_for(double smooth, bool is_whole) {
   const double degree = 0.017453292519943295;
   double sine;
-  cs_fit_rules rules = {.tolerance = is_whole ? 0.1 + 0.25 * smooth : 0.15 * smooth,
-                        .about = (int)least(3 + 2 * smooth, 12),
-                        .near = 2,
-                        .smooth = is_whole ? 0.16 : 0.085,
-                        .noise = is_whole ? 0.2 : 0.08,
-                        .evening = (smooth > 1 ? (int)smooth : 0) + is_whole};
+  cs_fit_rules rules = is_whole ? rules_of_whole(smooth) : rules_of_mixed(smooth);
   cs_elementary_sincos(degree * least(is_whole ? 38 + 10 * smooth : 28 + 10 * smooth, 80), &sine,
                        &rules.turn);
   return rules;

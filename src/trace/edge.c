@@ -11,8 +11,6 @@
 #define ABOUT 3
 /* How far points are apart at least, along their border. */
 #define LEAST_STEP 0.3
-/* Sides of a step before or after one that are counted. */
-#define LONGEST 64
 /* One side in so many has mixtures about it in a picture that is antialiased. */
 #define WHOLE_SHARE 8
 
@@ -175,38 +173,6 @@ static bool is_asked(celspan_point way, int direction) {
   return direction % 2 == 1 ? fabs(way.y) >= fabs(way.x) : fabs(way.x) > fabs(way.y);
 }
 
-/* A run of sides in one direction, [from, to). */
-typedef struct flight {
-  ptrdiff_t from, to;
-} flight;
-
-static flight flight_of(const course *c, ptrdiff_t i) {
-  flight f = {i, i + 1};
-  int direction = direction_at(c, i);
-  while (i - f.from < LONGEST && direction_at(c, f.from - 1) == direction)
-    f.from--;
-  while (f.to - i < LONGEST && direction_at(c, f.to) == direction)
-    f.to++;
-  return f;
-}
-
-/* Whether it is a step of a stair: before it and after it the border goes one side across, the same
- * way, and on again. */
-static bool is_step(const course *c, const flight *f) {
-  int direction = direction_at(c, f->from), aside = direction_at(c, f->to);
-  return aside >= 0 && aside % 2 != direction % 2 && direction_at(c, f->from - 1) == aside &&
-         direction_at(c, f->from - 2) == direction && direction_at(c, f->to + 1) == direction;
-}
-
-/* The middle of the step that side i, which begins at (x, y), is in; false where another of its sides
- * is to give it. */
-static bool middle_of_step(const flight *f, ptrdiff_t i, int direction, celspan_point *point) {
-  double length = (double)(f->to - f->from), way = 0.5 * length - (double)(i - f->from);
-  point->x += way * cs_border_x(direction);
-  point->y += way * cs_border_y(direction);
-  return i == f->from + (f->to - f->from - 1) / 2;
-}
-
 /* Whether a point lies farther along the way than the last one, by a good part of a pixel: where a
  * border turns from upright to across, points of both would alternate. */
 static bool goes_on(const cs_points *points, celspan_point point, celspan_point way) {
@@ -221,35 +187,32 @@ static course course_of(const cs_borders *borders, const cs_chain *chain) {
   return (course){borders->directions + chain->first, chain->count, chain->from == CS_NODE_NONE};
 }
 
-/* The point of side i, which begins at *point; false: it has none. */
-static bool point_of_side(const cs_material *material, const course *c, size_t i,
-                          celspan_point *point) {
+/* Adds the point of side i, which begins at (x, y), where it has one. */
+static celspan_status add_point_of(celspan_context *context, const cs_material *material,
+                                   const course *c, size_t i, celspan_point from, cs_points *out) {
   int direction = c->directions[i];
-  if (material->is_whole) {
-    flight f = flight_of(c, (ptrdiff_t)i);
-    if (is_step(c, &f))
-      return middle_of_step(&f, (ptrdiff_t)i, direction, point);
-  }
-  across line = across_side(material, (int32_t)point->x, (int32_t)point->y, direction);
-  *point = point_of(&line);
-  return true;
+  if (material->is_whole)
+    return cs_points_add(context, out,
+                         (celspan_point){from.x + 0.5 * cs_border_x(direction),
+                                         from.y + 0.5 * cs_border_y(direction)});
+  celspan_point way = way_about(c, i);
+  if (!is_asked(way, direction))
+    return CELSPAN_OK;
+  across line = across_side(material, (int32_t)from.x, (int32_t)from.y, direction);
+  celspan_point point = point_of(&line);
+  return goes_on(out, point, way) ? cs_points_add(context, out, point) : CELSPAN_OK;
 }
 
 celspan_status cs_edge_points(celspan_context *context, const cs_material *material,
                               const cs_borders *borders, const cs_chain *chain, cs_sides sides,
                               cs_points *out) {
   course c = course_of(borders, chain);
-  int32_t x = chain->x, y = chain->y;
+  celspan_point at = {chain->x, chain->y};
   for (size_t i = 0; i < sides.to; i++) {
-    int direction = c.directions[i];
-    celspan_point way = i >= sides.from ? way_about(&c, i) : (celspan_point){0, 0};
-    if (i >= sides.from && is_asked(way, direction)) {
-      celspan_point point = {x, y};
-      if (point_of_side(material, &c, i, &point) && goes_on(out, point, way))
-        CS_TRY(cs_points_add(context, out, point));
-    }
-    x += cs_border_x(direction);
-    y += cs_border_y(direction);
+    if (i >= sides.from)
+      CS_TRY(add_point_of(context, material, &c, i, at, out));
+    at.x += cs_border_x(c.directions[i]);
+    at.y += cs_border_y(c.directions[i]);
   }
   return CELSPAN_OK;
 }

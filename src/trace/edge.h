@@ -17,12 +17,13 @@
  *        +--+
  *           +-----+--
  *
- * In a picture of whole pixels a slanting edge is a stair of sides, and only the middle of each step
- * tells where it is:
+ * In a picture of whole pixels nothing but the sides themselves tells where the edge is, which
+ * passes between the middles of the pixels on both sides of each; so every side is asked, and its
+ * middle taken:
  *
  *      --.--+                 . : points
+ *           .
  *           +--.--+
- *                 +--.--
  *
  * INVARIANT: a point is less than CS_EDGE_FAR from its side, and a function of the pixels near it.
  */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "trace/cubic.h"
+#include "trace/stretches.h"
 
 /* Points this near to a corner or an end are not fitted: what lies about a corner rounds them. */
 #define NEAR 1.1
@@ -80,60 +81,64 @@ static bool is_straight(const part *p) {
   const celspan_point *items = p->points.items;
   size_t last = p->points.count - 1;
   for (size_t i = 1; i < last; i++)
-    if (off_line(items[0], items[last], items[i]) > 0.75 * p->rules->tolerance)
+    if (off_line(items[0], items[last], items[i]) > p->rules->straight)
       return false;
   return true;
 }
 
-/* Each point becomes the mean of itself and its neighbours; ends stay. */
-static void make_even(part *p) {
-  celspan_point *items = p->points.items;
-  for (int round = 0; round < p->rules->evening; round++) {
-    celspan_point before = items[0];
-    for (size_t i = 1; i + 1 < p->points.count; i++) {
-      celspan_point own = items[i];
-      items[i] = (celspan_point){(before.x + 2 * own.x + items[i + 1].x) / 4,
-                                 (before.y + 2 * own.y + items[i + 1].y) / 4};
-      before = own;
-    }
-  }
-}
-
-static void set_joint(cs_parabola parabola, cs_cubic_end *out) {
-  out->point = parabola.point;
-  out->tangent = parabola.tangent;
-  out->has_tangent = out->tangent.x != 0 || out->tangent.y != 0;
-}
-
-/* The joint at a point: the parabola of the points about it. */
-static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
-  size_t last = p->points.count - 1, about = (size_t)p->rules->about;
-  size_t room = i < last - i ? i : last - i;
-  size_t extent = room < about ? room : about;
-  const cs_stretch_of_points both = {&p->points, (ptrdiff_t)i, 1, -(int)extent,
-                                     (int)(2 * extent + 1)};
-  set_joint(cs_parabola_at(&both), out);
-}
-
-/* The joint of a ring: its points go on before the first and after the last, which are the same. */
-static void make_ring_joint(const part *p, cs_cubic_end *out) {
+/* The points about one, `extent` on either side, or as many in all next to an end of the part. */
+static cs_arc_sums sum_about(const part *p, ptrdiff_t i, ptrdiff_t extent) {
+  ptrdiff_t end = (ptrdiff_t)p->points.count, wanted = 2 * extent + 1;
   cs_points once = p->points;
-  once.count--;
-  int about = p->rules->about;
-  if ((size_t)(2 * about + 1) > once.count)
-    about = (int)((once.count - 1) / 2);
-  const cs_stretch_of_points both = {&once, 0, 1, -about, 2 * about + 1};
-  set_joint(cs_parabola_at(&both), out);
+  once.count -= p->is_ring;
+  ptrdiff_t from = i - extent;
+  if (!p->is_ring) {
+    from = from + wanted > end ? end - wanted : from;
+    from = from < 0 ? 0 : from;
+    wanted = wanted < end - from ? wanted : end - from;
+  }
+  cs_arc_sums sums = cs_arc_begin(p->points.items[i]);
+  for (ptrdiff_t k = 0; k < wanted && k < (ptrdiff_t)once.count; k++)
+    cs_arc_add(&sums, cs_points_at(&once, from + k));
+  return sums;
+}
+
+/* Whether points tell no arc from a line. */
+static bool is_line(const part *p, const cs_arc_sums *sums) {
+  double scale = 0.5 * sums->count / (p->rules->noise * p->rules->noise);
+  return sums->count < 4 || scale * (cs_arc_line_error(sums) - cs_arc_error(sums)) <= 3;
+}
+
+/* The joint at a point: on the longest arc about it that is as near to its points as noise lets them
+ * be. */
+static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
+  const celspan_point *items = p->points.items;
+  size_t last = p->points.count - 1;
+  double most = p->rules->noise;
+  cs_arc_sums sums;
+  for (int extent = p->rules->about; extent > 1; extent--) {
+    sums = sum_about(p, (ptrdiff_t)i, extent);
+    if (cs_arc_error(&sums) <= most * most)
+      break;
+  }
+  celspan_point before = items[i > 0 ? i - 1 : last - 1], after = items[i < last ? i + 1 : 1];
+  celspan_point across;
+  cs_arc arc = cs_arc_of(&sums, is_line(p, &sums));
+  out->point = cs_arc_nearest(&arc, items[i]);
+  (void)cs_arc_off(&arc, out->point, &across);
+  double length = sqrt(across.x * across.x + across.y * across.y);
+  bool is_back = across.x * (after.y - before.y) - across.y * (after.x - before.x) < 0;
+  length = is_back ? -length : length;
+  out->tangent = (celspan_point){-across.y / length, across.x / length};
+  out->has_tangent = true;
 }
 
 /* The end of a fit at a point, towards points after it (step 1) or before it (-1). */
 static cs_cubic_end end_at(const part *p, size_t i, int step) {
   size_t last = p->points.count - 1;
   cs_cubic_end end = {.point = p->points.items[i]};
-  if (i > 0 && i < last)
+  if (p->is_ring || (i > 0 && i < last))
     make_joint(p, i, &end);
-  else if (p->is_ring)
-    make_ring_joint(p, &end);
   end.tangent.x *= step;
   end.tangent.y *= step;
   return end;
@@ -145,7 +150,7 @@ static bool fit(const part *p, size_t from, size_t to, cs_piece *out) {
   out->is_line = false;
   out->to = ends[1].point;
   return cs_cubic_fit(p->points.items + from + 1, to - from - 1, ends, p->rules->tolerance,
-                      p->parameters, out->control);
+                      p->rules->mean, p->parameters, out->control);
 }
 
 /* The farthest point that one cubic gets to: twice as many points as long as that goes, then halves
@@ -179,8 +184,6 @@ static size_t farthest(const part *p, size_t from, cs_piece *best) {
 /* Goes as far as it gets; at least to the next point, which is a line. */
 static celspan_status fit_part(part *p) {
   size_t last = p->points.count - 1;
-  if (p->points.count < 3 || (!p->is_ring && is_straight(p)))
-    return add_line(p->context, p->out, p->points.items[last]);
   for (size_t from = 0; from < last;) {
     cs_piece best = {.is_line = true, .to = p->points.items[from + 1]};
     size_t to = farthest(p, from, &best);
@@ -203,7 +206,8 @@ static celspan_status add_between(part *p, const cs_points *points, size_t from,
 }
 
 static celspan_status run_part(part *p) {
-  make_even(p);
+  if (p->points.count < 3 || (!p->is_ring && is_straight(p)))
+    return add_line(p->context, p->out, p->points.items[p->points.count - 1]);
   size_t room = p->points.count;
   p->parameters = cs_mem_array(p->context->memory, room, sizeof *p->parameters);
   if (!p->parameters)
@@ -227,10 +231,6 @@ static celspan_status fit_between(const part *like, const cs_points *points, siz
 
 /* ---------------------------------------------------------------- chains */
 
-static void finish_corners(celspan_context *context, cs_corner_list *corners) {
-  cs_mem_free(context->memory, corners->items, corners->capacity * sizeof *corners->items);
-}
-
 celspan_status cs_fit_open(celspan_context *context, const cs_points *points,
                            const cs_fit_rules *rules, cs_pieces *out) {
   const part p = {.context = context, .rules = rules, .out = out};
@@ -247,7 +247,7 @@ celspan_status cs_fit_open(celspan_context *context, const cs_points *points,
   }
   if (status == CELSPAN_OK)
     status = fit_between(&p, points, from + 1, last > from ? last - from - 1 : 0, ends);
-  finish_corners(context, &corners);
+  cs_corners_finish(context, &corners);
   return status;
 }
 
@@ -261,7 +261,7 @@ static celspan_status fit_ring(const part *like, const cs_points *points, celspa
   for (size_t i = 0; i <= points->count && status == CELSPAN_OK; i++)
     status = cs_points_add(like->context, &p.points, points->items[i % points->count]);
   if (status == CELSPAN_OK) {
-    make_ring_joint(&p, &joint);
+    make_joint(&p, 0, &joint);
     *start = cs_fit_snap(joint.point);
     status = run_part(&p);
   }
@@ -293,6 +293,6 @@ celspan_status cs_fit_closed(celspan_context *context, const cs_points *points,
   } else if (status == CELSPAN_OK) {
     status = fit_ring(&p, points, start);
   }
-  finish_corners(context, &corners);
+  cs_corners_finish(context, &corners);
   return status;
 }
