@@ -61,6 +61,8 @@ typedef struct part {
   const cs_fit_rules *rules;
   cs_points points;
   double *parameters; /* room, for each point */
+  size_t *ends;       /* points at which pieces end; room for all */
+  size_t end_count;
   bool is_ring;       /* its ends are one joint, not corners */
   cs_pieces *out;
 } part;
@@ -181,15 +183,55 @@ static size_t farthest(const part *p, size_t from, cs_piece *best) {
   return good;
 }
 
-/* Goes as far as it gets; at least to the next point, which is a line. */
-static celspan_status fit_part(part *p) {
+/* Goes as far as it gets; at least to the next point, which is a line. Sets the points at which pieces
+ * end. */
+static celspan_status fit_greedily(part *p) {
   size_t last = p->points.count - 1;
   for (size_t from = 0; from < last;) {
     cs_piece best = {.is_line = true, .to = p->points.items[from + 1]};
     size_t to = farthest(p, from, &best);
     CS_TRY(cs_pieces_add(p->context, p->out, &best));
     from = to > from ? to : from + 1;
+    p->ends[p->end_count++] = from;
   }
+  return CELSPAN_OK;
+}
+
+/* Adds the pieces once more, each shorter by that share. Sets whether all fit. */
+static celspan_status fit_shares(const part *p, double share, bool *fits) {
+  size_t from = 0;
+  *fits = true;
+  for (size_t i = 0; i < p->end_count && *fits; i++) {
+    bool is_last = i + 1 == p->end_count;
+    size_t to = is_last ? p->points.count - 1 : (size_t)(share * (double)p->ends[i] + 0.5);
+    cs_piece piece;
+    *fits = to > from && fit(p, from, to, &piece);
+    if (*fits)
+      CS_TRY(cs_pieces_add(p->context, p->out, &piece));
+    from = to;
+  }
+  return CELSPAN_OK;
+}
+
+/* Pieces that go as far as they may are as far off as they may be, and the last one has what is left
+ * over. So each is made shorter by as much as if the last one had gone as far as the others; where
+ * that does not fit they stay. */
+static celspan_status fit_part(part *p) {
+  size_t first = p->out->count, count;
+  CS_TRY(fit_greedily(p));
+  count = p->end_count;
+  if (count < 2)
+    return CELSPAN_OK;
+  bool fits;
+  double whole = (double)p->ends[count - 2] * (double)count / (double)(count - 1);
+  double share = (double)(p->points.count - 1) / whole;
+  if (share >= 1)
+    return CELSPAN_OK;
+  CS_TRY(fit_shares(p, share, &fits));
+  cs_piece *pieces = p->out->items + first;
+  if (fits)
+    memcpy(pieces, pieces + count, count * sizeof *pieces);
+  p->out->count = first + count;
   return CELSPAN_OK;
 }
 
@@ -210,10 +252,10 @@ static celspan_status run_part(part *p) {
     return add_line(p->context, p->out, p->points.items[p->points.count - 1]);
   size_t room = p->points.count;
   p->parameters = cs_mem_array(p->context->memory, room, sizeof *p->parameters);
-  if (!p->parameters)
-    return cs_fail_memory(p->context);
-  celspan_status status = fit_part(p);
+  p->ends = cs_mem_array(p->context->memory, room, sizeof *p->ends);
+  celspan_status status = p->parameters && p->ends ? fit_part(p) : cs_fail_memory(p->context);
   cs_mem_free(p->context->memory, p->parameters, room * sizeof *p->parameters);
+  cs_mem_free(p->context->memory, p->ends, room * sizeof *p->ends);
   return status;
 }
 
