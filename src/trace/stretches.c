@@ -4,7 +4,7 @@
 
 /* What a line costs, an arc, and a point that is left out. */
 #define LINE 5.0
-#define ARC 9.0
+#define ARC 8.0
 #define LEFT_OUT 2.2
 /* With so much more than one for each of its points, an arc is longer than one that is taken. */
 #define HOPELESS 24.0
