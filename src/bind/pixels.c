@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/context.h"
+#include "base/wide.h"
 #include "bind/caller.h"
 #include "bind/host.h"
 #include "bind/openers.h"
@@ -25,7 +26,7 @@ typedef struct image {
   int32_t width, height;
   int32_t x, y;   /* the place of the first pixel in the whole frame */
   bool is_opaque; /* every pixel's alpha is certain to be 1 */
-  float pixels[]; /* RGBA, rows top to bottom */
+  float *pixels;  /* RGBA, rows top to bottom; behind this, from a line of the cache on */
 } image;
 
 static int32_t coordinate(lua_State *L, int index, const char *name, int32_t size) {
@@ -155,14 +156,16 @@ static int describe(lua_State *L) {
 float *cs_pixels_push(lua_State *L, int32_t width, int32_t height, int32_t x, int32_t y,
                       bool is_opaque) {
   uint64_t count = (uint64_t)width * (uint64_t)height, pixel = 4 * sizeof(float);
-  if (count > UINT64_C(1) << 32 || count > (SIZE_MAX - sizeof(image)) / pixel)
+  if (count > UINT64_C(1) << 32 || count > (SIZE_MAX - sizeof(image) - CS_WIDE_LINE) / pixel)
     return NULL;
-  image *picture = lua_newuserdatauv(L, sizeof *picture + (size_t)(count * pixel), 0);
+  image *picture =
+      lua_newuserdatauv(L, sizeof *picture + CS_WIDE_LINE + (size_t)(count * pixel), 0);
   picture->width = width;
   picture->height = height;
   picture->x = x;
   picture->y = y;
   picture->is_opaque = is_opaque;
+  picture->pixels = cs_wide_align(picture + 1);
   luaL_setmetatable(L, IMAGE);
   return picture->pixels;
 }

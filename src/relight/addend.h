@@ -6,9 +6,14 @@
  *   what is 0 has no span; short spans become the numbers of an array, one plane of them where the
  *   channels are alike, else three; long ones stay singles and gradients
  *
+ * Arrays end where a piece of the row does, CS_ADDEND_PIECE columns. Their numbers are codes of 16 bits
+ * from the least to the greatest of each plane, half a step off at most, and faint ones are left out, as
+ * long as what all addends of a frame are off by in that piece stays within a budget; else floats.
+ *
  * INVARIANT: the spans of a row are sorted and disjoint, and their values lie in `values` in the order
- * of the spans: a single has three, a gradient six (colour, and slope a column), an array one or three
- * for each column, plane by plane.
+ * of the spans: a single has three, a gradient six (colour, and slope a column), floats one or three
+ * for each column, plane by plane; codes have the least number and the step of each plane, then codes
+ * likewise, two in the room of a value.
  */
 #ifndef CS_RELIGHT_ADDEND_H
 #define CS_RELIGHT_ADDEND_H
@@ -19,15 +24,19 @@
 typedef enum cs_addend_kind {
   CS_ADDEND_SINGLE,
   CS_ADDEND_GRADIENT,
-  CS_ADDEND_GREY,  /* an array of one plane */
-  CS_ADDEND_ARRAY, /* of three */
+  CS_ADDEND_FLOATS,
+  CS_ADDEND_CODES,
 } cs_addend_kind;
+
+/* Columns of a piece of a row. */
+#define CS_ADDEND_PIECE 64
 
 typedef struct cs_addend_span {
   int32_t x0, x1;
-  int32_t origin; /* GRADIENT: the column of its colour */
-  cs_addend_kind kind;
-  size_t first; /* of its values */
+  int32_t origin;       /* GRADIENT: the column of its colour */
+  uint16_t kind;        /* cs_addend_kind */
+  uint16_t plane_count; /* FLOATS, CODES: 1 or 3 */
+  size_t first;         /* of its values */
 } cs_addend_span;
 
 typedef struct cs_addend {
@@ -45,40 +54,46 @@ CELSPAN_CHECKED celspan_status cs_addend_init(celspan_context *context, int32_t 
 void cs_addend_finish(cs_addend *addend, cs_memory *memory);
 size_t cs_addend_bytes(const cs_addend *addend);
 
+/* What all addends of a frame are off by, in each piece of each row. */
+typedef struct cs_addend_budget {
+  int32_t pieces, height; /* pieces of a row */
+  float *spent;
+} cs_addend_budget;
+
+/* Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_addend_budget_init(celspan_context *context, int32_t width,
+                                                     int32_t height, cs_addend_budget *out);
+void cs_addend_budget_finish(cs_addend_budget *budget, cs_memory *memory);
+
 /* Fills an addend, row by row. */
 typedef struct cs_addend_writer {
   cs_addend *addend;
-  bool is_through;   /* what comes through is added, 1 - alpha, instead of the colours */
-  float *dense;      /* planes of a row: what is not in spans yet */
-  int32_t from, end; /* of that */
+  cs_addend_budget *budget; /* borrowed */
+  float *spent;             /* of the row under way */
+  bool is_through;          /* what comes through is added, 1 - alpha, instead of the colours */
+  float *dense;             /* planes of a row: what is not in spans yet */
+  int32_t from, end;        /* of that */
 } cs_addend_writer;
 
-/* addend: initialized, borrowed. Errors: NO_MEMORY. */
+/* addend, budget: initialized, borrowed. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend,
-                                                     bool is_through, cs_addend_writer *out);
+                                                     cs_addend_budget *budget, bool is_through,
+                                                     cs_addend_writer *out);
 void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer);
 /* Row y, which follows the last one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_addend_writer_row(celspan_context *context,
                                                     cs_addend_writer *writer, int32_t y,
                                                     const celspan_span *spans, size_t count);
 
-/* Adds row y, times a weight for each channel, to three planes of `width` numbers, one after the
- * other. */
-void cs_addend_add(const cs_addend *addend, cs_isa isa, int32_t y, const float weights[3],
-                   float *planes);
-
 /* ---- addend_wide.c */
 
-CS_WIDE_DECLARE(void, cs_addend_plane,
-                (float *restrict out, const float *restrict in, float weight, int32_t count));
-CS_WIDE_DECLARE(void, cs_addend_constant, (float *out, float value, int32_t count));
-/* Column k of those counted gets weight * (colour + slope * (first + k)). */
-CS_WIDE_DECLARE(void, cs_addend_line,
-                (float *out, float weight, float colour, float slope, int32_t first,
-                 int32_t count));
-/* Pixels of three planes, and of what comes through, for their alpha. */
+/* Adds row y, times a weight for each channel, to three planes, `stride` numbers apart. */
+CS_WIDE_DECLARE(void, cs_addend_add,
+                (const cs_addend *addend, int32_t y, const float weights[3], size_t stride,
+                 float *planes));
+/* Pixels of four planes, three of colours, and what comes through, of which `keep` counts. Planes have
+ * room for four numbers more. */
 CS_WIDE_DECLARE(void, cs_addend_pixels,
-                (const float *restrict planes, const float *restrict through, float keep,
-                 int32_t count, float *restrict rgba));
+                (const float *planes, size_t stride, float keep, int32_t count, float *rgba));
 
 #endif

@@ -1,30 +1,111 @@
 /* Sums over columns. Each number is computed by itself, so it does not depend on the instructions. */
 #include "relight/addend.h"
 
-void CS_WIDE(cs_addend_plane)(float *restrict out, const float *restrict in, float weight,
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+static inline void add_constant(float *out, float value, int32_t count) {
+  for (int32_t i = 0; i < count; i++)
+    out[i] += value;
+}
+
+/* Column k of those counted gets weight * (colour + slope * (first + k)). */
+static inline void add_line(float *out, float weight, float colour, float slope, int32_t first,
+                            int32_t count) {
+  for (int32_t i = 0; i < count; i++)
+    out[i] += weight * (colour + slope * (float)(first + i));
+}
+
+static inline void add_floats(float *restrict out, const float *restrict in, float weight,
                               int32_t count) {
   for (int32_t i = 0; i < count; i++)
     out[i] += weight * in[i];
 }
 
-void CS_WIDE(cs_addend_constant)(float *out, float value, int32_t count) {
+static inline void add_codes(float *restrict out, const uint16_t *restrict in, float least,
+                             float step, int32_t count) {
   for (int32_t i = 0; i < count; i++)
-    out[i] += value;
+    out[i] += least + step * (float)in[i];
 }
 
-void CS_WIDE(cs_addend_line)(float *out, float weight, float colour, float slope, int32_t first,
-                             int32_t count) {
-  for (int32_t i = 0; i < count; i++)
-    out[i] += weight * (colour + slope * (float)(first + i));
-}
-
-void CS_WIDE(cs_addend_pixels)(const float *restrict planes, const float *restrict through,
-                               float keep, int32_t count, float *restrict rgba) {
-  const float *red = planes, *green = planes + count, *blue = planes + 2 * (size_t)count;
-  for (int32_t i = 0; i < count; i++) {
-    rgba[4 * i] = red[i];
-    rgba[4 * i + 1] = green[i];
-    rgba[4 * i + 2] = blue[i];
-    rgba[4 * i + 3] = 1 - keep * through[i];
+/* One channel of a span. */
+static inline void add_channel(const cs_addend_span *span, const float *values, int c, float weight,
+                               float *out) {
+  int32_t count = span->x1 - span->x0;
+  int plane = span->plane_count == 1 ? 0 : c;
+  size_t column = (size_t)plane * (size_t)count;
+  const float *scale = values + 2 * plane; /* of CODES */
+  switch ((cs_addend_kind)span->kind) {
+  case CS_ADDEND_SINGLE:
+    add_constant(out, weight * values[c], count);
+    return;
+  case CS_ADDEND_GRADIENT:
+    add_line(out, weight, values[c], values[3 + c], span->x0 - span->origin, count);
+    return;
+  case CS_ADDEND_FLOATS:
+    add_floats(out, values + column, weight, count);
+    return;
+  case CS_ADDEND_CODES:
+    add_codes(out, (const uint16_t *)(const void *)(values + 2 * span->plane_count) + column,
+              weight * scale[0], weight * scale[1], count);
+    return;
   }
+}
+
+void CS_WIDE(cs_addend_add)(const cs_addend *addend, int32_t y, const float weights[3],
+                            size_t stride, float *planes) {
+  for (size_t i = addend->rows[y]; i < addend->rows[y + 1]; i++) {
+    const cs_addend_span *span = &addend->spans[i];
+    for (int c = 0; c < 3; c++)
+      if (weights[c] != 0)
+        add_channel(span, addend->values + span->first, c, weights[c],
+                    planes + (size_t)c * stride + span->x0);
+  }
+}
+
+typedef float quad __attribute__((vector_size(16)));
+
+static inline quad load_quad(const float *from) {
+  quad v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+/* Past the caches, where that can be: a frame is greater than they are. */
+static inline void put_quad(float *to, quad v) {
+#ifdef __SSE2__
+  if ((uintptr_t)to % sizeof v == 0) {
+    _mm_stream_ps(to, (__m128)v);
+    return;
+  }
+#endif
+  memcpy(to, &v, sizeof v);
+}
+
+/* Four numbers of each plane, as four pixels. */
+static inline void put_pixels(float *rgba, const float *planes, size_t stride, float keep) {
+  quad r = load_quad(planes), g = load_quad(planes + stride), b = load_quad(planes + 2 * stride);
+  quad a = 1 - keep * load_quad(planes + 3 * stride);
+  quad rb = __builtin_shufflevector(r, b, 0, 4, 1, 5),
+       ga = __builtin_shufflevector(g, a, 0, 4, 1, 5);
+  put_quad(rgba, __builtin_shufflevector(rb, ga, 0, 4, 1, 5));
+  put_quad(rgba + 4, __builtin_shufflevector(rb, ga, 2, 6, 3, 7));
+  rb = __builtin_shufflevector(r, b, 2, 6, 3, 7);
+  ga = __builtin_shufflevector(g, a, 2, 6, 3, 7);
+  put_quad(rgba + 8, __builtin_shufflevector(rb, ga, 0, 4, 1, 5));
+  put_quad(rgba + 12, __builtin_shufflevector(rb, ga, 2, 6, 3, 7));
+}
+
+void CS_WIDE(cs_addend_pixels)(const float *planes, size_t stride, float keep, int32_t count,
+                               float *rgba) {
+  int32_t rest = count % 4;
+  for (int32_t i = 0; i < count - rest; i += 4)
+    put_pixels(rgba + 4 * (size_t)i, planes + i, stride, keep);
+  float last[16];
+  put_pixels(last, planes + count - rest, stride, keep);
+  memcpy(rgba + 4 * (size_t)(count - rest), last, 4 * (size_t)rest * sizeof *last);
+#ifdef __SSE2__
+  _mm_sfence();
+#endif
 }

@@ -1,13 +1,15 @@
 /* A frame taken apart into what its lights add: celspan_stack of the public header.
  *
  *   rostrum --scene/lit_alone.h, for each light--> frame --spans--> addend (addend.h)
+ *   rostrum, in its own lights --------------------> frame --spans--> addend: the base
  *
  *   row = sum of addend * light, for every light that is on        or, where few lights differ,
- *   row = row in the rostrum's own lights + sum of addend * (light - own light)
+ *   row = base + sum of addend * (light - own light)
  *
  * What a unit of a light adds does not depend on the other lights: composing is linear in all of
- * them, and so is antialiasing. Where all media are grey, what comes through the cels is 1 - alpha
- * of what a front light shows, so that one frame gives two addends.
+ * them, and so is antialiasing. What comes through all cels is 1 - alpha of what the rearmost light
+ * shows; where all media are grey, it is what a light behind them adds, so that the frame of a front
+ * light gives the addend of the back light as well.
  */
 #include <stdatomic.h>
 #include <string.h>
@@ -23,7 +25,10 @@
 /* Gradients stand for curves in each of the addends: finer than in a frame, so that their sum is. */
 #define TOLERANCE 0x1p-18
 /* Rows that a worker sums at a time. */
-#define STRIP 16
+#define STRIP 4
+/* Numbers on a line of the cache. */
+#define LINE (CS_WIDE_LINE / sizeof(float))
+enum { PLANES = 4 };
 
 /* The lights are numbered from the rear: 0 is the back light of the rostrum itself, and has no front;
  * the first cel's back light lies where that is, so both have one addend. */
@@ -34,7 +39,10 @@ struct celspan_stack {
   size_t light_count;
   celspan_stack_light *own; /* the rostrum's lights */
   cs_addend *fronts, *backs;
-  float *base; /* the frame in these: for each row four planes */
+  cs_addend base; /* the frame in these */
+  cs_addend
+      through; /* what comes through all cels; where media are grey it is empty, and backs[0] */
+  bool is_grey;
 };
 
 /* ---------------------------------------------------------------- lights */
@@ -66,20 +74,14 @@ static celspan_status find_lights(celspan_context *context, const celspan_rostru
   return CELSPAN_OK;
 }
 
-/* Light i of a list, as a weight for each channel. */
-static void weights_of(const celspan_light *light, float weights[3]) {
-  weights[0] = light->r;
-  weights[1] = light->g;
-  weights[2] = light->b;
-}
-
 /* ---------------------------------------------------------------- taking a frame apart */
 
-/* A light that is rendered: where its rows go. */
+/* Frames that are rendered, and where their rows go. */
 typedef struct taking {
-  cs_addend_writer colours, through; /* through: of a front light, where media are grey */
-  const celspan_frame_desc *frame;   /* for its progress */
-  size_t done, total;                /* lights */
+  cs_addend_writer colours, through;
+  cs_addend_budget budget;
+  const celspan_frame_desc *frame; /* of the whole */
+  size_t done, total;              /* frames */
 } taking;
 
 static celspan_status take_row(void *user, celspan_context *context, int32_t y,
@@ -90,7 +92,7 @@ static celspan_status take_row(void *user, celspan_context *context, int32_t y,
                            : CELSPAN_OK;
 }
 
-/* Lights count as rows of a frame that is so much higher. */
+/* All count as rows of one frame that is so much higher. */
 static bool pass_progress(void *user, int32_t rows_done, int32_t rows_total) {
   const taking *t = user;
   double total = (double)rows_total * (double)t->total;
@@ -100,34 +102,37 @@ static bool pass_progress(void *user, int32_t rows_done, int32_t rows_total) {
                                                    (int32_t)(total * scale));
 }
 
-static celspan_status render_alone(celspan_context *context, const celspan_frame_desc *desc,
-                                   size_t index, bool is_back, taking *t) {
-  const celspan_rostrum *rostrum = desc->exposures[0].rostrum;
-  cs_lit_alone alone;
-  CS_TRY(cs_lit_alone_make(context, rostrum, index, is_back, &alone));
-  const celspan_exposure exposure = {&alone.rostrum, 1};
-  celspan_frame_desc frame = *desc;
+static celspan_status render(celspan_context *context, celspan_rostrum *rostrum, taking *t) {
+  const celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc frame = *t->frame;
   frame.exposures = &exposure;
-  frame.tolerance = desc->tolerance > 0 ? desc->tolerance : TOLERANCE;
+  frame.tolerance = frame.tolerance > 0 ? frame.tolerance : TOLERANCE;
   frame.progress = pass_progress;
   frame.progress_user = t;
   const celspan_sink sink = {.user = t, .row = take_row};
-  celspan_status status = celspan_frame_render(context, &frame, &sink, NULL);
-  cs_lit_alone_finish(context, &alone);
-  return status;
+  return celspan_frame_render(context, &frame, &sink, NULL);
 }
 
-/* One frame becomes an addend, or two. through: NULL, or another one. */
-static celspan_status take(celspan_context *context, const celspan_frame_desc *desc, size_t index,
-                           bool is_back, cs_addend *colours, cs_addend *through, taking *t) {
-  celspan_status status = cs_addend_writer_init(context, colours, false, &t->colours);
+/* One frame becomes an addend, or two. through: NULL, or what comes through its cels. */
+static celspan_status take(celspan_context *context, celspan_rostrum *rostrum, cs_addend *colours,
+                           cs_addend *through, taking *t) {
+  celspan_status status = cs_addend_writer_init(context, colours, &t->budget, false, &t->colours);
   if (status == CELSPAN_OK && through)
-    status = cs_addend_writer_init(context, through, true, &t->through);
+    status = cs_addend_writer_init(context, through, &t->budget, true, &t->through);
   if (status == CELSPAN_OK)
-    status = render_alone(context, desc, index, is_back, t);
+    status = render(context, rostrum, t);
   cs_addend_writer_finish(context, &t->colours);
   cs_addend_writer_finish(context, &t->through);
   t->done++;
+  return status;
+}
+
+static celspan_status take_alone(celspan_context *context, size_t index, bool is_back,
+                                 cs_addend *colours, cs_addend *through, taking *t) {
+  cs_lit_alone alone;
+  CS_TRY(cs_lit_alone_make(context, t->frame->exposures[0].rostrum, index, is_back, &alone));
+  celspan_status status = take(context, &alone.rostrum, colours, through, t);
+  cs_lit_alone_finish(context, &alone);
   return status;
 }
 
@@ -146,21 +151,31 @@ static bool is_grey(celspan_context *context, const celspan_rostrum *rostrum) {
   return cs_walk_rostrum(&walk, rostrum) == CELSPAN_OK && grey;
 }
 
-static celspan_status take_all(celspan_context *context, const celspan_frame_desc *desc,
-                               celspan_stack *stack) {
-  const celspan_rostrum *rostrum = desc->exposures[0].rostrum;
-  bool grey = is_grey(context, rostrum);
-  size_t cels = rostrum->cel_count;
-  taking t = {.frame = desc, .total = grey ? cels + 1 : 2 * cels};
-  if (!grey || cels == 0)
-    CS_TRY(take(context, desc, 0, true, &stack->backs[0], NULL, &t));
+static celspan_status take_lights(celspan_context *context, celspan_stack *stack, taking *t) {
+  size_t cels = stack->light_count - 1;
+  if (!stack->is_grey || cels == 0)
+    CS_TRY(take_alone(context, 0, true, &stack->backs[0], &stack->through, t));
   for (size_t i = 0; i < cels; i++) {
     cs_addend *back = &stack->backs[i == 0 ? 0 : i + 1];
-    CS_TRY(take(context, desc, i, false, &stack->fronts[i + 1], grey ? back : NULL, &t));
-    if (!grey && i > 0)
-      CS_TRY(take(context, desc, i, true, back, NULL, &t));
+    CS_TRY(take_alone(context, i, false, &stack->fronts[i + 1], stack->is_grey ? back : NULL, t));
+    if (!stack->is_grey && i > 0)
+      CS_TRY(take_alone(context, i, true, back, NULL, t));
   }
   return CELSPAN_OK;
+}
+
+static celspan_status take_all(celspan_context *context, const celspan_frame_desc *desc,
+                               celspan_stack *stack) {
+  celspan_rostrum *rostrum = desc->exposures[0].rostrum;
+  size_t cels = rostrum->cel_count;
+  stack->is_grey = is_grey(context, rostrum);
+  taking t = {.frame = desc, .total = (stack->is_grey ? cels : 2 * cels) + (cels == 0) + 1};
+  CS_TRY(cs_addend_budget_init(context, stack->width, stack->height, &t.budget));
+  celspan_status status = take_lights(context, stack, &t);
+  if (status == CELSPAN_OK)
+    status = take(context, rostrum, &stack->base, NULL, &t);
+  cs_addend_budget_finish(&t.budget, context->memory);
+  return status;
 }
 
 /* ---------------------------------------------------------------- summing */
@@ -177,10 +192,10 @@ typedef struct summing {
   cs_isa isa;
   term *terms;
   size_t count;
-  bool has_base; /* terms are added to the frame in the rostrum's own lights */
   float keep;
-  float *planes; /* six of a row for each worker: light, and what comes through */
-  float *rgba;   /* pixels; or NULL, and the base is made */
+  float *planes; /* of each worker, four of each row: colours, and what comes through */
+  size_t stride; /* from one to the next */
+  float *rgba;
 } summing;
 
 static const cs_addend *front_of(const celspan_stack *stack, size_t i) { return &stack->fronts[i]; }
@@ -191,31 +206,33 @@ static const cs_addend *back_of(const celspan_stack *stack, size_t i) {
 
 static void add_term(summing *s, const cs_addend *addend, const celspan_light *light,
                      const celspan_light *less) {
-  term t = {.addend = addend};
-  float taken[3] = {0, 0, 0};
-  weights_of(light, t.weights);
-  if (less)
-    weights_of(less, taken);
-  for (int c = 0; c < 3; c++)
-    t.weights[c] -= taken[c];
+  const term t = {addend, {light->r - less->r, light->g - less->g, light->b - less->b}};
   if (addend->span_count > 0 && (t.weights[0] != 0 || t.weights[1] != 0 || t.weights[2] != 0))
     s->terms[s->count++] = t;
 }
 
-/* own: NULL, or the lights that are in the base. Returns the bytes that the terms have. */
-static size_t list_terms(summing *s, const celspan_stack_light *lights,
-                         const celspan_stack_light *own) {
+/* has_base: what changes in the base. Returns the bytes that the terms have. */
+static size_t list_terms(summing *s, const celspan_stack_light *lights, bool has_base) {
   const celspan_stack *stack = s->stack;
+  const celspan_stack_light none = {{0, 0, 0, 0}, {0, 0, 0, 0}};
+  const celspan_light white = {1, 1, 1, 1};
   size_t bytes = 0;
   s->count = 0;
+  if (has_base)
+    add_term(s, &stack->base, &white, &none.front);
   for (size_t i = 0; i < stack->light_count; i++) {
+    const celspan_stack_light *less = has_base ? &stack->own[i] : &none;
     if (i > 0)
-      add_term(s, front_of(stack, i), &lights[i].front, own ? &own[i].front : NULL);
-    add_term(s, back_of(stack, i), &lights[i].back, own ? &own[i].back : NULL);
+      add_term(s, front_of(stack, i), &lights[i].front, &less->front);
+    add_term(s, back_of(stack, i), &lights[i].back, &less->back);
   }
   for (size_t i = 0; i < s->count; i++)
     bytes += cs_addend_bytes(s->terms[i].addend);
   return bytes;
+}
+
+static const cs_addend *through_of(const celspan_stack *stack) {
+  return stack->is_grey && stack->light_count > 1 ? &stack->backs[0] : &stack->through;
 }
 
 /* What the mattes of back lights leave of what comes through. */
@@ -226,73 +243,49 @@ static float keep_of(const celspan_stack *stack, const celspan_stack_light *ligh
   return keep;
 }
 
-static size_t row_bytes(const celspan_stack *stack) {
-  return (size_t)stack->width * 4 * sizeof(float);
+static void add_rows(const summing *s, const term *t, int32_t y, int32_t rows, float *planes) {
+  for (int32_t k = 0; k < rows; k++)
+    CS_WIDE_CHOOSE(s->isa, cs_addend_add)
+  (t->addend, y + k, t->weights, s->stride, planes + (size_t)k * PLANES * s->stride);
 }
 
-/* Whichever has fewer numbers to go through. */
-static void choose_terms(summing *s, const celspan_stack_light *lights) {
-  const celspan_stack *stack = s->stack;
-  size_t base = row_bytes(stack) * (size_t)stack->height;
-  size_t all = list_terms(s, lights, NULL);
-  if (base >= all)
-    return;
-  size_t changed = list_terms(s, lights, stack->own);
-  s->has_base = base + changed < all;
-  if (!s->has_base)
-    (void)list_terms(s, lights, NULL);
-}
-
-static void sum_row(const summing *s, int32_t y, float *planes) {
-  const celspan_stack *stack = s->stack;
-  size_t width = (size_t)stack->width, plane = width * sizeof(float);
-  float *base = stack->base + 4 * width * (size_t)y, *through = planes + 3 * width;
-  const float one[3] = {1, 1, 1};
-  if (s->has_base)
-    memcpy(planes, base, 3 * plane);
-  else
-    memset(planes, 0, 3 * plane);
-  for (size_t i = 0; i < s->count; i++)
-    cs_addend_add(s->terms[i].addend, s->isa, y, s->terms[i].weights, planes);
-  if (s->rgba) {
-    CS_WIDE_CHOOSE(s->isa, cs_addend_pixels)
-    (planes, base + 3 * width, s->keep, stack->width, s->rgba + 4 * width * (size_t)y);
-    return;
-  }
-  memset(through, 0, 3 * plane);
-  cs_addend_add(&stack->backs[0], s->isa, y, one, through);
-  memcpy(base, planes, 3 * plane);
-  for (size_t x = 0; x < width; x++)
-    base[3 * width + x] = (through[x] + through[width + x] + through[2 * width + x]) / 3;
-}
-
+/* Addend by addend, so that memory is read on and on. */
 static void sum_strip(void *user, int worker, int32_t strip) {
   const summing *s = user;
-  int32_t first = strip * STRIP, rest = s->stack->height - first;
-  float *planes = s->planes + 6 * (size_t)s->stack->width * (size_t)worker;
-  for (int32_t y = first; y < first + (rest < STRIP ? rest : STRIP); y++)
-    sum_row(s, y, planes);
+  const celspan_stack *stack = s->stack;
+  const term through = {through_of(stack), {1, 0, 0}};
+  size_t row = PLANES * s->stride, width = (size_t)stack->width;
+  int32_t y = strip * STRIP, rest = stack->height - y, rows = rest < STRIP ? rest : STRIP;
+  float *planes = (float *)cs_wide_align(s->planes) + STRIP * row * (size_t)worker;
+  memset(planes, 0, (size_t)rows * row * sizeof *planes);
+  for (size_t i = 0; i < s->count; i++)
+    add_rows(s, &s->terms[i], y, rows, planes);
+  add_rows(s, &through, y, rows, planes + 3 * s->stride);
+  for (int32_t k = 0; k < rows; k++)
+    CS_WIDE_CHOOSE(s->isa, cs_addend_pixels)
+  (planes + (size_t)k * row, s->stride, s->keep, stack->width,
+   s->rgba + 4 * width * (size_t)(y + k));
 }
 
-/* rgba: NULL makes the base. */
 static celspan_status sum(celspan_context *context, const celspan_stack *stack,
                           const celspan_stack_light *lights, int workers, float *rgba) {
   int threads = cs_frame_workers(workers);
-  size_t terms = 2 * stack->light_count, planes = 6 * (size_t)stack->width;
+  size_t terms = 2 * stack->light_count;
   summing s = {.stack = stack, .isa = cs_isa_best(), .rgba = rgba};
+  s.stride = ((size_t)stack->width + LINE - 1) / LINE * LINE;
+  size_t planes = STRIP * PLANES * s.stride * (size_t)threads + 2 * LINE; /* aligned; read beyond */
   s.terms = cs_mem_array(context->memory, terms, sizeof *s.terms);
-  s.planes = cs_mem_array(context->memory, planes * (size_t)threads, sizeof *s.planes);
+  s.planes = cs_mem_array(context->memory, planes, sizeof *s.planes);
   bool is_ready = s.terms && s.planes;
   if (is_ready) {
-    if (rgba)
-      choose_terms(&s, lights);
-    else
-      (void)list_terms(&s, lights, NULL);
+    size_t all = list_terms(&s, lights, false); /* whichever has less to go through */
+    if (list_terms(&s, lights, true) >= all)
+      (void)list_terms(&s, lights, false);
     s.keep = keep_of(stack, lights);
     cs_thread_pool_run(threads, (stack->height + STRIP - 1) / STRIP, sum_strip, &s);
   }
   cs_mem_free(context->memory, s.terms, terms * sizeof *s.terms);
-  cs_mem_free(context->memory, s.planes, planes * (size_t)threads * sizeof *s.planes);
+  cs_mem_free(context->memory, s.planes, planes * sizeof *s.planes);
   return is_ready ? CELSPAN_OK : cs_fail_memory(context);
 }
 
@@ -307,7 +300,8 @@ static void destroy(celspan_stack *stack) {
   cs_mem_free(memory, stack->fronts, stack->light_count * sizeof *stack->fronts);
   cs_mem_free(memory, stack->backs, stack->light_count * sizeof *stack->backs);
   cs_mem_free(memory, stack->own, stack->light_count * sizeof *stack->own);
-  cs_mem_free(memory, stack->base, row_bytes(stack) * (size_t)stack->height);
+  cs_addend_finish(&stack->base, memory);
+  cs_addend_finish(&stack->through, memory);
   cs_mem_free(memory, stack, sizeof *stack);
   cs_memory_unref(memory);
 }
@@ -325,11 +319,9 @@ static celspan_status fill(celspan_context *context, const celspan_frame_desc *d
     CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->fronts[i]));
     CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->backs[i]));
   }
-  CS_TRY(take_all(context, desc, stack));
-  stack->base = cs_mem_array(context->memory, (size_t)stack->height, row_bytes(stack));
-  if (!stack->base)
-    return cs_fail_memory(context);
-  return sum(context, stack, stack->own, desc->workers, NULL);
+  CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->base));
+  CS_TRY(cs_addend_init(context, stack->width, stack->height, &stack->through));
+  return take_all(context, desc, stack);
 }
 
 static celspan_status check(celspan_context *context, const celspan_frame_desc *desc) {
@@ -387,7 +379,7 @@ void celspan_stack_lights(const celspan_stack *stack, celspan_stack_light *light
 }
 
 size_t celspan_stack_bytes(const celspan_stack *stack) {
-  size_t bytes = row_bytes(stack) * (size_t)stack->height;
+  size_t bytes = cs_addend_bytes(&stack->base) + cs_addend_bytes(&stack->through);
   for (size_t i = 0; i < stack->light_count; i++)
     bytes += cs_addend_bytes(&stack->fronts[i]) + cs_addend_bytes(&stack->backs[i]);
   return bytes;

@@ -1,6 +1,7 @@
 -- Light taken off pictures: what is left, in the light it was taken in and in others; what is kept in
 -- files; and what is refused.
 local celspan = require "celspan"
+local prng = require "tests.support.prng"
 local raised = require("tests.support.raised").sentence
 local relight = require "celspan.relight"
 local workbench = require "tests.support.workbench"
@@ -379,6 +380,29 @@ describe("relight.stack", function()
     assert.is_true(difference(assert(celspan.pixels(rostrum_of({ 1, 1, 1 }, "#fff"),
       { size = { 40, 30 }, crop = { 5, 4, 20, 11 } })), assert(stack:light {})) < 1 / 65535)
     assert(assert(stack:light()):write(bench.folder .. "/lit.png"))
+  end)
+
+  it("is as right where many pictures lie on one another, in less room than floats", function()
+    local draw, cels, changes, lit = prng.new(40), {}, {}, {}
+    for i = 1, 12 do
+      local bytes = {}
+      for k = 1, 4 * 150 * 20 do -- more and more opaque to the rear; one is rough
+        bytes[k] = string.char(k % 4 == 0 and 220 - 15 * i
+          or i == 6 and draw:whole(0, 255) or 20 * i - k // 64 % 20 + draw:whole(0, 1))
+      end
+      cels[i] = celspan.cel { celspan.image { pixels = table.concat(bytes), size = { 150, 20 },
+        format = "rgba8", x = i, y = i % 4 } }
+      changes[i] = { front = { draw:between(0, 2), draw:between(0, 2), 2 }, back = { 2, 1, 0, 0 } }
+      lit[i] = cels[i]:with(changes[i])
+    end
+    local options, fine = { size = { 170, 24 } }, { size = { 170, 24 }, tolerance = 2 ^ -18 }
+    local stack = assert(relight.stack(celspan.rostrum(cels), options))
+    for _, pair in ipairs { { cels, {} }, { lit, changes } } do
+      assert.is_true(difference(assert(celspan.pixels(celspan.rostrum(pair[1]), fine)),
+        assert(stack:light(pair[2]))) < 1 / 65535)
+    end
+    local floats = 12 * 150 * 20 * (3 + 1) -- of fronts, and of grey backs
+    assert.is_true(stack.bytes < 0.9 * 4 * floats)
   end)
 
   it("refuses what it cannot do, with what was found", function()
