@@ -4,7 +4,8 @@
 --
 -- Each scene is rendered at 64 x 48 pixels by one worker in a process of its own, which tells its processor
 -- time and the most memory that it held: the script's values, Lua and the picture included. N is 62500 by
--- default for squares and polygons, so that 16 N is a million; a sixteenth of it for arcs and curves.
+-- default for squares and polygons, so that 16 N is a million; a tenth of it for the points of a curve
+-- (100000 in the end), a fiftieth for arcs that overlap (20000).
 local celspan = require "celspan"
 local WIDTH, HEIGHT = 64, 48
 local unpack = table.unpack
@@ -62,7 +63,7 @@ end
 
 local least = tonumber(arg[1] or 62500)
 print(("%-10s %9s %10s %8s %12s"):format("", "N", "seconds", "MiB", "bytes each"))
-for _, row in ipairs { { "squares", 1 }, { "polygon", 1 }, { "nurbs", 1 / 16 }, { "arcs", 1 / 16 } } do
+for _, row in ipairs { { "squares", 1 }, { "polygon", 1 }, { "nurbs", 1 / 10 }, { "arcs", 1 / 50 } } do
   local name, share = unpack(row)
   for factor = 0, 2 do
     local n = math.floor(least * share * 4 ^ factor)
