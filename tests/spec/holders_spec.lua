@@ -25,12 +25,20 @@ local function pressed(change, call)
   return table.unpack(results, 1, results.n)
 end
 
+--- Takes all away, from the tables inside as well.
 local function clear(fields)
-  for key in pairs(fields) do fields[key] = nil end
+  for key, value in pairs(fields) do
+    fields[key] = nil
+    if type(value) == "table" then clear(value) end
+  end
 end
 
 local function shot(object)
   return celspan.pixels(celspan.rostrum { celspan.cel { object } }, { size = { 16, 16 }, workers = 1 })
+end
+
+local function fade()
+  return celspan.linear { from = { 0, 0 }, to = { 9, 9 }, { 0, celspan.rgb(1, 0, 0) }, { 1, celspan.rgb(0, 0, 1) } }
 end
 
 --- Fields made anew, nothing of which anybody else holds.
@@ -58,8 +66,9 @@ local makers = {
     for i = 1, 40 do list[i] = celspan.rect { i, i, 2, 2 } end
     return list
   end,
-  cel = function()
-    local list = { opacity = 0.5 }
+  cel = function() -- what a light shows is read before all of its words, and before the other light
+    local list = { opacity = 0.5, front = { texture = fade(), gain = 0.5 + #tostring(os.clock()), on = "c" .. "el" },
+      back = fade() }
     for i = 1, 40 do list[i] = celspan.rect { i, i, 2, 2 } end
     return list
   end,
