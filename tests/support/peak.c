@@ -1,11 +1,13 @@
-/* Runs a program and tells what it took together with every process that it started, itself or through others:
+/* Runs a program and tells what it took together with every process that it started, itself or through
+ * others:
  *
  *   peak SECONDS PROGRAM ARGUMENT...
  *
- * Its last line on standard error is `peak BYTES seconds S`. BYTES is the sum, over all those processes, of the most
- * memory that each held at a time, so the program and all of its own never held more at once; pages that two of them
- * share are counted twice. It is looked at every few milliseconds, and once more when a process has ended: of the
- * largest one nothing is missed. After SECONDS, everything that was started is killed. It ends as the program did.
+ * Its last line on standard error is `peak BYTES processor S`. S: seconds of processor time of them all.
+ * BYTES: the sum, over all those processes, of the most memory that each held at a time, so the program
+ * and all of its own never held more at once; pages that two of them share are counted twice. It is
+ * looked at every few milliseconds, and once more when a process has ended: of the largest one nothing
+ * is missed. After SECONDS, everything that was started is killed. It ends as the program did.
  *
  * Linux alone: processes whose parents end become children of this one (PR_SET_CHILD_SUBREAPER).
  */
@@ -94,6 +96,13 @@ static long sum(void) {
   return all + (told > largest ? told - largest : 0);
 }
 
+static double processor(void) {
+  struct rusage usage;
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return (double)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+         1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
 static void kill_all(void) {
   for (int i = 1; i < count; i++)
     if (status_of(seen[i].number, "PPid:") > 0)
@@ -121,7 +130,6 @@ int main(int argument_count, char **arguments) {
   if (argument_count < 3 || prctl(PR_SET_CHILD_SUBREAPER, 1) != 0)
     return 2;
   seen[count++] = (process){.number = getpid()};
-  double start = seconds();
   pid_t program = fork();
   if (program == 0) {
     execvp(arguments[2], arguments + 2);
@@ -130,6 +138,6 @@ int main(int argument_count, char **arguments) {
   if (program < 0)
     return 2;
   int ending = watch(program, strtod(arguments[1], NULL));
-  fprintf(stderr, "peak %ld seconds %.3f\n", sum(), seconds() - start);
+  fprintf(stderr, "peak %ld processor %.3f\n", sum(), processor());
   return WIFEXITED(ending) ? WEXITSTATUS(ending) : 128 + WTERMSIG(ending);
 }
