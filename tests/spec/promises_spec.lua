@@ -1,6 +1,5 @@
--- Promises of docs/trust.md that no other file here is about, and the page itself: every test that it
--- names is there.
-local celspan = require "celspan"
+-- Promises of docs/trust.md that no other file here is about, and the page itself: every test that
+-- it names is there.
 local markdown = require "tests.support.markdown"
 local workbench = require "tests.support.workbench"
 
@@ -34,7 +33,8 @@ local FILM = [[local celspan = require "celspan"
 return celspan.film { size = { 320, 240 }, frames = 12, frame = function(f)
   local dots = {}
   for i = 1, 40 do
-    dots[i] = celspan.circle { centre = { 160 + 150 * math.sin(i + f.number / 3), 6 * i }, radius = 9.5,
+    dots[i] = celspan.circle { radius = 9.5,
+      centre = { 160 + 150 * math.sin(i + f.number / 3), 6 * i },
       texture = celspan.rgb(i / 40, f.number / 12, 0.5, 0.7) }
   end
   return celspan.rostrum { back = "#123", celspan.cel(dots) } end }
@@ -47,7 +47,8 @@ describe("runs into one folder at the same time", function()
     bench:write("film.lua", FILM)
     done "render film.lua -o whole/f.##.png --progress none"
     local one = "'" .. workbench.absolute .. "' render film.lua -o out/f.##.png --progress none "
-    local code, _, err = bench:shell(([[cd '%s' && mkdir out; for options in --resume --resume "" "--resume --workers 2"
+    local code, _, err = bench:shell(([[cd '%s' && mkdir out
+      for options in --resume --resume "" "--resume --workers 2"
       do %s $options & all="$all $!"; done; for one in $all; do wait $one || exit 1; done]])
       :format(bench.folder, one))
     assert.are.equal(0, code, err)
@@ -82,8 +83,8 @@ return celspan.rostrum { size = { 600, 400 }, back = "%s", celspan.cel {
     paint("sky.png", "#a00")
     paint("new.png", "#00b")
     bench:write("film.lua", FRAMES)
-    done "render one.lua -o none.png --progress none" -- a clock of seconds alone tells them apart, too
-    local code, _, err = run("render film.lua --trust --workers 1 --progress none -o out/#.png " .. options)
+    local code, _, err = run("render film.lua --trust --workers 1 --progress none -o out/#.png "
+      .. options)
     if err:find("celspan-picture.so", 1, true) then return pending(err) end
     return code, err
   end
@@ -111,14 +112,14 @@ describe("a second run into a pyramid of tiles", function()
     local tiles = "tiles film.lua --size 500x375 --progress none -o tiles"
     done(tiles)
     local log = lines_of(("ls '%s'/tiles/*.tiles"):format(bench.folder))[1]
-    local before = bench:shell(("cd '%s' && find tiles -type f | sort | xargs cat | md5sum >before"):format(bench.folder))
-    assert.are.equal(0, before)
+    local sum = "cd '%s' && find tiles -type f | sort | xargs cat | md5sum >%s"
+    assert.are.equal(0, (bench:shell(sum:format(bench.folder, "before"))))
     for _, options in ipairs { "", " --fresh" } do
       local code, _, err = run(tiles .. options, ("flock '%s' "):format(log))
       assert.are.equal(5, code, err)
       assert.is_truthy(err:find("another celspan is at work on these tiles", 1, true), err)
     end
-    bench:shell(("cd '%s' && find tiles -type f | sort | xargs cat | md5sum >after"):format(bench.folder))
+    bench:shell(sum:format(bench.folder, "after"))
     assert.are.equal(bench:read "before", bench:read "after")
   end)
 end)
@@ -128,7 +129,8 @@ describe("a second signal", function()
     bench:write("film.lua", "('a'):rep(300000):find(('a-'):rep(8) .. 'b')")
     local words, code
     for _ = 1, 5 do -- a machine may be busy just then, and the first signal's patience at its end
-      code, _, words = bench:shell(([[cd '%s' && { '%s' info film.lua --trust & pid=$!; sleep 0.3; kill -TERM $pid
+      code, _, words = bench:shell(([[cd '%s' && { '%s' info film.lua --trust & pid=$!
+        sleep 0.3; kill -TERM $pid
         sleep 0.55; kill -TERM $pid; wait $pid; exit $?; }]]):format(bench.folder, workbench.absolute))
       if not words:find "given up" then break end
     end
@@ -154,8 +156,8 @@ local function is_instrumented()
   return os.execute(("grep -qaE '__(asan|tsan)_init|__gcov' '%s'"):format(workbench.binary)) == true
 end
 
---- Objects of the library, not of the program, of what makes its sources, and of what only builds with
---- self-checks have.
+--- Objects of the library, not of the program, of what makes its sources, and of what only builds
+--- with self-checks have.
 local OBJECTS = ("find '%s/src' '%s/subprojects' -name '*.o' ! -path '*/tests/*' ! -path '*embed*' "
   .. "! -path '*make_*' ! -path '*/plugin/*' ! -name 'base_self_check*'"):format(BUILD, BUILD)
 
@@ -174,9 +176,10 @@ describe("the library", function()
     local names = wanted_by(OBJECTS .. " ! -path '*oiio*'")
     if not names.memcpy then return pending "nm, which lists calls, does not work" end
     if is_instrumented() then return pending "the build has more in it than the library" end
-    for name in ([[exit _exit quick_exit abort __assert_fail raise kill atexit printf __printf_chk vprintf
-      __vprintf_chk puts putchar perror fprintf __fprintf_chk stdout stderr signal sigaction sigprocmask setlocale
-      setenv putenv chdir umask srand rand random system fork execv]]):gmatch "%S+" do
+    for name in ([[exit _exit quick_exit abort __assert_fail raise kill atexit printf
+      __printf_chk vprintf __vprintf_chk puts putchar perror fprintf __fprintf_chk stdout stderr
+      signal sigaction sigprocmask setlocale setenv putenv chdir umask srand rand random system fork
+      execv]]):gmatch "%S+" do
       assert.is_nil(names[name], name)
     end
   end)
@@ -203,25 +206,26 @@ describe("the library", function()
     local comma = "LOCPATH=. LC_ALL=de_DE.UTF-8 TZ=Asia/Kathmandu LANGUAGE=de"
     assert.are.equal(right, done("render film.lua --hash --frames 1-2", comma))
     if not made then return pending "the system has no language with a comma in numbers" end
-    bench:write("host.lua", [[assert(os.setlocale "de_DE.UTF-8" and ("%.1f"):format(1.5) == "1,5")
-local celspan = require "celspan"
+    local shot = [[local celspan = require "celspan"
 local path = celspan.path { d = "M 1.5 2.25 L 30.75 4e-1 L 2 20.5 Z", texture = "#fff" }
-io.write((celspan.pixels(celspan.rostrum { celspan.cel { path } }, { size = { 32, 24 } }):bytes {}))]])
-    local host = ("cd '%s' && LUA_CPATH='%s' %%s '%s/tests/lua_host' host.lua"):format(bench.folder, package.cpath,
-      BUILD:sub(1, 1) == "/" and BUILD or os.getenv "PWD" .. "/" .. BUILD)
+return celspan.pixels(celspan.rostrum { celspan.cel { path } }, { size = { 32, 24 } }):bytes {}]]
+    bench:write("host.lua", [[assert(os.setlocale "de_DE.UTF-8" and ("%.1f"):format(1.5) == "1,5")
+io.write((function() ]] .. shot .. " end)())")
+    local host = ("cd '%s' && LUA_CPATH='%s' %%s '%s/tests/lua_host' host.lua"):format(bench.folder,
+      package.cpath, BUILD:sub(1, 1) == "/" and BUILD or os.getenv "PWD" .. "/" .. BUILD)
     local code, out, err = bench:shell(host:format "LOCPATH=. LC_ALL=de_DE.UTF-8")
     assert.are.equal(0, code, err)
-    local path = celspan.path { d = "M 1.5 2.25 L 30.75 4e-1 L 2 20.5 Z", texture = "#fff" }
-    assert.is_true(out == celspan.pixels(celspan.rostrum { celspan.cel { path } }, { size = { 32, 24 } }):bytes {})
+    assert.is_true(out == load(shot)())
   end)
 end)
 
 describe("time", function()
   it("is asked only of a clock that nobody sets", function()
-    local names = wanted_by(("find '%s/src' '%s/celspan.p' -name '*.o' ! -path '*oiio*'"):format(BUILD, BUILD))
+    local objects = "find '%s/src' '%s/celspan.p' -name '*.o' ! -path '*oiio*'"
+    local names = wanted_by(objects:format(BUILD, BUILD))
     if not names.memcpy then return pending "nm, which lists calls, does not work" end
-    for name in ("time gettimeofday ftime timespec_get clock localtime localtime_r gmtime gmtime_r mktime strftime")
-      :gmatch "%S+" do
+    for name in ([[time gettimeofday ftime timespec_get clock localtime localtime_r gmtime gmtime_r
+      mktime strftime]]):gmatch "%S+" do
       assert.is_nil(names[name], name)
     end
     local clocks = 0
@@ -230,7 +234,8 @@ describe("time", function()
       assert.is_truthy(line:find "CLOCK_MONOTONIC", line)
     end
     assert.is_true(clocks > 4)
-    for _, file in ipairs(lines_of "grep -rl pthread_cond_timedwait src") do -- else it is the clock on the wall
+    -- Without it, what waits goes by the clock on the wall.
+    for _, file in ipairs(lines_of "grep -rl pthread_cond_timedwait src") do
       assert.is_truthy(markdown.read(file):find("pthread_condattr_setclock", 1, true), file)
     end
     assert.are.same({}, lines_of [[grep -rnE 'os\.(time|date|clock)' lua]])
