@@ -174,7 +174,7 @@ function Trial:run_batch(batch)
   if not workshop.prepare(batch) then return "broken" end
   for _, test in ipairs(batch) do
     if not self.is_left_out[test.name] then
-      local how = workshop.run(test, 10 + 8 * self.shop.times[test.name])
+      local how = workshop.run(test, 5 + 4 * self.shop.times[test.name])
       if how ~= "passed" then return how == "late" and "late" or "killed", test end
     end
   end

@@ -42,8 +42,9 @@ local binary = {
 }
 local words = { ["true"] = { constant = "false" }, ["false"] = { constant = "true" } }
 
--- Their arguments may be swapped without a change.
-local symmetric = { fmin = true, fmax = true, fminf = true, fmaxf = true, hypot = true }
+-- Arguments of theirs may be swapped without a change.
+local symmetric = { fmin = true, fmax = true, fminf = true, fmaxf = true, hypot = true,
+  cs_mem_array = true }
 
 --- What becomes of a number: one more or less of an integer, twice a fraction.
 local function numbers(text)
