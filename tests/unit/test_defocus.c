@@ -10,6 +10,7 @@
 #define SIDE 48
 #define CELLS 84 /* probe samples across a kernel */
 #define BOUND 0.004
+#define PI 3.14159265358979
 
 typedef struct view {
   int32_t width, height;
@@ -377,23 +378,37 @@ static void check_tiny(void) {
   celspan_context_destroy(s.context);
 }
 
+/* The integral of the share of a Gaussian that is left of an edge, over its place: in sigmas. */
+static double shares_up_to(double place) {
+  return 0.5 * place * (1 + erf(place / sqrt(2))) + exp(-0.5 * place * place) / sqrt(2 * PI);
+}
+
+/* The light that a pixel has of what is right of an edge: at its centre, or on average over the part
+ * of its width that antialiasing adds to a Gaussian, all of it when that is narrow. */
+static double light_of_edge(double distance, double sigma, double width) {
+  double a = (distance - 0.5 * width) / sigma, b = (distance + 0.5 * width) / sigma;
+  return width == 0 ? 0.5 * (1 + erf(distance / sigma / sqrt(2)))
+                    : (shares_up_to(b) - shares_up_to(a)) * sigma / width;
+}
+
 /* A bar through a Gaussian of any width, its edges anywhere in their pixels, against erf. */
-static void check_bars(void) {
+static void check_bars(celspan_antialias_mode mode, double narrowest, int count) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
-  for (int k = 0; k < 36; k++) {
-    double radius = 0.7 * pow(1.21, k % 18), low = 16 + 0.17 * k, sigma = radius / 2;
+  for (int k = 0; k < count; k++) {
+    double radius = narrowest * pow(1.21, k % 18), low = 16 + 0.17 * k, sigma = radius / 2;
+    double width = mode == CELSPAN_ANTIALIAS_NONE ? 0 : 1;
     celspan_object *bar =
         studio_rect(&s, low, -100, 8, 300, studio_paint(&s, celspan_paint_rgb(1, 1, 1, 1)));
     celspan_cel_desc desc = CELSPAN_CEL_DESC;
     desc.defocus_radius = radius;
     celspan_cel *cel = studio_cel(&s, desc, &bar, 1);
-    view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_NONE};
+    view v = {SIDE, SIDE, SIDE, SIDE, mode};
     image i = make(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &v, 1);
     for (int32_t x = 0; x < SIDE; x++) {
-      double a = (x + 0.5 - low) / sigma, b = a - 8 / sigma;
-      CHECK_NEAR((double)i.rgba[20 * SIDE + x][0], 0.5 * (erf(a / sqrt(2)) - erf(b / sqrt(2))),
-                 0.002);
+      double d = x + 0.5 - low;
+      CHECK_NEAR((double)i.rgba[20 * SIDE + x][0],
+                 light_of_edge(d, sigma, width) - light_of_edge(d - 8, sigma, width), 0.002);
     }
     free(i.rgba);
     studio_finish(&s);
@@ -463,7 +478,8 @@ int main(void) {
   if (check_is_for_threads())
     return check_done();
   check_memory();
-  check_bars();
+  check_bars(CELSPAN_ANTIALIAS_NONE, 0.7, 36);
+  check_bars(CELSPAN_ANTIALIAS_AREA, 0.05, 12);
   check_light();
   check_tiny();
   check_ramps();
