@@ -4,7 +4,9 @@
 
 #include "svg/image.h"
 #include "svg/shapes.h"
+#include "svg/shown.h"
 #include "svg/text.h"
+#include "svg/viewport.h"
 
 static void add_box(const celspan_box *box, celspan_box *whole, bool *is_there) {
   if (!*is_there) {
@@ -36,6 +38,8 @@ static celspan_status add_shape_box(cs_svg_reading *reading, const cs_svg_node *
 static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node *node,
                                       cs_svg_place place, celspan_box *whole, bool *is_there) {
   const cs_svg_open open = {node, place.open};
+  if (!cs_svg_is_shown(node, place.sizes))
+    return CELSPAN_OK;
   if (cs_svg_is_open(place.open, node) || ++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
                    "line %u: elements refer to one another in a "
@@ -62,7 +66,41 @@ static celspan_status add_used_box(cs_svg_reading *reading, const cs_svg_node *n
   CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_X, CS_SVG_AXIS_X, &place->measure, &x));
   CS_TRY(cs_svg_number_of(reading->context, node, CS_SVG_Y, CS_SVG_AXIS_Y, &place->measure, &y));
   inner.matrix = celspan_matrix_then(celspan_matrix_translation(x, y), inner.matrix);
+  inner.sizes = node;
   return add_element_box(reading, used, inner, whole, is_there);
+}
+
+static celspan_status add_boxes(cs_svg_reading *reading, const cs_svg_node *node,
+                                const cs_svg_place *place, celspan_box *whole, bool *is_there) {
+  cs_svg_place inner = *place;
+  inner.sizes = NULL;
+  for (const cs_svg_node *child = node->first; child; child = child->next)
+    CS_TRY(add_element_box(reading, child, inner, whole, is_there));
+  return CELSPAN_OK;
+}
+
+/* Of a nested svg element or a symbol; that of the outermost one has been entered. */
+static celspan_status add_viewport_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                       const cs_svg_place *place, celspan_box *whole,
+                                       bool *is_there) {
+  cs_svg_place inner = *place;
+  celspan_box viewport;
+  if (!node->parent)
+    return add_boxes(reading, node, place, whole, is_there);
+  CS_TRY(cs_svg_viewport_find(reading, node, place->sizes, &inner, &viewport));
+  if (!(viewport.width > 0) || !(viewport.height > 0))
+    return CELSPAN_OK;
+  cs_svg_viewport_enter(node, &viewport, &inner);
+  return add_boxes(reading, node, &inner, whole, is_there);
+}
+
+static celspan_status add_switch_box(cs_svg_reading *reading, const cs_svg_node *node,
+                                     const cs_svg_place *place, celspan_box *whole,
+                                     bool *is_there) {
+  const cs_svg_node *chosen = cs_svg_shown_choice(node);
+  cs_svg_place inner = *place;
+  inner.sizes = NULL;
+  return chosen ? add_element_box(reading, chosen, inner, whole, is_there) : CELSPAN_OK;
 }
 
 /* Adds a box of user units. */
@@ -112,12 +150,12 @@ celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,
     return add_image_box(reading, node, place, out, is_there);
   case CS_SVG_ELEMENT_A:
   case CS_SVG_ELEMENT_G:
+    return add_boxes(reading, node, place, out, is_there);
   case CS_SVG_ELEMENT_SVG:
-  case CS_SVG_ELEMENT_SWITCH:
   case CS_SVG_ELEMENT_SYMBOL:
-    for (const cs_svg_node *child = node->first; child; child = child->next)
-      CS_TRY(add_element_box(reading, child, *place, out, is_there));
-    return CELSPAN_OK;
+    return add_viewport_box(reading, node, place, out, is_there);
+  case CS_SVG_ELEMENT_SWITCH:
+    return add_switch_box(reading, node, place, out, is_there);
   default:
     return CELSPAN_OK;
   }

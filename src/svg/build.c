@@ -12,8 +12,10 @@
 #include "svg/paint.h"
 #include "svg/rectangles.h"
 #include "svg/shapes.h"
+#include "svg/shown.h"
 #include "svg/strokes.h"
 #include "svg/text.h"
+#include "svg/viewport.h"
 
 /* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
 #define DEFAULT_WIDTH 300
@@ -51,75 +53,20 @@ static celspan_status count_element(builder *b, const cs_svg_node *node) {
 
 /* ---------------------------------------------------------------- viewports */
 
-/* Moves *place into a viewport at (0, 0) of this size that shows `node`'s view box; what it shows. */
-static celspan_box enter_viewport(const cs_svg_node *node, double width, double height,
-                                  cs_svg_place *place) {
-  cs_svg_view_box box = {.is_given = false};
-  const char *value = cs_svg_node_value(node, CS_SVG_VIEW_BOX);
-  if (value && cs_svg_parse_view_box(value, &box)) {
-    const char *aspect = cs_svg_node_value(node, CS_SVG_PRESERVE_ASPECT_RATIO);
-    place->matrix = celspan_matrix_then(cs_svg_fit(&box, width, height, aspect), place->matrix);
-  }
-  place->measure.width = box.is_given ? box.width : width;
-  place->measure.height = box.is_given ? box.height : height;
-  return (celspan_box){box.x, box.y, place->measure.width, place->measure.height};
-}
-
-/* Where a nested svg element or a symbol is shown. sizes: the element whose width and height count
- * before its own; NULL: none. */
-static celspan_status read_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
-                                    const cs_svg_measure *measure, celspan_box *out) {
-  celspan_context *context = b->reading->context;
-  const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
-  const cs_svg_node *wide = sizes && cs_svg_node_value(sizes, CS_SVG_WIDTH) ? sizes : node;
-  const cs_svg_node *high = sizes && cs_svg_node_value(sizes, CS_SVG_HEIGHT) ? sizes : node;
-  bool has_place = node->element == CS_SVG_ELEMENT_SVG;
-  *out = (celspan_box){0, 0, 0, 0};
-  if (has_place) {
-    CS_TRY(cs_svg_number_of(context, node, CS_SVG_X, CS_SVG_AXIS_X, measure, &out->x));
-    CS_TRY(cs_svg_number_of(context, node, CS_SVG_Y, CS_SVG_AXIS_Y, measure, &out->y));
-  }
-  CS_TRY(cs_svg_length_of(context, wide, CS_SVG_WIDTH, CS_SVG_AXIS_X, measure, whole, &out->width));
-  return cs_svg_length_of(context, high, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, measure, whole,
-                          &out->height);
-}
-
-/* Puts the point of a symbol that refX and refY name where its corner would lie. Source: SVG 2, 5.5. */
-static celspan_status shift_to_reference(builder *b, const cs_svg_node *node,
-                                         const celspan_box *viewport, cs_svg_place *place) {
-  celspan_context *context = b->reading->context;
-  const char *x = cs_svg_node_value(node, CS_SVG_REF_X), *y = cs_svg_node_value(node, CS_SVG_REF_Y);
-  cs_svg_place inner = *place;
-  celspan_point at = {0, 0};
-  if (node->element != CS_SVG_ELEMENT_SYMBOL || (!x && !y))
-    return CELSPAN_OK;
-  inner.matrix = celspan_matrix_identity();
-  celspan_box box = enter_viewport(node, viewport->width, viewport->height, &inner);
-  CS_TRY(cs_svg_reference_of(context, node, CS_SVG_AXIS_X, &inner.measure, box.x, &at.x));
-  CS_TRY(cs_svg_reference_of(context, node, CS_SVG_AXIS_Y, &inner.measure, box.y, &at.y));
-  const double *m = inner.matrix.m;
-  place->matrix = celspan_matrix_then(
-      celspan_matrix_translation(x ? -(m[0] * at.x + m[2]) : 0, y ? -(m[4] * at.y + m[5]) : 0),
-      place->matrix);
-  return CELSPAN_OK;
-}
-
 /* Adds the content of a nested svg element or a symbol, whose style *place has. */
 static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
                                    cs_svg_place *place, cs_svg_item *parent) {
   celspan_box box;
-  CS_TRY(read_viewport(b, node, sizes, &place->measure, &box));
+  CS_TRY(cs_svg_viewport_find(b->reading, node, sizes, place, &box));
   if (!(box.width > 0) || !(box.height > 0))
     return CELSPAN_OK;
-  CS_TRY(shift_to_reference(b, node, &box, place));
   cs_svg_item *inside = parent;
   if (!place->style.shows_overflow) {
     CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &inside));
     inside->has_clip = true;
     CS_TRY(cs_svg_rectangle(b->reading, &box, &place->matrix, &inside->clip));
   }
-  place->matrix = celspan_matrix_then(celspan_matrix_translation(box.x, box.y), place->matrix);
-  enter_viewport(node, box.width, box.height, place);
+  cs_svg_viewport_enter(node, &box, place);
   CS_TRY(add_children(b, node, place, inside));
   return inside == parent ? CELSPAN_OK : cs_svg_item_compose(b->reading->context, inside);
 }
@@ -178,30 +125,10 @@ static celspan_status add_used(builder *b, const cs_svg_node *node, const cs_svg
 
 /* ---------------------------------------------------------------- groups */
 
-static bool has_word(const char *list, const char *word) {
-  size_t size = strlen(word);
-  for (const char *at = cs_svg_skip_comma(list); *at; at = cs_svg_skip_comma(at)) {
-    size_t length = strcspn(at, ", \t\n\f\r");
-    if (strncmp(at, word, size) == 0 && (length == size || at[size] == '-'))
-      return true;
-    at += length;
-  }
-  return false;
-}
-
-/* Whether a child of `switch` is meant for this reader, whose language is English. */
-static bool passes_switch(const cs_svg_node *node) {
-  const char *extensions = cs_svg_node_value(node, CS_SVG_REQUIRED_EXTENSIONS);
-  const char *language = cs_svg_node_value(node, CS_SVG_SYSTEM_LANGUAGE);
-  return !(extensions && *cs_svg_skip_space(extensions)) && (!language || has_word(language, "en"));
-}
-
 static celspan_status add_switch(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                  cs_svg_item *parent) {
-  for (const cs_svg_node *child = node->first; child; child = child->next)
-    if (child->element != CS_SVG_ELEMENT_OTHER && passes_switch(child))
-      return add_element(b, child, *place, parent);
-  return CELSPAN_OK;
+  const cs_svg_node *chosen = cs_svg_shown_choice(node);
+  return chosen ? add_element(b, chosen, *place, parent) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- shapes */
@@ -273,7 +200,7 @@ static celspan_status add_shape(builder *b, const cs_svg_node *node, const cs_sv
   return CELSPAN_OK;
 }
 
-/* What is in the element, whose style *place has. sizes: see read_viewport. */
+/* What is in the element, whose style *place has. sizes: see cs_svg_viewport_find. */
 static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_svg_node *sizes,
                                   cs_svg_place *place, cs_svg_item *item) {
   switch (node->element) {
@@ -298,32 +225,6 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
 }
 
 /* ---------------------------------------------------------------- elements */
-
-/* Elements that draw nothing by themselves, so that nobody misses them. */
-static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
-  switch (node->element) {
-  case CS_SVG_ELEMENT_CHARACTERS:
-  case CS_SVG_ELEMENT_CLIP_PATH:
-  case CS_SVG_ELEMENT_DEFS:
-  case CS_SVG_ELEMENT_DESC:
-  case CS_SVG_ELEMENT_FILTER:
-  case CS_SVG_ELEMENT_LINEAR_GRADIENT:
-  case CS_SVG_ELEMENT_MARKER:
-  case CS_SVG_ELEMENT_MASK:
-  case CS_SVG_ELEMENT_METADATA:
-  case CS_SVG_ELEMENT_PATTERN:
-  case CS_SVG_ELEMENT_RADIAL_GRADIENT:
-  case CS_SVG_ELEMENT_STOP:
-  case CS_SVG_ELEMENT_STYLE:
-  case CS_SVG_ELEMENT_TITLE:
-  case CS_SVG_ELEMENT_VIEW:
-    return true;
-  case CS_SVG_ELEMENT_SYMBOL:
-    return !sizes;
-  default:
-    return false;
-  }
-}
 
 /* What is done to all of the element at once. */
 static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
@@ -351,8 +252,7 @@ static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_pl
                                   cs_svg_item *parent) {
   const cs_svg_node *sizes = place.sizes;
   const cs_svg_open open = {node, place.open};
-  place.sizes = NULL;
-  if (is_silent(node, sizes) || !passes_switch(node))
+  if (!cs_svg_is_shown(node, sizes))
     return CELSPAN_OK;
   CS_TRY(count_element(b, node));
   CS_TRY(cs_svg_enter(b->reading, node, &place));
@@ -362,6 +262,7 @@ static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_pl
     CS_TRY(cs_svg_item_append(b->reading->context, b->art, parent, &item));
     CS_TRY(cs_svg_item_name(b->reading, b->art, node, &place, item));
     CS_TRY(read_effects(b, node, &place, item));
+    place.sizes = NULL;
     CS_TRY(add_content(b, node, sizes, &place, item));
     CS_TRY(cs_svg_item_compose(b->reading->context, item));
   }
@@ -400,7 +301,7 @@ static celspan_status enter_root(builder *b, const cs_svg_node *node, cs_svg_pla
                                     .root_font_size = place->style.font_size};
   CS_TRY(cs_svg_enter(b->reading, node, place));
   place->measure.root_font_size = place->style.font_size;
-  enter_viewport(node, art->width, art->height, place);
+  cs_svg_viewport_enter(node, &(celspan_box){0, 0, art->width, art->height}, place);
   b->root_matrix = place->matrix;
   return CELSPAN_OK;
 }

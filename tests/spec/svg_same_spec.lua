@@ -616,3 +616,165 @@ describe("texts", function()
     refused { { text("A", 'dx="nan"'), 'dx is "nan"' }, { '<text x="1e13">A</text>', 'x is "1e13"' } }
   end)
 end)
+
+-- A picture of 2 x 2 pixels, red and blue.
+local PICTURE = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAMAAABFaP0WAAAABlBMVEX/AAAAAP9sof2OAAAADElEQVR42mNgYARCAAAMAAMVnhj8"
+  .. "AAAAAElFTkSuQmCC"
+local DRAWN = "data:image/svg+xml,"
+  .. "%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 2 1'%3E%3Crect width='1' height='1' fill='lime'/%3E%3C/svg%3E"
+
+describe("images", function()
+  local function image(href, attributes) return ('<image %s href="%s"/>'):format(attributes or "", href) end
+  local half = '<rect width="20" height="20" fill="lime"/>'
+  it("may be written in several ways", function()
+    same {
+      { image(DRAWN, 'width="40" height="20"'), half }, { image(DRAWN, 'width="40"'), half },
+      { image(DRAWN, 'height="20"'), half },
+      { image(DRAWN, 'width="40" height="20" preserveAspectRatio="none"'), half },
+      { image(DRAWN, 'width="40" height="40" preserveAspectRatio="xMinYMin"'), half },
+      { image(DRAWN, 'width="20" height="20" preserveAspectRatio="xMinYMin slice"'), half },
+      { image(DRAWN:lower():gsub("viewbox", "viewBox"), 'width="40" height="20"'), half },
+      { image(DRAWN:gsub(",", ",%%EF%%BB%%BF%%20%%0a", 1), 'width="40" height="20"'), half },
+      { image("\n " .. DRAWN, 'width="40" height="20"'), half },
+      { image(DRAWN:gsub(",", " ,", 1), 'width="40" height="20"'), half },
+      { '<defs><g id="g">' .. image(DRAWN, 'width="40" height="20"') .. '</g></defs><use href="#g"/>', half },
+      { image(PICTURE, 'width="40"'), image(PICTURE, 'width="40" height="40"') },
+      { image(PICTURE:gsub("VR42", "VR4\n 2"), 'width="40"'), image(PICTURE, 'width="40"') },
+      { image(PICTURE, 'transform="scale(20)"'), image(PICTURE, 'width="40"') },
+      { image(PICTURE, 'width="40" opacity=".5"'),
+        '<g opacity=".5">' .. image(PICTURE, 'width="40"') .. "</g>" },
+    }
+  end)
+
+  it("draw nothing where there is nothing, or no place", function()
+    empty { "<image/>", image "", image " ", image(DRAWN, 'width="0"'), image(DRAWN, 'width="9" height="0"'), image(PICTURE, 'transform="scale(0)"'),
+      image(PICTURE, 'visibility="hidden"'), image(PICTURE, 'display="none"') }
+  end)
+
+  it("tell what of them is not drawn", function()
+    for _,
+    href in ipairs { "data:", "data:image/png;base64,", "data:image/png;base64,####", "data:,%", "data:,%4", "data:,%zz", "data:image/svg+xml,%3Csvg",
+      "../a.png", "/a.png", "http://a/b.png", "none.png", "a/../b.png", ("a"):rep(5000), "a\\b.png", ".",
+      "a//b.png" } do
+      local art = read(image(href))
+      assert.are.equal(1, #art.skipped, href)
+      assert.is_true(bytes(art.object) == nothing, href)
+    end
+    local inner = DRAWN:gsub("%%3Crect", "%%3Cblink/%%3E%%3Crect", 1)
+    assert.matches("blink", read(image(inner, 'width="9"')).skipped[1].what)
+  end)
+end)
+
+describe("boxes", function()
+  it("of what use shows and of groups are those of what is in them", function()
+    local shares = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+    local whole = '<rect id="r" x="10" y="10" width="40" height="20" fill="lime"/>'
+    local half = '<rect x="10" y="10" width="20" height="20" fill="lime"/>'
+    same {
+      { shares .. "<defs>" .. whole .. '</defs><g clip-path="url(#c)"><use href="#r"/></g>', half },
+      { shares .. "<defs>" .. whole .. '</defs><g clip-path="url(#c)"><use href="#none" display="none"/><use/><use href="#r"/></g>',
+        half },
+      { shares .. '<g clip-path="url(#c)"><g transform="translate(5 5)"><rect x="5" y="5" width="40" height="20" fill="lime"/></g></g>',
+        half },
+      { shares .. '<g clip-path="url(#c)">' .. whole .. '<rect width="90" height="90" display="none"/></g>',
+        half },
+      { shares .. '<g clip-path="url(#c)">' .. whole .. '<path/><text/><title>A</title></g>', half },
+      { shares .. '<g clip-path="url(#c)"><svg x="10" y="10" width="40" height="20"><rect width="40" height="20" fill="lime"/></svg></g>',
+        half },
+      { shares .. '<g clip-path="url(#c)"><switch><g>' .. whole .. "</g></switch></g>", half },
+      { shares .. '<g clip-path="url(#c)"><switch><g systemLanguage="xx"><rect width="90" height="90"/></g>' .. whole
+        .. '<rect width="90" height="90"/></switch><rect width="90" height="90" systemLanguage="xx"/></g>',
+        half },
+      { shares .. '<svg clip-path="url(#c)" x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect width="4" height="2" fill="lime"/></svg>',
+        half },
+      { shares .. '<g clip-path="url(#c)"><svg width="0" height="90"><rect width="90" height="90"/></svg>' .. whole .. "</g>",
+        half },
+      { shares .. '<symbol id="s" viewBox="0 0 4 2"><rect width="4" height="2" fill="lime"/></symbol>'
+        .. '<g clip-path="url(#c)"><symbol><rect width="90" height="90"/></symbol><use href="#s" x="10" y="10" width="40" height="20"/></g>',
+        half },
+      { shares .. '<symbol id="s" viewBox="0 0 4 2" clip-path="url(#c)"><rect width="4" height="2" fill="lime"/></symbol>'
+        .. '<use href="#s" x="10" y="10" width="40" height="20"/>', half },
+      { '<svg x="10" y="10" width="40" height="20" viewBox="0 0 4 2"><rect width="2" height="2" fill="lime"/></svg>',
+        half },
+    }
+  end)
+
+  it("are not drawn in a circle", function()
+    local shares = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath>'
+    refused { { shares .. '<g id="g" clip-path="url(#c)"><use href="#g"/></g>', "elements refer to one another in a circle" } }
+  end)
+end)
+
+describe("gradients, too,", function()
+  it("have a focus that stays inside, inner circles that repeat, and units of their own", function()
+    same {
+      { gradient("radial", 'fx="5" fy=".5"'), gradient("radial", 'fx="9" fy=".5"') },
+      { gradient("linear", 'gradientTransform="rotate(90)" transform-origin=".5 .5"'),
+        gradient("linear", 'x1="0" y1="0" x2="0" y2="1"') },
+      { gradient("linear", 'gradientTransform="x"'), gradient "linear" },
+      { gradient("radial", 'fr=".2" r=".4" spreadMethod="pad"'),
+        gradient("radial", 'r=".4"', '<stop offset=".5" stop-color="red"/><stop offset="1" stop-color="blue"/>') },
+      { gradient("linear", 'spreadMethod="x"'), gradient "linear" },
+      { gradient("linear", 'href="#none"'), gradient "linear" },
+      { gradient("linear", 'href="#g"'), gradient "linear" },
+      { LIME .. '<g id="t"/>' .. gradient("linear", 'href="#t"', " "), LIME },
+    }
+    local repeated = read(gradient("radial", 'fr=".1" r=".2" spreadMethod="repeat"'))
+    assert.are.same({}, repeated.skipped)
+    assert.are_not.equal(bytes(read(gradient("radial", 'fr=".1" r=".2"')).object), bytes(repeated.object))
+  end)
+end)
+
+describe("documents", function()
+  it("may hold what is of other kinds, anywhere", function()
+    same {
+      { '<x:y xmlns:x="urn:x"><rect width="9" height="9"/><x:y/></x:y>' .. LIME, LIME },
+      { '<metadata><x:y xmlns:x="urn:x">text</x:y></metadata>' .. LIME, LIME },
+      { '<style type="">rect{fill:lime}</style><rect width="50" height="60"/>', LIME },
+      { '<style type="text/css">rect{fill:lime}</style><rect width="50" height="60"/>', LIME },
+      { '<style type="text/other">rect{fill:red}</style>' .. LIME, LIME },
+      { '<rect id="" width="50" height="60" fill="lime"/>', LIME },
+      { '<rect xml:space="preserve" xmlns:q="urn:q" q:fill="red" width="50" height="60" fill="lime"/>',
+        LIME },
+      { '<defs><rect id="r" width="50" height="60" fill="lime"/><rect id="r" width="9" height="9"/></defs><use href="#r"/>',
+        LIME },
+      { '<defs><rect id="r" width="50" height="60" fill="lime"/></defs><use href="#r" xlink:href="#none"/>',
+        LIME },
+    }
+  end)
+end)
+
+describe("texts, too,", function()
+  local function text(content, attributes) return ('<text x="10" y="50" font-size="20" %s>%s</text>'):format(attributes or "", content) end
+  it("are spread, squeezed and placed letter by letter", function()
+    same {
+      { text("A<tspan textLength=\"40\">BC</tspan>D", ""),
+        text 'A<tspan textLength="40" lengthAdjust="spacing">BC</tspan>D' },
+      { text("AB", 'textLength="60" lengthAdjust="spacing"'), text("AB", 'textLength="60"') },
+      { text("AB", 'letter-spacing="3"'), text("AB", 'letter-spacing="3px"') },
+      { text("A B", 'word-spacing="1em"'), text("A B", 'word-spacing="20"') },
+      { text "A<tspan>B<tspan>C</tspan></tspan>", text "ABC" }, { text "A<tspan x=\"40\" y=\"60\">B</tspan>",
+        text "A" .. '<text x="40" y="60" font-size="20">B</text>' },
+      { '<text x="10 40" y="50 60" font-size="20">AB</text>',
+        text "A" .. '<text x="40" y="60" font-size="20">B</text>' },
+      { text("AB ", 'textLength="60"'), text("AB", 'textLength="60"') },
+      { text 'AB<tspan textLength="9"> </tspan>', text "AB" },
+      { text("A\226\128\168B"), text "A B" }, { text("A\194\133B"), text "A B" },
+      { text("A\127B"), text "A B" },
+    }
+    assert.are_not.equal(bytes(read(text "AB").object), bytes(read(text("AB", 'textLength="60" lengthAdjust="spacingAndGlyphs"')).object))
+  end)
+
+  it("end behind the line that they run along", function()
+    local path = '<path id="w" d="M10 50H60" fill="none"/>'
+    same {
+      { path .. '<text font-size="20"><textPath href="#w">A</textPath>B</text>',
+        path .. '<text font-size="20"><textPath href="#w">A</textPath><tspan>B</tspan></text>' },
+      { path .. '<text font-size="20"><textPath href="#w" startOffset="50%">A</textPath></text>',
+        path .. '<text font-size="20"><textPath href="#w" startOffset="25">A</textPath></text>' },
+      { path .. '<text font-size="20"><textPath href="#w"> A </textPath> </text>',
+        path .. '<text font-size="20"><textPath href="#w">A</textPath></text>' },
+    }
+    empty { path .. '<text font-size="20"><textPath href="#w" startOffset="900">A</textPath></text>', path .. '<text font-size="20"><textPath href="#w" startOffset="-900">A</textPath></text>' }
+  end)
+end)
