@@ -1,4 +1,5 @@
 -- Strips of a frame, and celspan join: the same picture as the whole, and what is refused.
+local stored = require "tests.support.stored"
 local workbench = require "tests.support.workbench"
 
 local function has_pictures()
@@ -213,6 +214,106 @@ describe("what join refuses, and says which file and what to do:", function()
     refused(4, "is cut", "join s/#.png -o joined.png")
     bench:write("s/1.png", whole:sub(1, 16) .. huge .. whole:sub(21))
     refused(4, "its size", "join s/#.png -o joined.png")
+  end)
+
+  --- The chunks of a PNG, { kind, data } each, changed and put together with their checksums.
+  local function rebuilt(bytes, change)
+    local chunks, at = {}, 9
+    while at < #bytes do
+      local size, kind = string.unpack(">I4c4", bytes, at)
+      chunks[#chunks + 1] = { kind, bytes:sub(at + 8, at + 7 + size) }
+      at = at + 12 + size
+    end
+    change(chunks)
+    local out = { bytes:sub(1, 8) }
+    for i, chunk in ipairs(chunks) do out[i + 1] = stored.chunk(chunk[1], chunk[2]) end
+    return table.concat(out)
+  end
+
+  local function index_of(chunks, kind)
+    for i, chunk in ipairs(chunks) do
+      if chunk[1] == kind then return i end
+    end
+  end
+
+  it("PNG files whose chunks are whole, but of no strip", function()
+    render_strips("png", 2)
+    local whole = bench:read "s/1.png"
+    local function header(at, bytes)
+      return function(chunks)
+        chunks[1][2] = chunks[1][2]:sub(1, at - 1) .. bytes .. chunks[1][2]:sub(at + #bytes)
+      end
+    end
+    local function data(bytes)
+      return function(chunks)
+        local first = index_of(chunks, "IDAT")
+        while chunks[first + 1][1] == "IDAT" do table.remove(chunks, first + 1) end
+        chunks[first][2] = bytes(chunks[first][2])
+      end
+    end
+    local function place(bytes)
+      return function(chunks)
+        for _, chunk in ipairs(chunks) do
+          if chunk[1] ~= "IHDR" and #chunk[2] == 8 and chunk[2] == string.pack(">I4I4", 0, 900) then chunk[2] = bytes end
+        end
+      end
+    end
+    local cases = {
+      { function(chunks) table.remove(chunks, 1) end, "it does not begin with a header" },
+      { function(chunks) chunks[1][2] = chunks[1][2] .. "x" end, "it does not begin with a header" },
+      { header(1, "\0\0\0\0"), "its size" }, { header(5, "\0\0\0\0"), "its size" },
+      { header(5, "\127\0\0\0"), "its size" },
+      { header(9, "\4"), "its kind of pixels" }, { header(10, "\3"), "its kind of pixels" },
+      { header(11, "\1"), "its kind of pixels" },
+      { header(12, "\1"), "its kind of pixels" }, { header(13, "\1"), "its kind of pixels" },
+      { place "\0\0\0\0", "its place" }, { place(("\255"):rep(8)), "its place" },
+      { place(string.pack(">I4I4", 0, 1 << 30)), "its place" },
+      { place(("\0"):rep(8)), "it does not tell its place" },
+      { place(string.pack(">I4I4", 8, 900)), "tells of rows from 8 on" },
+      { function(chunks)
+        for i = #chunks, 1, -1 do
+          if chunks[i][1] == "IDAT" then table.remove(chunks, i) end
+        end
+      end, "it has no image data" },
+      { function(chunks) table.insert(chunks, #chunks, { "tEXt", "a\0b" }) end, "what follows the image data" },
+      { function(chunks) chunks[#chunks + 1] = { "IEND", "" } end, "what follows the image data" },
+      { function(chunks) chunks[#chunks][2] = "x" end, "what follows the image data" },
+      { data(function() return "" end), "how its image data is divided" },
+      { data(function(bytes) return bytes:sub(1, 5) end), "how its image data" },
+      { data(function(bytes) return "\8\29" .. bytes:sub(3) end), "how its image data begins" },
+      { data(function(bytes) return bytes .. "x" end), "how its image data ends" },
+    }
+    for i, case in ipairs(cases) do
+      bench:write("s/1.png", rebuilt(whole, case[1]))
+      local code, _, err = celspan "join s/#.png -o joined.png"
+      assert.equal(4, code, i .. ": " .. err)
+      assert.is_truthy(err:find(case[2], 1, true), i .. ": " .. err)
+    end
+    bench:write("s/1.png", rebuilt(whole, function(chunks) -- the image data may be divided in any way
+      local first = index_of(chunks, "IDAT")
+      local bytes = chunks[first][2]
+      chunks[first][2] = bytes:sub(1, 9)
+      table.insert(chunks, first + 1, { "IDAT", bytes:sub(10) })
+      table.insert(chunks, first + 1, { "IDAT", "" })
+    end))
+    done "join s/#.png -o joined.png"
+  end)
+
+  it("Targa files whose place or end is damaged", function()
+    render_strips("tga", 2)
+    local whole = bench:read "s/1.tga"
+    local function with(at, bytes) return whole:sub(1, at - 1) .. bytes .. whole:sub(at + #bytes) end
+    for _, case in ipairs {
+      { with(23, "\255\255\255\0"), "Targa files have at most 65535" },
+      { with(#whole - 25, "\0\0\0\0"), "more than 4 GiB of rows" },
+      { with(#whole - 25, "\1\0\0\0"), "its footer tells of 1 bytes of rows" },
+      { with(#whole - 10, "x"), "it has no footer" },
+      { with(1, "\9"), "is no strip" }, { with(3, "\2"), "is no strip" }, { with(18, "\0"), "is no strip" },
+      { with(19, "x"), "is no strip" },
+    } do
+      bench:write("s/1.tga", case[1])
+      refused(4, case[2], "join s/#.tga -o joined.tga")
+    end
   end)
 
   it("other kinds of files", function()
