@@ -1,0 +1,156 @@
+-- Calls that are wrong, a line each: every one raises where it was made, and says what it got.
+-- tests/spec/errors_spec.lua has the sentences whole.
+local celspan = require "celspan"
+local raised = require "tests.support.raised"
+
+local circle = celspan.circle { centre = { 5, 5 }, radius = 3 }
+local rostrum = celspan.rostrum { celspan.cel { circle } }
+local one = { film = { 9, 9 }, size = { 9, 9 } }
+local film = celspan.film { size = { 4, 4 }, frames = 3, frame = function() return rostrum end }
+
+local function with(changes)
+  local options = {}
+  for name, value in pairs(one) do options[name] = value end
+  for name, value in pairs(changes) do options[name] = value end
+  return options
+end
+
+--- cases: { call, what its message has, as plain text }.
+local function check(cases)
+  for i, case in ipairs(cases) do
+    local sentence = raised.sentence(case[1])
+    assert.is_truthy(sentence:find(case[2], 1, true), i .. ": " .. sentence)
+  end
+end
+
+describe("wrong calls", function()
+  it("of options say which", function()
+    check {
+      { function() celspan.pixels(rostrum, with { antialias = 3 }) end, "field 'antialias' must be" },
+      { function() celspan.pixels(rostrum, with { antialias = { kernel = "tent" } }) end, "kernel" },
+      { function() celspan.pixels(rostrum, with { crop = { 0, 0, 1.5, 2 } }) end,
+        "field 'crop' must hold whole numbers of pixels" },
+      { function() celspan.pixels(rostrum, with { crop = { 0, 0, 1e300, 2 } }) end,
+        "field 'crop' must hold whole numbers of pixels" },
+      { function() celspan.pixels(rostrum, with { workers = 1.5 }) end, "workers" },
+      { function() celspan.pixels(rostrum, with { workers = 1e10 }) end, "workers" },
+      { function() celspan.pixels(rostrum, with { size = { 4, 0 } }) end, "4 x 0 pixels are asked for" },
+      { function() celspan.pixels(rostrum, with { size = { 4.5, 4 } }) end, "size" },
+      { function() celspan.pixels({ { rostrum } }, one):bytes { depth = 12 } end,
+        "field 'depth' must be 8, 16" },
+      { function() celspan.pixels({ { rostrum } }, one):bytes { depth = "many" } end,
+        "field 'depth' must be 8, 16" },
+      { function() celspan.pixels({ 3 }, one) end, "exposure 1 must be {rostrum, weight}, got number" },
+      { function() celspan.pixels({ { film } }, one) end,
+        "exposure 1: its first value must be a rostrum, got a film" },
+      { function() celspan.pixels({ { rostrum, "x" } }, one) end, "exposure 1" },
+      { function() celspan.pixels(3, one) end, "must be a rostrum or a list" },
+      { function() celspan.render(film, 3) end, "render" },
+      { function() celspan.render(3, "a.png") end, "argument 1 must be a film or a rostrum" },
+      { function() celspan.render(film, "/tmp/celspan-none/#.png", { progress = 3 }) end,
+        "field 'progress' must be a function, got number" },
+      { function() celspan.render(film, "/tmp/celspan-none/#.png", { frames = {} }) end, "frames" },
+      { function() celspan.spans(rostrum, with { rows = { 5, 2 } }) end, "rows" },
+      { function() celspan.spans(rostrum, with { rows = { 9, 9 } }) end, "rows" },
+    }
+  end)
+
+  it("of films say which", function()
+    local function frame() return rostrum end
+    check {
+      { function() celspan.film { size = { 0, 4 }, frame = frame } end, "size" },
+      { function() celspan.film { size = { 4, 4.5 }, frame = frame } end, "size" },
+      { function() celspan.film { size = { 4, 4 }, duration = -1, frame = frame } end, "duration" },
+      { function() celspan.film { size = { 4, 4 }, duration = 1e12, frame = frame } end, "duration" },
+      { function() celspan.film { size = { 4, 4 }, sound = "", frame = frame } end,
+        "field 'sound' must be the name of a file, got an empty text" },
+      { function() celspan.film { size = { 4, 4 }, sound = "a.wav", sound_offset = 1e12, frame = frame } end,
+        "field 'sound_offset' must be from" },
+      { function() film:at(9) end, "9" }, { function() film:at "x" end, "at" },
+    }
+  end)
+
+  it("of primitives say which", function()
+    check {
+      { function() celspan.circle { centre = { 5, 5 }, radius = 3, [true] = 1 } end,
+        "a field's name must be a word, got boolean" },
+      { function() celspan.circle(3) end, "takes a table" },
+      { function() celspan.ellipse { centre = { 1, 2 } } end, "radii" },
+      { function() celspan.polygon { { 0, 0 }, { 1, 1 }, [5] = { 2, 2 } } end, "place" },
+      { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, degree = 0 } end,
+        "field 'degree' must be at least 1, got 0" },
+      { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, degree = 1e10 } end, "degree" },
+      { function() celspan.nurbs { points = { { 0, 0 }, { 1, 1 }, { 2, 0 } }, knots = 3 } end,
+        "an array of numbers" },
+      { function() celspan.scanline { spans = function() end } end,
+        "field 'bounds' must be {x, y, width, height}, got nil" },
+      { function() celspan.scanline { bounds = { 0, 0, 1, 1 }, spans = 3 } end,
+        "field 'spans' must be a function(y, row), got number" },
+      { function() celspan.stroke { points = 3 } end, "field 'points' must be an array of points" },
+      { function() celspan.stroke { outline = 3 } end, "field 'outline' must be a primitive, got number" },
+      { function() circle:stroke(3) end, "stroke: takes a table" },
+      { function() circle:with(3) end, "with takes a table of changes" },
+      { function() circle.translate(3, 1, 2) end, "call it as a method" },
+      { function() circle:quad({ { 0, 0 }, { 1, 0 } }, { { 0, 0 } }) end, "quad" },
+      { function() circle:quad({ { 0, 0 }, { 1, 0 }, { 2, 0 }, { 3, 0 } }, { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } }) end,
+        "quad: no perspective takes" },
+      { function() return circle | 3 end, "both sides must be objects, the right one is" },
+      { function() return 3 - circle end, "both sides must be objects, the left one is" },
+      { function() celspan.gradient { { 0, 0, "#fff" }, { 1, 0, "#000" } } end,
+        "takes three corners {x, y, paint}, got 2" },
+      { function() celspan.linear { from = { 0, 0 }, to = { 1, 0 }, { 0, "blurple" }, { 1, "#000" } } end,
+        "blurple" },
+      { function() celspan.cel { circle, defocus = "far" } end, "field 'defocus' must be a radius" },
+      { function() celspan.picture { pixels = "abc", size = { 1, 1 }, format = "rgba8" } end, "bytes" },
+      { function() celspan.picture { pixels = "abcd", size = { 1.5, 1 }, format = "rgba8" } end, "size" },
+    }
+  end)
+
+  it("of texts say which", function()
+    check {
+      { function() celspan.text { "A", font = "a\0b" } end, "field 'font' must not hold a zero byte" },
+      { function() celspan.text { "A", font = "a.ttf", features = 3 } end,
+        "field 'features' must be a table by name, got number" },
+      { function() celspan.text { "A", font = "a.ttf", features = { liga = -1 } } end, "liga" },
+      { function() celspan.text { "A", font = "a.ttf", features = { liga = 1.5 } } end, "liga" },
+      { function() celspan.text { "A", font = "a.ttf", features = { "liga" } } end, "liga = false" },
+      { function() celspan.text { "A", font = "a.ttf", variations = { 700 } } end, "wght = 700" },
+    }
+  end)
+
+  it("of images, random numbers and other values say which", function()
+    local image = assert(celspan.pixels(rostrum, one))
+    local random = celspan.random(7)
+    check {
+      { function() image:get(9, 0) end, "must be a whole number from 0 to 8, got 9" },
+      { function() image:get("x", 0) end, "must be a whole number from 0 to 8" },
+      { function() image:get(0, -1) end, "from 0 to 8" }, { function() image:get(0.5, 0) end, "from 0 to 8" },
+      { function() image:write(3) end, "write" },
+      { function() random("a", 1.5) end, "must be a whole number, got 1.5" },
+      { function() random("a", "x") end, "must be a whole number, got string" },
+      { function() celspan.random {} end, "random" },
+      { function() celspan.cel { circle, front = {} } end, "front" },
+    }
+  end)
+
+  it("of procedures say what they gave", function()
+    local function frame(spans)
+      local object = celspan.scanline { bounds = { 0, 0, 4, 4 }, spans = spans }
+      return select(2, celspan.pixels(celspan.rostrum { celspan.cel { object } }, one))
+    end
+    for _, case in ipairs {
+      { function() return 3 end, "spans must return a list of {x0, x1, paint}, got number" },
+      { function() return { 3 } end, "1" },
+      { function() return { { 0 / 0, 2, "#fff" } } end, "its value 1 must be a finite number" },
+      { function() return { { 0, 0 / 0, "#fff" } } end, "its value 2 must be a finite number" },
+      { function() return { { 2, 1, "#fff" } } end, "ends at 1, before it begins at 2" },
+      { function() return { { 2, 3, "#fff" }, { 0, 1, "#fff" } } end, "span 2" },
+      { function() error {} end, "the error is not a message: table" },
+      { function() error "mine" end, "mine" },
+    } do
+      local message = frame(case[1])
+      assert.is_string(message)
+      assert.is_truthy(message:find(case[2], 1, true), message)
+    end
+  end)
+end)
