@@ -52,6 +52,7 @@ struct cs_picture_reader {
   int next_row = 0;                /* of the data window, for sequential formats */
   OIIO::ColorProcessorHandle processor;
   std::vector<float> batch, line;
+  std::vector<unsigned char> bytes;
 };
 
 namespace {
@@ -301,25 +302,44 @@ void choose_space(cs_picture_reader &reader, const char *space) {
                                             "\" is not a space of the OpenColorIO configuration");
 }
 
-/* Rows [y0, y1) and columns [x0, x1) of the data window, the chosen channels, into `out`. */
+/* Whole rows of the chosen channels, as they are stored or as the numbers that they stand for. */
+template <typename Value>
+bool read_whole_rows(cs_picture_reader &reader, int y0, int y1, TypeDesc type,
+                     std::vector<Value> &rows) {
+  const ImageSpec &spec = reader.spec;
+  rows.resize(size_t(spec.width) * size_t(reader.last - reader.first) * size_t(y1 - y0));
+  return reader.input->read_scanlines(reader.subimage, 0, spec.y + y0, spec.y + y1, spec.z,
+                                      reader.first, reader.last, type, rows.data());
+}
+
+/* Columns of whole rows as floats, of which `unit` is 1. */
+template <typename Value>
+void copy_columns(const cs_picture_reader &reader, const std::vector<Value> &rows, int x0, int x1,
+                  float unit, float *out) {
+  size_t channels = size_t(reader.last - reader.first), row = size_t(reader.spec.width) * channels;
+  size_t count = size_t(x1 - x0) * channels;
+  for (size_t at = size_t(x0) * channels; at < rows.size(); at += row, out += count)
+    for (size_t i = 0; i < count; i++)
+      out[i] = float(rows[at + i]) * unit;
+}
+
+/* Rows [y0, y1) and columns [x0, x1) of the data window, the chosen channels, into `out`. Bytes are taken
+ * as they are and become floats here, as OpenImageIO makes them but in a third of the time. */
 void read_rows(cs_picture_reader &reader, int x0, int x1, int y0, int y1, float *out) {
   const ImageSpec &spec = reader.spec;
-  size_t channels = size_t(reader.last - reader.first);
   bool is_good;
   if (spec.tile_width > 0) {
     is_good = reader.input->read_tiles(reader.subimage, 0, spec.x + x0, spec.x + x1, spec.y + y0,
                                        spec.y + y1, spec.z, spec.z + 1, reader.first, reader.last,
                                        TypeDesc::FLOAT, out);
+  } else if (spec.format == TypeDesc::UINT8 && spec.channelformats.empty()) {
+    is_good = read_whole_rows(reader, y0, y1, TypeDesc::UINT8, reader.bytes);
+    if (is_good)
+      copy_columns(reader, reader.bytes, x0, x1, 1.0f / 255, out);
   } else {
-    size_t row = size_t(spec.width) * channels;
-    reader.line.resize(row * size_t(y1 - y0));
-    is_good = reader.input->read_scanlines(reader.subimage, 0, spec.y + y0, spec.y + y1, spec.z,
-                                           reader.first, reader.last, TypeDesc::FLOAT,
-                                           reader.line.data());
-    for (int y = 0; is_good && y < y1 - y0; y++)
-      memcpy(out + size_t(y) * size_t(x1 - x0) * channels,
-             reader.line.data() + size_t(y) * row + size_t(x0) * channels,
-             size_t(x1 - x0) * channels * sizeof(float));
+    is_good = read_whole_rows(reader, y0, y1, TypeDesc::FLOAT, reader.line);
+    if (is_good)
+      copy_columns(reader, reader.line, x0, x1, 1, out);
   }
   if (!is_good)
     fail_input("is corrupt or truncated", reader.input->geterror());
@@ -428,8 +448,9 @@ void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t wid
   if (!reader.source->is_unchanged())
     throw Failure(CELSPAN_INPUT, "changed while it was in use");
   reader.source->forgive();
-  memset(rgba, 0, size_t(width) * size_t(height) * 4 * sizeof(float));
   Rectangle wanted = make_rectangle(reader, x, y, width, height);
+  if (int64_t(wanted.x1 - wanted.x0) * (wanted.y1 - wanted.y0) < int64_t(width) * height)
+    memset(rgba, 0, size_t(width) * size_t(height) * 4 * sizeof(float));
   if (wanted.x0 >= wanted.x1 || wanted.y0 >= wanted.y1)
     return;
   Target target = make_target(reader, x, y, width, rgba);

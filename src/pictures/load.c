@@ -244,32 +244,56 @@ static int common_bits(const float *texels, int32_t count) {
   return bits;
 }
 
-static bool is_decoded(const cs_picture_block *block) {
-  const cs_srgb8_curve *curve = &block->store->curve;
-  bool is_same = true;
-  for (size_t i = 0; i < (size_t)CS_PICTURE_BLOCK * CS_PICTURE_BLOCK && is_same; i++) {
-    float rgba[4];
-    cs_srgb8_colour(curve, block->codes[i / CS_PICTURE_BLOCK] + 4 * (i % CS_PICTURE_BLOCK), rgba);
-    is_same = memcmp(rgba, block->texels + 4 * i, sizeof rgba) == 0;
-  }
-  return is_same;
+static inline uint32_t bits_of(float number) {
+  uint32_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  return bits;
 }
 
-/* Sets the opacity and the codes of a block whose texels are complete. */
+/* Whether codes give their texels, to the bit. Number by number: compared as blocks of memory, each
+ * would wait until it is stored. */
+static bool are_exact(const cs_srgb8_curve *curve, const unsigned char *codes, const float *texels,
+                      size_t count) {
+  uint32_t difference = 0;
+  for (size_t i = 0; i < count; i++, codes += 4, texels += 4) {
+    float rgba[4];
+    cs_srgb8_colour(curve, codes, rgba);
+    for (int c = 0; c < 4; c++)
+      difference |= bits_of(rgba[c]) ^ bits_of(texels[c]);
+  }
+  return difference == 0;
+}
+
+/* Sets the codes of a row, of which the first `count` are made and the others are like the first.
+ * Returns whether they are exact. */
+static bool set_codes(cs_picture_block *block, size_t y, size_t count) {
+  const float *texels = block->texels + 4 * y * CS_PICTURE_BLOCK;
+  unsigned char *codes = block->codes[y];
+  cs_srgb8_choose(cs_isa_best())(texels, count, codes);
+  for (size_t x = count; x < CS_PICTURE_BLOCK; x++)
+    memcpy(codes + 4 * x, codes, 4);
+  return are_exact(&block->store->curve, codes, texels, count);
+}
+
+/* Sets the opacity and the codes of a block whose texels are complete. Of a row that is all alike, as on
+ * paper, the first texel is asked for all. */
 static void describe(const celspan_picture_info *info, cs_picture_block *block) {
   int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
   int32_t height = cs_mip_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
   int bits = 3;
-  for (int32_t y = 0; y < least(height, CS_PICTURE_BLOCK) && bits != 0; y++)
-    bits &= common_bits(block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y,
-                        least(width, CS_PICTURE_BLOCK));
+  bool is_exact = true;
+  for (int32_t y = 0; y < CS_PICTURE_BLOCK; y++) {
+    const float *texels = block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y;
+    bool is_plain = memcmp(texels, texels + 4, 4 * sizeof(float) * (CS_PICTURE_BLOCK - 1)) == 0;
+    int32_t count = is_plain ? 1 : CS_PICTURE_BLOCK;
+    if (y < height)
+      bits &= common_bits(texels, least(width, count));
+    if (block->level == 0)
+      is_exact = set_codes(block, (size_t)y, (size_t)count) && is_exact;
+  }
   block->opacity = bits & 1 ? CS_PICTURE_OPAQUE : bits & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
-  if (block->level != 0)
-    return;
-  for (size_t y = 0; y < CS_PICTURE_BLOCK; y++)
-    cs_srgb8_choose(cs_isa_best())(block->texels + 4 * y * CS_PICTURE_BLOCK, CS_PICTURE_BLOCK,
-                                   block->codes[y]);
-  block->is_coded = is_decoded(block);
+  if (block->level == 0)
+    block->is_coded = is_exact;
 }
 
 /* ---------------------------------------------------------------- a pass from start to end */

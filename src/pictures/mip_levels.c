@@ -1,5 +1,7 @@
 #include "pictures/mip_levels.h"
 
+#include <string.h>
+
 #include "base/number.h"
 #include "colour/transfer.h"
 
@@ -79,7 +81,16 @@ static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
   rgba[3] = alpha;
 }
 
+/* In drawings most pixels are like the one before. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    decode_pixel(decoder, rgba + 4 * i);
+  float coded[4], light[4];
+  for (size_t i = 0; i < count; i++, rgba += 4) {
+    if (i > 0 && memcmp(rgba, coded, sizeof coded) == 0) {
+      memcpy(rgba, light, sizeof light);
+      continue;
+    }
+    memcpy(coded, rgba, sizeof coded);
+    decode_pixel(decoder, rgba);
+    memcpy(light, rgba, sizeof light);
+  }
 }

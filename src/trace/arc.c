@@ -65,9 +65,10 @@ static double arc_error(const moments *m) {
   for (int step = 0; step < STEPS; step++) {
     double y = a0 + x * (a1 + x * (a2 + x * a3)), slope = a1 + x * (2 * a2 + x * 3 * a3);
     double next = fabs(slope) > 1e-30 ? x - y / slope : x;
-    if (!(fabs(next - x) > 1e-9 * (fabs(x) + 1e-6)))
-      break;
+    double step_size = fabs(next - x);
     x = next;
+    if (!(step_size > 1e-5 * fabs(x) + 1e-9))
+      break;
   }
   return x > 0 ? x : 0;
 }

@@ -24,6 +24,9 @@ typedef struct finder {
 
 static ptrdiff_t point_count(const finder *f) { return (ptrdiff_t)f->points->count; }
 
+/* Of so many points the middle one is asked: those about it overlap by far. */
+static int stride_of(const finder *f) { return f->rules->near / 2; }
+
 /* Whether one arc goes through the points about one. */
 static bool is_smooth(const finder *f, ptrdiff_t i) {
   ptrdiff_t count = point_count(f), from = i - f->rules->near, to = i + f->rules->near + 1;
@@ -139,11 +142,11 @@ static celspan_status find_between(finder *f, ptrdiff_t from, ptrdiff_t to, ptrd
   return CELSPAN_OK;
 }
 
-/* A point from which on all within the margin are smooth; the count of points: there is none. */
+/* A point with none but smooth ones within the margin; the count of points: there is none. */
 static ptrdiff_t find_smooth(const finder *f) {
-  ptrdiff_t count = point_count(f), run = 0;
-  for (ptrdiff_t i = 0; i < count; i++) {
-    run = is_smooth(f, i) ? run + 1 : 0;
+  ptrdiff_t count = point_count(f), run = 0, stride = stride_of(f);
+  for (ptrdiff_t i = 0; i < count; i += stride) {
+    run = is_smooth(f, i) ? run + stride : 0;
     if (run > 2 * MARGIN)
       return i - MARGIN;
   }
@@ -152,14 +155,12 @@ static ptrdiff_t find_smooth(const finder *f) {
 
 /* From `begin` on, once around or to the end: doubtful points that are near each other together. */
 static celspan_status find_all(finder *f, ptrdiff_t begin) {
-  ptrdiff_t end = begin + point_count(f);
-  for (ptrdiff_t i = begin; i < end;) {
-    if (is_smooth(f, i)) {
-      i++;
+  ptrdiff_t end = begin + point_count(f), stride = stride_of(f);
+  for (ptrdiff_t i = begin; i < end; i += stride) {
+    if (is_smooth(f, i))
       continue;
-    }
     ptrdiff_t last = i;
-    for (ptrdiff_t k = i; k < end && k - last <= MARGIN; k++)
+    for (ptrdiff_t k = i; k < end && k - last <= MARGIN; k += stride)
       last = is_smooth(f, k) ? last : k;
     ptrdiff_t from = i - f->rules->near, to = last + f->rules->near + 1;
     CS_TRY(find_between(f, from > begin ? from : begin, to < end ? to : end, MARGIN));

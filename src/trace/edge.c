@@ -245,12 +245,13 @@ static bool is_mixed(const across *line) {
 }
 
 bool cs_edge_is_whole(const cs_material *material, const cs_regions *regions) {
-  size_t sides = 0, mixed = 0;
+  size_t sides = regions->rows[regions->height] - (size_t)regions->height, mixed = 0;
   for (int32_t y = 0; y < regions->height; y++)
     for (size_t i = regions->rows[y] + 1; i < regions->rows[y + 1]; i++) {
       across line = across_side(material, regions->runs[i].x0, y, 1);
       mixed += is_mixed(&line);
-      sides++;
+      if (mixed > sides / WHOLE_SHARE)
+        return false;
     }
-  return mixed < sides / WHOLE_SHARE + 1;
+  return true;
 }

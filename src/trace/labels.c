@@ -59,20 +59,23 @@ static unsigned char label_of(const work *w, int32_t x, int32_t y) {
   const unsigned char *code = cs_scan_at(w->scan, x, y);
   if (code[3] == 0)
     return (unsigned char)w->colours->count;
-  cs_light4 light = cs_scan_light(w->scan, x, y);
   if (code[3] < 255)
     return MIXED;
   unsigned char *shade = &w->shades[(code[0] >> 2) << 12 | (code[1] >> 2) << 6 | code[2] >> 2];
-  if (*shade == UNKNOWN)
+  if (*shade == UNKNOWN) {
+    cs_light4 light = cs_scan_light(w->scan, x, y);
     *shade = plain_label(w, &light);
+  }
   return *shade;
 }
 
+/* Most pixels are like the one before. */
 static void label_plain(const work *w) {
   for (int32_t y = 0; y < w->scan->height; y++) {
     unsigned char *row = cs_labels_at(w->labels, 0, y);
-    for (int32_t x = 0; x < w->scan->width; x++)
-      row[x] = label_of(w, x, y);
+    const unsigned char *codes = cs_scan_at(w->scan, 0, y);
+    for (int32_t x = 0; x < w->scan->width; x++, codes += 4)
+      row[x] = x > 0 && memcmp(codes, codes - 4, 4) == 0 ? row[x - 1] : label_of(w, x, y);
   }
 }
 
@@ -110,8 +113,9 @@ static void note_about(const cs_labels *labels, int32_t x, int32_t y, bool is_ab
 static unsigned char resolve(const work *w, int32_t x, int32_t y) {
   mixture m = {.light = cs_scan_light(w->scan, x, y), .error = 1e30f};
   size_t count = label_count(w);
-  m.label = nearest(w->colours, &m.light);
   note_about(w->labels, x, y, m.is_about);
+  if (count < 2)
+    return nearest(w->colours, &m.light);
   bool knows_one = false;
   for (size_t a = 0; a < count; a++)
     knows_one = knows_one || m.is_about[a];
@@ -151,13 +155,14 @@ static unsigned char resolve_thin(const work *w, int32_t x, int32_t y) {
 /* New labels go into a plane of their own, so that they depend on plain pixels alone. */
 static void label_mixed(const work *w, unsigned char *into) {
   const cs_labels *labels = w->labels;
+  bool asks_thin = label_count(w) > 2;
   for (int32_t y = 0; y < labels->height; y++) {
     const unsigned char *row = cs_labels_at(labels, 0, y);
     unsigned char *out = into + (size_t)y * (size_t)labels->width;
     for (int32_t x = 0; x < labels->width; x++)
-      out[x] = row[x] == MIXED                               ? resolve(w, x, y)
-               : label_count(w) > 2 && is_thin(labels, x, y) ? resolve_thin(w, x, y)
-                                                             : row[x];
+      out[x] = row[x] == MIXED                      ? resolve(w, x, y)
+               : asks_thin && is_thin(labels, x, y) ? resolve_thin(w, x, y)
+                                                    : row[x];
   }
 }
 
