@@ -25,8 +25,8 @@ static cs_fit_rules rules_of_mixed(double smooth) {
                         .straight = 0.1125 * smooth,
                         .about = (int)least(3 + 2 * smooth, 12),
                         .near = 4,
-                        .rounding = 0.5,
-                        .noise = 0.055 * most(smooth, 1)};
+                        .rounding = 0.45,
+                        .noise = 0.065 * most(smooth, 1)};
 }
 
 /* A picture of whole pixels does not tell where within half a pixel of a side an edge is: that is
