@@ -8,8 +8,8 @@
 #define GAP 16
 #define CODE_MOST 65535.0f
 /* What numbers that are left out and codes may be off by together, at lights of 1: so little that lights
- * of 2 stay within 1/65535, with what gradients are off by. Of this, what one addend may leave out. */
-#define BUDGET (0.35f / 65535)
+ * of 4 stay within 1/65535, with what gradients are off by. Of this, what one addend may leave out. */
+#define BUDGET (0.15f / 65535)
 #define FAINT (BUDGET / 16)
 
 celspan_status cs_addend_init(celspan_context *context, int32_t width, int32_t height,
@@ -51,8 +51,10 @@ void cs_addend_budget_finish(cs_addend_budget *budget, cs_memory *memory) {
 celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend,
                                      cs_addend_budget *budget, bool is_through,
                                      cs_addend_writer *out) {
-  *out = (cs_addend_writer){.addend = addend, .budget = budget, .is_through = is_through};
-  out->dense = cs_mem_array(context->memory, (size_t)addend->width, 3 * sizeof *out->dense);
+  *out = (cs_addend_writer){.addend = addend, .budget = budget, .isa = cs_isa_best()};
+  out->plane_count = is_through ? 1 : 3;
+  out->dense =
+      cs_mem_array(context->memory, (size_t)addend->width * out->plane_count, sizeof *out->dense);
   return out->dense ? CELSPAN_OK : cs_fail_memory(context);
 }
 
@@ -69,7 +71,8 @@ void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer)
   cs_addend *addend = writer->addend;
   if (!addend)
     return;
-  cs_mem_free(context->memory, writer->dense, (size_t)addend->width * 3 * sizeof *writer->dense);
+  cs_mem_free(context->memory, writer->dense,
+              (size_t)addend->width * writer->plane_count * sizeof *writer->dense);
   trim((void **)&addend->spans, &addend->span_capacity, addend->span_count, sizeof *addend->spans,
        context->memory);
   trim((void **)&addend->values, &addend->value_capacity, addend->value_count,
@@ -93,9 +96,9 @@ static celspan_status append(celspan_context *context, cs_addend *addend, cs_add
 
 /* One column of the dense planes. */
 static bool is_zero(const cs_addend_writer *w, int32_t x) {
+  const float *at = w->dense + x;
   size_t width = (size_t)w->addend->width;
-  return w->dense[x] == 0 && w->dense[width + (size_t)x] == 0 &&
-         w->dense[2 * width + (size_t)x] == 0;
+  return at[0] == 0 && (w->plane_count == 1 || (at[width] == 0 && at[2 * width] == 0));
 }
 
 /* Numbers of one piece, plane by plane, and what their codes would be. */
@@ -120,8 +123,8 @@ static void find_scale(const float *in, size_t count, float scale[2]) {
 static piece piece_at(const cs_addend_writer *w, int32_t x0, int32_t x1) {
   size_t width = (size_t)w->addend->width, count = (size_t)(x1 - x0), bytes = count * sizeof(float);
   const float *planes = w->dense + x0;
-  bool is_grey =
-      memcmp(planes, planes + width, bytes) == 0 && memcmp(planes, planes + 2 * width, bytes) == 0;
+  bool is_grey = w->plane_count == 1 || (memcmp(planes, planes + width, bytes) == 0 &&
+                                         memcmp(planes, planes + 2 * width, bytes) == 0);
   piece p = {.x0 = x0, .x1 = x1, .planes = planes, .stride = width, .plane_count = is_grey ? 1 : 3};
   for (size_t c = 0; c < p.plane_count; c++) {
     const float *scale = p.scales[c];
@@ -210,24 +213,22 @@ static celspan_status flush(celspan_context *context, cs_addend_writer *w) {
   return CELSPAN_OK;
 }
 
-/* The colour of a column as it is added. */
-static void colour_at(const cs_addend_writer *w, const celspan_span *span, int32_t x,
-                      float rgb[3]) {
-  float rgba[4];
-  celspan_span_colour(span, x, rgba);
-  for (int c = 0; c < 3; c++)
-    rgb[c] = w->is_through ? 1 - rgba[3] : rgba[c];
-}
-
 static void add_dense(cs_addend_writer *w, const celspan_span *span) {
+  int32_t count = span->x1 - span->x0;
   size_t width = (size_t)w->addend->width;
-  for (int32_t x = span->x0; x < span->x1; x++) {
-    float rgb[3];
-    colour_at(w, span, x, rgb);
-    for (int c = 0; c < 3; c++)
-      w->dense[(size_t)c * width + (size_t)x] = rgb[c];
-  }
+  float *planes = w->dense + span->x0, colours[4 * LONG];
+  const float *rgba = span->array;
   w->end = span->x1;
+  if (span->kind != CELSPAN_SPAN_ARRAY) {
+    for (int32_t i = 0; i < count; i++)
+      celspan_span_colour(span, span->x0 + i, colours + 4 * i);
+    rgba = colours;
+  }
+  if (w->plane_count == 1)
+    CS_WIDE_CHOOSE(w->isa, cs_addend_through)(rgba, count, planes);
+  else
+    CS_WIDE_CHOOSE(w->isa, cs_addend_split)
+  (rgba, count, planes, planes + width, planes + 2 * width);
 }
 
 static celspan_status add_long(celspan_context *context, cs_addend_writer *w,
@@ -238,7 +239,7 @@ static celspan_status add_long(celspan_context *context, cs_addend_writer *w,
   CS_TRY(flush(context, w));
   w->from = w->end = span->x1;
   for (int c = 0; c < 3; c++)
-    rgb[c] = w->is_through ? 1 - span->colour[3] : span->colour[c];
+    rgb[c] = w->plane_count == 1 ? 1 - span->colour[3] : span->colour[c];
   if (!is_gradient && rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0)
     return CELSPAN_OK;
   cs_addend_span put = {
@@ -246,7 +247,7 @@ static celspan_status add_long(celspan_context *context, cs_addend_writer *w,
   CS_TRY(append(context, w->addend, put, is_gradient ? 6 : 3, &values));
   memcpy(values, rgb, sizeof rgb);
   for (int c = 0; c < 3 && is_gradient; c++)
-    values[3 + c] = w->is_through ? -span->slope[3] : span->slope[c];
+    values[3 + c] = w->plane_count == 1 ? -span->slope[3] : span->slope[c];
   return CELSPAN_OK;
 }
 

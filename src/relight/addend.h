@@ -70,12 +70,14 @@ typedef struct cs_addend_writer {
   cs_addend *addend;
   cs_addend_budget *budget; /* borrowed */
   float *spent;             /* of the row under way */
-  bool is_through;          /* what comes through is added, 1 - alpha, instead of the colours */
-  float *dense;             /* planes of a row: what is not in spans yet */
-  int32_t from, end;        /* of that */
+  cs_isa isa;
+  size_t plane_count; /* 3 of colours, or 1 of what comes through, 1 - alpha */
+  float *dense;       /* these of a row: what is not in spans yet */
+  int32_t from, end;  /* of that */
 } cs_addend_writer;
 
-/* addend, budget: initialized, borrowed. Errors: NO_MEMORY. */
+/* addend, budget: initialized, borrowed. is_through: what comes through is added instead of colours.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend,
                                                      cs_addend_budget *budget, bool is_through,
                                                      cs_addend_writer *out);
@@ -86,6 +88,11 @@ CELSPAN_CHECKED celspan_status cs_addend_writer_row(celspan_context *context,
                                                     const celspan_span *spans, size_t count);
 
 /* ---- addend_wide.c */
+
+/* Pixels as planes of their colours, or as a plane of 1 - alpha. */
+CS_WIDE_DECLARE(void, cs_addend_split,
+                (const float *rgba, int32_t count, float *red, float *green, float *blue));
+CS_WIDE_DECLARE(void, cs_addend_through, (const float *rgba, int32_t count, float *through));
 
 /* Adds row y, times a weight for each channel, to three planes, `stride` numbers apart. */
 CS_WIDE_DECLARE(void, cs_addend_add,

@@ -5,6 +5,21 @@
 #include <emmintrin.h>
 #endif
 
+void CS_WIDE(cs_addend_split)(const float *restrict rgba, int32_t count, float *restrict red,
+                              float *restrict green, float *restrict blue) {
+  for (int32_t i = 0; i < count; i++) {
+    red[i] = rgba[4 * i];
+    green[i] = rgba[4 * i + 1];
+    blue[i] = rgba[4 * i + 2];
+  }
+}
+
+void CS_WIDE(cs_addend_through)(const float *restrict rgba, int32_t count,
+                                float *restrict through) {
+  for (int32_t i = 0; i < count; i++)
+    through[i] = 1 - rgba[4 * i + 3];
+}
+
 /* Numbers are asked for while those so many bytes before them are added: an addend's rows are too short
  * for a processor to see by itself which memory comes next. */
 #define AHEAD 2048
