@@ -98,8 +98,7 @@ CS_WIDE_DECLARE(void, cs_addend_through, (const float *rgba, int32_t count, floa
 CS_WIDE_DECLARE(void, cs_addend_add,
                 (const cs_addend *addend, int32_t y, const float weights[3], size_t stride,
                  float *planes));
-/* Pixels of four planes, three of colours, and what comes through, of which `keep` counts. Planes have
- * room for four numbers more. */
+/* Pixels of four planes: three of colours, and what comes through, of which `keep` counts. */
 CS_WIDE_DECLARE(void, cs_addend_pixels,
                 (const float *planes, size_t stride, float keep, int32_t count, float *rgba));
 

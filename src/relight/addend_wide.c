@@ -1,4 +1,4 @@
-/* Sums over columns. Each number is computed by itself, so it does not depend on the instructions. */
+/* Loops over columns. Each number is computed by itself, so it does not depend on the instructions. */
 #include "relight/addend.h"
 
 #ifdef __SSE2__
@@ -134,12 +134,14 @@ static inline void put_pixels(float *rgba, const float *planes, size_t stride, f
 
 void CS_WIDE(cs_addend_pixels)(const float *planes, size_t stride, float keep, int32_t count,
                                float *rgba) {
-  int32_t rest = count % 4;
-  for (int32_t i = 0; i < count - rest; i += 4)
+  int32_t quads = count / 4 * 4;
+  for (int32_t i = 0; i < quads; i += 4)
     put_pixels(rgba + 4 * (size_t)i, planes + i, stride, keep);
-  float last[16];
-  put_pixels(last, planes + count - rest, stride, keep);
-  memcpy(rgba + 4 * (size_t)(count - rest), last, 4 * (size_t)rest * sizeof *last);
+  for (int32_t i = quads; i < count; i++) {
+    for (int c = 0; c < 3; c++)
+      rgba[4 * (size_t)i + (size_t)c] = planes[(size_t)c * stride + (size_t)i];
+    rgba[4 * (size_t)i + 3] = 1 - keep * planes[3 * stride + (size_t)i];
+  }
 #ifdef __SSE2__
   _mm_sfence();
 #endif

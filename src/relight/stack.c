@@ -273,7 +273,7 @@ static celspan_status sum(celspan_context *context, const celspan_stack *stack,
   size_t terms = 2 * stack->light_count;
   summing s = {.stack = stack, .isa = cs_isa_best(), .rgba = rgba};
   s.stride = ((size_t)stack->width + LINE - 1) / LINE * LINE;
-  size_t planes = STRIP * PLANES * s.stride * (size_t)threads + 2 * LINE; /* aligned; read beyond */
+  size_t planes = STRIP * PLANES * s.stride * (size_t)threads + LINE; /* to be aligned */
   s.terms = cs_mem_array(context->memory, terms, sizeof *s.terms);
   s.planes = cs_mem_array(context->memory, planes, sizeof *s.planes);
   bool is_ready = s.terms && s.planes;
