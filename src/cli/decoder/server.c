@@ -40,6 +40,15 @@ static void end_by_fault(int number) {
   raise(number);
 }
 
+static bool is_serving; /* pictures; else libraries may be loaded that pictures need */
+
+/* Keepers and decoders leave by _exit alone. A library that calls exit while it is loaded, before
+ * there is a picture, has no memory to begin with, whatever is in errno after its last words. */
+static void end_by_library(void) {
+  if (!is_serving || errno == ENOMEM)
+    _exit(CS_SERVER_NO_MEMORY);
+}
+
 bool cs_server_is_starved(int ending) {
   if (WIFSIGNALED(ending))
     return WTERMSIG(ending) == SIGKILL || WTERMSIG(ending) == SIGTRAP;
@@ -48,6 +57,8 @@ bool cs_server_is_starved(int ending) {
 }
 
 void cs_server_watch_faults(void) {
+  if (atexit(end_by_library) != 0)
+    _exit(CS_SERVER_NO_MEMORY);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   static char stack[FAULT_STACK];
   static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
@@ -323,6 +334,7 @@ void cs_server_run(const cs_server_desc *desc) {
   s->shared = shared;
   confine(desc);
   s->module->watch_memory();
+  is_serving = true;
   for (;;)
     serve(s);
 }
