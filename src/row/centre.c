@@ -124,7 +124,7 @@ static bool is_done(const merged_walk *w) {
   return w->boundary + w->edge == w->active->count + w->edges.count;
 }
 
-/* x of the next boundary or edge; at most `width`. */
+/* x of the next boundary or edge; at most `width`, which it is when there is none. */
 static double next_x(const merged_walk *w, int32_t width) {
   double x = width;
   if (w->boundary < w->active->count && w->active->x[w->boundary] < x)
@@ -180,7 +180,6 @@ static celspan_status draw_merged(cs_centre *centre, int32_t y, cs_row *out) {
   w.deferred.next = cs_active_deferred(centre->tools.active, &w.deferred.end);
   for (;;) {
     int32_t to = cs_number_first_centre(next_x(&w, centre->tools.width));
-    to = is_done(&w) || to > centre->tools.width ? centre->tools.width : to;
     cs_deferred_forward(&w.deferred, w.composer, x);
     if (to > f.to)
       CS_TRY(fill_to(&w, &f, to, y + 0.5, out));

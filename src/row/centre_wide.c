@@ -96,9 +96,9 @@ static inline void find_columns(const double *x, int32_t width, int32_t columns[
 static inline void place_batch(found_ends *p, const double *x, const bool *is_visible, size_t count,
                                int32_t width, celspan_span *spans, int32_t *ends) {
   int32_t columns[BATCH];
-  size_t first = p->count;
+  size_t first = p->count, most = count < BATCH ? count : BATCH;
   find_columns(x, width, columns);
-  for (size_t k = 0; k < BATCH && k < count; k++) { /* all are written, and some written over */
+  for (size_t k = 0; k < most; k++) { /* all are written, and some written over */
     ends[p->count] = columns[k];
     p->count += is_visible[k];
   }

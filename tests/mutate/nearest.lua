@@ -2,14 +2,14 @@
 -- decide what a pixel shows take seconds in all. A mutant meets these, then all others. Unit tests
 -- that are linked with a folder and no more are near it without being named.
 return {
-  sweep = { "unit/direct", "unit/intersections", "unit/probe", "unit/kernels", "unit/light",
-    "unit/through", "unit/torture" },
-  compose = { "unit/over_table", "unit/over_tree", "unit/operands", "unit/probe", "unit/light",
-    "unit/through", "unit/torture" },
+  sweep = { "unit/wide", "unit/direct", "unit/intersections", "unit/flat_rows", "unit/kernels",
+    "unit/probe", "unit/light", "unit/through", "unit/torture" },
+  compose = { "unit/over_table", "unit/over_tree", "unit/operands", "unit/procedures", "unit/probe",
+    "unit/light", "unit/through", "unit/torture" },
   area = { "unit/wide", "unit/direct", "unit/intersections", "unit/kernels", "unit/light",
     "unit/long_rows", "unit/torture" },
-  row = { "unit/kernels", "unit/picture_rows", "unit/light", "unit/through", "unit/long_rows",
-    "unit/torture" },
+  row = { "unit/flat_rows", "unit/procedures", "unit/kernels", "unit/picture_rows", "unit/light",
+    "unit/through", "unit/long_rows", "unit/torture" },
   paint = { "unit/gradients", "unit/dither", "unit/defocus_rows", "unit/picture_rows",
     "unit/probe", "unit/light", "unit/through", "unit/long_rows", "unit/torture" },
   kernel = { "unit/kernels", "unit/picture_rows", "unit/light", "unit/long_rows", "unit/defocus" },

@@ -1,0 +1,122 @@
+/* Rows in which procedures are seen among other shapes: spans that touch each other, and edges of shapes
+ * that lie where spans begin and end. Every pixel is what the probe says of its centre or, antialiased,
+ * of all its width.
+ */
+#include "render/row_worker.h"
+#include "tests/support/memory.h"
+#include "tests/support/random.h"
+#include "tests/support/scene.h"
+
+#define WIDTH 40
+#define HEIGHT 3
+#define SPANS 6
+#define PARTS 16 /* of a pixel that are probed: edges lie between them */
+
+/* A procedure of upright stripes. */
+typedef struct stripes {
+  double x[SPANS + 1];
+  bool is_there[SPANS]; /* between x[i] and x[i + 1] */
+  celspan_paint paints[SPANS];
+} stripes;
+
+static celspan_status play(void *user, celspan_context *context, double y,
+                           const celspan_scanline_row *row, celspan_scanline_output *output) {
+  const stripes *s = user;
+  celspan_status status = CELSPAN_OK;
+  (void)context, (void)y, (void)row;
+  for (int i = 0; i < SPANS && status == CELSPAN_OK; i++)
+    if (s->is_there[i])
+      status = celspan_scanline_emit(output, s->x[i], s->x[i + 1], &s->paints[i], 1);
+  return status;
+}
+
+/* A place that pixels are cut into eighths by: half of them lie at the middle or the edge of one. */
+static double random_place(test_random *random, double low, double high) {
+  double steps = random_below(random, 2) ? 8 : 2;
+  return floor(random_between(random, low, high) * steps) / steps;
+}
+
+static celspan_paint random_paint(test_random *random) {
+  float r = random_unit(random), g = random_unit(random), b = random_unit(random);
+  return celspan_paint_rgb(r, g, b, 0.3f + 0.7f * random_unit(random));
+}
+
+static celspan_object *random_stripes(studio *s, test_random *random, stripes *out) {
+  celspan_scanline_desc desc = {
+      .bounds = {-50, -1, 200, HEIGHT + 2}, .spans = play, .user = out, .any_thread = true};
+  out->x[0] = random_place(random, -4, 8);
+  for (int i = 0; i < SPANS; i++) {
+    out->x[i + 1] = out->x[i] + 0.125 + random_place(random, 0, 10);
+    out->is_there[i] = random_below(random, 4) > 0;
+    out->paints[i] = random_paint(random);
+  }
+  return studio_scanline(s, &desc);
+}
+
+/* A rectangle over the whole height, of which one edge or both lie where a stripe ends. */
+static celspan_object *random_rect(studio *s, test_random *random, const stripes *others) {
+  double x0 = random_place(random, -2, 20), width = 0.125 + random_place(random, 0, 25);
+  if (random_below(random, 3) > 0)
+    x0 = others->x[random_below(random, SPANS + 1)];
+  return studio_rect(s, x0, -10, width, 30, studio_paint(s, random_paint(random)));
+}
+
+static void check_rows(studio *s, celspan_rostrum *rostrum, celspan_antialias_mode mode, int number) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.film_width = desc.width = WIDTH;
+  desc.film_height = desc.height = HEIGHT;
+  desc.antialias = &mode;
+  cs_frame frame = {0};
+  cs_row_worker worker = {0};
+  const cs_row *row = NULL;
+  double worst = 0;
+  int parts = mode == CELSPAN_ANTIALIAS_NONE ? 1 : PARTS;
+  studio_check(s, cs_frame_create(s->context, &desc, &frame));
+  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
+  studio_check(s, cs_row_worker_row(&worker, 1, &row));
+  for (size_t i = 0; row && i < row->count; i++)
+    for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
+      double sum[4] = {0}, probed[4];
+      float rgba[4];
+      celspan_span_colour(&row->spans[i], x, rgba);
+      for (int k = 0; k < parts; k++) {
+        celspan_point at = {x + (k + 0.5) / parts, 1.5};
+        studio_check(s, celspan_probe(s->context, &exposure, 1, WIDTH, HEIGHT, at, probed));
+        for (int c = 0; c < 4; c++)
+          sum[c] += probed[c] / parts;
+      }
+      for (int c = 0; c < 4; c++)
+        worst = fmax(worst, fabs(sum[c] - (double)rgba[c]));
+    }
+  if (!CHECK_NEAR(worst, 0, 1e-6))
+    fprintf(stderr, "  scene %d, mode %d\n", number, (int)mode);
+  cs_row_worker_finish(&worker);
+  cs_frame_free(&frame, s->context->memory);
+}
+
+int main(void) {
+  static studio s;
+  memory_watch watch = {0};
+  test_random random = {3};
+  s.context = memory_watch_context(&watch);
+  for (int k = 0; k < 150; k++) {
+    stripes some, others;
+    celspan_object *objects[6];
+    objects[1] = random_stripes(&s, &random, &some);
+    objects[4] = random_stripes(&s, &random, &others);
+    for (int i = 0; i < 6; i++)
+      if (i != 1 && i != 4)
+        objects[i] = random_rect(&s, &random, i % 2 ? &some : &others);
+    celspan_cel *cel = studio_cel(&s, CELSPAN_CEL_DESC, objects, 6);
+    celspan_rostrum *rostrum = studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+    check_rows(&s, rostrum, CELSPAN_ANTIALIAS_NONE, k);
+    check_rows(&s, rostrum, CELSPAN_ANTIALIAS_AREA, k);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  return check_done();
+}
