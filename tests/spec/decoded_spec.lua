@@ -1,0 +1,218 @@
+-- Pictures of many kinds are the same, and are told in the same words, whether a process of its own
+-- decodes them or, with --trust, the program itself: tiles, subimages and layers, film codes.
+local workbench = require "tests.support.workbench"
+
+local function has_pictures()
+  local place = workbench.new()
+  local _, _, err = place:celspan "convert none.png none.png"
+  place:remove()
+  return not err:find("celspan-picture.so", 1, true)
+end
+local it = has_pictures() and it or pending
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+local function celspan(arguments)
+  return bench:shell(("cd '%s' && '%s' %s"):format(bench.folder, workbench.absolute, arguments))
+end
+
+--- What the program says of a file and makes of it: the code, the output, the error, a PNG's bytes.
+local function told_and_made(file, options)
+  local code, out, err = celspan(("info '%s' %s"):format(file, options))
+  os.remove(bench.folder .. "/made.png")
+  local made, _, made_err = celspan(("convert '%s' made.png %s"):format(file, options))
+  return { code, out, err, made, made_err, bench:read "made.png" or "none" }
+end
+
+local function same_when_trusted(file)
+  local apart = told_and_made(file, "")
+  assert.are.same(apart, told_and_made(file, "--trust"), file)
+  return apart
+end
+
+-- ---------------------------------------------------------------- TIFF
+
+local function colour(x, y) return string.char((x * 13) % 256, (y * 29) % 256, (x * y) % 256) end
+
+--- The pixels from x0, y0 on, w by h, those beyond the picture black.
+local function pixels(page, x0, y0, w, h)
+  local out = {}
+  for y = y0, y0 + h - 1 do
+    for x = x0,
+    x0 + w - 1 do out[#out + 1] = x < page.w and y < page.h and colour(x + page.shift, y) or "\0\0\0" end
+  end
+  return table.concat(out)
+end
+
+--- A TIFF of pages { w =, h =, shift =, name =, tile = }; tile: the side of its tiles, nil: one strip.
+local function tiff(pages)
+  local out, link = "II*\0\0\0\0\0", 5
+  local function append(bytes)
+    local at = #out
+    out = out .. bytes .. ("\0"):rep(#bytes % 2)
+    return at
+  end
+  for _, page in ipairs(pages) do
+    local offsets, counts, entries = {}, {}, {}
+    local side = page.tile
+    for y = 0, page.h - 1, side or page.h do
+      for x = 0, page.w - 1, side or page.w do
+        local bytes = pixels(page, x, y, side or page.w, side or page.h)
+        offsets[#offsets + 1] = append(bytes)
+        counts[#counts + 1] = #bytes
+      end
+    end
+    local function entry(tag, kind, values)
+      local format = kind == 3 and "<I2" or "<I4"
+      local bytes = kind == 2 and values or ""
+      for _, value in ipairs(kind ~= 2 and values or {}) do bytes = bytes .. string.pack(format, value) end
+      local number = kind == 2 and #values or #values
+      if #bytes > 4 then bytes = string.pack("<I4", append(bytes)) end
+      entries[#entries + 1] = string.pack("<I2I2I4", tag, kind, number) .. bytes .. ("\0"):rep(4 - #bytes)
+    end
+    entry(256, 4, { page.w })
+    entry(257, 4, { page.h })
+    entry(258, 3, { 8, 8, 8 })
+    entry(259, 3, { 1 })
+    entry(262, 3, { 2 })
+    if page.name then entry(270, 2, page.name .. "\0") end
+    if not side then entry(273, 4, offsets) end
+    entry(277, 3, { 3 })
+    if side then
+      entry(322, 4, { side })
+      entry(323, 4, { side })
+      entry(324, 4, offsets)
+      entry(325, 4, counts)
+    else
+      entry(278, 4, { page.h })
+      entry(279, 4, counts)
+    end
+    local at = append(string.pack("<I2", #entries) .. table.concat(entries) .. "\0\0\0\0")
+    out = out:sub(1, link - 1) .. string.pack("<I4", at) .. out:sub(link + 4)
+    link = at + 3 + 12 * #entries
+  end
+  return out
+end
+
+describe("a picture", function()
+  it("of every format is the same by a decoder and by --trust", function()
+    local list = assert(io.popen "ls tests/fuzz/corpus/picture-*/*")
+    local count = 0
+    for name in list:lines() do
+      bench:write("picture", assert(io.open(name, "rb")):read "a")
+      local found = same_when_trusted "picture"
+      assert.are.equal(0, found[1], name .. ": " .. found[3])
+      count = count + 1
+    end
+    list:close()
+    assert.is_true(count > 10)
+  end)
+
+  it("in tiles is the same as in strips", function()
+    for _, side in ipairs { 16, 32, 64 } do
+      bench:write("strips.tif", tiff { { w = 70, h = 45, shift = 0 } })
+      bench:write("tiles.tif", tiff { { w = 70, h = 45, shift = 0, tile = side } })
+      local strips, tiles = same_when_trusted "strips.tif", same_when_trusted "tiles.tif"
+      assert.are.equal(0, tiles[4], tiles[5])
+      assert.is_true(strips[6] == tiles[6])
+    end
+  end)
+
+  it("may be one of several in a file, by number and by name", function()
+    bench:write("pages.tif", tiff { { w = 20, h = 10, shift = 0, name = "back" }, { w = 30, h = 15, shift = 40, name = "front", tile = 16 } })
+    bench:write("front.tif", tiff { { w = 30, h = 15, shift = 40 } })
+    local found = same_when_trusted "pages.tif"
+    assert.matches("subimages 2\n", found[2])
+    assert.matches("subimage 1 size 30x15", found[2])
+    bench:write("show.lua", [[
+local celspan = require "celspan"
+local file, subimage, layer = ...
+return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture = celspan.picture {
+  file = file, subimage = tonumber(subimage), layer = layer, sampling = "nearest" } } } }
+]])
+    local function shown(arguments, options)
+      local code, _,
+      err = celspan(("render show.lua --size 30x15 -o shown.png --progress none %s -- %s"):format(options or "", arguments))
+      return code, code == 0 and bench:read "shown.png" or err
+    end
+    for _, options in ipairs { "", "--trust" } do
+      local _, alone = shown("front.tif", options)
+      assert.are.same({ 0, alone }, { shown("pages.tif 1", options) })
+      assert.are.same({ 0, alone }, { shown("pages.tif '' front", options) })
+      local code, err = shown("pages.tif 2", options)
+      assert.are.equal(4, code)
+      assert.matches("subimage 2", err)
+      code, err = shown("pages.tif '' middle", options)
+      assert.are.equal(4, code)
+      assert.matches('has no layer "middle"', err)
+    end
+  end)
+
+  it("of film has the codes that its header names", function()
+    local whole = assert(io.open("tests/fuzz/corpus/picture-dpx/rgba.dpx", "rb")):read "a"
+    for transfer,
+    coding in pairs { [1] = "cineon", [2] = "linear", [3] = "cineon", [5] = "rec709", [6] = "rec709", [7] = "rec709", [0] = "cineon" } do
+      bench:write("film.dpx", whole:sub(1, 801) .. string.char(transfer) .. whole:sub(803))
+      local found = same_when_trusted "film.dpx"
+      assert.matches("\ncolour " .. coding .. "\n", found[2], transfer)
+    end
+  end)
+
+  it("that is cut ends the same, and is told with its name", function()
+    for _,
+    name in ipairs { "exr/rgba.exr", "tiff/rgba.tif", "jpeg/rgba.jpg", "psd/packbits8", "dpx/rgba.dpx", "gif/rgba.gif" } do
+      local whole = assert(io.open("tests/fuzz/corpus/picture-" .. name, "rb")):read "a"
+      for _, share in ipairs { 0.1, 0.5, 0.95 } do
+        bench:write("cut", whole:sub(1, math.floor(share * #whole)))
+        local apart, trusted = told_and_made("cut", ""), told_and_made("cut", "--trust")
+        assert.are.same({ apart[1], apart[2], apart[4], apart[6] }, { trusted[1], trusted[2], trusted[4], trusted[6] }, name)
+        if apart[4] ~= 0 then
+          assert.matches("^celspan: error: cut: ", apart[5])
+          assert.matches("^celspan: error: cut: ", trusted[5])
+        end
+      end
+    end
+  end)
+
+  it("in a space of OpenColorIO needs its configuration", function()
+    bench:write("front.tif", tiff { { w = 30, h = 15, shift = 40 } })
+    bench:write("show.lua", [[
+local celspan = require "celspan"
+return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 30, 15, texture = celspan.picture {
+  file = "front.tif", colour = "camera", sampling = "nearest" } } } }
+]])
+    bench:write("config.ocio", [[ocio_profile_version: 1
+roles:
+  default: light
+  scene_linear: light
+displays:
+  screen:
+    - !<View> {name: plain, colorspace: light}
+colorspaces:
+  - !<ColorSpace>
+    name: light
+  - !<ColorSpace>
+    name: camera
+    to_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+]])
+    local function shown(environment, options)
+      local code, _,
+      err = bench:shell(("cd '%s' && %s '%s' render show.lua --size 30x15 --depth half -o shown.exr --progress none %s"):format(
+        bench.folder, environment, workbench.absolute, options))
+      return code, err, code == 0 and bench:read "shown.exr" or nil
+    end
+    for _, options in ipairs { "", "--trust" } do
+      local code, err = shown("", options)
+      assert.are.equal(3, code, err)
+      assert.matches("OCIO", err)
+      local seen, said, made = shown("OCIO=config.ocio", options)
+      assert.are.equal(0, seen, said)
+      assert.is_string(made)
+    end
+    local _, _, apart = shown("OCIO=config.ocio", "")
+    assert.is_true(apart == select(3, shown("OCIO=config.ocio", "--trust")))
+  end)
+end)
