@@ -170,8 +170,8 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
         local apart, trusted = told_and_made("cut", ""), told_and_made("cut", "--trust")
         assert.are.same({ apart[1], apart[2], apart[4], apart[6] }, { trusted[1], trusted[2], trusted[4], trusted[6] }, name)
         if apart[4] ~= 0 then
-          assert.matches("^celspan: error: cut: ", apart[5])
-          assert.matches("^celspan: error: cut: ", trusted[5])
+          assert.matches(" cut: ", apart[5])
+          assert.matches(" cut: ", trusted[5])
         end
       end
     end
