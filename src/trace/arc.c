@@ -4,8 +4,10 @@
 
 /* Steps of Newton's method towards the least error, which is near 0. */
 enum { STEPS = 8 };
-/* An arc of a larger radius, in pixels, is a line. */
+/* An arc of a larger radius, in pixels, is a line; so are points that are no farther off one than
+ * rounding takes them, as a share of their spread, squared. */
 #define RADIUS_MOST 1e5
+#define ROUNDING 1e-12
 
 void cs_arc_add(cs_arc_sums *s, celspan_point point) {
   double x = point.x - s->origin.x, y = point.y - s->origin.y, z = x * x + y * y;
@@ -97,7 +99,7 @@ static cs_arc circle_of(const cs_arc_sums *s, const moments *m) {
   double scale = 2 * (root * root - root * z + m->xx * m->yy - m->xy * m->xy);
   double x = m->xz * (m->yy - root) - m->yz * m->xy, y = m->yz * (m->xx - root) - m->xz * m->xy;
   double far = sqrt(x * x + y * y + z * scale * scale);
-  if (!(fabs(scale) * RADIUS_MOST > far))
+  if (!(fabs(scale) * RADIUS_MOST > far) || line_error(m) <= ROUNDING * z)
     return line_of(s, m);
   double radius = far / fabs(scale);
   return (cs_arc){.origin = {s->origin.x + m->x, s->origin.y + m->y},
@@ -109,8 +111,7 @@ static cs_arc circle_of(const cs_arc_sums *s, const moments *m) {
 cs_arc cs_arc_of(const cs_arc_sums *sums, bool is_line) {
   moments m;
   take_moments(sums, &m);
-  cs_arc arc = is_line ? line_of(sums, &m) : circle_of(sums, &m);
-  return arc;
+  return is_line ? line_of(sums, &m) : circle_of(sums, &m);
 }
 
 double cs_arc_off(const cs_arc *arc, celspan_point point, celspan_point *across) {
