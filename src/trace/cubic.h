@@ -21,7 +21,8 @@ typedef struct cs_cubic_end {
 } cs_cubic_end;
 
 /* `parameters` is room for count numbers; the points lie between the ends, which are not among them.
- * Returns whether no point is farther away than the tolerance. */
+ * Returns whether no point is farther away than the tolerance, and all of them, root mean square, not
+ * farther than `mean`. */
 bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
                   double tolerance, double mean, double *parameters, celspan_point control[2]);
 

@@ -1,6 +1,7 @@
 /* The borders as lines and cubics: each chain fitted once, for both of its sides.
  *
- *      chain --edge.h: points of the edge--> --corners.h, fit.h--> pieces from node to node
+ *      chain --edge.h--> points of the edge --corners.h--> parts between corners
+ *            --fit.h--> pieces from node to node
  *
  * The rim of the picture stays as it is, and so do chains of few pixels, of which nothing can be told
  * but their pixels.
@@ -24,7 +25,8 @@ typedef struct cs_curves {
   cs_pieces pieces;
 } cs_curves;
 
-/* smooth: 1 for a tolerance of 0.15 pixels, twice that for 2; 0: the borders of the pixels themselves.
+/* smooth: 1 for a tolerance of 0.15 pixels, twice that for 2, where pixels are mixed; 0: the borders of
+ * the pixels themselves.
  * Errors: NO_MEMORY. To be finished, whatever happens. */
 CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
                                               const cs_borders *borders, double smooth,

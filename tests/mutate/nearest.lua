@@ -29,7 +29,7 @@ return {
   sandbox = { "sandbox/sandbox", "spec/source" },
   svg = { "spec/svg", "unit/fuzz-svg" },
   text = { "unit/text", "spec/text", "golden/golden" },
-  trace = { "property/trace", "spec/trace" },
+  trace = { "unit/stretches", "property/trace", "spec/trace" },
   track = { "spec/track" },
   pictures = { "unit/picture", "spec/formats" },
   painting = { "unit/fuzz-ora", "unit/fuzz-psd", "unit/fuzz-kra", "spec/layers" },
