@@ -1487,6 +1487,7 @@ CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_
 CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
 /* The frame in these lights, as many as it takes, into width x height RGBA floats, linear and
  * premultiplied, rows from top to bottom. workers: threads at most; 0: one a processor
+ * rgba: best where 16 divides its address: pixels then go past the caches
  * Errors: BAD_ARGUMENT for a light that is negative or not finite; NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_pixels(celspan_context *context,
                                                                 const celspan_stack *stack,
