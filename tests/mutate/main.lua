@@ -149,7 +149,7 @@ end
 local function is_explained(mutant, text)
   local line, told = mutants.line_of(text, mutant), mutants.tell(mutant)
   for _, entry in ipairs(equal[mutant.path] or {}) do
-    if entry[1] == line and entry[2] == told then return true end
+    if entry[1] == line and entry[2] == told and (entry[4] or 1) == mutant.nth then return true end
   end
   return false
 end

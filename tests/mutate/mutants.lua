@@ -2,7 +2,8 @@
 -- mistake.
 --
 -- A mutant is { from, to (bytes of the source that are replaced), before, after (texts), line,
--- kind }. It has as many lines as the source.
+-- column, kind, nth (of those of its line that are told alike, from 1) }. It has as many lines as
+-- the source.
 local code = require "tests.mutate.code"
 local tokens = require "tests.mutate.tokens"
 
@@ -177,7 +178,7 @@ end
 function mutants.of(text)
   local list, found = tokens.read(text), {}
   code.walk(list, maker(text, list, function(mutant) found[#found + 1] = mutant end))
-  local line, at = 1, 1
+  local line, at, told = 1, 1, {}
   table.sort(found, function(a, b)
     if a.from ~= b.from then return a.from < b.from end
     if a.to ~= b.to then return a.to < b.to end
@@ -187,6 +188,9 @@ function mutants.of(text)
     for _ in text:sub(at, mutant.from - 1):gmatch "\n" do line = line + 1 end
     at, mutant.line = mutant.from, line
     mutant.column = mutant.from - (text:sub(1, mutant.from - 1):match ".*()\n" or 0)
+    local name = line .. mutants.tell(mutant)
+    told[name] = (told[name] or 0) + 1
+    mutant.nth = told[name]
   end
   return found
 end

@@ -1,6 +1,6 @@
 /* Rows of flat cells, one after another: what is kept of the row above is what the row has. Bars begin
  * and end on their way down, so that in most rows a few of many cells change; every pixel has the colour
- * that the probe finds at its centre.
+ * that the probe finds at its centre. A row that is asked for again is the same.
  */
 #include "render/row_worker.h"
 #include "tests/support/random.h"
@@ -60,6 +60,36 @@ static void check_scene(studio *s, celspan_rostrum *rostrum, int number) {
   cs_frame_free(&frame, s->context->memory);
 }
 
+static void take_row(cs_row_worker *worker, int32_t y, float (*out)[4]) {
+  const cs_row *row = NULL;
+  memset(out, 0, WIDTH * sizeof *out);
+  CHECK(cs_row_worker_row(worker, y, &row) == CELSPAN_OK);
+  for (size_t i = 0; row && i < row->count; i++)
+    for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
+      celspan_span_colour(&row->spans[i], x, out[x]);
+}
+
+static void check_again(studio *s, celspan_rostrum *rostrum) {
+  static float first[WIDTH][4], again[WIDTH][4];
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = &exposure;
+  desc.exposure_count = 1;
+  desc.film_width = desc.width = WIDTH;
+  desc.film_height = desc.height = HEIGHT;
+  cs_frame frame = {0};
+  cs_row_worker worker = {0};
+  studio_check(s, cs_frame_create(s->context, &desc, &frame));
+  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
+  for (int32_t y = 0; y < HEIGHT; y += 3) {
+    take_row(&worker, y, first);
+    take_row(&worker, y, again);
+    CHECK(memcmp(first, again, sizeof first) == 0);
+  }
+  cs_row_worker_finish(&worker);
+  cs_frame_free(&frame, s->context->memory);
+}
+
 int main(void) {
   static studio s;
   test_random random = {8};
@@ -69,7 +99,9 @@ int main(void) {
     for (int i = 0; i < BARS; i++)
       objects[i] = random_bar(&s, &random, k % 2 == 1);
     celspan_cel *cel = studio_cel(&s, CELSPAN_CEL_DESC, objects, BARS);
-    check_scene(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), k);
+    celspan_rostrum *rostrum = studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1);
+    check_scene(&s, rostrum, k);
+    check_again(&s, rostrum);
     studio_finish(&s);
   }
   celspan_context_destroy(s.context);

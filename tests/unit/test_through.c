@@ -195,7 +195,8 @@ static celspan_texture *make_picture(bool has_alpha, celspan_picture_use use) {
   return texture;
 }
 
-/* A large shape that is nearly opaque or not: flat, a gradient or a picture. */
+/* A large shape that is nearly opaque or not: flat, a gradient or a picture. Some begin and
+ * end where tiles do. */
 static celspan_object *random_leaf(void) {
   float least = random_below(&numbers, 3) == 0 ? 1 : random_below(&numbers, 2) ? 0.9f : 0.3f;
   int kind = random_below(&numbers, 5);
@@ -208,6 +209,9 @@ static celspan_object *random_leaf(void) {
   double y = random_between(&numbers, -SIDE / 2, SIDE / 2);
   if (random_below(&numbers, 2))
     return studio_circle(&s, x + width, y + width, width, texture);
+  if (random_below(&numbers, 2))
+    return studio_rect(&s, floor(x / 16) * 16, floor(y / 16) * 16, 2 * width,
+                       96 + 16 * random_below(&numbers, 18), texture);
   return studio_rect(&s, x, y, 2 * width, 1.5 * SIDE, texture);
 }
 
