@@ -56,5 +56,7 @@ return {
   ["src/sweep/cull_columns.c"] = {
     { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
       "`1` to `2`", "a stride is cut to a whole number, which is 1 up to the root of 4", 1 },
+    { "double stride = piece->sag > 0 ? sqrt(fmax(grid->slack / piece->sag - near, 1)) : 1;",
+      "`1` to `2`", "chords of a piece without sag, which is straight, may be of any length", 2 },
   },
 }
