@@ -27,6 +27,10 @@ return {
     { "*edges = (cs_defocus_edges){0};", "drop `*edges = (cs_defocus_edges){0};`",
       "is freed at once with what it is a part of" },
   },
+  ["src/defocus/sums.c"] = {
+    { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
+      "the weight of the middle is not read: it has what those of the pairs leave" },
+  },
   ["src/row/centre.c"] = {
     { "(w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {",
       "`<=` to `<`", "no column lies between two crossings at one place" },
