@@ -26,7 +26,7 @@ for _, shape in ipairs(fish.shapes) do
   local part = shape.object:bounds() > 420 and tail or body
   if colour then part[#part + 1] = shape.object:with { texture = colour } end
 end
-body, tail = celspan.union(body), celspan.union(tail):translate(-22, 0)
+body, tail = celspan.union(body), celspan.union(tail):translate(-34, 0)
 
 local sea = celspan.linear { from = { 0, 0 }, to = { 0, 720 }, { 0, "#8fd3e8" }, { 0.5, "#3a8fb7" },
   { 1, "#123a63" } }
@@ -44,7 +44,7 @@ end
 
 return celspan.film { size = { 1280, 720 }, frames = 48, frame = function(f)
   local beat = math.sin(2 * math.pi * 2 * f.time)
-  local swimming = celspan.union { tail:skew(0, 14 * beat, 425, 200):scale(1 - 0.06 * beat, 1, 425, 200),
+  local swimming = celspan.union { tail:skew(0, 14 * beat, 412, 200):scale(1 - 0.06 * beat, 1, 412, 200),
     body:skew(0, -2 * beat, 425, 200) }
   return celspan.rostrum {
     celspan.cel { celspan.rect { 0, 0, 1280, 720, texture = sea } },
