@@ -76,11 +76,52 @@ static bool fits_chain(const cs_css_rule *rule, size_t count, const cs_svg_node 
   return false;
 }
 
+/* ---------------------------------------------------------------- paints */
+
+static bool take_paint_colour(const char **text, cs_svg_paint *out) {
+  if (cs_svg_take_word(text, "none"))
+    out->kind = CS_SVG_PAINT_NONE;
+  else if (cs_svg_take_word(text, "currentColor"))
+    out->kind = CS_SVG_PAINT_CURRENT;
+  else if (cs_svg_take_colour(text, &out->colour))
+    out->kind = CS_SVG_PAINT_COLOUR;
+  else
+    return false;
+  return true;
+}
+
+/* A paint that is written out; false: it is none. */
+static bool parse_paint(const char *text, cs_svg_paint *out) {
+  *out = (cs_svg_paint){.kind = CS_SVG_PAINT_NONE};
+  text = cs_svg_skip_space(text);
+  out->has_server = cs_svg_take_reference(&text, &out->server);
+  text = cs_svg_skip_space(text);
+  bool has_colour = *text && take_paint_colour(&text, out);
+  out->has_fallback = out->has_server && has_colour;
+  /* Only an ICC profile may follow; it is passed over. */
+  text = cs_svg_skip_space(text);
+  return out->has_server || (has_colour && (!*text || strncmp(text, "icc-color", 9) == 0));
+}
+
+static bool is_paint(const char *text) {
+  cs_svg_paint paint;
+  return cs_svg_is_word(text, "inherit") || cs_svg_is_word(text, "context-fill") ||
+         cs_svg_is_word(text, "context-stroke") || parse_paint(text, &paint);
+}
+
 /* ---------------------------------------------------------------- the cascade */
+
+/* Declarations of paints that are none do not count, so that one may stand before them for programs
+ * that know less: fill: #f00; fill: color(display-p3 1 0 0). */
+static bool counts(const cs_css_declaration *declaration) {
+  bool has_paint = declaration->name == CS_SVG_FILL || declaration->name == CS_SVG_STROKE ||
+                   declaration->name == CS_SVG_COLOR || declaration->name == CS_SVG_STOP_COLOR;
+  return !has_paint || is_paint(declaration->value);
+}
 
 static void apply_declarations(const cs_css_declarations *list, bool is_important, cascade *out) {
   for (size_t i = 0; i < list->count; i++)
-    if (list->items[i].is_important == is_important)
+    if (list->items[i].is_important == is_important && counts(&list->items[i]))
       out->values[list->items[i].name] = list->items[i].value;
 }
 
@@ -108,39 +149,18 @@ static void collect(const cs_svg_document *document, const cs_svg_node *node, ui
 
 /* ---------------------------------------------------------------- values */
 
-static bool take_paint_colour(const char **text, cs_svg_paint *out) {
-  if (cs_svg_take_word(text, "none"))
-    out->kind = CS_SVG_PAINT_NONE;
-  else if (cs_svg_take_word(text, "currentColor"))
-    out->kind = CS_SVG_PAINT_CURRENT;
-  else if (cs_svg_take_colour(text, &out->colour))
-    out->kind = CS_SVG_PAINT_COLOUR;
-  else
-    return false;
-  return true;
-}
-
 static void read_paint(const char *text, const cs_svg_style *style, const cs_svg_paint *inherited,
                        cs_svg_paint *out) {
-  cs_svg_paint paint = {.kind = CS_SVG_PAINT_NONE};
+  cs_svg_paint paint;
   if (!text)
     return;
-  text = cs_svg_skip_space(text);
-  if (cs_svg_is_word(text, "inherit")) {
+  if (cs_svg_is_word(text, "inherit"))
     *out = *inherited;
-    return;
-  }
-  if (cs_svg_is_word(text, "context-fill") || cs_svg_is_word(text, "context-stroke")) {
-    *out = cs_svg_is_word(text, "context-fill") ? style->context_fill : style->context_stroke;
-    return;
-  }
-  paint.has_server = cs_svg_take_reference(&text, &paint.server);
-  text = cs_svg_skip_space(text);
-  bool has_colour = *text && take_paint_colour(&text, &paint);
-  paint.has_fallback = paint.has_server && has_colour;
-  /* Only an ICC profile may follow; it is passed over. */
-  text = cs_svg_skip_space(text);
-  if (paint.has_server || (has_colour && (!*text || strncmp(text, "icc-color", 9) == 0)))
+  else if (cs_svg_is_word(text, "context-fill"))
+    *out = style->context_fill;
+  else if (cs_svg_is_word(text, "context-stroke"))
+    *out = style->context_stroke;
+  else if (parse_paint(text, &paint))
     *out = paint;
 }
 

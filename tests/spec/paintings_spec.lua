@@ -182,8 +182,7 @@ describe("a Photoshop document", function()
   it("tells masks that are feathered or thinned as paths", function()
     local sentence = "ink: a mask with feather, or a vector mask of less density: it is as it is stored"
     local zero, one = ("\0"):rep(8), "\63\240" .. ("\0"):rep(6)
-    for parameters,
-    is_told in pairs { ["\2" .. one] = true, ["\2" .. zero] = false, ["\4\9"] = true, ["\4\255"] = false,
+    for parameters, is_told in pairs { ["\2" .. one] = true, ["\2" .. zero] = false, ["\4\9"] = true, ["\4\255"] = false,
       ["\8" .. one] = true, ["\15\255" .. zero .. "\255" .. zero] = false } do
       local tree = read(psd { mask = mask { flags = 16, more = parameters } })
       assert.are.same(is_told and { sentence } or {}, told(tree))
@@ -224,8 +223,7 @@ describe("an archive", function()
   it_reads_archives("may have 64-bit numbers, extra fields and a comment", function()
     local plain = assert(seen(read(paintings.zip(members())))):bytes()
     assert.are.equal("\9\8\7\255", plain:sub(1, 4))
-    for _,
-    bytes in ipairs { paintings.zip(members(), "", true), paintings.zip(members(), ("c"):rep(9000), true), paintings.zip(members(), ("PK\5"):rep(9000)),
+    for _, bytes in ipairs { paintings.zip(members(), "", true), paintings.zip(members(), ("c"):rep(9000), true), paintings.zip(members(), ("PK\5"):rep(9000)),
       paintings.zip(members { extra = string.pack("<I2I2", 0x5455, 3) .. "abc" }, "", true),
       paintings.zip(members { extra = "ab" }),
       paintings.zip(members { extra = string.pack("<I2I2", 1, 99) .. "abc" }),
@@ -303,8 +301,7 @@ describe("an OpenRaster file", function()
   end)
 
   it_reads_archives("has pictures of every depth of grey and of palettes", function()
-    for depth,
-    data in pairs { [1] = "\0\128", [2] = "\0\192", [4] = "\0\240", [8] = "\0\255", [16] = "\0\255\255" } do
+    for depth, data in pairs { [1] = "\0\128", [2] = "\0\192", [4] = "\0\240", [8] = "\0\255", [16] = "\0\255\255" } do
       local tree = read(ora('<stack><layer src="b.png"/></stack>', { { name = "b.png", data = paintings.png_of(1, 1, depth, 0, data) } }))
       assert.are.equal("\255\255\255\255", assert(seen(tree)):bytes():sub(1, 4), depth)
       if depth < 16 then
@@ -332,8 +329,7 @@ describe("a Krita document", function()
       { ("V"):rep(500), "a line of the layer's tiles is too long" },
       { HEAD:format "999" .. "0,0,LZF,1\n\0", "too early" },
     }
-    for _,
-    line in ipairs { "1,0,LZF,1\n\0", "0,7,LZF,1\n\0", "x,0,LZF,1\n\0", "0;0,LZF,1\n\0", "0,x,LZF,1\n\0", "0,0,LZF,x\n\0", "0,0,LZF,0\n\0",
+    for _, line in ipairs { "1,0,LZF,1\n\0", "0,7,LZF,1\n\0", "x,0,LZF,1\n\0", "0;0,LZF,1\n\0", "0,x,LZF,1\n\0", "0,0,LZF,x\n\0", "0,0,LZF,0\n\0",
       "0,0,LZF,99999\n\0", "0,0,LZF,1 \n\0" } do
       cases[#cases + 1] = { HEAD:format "1" .. line, "the line of a tile is damaged" }
     end

@@ -111,25 +111,32 @@ describe("style sheets", function()
   end)
 
   it("choose by names, classes and attributes", function()
-    for _,
-    selector in ipairs { "*", "rect", "*.a", ".b", ".a.b", "rect#r-1", "svg > rect", "svg>*", "[id]", "[id=r-1]",
+    for _, selector in ipairs { "*", "rect", "*.a", ".b", ".a.b", "rect#r-1", "svg > rect", "svg>*", "[id]", "[id=r-1]",
       "[ id = 'r-1' ]", '[id="r-1"]', "[class~=b]", "[id|=r]", "[id^=r]", "[id$='1']", "[id*=-]",
       "[class^='a b']",
       "rect[width='50'][height='60']", "style + rect, rect" } do
       local shown = bytes(read(sheet(selector .. "{fill:lime}")).object)
       assert.is_true(shown == bytes(read(LIME).object), selector)
     end
-    for _,
-    selector in ipairs { "g", ".c", "#r", "circle > rect", "rect > rect", "[rx]", "[id=r]", "[class~=c]", "[class~='']",
+    for _, selector in ipairs { "g", ".c", "#r", "circle > rect", "rect > rect", "[rx]", "[id=r]", "[class~=c]", "[class~='']",
       "[id|=r-]", "[id^=s]", "[id$='2']", "[id$='longer than it']", "[id*=x]", "[id^='']", "[id*='']" } do
       local art = read(sheet(selector .. "{fill:lime}", 'fill="red"'))
       assert.is_true(bytes(art.object) == bytes(read(filled "red").object), selector)
     end
   end)
 
+  it("leave a paint that is none to the one before it", function()
+    for _, value in ipairs { "color(display-p3 0 1 0)", "unknown", "", "#12", "red lime", "rgb(1,2" } do
+      for _, text in ipairs { sheet("rect{fill:lime;fill:" .. value .. "}"), sheet("rect{fill:lime}rect{fill:" .. value .. "}"),
+        sheet("rect{fill:lime!important;fill:" .. value .. "!important}"), sheet("rect{fill:" .. value .. "}", 'fill="lime"'),
+        sheet("", 'style="fill:lime;fill:' .. value .. '"') } do
+        assert.is_true(bytes(read(text).object) == bytes(read(LIME).object), value .. ": " .. text)
+      end
+    end
+  end)
+
   it("tell of selectors and rules that do not count", function()
-    for _,
-    selector in ipairs { "> rect", "rect:hover", "#a#b", "rect..a", "[of-no-meaning]", "[id='r", "[id", (".a"):rep(40), ("[id]"):rep(40),
+    for _, selector in ipairs { "> rect", "rect:hover", "#a#b", "rect..a", "[of-no-meaning]", "[id='r", "[id", (".a"):rep(40), ("[id]"):rep(40),
       ("svg "):rep(40) .. "rect", ",", "@media print{rect{fill:red}} @import 'a.css'; @x" } do
       local art = read(sheet("rect{fill:lime} " .. selector .. "{fill:red}"))
       assert.is_true(bytes(art.object) == bytes(read(LIME).object), selector)
@@ -140,8 +147,7 @@ end)
 
 describe("paints", function()
   it("may be written in every way of a colour", function()
-    for _,
-    text in ipairs { "#0f0", "#0F0F", "#00ff00", "#00FF00fF", "LIME", " lime ", "rgb(0,255,0)", "rgb( 0 255 0 )", "rgb(0%,100%,0%)",
+    for _, text in ipairs { "#0f0", "#0F0F", "#00ff00", "#00FF00fF", "LIME", " lime ", "rgb(0,255,0)", "rgb( 0 255 0 )", "rgb(0%,100%,0%)",
       "rgb(0 255 0 / 1)", "rgba(0,255,0,1)", "rgba(0,255,0,100%)", "rgb(-9,999,0)", "hsl(120,100%,50%)",
       "hsl(480,100%,50%)",
       "hsl(-240deg,100%,50%)", "hsla(120,100%,50%,1)", "#0f0 icc-color(a, 1)", "url(#none) lime",
@@ -158,8 +164,7 @@ describe("paints", function()
   end)
 
   it("that are none of those are passed over", function()
-    for _,
-    text in ipairs { "", "#", "#12", "#12345", "#1234567", "#123456789", "#xyz", "rgb(1,2", "rgb(1,2,)", "rgb 1,2,3", "hsl(1)",
+    for _, text in ipairs { "", "#", "#12", "#12345", "#1234567", "#123456789", "#xyz", "rgb(1,2", "rgb(1,2,)", "rgb 1,2,3", "hsl(1)",
       "hsl(x,1%,1%)", "hsl(1,x,1%)", "hsl(1,1%,x)", "rgb(1,2,3,x)", "rgba(1,2,3,.5", "blurple",
       "a-colour-with-a-very-long-name-indeed",
       "lime red", "#0f0 lime", "icc-color(a)" } do
@@ -293,8 +298,7 @@ describe("clip paths", function()
       { shape "ellipse(20 10 at 50% 50%)", '<ellipse cx="40" cy="30" rx="20" ry="10" fill="lime"/>' },
     }
     empty { shape "circle(0)", shape "inset(40)", shape "ellipse(0 5)" }
-    for _,
-    text in ipairs { "circle(x)", "circle(-1)", "circle(5 at 1)", "circle(5", "circle(5) x", "inset(x)", "inset(1 2 3 4 5)",
+    for _, text in ipairs { "circle(x)", "circle(-1)", "circle(5 at 1)", "circle(5", "circle(5) x", "inset(x)", "inset(1 2 3 4 5)",
       "polygon(1)", "polygon(1 2,)", "polygon(evenodd 1 2)", "square(5)", "circle 5", "ellipse(1)",
       "ellipse(-1 1)" } do
       local art = read(shape(text))
@@ -386,8 +390,7 @@ end)
 
 describe("lengths and transforms", function()
   it("may be written in several ways", function()
-    for width,
-    px in pairs { ["2em"] = 40, ["4ex"] = 40, ["2.5rem"] = 40, ["40vw"] = 40, ["40vh"] = 40, ["40vmin"] = 40, ["40vmax"] = 40,
+    for width, px in pairs { ["2em"] = 40, ["4ex"] = 40, ["2.5rem"] = 40, ["40vw"] = 40, ["40vh"] = 40, ["40vmin"] = 40, ["40vmax"] = 40,
       ["40%"] = 40, ["30pt"] = 40, ["2.5pc"] = 40, [".5in"] = 48, ["1.27cm"] = 48, ["12.7mm"] = 48,
       ["50.8Q"] = 48, ["40PX"] = 40, ["+4e1"] = 40 } do
       local art = read(('<rect font-size="20" width="%s" height="9"/>'):format(width))
@@ -408,8 +411,7 @@ describe("lengths and transforms", function()
       { '<rect width="20" height="10" style="transform:translate(5px,6px)rotate(0deg)"/>',
         moved "translate(5 6)" },
     }
-    for _,
-    text in ipairs { "x", "turn(5)", "translate 5", "translate(5", "translate()", "translate(1 2 3)", "scale(1 2 3)", "rotate(1 2)", "matrix(1 2 3)",
+    for _, text in ipairs { "x", "turn(5)", "translate 5", "translate(5", "translate()", "translate(1 2 3)", "scale(1 2 3)", "rotate(1 2)", "matrix(1 2 3)",
       "matrix(1 2 3 4 5 6 7)", "skewX(1 2)", "skewY()", "translate(5)x", "none x" } do
       assert.is_true(bytes(read(moved(text)).object) == bytes(read(moved "").object), text)
     end
@@ -652,8 +654,7 @@ describe("images", function()
   end)
 
   it("tell what of them is not drawn", function()
-    for _,
-    href in ipairs { "data:", "data:image/png;base64,", "data:image/png;base64,####", "data:,%", "data:,%4", "data:,%zz", "data:image/svg+xml,%3Csvg",
+    for _, href in ipairs { "data:", "data:image/png;base64,", "data:image/png;base64,####", "data:,%", "data:,%4", "data:,%zz", "data:image/svg+xml,%3Csvg",
       "../a.png", "/a.png", "http://a/b.png", "none.png", "a/../b.png", ("a"):rep(5000), "a\\b.png", ".",
       "a//b.png" } do
       local art = read(image(href))

@@ -30,6 +30,22 @@ static celspan_status fail(const cs_picture_reader *reader, celspan_status statu
   return cs_decoder_fail(failure, status, reader->file, text);
 }
 
+/* A decoder opens files by descriptors of its own, and libraries put them into their sentences: here
+ * the file has its name again. */
+static celspan_status fail_as_told(const cs_picture_reader *reader, celspan_status status,
+                                   const char *text, cs_picture_failure *failure) {
+  static const char opened[] = "/proc/self/fd/";
+  cs_picture_failure told = {status, ""};
+  const char *at = strstr(text, opened);
+  if (!at)
+    return fail(reader, status, text, failure);
+  const char *end = at + strlen(opened);
+  end += strspn(end, "0123456789");
+  int length = snprintf(told.text, sizeof told.text, "%.*s%s%s", (int)(at - text), text,
+                        reader->file, end);
+  return fail(reader, status, length < 0 ? text : told.text, failure);
+}
+
 /* The decoder's outcome as the picture's. *is_worn: it ran out of memory, but had served others
  * before, and was ended: another one may have room. The decoder is locked. */
 static celspan_status judge(const cs_picture_reader *reader, cs_decoder_outcome outcome,
@@ -40,7 +56,7 @@ static celspan_status judge(const cs_picture_reader *reader, cs_decoder_outcome 
   if (has_answered && answer->status == CELSPAN_OK)
     return CELSPAN_OK;
   if (has_answered && answer->status != CELSPAN_NO_MEMORY)
-    return fail(reader, (celspan_status)answer->status, answer->text, failure);
+    return fail_as_told(reader, (celspan_status)answer->status, answer->text, failure);
   *is_worn = has_answered && cs_decoder_retire(reader->decoder);
   celspan_status status = cs_decoder_explain(reader->decoder, outcome, CELSPAN_INPUT, &reason);
   if (!has_answered && outcome != CS_DECODER_STOPPED)
