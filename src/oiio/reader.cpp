@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "oiio/jpeg_end.h"
-#include "oiio/psd_size.h"
+#include "oiio/psd_check.h"
 #include "oiio/shared.h"
 #include "oiio/sniff.h"
 #include "oiio/source.h"
@@ -492,7 +492,7 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
   if (reader->kind.format == "jpeg")
     check_jpeg_end(*reader->source);
   if (reader->kind.format == "psd")
-    check_psd_size(*reader->source);
+    check_psd(*reader->source);
   if (reader->kind.format == "dpx" || reader->kind.format == "cineon")
     check_film_end(*reader->source, reader->kind.format);
   reader->subimage = request.layer ? 0 : request.subimage;

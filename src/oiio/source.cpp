@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "oiio/shared.h"
 
@@ -71,16 +72,18 @@ size_t Source::read_file(void *bytes, size_t size, int64_t offset) {
       break;
     done += size_t(got);
   }
-  for (const Stretch &blank : blanks_) {
-    int64_t from = std::max(blank.from, offset), to = std::min(blank.to, offset + int64_t(done));
+  for (const Patch &patch : patches_) {
+    int64_t from = std::max(patch.from, offset);
+    int64_t to = std::min(patch.from + int64_t(patch.bytes.size()), offset + int64_t(done));
     if (from < to)
-      memset(static_cast<char *>(bytes) + (from - offset), 0, size_t(to - from));
+      memcpy(static_cast<char *>(bytes) + (from - offset), patch.bytes.data() + (from - patch.from),
+             size_t(to - from));
   }
   return done;
 }
 
-void Source::blank(int64_t offset, int64_t size) {
-  blanks_.push_back({offset, offset + size});
+void Source::replace(int64_t offset, std::vector<char> bytes) {
+  patches_.push_back({offset, std::move(bytes)});
   ahead_.clear();
 }
 

@@ -24,8 +24,8 @@ public:
   size_t pread(void *bytes, size_t size, int64_t offset) override;
   size_t size() const override { return size_t(status_.st_size); }
 
-  /* From now on these bytes of the file are read as 0. */
-  void blank(int64_t offset, int64_t size);
+  /* From now on these bytes are read in place of those of the file. */
+  void replace(int64_t offset, std::vector<char> bytes);
   /* To be called before each task: it may again read past the end a few times. */
   void forgive() { misses_ = 0; }
   const struct stat &status() const { return status_; }
@@ -33,8 +33,9 @@ public:
   bool is_unchanged() const;
 
 private:
-  struct Stretch {
-    int64_t from, to;
+  struct Patch {
+    int64_t from;
+    std::vector<char> bytes;
   };
 
   size_t copy_ahead(void *bytes, size_t size, int64_t offset);
@@ -44,7 +45,7 @@ private:
   std::vector<char> ahead_; /* bytes of the file from ahead_at_ on, because some readers ask for a
                                few at a time */
   int64_t ahead_at_ = 0;
-  std::vector<Stretch> blanks_;
+  std::vector<Patch> patches_;
   int descriptor_ = -1;
   int misses_ = 0;
   struct stat status_;

@@ -1,4 +1,4 @@
-#include "oiio/psd_size.h"
+#include "oiio/psd_check.h"
 
 #include "oiio/shared.h"
 
@@ -6,6 +6,8 @@ namespace {
 
 enum {
   HEADER = 26,
+  HEADER_CHANNELS = 12, /* the places of numbers in it */
+  HEADER_MODE = 24,
   LARGE = 2,
   USER_MASK = -2,
   WHOLE_MASK = -3,
@@ -57,8 +59,20 @@ void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
       continue;
     if (++hidden > THUMBNAILS)
       throw Failure(CELSPAN_INPUT, "is damaged: it has more than 16 thumbnails");
-    source.blank(int64_t(at), 2);
+    source.replace(int64_t(at), {0, 0});
   }
+}
+
+/* Whether the document has a channel beside those of its colours. */
+bool has_transparency(Source &source) {
+  static const uint64_t colours[] = {1, 1, 1, 3, 4, 0, 0, 3, 1, 3}; /* by the mode */
+  uint64_t channels = Numbers(source, HEADER_CHANNELS).next(2);
+  uint64_t mode = Numbers(source, HEADER_MODE).next(2);
+  return mode < sizeof colours / sizeof *colours && channels > colours[mode];
+}
+
+void hide_sign(Source &source, uint64_t at, int count) {
+  source.replace(int64_t(at), {char(count >> 8), char(count)});
 }
 
 /* The rows of a rectangle; the numbers are left behind it. */
@@ -93,7 +107,7 @@ uint64_t rows_of_record(Numbers &numbers, int length_bytes) {
 
 } // namespace
 
-void check_psd_size(Source &source) {
+void check_psd(Source &source) {
   Numbers numbers(source, 4);
   int length_bytes = numbers.next(2) == LARGE ? 8 : 4;
   numbers.skip(HEADER - 6);
@@ -104,8 +118,11 @@ void check_psd_size(Source &source) {
   uint64_t section = numbers.next(length_bytes), list = numbers.next(length_bytes), rows = 0;
   if (section == 0 || list == 0)
     return;
-  int count = int16_t(uint16_t(numbers.next(2)));
-  for (int i = 0; i < (count < 0 ? -count : count) && !numbers.is_over(); i++) {
+  uint64_t at = numbers.at();
+  int number = int16_t(uint16_t(numbers.next(2))), count = number < 0 ? -number : number;
+  if (number < 0 && !has_transparency(source))
+    hide_sign(source, at, count);
+  for (int i = 0; i < count && !numbers.is_over(); i++) {
     rows += rows_of_record(numbers, length_bytes);
     if (rows > source.size())
       throw Failure(CELSPAN_INPUT, "is damaged: its layers tell of more rows than it has bytes");
