@@ -33,25 +33,23 @@ static const char *const folders[] = {
 
 /* Where a module was looked for, and the first error but absence that the system gave for it: a
  * module that may not be read, or a system without descriptors, is no module that is missing. */
-typedef struct {
+typedef struct module_search {
   char path[PATH_SIZE];
   int error;
-} cs_module_search;
+} module_search;
 
-static bool is_absence(int error) { return error == ENOENT || error == ENOTDIR; }
-
-static bool note_error(cs_module_search *search) {
-  if (!search->error && !is_absence(errno))
+static bool note_error(module_search *search) {
+  if (!search->error && errno != ENOENT && errno != ENOTDIR)
     search->error = errno;
   return false;
 }
 
-static bool is_readable(cs_module_search *search) {
+static bool is_readable(module_search *search) {
   return access(search->path, R_OK) == 0 || note_error(search);
 }
 
 /* The folder of the running object, without the final slash; false when it is not known. */
-static bool own_folder(cs_module_search *search, char path[PATH_SIZE]) {
+static bool own_folder(module_search *search, char path[PATH_SIZE]) {
   Dl_info info;
   static const char mark = 0;
   if (!dladdr(&mark, &info) || !info.dli_fname)
@@ -77,7 +75,7 @@ static bool own_folder(cs_module_search *search, char path[PATH_SIZE]) {
   return slash;
 }
 
-static bool exists(cs_module_search *search, const char *folder, const char *inner,
+static bool exists(module_search *search, const char *folder, const char *inner,
                    const cs_module_desc *desc) {
   size_t length = strlen(inner);
   const char *last = length > 0 && inner[length - 1] == '/' ? desc->folder : "";
@@ -90,7 +88,7 @@ static const char *named_file(const cs_module_desc *desc) {
   return named && *named ? named : NULL;
 }
 
-static bool find(const cs_module_desc *desc, cs_module_search *search) {
+static bool find(const cs_module_desc *desc, module_search *search) {
   const char *named = named_file(desc);
   if (named) {
     int size = snprintf(search->path, PATH_SIZE, "%s", named);
@@ -105,7 +103,7 @@ static bool find(const cs_module_desc *desc, cs_module_search *search) {
 }
 
 static celspan_status fail_search(celspan_context *context, const cs_module_desc *desc,
-                                  celspan_status failure, const cs_module_search *search) {
+                                  celspan_status failure, const module_search *search) {
   char text[CS_ERROR_TEXT_SIZE];
   if (search->error)
     return cs_fail(context, failure, "%s needs the module %s, which cannot be read: %s",
@@ -119,7 +117,7 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
 
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                               celspan_status failure, const void **table) {
-  cs_module_search search = {.error = 0};
+  module_search search = {.error = 0};
   if (!find(desc, &search))
     return fail_search(context, desc, failure, &search);
   void *handle = dlopen(search.path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

@@ -8,6 +8,7 @@ enum {
   HEADER = 26,
   HEADER_CHANNELS = 12, /* the places of numbers in it */
   HEADER_MODE = 24,
+  BITMAP = 0, /* a mode, of black and white alone */
   LARGE = 2,
   USER_MASK = -2,
   WHOLE_MASK = -3,
@@ -63,16 +64,17 @@ void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
   }
 }
 
-/* Whether the document has a channel beside those of its colours. */
+/* Whether the document has a channel beside those of its colours; throws Failure where it lacks one of
+ * them. */
 bool has_transparency(Source &source) {
-  static const uint64_t colours[] = {1, 1, 1, 3, 4, 0, 0, 3, 1, 3}; /* by the mode */
+  static const uint64_t colours[] = {1, 1, 1, 3, 4,
+                                     0, 0, 1, 1, 3}; /* by the mode; 0: there is none */
   uint64_t channels = Numbers(source, HEADER_CHANNELS).next(2);
   uint64_t mode = Numbers(source, HEADER_MODE).next(2);
-  return mode < sizeof colours / sizeof *colours && channels > colours[mode];
-}
-
-void hide_sign(Source &source, uint64_t at, int count) {
-  source.replace(int64_t(at), {char(count >> 8), char(count)});
+  bool is_known = mode < sizeof colours / sizeof *colours;
+  if (is_known && channels < colours[mode])
+    throw Failure(CELSPAN_INPUT, "is damaged: it lacks channels of its colours");
+  return is_known && mode != BITMAP && channels > colours[mode];
 }
 
 /* The rows of a rectangle; the numbers are left behind it. */
@@ -108,6 +110,7 @@ uint64_t rows_of_record(Numbers &numbers, int length_bytes) {
 } // namespace
 
 void check_psd(Source &source) {
+  bool is_transparent = has_transparency(source);
   Numbers numbers(source, 4);
   int length_bytes = numbers.next(2) == LARGE ? 8 : 4;
   numbers.skip(HEADER - 6);
@@ -120,8 +123,8 @@ void check_psd(Source &source) {
     return;
   uint64_t at = numbers.at();
   int number = int16_t(uint16_t(numbers.next(2))), count = number < 0 ? -number : number;
-  if (number < 0 && !has_transparency(source))
-    hide_sign(source, at, count);
+  if (number < 0 && !is_transparent)
+    source.replace(int64_t(at), {char(count >> 8), char(count)});
   for (int i = 0; i < count && !numbers.is_over(); i++) {
     rows += rows_of_record(numbers, length_bytes);
     if (rows > source.size())
