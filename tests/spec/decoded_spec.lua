@@ -97,6 +97,9 @@ local function tiff(pages)
   return out
 end
 
+--- Pictures of the fuzz corpus that are refused.
+local damaged = { ["cmyk-of-three-channels"] = true, ["rgb-of-one-channel"] = true }
+
 describe("a picture", function()
   it("of every format is the same by a decoder and by --trust", function()
     local list = assert(io.popen "ls tests/fuzz/corpus/picture-*/*")
@@ -104,7 +107,7 @@ describe("a picture", function()
     for name in list:lines() do
       bench:write("picture", assert(io.open(name, "rb")):read "a")
       local found = same_when_trusted "picture"
-      assert.are.equal(0, found[1], name .. ": " .. found[3])
+      assert.are.equal(damaged[name:match "[^/]+$"] and 4 or 0, found[1], name .. ": " .. found[3])
       count = count + 1
     end
     list:close()

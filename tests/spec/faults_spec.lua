@@ -89,10 +89,12 @@ local others = {
   pthread_create = "thread", fstat64 = "is not a file; a picture must be one",
 }
 
---- The thread that hears ffmpeg may not begin: it is told as a lack of threads, whatever failed first.
+--- The threads that hear and feed ffmpeg may not begin: that is told as a lack of threads, whatever
+-- failed first.
 local function is_said(err, number, call, lasts)
   return err:find(errors[number], 1, true) or others[call] and err:find(others[call], 1, true)
-    or (lasts or call == "pthread_create") and err:find("cannot be started: " .. errors[EAGAIN], 1, true)
+    or (lasts or call == "pthread_create") and (err:find(others.pthread_create, 1, true)
+      or err:find("cannot be started: " .. errors[EAGAIN], 1, true))
 end
 
 --- Libraries behind OpenImageIO begin threads while they are loaded, and end the process where they cannot;

@@ -4,9 +4,9 @@
  *   peak SECONDS PROGRAM ARGUMENT...
  *
  * Its last line on standard error is `peak BYTES processor S`. S: seconds of processor time of them all.
- * BYTES: the sum, over all those processes, of the most memory that each held at a time, so the program
- * and all of its own never held more at once; pages that two of them share are counted twice. It is
- * looked at every few milliseconds, and once more when a process has ended: of the largest one nothing
+ * BYTES: of the processes that live at a time, the sum of the most memory that each has held, so that one
+ * that takes the place of another is not added to it; pages that two of them share are counted twice. It
+ * is looked at every few milliseconds, and once more when a process has ended: of the largest one nothing
  * is missed. After SECONDS, everything that was started is killed. It ends as the program did.
  *
  * Linux alone: processes whose parents end become children of this one (PR_SET_CHILD_SUBREAPER).
@@ -26,13 +26,10 @@
 
 enum { PROCESSES = 4096, PAUSE = 3 /* milliseconds */ };
 
-typedef struct process {
-  pid_t number;
-  long most; /* bytes held at a time, as far as they were seen */
-} process;
-
-static process seen[PROCESSES]; /* the first is this one */
+static pid_t seen[PROCESSES]; /* the first is this one */
 static int count;
+static long together,
+    largest; /* the most bytes of those that lived at a time, and of one, as seen */
 
 static double seconds(void) {
   struct timespec now;
@@ -55,45 +52,41 @@ static long status_of(pid_t number, const char *name) {
   return found;
 }
 
-static process *find(pid_t number) {
+static bool is_known(pid_t number) {
   for (int i = 0; i < count; i++)
-    if (seen[i].number == number)
-      return &seen[i];
-  return NULL;
+    if (seen[i] == number)
+      return true;
+  return false;
 }
 
-/* Parents have lower numbers than their children, or are met in the next look. */
-static void look_at(pid_t number) {
-  process *one = find(number);
-  if (!one && count < PROCESSES && find((pid_t)status_of(number, "PPid:"))) {
-    one = &seen[count++];
-    *one = (process){.number = number};
-  }
-  long most = one ? 1024 * status_of(number, "VmHWM:") : 0;
-  if (one && most > one->most)
-    one->most = most;
+/* The most that a process has held, if it was started here; else 0. Parents have lower numbers than
+ * their children, or are met in the next look. */
+static long look_at(pid_t number) {
+  if (!is_known(number) && count < PROCESSES && is_known((pid_t)status_of(number, "PPid:")))
+    seen[count++] = number;
+  return number != seen[0] && is_known(number) ? 1024 * status_of(number, "VmHWM:") : 0;
 }
 
 static void look(void) {
+  long all = 0;
   DIR *folder = opendir("/proc");
   for (struct dirent *entry; folder && (entry = readdir(folder));)
-    if (isdigit((unsigned char)entry->d_name[0]))
-      look_at((pid_t)atoi(entry->d_name));
+    if (isdigit((unsigned char)entry->d_name[0])) {
+      long most = look_at((pid_t)atoi(entry->d_name));
+      largest = most > largest ? most : largest;
+      all += most;
+    }
   if (folder)
     closedir(folder);
+  together = all > together ? all : together;
 }
 
-/* What all processes held, the largest as the system tells it of those that have ended. */
-static long sum(void) {
+/* What was held at a time, with what the system tells of the largest that has ended. */
+static long held(void) {
   struct rusage usage;
   getrusage(RUSAGE_CHILDREN, &usage);
-  long largest = 0, all = 0;
-  for (int i = 1; i < count; i++) {
-    all += seen[i].most;
-    largest = seen[i].most > largest ? seen[i].most : largest;
-  }
   long told = 1024 * usage.ru_maxrss;
-  return all + (told > largest ? told - largest : 0);
+  return together + (told > largest ? told - largest : 0);
 }
 
 static double processor(void) {
@@ -105,8 +98,8 @@ static double processor(void) {
 
 static void kill_all(void) {
   for (int i = 1; i < count; i++)
-    if (status_of(seen[i].number, "PPid:") > 0)
-      kill(seen[i].number, SIGKILL);
+    if (status_of(seen[i], "PPid:") > 0)
+      kill(seen[i], SIGKILL);
 }
 
 /* Watches until nothing is left that was started. The answer is how the program ended. */
@@ -129,7 +122,7 @@ static int watch(pid_t program, double limit) {
 int main(int argument_count, char **arguments) {
   if (argument_count < 3 || prctl(PR_SET_CHILD_SUBREAPER, 1) != 0)
     return 2;
-  seen[count++] = (process){.number = getpid()};
+  seen[count++] = getpid();
   pid_t program = fork();
   if (program == 0) {
     execvp(arguments[2], arguments + 2);
@@ -138,6 +131,6 @@ int main(int argument_count, char **arguments) {
   if (program < 0)
     return 2;
   int ending = watch(program, strtod(arguments[1], NULL));
-  fprintf(stderr, "peak %ld processor %.3f\n", sum(), processor());
+  fprintf(stderr, "peak %ld processor %.3f\n", held(), processor());
   return WIFEXITED(ending) ? WEXITSTATUS(ending) : 128 + WTERMSIG(ending);
 }
