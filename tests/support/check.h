@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int check_count, check_failures;
@@ -32,8 +33,17 @@ static inline int check_text(const char *a, const char *b, const char *file, int
   return check_record(a && b && strcmp(a, b) == 0, file, line, text);
 }
 
+/* Whether the case of this number, from 0 on, is tried here: where CELSPAN_TESTS is N, one in N is, the
+ * first of them drawn by CELSPAN_SEED. Builds with sanitizers take so what a plain build tries whole. */
+static inline int check_is_drawn(int number) {
+  const char *tests = getenv("CELSPAN_TESTS"), *seed = getenv("CELSPAN_SEED");
+  unsigned long one_in = tests ? strtoul(tests, NULL, 10) : 1;
+  unsigned long first = seed ? strtoul(seed, NULL, 10) : 0;
+  return one_in < 2 || ((unsigned long)number + first) % one_in == 0;
+}
+
 /* Whether the thread sanitizer looks on. It makes a test ten times as long, and finds nothing in what
- * one thread does alone: long tests leave most of that to the other builds. */
+ * one thread does alone: long tests leave that to the other builds. */
 static inline int check_is_for_threads(void) {
 #if defined(__SANITIZE_THREAD__)
   return 1;

@@ -142,19 +142,24 @@ static void follow_sequence(celspan_context *context, const char *name, sequence
 }
 
 static void known_motion_is_found(celspan_context *context) {
-  int many = 100, few = 20;
-  follow_sequence(context, "translation", (sequence){.model = CELSPAN_MOTION_TRANSLATION}, few);
-  follow_sequence(context, "turned and scaled", (sequence){.model = CELSPAN_MOTION_SIMILARITY},
-                  few);
-  follow_sequence(context, "in perspective", (sequence){.model = CELSPAN_MOTION_PERSPECTIVE}, few);
-  follow_sequence(context, "in perspective, noise and light",
-                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.03, 0.3, 0, 0, 0}, many);
-  follow_sequence(context, "turned and scaled, noise and light, half covered",
-                  (sequence){CELSPAN_MOTION_SIMILARITY, 0.04, 0.3, 20, 60, 0.5}, many);
-  follow_sequence(context, "in perspective, a third covered",
-                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.01, 0.1, 5, 15, 0.33}, few);
-  follow_sequence(context, "in perspective, wholly covered",
-                  (sequence){CELSPAN_MOTION_PERSPECTIVE, 0.02, 0.2, 40, 50, 1}, many);
+  static const struct {
+    const char *name;
+    int frames;
+    sequence sequence;
+  } known[] = {
+      {"translation", 20, {.model = CELSPAN_MOTION_TRANSLATION}},
+      {"turned and scaled", 20, {.model = CELSPAN_MOTION_SIMILARITY}},
+      {"in perspective", 20, {.model = CELSPAN_MOTION_PERSPECTIVE}},
+      {"in perspective, noise and light", 100, {CELSPAN_MOTION_PERSPECTIVE, 0.03, 0.3, 0, 0, 0}},
+      {"turned and scaled, noise and light, half covered",
+       100,
+       {CELSPAN_MOTION_SIMILARITY, 0.04, 0.3, 20, 60, 0.5}},
+      {"in perspective, a third covered", 20, {CELSPAN_MOTION_PERSPECTIVE, 0.01, 0.1, 5, 15, 0.33}},
+      {"in perspective, wholly covered", 100, {CELSPAN_MOTION_PERSPECTIVE, 0.02, 0.2, 40, 50, 1}},
+  };
+  for (int i = 0; i < (int)(sizeof known / sizeof *known); i++)
+    if (check_is_drawn(i))
+      follow_sequence(context, known[i].name, known[i].sequence, known[i].frames);
 }
 
 static void another_scene_is_no_sighting(celspan_context *context) {
