@@ -253,6 +253,12 @@ static celspan_status check_region(celspan_context *context, const celspan_track
   *out = (cs_features_region){held(floor(box->x), luma->width), held(floor(box->y), luma->height),
                               held(ceil(box->x + box->width), luma->width),
                               held(ceil(box->y + box->height), luma->height), desc->mask};
+  if (out->x1 - out->x0 < LEAST_REGION || out->y1 - out->y0 < LEAST_REGION)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "track: of the region %d x %d pixels lie in the frame of %d x %d; %d x %d or "
+                   "more must",
+                   (int)(out->x1 - out->x0), (int)(out->y1 - out->y0), (int)luma->width,
+                   (int)luma->height, LEAST_REGION, LEAST_REGION);
   return CELSPAN_OK;
 }
 

@@ -240,7 +240,8 @@ static void wrong_arguments_are_refused(celspan_context *context) {
   celspan_tracker_desc desc = {s.model, {80, 60, 160, 120}, NULL};
   celspan_sighting sighting;
   check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, 10, 30}, NULL}, "10 x 30");
-  check_refused(context, luma, (celspan_tracker_desc){s.model, {900, 5, 30, 30}, NULL}, "texture");
+  check_refused(context, luma, (celspan_tracker_desc){s.model, {900, 5, 30, 30}, NULL},
+                "of the region 0 x 30 pixels");
   check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, NAN, 30}, NULL}, "nan x 30");
   check_refused(context, luma, (celspan_tracker_desc){s.model, {NAN, 5, 30, 30}, NULL}, "finite");
   check_refused(context, luma, (celspan_tracker_desc){(celspan_motion)7, {5, 5, 50, 50}, NULL},
