@@ -120,6 +120,16 @@ __attribute__((constructor)) static void read_plan(void) {
   fault_arm(&fault_calls, (size_t)number("FAULT_AT"), number("FAULT_LASTING") != 0);
 }
 
+/* As a program ends that counts what it runs, libgcov opens its files by this name, by which the sources
+ * open none: they are not what a test wants to see fail. */
+DECLARE(int, open, (const char *path, int flags, mode_t mode), (path, flags, mode))
+int hook_open(const char *path, int flags, mode_t mode) {
+  const char *ending = strrchr(path, '.');
+  if (ending && strcmp(ending, ".gcda") == 0)
+    fault_disarm(&fault_calls);
+  return real_open(path, flags, mode);
+}
+
 __attribute__((destructor)) static void tell_count(void) {
   const char *path = getenv("FAULT_COUNT");
   char text[96];
