@@ -69,8 +69,8 @@ typedef enum line_shape {
 static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   if (layer->kind == CS_LAYER_FLAT)
     return 0;
-  const cs_image_layer *image = &painter->stack->images[layer->index];
-  if (layer->kind != CS_LAYER_PICTURE || image->texture->variation->use == CELSPAN_PICTURE_GEL)
+  if (layer->kind != CS_LAYER_PICTURE ||
+      painter->stack->images[layer->index].texture->variation->use == CELSPAN_PICTURE_GEL)
     return 2;
   return painter->images[layer->index].sampler.kernel == CS_SAMPLER_NEAREST ? 0 : 1;
 }
