@@ -31,21 +31,24 @@ static const char *const folders[] = {
     ".",
 };
 
-/* Where a module was looked for, and the first error but absence that the system gave for it: a
- * module that may not be read, or a system without descriptors, is no module that is missing. */
+/* Where a module was looked for, and the first error but absence that the system gave for it, with
+ * the path: a module that may not be read is no module that is missing. */
 typedef struct module_search {
   char path[PATH_SIZE];
   int error;
+  char unreadable[PATH_SIZE];
 } module_search;
 
-static bool note_error(module_search *search) {
-  if (!search->error && errno != ENOENT && errno != ENOTDIR)
-    search->error = errno;
+static bool note_error(module_search *search, const char *path) {
+  if (search->error || errno == ENOENT || errno == ENOTDIR)
+    return false;
+  search->error = errno;
+  snprintf(search->unreadable, PATH_SIZE, "%s", path);
   return false;
 }
 
 static bool is_readable(module_search *search) {
-  return access(search->path, R_OK) == 0 || note_error(search);
+  return access(search->path, R_OK) == 0 || note_error(search, search->path);
 }
 
 /* The folder of the running object, without the final slash; false when it is not known. */
@@ -58,15 +61,16 @@ static bool own_folder(module_search *search, char path[PATH_SIZE]) {
   char resolved[PATH_SIZE];
   const char *name = info.dli_fname;
   if (!strchr(name, '/')) {
-    ssize_t size = readlink("/proc/self/exe", resolved, sizeof resolved - 1);
+    static const char own_program[] = "/proc/self/exe";
+    ssize_t size = readlink(own_program, resolved, sizeof resolved - 1);
     if (size < 0)
-      return note_error(search);
+      return note_error(search, own_program);
     resolved[size] = 0;
     name = resolved;
   }
   char *whole = realpath(name, NULL);
   if (!whole)
-    return note_error(search);
+    return note_error(search, name);
   int size = snprintf(path, PATH_SIZE, "%s", whole);
   free(whole);
   char *slash = size < PATH_SIZE ? strrchr(path, '/') : NULL;
@@ -106,13 +110,36 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
                                   celspan_status failure, const module_search *search) {
   char text[CS_ERROR_TEXT_SIZE];
   if (search->error)
-    return cs_fail(context, failure, "%s needs the module %s, which cannot be read: %s",
-                   desc->purpose, desc->file, cs_error_text(search->error, text));
+    return cs_fail(
+        context, failure,
+        "%s needs the module %s, but %s cannot be read: %s; let it be read, or name another "
+        "file in %s",
+        desc->purpose, desc->file, search->unreadable, cs_error_text(search->error, text),
+        desc->override);
   const char *named = named_file(desc);
   return cs_fail(context, failure,
                  "%s needs the module %s, which was not found%s%s: %s, or name the file in %s",
                  desc->purpose, desc->file, named ? " at " : "", named ? named : "", desc->advice,
                  desc->override);
+}
+
+/* What the module offers, which must be of this release. */
+static celspan_status get_table(celspan_context *context, const cs_module_desc *desc,
+                                celspan_status failure, const char *path,
+                                const void *(*entry)(void), const void **table) {
+  const uint32_t *version = entry ? entry() : NULL;
+  if (!version)
+    return cs_fail(
+        context, failure,
+        "%s is not a module of this celspan (it lacks %s): %s, or name another file in %s", path,
+        desc->symbol, desc->advice, desc->override);
+  if (*version != desc->version)
+    return cs_fail(
+        context, failure,
+        "%s is of another version of celspan (%u, not %u): %s, or name another file in %s", path,
+        *version, desc->version, desc->advice, desc->override);
+  *table = version;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
@@ -122,16 +149,14 @@ celspan_status cs_module_load(celspan_context *context, const cs_module_desc *de
     return fail_search(context, desc, failure, &search);
   void *handle = dlopen(search.path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle)
-    return cs_fail(context, failure, "%s needs a module that cannot be loaded: %s", desc->purpose,
-                   dlerror());
+    return cs_fail(
+        context, failure,
+        "%s needs the module %s, which cannot be loaded: %s: %s, or name another file in %s",
+        desc->purpose, desc->file, dlerror(), desc->advice, desc->override);
   const void *(*entry)(void);
   void *symbol = dlsym(handle, desc->symbol);
   memcpy(&entry, &symbol, sizeof entry);
-  const void *found = symbol ? entry() : NULL;
+  celspan_status status = get_table(context, desc, failure, search.path, entry, table);
   dlclose(handle);
-  if (!found)
-    return cs_fail(context, failure, "%s is not a module of this celspan (it lacks %s)",
-                   search.path, desc->symbol);
-  *table = found;
-  return CELSPAN_OK;
+  return status;
 }

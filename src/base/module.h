@@ -8,6 +8,8 @@
 #ifndef CS_BASE_MODULE_H
 #define CS_BASE_MODULE_H
 
+#include <stdint.h>
+
 #include "base/context.h"
 
 typedef struct cs_module_desc {
@@ -17,10 +19,12 @@ typedef struct cs_module_desc {
   const char *symbol;   /* a function without arguments that returns the table */
   const char *purpose;  /* for the message: "reading and writing pictures" */
   const char *advice;   /* for the message: what to install */
+  uint32_t version;     /* which the table begins with, as a uint32_t */
 } cs_module_desc;
 
 /* The table, valid for the rest of the process. Status `failure` (INPUT or OUTPUT) when there is no
- * such module or it cannot be loaded. Any thread. */
+ * such module, it cannot be read or loaded, or it is of another version; the message says what to
+ * do. Any thread. */
 CELSPAN_CHECKED celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                                               celspan_status failure, const void **table);
 

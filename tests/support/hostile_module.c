@@ -8,6 +8,8 @@
  *   keep                         48 MiB are taken in reading, and never given back
  *   open-crash, open-hang, ...   the same in opening
  *   lie                          a header that no picture has
+ *
+ * With HOSTILE_IS_OLD in the environment it is of another version of celspan.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -156,6 +158,7 @@ static void abandon_output(cs_picture_writer *writer) { free(writer); }
 static void watch_memory(void) {}
 
 CELSPAN_API const void *celspan_picture_module(void) {
+  static const uint32_t old = CS_PICTURE_MODULE_VERSION - 1;
   static const cs_picture_module table = {CS_PICTURE_MODULE_VERSION,
                                           open_file,
                                           read_file,
@@ -166,5 +169,5 @@ CELSPAN_API const void *celspan_picture_module(void) {
                                           complete_output,
                                           abandon_output,
                                           watch_memory};
-  return &table;
+  return getenv("HOSTILE_IS_OLD") ? (const void *)&old : &table;
 }

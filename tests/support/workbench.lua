@@ -1,5 +1,9 @@
 --- A folder for one test of the command line: files in it, and commands run beside it.
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local BINARY = os.getenv "CELSPAN" or "build/celspan"
+local BUILD = os.getenv "CELSPAN_BUILD" or "build"
+
+--- The same from any folder.
+local function absolute(path) return path:sub(1, 1) == "/" and path or os.getenv "PWD" .. "/" .. path end
 
 local workbench = {}
 workbench.__index = workbench
@@ -54,7 +58,8 @@ function workbench:celspan(arguments, ...)
 end
 
 workbench.binary = BINARY
---- The same from any folder.
-workbench.absolute = BINARY:sub(1, 1) == "/" and BINARY or os.getenv "PWD" .. "/" .. BINARY
+--- The program and the folder of the build, from any folder.
+workbench.absolute = absolute(BINARY)
+workbench.build = absolute(BUILD)
 
 return workbench
