@@ -1,6 +1,7 @@
 --- Sequences: the demo film to PNG, beside ffmpeg over the same layers; and how soon the first row
 --- is there.
 local Command = require("tests.bench.runner").command
+local present = require "tests.support.present"
 
 local parts = {}
 
@@ -71,7 +72,7 @@ end
 
 --- ffmpeg over the layers of the film's last frames, which show them all.
 local function by_ffmpeg(runner, count)
-  if not os.execute "command -v ffmpeg >/dev/null" then
+  if not present.program "ffmpeg" then
     return runner:note "ffmpeg is not installed: its line of the film is left out"
   end
   local first, last = 240 - count + 1, 240

@@ -1,5 +1,6 @@
 --- Pictures and softness: raster compositing, the paper's figure 14, a multiplane, defocus.
 local Command = require("tests.bench.runner").command
+local present = require "tests.support.present"
 
 local parts = {}
 
@@ -73,7 +74,7 @@ local function backed(runner, folder, what, sampling, side, output)
 end
 
 local function make_figure14(runner, folder)
-  local material = os.getenv "CELSPAN_MATERIAL" or ""
+  local material = present.material or ""
   local photo = first_file(material .. "/photo/kodim23.png", "scripts/pictures/village.png")
   local celspan = runner:program "celspan"
   assert(runner:ask(Command(celspan, "backed", photo, "bilinear", 1000, "file", "-",

@@ -1,4 +1,6 @@
 --- Runs the programs of the benchmark, interleaved, and keeps what they tell as rows.
+local system = require "tests.support.system"
+
 local Runner = {}
 Runner.__index = Runner
 
@@ -43,11 +45,10 @@ end
 
 local hexadecimal = { picture = true, digest = true }
 
-local function quote(word) return "'" .. tostring(word):gsub("'", "'\\''") .. "'" end
 
 function Runner.command(...)
   local words = {}
-  for i, word in ipairs { ... } do words[i] = quote(word) end
+  for i, word in ipairs { ... } do words[i] = system.quote(word) end
   return table.concat(words, " ")
 end
 

@@ -1,6 +1,7 @@
 --- The drawings of the benchmark, written into a folder; what the material lacks is left out.
 local shapes = require "tests.bench.shapes"
 local svg = require "tests.bench.svg"
+local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 
 local scenes = {}
@@ -55,7 +56,7 @@ end
 
 --- Writes FOLDER/NAME.txt of each. Returns whether the material was there.
 function scenes.write(folder)
-  local material = os.getenv "CELSPAN_MATERIAL"
+  local material = present.material
   local all = material and shapes.read(material .. "/bench-scenes/scene1000.txt")
   local is_given = all ~= nil
   all = all or shapes.random(1000)

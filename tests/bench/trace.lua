@@ -10,6 +10,7 @@
 -- is how far edges are off on the average, in pixels; the worst is the largest difference of a pixel. potrace
 -- is Debian's package of that name.
 local celspan = require "celspan"
+local system = require "tests.support.system"
 local svg = require "celspan.svg"
 local binary, width = arg[1] or "build/celspan", tonumber(arg[2] or 4960)
 local height = math.floor(width * 877 / 620 + 0.5)
@@ -81,23 +82,16 @@ local function count_curves(text)
 end
 
 local function seconds_of(command)
-  local pipe = assert(io.popen(("bash -c 'TIMEFORMAT=%%U+%%S; time { %s ; }' 2>&1"):format(command)))
-  local text = pipe:read "a"
-  assert(pipe:close(), text)
-  local user, system = text:match "([%d.]+)%+([%d.]+)%s*$"
-  return tonumber(user) + tonumber(system)
-end
-
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local text = file:read "a"
-  file:close()
-  return text
+  local text, ended_well = system.output(
+    ("bash -c 'TIMEFORMAT=%%U+%%S; time { %s ; }' 2>&1"):format(command))
+  assert(ended_well, text)
+  local own, of_system = text:match "([%d.]+)%+([%d.]+)%s*$"
+  return tonumber(own) + tonumber(of_system)
 end
 
 local function measure(name, command, output, is_ours)
   local seconds = seconds_of(command:gsub("FOLDER", folder))
-  local text = read(folder .. "/" .. output)
+  local text = assert(system.read(folder .. "/" .. output))
   if is_ours then -- the ink alone: what is left of the paper is ground
     text = text:gsub("<path [^>]*fill=\"#[f][^>]*/>\n", "")
     local file = assert(io.open(folder .. "/ink.svg", "wb"))

@@ -2,12 +2,13 @@
 -- ships gives the digests that were.
 -- After a change that is meant: lua5.4 tests/golden/accept.lua, and read what it prints.
 local golden = require "tests.support.golden"
+local present = require "tests.support.present"
 local shipped = require "tests.support.shipped"
 
 describe("the spans of", function()
   for _, case in ipairs(golden.cases()) do
     it(case:match "golden/(.*)", function()
-      if not shipped.has_art and case:find "/text/" then pending "the art module was not built" end
+      if not present.art() and case:find "/text/" then pending "the art module was not built" end
       local text = assert(golden.actual(case))
       local accepted = assert(golden.expected(case), case .. ".spans is missing: see tests/golden/accept.lua")
       assert.are.equal("", golden.difference(accepted, text))
@@ -19,8 +20,8 @@ end)
 --- Whether a question is about what was not built.
 local function lacks(question)
   local script = question:match "^render (%S+)"
-  if not script then return not shipped.has_art end
-  return shipped.lacks_module(script) or script:find "/text/" and not shipped.has_art
+  if not script then return not present.art() end
+  return shipped.lacks_module(script) or script:find "/text/" and not present.art()
 end
 
 describe("the digests of", function()

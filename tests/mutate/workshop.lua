@@ -4,6 +4,8 @@
 -- Objects are made with self-checks and without debugging information, so that what differs in an
 -- object differs in the program. A file of the copy is written only when its text changes: builds
 -- stay incremental, and a run that was killed leaves nothing that the next one does not see.
+local system = require "tests.support.system"
+
 local workshop = {}
 workshop.__index = workshop
 
@@ -14,32 +16,16 @@ local OPTIONS = "-Dchecks=true -Ddebug=false -Doptimization=1 "
 -- What a mutant may take before it is stopped: KiB of memory, and blocks of 512 bytes in a file.
 local MOST_MEMORY, MOST_FILE = 8 << 20, 2 << 20
 
-local function quote(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
-
-local function read(path)
-  local file = io.open(path, "rb")
-  if not file then return nil end
-  local text = file:read "a"
-  file:close()
-  return text
-end
-
-local function write(path, text)
-  local file = assert(io.open(path, "wb"))
-  assert(file:write(text))
-  assert(file:close())
-end
+local quote, read, write = system.quote, system.read, system.write
 
 local function output_of(command)
-  local pipe = assert(io.popen(command))
-  local text = pipe:read "a"
-  return pipe:close() and text or nil
+  local text, ended_well = system.output(command)
+  return ended_well and text or nil
 end
 
 local function lines_of(command)
-  local list = {}
-  for line in (output_of(command) or ""):gmatch "[^\n]+" do list[#list + 1] = line end
-  return list
+  local lines, ended_well = system.lines(command)
+  return ended_well and lines or {}
 end
 
 --- Paths of the files that the tree at `root` is made of.
@@ -260,9 +246,9 @@ function workshop.run(test, limit)
     .. "{ timeout -k 2 %d %s >../log 2>&1; echo $?; times; }")
     :format(COPY, scratch, scratch, scratch, MOST_MEMORY, MOST_FILE, math.ceil(limit),
       math.ceil(60 + 20 * limit), test.command)
-  local status, user_minutes, user, system_minutes, system = output_of(command)
+  local status, own_minutes, own, system_minutes, of_system = output_of(command)
     :match "^(%d+)\n[^\n]*\n(%d+)m([%d.]+)s (%d+)m([%d.]+)s"
-  local seconds = seconds_of(user_minutes, user) + seconds_of(system_minutes, system)
+  local seconds = seconds_of(own_minutes, own) + seconds_of(system_minutes, of_system)
   if status == "0" then return "passed", seconds end
   return (status == "124" or seconds >= limit) and "late" or "failed", seconds
 end

@@ -4,6 +4,7 @@
 -- CASE=n runs one random scene alone and prints it; tests/support/cases.lua tells which are tried.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
+local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local scenes = require "tests.support.scenes"
 local supersample = require "tests.support.supersample"
@@ -100,7 +101,7 @@ local function bench_scene(path, side)
 end
 
 describe("area antialiasing of random B-splines", function()
-  local material = os.getenv "CELSPAN_MATERIAL"
+  local material = present.material
   for _, count in ipairs { 10, 100, 1000 } do
     it(("stays within two codes with %d shapes"):format(count), function()
       if not material then return pending "CELSPAN_MATERIAL is not set" end

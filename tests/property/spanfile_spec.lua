@@ -3,10 +3,13 @@
 --
 -- A failure prints the number of its scene.
 local cases = require "tests.support.cases"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 local decode = dofile "subprojects/spanfile/tests/decode.lua"
 
 local COUNT = cases.count(500)
-local BINARY = os.getenv "CELSPAN" or "build/celspan"
+local BINARY = workbench.binary
 local WIDTH, HEIGHT = 61, 47
 
 -- One film, a scene a frame. Arguments: a picture, or nothing when none can be read.
@@ -25,17 +28,9 @@ end }
 ]]
 
 local function run(command)
-  local stream = assert(io.popen(command, "r"))
-  local output = stream:read("a")
-  assert(stream:close(), command)
+  local output, ended_well = system.output(command)
+  assert(ended_well, command)
   return output
-end
-
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local bytes = file:read("a")
-  file:close()
-  return bytes
 end
 
 local function compare(folder, picture, depth, pixel_size)
@@ -45,7 +40,7 @@ local function compare(folder, picture, depth, pixel_size)
   local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}
   assert.equal(COUNT * size, #raw)
   for frame = 1, COUNT do
-    local pixels = decode(read(("%s/%04d.span"):format(folder, frame)))
+    local pixels = decode(system.read(("%s/%04d.span"):format(folder, frame)))
     if pixels ~= raw:sub((frame - 1) * size + 1, frame * size) then wrong[#wrong + 1] = frame end
   end
   assert.equal("", table.concat(wrong, " "), depth)
@@ -57,10 +52,7 @@ describe("a span file", function()
     local film = assert(io.open(folder .. "/film.lua", "w"))
     film:write(SCRIPT:format(WIDTH, HEIGHT, COUNT))
     film:close()
-    local pwd = os.getenv "PWD"
-    local picture = pwd .. "/scripts/pictures/village.png"
-    local answer = run(BINARY .. " convert " .. picture .. " " .. folder .. "/x.png 2>&1 || true")
-    picture = answer:find("celspan-picture.so", 1, true) and "" or picture
+    local picture = present.pictures() and os.getenv "PWD" .. "/scripts/pictures/village.png" or ""
     compare(folder, picture, "8", 4)
     compare(folder, picture, "half", 8)
     run("rm -rf " .. folder)

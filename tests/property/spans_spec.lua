@@ -1,8 +1,10 @@
 -- What rows of spans are like: table 1 of the paper, order, size.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
+local present = require "tests.support.present"
 local rows = require "tests.support.rows"
 local scenes = require "tests.support.scenes"
+local workbench = require "tests.support.workbench"
 
 local COUNT, ONLY = 300, cases.only
 
@@ -67,7 +69,7 @@ end)
 
 -- ---------------------------------------------------------------- counters
 
-local celspan_command = os.getenv "CELSPAN" or "build/celspan"
+local celspan_command = workbench.binary
 
 --- The counters of `celspan spans --stats` for a script's text.
 local function statistics(script, options)
@@ -108,7 +110,7 @@ describe("a row a million pixels wide", function()
   -- Edges far from the left fall on pixels' edges by rounding; row 741157 has one that did.
   it("is covered by its spans without overlap", function()
     local command = ("%s spans scripts/terapixel.lua --size 1000000x1000000 --rows 741150-741160")
-      :format(os.getenv "CELSPAN" or "build/celspan")
+      :format(celspan_command)
     local pipe, ends, count = assert(io.popen(command)), {}, 0
     for line in pipe:lines() do
       local y, x0, x1 = line:match "^(%d+) (%d+) (%d+) "
@@ -164,7 +166,7 @@ return celspan.film{ size = { 100, 100 }, frame = function()
   end)
 
   it("composes few colours for 100 shapes at 30,000 x 30,000", function()
-    local material = os.getenv "CELSPAN_MATERIAL"
+    local material = present.material
     if not material then return pending "CELSPAN_MATERIAL is not set" end
     local counters = statistics(bench_script(material .. "/bench-scenes/scene100.txt"),
                                 "--size 30000x30000 --antialias none")

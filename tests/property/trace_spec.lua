@@ -4,9 +4,9 @@
 -- CASE=n runs one random drawing alone; REPORT=1 prints how far each was off.
 local celspan = require "celspan"
 local cases = require "tests.support.cases"
+local present = require "tests.support.present"
 local trace = require "celspan.trace"
 local prng = require "tests.support.prng"
-local workbench = require "tests.support.workbench"
 
 local REPORT = os.getenv "REPORT"
 local COUNT = 30
@@ -150,13 +150,7 @@ local function retrace(case, antialias)
   return off, art.object, w, h
 end
 
-local function has_pictures()
-  local place = workbench.new()
-  local _, _, err = place:celspan "convert none.png none.png"
-  place:remove()
-  return not err:find("celspan-picture.so", 1, true)
-end
-local it_traces = has_pictures() and it or pending
+local it_traces = present.pictures() and it or pending
 
 describe("a drawing that is traced", function()
   for _, case in cases.of(COUNT) do

@@ -2,6 +2,7 @@
 -- is enough to act on.
 local celspan = require "celspan"
 require "celspan.spec"
+local system = require "tests.support.system"
 
 local folder
 
@@ -31,12 +32,6 @@ local function told(message, ...)
   end
 end
 
-local function exists(path)
-  local file = io.open(path, "rb")
-  if file then file:close() end
-  return file ~= nil
-end
-
 --- What a failure writes next to a picture.
 local function beside(path, what) return (path:gsub("%.png$", "." .. what .. ".png")) end
 
@@ -61,7 +56,7 @@ describe("looks_like", function()
   it("passes for the picture of the frame, and leaves nothing behind", function()
     assert.frame(film, 1).looks_like(picture)
     assert.frame(film, 2).looks_like(picture) -- on twos
-    assert.is_false(exists(beside(picture, "actual")))
+    assert.is_false(system.exists(beside(picture, "actual")))
   end)
 
   it("fails for another frame, says where, and how to accept it", function()
@@ -73,7 +68,7 @@ describe("looks_like", function()
     assert(os.rename(beside(picture, "actual"), accepted))
     assert(os.rename(beside(picture, "difference"), beside(accepted, "difference")))
     assert.frame(film, 3).looks_like(accepted)
-    assert.is_false(exists(beside(accepted, "difference")))
+    assert.is_false(system.exists(beside(accepted, "difference")))
   end)
 
   it("shows in the picture of differences what differs in red and the rest in grey", function()
@@ -121,7 +116,7 @@ describe("looks_like", function()
 
   it("writes nothing where it holds, also negated", function()
     assert.frame(film, 3).is_not.looks_like(picture)
-    assert.is_false(exists(beside(picture, "actual")) or exists(beside(picture, "difference")))
+    assert.is_false(system.exists(beside(picture, "actual")) or system.exists(beside(picture, "difference")))
   end)
 
   it("fails for a picture that is as wide and not as high", function()

@@ -4,24 +4,19 @@ local results = require "tests.bench.results"
 local Runner = require "tests.bench.runner"
 local shapes = require "tests.bench.shapes"
 local svg = require "tests.bench.svg"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
 
-local folder
+local bench, folder
 
 setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
+  bench = workbench.new()
+  folder = bench.folder
 end)
 
-teardown(function() os.execute("rm -r " .. folder) end)
+teardown(function() bench:remove() end)
 
-local function write(name, text)
-  local path = folder .. "/" .. name
-  local file = assert(io.open(path, "w"))
-  file:write(text)
-  file:close()
-  return path
-end
+local function write(name, text) return bench:write(name, text) end
 
 --- The lines of a drawing of 10 x 10 units, as they are.
 local function lines(body)
@@ -63,7 +58,7 @@ describe("the drawings of the benchmark", function()
     end
     assert.near(153, alpha / #list, 6)
     assert.near(0.5, spread / #list / 8, 0.02)
-    local material = os.getenv "CELSPAN_MATERIAL"
+    local material = present.material
     local given = material and shapes.read(material .. "/bench-scenes/scene1000.txt")
     if given then assert.equal(#list, #given) end
   end)

@@ -2,8 +2,7 @@
 local celspan = require "celspan"
 local workbench = require "tests.support.workbench"
 
-local build = os.getenv "CELSPAN_BUILD" or "build"
-if build:sub(1, 1) ~= "/" then build = os.getenv "PWD" .. "/" .. build end
+local build = workbench.build
 
 local hand = [[
 local celspan = require "celspan"

@@ -1,11 +1,12 @@
 -- The command line: what it prints, where, and how it ends. One file, because all verbs share options,
 -- codes and how they are told of; verbs with more to them than that have files of their own.
 
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local BINARY = workbench.binary
 --- A bound of a program's memory; one with a sanitizer maps far more than it uses.
-local BOUNDED = BINARY:find("san/", 1, true) and "" or "ulimit -v 1000000; "
+local BOUNDED = present.sanitizer() and "" or "ulimit -v 1000000; "
 
 local bench, folder
 
@@ -33,14 +34,7 @@ return celspan.film{ size = {100, 100}, frames = 100000, frame = function(f)
 end }
 ]]
 
--- Built without OpenImageIO, there are no pictures to read.
-local function has_pictures()
-  local answer = assert(io.popen(BINARY .. " convert no-such.png no-such-either.png 2>&1"))
-  local text = answer:read("a")
-  answer:close()
-  return not text:find("celspan-picture.so", 1, true)
-end
-local it_reads_pictures = has_pictures() and it or pending
+local it_reads_pictures = present.pictures() and it or pending
 
 local function usage_error(arguments, pattern)
   local code, out, err = celspan(arguments)
@@ -113,10 +107,10 @@ describe("the command line", function()
 
     it("is a manual page without faults", function()
       local page = write("celspan.1", (select(2, celspan("--man"))))
-      if (shell "command -v mandoc") == 0 then
+      if present.program "mandoc" then
         assert.same({ 0, "", "" }, { shell("mandoc -Tlint -W error " .. page) })
       end
-      if (shell "command -v man && man --version") ~= 0 then return end
+      if not present.program "man" or (shell "man --version") ~= 0 then return end
       local code, text, err = shell("LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l " .. page)
       assert.same({ 0, "" }, { code, err })
       assert.truthy(text:gsub(".\b", ""):find("--keep-going\n", 1, true), text:sub(1, 2000))
@@ -581,7 +575,7 @@ describe("the command line", function()
     end)
 
     it_reads_pictures("names subimages and layers as `layer` takes them", function()
-      local material = os.getenv "CELSPAN_MATERIAL"
+      local material = present.material
       if not material then return pending "CELSPAN_MATERIAL is not set" end
       local _, out = celspan("info " .. material .. "/psd/2layers.psd")
       assert.truthy(out:find("subimages 3\nsubimage 0 size 101x55 channels 3 depth 8\n"
@@ -591,10 +585,7 @@ describe("the command line", function()
 
     describe("but artwork", function()
       local paintings = require "tests.support.paintings"
-      local is_read = pcall(function()
-        assert(require "celspan.layers".read "scripts/paintings/valley.ora")
-      end)
-      local it_reads_artwork = is_read and it or pending
+      local it_reads_artwork = present.art() and it or pending
 
       local function dot(x, y) return x * 80, y * 80, 0, 255 end
 
@@ -619,7 +610,7 @@ describe("the command line", function()
         assert.truthy(out:find("^format psd\nsize 20x10\n"), out)
         assert.truthy(out:find("\ncanvas 20x10\nlayers 1\ngroups 0\n"
           .. "layer size 3x2 at 1,2 blend multiply opacity 1 visible yes name ink\n$"), out)
-        local material = os.getenv "CELSPAN_MATERIAL"
+        local material = present.material
         if not material then return pending "CELSPAN_MATERIAL is not set" end
         code, out, err = celspan("info " .. material .. "/psd/colormodes/4x4_8bit_cmyk.psd")
         assert.equal(0, code, err)

@@ -1,6 +1,7 @@
 -- Lights with a shape, and compositions inside others: values, messages, defocus.
 local celspan = require "celspan"
 local raised = require("tests.support.raised").sentence
+local workbench = require "tests.support.workbench"
 
 local function art() return celspan.rect { 10, 10, 40, 30, texture = "#e0a040" } end
 local function small(fields)
@@ -117,7 +118,7 @@ describe("a rostrum with a size", function()
       local inner = celspan.rostrum { size = { 9, 9 }, celspan.cel { celspan.rect { 0, 0, 3, 3 } }, celspan.cel {} }
       return celspan.rostrum { celspan.cel { inner, inner, celspan.rect { 0, 0, 1, 1 } } }]]
     out:close()
-    local pipe = assert(io.popen((os.getenv "CELSPAN") .. " info " .. file))
+    local pipe = assert(io.popen(workbench.binary .. " info " .. file))
     local text = pipe:read "a"
     pipe:close()
     os.remove(file)

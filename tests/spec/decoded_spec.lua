@@ -1,24 +1,17 @@
 -- Pictures of many kinds are the same, and are told in the same words, whether a process of its own
 -- decodes them or, with --trust, the program itself: tiles, subimages and layers, film codes.
 local cases = require "tests.support.cases"
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local function has_pictures()
-  local place = workbench.new()
-  local _, _, err = place:celspan "convert none.png none.png"
-  place:remove()
-  return not err:find("celspan-picture.so", 1, true)
-end
-local it = has_pictures() and it or pending
+local it = present.pictures() and it or pending
 
 local bench
 
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
-local function celspan(arguments)
-  return bench:shell(("cd '%s' && '%s' %s"):format(bench.folder, workbench.absolute, arguments))
-end
+local function celspan(arguments) return bench:celspan_inside("%s", arguments) end
 
 --- What the program says of a file and makes of it: the code, the output, the error, a PNG's bytes.
 local function told_and_made(file, options)

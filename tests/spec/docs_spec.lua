@@ -13,25 +13,20 @@
 local celspan = require "celspan"
 local markdown = require "tests.support.markdown"
 local pictures = require "docs.pictures.list"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
-local BINARY = os.getenv "CELSPAN" or "build/celspan"
-
-local function output_of(command)
-  local pipe = assert(io.popen(command))
-  local text = pipe:read "a"
-  pipe:close()
-  return text
-end
+local BINARY = workbench.absolute
 
 local function first_line(text) return text:match "[^\n]*" end
 
-local root = first_line(output_of "pwd")
-local interpreter = first_line(output_of "readlink /proc/$PPID/exe")
-if BINARY:sub(1, 1) ~= "/" then BINARY = root .. "/" .. BINARY end
+local root = first_line(system.output "pwd")
+local interpreter = first_line(system.output "readlink /proc/$PPID/exe")
 
 local pages = { "README.md" }
-for path in output_of("ls docs/*.md"):gmatch "[^\n]+" do pages[#pages + 1] = path end
+for path in system.output("ls docs/*.md"):gmatch "[^\n]+" do pages[#pages + 1] = path end
 
 local folder
 
@@ -145,8 +140,8 @@ local function needs_ffmpeg(line)
 end
 
 describe("the commands of", function()
-  local has_ffmpeg = os.execute "command -v ffmpeg >/dev/null"
-  local run_help = output_of "./run help"
+  local has_ffmpeg = present.program "ffmpeg"
+  local run_help = system.output "./run help"
   for _, page in ipairs(pages) do
     for _, block in ipairs(markdown.blocks(page)) do
       local where
@@ -183,9 +178,9 @@ describe("the command line's page", function()
 
   it("names every verb and option that the program knows, and no other", function()
     local known = {}
-    for verb in output_of(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z%[]" do
+    for verb in system.output(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z%[]" do
       assert.is_truthy(text:find("\n## " .. verb .. "\n", 1, true) or verb == "help", verb)
-      for option in output_of(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
+      for option in system.output(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
         known[option] = true
         local named = "`" .. option:gsub("%-", "%%-") .. "[` ]"
         assert.is_truthy(text:find(named), verb .. " " .. option)
@@ -351,12 +346,6 @@ describe("the C reference", function()
 end)
 
 describe("every page", function()
-  local function exists(path)
-    local file = io.open(path, "rb")
-    if file then file:close() end
-    return file ~= nil
-  end
-
   --- The anchor of a heading, as forges make it.
   local function anchors_of(page)
     local anchors = {}
@@ -373,7 +362,7 @@ describe("every page", function()
         local path, anchor = target:match "^([^#]*)#?(.*)$"
         if not target:find "^https?:" then
           local file = path == "" and page or here .. path
-          assert.is_true(exists(file), target)
+          assert.is_true(system.exists(file), target)
           assert.is_true(anchor == "" or anchors_of(file)[anchor] or false, target)
         end
       end
@@ -384,7 +373,7 @@ describe("every page", function()
     for _, page in ipairs(pages) do
       for path in markdown.prose(page):gmatch "`(%l+/[%w_./-]+%.%l+)`" do
         assert.is_true(not path:find "^%l+/[%w_/-]*%.[%w]+$" or path:find "^out/" ~= nil
-          or exists(path) or exists("src/" .. path), page .. ": " .. path)
+          or system.exists(path) or system.exists("src/" .. path), page .. ": " .. path)
       end
     end
   end)

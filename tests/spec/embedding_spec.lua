@@ -1,16 +1,16 @@
 -- Other people's programs: hosts in C and C++, and Lua's package manager.
-local BINARY = os.getenv "CELSPAN" or "build/celspan"
-local BUILD = os.getenv "CELSPAN_BUILD" or "build"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
-local folder
+local BINARY, BUILD = workbench.binary, workbench.build
 
-local function has(program) return os.execute("command -v " .. program .. " >/dev/null") end
+local bench, folder
 
 --- Runs a command: whether it ended well, and what it said.
 local function run(command, ...)
-  local pipe = assert(io.popen("{ " .. command:format(...) .. "; } 2>&1"))
-  local text = pipe:read "a"
-  return pipe:close() or false, text
+  local text, ended_well = system.output("{ " .. command:format(...) .. "; } 2>&1")
+  return ended_well, text
 end
 
 local function good(...)
@@ -19,19 +19,14 @@ local function good(...)
   return text
 end
 
-local function write(name, text)
-  local file = assert(io.open(folder .. "/" .. name, "wb"))
-  assert(file:write(text))
-  file:close()
-end
+local function write(name, text) return bench:write(name, text) end
 
 setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
+  bench = workbench.new()
+  folder = bench.folder
 end)
 
-teardown(function() os.execute("rm -r " .. folder) end)
+teardown(function() bench:remove() end)
 
 describe("the headers", function()
   local source = [[
@@ -53,7 +48,7 @@ int main(void) {
     gcc = "-x c -std=c17 -Wstrict-prototypes", ["g++"] = "-x c++ -std=c++17",
     clang = "-x c -std=c17 -Wstrict-prototypes", ["clang++"] = "-x c++ -std=c++17",
   } do
-    local test = has(compiler) and it or pending
+    local test = present.program(compiler) and it or pending
     test("give no warning under " .. compiler .. " " .. mode, function()
       write("header.c", source)
       good("%s %s -pedantic -Wall -Wextra -Wshadow -Werror -fsyntax-only -Isrc/include %s %s/header.c",
@@ -79,7 +74,7 @@ end }
 
   for _, program in ipairs { "example_host", "example_host_cpp" } do
     local path = ("%s/examples/%s"):format(BUILD, program)
-    local test = has(path) and it or pending
+    local test = present.program(path) and it or pending
     test("shows what the program celspan renders: " .. program, function()
       write("film.lua", film)
       good("%s %s/film.lua 80 45 >%s/film.ppm", path, folder, folder)
@@ -101,7 +96,7 @@ end }
 end)
 
 describe("the rockspec", function()
-  local test = has "luarocks" and it or pending
+  local test = present.program "luarocks" and it or pending
   test("is well-formed, and makes a rock of what is built", function()
     local luarocks = "luarocks --lua-version 5.4"
     good("%s lint celspan-scm-1.rockspec", luarocks)

@@ -2,6 +2,7 @@
 -- Open Job Description is held against the specification (2023-09) and run with its parameters
 -- filled in.
 local json = require "celspan.json"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local FILM = [[
@@ -21,7 +22,7 @@ before_each(function()
 end)
 after_each(function() bench:remove() end)
 
-local function word(text) return "'" .. text:gsub("'", [['\'']]) .. "'" end
+local word = system.quote
 
 --- In the folder of the bench.
 local function shell(command)

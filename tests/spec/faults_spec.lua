@@ -8,7 +8,7 @@
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
-local LIBRARY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/libfaulty.so"
+local LIBRARY = workbench.build .. "/tests/libfaulty.so"
 local ALL = tonumber(os.getenv "CELSPAN_STARVE") -- one call in so many
 local SAMPLES = 1 -- of the calls of a format that fail with an errno
 local SHORT, EINTR, EAGAIN = -1, 4, 11
@@ -224,7 +224,7 @@ describe("the hooks of tests/faults", function()
   end)
 
   it("stand before every call to the system that src/ makes", function()
-    local build, hooked, seen = os.getenv "CELSPAN_BUILD" or "build", hooks(), 0
+    local build, hooked, seen = workbench.build, hooks(), 0
     local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' | xargs nm -u 2>&1"):format(build, build))
     local made = {}
     for name in list:lines() do

@@ -1,39 +1,19 @@
 -- The files that celspan writes itself: PNG and Targa, as other programs read them.
 
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
 
-local folder
+local bench
 
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local bytes = file:read("a")
-  file:close()
-  return bytes
-end
+local function read(path) return bench:read(path) end
+local function shell(command) return bench:inside(command) end
+local function celspan(arguments) return bench:celspan_inside("%s", arguments) end
 
--- Runs a shell command in the folder; answers its exit code, standard output and error.
-local function shell(command)
-  local _, _, code = os.execute(("cd '%s' && ( %s ) >stdout 2>stderr"):format(folder, command))
-  return code, read(folder .. "/stdout"), read(folder .. "/stderr")
-end
-
-local binary = BINARY:sub(1, 1) == "/" and BINARY or os.getenv("PWD") .. "/" .. BINARY
-
-local function celspan(arguments)
-  return shell(binary .. " " .. arguments)
-end
-
-local has_oiiotool = os.execute("command -v oiiotool >/dev/null 2>&1")
+local has_oiiotool = present.program "oiiotool"
 local it_reads = has_oiiotool and it or pending
 
---- TIFF files need the picture module.
-local function has_pictures()
-  local answer = assert(io.popen(BINARY .. " convert no-such.png no-such-either.png 2>&1"))
-  local text = answer:read("a")
-  answer:close()
-  return not text:find("celspan-picture.so", 1, true)
-end
-local it_reads_pictures = has_oiiotool and has_pictures() and it or pending
+-- TIFF files need the picture module.
+local it_reads_pictures = has_oiiotool and present.pictures() and it or pending
 
 -- Flat shapes, a gradient and something clear; with a back light, every pixel is opaque.
 local SCENE = [[
@@ -59,17 +39,11 @@ end
 
 describe("PNG and Targa files", function()
   setup(function()
-    folder = os.tmpname()
-    os.remove(folder)
-    assert(os.execute("mkdir '" .. folder .. "'"))
-    local file = assert(io.open(folder .. "/scene.lua", "wb"))
-    file:write(SCENE)
-    file:close()
+    bench = workbench.new()
+    bench:write("scene.lua", SCENE)
   end)
 
-  teardown(function()
-    os.execute("rm -rf '" .. folder .. "'")
-  end)
+  teardown(function() bench:remove() end)
 
   it_reads("hold the same pixels", function()
     for _, lit in ipairs { false, true } do
@@ -103,20 +77,20 @@ describe("PNG and Targa files", function()
       render("d1.png", lit, "--workers 1")
       for _, workers in ipairs { 2, 5 } do
         render("d2.png", lit, "--workers " .. workers)
-        assert.is_true(read(folder .. "/d1.png") == read(folder .. "/d2.png"))
+        assert.is_true(read "d1.png" == read "d2.png")
       end
       render("d2.png", lit, "--hash")
-      assert.is_true(read(folder .. "/d1.png") == read(folder .. "/d2.png"))
+      assert.is_true(read "d1.png" == read "d2.png")
     end
   end)
 
   it_reads("do not tell in which folder they were made", function()
     for _, ending in ipairs { "png", "tga", "span", "exr", "tif", "dpx", "jpg", "bmp", "hdr", "ppm" } do
-      local path = folder .. "/where." .. ending
+      local path = bench.folder .. "/where." .. ending
       local code, _, err = celspan(("render '%s/scripts/demo.lua' -o %s --size 64x36 --frames 1 --progress none")
         :format(os.getenv "PWD", path))
       assert.are.equal(0, code, err)
-      assert.falsy(read(path):find(folder, 1, true), ending)
+      assert.falsy(read(path):find(bench.folder, 1, true), ending)
     end
   end)
 
@@ -136,7 +110,7 @@ describe("PNG and Targa files", function()
         .. "--frames %d --progress none"):format(root, frame))
       assert.are.equal(0, code, err)
       assert.are.equal(0, (shell("oiiotool k.png -o l.png")))
-      assert.is_true(#read(folder .. "/k.png") < #read(folder .. "/l.png"), "frame " .. frame)
+      assert.is_true(#read "k.png" < #read "l.png", "frame " .. frame)
     end
   end)
 
@@ -166,6 +140,6 @@ describe("PNG and Targa files", function()
     assert.are_not.equal(0, code)
     assert.truthy(err:find("f.tga: the frame is 65536 x 2 pixels; targa files hold at most 65535 a side",
       1, true), err)
-    assert.is_nil(io.open(folder .. "/f.tga"))
+    assert.is_nil(io.open(bench.folder .. "/f.tga"))
   end)
 end)

@@ -2,17 +2,16 @@
 -- opens one, the run ends soon, with the exit code of the table and a sentence that names the file,
 -- and all of its processes together never held much memory. What can be known from the header is
 -- refused with --trust too, which opens pictures in the program itself.
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local PEAK = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/peak"
-if PEAK:sub(1, 1) ~= "/" then PEAK = os.getenv "PWD" .. "/" .. PEAK end
+local PEAK = workbench.build .. "/tests/peak"
 
 local MIB = 1 << 20
 --- The program, the keeper and a decoder, with OpenImageIO loaded in two of them, hold 180 MiB.
 local LOADED = 300 * MIB
 local SECONDS = 5 -- of processor time, which is the same on a busy machine
---- Programs with a sanitizer have limits of memory of their own, and are many times slower.
-local is_slow = os.execute("grep -qaE '__(asan|tsan)_init' '" .. workbench.binary .. "'") == true
+local is_slow = present.sanitizer()
 
 local bench
 

@@ -1,14 +1,9 @@
 -- Strips of a frame, and celspan join: the same picture as the whole, and what is refused.
+local present = require "tests.support.present"
 local stored = require "tests.support.stored"
 local workbench = require "tests.support.workbench"
 
-local function has_pictures()
-  local place = workbench.new()
-  local _, _, err = place:celspan "convert none.png none.png"
-  place:remove()
-  return not err:find("celspan-picture.so", 1, true)
-end
-local it_compares = has_pictures() and it or pending -- pictures are read to be compared
+local it_compares = present.pictures() and it or pending -- pictures are read to be compared
 
 local bench
 
@@ -37,10 +32,7 @@ end }
 end)
 after_each(function() bench:remove() end)
 
-local function celspan(arguments, ...)
-  return bench:shell(("cd '%s' && %s %s"):format(bench.folder, workbench.absolute,
-    arguments:format(...)))
-end
+local function celspan(arguments, ...) return bench:celspan_inside(arguments, ...) end
 
 local function done(arguments, ...)
   local code, out, err = celspan(arguments, ...)

@@ -4,10 +4,11 @@ local celspan = require "celspan"
 local layers = require "celspan.layers"
 local merged = require "tests.support.merged"
 local paintings = require "tests.support.paintings"
+local present = require "tests.support.present"
 local stored = require "tests.support.stored"
 local raised = require "tests.support.raised"
 
-local material = os.getenv "CELSPAN_MATERIAL"
+local material = present.material
 
 local paths = {}
 
@@ -100,13 +101,7 @@ local function layer_of(fields)
   return layer
 end
 
--- Built without expat or OpenImageIO, there are formats that cannot be read.
-local function lacks(module, path)
-  local tree, message = layers.read(path)
-  return not tree and message:find(module, 1, true) ~= nil
-end
-
-if lacks("celspan-art.so", "../../scripts/paintings/valley.ora") then
+if not present.art() then
   describe("layers", function()
     it("are read through the art module", function() pending "it was not built" end)
   end)
@@ -619,8 +614,7 @@ end)
 
 local function png(layer) return paintings.png(layer) end
 
-local lacks_pictures = lacks("celspan-picture.so", "../../scripts/pictures")
-local it_reads_pictures = lacks_pictures and pending or it
+local it_reads_pictures = present.pictures() and it or pending
 
 describe("a folder of pictures", function()
   it_reads_pictures("is a list of them by their numbers", function()
@@ -1101,7 +1095,7 @@ describe("Photoshop documents of the material", function()
 end)
 
 describe("folders of pictures of the material", function()
-  if not material or lacks_pictures then
+  if not material or not present.pictures() then
     it("are read", function() pending "CELSPAN_MATERIAL names no folder" end)
     return
   end

@@ -1,8 +1,9 @@
 -- Lip-sync files into mouth shapes, frame by frame.
 local lips = require "celspan.lips"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 
-local material = os.getenv "CELSPAN_MATERIAL"
+local material = present.material
 
 local paths = {}
 

@@ -1,5 +1,6 @@
 -- Pictures from memory: pixels in a string, the same as those pixels in a file, to the bit.
 local celspan = require "celspan"
+local present = require "tests.support.present"
 local stored = require "tests.support.stored"
 local prng = require "tests.support.prng"
 local raised = require "tests.support.raised"
@@ -65,11 +66,6 @@ local function pixels_of(fields, place)
   return table.concat(values)
 end
 
-local function has_pictures()
-  local _, message = pcall(celspan.image, { file = "/nonexistent.png" })
-  return not tostring(message):find("celspan-picture.so", 1, true)
-end
-
 describe("pixels in a string", function()
   local places = {
     ["as they are"] = function(image) return image end,
@@ -79,7 +75,7 @@ describe("pixels in a string", function()
   }
   for name, place in pairs(places) do
     it("look like a PNG of them, " .. name, function()
-      if not has_pictures() then return pending("no pictures") end
+      if not present.pictures() then return pending("no pictures") end
       for format in pairs(formats) do
         local pixels = noise(format, 5)
         local file = bench:write(("%s %s.png"):format(name, format), png(pixels, format))

@@ -2,6 +2,7 @@
 local equal = require "tests.mutate.equal"
 local mutants = require "tests.mutate.mutants"
 local nearest = require "tests.mutate.nearest"
+local system = require "tests.support.system"
 
 --- What may become of a source, each mutant in a line.
 local function told(text)
@@ -16,13 +17,6 @@ end
 local function told_of(body) return told("void f(void) {\n" .. body .. "\n}\n") end
 
 local function lines(...) return table.concat({ ... }, "\n") end
-
-local function read(path)
-  local file = assert(io.open(path))
-  local text = file:read "a"
-  file:close()
-  return text
-end
 
 describe("mutants", function()
   it("are made of comparisons, bounds and conditions", function()
@@ -94,7 +88,7 @@ end)
 describe("the lists", function()
   it("of mutants that change nothing have only such as can be made, with reasons", function()
     for path, entries in pairs(equal) do
-      local text, made = read(path), {}
+      local text, made = system.read(path), {}
       for _, mutant in ipairs(mutants.of(text)) do
         local name = mutants.line_of(text, mutant) .. ": " .. mutants.tell(mutant)
         made[name] = math.max(made[name] or 0, mutant.nth)
@@ -109,14 +103,14 @@ describe("the lists", function()
   end)
 
   it("of the nearest tests name tests that there are", function()
-    local units = read "tests/unit/meson.build" .. read "tests/meson.build"
+    local units = system.read "tests/unit/meson.build" .. system.read "tests/meson.build"
     for _, list in pairs(nearest) do
       for _, name in ipairs(list) do
         local folder, rest = name:match "^(%w+)/(.*)$"
         if folder == "unit" then
           assert.is_truthy(units:find("'" .. rest .. "'", 1, true) or rest:find "^fuzz%-", name)
         else
-          read(("tests/%s_spec.lua"):format(name))
+          system.read(("tests/%s_spec.lua"):format(name))
         end
       end
     end

@@ -1,26 +1,20 @@
 -- Promises of docs/trust.md that no other file here is about, and the page itself: every test that
 -- it names is there.
 local markdown = require "tests.support.markdown"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-local BUILD = os.getenv "CELSPAN_BUILD" or "build"
+local BUILD = workbench.build
 
 local bench
 
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
-local function lines_of(command)
-  local lines, list = {}, assert(io.popen(command))
-  for line in list:lines() do lines[#lines + 1] = line end
-  list:close()
-  return lines
-end
-
 --- Runs celspan in the folder of the bench.
 local function run(arguments, before)
-  return bench:shell(("cd '%s' && %s '%s' %s"):format(bench.folder, before or "", workbench.absolute,
-    arguments))
+  return bench:inside(("%s '%s' %s"):format(before or "", workbench.absolute, arguments))
 end
 
 local function done(arguments, before)
@@ -111,7 +105,7 @@ describe("a second run into a pyramid of tiles", function()
     bench:write("film.lua", FILM)
     local tiles = "tiles film.lua --size 500x375 --progress none -o tiles"
     done(tiles)
-    local log = lines_of(("ls '%s'/tiles/*.tiles"):format(bench.folder))[1]
+    local log = system.lines(("ls '%s'/tiles/*.tiles"):format(bench.folder))[1]
     local sum = "cd '%s' && find tiles -type f | sort | xargs cat | md5sum >%s"
     assert.are.equal(0, (bench:shell(sum:format(bench.folder, "before"))))
     for _, options in ipairs { "", " --fresh" } do
@@ -152,9 +146,7 @@ end)
 -- ---------------------------------------------------------------- the library
 
 --- Whether the build has more in it than what is delivered.
-local function is_instrumented()
-  return os.execute(("grep -qaE '__(asan|tsan)_init|__gcov' '%s'"):format(workbench.binary)) == true
-end
+local function is_instrumented() return present.sanitizer() or present.coverage() end
 
 --- Objects of the library, not of the program, of what makes its sources, and of what only builds
 --- with self-checks have.
@@ -164,7 +156,7 @@ local OBJECTS = ("find '%s/src' '%s/subprojects' -name '*.o' ! -path '*/tests/*'
 --- The names that objects want of other libraries.
 local function wanted_by(objects)
   local names = {}
-  for _, line in ipairs(lines_of(objects .. " | xargs nm -u 2>/dev/null")) do
+  for _, line in ipairs(system.lines(objects .. " | xargs nm -u 2>/dev/null")) do
     local name = line:match "^%s+U ([%w_]+)"
     if name then names[name] = true end
   end
@@ -187,8 +179,8 @@ describe("the library", function()
   it("has no variables of its own", function()
     if is_instrumented() then return pending "the build has more in it than the library" end
     local seen = 0
-    local module = lines_of(("find '%s' -name celspan.so"):format(BUILD))[1]
-    for _, line in ipairs(lines_of(("nm -f sysv '%s' 2>/dev/null"):format(module))) do
+    local module = system.lines(("find '%s' -name celspan.so"):format(BUILD))[1]
+    for _, line in ipairs(system.lines(("nm -f sysv '%s' 2>/dev/null"):format(module))) do
       local name, section = line:match "^([^| ]+) *|.*|(%g+) *$"
       seen = seen + (name and 1 or 0)
       -- What the compiler puts there: marks of beginning and end, and what the processor can do.
@@ -212,7 +204,7 @@ return celspan.pixels(celspan.rostrum { celspan.cel { path } }, { size = { 32, 2
     bench:write("host.lua", [[assert(os.setlocale "de_DE.UTF-8" and ("%.1f"):format(1.5) == "1,5")
 io.write((function() ]] .. shot .. " end)())")
     local host = ("cd '%s' && LUA_CPATH='%s' %%s '%s/tests/lua_host' host.lua"):format(bench.folder,
-      package.cpath, BUILD:sub(1, 1) == "/" and BUILD or os.getenv "PWD" .. "/" .. BUILD)
+      package.cpath, BUILD)
     local code, out, err = bench:shell(host:format "LOCPATH=. LC_ALL=de_DE.UTF-8")
     assert.are.equal(0, code, err)
     assert.is_true(out == load(shot)())
@@ -229,16 +221,16 @@ describe("time", function()
       assert.is_nil(names[name], name)
     end
     local clocks = 0
-    for _, line in ipairs(lines_of "grep -rhoE 'CLOCK_[A-Z]+[A-Z_]*,|[(]CLOCK_[A-Z_]+' src") do
+    for _, line in ipairs(system.lines "grep -rhoE 'CLOCK_[A-Z]+[A-Z_]*,|[(]CLOCK_[A-Z_]+' src") do
       clocks = clocks + 1
       assert.is_truthy(line:find "CLOCK_MONOTONIC", line)
     end
     assert.is_true(clocks > 4)
     -- Without it, what waits goes by the clock on the wall.
-    for _, file in ipairs(lines_of "grep -rl pthread_cond_timedwait src") do
+    for _, file in ipairs(system.lines "grep -rl pthread_cond_timedwait src") do
       assert.is_truthy(markdown.read(file):find("pthread_condattr_setclock", 1, true), file)
     end
-    assert.are.same({}, lines_of [[grep -rnE 'os\.(time|date|clock)' lua]])
+    assert.are.same({}, (system.lines [[grep -rnE 'os\.(time|date|clock)' lua]]))
   end)
 end)
 

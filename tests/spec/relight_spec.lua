@@ -1,18 +1,13 @@
 -- Light taken off pictures: what is left, in the light it was taken in and in others; what is kept in
 -- files; and what is refused.
 local celspan = require "celspan"
+local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local raised = require("tests.support.raised").sentence
 local relight = require "celspan.relight"
 local workbench = require "tests.support.workbench"
 
-local function has_pictures()
-  local place = workbench.new()
-  local _, _, err = place:celspan "convert none.png none.png"
-  place:remove()
-  return not err:find("celspan-picture.so", 1, true)
-end
-local it_reads = has_pictures() and it or pending -- files of pictures need their module
+local it_reads = present.pictures() and it or pending -- files of pictures need their module
 
 local bench
 

@@ -2,14 +2,15 @@
 -- again, alone or in company, with one worker or two.
 
 local shipped = require "tests.support.shipped"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local BINARY = workbench.binary
 local WIDTH, HEIGHT = 96, 54
 
 local function run(arguments)
-  local pipe = assert(io.popen(("%s %s"):format(BINARY, arguments), "r"))
-  local text = pipe:read("a")
-  return pipe:close() and text
+  local text, ended_well = system.output(("%s %s"):format(BINARY, arguments))
+  return ended_well and text
 end
 
 --- A script as an argument, with what it needs.

@@ -3,37 +3,25 @@
 local celspan = require "celspan"
 local layers = require "celspan.layers"
 local lips = require "celspan.lips"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local sheet = require "celspan.sheet"
+local workbench = require "tests.support.workbench"
 
-local material = os.getenv "CELSPAN_MATERIAL"
-local BINARY = os.getenv "CELSPAN" or "build/celspan"
+local material = present.material
 local root = io.popen("pwd"):read "l"
 
-local folder
+local bench, folder
 
-local function write(name, text)
-  local path = folder .. "/" .. name
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  return path
-end
-
-local function slurp(path)
-  local file = assert(io.open(path, "rb"))
-  local text = file:read "a"
-  file:close()
-  return text
-end
+local function write(name, text) return bench:write(name, text) end
 
 setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
+  bench = workbench.new()
+  folder = bench.folder
   assert(os.execute("mkdir -p " .. folder .. "/shot.oca/body"))
 end)
 
-teardown(function() os.execute("rm -r " .. folder) end)
+teardown(function() bench:remove() end)
 
 local function read(name, text, options) return sheet.read(write(name, text), options) end
 
@@ -215,7 +203,7 @@ describe("the CSV of TVPaint and Krita", function()
     local s = assert(read("a.csv", text))
     local path = folder .. "/b.csv"
     assert.is_true(s:write(path))
-    assert.are.equal(text, slurp(path))
+    assert.are.equal(text, bench:read(path))
   end)
 
   it("is refused by line", function()
@@ -520,7 +508,7 @@ it("no truncation and no changed byte does more than a message", function()
   for _, ending in ipairs { "xdts", "txt", "csv" } do
     local path = folder .. "/whole." .. ending
     assert.is_true(s:write(path))
-    texts[ending] = slurp(path)
+    texts[ending] = bench:read(path)
   end
   texts.oca = document
   for ending, text in pairs(texts) do
@@ -548,7 +536,7 @@ it("a small sheet is read by a script that may have little memory", function()
   write("small.lua", [[local celspan, sheet = require "celspan", require "celspan.sheet"
     local s = assert(sheet.read "small.txt")
     return celspan.film { size = { 8, 8 }, frames = s.frames, frame = function() return celspan.rostrum {} end }]])
-  assert.is_true(os.execute(("%s check %s/small.lua --limit memory=60M >/dev/null"):format(BINARY, folder)))
+  assert.are.equal(0, (bench:celspan("check %s/small.lua --limit memory=60M", folder)))
 end)
 
 describe("a sheet of few words and millions of frames", function()
@@ -564,7 +552,7 @@ describe("a sheet of few words and millions of frames", function()
     assert.are.equal("1", again:at("J", 10000000))
     local path = folder .. "/far.xdts"
     assert.is_true(s:write(path))
-    assert.is_true(#slurp(path) < 10000)
+    assert.is_true(#bench:read(path) < 10000)
     local note = assert(sheet.read(path)).notes[1]
     assert.are.same({ 2, 9000000 }, { note.from, note.to })
   end)
@@ -575,8 +563,7 @@ describe("a sheet of few words and millions of frames", function()
     assert.is_nil(done)
     assert.is_truthy(message:find("far.csv: it would have 10000000 rows of 11 cells, more than 100000000", 1, true), message)
     assert.is_nil(io.open(path))
-    local _, _, code = os.execute(("%s sheet %s/far.txt -o %s 2>%s/err"):format(BINARY, folder, path, folder))
-    assert.are.equal(5, code)
+    assert.are.equal(5, (bench:celspan("sheet %s/far.txt -o %s", folder, path)))
     local layers = {}
     for i = 1, 20000 do layers[i] = "L" .. i end
     local drawings = {}
@@ -586,9 +573,9 @@ describe("a sheet of few words and millions of frames", function()
     assert.is_nil(none)
     assert.is_truthy(problem:find("20000 rows of 20001 cells", 1, true), problem)
     assert.is_true(wide:write(folder .. "/wide.xdts"))
-    _, _, code = os.execute(("%s sheet %s/wide.xdts 2>%s/err"):format(BINARY, folder, folder))
+    local code, _, err = bench:celspan("sheet %s/wide.xdts", folder)
     assert.are.equal(6, code)
-    assert.is_truthy(slurp(folder .. "/err"):find("wide.xdts: it would have 20000 rows", 1, true))
+    assert.is_truthy(err:find("wide.xdts: it would have 20000 rows", 1, true))
   end)
 end)
 
@@ -691,7 +678,7 @@ describe("the sheet of a film", function()
 
   it("names the very frames on which the mouth of the demo changes", function()
     local path = folder .. "/demo.txt"
-    assert(os.execute(("%s sheet %s/scripts/demo.lua -o %s"):format(BINARY, root, path)))
+    assert.are.equal(0, (bench:celspan("sheet %s/scripts/demo.lua -o %s", root, path)))
     local s = assert(sheet.read(path))
     local mouths = assert(lips.read(root .. "/scripts/demo/line.tsv", { fps = 24 }))
     local wanted, found, numbers, count = {}, {}, {}, 0
@@ -731,8 +718,7 @@ end)
 
 describe("celspan sheet", function()
   local function run(arguments)
-    local _, _, code = os.execute(("%s sheet %s >%s/out 2>%s/err"):format(BINARY, arguments, folder, folder))
-    return code, slurp(folder .. "/out"), slurp(folder .. "/err")
+    return bench:celspan("sheet %s", arguments)
   end
 
   it("prints and converts", function()

@@ -1,5 +1,6 @@
 -- Parts of pictures: `source`, as of a sheet of sprites.
 local celspan = require "celspan"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
 
@@ -25,7 +26,6 @@ end }
 
 describe("the source of an image", function()
   local bench, sheet
-  local has_pictures
 
   setup(function()
     bench = workbench.new()
@@ -33,7 +33,6 @@ describe("the source of an image", function()
       bench.folder .. "/sheet.png")
     assert.are.equal(0, code, err)
     sheet = bench.folder .. "/sheet.png"
-    has_pictures = bench:celspan("convert %s %s", sheet, bench.folder .. "/copy.png") == 0
   end)
   teardown(function() bench:remove() end)
 
@@ -55,7 +54,7 @@ describe("the source of an image", function()
                   { 63, 0, 2, 90 }, { 0, 64, 64, 26 } }
 
   local function each_part(test)
-    if not has_pictures then pending "there is no picture module" end
+    if not present.pictures() then pending "there is no picture module" end
     for _, part in ipairs(PARTS) do test(part, cut(table.unpack(part))) end
   end
 
@@ -117,7 +116,7 @@ describe("the source of an image", function()
   end)
 
   it("decides the size, and can be read and changed", function()
-    if not has_pictures then pending "there is no picture module" end
+    if not present.pictures() then pending "there is no picture module" end
     local image = celspan.image { file = sheet, source = { 10, 5, 16, 12 }, x = 3 }
     assert.are.same({ 3, 0, 16, 12 }, { image:bounds() })
     assert.are.same({ 10, 5, 16, 12 }, image.source)
@@ -125,7 +124,7 @@ describe("the source of an image", function()
   end)
 
   it("keeps the sheet of a walk within any memory", function()
-    if not has_pictures then pending "there is no picture module" end
+    if not present.pictures() then pending "there is no picture module" end
     bench:write("walk.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 30, 30 }, frames = 9, frame = function(f)
@@ -166,7 +165,7 @@ end }]])
   end)
 
   it("is refused at its line when it is not inside the picture", function()
-    if not has_pictures then pending "there is no picture module" end
+    if not present.pictures() then pending "there is no picture module" end
     local function refusal(source)
       return (raised.sentence(function() celspan.image { file = sheet, source = source } end))
     end

@@ -1,32 +1,14 @@
 -- Span files at the command line, and in programs built on OpenImageIO.
 
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
-local BUILD = os.getenv("CELSPAN_BUILD") or "build"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
 
-local folder
+local bench
 
-local function write(name, text)
-  local file = assert(io.open(folder .. "/" .. name, "wb"))
-  file:write(text)
-  file:close()
-end
-
-local function read(name)
-  local file = io.open(folder .. "/" .. name, "rb")
-  local text = file and file:read("a")
-  if file then file:close() end
-  return text
-end
-
---- Runs a command in the folder of this spec: its exit code, standard output and error.
-local function shell(command)
-  local _, how, code = os.execute(("cd '%s' && ( %s ) >stdout 2>stderr"):format(folder, command))
-  return how == "signal" and 128 + code or code, read "stdout", read "stderr"
-end
-
-local binary = BINARY:sub(1, 1) == "/" and BINARY or os.getenv("PWD") .. "/" .. BINARY
-
-local function celspan(arguments) return shell(binary .. " " .. arguments) end
+local function write(name, text) return bench:write(name, text) end
+local function read(name) return bench:read(name) end
+local function shell(command) return bench:inside(command) end
+local function celspan(arguments) return bench:celspan_inside("%s", arguments) end
 
 local function done(arguments)
   local code, out, err = celspan(arguments)
@@ -34,26 +16,15 @@ local function done(arguments)
   return out
 end
 
---- Pictures that are not PNG or span files need the picture module.
-local function has_pictures()
-  local answer = assert(io.popen(BINARY .. " convert no-such.png no-such-either.png 2>&1"))
-  local text = answer:read("a")
-  answer:close()
-  return not text:find("celspan-picture.so", 1, true)
-end
-local it_reads_pictures = has_pictures() and it or pending
+-- Pictures that are not PNG or span files need the picture module.
+local it_reads_pictures = present.pictures() and it or pending
 
---- A plug-in built with a sanitizer cannot be loaded by programs built without.
-local plugin = (BUILD:sub(1, 1) == "/" and BUILD or os.getenv("PWD") .. "/" .. BUILD)
-  .. "/src/oiio/plugin"
-local function has_oiiotool()
-  return not BUILD:find("san", 1, true) and has_pictures()
-    and os.execute("command -v oiiotool >/dev/null 2>&1")
-end
-local it_opens = has_oiiotool() and it or pending
+-- A plug-in built with a sanitizer cannot be loaded by programs built without.
+local it_opens = not present.sanitizer() and present.pictures() and present.program "oiiotool"
+  and it or pending
 
 local function oiiotool(arguments)
-  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s"):format(plugin, arguments))
+  return shell(("OIIO_LIBRARY_PATH='%s' oiiotool %s"):format(workbench.build .. "/src/oiio/plugin", arguments))
 end
 
 local SCENE = [[
@@ -89,9 +60,7 @@ end }
 ]]
 
 setup(function()
-  local answer = assert(io.popen("mktemp -d"))
-  folder = answer:read("l")
-  answer:close()
+  bench = workbench.new()
   write("scene.lua", SCENE)
   write("opaque.lua", OPAQUE)
   done("render scene.lua -o scene.span --progress none")
@@ -99,7 +68,7 @@ setup(function()
   done("render scene.lua -o scene.png --progress none")
 end)
 
-teardown(function() os.execute("rm -rf '" .. folder .. "'") end)
+teardown(function() bench:remove() end)
 
 describe("a span file", function()
   it("is the same bytes for any number of workers, and so are its parts #workers", function()
@@ -201,20 +170,15 @@ end }]])
   end)
 
   it("leaves nothing under its name when it cannot be finished", function()
-    local function leaves_nothing()
-      local list = assert(io.popen("ls -A '" .. folder .. "/out'"))
-      local names = list:read("a")
-      list:close()
-      return names == ""
-    end
+    local function leaves_nothing() return #bench:files "out" == 0 end
     write("many.lua", MANY)
-    assert(os.execute("mkdir '" .. folder .. "/out'"))
+    assert(os.execute("mkdir '" .. bench.folder .. "/out'"))
     local arguments = " render many.lua -o out/x.span --size 1000000x1000000 --progress none"
-    local code, _, err = shell("ulimit -f 4; " .. binary .. arguments .. " --crop 0,0,1000000,9000")
+    local code, _, err = shell("ulimit -f 4; " .. workbench.absolute .. arguments .. " --crop 0,0,1000000,9000")
     assert.equal(5, code, err)
     assert.truthy(err:find("out/x.span: cannot write", 1, true), err)
     assert.is_true(leaves_nothing())
-    code = shell("timeout -s INT 0.5 " .. binary .. arguments)
+    code = shell("timeout -s INT 0.5 " .. workbench.absolute .. arguments)
     assert.equal(124, code)
     assert.is_true(leaves_nothing())
   end)

@@ -4,7 +4,7 @@
 local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
-local LIBRARY = (os.getenv "CELSPAN_BUILD" or "build") .. "/tests/libstarve.so"
+local LIBRARY = workbench.build .. "/tests/libstarve.so"
 local SAMPLES = 60
 local bench, random
 

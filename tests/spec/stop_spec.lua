@@ -1,4 +1,5 @@
 -- SIGTERM and SIGHUP (shells let what is in the background ignore SIGINT): whatever the program is doing, it is dead by the signal soon, and leaves nothing.
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local bench
@@ -6,10 +7,9 @@ local bench
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
---- Builds with a sanitizer are many times slower, and more patient.
-local function is_slow() return os.execute("grep -qaE '__(asan|tsan)_init' '" .. workbench.binary .. "'") == true end
+--- Builds with a sanitizer are more patient.
 local START, LIMIT = 0.6, 1.2
-if is_slow() then START, LIMIT = 5, 30 end
+if present.sanitizer() then START, LIMIT = 5, 30 end
 
 local POINTS = [[
 local seed, points = 7, { rule = "evenodd" }
@@ -54,8 +54,7 @@ end
 --- Stops a render by a signal; nothing is left of frames that were not finished.
 local function stop(text, signal, code)
   bench:write("film.lua", text)
-  local started = ("%s render --trust film.lua -o out/f.##.png --progress none"):format(
-    workbench.binary:sub(1, 1) == "/" and workbench.binary or "$OLDPWD/" .. workbench.binary)
+  local started = workbench.absolute .. " render --trust film.lua -o out/f.##.png --progress none"
   local got, out, err = bench:shell(([[cd '%s' && mkdir out && { %s & pid=$!; sleep %g
     kill -%s $pid; before=$(date +%%s%%N); wait $pid; code=$?; echo $(( ($(date +%%s%%N) - before) / 1000000 ))
     exit $code; }]]):format(bench.folder, started, START, signal))

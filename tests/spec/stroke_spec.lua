@@ -1,5 +1,6 @@
 -- Strokes as scripts see them: what they cover, their fields and their faults.
 local celspan = require "celspan"
+local workbench = require "tests.support.workbench"
 
 local function covers(stroke, points)
   for _, p in ipairs(points) do
@@ -302,7 +303,7 @@ describe("a stroke in a scene", function()
         return celspan.film { size = { 512, 512 }, frames = 1,
           frame = function() return celspan.rostrum { celspan.cel(art) } end }]]):format(width))
       file:close()
-      local pipe = assert(io.popen(os.getenv "CELSPAN" .. " spans --stats --workers 1 " .. path))
+      local pipe = assert(io.popen(workbench.binary .. " spans --stats --workers 1 " .. path))
       local out = pipe:read "a"
       pipe:close()
       os.remove(path)

@@ -3,6 +3,7 @@
 -- drawing shows.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
 local SIDE = 100
@@ -63,9 +64,7 @@ local function refused(cases)
   end
 end
 
-local _, missing = svg.read(write "")
-local has_module = not tostring(missing):find("celspan-art.so", 1, true)
-local it = has_module and it or pending
+local it = present.art() and it or pending
 
 teardown(function() bench:remove() end)
 

@@ -2,6 +2,7 @@
 -- case for each element and attribute, because they are all compared in one way.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
 
@@ -44,9 +45,7 @@ end
 
 local function in_svg(content) return HEAD .. ">\n" .. content .. "</svg>" end
 
-local _, missing = svg.read(drawing "")
-local has_module = not tostring(missing):find("celspan-art.so", 1, true)
-local it = has_module and it or pending
+local it = present.art() and it or pending
 
 teardown(function() bench:remove() end)
 

@@ -3,22 +3,18 @@
 -- is written and where it lies is told by the same few letters.
 local celspan = require "celspan"
 local block = require "tests.support.block"
+local present = require "tests.support.present"
 local truetype = require "tests.support.truetype"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
 local FONT = "../../scripts/type/block.ttf"
 local PATH = "scripts/type/block.ttf"
 
 -- Built without the libraries for type, there is nothing to test but the font.
-local _, fault = pcall(celspan.text, { "", font = FONT })
-local is_there = not tostring(fault):find("celspan-art.so", 1, true)
-local it = is_there and it or pending
+local it = present.art() and it or pending
 
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local bytes = file:read "a"
-  file:close()
-  return bytes
-end
+local function read(path) return assert(system.read(path)) end
 
 local function text(fields)
   fields.font = fields.font or FONT
@@ -481,7 +477,7 @@ end)
 -- ---------------------------------------------------------------- the command line
 
 describe("the command line", function()
-  local BINARY = os.getenv "CELSPAN" or "build/celspan"
+  local BINARY = workbench.binary
   local folder = assert(io.popen "pwd"):read "l" -- of the fonts, which is not the script's
 
   --- The exit code and messages of a check of a script that sets this text.
@@ -519,8 +515,7 @@ describe("the command line", function()
 end)
 
 describe("a collection of fonts", function()
-  local there = pcall(celspan.text, { "A", font = "../../scripts/type/block.ttf" })
-  local it_sets_type = there and it or pending
+  local it_sets_type = present.art() and it or pending
 
   --- The project's font, `count` times under one header; faces share its tables.
   local function collection(count)

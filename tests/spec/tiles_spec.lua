@@ -1,48 +1,24 @@
 -- celspan tiles: the pyramid's shape, that its tiles are the frame's pixels, what is linked, left
 -- out and kept, and the page in a browser.
 
-local BINARY = os.getenv("CELSPAN") or "build/celspan"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
-local folder
+local bench, folder
 
-local function read(path)
-  local file = io.open(path, "rb")
-  if not file then return nil end
-  local text = file:read("a")
-  file:close()
-  return text
-end
+local function read(path) return bench:read(path) end
+local function write(name, text) return bench:write(name, text) end
+local function shell(command) return bench:shell(command) end
+local function celspan(arguments, ...) return bench:celspan(arguments, ...) end
 
-local function write(name, text)
-  local path = folder .. "/" .. name
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
-  return path
-end
-
---- Runs a shell command; answers its exit code (128 + n for signal n), standard output and error.
-local function shell(command)
-  local out, err = folder .. "/stdout", folder .. "/stderr"
-  local _, how, code = os.execute(("( %s ) >'%s' 2>'%s'"):format(command, out, err))
-  return how == "signal" and 128 + code or code, read(out), read(err)
-end
-
-local function celspan(arguments, ...) return shell(BINARY .. " " .. arguments:format(...)) end
-
-local function lines_of(command)
-  local lines, list = {}, assert(io.popen(command))
-  for line in list:lines() do lines[#lines + 1] = line end
-  list:close()
-  return lines
-end
 
 local function count_files(path, name)
-  return #lines_of(("find '%s' -type f -name '%s'"):format(path, name or "*.png"))
+  return #system.lines(("find '%s' -type f -name '%s'"):format(path, name or "*.png"))
 end
 
 --- Device and number of a file: equal for two names of one file.
-local function identity(path) return lines_of(("stat -c %%d:%%i '%s'"):format(path))[1] end
+local function identity(path) return system.lines(("stat -c %%d:%%i '%s'"):format(path))[1] end
 
 --- How much two pictures differ, 0 to 1; nil when they have not the same size.
 local function difference(a, b)
@@ -70,13 +46,12 @@ end }
 local script
 
 before_each(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
+  bench = workbench.new()
+  folder = bench.folder
   script = write("plain.lua", PLAIN)
 end)
 
-after_each(function() os.execute("rm -rf " .. folder) end)
+after_each(function() bench:remove() end)
 
 describe("a Deep Zoom pyramid", function()
   it("has a level for every halving, down to one pixel", function()
@@ -272,7 +247,7 @@ describe("a run that goes on", function()
 
   it("ends by its signal and leaves nothing half-written", function()
     local code = shell(("timeout -s INT 0.5 %s tiles %s --size 20000x20000 --tile 32 --overlap 0 "
-      .. "--tiles-limit 1000000 -o %s/p --progress none"):format(BINARY, script, folder))
+      .. "--tiles-limit 1000000 -o %s/p --progress none"):format(workbench.binary, script, folder))
     assert.is_true(code == 124 or code == 130, tostring(code))
     assert.are.equal(0, count_files(folder .. "/p", "*.part"))
     assert.is_nil(read(folder .. "/p/index.html"))
@@ -320,7 +295,7 @@ describe("a viewer that is not there", function()
       assert.are.equal(4, code)
       assert.are.equal(("celspan: error: --viewer %s: no openseadragon.min.js that can be read is "
         .. "there\n"):format(viewer), err)
-      assert.are.equal(0, #lines_of(("find '%s/p' 2>/dev/null"):format(folder)))
+      assert.are.equal(0, #system.lines(("find '%s/p' 2>/dev/null"):format(folder)))
     end
   end)
 end)
@@ -335,7 +310,7 @@ describe("the page", function()
     assert.is_truthy(page:find([["openseadragon": false]], 1, true))
   end)
 
-  local it_in_node = os.execute "command -v node >/dev/null" and it or pending
+  local it_in_node = present.program "node" and it or pending
 
   --- What the page draws after some actions, as a picture, and what it tells.
   local function draw_in_node(window, actions)
@@ -410,8 +385,7 @@ describe("the page", function()
     assert.is_true(tonumber(opaque) > 3) -- every place is still drawn
   end)
 
-  local it_in_a_browser = os.execute "command -v chromium >/dev/null && command -v python3 >/dev/null"
-    and it or pending
+  local it_in_a_browser = present.program("chromium", "python3") and it or pending
 
   --- What the page draws at a place, as a PNG file: its canvas, without the buttons over it.
   local function draw_in_browser(port, place, path)
@@ -428,9 +402,9 @@ open("%s", "wb").write(base64.b64decode(data))']]):format(folder, path))
   end
 
   local function serve(path)
-    local port = lines_of("python3 -c 'import socket; s = socket.socket(); "
+    local port = system.lines("python3 -c 'import socket; s = socket.socket(); "
       .. "s.bind((\"127.0.0.1\", 0)); print(s.getsockname()[1])'")[1]
-    local server = lines_of(("python3 -m http.server %s --bind 127.0.0.1 --directory '%s' "
+    local server = system.lines(("python3 -m http.server %s --bind 127.0.0.1 --directory '%s' "
       .. ">/dev/null 2>&1 & echo $!"):format(port, path))[1]
     shell(("for i in 1 2 3 4 5 6 7 8 9 10; do python3 -c 'import urllib.request; "
       .. "urllib.request.urlopen(\"http://127.0.0.1:%s/\")' && break; sleep 0.2; done")

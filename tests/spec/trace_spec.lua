@@ -2,16 +2,11 @@
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local trace = require "celspan.trace"
+local present = require "tests.support.present"
 local raised = require("tests.support.raised").message
 local workbench = require "tests.support.workbench"
 
-local function has_pictures()
-  local place = workbench.new()
-  local _, _, err = place:celspan "convert none.png none.png"
-  place:remove()
-  return not err:find("celspan-picture.so", 1, true)
-end
-local it_traces = has_pictures() and it or pending -- pictures are files here
+local it_traces = present.pictures() and it or pending -- pictures are files here
 
 local bench
 

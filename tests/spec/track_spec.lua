@@ -1,17 +1,19 @@
 -- Following a region through files, and what a track answers. tests/unit/test_track.c has the
 -- accuracy.
 local celspan = require "celspan"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local track = require "celspan.track"
+local workbench = require "tests.support.workbench"
 
-local BINARY = os.getenv "CELSPAN" or "build/celspan"
-if BINARY:sub(1, 1) ~= "/" then
-  local pwd = assert(io.popen "pwd")
-  BINARY = pwd:read "l" .. "/" .. BINARY
-  pwd:close()
+if not present.pictures() then
+  describe("following", function()
+    it("is through pictures", function() pending "there is no picture module" end)
+  end)
+  return
 end
 
-local folder
+local bench, folder
 local WIDTH, HEIGHT, FRAMES = 240, 160, 9
 
 --- A card of spots, 90 x 70.
@@ -47,14 +49,13 @@ local function region() return pose(celspan.rect { 4, 4, 82, 62 }, 4) end
 local followed
 
 setup(function()
-  folder = os.tmpname()
-  os.remove(folder)
-  assert(os.execute("mkdir " .. folder))
+  bench = workbench.new()
+  folder = bench.folder
   write_frames()
   followed = assert(track.follow(folder .. "/card.####.png", { from = 4, at = region() }))
 end)
 
-teardown(function() os.execute("rm -r " .. folder) end)
+teardown(function() bench:remove() end)
 
 --- The centre of the bounds of an object.
 local function centre(object)
@@ -227,17 +228,7 @@ describe("a file of a track", function()
 end)
 
 describe("celspan track", function()
-  local function run(arguments)
-    local _, how, code = os.execute(("cd %s && %s track %s >out.txt 2>err.txt"):format(folder,
-      BINARY, arguments))
-    local function text(name)
-      local file = assert(io.open(folder .. "/" .. name, "rb"))
-      local all = file:read "a"
-      file:close()
-      return all
-    end
-    return how == "exit" and code or how, text "out.txt", text "err.txt"
-  end
+  local function run(arguments) return bench:celspan_inside("track %s", arguments) end
 
   it("writes a track and says what was lost", function()
     local code, out, err = run "card.####.png --from 4 --at 75,45,80,60 -o made/card.json"

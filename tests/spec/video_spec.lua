@@ -1,8 +1,9 @@
 -- Videos: what ffmpeg reads back from them, and what happens when it fails.
 
+local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
-local has_ffmpeg = os.execute "command -v ffmpeg >/dev/null && command -v ffprobe >/dev/null"
+local has_ffmpeg = present.program("ffmpeg", "ffprobe")
 local it_reads = has_ffmpeg and it or pending
 
 local FIELD = 32
@@ -68,11 +69,9 @@ describe("a video", function()
   end)
   after_each(function() bench:remove() end)
 
-  local function run(command, ...) return bench:shell(("cd '%s' && "):format(bench.folder) .. command:format(...)) end
+  local function run(command, ...) return bench:inside(command:format(...)) end
   local function celspan(arguments, ...)
-    local binary = workbench.binary
-    binary = binary:sub(1, 1) == "/" and binary or assert(os.getenv "PWD") .. "/" .. binary
-    return run(("'%s' render film.lua --progress none "):format(binary) .. arguments, ...)
+    return bench:celspan_inside("render film.lua --progress none " .. arguments, ...)
   end
   local function render(arguments, ...)
     local code, _, err = celspan(arguments, ...)
@@ -132,10 +131,8 @@ describe("a video", function()
   end
   local function faked(arguments, ...)
     local path = os.getenv "PATH"
-    local binary = workbench.binary
-    binary = binary:sub(1, 1) == "/" and binary or assert(os.getenv "PWD") .. "/" .. binary
-    return run(("PATH='%s/bin:%s' '%s' render film.lua --progress none "):format(bench.folder, path, binary)
-      .. arguments, ...)
+    return run(("PATH='%s/bin:%s' '%s' render film.lua --progress none "):format(bench.folder, path,
+      workbench.absolute) .. arguments, ...)
   end
   local function nothing_is_left()
     for _, name in ipairs(bench:files()) do
@@ -339,10 +336,7 @@ end }]])
         .. "frame = require 'scenes.scene' }\n")
       bench:write("film.lua", "return (require 'shots.shot'):with { frames = 3 }\n")
       bench:write("scenes/click.wav", "the wrong one")
-      local function check()
-        return run("'%s' check film.lua", workbench.binary:sub(1, 1) == "/" and workbench.binary
-          or os.getenv "PWD" .. "/" .. workbench.binary)
-      end
+      local function check() return bench:celspan_inside "check film.lua" end
       local code, _, err = check()
       assert.equal(4, code)
       assert.truthy(err:find("shots/click.wav cannot be opened: No such file", 1, true), err)
@@ -422,7 +416,7 @@ end }]])
   describe("when ffmpeg", function()
     it("is missing, says which package has it", function()
       local code, _, err = run("PATH=/nowhere '%s' render film.lua --progress none -o out.mp4",
-        workbench.binary:sub(1, 1) == "/" and workbench.binary or os.getenv "PWD" .. "/" .. workbench.binary)
+        workbench.absolute)
       assert.equal(5, code)
       assert.equal("celspan: error: out.mp4: ffmpeg, which makes videos, is not in PATH: install the package ffmpeg\n", err)
       nothing_is_left()

@@ -20,6 +20,7 @@
 -- it is in any of them. Threads count without locks, so a count may come out below 0; it was run then.
 -- What runs only while building is left out.
 local json = require "celspan.json"
+local system = require "tests.support.system"
 
 local build = assert(arg[1], "coverage.lua BUILD")
 local LEFT_OUT = { ["src/bind/embed.c"] = true, ["src/cli/tiles/embed_page.c"] = true,
@@ -28,10 +29,9 @@ local LEFT_OUT = { ["src/bind/embed.c"] = true, ["src/cli/tiles/embed_page.c"] =
 local files = {} -- by name: { lines = { [number] = count }, branches = { [number] = { count, ... } } }
 
 local function lines_of(command)
-  local list, pipe = {}, assert(io.popen(command))
-  for line in pipe:lines() do list[#list + 1] = line end
-  assert(pipe:close(), command)
-  return list
+  local lines, ended_well = system.lines(command)
+  assert(ended_well, command)
+  return lines
 end
 
 local function add(file, line)

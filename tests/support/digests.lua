@@ -10,6 +10,7 @@
 package.path = "./?.lua;./lua/?.lua;" .. package.path
 local golden = require "tests.support.golden"
 local markdown = require "tests.support.markdown"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local words, is_quick = {}, false
@@ -23,12 +24,11 @@ local celspan = build .. "/celspan"
 local bench = workbench.new()
 local has_failed = false
 
-local function quote(word) return "'" .. tostring(word):gsub("'", "'\\''") .. "'" end
 
 --- What the command prints, or nil when it fails; then what it says goes to standard error.
 local function output_of(...)
   local quoted = {}
-  for i, word in ipairs { ... } do quoted[i] = quote(word) end
+  for i, word in ipairs { ... } do quoted[i] = system.quote(word) end
   local code, out, err = bench:shell(table.concat(quoted, " "))
   if code == 0 then return out end
   io.stderr:write(err)

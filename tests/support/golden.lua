@@ -1,9 +1,11 @@
 -- Goldens: small scripts and the text of their spans, which is the truth.
 local shipped = require "tests.support.shipped"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
 
 local golden = {}
 
-local command = os.getenv "CELSPAN" or "build/celspan"
+local command = workbench.binary
 
 --- Paths of the scripts, without ".lua", in order.
 function golden.cases()
@@ -51,11 +53,10 @@ function golden.digests()
 end
 
 --- The lines of a shell command's output; nil and a message when it fails.
-local function lines_of(line)
-  local pipe, lines = assert(io.popen(line)), {}
-  for text in pipe:lines() do lines[#lines + 1] = text end
-  if pipe:close() then return lines end
-  return nil, line .. " failed"
+local function lines_of(asked)
+  local lines, ended_well = system.lines(asked)
+  if ended_well then return lines end
+  return nil, asked .. " failed"
 end
 
 --- The frames' digests in order: workers end in any.
@@ -67,8 +68,7 @@ local function ask_render(arguments)
 end
 
 local function ask_example(arguments)
-  local build = os.getenv "CELSPAN_BUILD" or "build"
-  local lines, message = lines_of(("%s/examples/example_%s | md5sum"):format(build, arguments))
+  local lines, message = lines_of(("%s/examples/example_%s | md5sum"):format(workbench.build, arguments))
   if not lines then return nil, message end
   return lines[1]:match "%x+" .. "\n"
 end

@@ -1,12 +1,9 @@
 -- The fenced blocks of a page: what the examples of the documentation are taken from.
+local system = require "tests.support.system"
+
 local markdown = {}
 
-function markdown.read(path)
-  local file = assert(io.open(path, "rb"))
-  local text = file:read "a"
-  file:close()
-  return text
-end
+function markdown.read(path) return assert(system.read(path)) end
 
 --- { { language, text, line, name, file }, ... }: line is that of the fence; a block whose first line
 --- is the comment `-- name.lua` or `-- name.lua: what it shows` has a name; file: where it is to be
@@ -37,9 +34,7 @@ end
 function markdown.save(path, folder, keeps)
   for _, block in ipairs(markdown.blocks(path)) do
     if block.file and keeps(block) then
-      local file = assert(io.open(folder .. "/" .. block.file, "wb"))
-      assert(file:write(block.text))
-      file:close()
+      system.write(folder .. "/" .. block.file, block.text)
     end
   end
 end

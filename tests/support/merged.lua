@@ -3,6 +3,8 @@
 --   merged.read(path) -> { width =, height =, channels =, [c] = { [y * width + x] = 0..255 } }
 --
 -- 8 bits a channel, raw or PackBits.
+local system = require "tests.support.system"
+
 local merged = {}
 
 local function unpack_row(text, at, size, out)
@@ -33,9 +35,7 @@ local function read_packed(text, at, picture)
 end
 
 function merged.read(path)
-  local file = assert(io.open(path, "rb"))
-  local text = file:read "a"
-  file:close()
+  local text = assert(system.read(path))
   local channels, height, width, depth = string.unpack(">I2I4I4I2", text, 13)
   assert(depth == 8, "8 bits a channel")
   local at = 27

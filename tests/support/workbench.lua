@@ -1,4 +1,6 @@
 --- A folder for one test of the command line: files in it, and commands run beside it.
+local system = require "tests.support.system"
+
 local BINARY = os.getenv "CELSPAN" or "build/celspan"
 local BUILD = os.getenv "CELSPAN_BUILD" or "build"
 
@@ -20,29 +22,19 @@ function workbench:remove() os.execute("rm -rf '" .. self.folder .. "'") end
 
 --- The whole of a file, by its name in the folder or an absolute path; nil when there is none.
 function workbench:read(name)
-  local file = io.open(name:sub(1, 1) == "/" and name or self.folder .. "/" .. name, "rb")
-  if not file then return nil end
-  local text = file:read("a")
-  file:close()
-  return text
+  return (system.read(name:sub(1, 1) == "/" and name or self.folder .. "/" .. name))
 end
 
 --- Writes a file; answers its path.
 function workbench:write(name, text)
   local path = self.folder .. "/" .. name
-  local file = assert(io.open(path, "wb"))
-  file:write(text)
-  file:close()
+  system.write(path, text)
   return path
 end
 
 --- The names in a folder of the bench, hidden ones too, sorted; none when there is no such folder.
 function workbench:files(name)
-  local names = {}
-  local list = assert(io.popen(("ls -A '%s/%s' 2>/dev/null"):format(self.folder, name or "")))
-  for found in list:lines() do names[#names + 1] = found end
-  list:close()
-  return names
+  return (system.lines(("ls -A '%s/%s' 2>/dev/null"):format(self.folder, name or "")))
 end
 
 --- Runs a shell command; its exit code (128 + n for signal n), standard output and error.
@@ -52,9 +44,17 @@ function workbench:shell(command)
   return how == "signal" and 128 + code or code, self:read(out), self:read(err)
 end
 
+--- The same, in the folder.
+function workbench:inside(command) return self:shell(("cd '%s' && %s"):format(self.folder, command)) end
+
 --- Runs celspan with arguments, which are a format for string.format.
 function workbench:celspan(arguments, ...)
   return self:shell(BINARY .. " " .. arguments:format(...))
+end
+
+--- The same, in the folder.
+function workbench:celspan_inside(arguments, ...)
+  return self:inside(("'%s' "):format(workbench.absolute) .. arguments:format(...))
 end
 
 workbench.binary = BINARY
