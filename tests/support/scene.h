@@ -142,4 +142,19 @@ static inline celspan_rostrum *studio_show(studio *s, celspan_object *object) {
 }
 
 #undef STUDIO_TAKE
+
+/* A frame as large as the film, of exposures that the caller keeps; mode: borrowed likewise, NULL for the
+ * default. Everything else at its default. */
+static inline celspan_frame_desc studio_frame(const celspan_exposure *exposures, size_t count,
+                                              int32_t width, int32_t height,
+                                              const celspan_antialias_mode *mode) {
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  desc.exposures = exposures;
+  desc.exposure_count = count;
+  desc.width = width;
+  desc.height = height;
+  desc.antialias = mode;
+  return desc;
+}
+
 #endif

@@ -3,9 +3,8 @@
 #include <stdlib.h>
 
 #include "defocus/bands.h"
-#include "render/row_worker.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
-#include "tests/support/scene.h"
 
 #define SIDE 48
 #define CELLS 84 /* probe samples across a kernel */
@@ -29,46 +28,12 @@ static double between(double low, double high) { return low + (high - low) * ran
 
 /* ---------------------------------------------------------------- pictures */
 
-typedef struct image {
-  int32_t width, height;
-  float (*rgba)[4];
-  uint64_t kinds[3];
-} image;
-
 static image make(studio *s, celspan_rostrum *rostrum, const view *v, int32_t step) {
   celspan_exposure exposure = {rostrum, 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, v->width, v->height, &v->antialias);
   desc.film_width = v->film_width;
   desc.film_height = v->film_height;
-  desc.width = v->width;
-  desc.height = v->height;
-  desc.antialias = &v->antialias;
-  image out = {v->width,
-               v->height,
-               calloc((size_t)v->width * (size_t)v->height, 4 * sizeof(float)),
-               {0, 0, 0}};
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t first = 0; first < step; first++)
-    for (int32_t y = first; y < v->height; y += step) {
-      const cs_row *row = NULL;
-      if (!CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK)) {
-        fprintf(stderr, "  %s\n", celspan_context_error(&worker.context));
-        continue;
-      }
-      for (size_t i = 0; i < row->count; i++) {
-        out.kinds[row->spans[i].kind]++;
-        for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
-          celspan_span_colour(&row->spans[i], x, out.rgba[y * v->width + x]);
-      }
-    }
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
-  return out;
+  return make_image(s, &desc, step);
 }
 
 /* ---------------------------------------------------------------- scenes */

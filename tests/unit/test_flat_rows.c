@@ -2,9 +2,8 @@
  * and end on their way down, so that in most rows a few of many cells change; every pixel has the colour
  * that the probe finds at its centre. A row that is asked for again is the same.
  */
-#include "render/row_worker.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define WIDTH 90
 #define HEIGHT 40
@@ -38,56 +37,31 @@ static double error_of(studio *s, const celspan_exposure *exposure, const cs_row
 static void check_scene(studio *s, celspan_rostrum *rostrum, int number) {
   celspan_exposure exposure = {rostrum, 1};
   celspan_antialias_mode mode = CELSPAN_ANTIALIAS_NONE;
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.width = WIDTH;
-  desc.film_height = desc.height = HEIGHT;
-  desc.antialias = &mode;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, &mode);
+  frame_rows rows;
   double worst = 0;
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t y = 0; y < HEIGHT; y++) {
-    const cs_row *row = NULL;
-    if (CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-      worst = fmax(worst, error_of(s, &exposure, row, y));
-  }
+  frame_rows_open(&rows, s, &desc);
+  for (int32_t y = 0; y < HEIGHT; y++)
+    worst = fmax(worst, error_of(s, &exposure, worker_row(&rows.worker, y), y));
   if (!CHECK_NEAR(worst, 0, 1e-6))
     fprintf(stderr, "  scene %d\n", number);
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
-}
-
-static void take_row(cs_row_worker *worker, int32_t y, float (*out)[4]) {
-  const cs_row *row = NULL;
-  memset(out, 0, WIDTH * sizeof *out);
-  CHECK(cs_row_worker_row(worker, y, &row) == CELSPAN_OK);
-  for (size_t i = 0; row && i < row->count; i++)
-    for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
-      celspan_span_colour(&row->spans[i], x, out[x]);
+  frame_rows_close(&rows);
 }
 
 static void check_again(studio *s, celspan_rostrum *rostrum) {
   static float first[WIDTH][4], again[WIDTH][4];
   celspan_exposure exposure = {rostrum, 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.width = WIDTH;
-  desc.film_height = desc.height = HEIGHT;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+  frame_rows rows;
+  frame_rows_open(&rows, s, &desc);
   for (int32_t y = 0; y < HEIGHT; y += 3) {
-    take_row(&worker, y, first);
-    take_row(&worker, y, again);
+    memset(first, 0, sizeof first);
+    memset(again, 0, sizeof again);
+    row_colours(worker_row(&rows.worker, y), first);
+    row_colours(worker_row(&rows.worker, y), again);
     CHECK(memcmp(first, again, sizeof first) == 0);
   }
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
+  frame_rows_close(&rows);
 }
 
 int main(void) {

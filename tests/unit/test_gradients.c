@@ -3,9 +3,8 @@
  */
 #include <stdlib.h>
 
-#include "render/row_worker.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define WIDTH 300
 #define HEIGHT 12
@@ -158,9 +157,12 @@ static double error_of(const gradient *g, const cs_row *row, int32_t y) {
 static celspan_texture *texture_of(studio *s, const gradient *g) {
   celspan_texture *out = NULL;
   switch (g->shape) {
-  case LINEAR: return studio_linear(s, g->points[0], g->points[1], g->stops, STOPS);
-  case RADIAL: return studio_radial(s, g->points[0], radius_of(g), g->stops, STOPS);
-  case TRIANGLE: return studio_gradient(s, g->points, g->paints);
+  case LINEAR:
+    return studio_linear(s, g->points[0], g->points[1], g->stops, STOPS);
+  case RADIAL:
+    return studio_radial(s, g->points[0], radius_of(g), g->stops, STOPS);
+  case TRIANGLE:
+    return studio_gradient(s, g->points, g->paints);
   default:
     studio_check(s, celspan_texture_create_focal(s->context, g->points[0], radius_of(g),
                                                  g->points[2], g->stops, STOPS, &out));
@@ -176,26 +178,15 @@ static celspan_rostrum *show(studio *s, const gradient *g) {
 
 static void check_gradient(studio *s, const gradient *g, celspan_antialias_mode mode, int number) {
   celspan_exposure exposure = {show(s, g), 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.width = WIDTH;
-  desc.film_height = desc.height = HEIGHT;
-  desc.antialias = &mode;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, &mode);
+  frame_rows rows;
   double worst = 0;
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t y = 0; y < HEIGHT; y++) {
-    const cs_row *row = NULL;
-    if (CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-      worst = fmax(worst, error_of(g, row, y));
-  }
+  frame_rows_open(&rows, s, &desc);
+  for (int32_t y = 0; y < HEIGHT; y++)
+    worst = fmax(worst, error_of(g, worker_row(&rows.worker, y), y));
   if (!CHECK_NEAR(worst, 0, 1.0 / 1023))
     fprintf(stderr, "  gradient %d, shape %d, mode %d\n", number, (int)g->shape, (int)mode);
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
+  frame_rows_close(&rows);
 }
 
 int main(void) {

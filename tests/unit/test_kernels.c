@@ -3,65 +3,29 @@
 #include <stdlib.h>
 
 #include "base/elementary.h"
-#include "render/row_worker.h"
 #include "span/row.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define SIDE 40
-
-typedef struct image {
-  int32_t width, height;
-  float (*rgba)[4];
-  uint64_t kinds[3];
-} image;
 
 static celspan_filter_desc filter(celspan_kernel kernel, double radius) {
   return (celspan_filter_desc){.kernel = kernel, .has_radius = radius >= 0, .radius = radius};
 }
 
-static void fill(image *out, int32_t y, const cs_row *row) {
-  for (size_t i = 0; i < row->count; i++) {
-    const celspan_span *span = &row->spans[i];
-    out->kinds[span->kind]++;
-    for (int32_t x = span->x0; x < span->x1; x++)
-      celspan_span_colour(span, x, out->rgba[y * out->width + x]);
-  }
-}
-
-/* Rows in the order first, first + step, ...: what a row holds must not depend on it. */
+/* A part of the frame: the rows 0, step, 2 step .. before the others. kernel: NULL for the default mode. */
 static image make(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc *kernel,
                   int32_t width, int32_t height, int32_t x0, int32_t y0, int32_t step) {
   celspan_exposure exposure = {rostrum, 1};
   celspan_antialias_mode mode = CELSPAN_ANTIALIAS_FILTER;
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.film_height = SIDE;
-  desc.width = desc.height = SIDE;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, SIDE, SIDE, kernel ? &mode : NULL);
   desc.crop_x = x0;
   desc.crop_y = y0;
   desc.crop_width = width;
   desc.crop_height = height;
-  desc.antialias = kernel ? &mode : NULL;
   if (kernel)
     desc.filter = *kernel;
-  image out = {width, height, calloc((size_t)(width * height), sizeof *out.rgba), {0, 0, 0}};
-  cs_frame frame;
-  cs_row_worker worker;
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t first = 0; first < step; first++)
-    for (int32_t y = first; y < height; y += step) {
-      const cs_row *row = NULL;
-      if (CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-        fill(&out, y, row);
-      else
-        fprintf(stderr, "  %s\n", celspan_context_error(&worker.context));
-    }
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
-  return out;
+  return make_image(s, &desc, step);
 }
 
 static image whole(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc *kernel) {
@@ -393,7 +357,8 @@ static void check_door(void) {
   refuse(context, &f, CELSPAN_BAD_ARGUMENT,
          "rostrum: antialias: radius is -1; it must be between 0 and 256");
   f.radius = (double)NAN;
-  refuse(context, &f, CELSPAN_BAD_ARGUMENT, "rostrum: antialias: radius must be a finite number, got nan");
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
+         "rostrum: antialias: radius must be a finite number, got nan");
   f = filter(CELSPAN_KERNEL_FUNCTION, 2);
   double value = 0;
   f.function_user = &value;
@@ -402,9 +367,8 @@ static void check_door(void) {
   refuse(context, &f, CELSPAN_BAD_ARGUMENT,
          "rostrum: antialias: the kernel sums to nothing within its radius of 2");
   value = (double)INFINITY;
-  refuse(
-      context, &f, CELSPAN_BAD_ARGUMENT,
-      "rostrum: antialias: the kernel's value at -1.999023 must be a finite number, got inf");
+  refuse(context, &f, CELSPAN_BAD_ARGUMENT,
+         "rostrum: antialias: the kernel's value at -1.999023 must be a finite number, got inf");
   f.function = no_function;
   refuse(context, &f, CELSPAN_CALLBACK, "no kernel today");
   celspan_context_destroy(context);

@@ -3,8 +3,7 @@
  */
 #include <math.h>
 
-#include "render/row_worker.h"
-#include "tests/support/scene.h"
+#include "tests/support/frame_rows.h"
 
 #define PI 3.14159265358979
 #define DISC 9   /* radius of the shape, pixels */
@@ -15,32 +14,14 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
                     int32_t side) {
   celspan_exposure exposure = {rostrum, 1};
   celspan_antialias_mode mode = CELSPAN_ANTIALIAS_FILTER;
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.film_height = side;
-  desc.width = desc.height = side;
-  desc.antialias = kernel ? &mode : NULL;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, side, side, kernel ? &mode : NULL);
   if (kernel)
     desc.filter = *kernel;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
+  image whole = make_image(s, &desc, 1);
   double sum = 0;
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t y = 0; y < side; y++) {
-    const cs_row *row = NULL;
-    if (!CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-      continue;
-    for (size_t i = 0; i < row->count; i++)
-      for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
-        float rgba[4];
-        celspan_span_colour(&row->spans[i], x, rgba);
-        sum += (double)rgba[3];
-      }
-  }
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
+  for (int32_t i = 0; i < side * side; i++)
+    sum += (double)whole.rgba[i][3];
+  free(whole.rgba);
   return sum;
 }
 

@@ -7,10 +7,9 @@
  */
 #include <stdlib.h>
 
-#include "render/row_worker.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define WIDTH 720
 #define HEIGHT 5
@@ -77,37 +76,27 @@ static celspan_rostrum *show(studio *s, const setting *seen, int32_t shift) {
 
 typedef float pixels[HEIGHT][WIDTH][4];
 
-static void take_row(const cs_row *row, int32_t width, float (*out)[4]) {
+/* The colours of a row that has them in every column, once. */
+static void read_row(const cs_row *row, int32_t width, float (*out)[4]) {
   int32_t x = 0;
   for (size_t i = 0; i < row->count; i++) {
     CHECK(row->spans[i].x0 == x && row->spans[i].x1 > x);
-    for (; x < row->spans[i].x1; x++)
-      celspan_span_colour(&row->spans[i], x, out[x]);
+    x = row->spans[i].x1;
   }
   CHECK(x == width);
+  row_colours(row, out);
 }
 
 /* Makes the columns from x on by a frame that is `width` wide. */
 static void make(studio *s, const setting *seen, int32_t x, int32_t width, pixels out) {
   celspan_exposure exposure = {show(s, seen, x), 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.width = width;
-  desc.film_height = desc.height = HEIGHT;
-  desc.antialias = &seen->mode;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, width, HEIGHT, &seen->mode);
   desc.filter = seen->filter;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  for (int32_t y = 0; y < HEIGHT; y++) {
-    const cs_row *row = NULL;
-    if (CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-      take_row(row, width, out[y] + x);
-  }
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
+  frame_rows rows;
+  frame_rows_open(&rows, s, &desc);
+  for (int32_t y = 0; y < HEIGHT; y++)
+    read_row(worker_row(&rows.worker, y), width, out[y] + x);
+  frame_rows_close(&rows);
   studio_finish(s);
 }
 

@@ -65,13 +65,9 @@ static celspan_status take_row(void *user, celspan_context *context, int32_t y,
 
 static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_codes, sheet *to) {
   celspan_exposure exposure = {rostrum, 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
   celspan_statistics statistics;
   celspan_sink sink = {.user = to, .row = take_row, .takes_codes = takes_codes};
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.width = WIDTH;
-  desc.height = HEIGHT;
   desc.workers = workers;
   desc.strip_rows = 7;
   memset(to, 0, sizeof *to);

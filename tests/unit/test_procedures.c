@@ -2,10 +2,9 @@
  * that lie where spans begin and end. Every pixel is what the probe says of its centre or, antialiased,
  * of all its width.
  */
-#include "render/row_worker.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define WIDTH 40
 #define HEIGHT 3
@@ -61,23 +60,16 @@ static celspan_object *random_rect(studio *s, test_random *random, const stripes
   return studio_rect(s, x0, -10, width, 30, studio_paint(s, random_paint(random)));
 }
 
-static void check_rows(studio *s, celspan_rostrum *rostrum, celspan_antialias_mode mode, int number) {
+static void check_rows(studio *s, celspan_rostrum *rostrum, celspan_antialias_mode mode,
+                       int number) {
   celspan_exposure exposure = {rostrum, 1};
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = &exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.width = WIDTH;
-  desc.film_height = desc.height = HEIGHT;
-  desc.antialias = &mode;
-  cs_frame frame = {0};
-  cs_row_worker worker = {0};
-  const cs_row *row = NULL;
+  celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, &mode);
+  frame_rows rows;
   double worst = 0;
   int parts = mode == CELSPAN_ANTIALIAS_NONE ? 1 : PARTS;
-  studio_check(s, cs_frame_create(s->context, &desc, &frame));
-  studio_check(s, cs_row_worker_init(&worker, s->context, &frame));
-  studio_check(s, cs_row_worker_row(&worker, 1, &row));
-  for (size_t i = 0; row && i < row->count; i++)
+  frame_rows_open(&rows, s, &desc);
+  const cs_row *row = worker_row(&rows.worker, 1);
+  for (size_t i = 0; i < row->count; i++)
     for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
       double sum[4] = {0}, probed[4];
       float rgba[4];
@@ -93,8 +85,7 @@ static void check_rows(studio *s, celspan_rostrum *rostrum, celspan_antialias_mo
     }
   if (!CHECK_NEAR(worst, 0, 1e-6))
     fprintf(stderr, "  scene %d, mode %d\n", number, (int)mode);
-  cs_row_worker_finish(&worker);
-  cs_frame_free(&frame, s->context->memory);
+  frame_rows_close(&rows);
 }
 
 int main(void) {

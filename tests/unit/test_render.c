@@ -62,12 +62,7 @@ static celspan_rostrum *random_rostrum(studio *s, uint64_t seed) {
 
 static celspan_frame_desc frame_of(const celspan_exposure *exposure,
                                    const celspan_antialias_mode *antialias) {
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = exposure;
-  desc.exposure_count = 1;
-  desc.width = WIDTH;
-  desc.height = HEIGHT;
-  desc.antialias = antialias;
+  celspan_frame_desc desc = studio_frame(exposure, 1, WIDTH, HEIGHT, antialias);
   desc.workers = 1;
   return desc;
 }

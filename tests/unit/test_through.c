@@ -5,10 +5,9 @@
 #include "compose/tree_certain.h"
 #include "geometry/matrix.h"
 #include "paint/shade.h"
-#include "render/row_worker.h"
 #include "render/through.h"
+#include "tests/support/frame_rows.h"
 #include "tests/support/random.h"
-#include "tests/support/scene.h"
 
 #define SIDE 256 /* pixels of a frame */
 
@@ -168,14 +167,8 @@ static void test_trees(void) {
 
 static celspan_frame_desc frame_of(celspan_rostrum *rostrum, celspan_exposure *exposure,
                                    const celspan_antialias_mode *mode) {
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   *exposure = (celspan_exposure){rostrum, 1};
-  desc.exposures = exposure;
-  desc.exposure_count = 1;
-  desc.film_width = desc.film_height = SIDE;
-  desc.width = desc.height = SIDE;
-  desc.antialias = mode;
-  return desc;
+  return studio_frame(exposure, 1, SIDE, SIDE, mode);
 }
 
 /* A picture in memory, with a clear pixel or without alpha. */
@@ -239,19 +232,12 @@ static celspan_rostrum *random_scene(void) {
   return studio_rostrum(&s, rostrum, &cel, 1);
 }
 
-/* Renders the rows of a frame at the pixels' centres, RGBA. Returns how many colours were composed.
- */
+/* The colours of a frame at the pixels' centres, RGBA. */
 static void render(const cs_frame *frame, float (*rgba)[4]) {
-  cs_row_worker worker;
+  cs_row_worker worker = {0};
   studio_check(&s, cs_row_worker_init(&worker, s.context, frame));
-  for (int32_t y = 0; y < SIDE; y++) {
-    const cs_row *row = NULL;
-    if (!CHECK(cs_row_worker_row(&worker, y, &row) == CELSPAN_OK))
-      continue;
-    for (size_t i = 0; i < row->count; i++)
-      for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++)
-        celspan_span_colour(&row->spans[i], x, rgba[(size_t)y * SIDE + (size_t)x]);
-  }
+  for (int32_t y = 0; y < SIDE; y++)
+    row_colours(worker_row(&worker, y), rgba + (size_t)y * SIDE);
   cs_row_worker_finish(&worker);
 }
 

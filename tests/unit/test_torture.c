@@ -82,12 +82,7 @@ static celspan_rostrum *make_scene(studio *s, double radius) {
 
 static celspan_frame_desc frame_of(const celspan_exposure *exposures,
                                    const celspan_antialias_mode *mode) {
-  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
-  desc.exposures = exposures;
-  desc.exposure_count = 2;
-  desc.width = WIDTH;
-  desc.height = HEIGHT;
-  desc.antialias = mode;
+  celspan_frame_desc desc = studio_frame(exposures, 2, WIDTH, HEIGHT, mode);
   desc.workers = 1;
   return desc;
 }
