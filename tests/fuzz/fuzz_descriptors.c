@@ -5,6 +5,8 @@
  *
  * A count is the length of the array, 0 with or without an array, or so large that the array would not
  * fit the address space: these are refused before anything is read.
+ *
+ * One file, because every structure is filled in from the same bytes, with the values that others made.
  */
 #include "tests/fuzz/target.h"
 

@@ -1,5 +1,5 @@
 -- Light taken off pictures: what is left, in the light it was taken in and in others; what is kept in
--- files; and what is refused.
+-- files; and what is refused. One file, because all is asked of the same picture in known lights.
 local celspan = require "celspan"
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"

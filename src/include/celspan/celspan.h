@@ -3,7 +3,8 @@
  * The whole public C interface. A program builds a scene from immutable values (textures, objects,
  * cels, a rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into
  * pixels, into a file, or row by row. There is no frame buffer: work and memory follow the number
- * of colour spans, so a frame may be a million pixels a side.
+ * of colour spans, so a frame may be a million pixels a side. One header, because a host takes it
+ * whole: values are made of each other, and every call takes them.
  *
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
