@@ -63,7 +63,8 @@ local function colours_of(colours)
     return wrong("colours must be a number or a list of 1 to 64 colours, got %d", #colours)
   end
   local list = {}
-  for i, colour in ipairs(colours) do
+  for i = 1, #colours do
+    local colour = colours[i]
     list[i] = type(colour) == "string" and whole_colour(colour)
     if not list[i] then
       return wrong("colours[%d] must be a colour like \"#336699\", got %s", i,

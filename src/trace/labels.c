@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-enum { SHADES = 1 << 18, MIXED = 254, UNKNOWN = 253 };
+enum { ASKED_BITS = 16, MIXED = 254, UNKNOWN = 253 };
+#define ASKED_SIZE (sizeof(uint32_t) << ASKED_BITS)
 /* A plain pixel is nearer to its colour than this share of the way to the next one. */
 #define PLAIN 0.2f
 /* A mixture of two colours is this much nearer to the line between them than to any third one. */
@@ -15,7 +16,7 @@ typedef struct work {
   const cs_colours *colours;
   cs_labels *labels;
   float plain[CS_COLOURS_MOST + 1]; /* by label: the square of how far plain pixels may be */
-  unsigned char *shades;            /* labels by the upper 6 bits of the codes, once known */
+  uint32_t *asked; /* codes that were asked, at places of their own, and below them their labels */
 } work;
 
 static float apart(const cs_light4 *a, const cs_light4 *b) {
@@ -61,12 +62,13 @@ static unsigned char label_of(const work *w, int32_t x, int32_t y) {
     return (unsigned char)w->colours->count;
   if (code[3] < 255)
     return MIXED;
-  unsigned char *shade = &w->shades[(code[0] >> 2) << 12 | (code[1] >> 2) << 6 | code[2] >> 2];
-  if (*shade == UNKNOWN) {
+  uint32_t own = (uint32_t)code[0] << 24 | (uint32_t)code[1] << 16 | (uint32_t)code[2] << 8;
+  uint32_t *asked = &w->asked[own * 2654435769u >> (32 - ASKED_BITS)];
+  if ((*asked & 255) == UNKNOWN || (*asked & ~255u) != own) {
     cs_light4 light = cs_scan_light(w->scan, x, y);
-    *shade = plain_label(w, &light);
+    *asked = own | plain_label(w, &light);
   }
-  return *shade;
+  return (unsigned char)*asked;
 }
 
 /* Most pixels are like the one before. */
@@ -174,7 +176,7 @@ static size_t plane_size(const cs_labels *labels) {
 
 static void label_all(const work *w, unsigned char *resolved) {
   cs_labels *labels = w->labels;
-  memset(w->shades, UNKNOWN, SHADES);
+  memset(w->asked, UNKNOWN, ASKED_SIZE);
   label_plain(w);
   label_mixed(w, resolved);
   for (int32_t y = 0; y < labels->height; y++)
@@ -189,24 +191,21 @@ celspan_status cs_labels_make(celspan_context *context, const cs_scan *scan,
   *out = (cs_labels){scan->width, scan->height, (size_t)scan->width + 2, NULL};
   out->plane = cs_mem_resize(memory, NULL, 0, plane_size(out));
   unsigned char *resolved = cs_mem_resize(memory, NULL, 0, pixels);
-  work w = {scan, colours, out, {0}, cs_mem_resize(memory, NULL, 0, SHADES)};
-  bool is_made = out->plane && resolved && w.shades;
+  work w = {scan, colours, out, {0}, cs_mem_resize(memory, NULL, 0, ASKED_SIZE)};
+  bool is_made = out->plane && resolved && w.asked;
   if (is_made) {
     memset(out->plane, CS_LABEL_OUTSIDE, plane_size(out));
     measure_plain(&w);
     label_all(&w, resolved);
   }
-  if (resolved)
-    cs_mem_free(memory, resolved, pixels);
-  if (w.shades)
-    cs_mem_free(memory, w.shades, SHADES);
+  cs_mem_free(memory, resolved, pixels);
+  cs_mem_free(memory, w.asked, ASKED_SIZE);
   if (!is_made)
     cs_labels_finish(out, context);
   return is_made ? CELSPAN_OK : cs_fail_memory(context);
 }
 
 void cs_labels_finish(cs_labels *labels, celspan_context *context) {
-  if (labels->plane)
-    cs_mem_free(context->memory, labels->plane, plane_size(labels));
+  cs_mem_free(context->memory, labels->plane, plane_size(labels));
   labels->plane = NULL;
 }

@@ -71,6 +71,18 @@ describe("trace.picture", function()
     assert.equal(codes(image, 6, 5, 3), codes(art.object, 6, 5, 3))
   end)
 
+  it_traces("tells colours apart that hardly differ, wherever each comes first", function()
+    local near = { ["#"] = "#434343", [" "] = "#404040" }
+    for i, rows in ipairs { { "    ####", "    ####" }, { "####    ", "####    " } } do
+      local art = assert(trace.picture(write(rows, near, i .. ".png"),
+        { colours = { "#404040", "#434343" }, smooth = 0, speckle = 0 }))
+      local found = {}
+      for k, shape in ipairs(art.shapes) do found[k] = shape.colour .. " " .. shape.area end
+      table.sort(found)
+      assert.same({ "#404040 8", "#434343 8" }, found)
+    end
+  end)
+
   it_traces("leaves what is clear clear", function()
     local path = write({ "......", ".####.", ".####.", ".####.", "......" }, two)
     local art = assert(trace.picture(path, { smooth = 0 }))
@@ -278,7 +290,8 @@ describe("options of trace.picture", function()
       ["unknown field 'colors'; did you mean 'colours'?"] = { colors = 3 },
       ["colours must be a whole number from 1 to 64, got 0"] = { colours = 0 },
       ["colours must be a whole number from 1 to 64, got 2.5"] = { colours = 2.5 },
-      ["colours[2] must be a colour like"] = { colours = { "#fff", "red" } },
+      ["colours[2] must be a colour like \"#336699\", got \"red\""] = { colours = { "#fff", "red" } },
+      ["colours[2] must be a colour like \"#336699\", got nil"] = { colours = { "#fff", nil, "#000" } },
       ["smooth must be from 0 to 16, got 17"] = { smooth = 17 },
       ["speckle must be a whole number from 0"] = { speckle = -1 },
       ["field 'lines' must be a boolean, got number"] = { lines = 1 },
