@@ -47,6 +47,12 @@ typedef struct cs_borders {
   size_t direction_count, direction_capacity;
 } cs_borders;
 
+/* Whether a chain is part of the rim of the picture. */
+static inline bool cs_chain_is_rim(const cs_chain *chain) {
+  return chain->left == CS_REGION_OUTSIDE || chain->right == CS_REGION_OUTSIDE;
+}
+
+/* What a direction adds to x and to y. */
 static inline int32_t cs_border_x(int direction) {
   return direction == 0 ? 1 : direction == 2 ? -1 : 0;
 }

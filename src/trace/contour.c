@@ -58,8 +58,9 @@ static celspan_status add_at(const drawer *d, const cs_station *place, celspan_p
 
 static size_t step_count(const drawer *d) {
   double length = 0;
-  for (size_t i = 0; i + 1 < d->shape->point_count; i++) {
-    celspan_point a = d->shape->points[i], b = d->shape->points[i + 1];
+  size_t count = d->shape->point_count;
+  for (size_t i = 0; i + !d->shape->is_closed < count; i++) {
+    celspan_point a = d->shape->points[i], b = d->shape->points[(i + 1) % count];
     length += sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
   }
   double steps = length / STEP + 4;

@@ -82,15 +82,11 @@ static celspan_status follow_edge(const maker *m, const cs_chain *chain, cs_poin
   return cs_fit_open(m->context, points, &m->rules, &m->out->pieces);
 }
 
-static bool is_rim(const cs_chain *chain) {
-  return chain->left == CS_REGION_OUTSIDE || chain->right == CS_REGION_OUTSIDE;
-}
-
 static celspan_status make_curve(const maker *m, const cs_chain *chain, cs_curve *curve) {
   cs_points points = {.items = NULL};
   bool is_few = chain->from == CS_NODE_NONE && chain->count < FEW_SIDES;
   curve->first = m->out->pieces.count;
-  celspan_status status = m->is_exact || is_few || is_rim(chain)
+  celspan_status status = m->is_exact || is_few || cs_chain_is_rim(chain)
                               ? follow_pixels(m, chain, &points, &curve->start)
                               : follow_edge(m, chain, &points, &curve->start);
   curve->count = m->out->pieces.count - curve->first;

@@ -69,16 +69,12 @@ static celspan_point least(const sums *s, const cs_node *node, const cs_labels *
   return (celspan_point){node->x + held * x, node->y + held * y};
 }
 
-static bool is_rim(const cs_chain *chain) {
-  return chain->left == CS_REGION_OUTSIDE || chain->right == CS_REGION_OUTSIDE;
-}
-
 static celspan_status place(celspan_context *context, const cs_material *material,
                             const cs_borders *borders, const cs_node *node, celspan_point *out) {
   sums s = {CORNER, 0, CORNER, 0, 0};
   for (int direction = 0; direction < 4; direction++) {
     cs_way way = node->out[direction];
-    if (way != CS_WAY_NONE && !is_rim(&borders->chains[way / 2]))
+    if (way != CS_WAY_NONE && !cs_chain_is_rim(&borders->chains[way / 2]))
       CS_TRY(add_way(context, material, borders, node, way, &s));
   }
   *out = least(&s, node, material->labels);

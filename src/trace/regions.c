@@ -165,12 +165,10 @@ celspan_status cs_regions_make(celspan_context *context, const cs_material *mate
 
 void cs_regions_finish(cs_regions *regions, celspan_context *context) {
   cs_memory *memory = context->memory;
-  if (regions->list)
-    cs_mem_free(memory, regions->list, regions->count * sizeof *regions->list);
-  if (regions->runs)
+  cs_mem_free(memory, regions->list, regions->count * sizeof *regions->list);
+  if (regions->runs) /* else there may be no rows that tell how many */
     cs_mem_free(memory, regions->runs, run_count(regions) * sizeof *regions->runs);
-  if (regions->rows)
-    cs_mem_free(memory, regions->rows, ((size_t)regions->height + 1) * sizeof *regions->rows);
+  cs_mem_free(memory, regions->rows, ((size_t)regions->height + 1) * sizeof *regions->rows);
   *regions = (cs_regions){.rows = NULL};
 }
 

@@ -60,7 +60,6 @@ celspan_status cs_scan_read(celspan_context *context, const cs_picture *picture,
 }
 
 void cs_scan_finish(cs_scan *scan, celspan_context *context) {
-  if (scan->codes)
-    cs_mem_free(context->memory, scan->codes, bytes_of(scan));
+  cs_mem_free(context->memory, scan->codes, bytes_of(scan));
   scan->codes = NULL;
 }

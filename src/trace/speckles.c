@@ -88,12 +88,9 @@ static celspan_status drop_round(celspan_context *context, sweeper *s, bool *has
   s->run_rows = cs_mem_array(memory, runs, sizeof *s->run_rows);
   bool is_made = s->first && s->next && s->run_rows;
   *has_changed = is_made && drop_once(s);
-  if (s->first)
-    cs_mem_free(memory, s->first, regions * sizeof *s->first);
-  if (s->next)
-    cs_mem_free(memory, s->next, runs * sizeof *s->next);
-  if (s->run_rows)
-    cs_mem_free(memory, s->run_rows, runs * sizeof *s->run_rows);
+  cs_mem_free(memory, s->first, regions * sizeof *s->first);
+  cs_mem_free(memory, s->next, runs * sizeof *s->next);
+  cs_mem_free(memory, s->run_rows, runs * sizeof *s->run_rows);
   cs_regions_finish(&s->regions, context);
   return is_made ? CELSPAN_OK : cs_fail_memory(context);
 }

@@ -1,11 +1,8 @@
 #include "trace/text.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { LINE = 512 }; /* bytes of what is printed at once */
 
 static celspan_status add(celspan_context *context, cs_writing *writing, const char *bytes,
                           size_t size) {
@@ -21,19 +18,7 @@ celspan_status cs_writing_add(celspan_context *context, cs_writing *writing, con
   return add(context, writing, text, strlen(text));
 }
 
-celspan_status cs_writing_print(celspan_context *context, cs_writing *writing, const char *format,
-                                ...) {
-  char line[LINE];
-  va_list list;
-  va_start(list, format);
-  int size = vsnprintf(line, sizeof line, format, list);
-  va_end(list);
-  if (size < 0 || size >= (int)sizeof line)
-    return cs_fail(context, CELSPAN_INTERNAL, "trace: a line of %d bytes is too long", size);
-  return add(context, writing, line, (size_t)size);
-}
-
-/* Integers only, so that no locale has a part in it. */
+/* Integers only, so that no locale has a part in it; how long the text is, without its zero. */
 static size_t put_number(char *out, double number) {
   int64_t thousandths = (int64_t)floor(number * 1000 + 0.5);
   size_t size = 0;

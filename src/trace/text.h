@@ -1,4 +1,4 @@
-/* Texts that are written piece by piece: path data, and whole files.
+/* Path data, written piece by piece, and the decimals that it is made of.
  *
  * INVARIANT: a coordinate is written as a decimal of at most three places, which stands for the same
  * number when it is read again.
@@ -16,9 +16,6 @@ typedef struct cs_writing {
 /* Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_writing_add(celspan_context *context, cs_writing *writing,
                                               const char *text);
-CELSPAN_CHECKED celspan_status cs_writing_print(celspan_context *context, cs_writing *writing,
-                                                const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
 /* A letter, then points, which are whole multiples of 1/1000. */
 CELSPAN_CHECKED celspan_status cs_writing_draw(celspan_context *context, cs_writing *writing,
                                                char letter, const celspan_point *points, int count);
