@@ -378,7 +378,8 @@ describe("a sheet", function()
     assert.is_truthy(message:find('layer "A" shows "3" at frame 7', 1, true), message)
   end)
 
-  it("gives the files of a pattern", function()
+  local it_reads_pictures = present.pictures() and it or pending
+  it_reads_pictures("gives the files of a pattern", function()
     assert(os.execute("mkdir -p " .. folder .. "/A2b"))
     local pixel = celspan.pixels(celspan.rostrum { back = "#fff" }, { size = { 2, 2 } })
     for pattern, file in pairs { ["hand_####.png"] = "hand_0002b.png", ["*/x#.png"] = "A2b/x#.png",
