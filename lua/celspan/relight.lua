@@ -305,6 +305,7 @@ end
 ---@return celspan.image? image
 ---@return string? message
 function methods:light(changes)
+  fields.self("relight", Stack, self, "light")
   local self_behind = behind[self]
   local lights, keys = table.move(self_behind.own, 1, #self_behind.own, 1, {}), {}
   if changes ~= nil and type(changes) ~= "table" then
@@ -313,7 +314,7 @@ function methods:light(changes)
   for key in pairs(changes or {}) do keys[#keys + 1] = key end
   table.sort(keys, function(a, b) -- places count more than names, and cels more than the rostrum
     if type(a) ~= type(b) then return type(a) == "string" end
-    return a < b
+    return (type(a) == "string" or type(a) == "number") and a < b
   end)
   for _, key in ipairs(keys) do
     fields.check("relight: light", changes[key], { front = "any", back = "any" })

@@ -95,7 +95,7 @@ static celspan_status estimate_from_pigment(celspan_context *context, cs_origina
   CS_TRY(check_means(context, original, is_patch ? "the patch" : "the picture", &m, is_patch));
   for (int c = 0; c < 3; c++)
     field->colour[c] = m.sum[c] / m.alpha / desc->colour[c];
-  return cs_light_field_check(context, cs_picture_name(original->picture), field);
+  return CELSPAN_OK;
 }
 
 static void scale_to_mean(const double mean[3], celspan_light_field *field) {
@@ -144,11 +144,15 @@ static celspan_status fit_terms(celspan_context *context, const celspan_light_es
 
 static celspan_status estimate(celspan_context *context, const celspan_light_estimate_desc *desc,
                                cs_original *original, celspan_light_field *field) {
+  const char *name = cs_picture_name(original->picture);
   CS_TRY(fit_terms(context, desc, original, field));
-  if (desc->clue != CELSPAN_LIGHT_CLUE_LIGHT)
-    return estimate_from_pigment(context, original, desc, field);
-  scale_to_mean(desc->colour, field);
-  return CELSPAN_OK;
+  CS_TRY(
+      cs_light_field_check(context, name, field)); /* the picture, or the mean, is divided by it */
+  if (desc->clue == CELSPAN_LIGHT_CLUE_LIGHT)
+    scale_to_mean(desc->colour, field);
+  else
+    CS_TRY(estimate_from_pigment(context, original, desc, field));
+  return cs_light_field_check(context, name, field);
 }
 
 celspan_status celspan_light_estimate(celspan_context *context,

@@ -107,11 +107,13 @@ static celspan_status check_file(celspan_context *context, const celspan_texture
   celspan_picture_info paint, medium;
   const char *name = cs_picture_name(texture->variation->picture);
   CS_TRY(cs_store_info(context, texture->variation->picture, &paint));
-  if (cs_store_info(context, texture->variation->medium, &medium) != CELSPAN_OK)
+  celspan_status status = cs_store_info(context, texture->variation->medium, &medium);
+  if (status != CELSPAN_OK && status != CELSPAN_NO_MEMORY)
     return cs_fail(context, CELSPAN_INPUT,
                    "%s: is not a relit picture: its light has not been taken off, so it has no "
                    "channels medium.R, medium.G and medium.B",
                    name);
+  CS_TRY(status);
   if (!paint.has_alpha)
     return cs_fail(context, CELSPAN_INPUT, "%s: is not a relit picture: it has no channel A", name);
   return CELSPAN_OK;

@@ -21,12 +21,12 @@
 #define MOST 65504.0
 /* How far T may be outside 0..1, and S below 0, by noise. */
 #define NOISE 0.02
-/* The share of pixels that may be farther off: glints, a hair that moved. */
+/* The share of values that may be farther off: glints, a hair that moved. */
 #define FEW 0.01
 /* Grounds that differ by less tell nothing of what is before them. */
 #define LEAST_CONTRAST 0.02
 
-/* Pixels of which one channel is impossible. */
+/* Values, each of one channel of a pixel, that are impossible. */
 typedef struct doubts {
   int64_t count;
   double worst, distance; /* the farthest value, and how far it is */

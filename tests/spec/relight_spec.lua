@@ -411,6 +411,7 @@ describe("relight.stack", function()
     local cases = {
       { { lmap = {} }, 'light: there is no cel "lmap"; did you mean "lamp"?' },
       { { [3] = {} }, "light: there is no cel 3" },
+      { { [{}] = {}, [{ 1 }] = {} }, "light: there is no cel table" },
       { { lamp = { front = "red" } },
         'light[1].front must be {r, g, b} or a colour like "#ffe0b0", got "red"' },
       { { lamp = { front = { 1, -1, 0 } } }, "light[1].front[2] must be 0 or more, got -1" },
@@ -420,6 +421,8 @@ describe("relight.stack", function()
     for _, case in ipairs(cases) do
       assert.are.equal("relight: " .. case[2], (raised(function() stack:light(case[1]) end)))
     end
+    assert.are.equal("relight: light: call it as a method, value:light(...), got table",
+      (raised(function() stack.light({}) end)))
   end)
 end)
 

@@ -257,6 +257,28 @@ static void estimates_are_checked(celspan_context *context, celspan_texture *pic
   CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
 }
 
+/* Half of it almost dark and half brighter than any paper: no field that can be divided by is like
+ * that, whatever else is known of the light. */
+static void fields_that_are_too_uneven_are_refused(celspan_context *context) {
+  celspan_light_estimate_desc desc = CELSPAN_LIGHT_ESTIMATE_DESC;
+  celspan_light_field found;
+  celspan_texture *halves = NULL;
+  for (int i = 0; i < COUNT; i++)
+    for (int c = 0; c < 4; c++)
+      room[0][i][c] = c == 3 ? 1 : i % WIDTH < WIDTH / 2 ? 1e-4f : 60000;
+  if (!CHECK(make_texture(context, room[0], HEIGHT, &halves) == CELSPAN_OK))
+    return;
+  desc.picture = halves;
+  desc.is_uneven = true;
+  for (int clue = CELSPAN_LIGHT_CLUE_GREY; clue <= CELSPAN_LIGHT_CLUE_LIGHT; clue++) {
+    desc.clue = (celspan_light_clue)clue;
+    desc.patch = (celspan_box){0, 0, WIDTH, HEIGHT};
+    CHECK(celspan_light_estimate(context, &desc, &found) == CELSPAN_BAD_ARGUMENT);
+    CHECK(strstr(celspan_context_error(context), "the terms of the light's red must not sum"));
+  }
+  celspan_texture_unref(halves);
+}
+
 static void refusals(celspan_context *context) {
   celspan_texture *picture;
   light_card(lamp, none, room[0]);
@@ -452,6 +474,7 @@ int main(void) {
   make_card();
   both_ways_find_the_card(context);
   fields_are_fitted(context);
+  fields_that_are_too_uneven_are_refused(context);
   refusals(context);
   stacks_take_any_light(context);
   celspan_context_destroy(context);
