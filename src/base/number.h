@@ -34,6 +34,9 @@ static inline double cs_number_clamp(double x, double low, double high) {
   return x < low ? low : x > high ? high : x;
 }
 
+/* The length of a vector, with the same bits everywhere, which hypot does not promise. */
+static inline double cs_number_length(double x, double y) { return sqrt(x * x + y * y); }
+
 /* The lesser and the greater of two numbers without a branch, for places where no branch can be
  * predicted; b where one of them is NaN. */
 static inline double cs_number_least(double a, double b) {

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "geometry/matrix.h"
 #include "svg/shapes.h"
 
@@ -43,7 +44,7 @@ static celspan_point plain(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y 
 
 /* The unit vector from a to b; false when they are the same point. */
 static bool direction(celspan_point a, celspan_point b, celspan_point *out) {
-  double x = b.x - a.x, y = b.y - a.y, length = sqrt(x * x + y * y);
+  double x = b.x - a.x, y = b.y - a.y, length = cs_number_length(x, y);
   if (!(length > 0))
     return false;
   *out = (celspan_point){x / length, y / length};

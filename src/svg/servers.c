@@ -79,7 +79,7 @@ static celspan_status read_linear(gradient *g) {
 /* A focus lies inside the circle; on its edge there would be no end to what it sends out. */
 static void hold_focus(gradient *g) {
   double dx = g->from.x - g->to.x, dy = g->from.y - g->to.y;
-  double distance = sqrt(dx * dx + dy * dy), most = FOCUS_SHARE * g->outer;
+  double distance = cs_number_length(dx, dy), most = FOCUS_SHARE * g->outer;
   if (distance > most && most >= 0)
     g->from = (celspan_point){g->to.x + dx / distance * most, g->to.y + dy / distance * most};
 }

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
 #include "base/number.h"
 #include "stroke/curve.h"
 #include "svg/shapes.h"
@@ -106,6 +107,6 @@ celspan_point cs_svg_way_at(const cs_svg_way *way, double distance, double *degr
   cs_curve_line_at(&line, t, &point, &velocity);
   if (velocity.x == 0 && velocity.y == 0)
     velocity = cs_curve_departure(&line);
-  *degrees = atan2(velocity.y, velocity.x) * DEGREES;
+  *degrees = cs_elementary_atan2(velocity.y, velocity.x) * DEGREES;
   return point;
 }

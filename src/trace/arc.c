@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* Steps of Newton's method towards the least error, which is near 0. */
 enum { STEPS = 8 };
 /* An arc of a larger radius, in pixels, is a line; so are points that are no farther off one than
@@ -88,7 +90,7 @@ static cs_arc line_of(const cs_arc_sums *s, const moments *m) {
   double half = 0.5 * (m->xx - m->yy), root = sqrt(half * half + m->xy * m->xy);
   /* Across the points: the direction of the lesser eigenvalue. */
   double nx = half > 0 ? -m->xy : root - half, ny = half > 0 ? root + half : -m->xy;
-  double length = sqrt(nx * nx + ny * ny);
+  double length = cs_number_length(nx, ny);
   nx = length > 0 ? nx / length : 0;
   ny = length > 0 ? ny / length : 1;
   return (cs_arc){.origin = {s->origin.x + m->x, s->origin.y + m->y}, .across = {nx, ny}};

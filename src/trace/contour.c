@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/number.h"
 #include "trace/spline.h"
 
 #define PI 3.14159265358979323846
@@ -39,7 +40,7 @@ static cs_station along_at(const drawer *d, double parameter, celspan_point *alo
     after = after > 1 ? 1 : after;
   }
   cs_station a = station_at(d, before), b = station_at(d, after);
-  double dx = b.v[0] - a.v[0], dy = b.v[1] - a.v[1], length = sqrt(dx * dx + dy * dy);
+  double dx = b.v[0] - a.v[0], dy = b.v[1] - a.v[1], length = cs_number_length(dx, dy);
   *along = length > 0 ? (celspan_point){dx / length, dy / length} : (celspan_point){1, 0};
   return station_at(d, parameter);
 }
@@ -61,7 +62,7 @@ static size_t step_count(const drawer *d) {
   size_t count = d->shape->point_count;
   for (size_t i = 0; i + !d->shape->is_closed < count; i++) {
     celspan_point a = d->shape->points[i], b = d->shape->points[(i + 1) % count];
-    length += sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+    length += cs_number_length(a.x - b.x, a.y - b.y);
   }
   double steps = length / STEP + 4;
   return steps < MOST_POINTS ? (size_t)steps : MOST_POINTS;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "trace/stretches.h"
 
 /* Points on either side of doubtful ones that are taken apart with them. */
@@ -66,7 +67,7 @@ static celspan_point direction_at(const cs_arc *arc, celspan_point point, celspa
                                   int step) {
   celspan_point across;
   (void)cs_arc_off(arc, point, &across);
-  double length = sqrt(across.x * across.x + across.y * across.y);
+  double length = cs_number_length(across.x, across.y);
   celspan_point along = {-across.y / length, across.x / length};
   double ahead = along.x * (point.x - seen.x) + along.y * (point.y - seen.y);
   double sign = ahead * step < 0 ? -1 : 1;

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* Times that parameters are brought to the curve; points that are asked in doing so, at most. */
 enum { ROUNDS = 4, ASKED = 40 };
 /* What is so many times as far away as is allowed will not come near. */
@@ -34,18 +36,16 @@ static celspan_point bend_at(const cubic *c, double t) {
 
 /* ---------------------------------------------------------------- parameters */
 
-static double length(double dx, double dy) { return sqrt(dx * dx + dy * dy); }
-
 static void begin_parameters(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
                              double *parameters) {
   double sum = 0;
   celspan_point from = ends[0].point;
   for (size_t i = 0; i < count; i++) {
-    sum += length(points[i].x - from.x, points[i].y - from.y);
+    sum += cs_number_length(points[i].x - from.x, points[i].y - from.y);
     parameters[i] = sum;
     from = points[i];
   }
-  sum += length(ends[1].point.x - from.x, ends[1].point.y - from.y);
+  sum += cs_number_length(ends[1].point.x - from.x, ends[1].point.y - from.y);
   for (size_t i = 0; i < count; i++)
     parameters[i] = sum > 0 ? parameters[i] / sum : 0;
 }
@@ -128,7 +128,7 @@ static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, 
 /* A third of the way to the other end. */
 static void place_plainly(const cs_cubic_end ends[2], celspan_point control[2]) {
   double dx = (ends[1].point.x - ends[0].point.x) / 3, dy = (ends[1].point.y - ends[0].point.y) / 3;
-  double third = length(dx, dy);
+  double third = cs_number_length(dx, dy);
   for (int i = 0; i < 2; i++) {
     double sign = i == 0 ? 1 : -1;
     celspan_point along = {sign * dx, sign * dy};
@@ -141,10 +141,11 @@ static void place_plainly(const cs_cubic_end ends[2], celspan_point control[2]) 
 /* Whether control points are where a curve along the points can have them: before their ends, and not
  * beyond reason. */
 static bool is_sound(const cs_cubic_end ends[2], const celspan_point control[2]) {
-  double chord = length(ends[1].point.x - ends[0].point.x, ends[1].point.y - ends[0].point.y);
+  double chord =
+      cs_number_length(ends[1].point.x - ends[0].point.x, ends[1].point.y - ends[0].point.y);
   for (int i = 0; i < 2; i++) {
     double dx = control[i].x - ends[i].point.x, dy = control[i].y - ends[i].point.y;
-    if (length(dx, dy) > 2 * chord + 1)
+    if (cs_number_length(dx, dy) > 2 * chord + 1)
       return false;
     if (ends[i].has_tangent && dx * ends[i].tangent.x + dy * ends[i].tangent.y < 0)
       return false;
@@ -177,7 +178,7 @@ static void place_controls(const sums *s, const cs_cubic_end ends[2], celspan_po
 
 static double far_from(const cubic *c, celspan_point point, double t) {
   celspan_point at = point_at(c, t);
-  return length(at.x - point.x, at.y - point.y);
+  return cs_number_length(at.x - point.x, at.y - point.y);
 }
 
 /* How far points are off: the farthest, and root mean square. */

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* Shares that count as none, and as all. */
 #define NONE 0.03f
 #define ALL 0.97f
@@ -179,7 +181,7 @@ static bool goes_on(const cs_points *points, celspan_point point, celspan_point 
   if (points->count == 0)
     return true;
   celspan_point last = points->items[points->count - 1];
-  double length = sqrt(way.x * way.x + way.y * way.y);
+  double length = cs_number_length(way.x, way.y);
   return (point.x - last.x) * way.x + (point.y - last.y) * way.y >= LEAST_STEP * length;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "trace/cubic.h"
 #include "trace/stretches.h"
 
@@ -63,17 +64,17 @@ typedef struct part {
   double *parameters; /* room, for each point */
   size_t *ends;       /* points at which pieces end; room for all */
   size_t end_count;
-  bool is_ring;       /* its ends are one joint, not corners */
+  bool is_ring; /* its ends are one joint, not corners */
   cs_pieces *out;
 } part;
 
 static double apart(celspan_point a, celspan_point b) {
-  return sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+  return cs_number_length(a.x - b.x, a.y - b.y);
 }
 
 /* How far a point is from the line through two others. */
 static double off_line(celspan_point from, celspan_point to, celspan_point point) {
-  double dx = to.x - from.x, dy = to.y - from.y, length = sqrt(dx * dx + dy * dy);
+  double dx = to.x - from.x, dy = to.y - from.y, length = cs_number_length(dx, dy);
   if (length < 1e-9)
     return apart(from, point);
   return fabs((point.x - from.x) * dy - (point.y - from.y) * dx) / length;
@@ -128,7 +129,7 @@ static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
   cs_arc arc = cs_arc_of(&sums, is_line(p, &sums));
   out->point = cs_arc_nearest(&arc, items[i]);
   (void)cs_arc_off(&arc, out->point, &across);
-  double length = sqrt(across.x * across.x + across.y * across.y);
+  double length = cs_number_length(across.x, across.y);
   bool is_back = across.x * (after.y - before.y) - across.y * (after.x - before.x) < 0;
   length = is_back ? -length : length;
   out->tangent = (celspan_point){-across.y / length, across.x / length};

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/sort.h"
 #include "trace/branches.h"
 #include "trace/spline.h"
@@ -131,7 +132,7 @@ static void make_even(line *n, int values, int rounds) {
 static celspan_point along_at(const line *n, size_t i) {
   const double *a = n->places[wrap(n, (ptrdiff_t)i - 3)].v;
   const double *b = n->places[wrap(n, (ptrdiff_t)i + 3)].v;
-  double dx = b[0] - a[0], dy = b[1] - a[1], length = sqrt(dx * dx + dy * dy);
+  double dx = b[0] - a[0], dy = b[1] - a[1], length = cs_number_length(dx, dy);
   return length > 0 ? (celspan_point){dx / length, dy / length} : (celspan_point){1, 0};
 }
 
@@ -211,7 +212,7 @@ static double area_of(const line *n) {
   double sum = 0;
   for (size_t i = 0; i + 1 < n->count; i++) {
     const double *a = n->places[i].v, *b = n->places[i + 1].v;
-    sum += a[2] * sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]));
+    sum += a[2] * cs_number_length(a[0] - b[0], a[1] - b[1]);
   }
   return sum;
 }

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* Points between these distances from the corner are fitted; the sides of that way. */
 #define NEAREST 1.2
 #define FARTHEST 6.0
@@ -19,7 +21,7 @@ static void add_line(sums *s, const cs_points *points, const cs_node *node) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
   for (size_t i = 0; i < points->count; i++) {
     double x = points->items[i].x - node->x, y = points->items[i].y - node->y;
-    double far = sqrt(x * x + y * y);
+    double far = cs_number_length(x, y);
     if (far < NEAREST || far > FARTHEST)
       continue;
     n++, mx += x, my += y, xx += x * x, xy += x * y, yy += y * y;
@@ -31,7 +33,7 @@ static void add_line(sums *s, const cs_points *points, const cs_node *node) {
   /* The direction across the points: that of the lesser eigenvalue. */
   double half = 0.5 * (xx - yy), root = sqrt(half * half + xy * xy);
   double nx = half > 0 ? -xy : root - half, ny = half > 0 ? root + half : -xy;
-  double length = sqrt(nx * nx + ny * ny);
+  double length = cs_number_length(nx, ny);
   if (length < 1e-9)
     return;
   nx /= length, ny /= length;
@@ -65,7 +67,7 @@ static celspan_point least(const sums *s, const cs_node *node, const cs_labels *
     y = 0;
     x = node->x == 0 || node->x == labels->width ? 0 : s->x / s->xx;
   }
-  double far = sqrt(x * x + y * y), held = far > CS_NODE_FAR ? CS_NODE_FAR / far : 1;
+  double far = cs_number_length(x, y), held = far > CS_NODE_FAR ? CS_NODE_FAR / far : 1;
   return (celspan_point){node->x + held * x, node->y + held * y};
 }
 

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
+
 enum { DEGREE = 3, STEPS = 80 };
 
 typedef struct fitter {
@@ -70,7 +72,7 @@ static void set_parameters(fitter *f) {
     f->parameters[i] = sum;
     const double *a = f->stations[i].v, *b = f->stations[i == last ? 0 : i + 1].v;
     if (i < last || f->is_closed)
-      sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]));
+      sum += cs_number_length(a[0] - b[0], a[1] - b[1]);
   }
   for (size_t i = 0; i <= last; i++)
     f->parameters[i] = sum > 0 ? f->parameters[i] / sum : 0;

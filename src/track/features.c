@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/number.h"
 #include "base/sort.h"
 
 #define SQUARE 3            /* the radius over which slopes are summed */
@@ -93,7 +94,7 @@ static size_t spread(const candidate *list, size_t count, double apart, celspan_
   for (size_t i = 0; i < count && taken < CS_FEATURES_MOST; i++) {
     bool is_free = (double)list[i].strength >= LEAST_SHARE * (double)list[0].strength;
     for (size_t k = 0; k < taken && is_free; k++)
-      is_free = hypot(out[k].x - list[i].x, out[k].y - list[i].y) >= apart;
+      is_free = cs_number_length(out[k].x - list[i].x, out[k].y - list[i].y) >= apart;
     if (is_free)
       out[taken++] = (celspan_point){list[i].x, list[i].y};
   }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/number.h"
 #include "base/splitmix.h"
 
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
@@ -129,7 +130,7 @@ static double distance(const celspan_matrix *matrix, const cs_motion_pair *pair)
   celspan_point there;
   if (!cs_motion_apply(matrix, pair->from, &there))
     return INFINITY;
-  return hypot(there.x - pair->to.x, there.y - pair->to.y);
+  return cs_number_length(there.x - pair->to.x, there.y - pair->to.y);
 }
 
 /* ---------------------------------------------------------------- who agrees */
@@ -222,7 +223,7 @@ static frame frame_of(const cs_motion_pair *pairs, size_t count) {
     f.y += pairs[i].from.y / (double)count;
   }
   for (size_t i = 0; i < count; i++)
-    f.scale += hypot(pairs[i].from.x - f.x, pairs[i].from.y - f.y) / (double)count;
+    f.scale += cs_number_length(pairs[i].from.x - f.x, pairs[i].from.y - f.y) / (double)count;
   f.scale = f.scale > 1e-6 ? f.scale : 1;
   return f;
 }

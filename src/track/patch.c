@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 enum { MOST_STEPS = 25, WIDE_SIDE = CS_PATCH_SIDE + 2 };
 
 #define SETTLED 0.002        /* pixels: a step shorter than this is the last */
@@ -107,7 +109,7 @@ static void find_step(const cs_patch *patch, const float *there, double gain, do
   }
   step[0] = patch->inverse[0] * x + patch->inverse[1] * y;
   step[1] = patch->inverse[1] * x + patch->inverse[2] * y;
-  double length = hypot(step[0], step[1]);
+  double length = cs_number_length(step[0], step[1]);
   if (length > LONGEST_STEP) {
     step[0] *= LONGEST_STEP / length;
     step[1] *= LONGEST_STEP / length;
@@ -135,7 +137,7 @@ bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place 
     find_step(patch, there, patch->deviation / deviation, step);
     place->x -= place->a * step[0] + place->b * step[1];
     place->y -= place->c * step[0] + place->d * step[1];
-    if (hypot(step[0], step[1]) < SETTLED)
+    if (cs_number_length(step[0], step[1]) < SETTLED)
       return true;
   }
   return *likeness > 0.9; /* it goes to and fro about the place by less than it matters */

@@ -17,6 +17,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "track/features.h"
 #include "track/motion.h"
 #include "track/patch.h"
@@ -106,7 +107,7 @@ static bool comes_back(const celspan_tracker *tracker, const cs_planes *frame, s
   double likeness;
   return cs_patch_take(&frame->levels[0], &square, &patch) &&
          cs_patch_find(&patch, &tracker->first.levels[0], &back, &likeness) &&
-         hypot(back.x - corner.x, back.y - corner.y) <= FARTHEST_BACK;
+         cs_number_length(back.x - corner.x, back.y - corner.y) <= FARTHEST_BACK;
 }
 
 /* Pairs of corners and where they are found. in_frame: how many the motion puts into the frame. */

@@ -176,6 +176,16 @@ describe("the library", function()
     end
   end)
 
+  it("has no mathematics but its own and what is exact", function()
+    local names = wanted_by(OBJECTS .. " ! -path '*oiio*' ! -path '*sandbox*'")
+    if not names.memcpy then return pending "nm, which lists calls, does not work" end
+    for name in ([[sin cos sincos tan asin acos atan atan2 sinh cosh tanh exp exp2 expm1 log log2 log10
+      log1p pow cbrt hypot erf]]):gmatch "%S+" do
+      assert.is_nil(names[name], name)
+      assert.is_nil(names[name .. "f"], name .. "f")
+    end
+  end)
+
   it("has no variables of its own", function()
     if is_instrumented() then return pending "the build has more in it than the library" end
     local seen = 0
