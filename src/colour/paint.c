@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/hex.h"
 #include "base/number.h"
 #include "colour/transfer.h"
 
@@ -34,20 +35,13 @@ celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u) {
   return mix;
 }
 
-static int hex_digit(char c) {
-  return c >= '0' && c <= '9'   ? c - '0'
-         : c >= 'a' && c <= 'f' ? c - 'a' + 10
-         : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                : -1;
-}
-
 bool celspan_paint_parse(const char *text, celspan_paint *out) {
   size_t length = text && text[0] == '#' ? strlen(text + 1) : 0;
   if (length != 3 && length != 6 && length != 8)
     return false;
   int digits[8];
   for (size_t i = 0; i < length; i++)
-    if ((digits[i] = hex_digit(text[1 + i])) < 0)
+    if ((digits[i] = cs_hex_digit(text[1 + i])) < 0)
       return false;
   int codes[4] = {0, 0, 0, 255};
   for (size_t i = 0; i < (length == 8 ? 4u : 3u); i++)

@@ -23,6 +23,11 @@ celspan_svg *celspan_svg_ref(celspan_svg *svg) {
   return svg;
 }
 
+void cs_svg_mask_drop(cs_svg_mask *mask) {
+  for (size_t i = 0; mask && i < mask->count; i++)
+    celspan_object_unref(mask->shapes[i]);
+}
+
 /* Drops what items hold, not the items. Recursion: the depth of items, which that of the document
  * limits. */
 void cs_svg_item_drop(cs_svg_item *item) {
@@ -31,8 +36,7 @@ void cs_svg_item_drop(cs_svg_item *item) {
     celspan_object_unref(item->own);
     celspan_object_unref(item->clip);
     celspan_object_unref(item->object);
-    for (size_t i = 0; item->mask && i < item->mask->count; i++)
-      celspan_object_unref(item->mask->shapes[i]);
+    cs_svg_mask_drop(item->mask);
   }
 }
 

@@ -66,6 +66,8 @@ CELSPAN_CHECKED celspan_status cs_svg_item_append(celspan_context *context, cels
                                                   cs_svg_item *parent, cs_svg_item **out);
 CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art,
                                                 const char *text, const char **out);
+/* Releases what a mask holds; NULL is allowed. */
+void cs_svg_mask_drop(cs_svg_mask *mask);
 /* Releases what a list of items holds. */
 void cs_svg_item_drop(cs_svg_item *item);
 /* Makes an item's object of what is in it, which is complete. Errors: NO_MEMORY, LIMIT. */

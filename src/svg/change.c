@@ -75,8 +75,7 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   celspan_object_unref(item->clip);
   item->clip = NULL;
   item->has_clip = false;
-  for (size_t i = 0; item->mask && i < item->mask->count; i++)
-    celspan_object_unref(item->mask->shapes[i]);
+  cs_svg_mask_drop(item->mask);
   item->mask = NULL;
   item->opacity = 1;
   return CELSPAN_OK;
@@ -176,9 +175,6 @@ celspan_status celspan_svg_with(celspan_context *context, const celspan_svg *svg
   CS_TRY(cs_check_given(context, "svg", "the drawing", svg));
   CS_TRY(cs_check_list(context, "svg", "changes", changes, change_count, CS_CHECK_ITEMS));
   changing c = {.context = context, .changes = changes, .change_count = change_count};
-  CS_TRY(cs_check_given(context, "svg", "the drawing", svg));
-  if (change_count > 0)
-    CS_TRY(cs_check_given(context, "svg", "the list of changes", changes));
   CS_TRY(cs_svg_art_create(context, &c.art));
   c.are_labels = cs_arena_take(context, &c.art->arena, change_count * sizeof *c.are_labels);
   celspan_status status = c.are_labels ? find_names(&c, svg) : CELSPAN_NO_MEMORY;

@@ -9,8 +9,8 @@
 #include "svg/reading.h"
 
 /* The shape of a child of a clip path or mask: of a shape or a text, or of one through `use`. *out:
- * new; NULL for nothing. place: of the parent. rule: NULL for the element's clip-rule. style: what
- * the element's style came to be. */
+ * new; NULL for nothing. place: of the parent. uses_fill_rule: the element's fill-rule tells what is
+ * inside, as in masks; else its clip-rule. style: what the element's style came to be. */
 CELSPAN_CHECKED celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *node,
                                                    cs_svg_place place, bool uses_fill_rule,
                                                    celspan_object **out, cs_svg_style *style);

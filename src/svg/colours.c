@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hex.h"
 #include "base/number.h"
 #include "svg/values.h"
 
@@ -166,18 +167,11 @@ static cs_svg_colour of_bytes(unsigned r, unsigned g, unsigned b, unsigned a) {
   return (cs_svg_colour){{r / 255.0, g / 255.0, b / 255.0}, a / 255.0};
 }
 
-static int digit_value(char c) {
-  return c >= '0' && c <= '9'   ? c - '0'
-         : c >= 'a' && c <= 'f' ? c - 'a' + 10
-         : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                : -1;
-}
-
 static bool take_digits(const char **text, cs_svg_colour *out) {
   unsigned d[9];
   size_t count = 0;
-  for (const char *at = *text + 1; count < 9 && digit_value(*at) >= 0; at++)
-    d[count++] = (unsigned)digit_value(*at);
+  for (const char *at = *text + 1; count < 9 && cs_hex_digit(*at) >= 0; at++)
+    d[count++] = (unsigned)cs_hex_digit(*at);
   *text += 1 + count;
   if (count == 3 || count == 4)
     *out = of_bytes(17 * d[0], 17 * d[1], 17 * d[2], count == 4 ? 17 * d[3] : 255);

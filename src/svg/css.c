@@ -2,6 +2,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+
+#include "svg/values.h"
 
 /* Compounds of one selector and classes of one compound; a selector with more is left out. */
 #define COMPOUNDS 32
@@ -11,25 +14,17 @@
 #define ID_WEIGHT 65536u
 #define CLASS_WEIGHT 256u
 
-static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
 static bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
          c == '_' || (unsigned char)c >= 128;
 }
 
-static const char *skip_space(const char *text) {
-  while (is_space(*text))
-    text++;
-  return text;
-}
-
 /* A copy of [begin, end) without space at its ends. NULL without memory. */
 static const char *copy_trimmed(celspan_context *context, cs_arena *arena, const char *begin,
                                 const char *end) {
-  while (begin < end && is_space(*begin))
+  while (begin < end && cs_svg_is_space(*begin))
     begin++;
-  while (begin < end && is_space(end[-1]))
+  while (begin < end && cs_svg_is_space(end[-1]))
     end--;
   size_t size = (size_t)(end - begin);
   char *copy = cs_arena_take(context, arena, size + 1);
@@ -88,7 +83,7 @@ static bool cut_important(const char *begin, const char **end) {
   const char *mark = *end;
   while (mark > begin && *mark != '!')
     mark--;
-  if (*mark != '!' || strncmp(skip_space(mark + 1), "important", 9) != 0)
+  if (*mark != '!' || strncasecmp(cs_svg_skip_space(mark + 1), "important", 9) != 0)
     return false;
   *end = mark;
   return true;
@@ -100,11 +95,11 @@ static celspan_status parse_declaration(celspan_context *context, cs_arena *aren
                                         bool *is_known) {
   char text[32];
   *is_known = false;
-  begin = begin < end ? skip_space(begin) : begin;
+  begin = begin < end ? cs_svg_skip_space(begin) : begin;
   const char *name_end = begin;
   while (name_end < end && is_name(*name_end))
     name_end++;
-  const char *colon = name_end < end ? skip_space(name_end) : end;
+  const char *colon = name_end < end ? cs_svg_skip_space(name_end) : end;
   size_t size = (size_t)(name_end - begin);
   if (colon >= end || *colon != ':' || size == 0 || size >= sizeof text)
     return CELSPAN_OK;
@@ -180,19 +175,19 @@ static const char *take_condition_value(parser *p, const char **text) {
 /* A condition from behind its '[' to behind its ']'; *is_simple: it was understood. */
 static celspan_status parse_condition(parser *p, const char **text, cs_css_condition *out,
                                       bool *is_simple) {
-  const char *at = skip_space(*text), *name = take_name(p, &at);
+  const char *at = cs_svg_skip_space(*text), *name = take_name(p, &at);
   if (!name)
     return CELSPAN_NO_MEMORY;
   *out = (cs_css_condition){.name = cs_svg_name_of(name), .value = ""};
-  at = skip_space(at);
+  at = cs_svg_skip_space(at);
   if (*at && strchr("~|^$*", *at) && at[1] == '=')
-    out->operator= * at++;
+    out->comparison = *at++;
   if (*at == '=') {
-    out->operator= out->operator? out->operator: '=';
-    at = skip_space(at + 1);
+    out->comparison = out->comparison ? out->comparison : '=';
+    at = cs_svg_skip_space(at + 1);
     if (!(out->value = take_condition_value(p, &at)))
       return CELSPAN_NO_MEMORY;
-    at = skip_space(at);
+    at = cs_svg_skip_space(at);
   }
   *is_simple = *is_simple && out->name != CS_SVG_NAME_COUNT && *at == ']';
   *text = at + (*at == ']');
@@ -258,14 +253,14 @@ static celspan_status parse_selector(parser *p, const char *text, const char *en
   *is_simple = true;
   rule->compound_count = 0;
   rule->specificity = 0;
-  text = skip_space(text);
+  text = cs_svg_skip_space(text);
   while (*is_simple && text < end) {
     cs_css_compound *compound = &compounds[rule->compound_count];
     *compound = (cs_css_compound){.is_child = *text == '>'};
     if (compound->is_child)
-      text = skip_space(text + 1);
+      text = cs_svg_skip_space(text + 1);
     CS_TRY(parse_compound(p, &text, compound, &rule->specificity, is_simple));
-    const char *after = skip_space(text);
+    const char *after = cs_svg_skip_space(text);
     *is_simple = *is_simple && (after > text || after >= end || *after == '>') &&
                  ++rule->compound_count < COMPOUNDS;
     text = after;
@@ -300,7 +295,7 @@ static celspan_status add_selectors(parser *p, const char *text, const char *bra
     const char *comma = memchr(text, ',', (size_t)(brace - text)), *end = comma ? comma : brace;
     cs_css_rule rule = {.declarations = declarations};
     bool is_simple;
-    while (end > text && is_space(end[-1]))
+    while (end > text && cs_svg_is_space(end[-1]))
       end--;
     CS_TRY(parse_selector(p, text, end, &rule, &is_simple));
     if (is_simple)
@@ -338,7 +333,7 @@ static const char *body_end(const char *text) {
 }
 
 static celspan_status parse_sheet(parser *p, const char *text) {
-  for (text = skip_space(text); *text; text = skip_space(text)) {
+  for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_space(text)) {
     if (*text == '@') {
       p->sheet->omitted = true;
       text = skip_at_rule(text);

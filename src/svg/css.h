@@ -27,11 +27,12 @@ typedef struct cs_css_declarations {
   size_t count;
 } cs_css_declarations;
 
-/* [name], [name=value], or with another operator before the '=': ~ a word of it, | it or what it begins
+/* [name], [name=value], or with a sign before the '=': ~ a word of it, | it or what it begins
  * with before a hyphen, ^ its beginning, $ its end, * any part of it. */
 typedef struct cs_css_condition {
   cs_svg_name name;
-  char operator; /* 0: the attribute is there; '=': it is the value; else the sign before the '=' */
+  char
+      comparison; /* 0: the attribute is there; '=': it is the value; else the sign before the '=' */
   const char *value;
 } cs_css_condition;
 

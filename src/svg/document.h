@@ -1,7 +1,8 @@
 /* An SVG file as a tree of elements, with the rules of its style sheets.
  *
  * Invariants: the tree is at most CS_SVG_DEPTH deep and has at most CS_SVG_ELEMENTS elements;
- * elements of other namespaces are left out, and so are characters outside of text; everything lives in the document's arena.
+ * elements of other namespaces are left out, and so are characters outside of text; everything lives
+ * in the document's arena.
  */
 #ifndef CS_SVG_DOCUMENT_H
 #define CS_SVG_DOCUMENT_H

@@ -3,19 +3,13 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/hex.h"
+
 /* ---------------------------------------------------------------- codes */
 
-static int hex_digit(char c) {
-  if (c >= '0' && c <= '9')
-    return c - '0';
-  if (c >= 'a' && c <= 'f')
-    return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
 int cs_svg_image_unescape(const char *text) {
-  int high = text[0] == '%' ? hex_digit(text[1]) : -1;
-  int low = high >= 0 ? hex_digit(text[2]) : -1;
+  int high = text[0] == '%' ? cs_hex_digit(text[1]) : -1;
+  int low = high >= 0 ? cs_hex_digit(text[2]) : -1;
   return low >= 0 ? 16 * high + low : -1;
 }
 
@@ -91,8 +85,7 @@ celspan_status cs_svg_image_data_read(celspan_context *context, const char *href
 }
 
 void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context) {
-  if (data->bytes)
-    cs_mem_free(context->memory, data->bytes, data->capacity);
+  cs_mem_free(context->memory, data->bytes, data->capacity);
   *data = (cs_svg_image_data){NULL, 0, 0};
 }
 

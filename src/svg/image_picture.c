@@ -230,7 +230,6 @@ celspan_status cs_svg_image_picture(cs_svg_reading *reading, const cs_svg_node *
   *out = NULL;
   celspan_status status =
       is_plain_png(bytes, size) ? read_png(&d, bytes, size, out) : read_other(&d, bytes, size, out);
-  if (d.pixels)
-    cs_mem_free(reading->context->memory, d.pixels, all_bytes(&d));
+  cs_mem_free(reading->context->memory, d.pixels, all_bytes(&d));
   return status;
 }

@@ -109,8 +109,7 @@ static bool is_word_end(const cs_svg_written *written, size_t character) {
 }
 
 /* Appends a run's letters, from 0 on, and finds its width. */
-static celspan_status append_letters(const cs_svg_written *written, size_t index,
-                                     cs_svg_letters *out) {
+static void append_letters(const cs_svg_written *written, size_t index, cs_svg_letters *out) {
   cs_svg_run *run = &out->runs[index];
   const cs_layout *layout = &run->layout;
   double left = HUGE_VAL, right = -HUGE_VAL, widened = 0;
@@ -130,7 +129,6 @@ static celspan_status append_letters(const cs_svg_written *written, size_t index
     right = fmax(right, x + from->advance + wider + style->text.letter_spacing);
   }
   run->width = layout->letter_count > 0 ? right : 0;
-  return CELSPAN_OK;
 }
 
 static celspan_status make_room(const cs_svg_written *written, cs_svg_letters *out) {
@@ -153,7 +151,7 @@ static celspan_status make_line(const cs_svg_written *written, bool is_leftward,
   CS_TRY(make_room(written, out));
   for (size_t i = 0; i < out->run_count; i++) {
     size_t run = is_leftward ? out->run_count - 1 - i : i, first = out->count;
-    CS_TRY(append_letters(written, run, out));
+    append_letters(written, run, out);
     for (size_t k = first; k < out->count; k++)
       out->letters[k].x += x;
     x += out->runs[run].width;

@@ -34,7 +34,7 @@ typedef struct cs_svg_letter {
 typedef struct cs_svg_run {
   size_t begin, end; /* characters */
   double size;       /* the em */
-  double left, width;
+  double width;
   cs_layout layout;
 } cs_svg_run;
 

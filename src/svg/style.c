@@ -25,11 +25,11 @@ static bool has_class(const char *list, const char *word) {
 
 /* Whether an attribute's value is as a condition of a selector asks. */
 static bool fits_condition(const cs_css_condition *condition, const char *value) {
-  if (!value || !condition->operator)
+  if (!value || !condition->comparison)
     return value;
   size_t size = strlen(condition->value), length = strlen(value);
   bool begins = strncmp(value, condition->value, size) == 0;
-  switch (condition->operator) {
+  switch (condition->comparison) {
   case '=':
     return strcmp(value, condition->value) == 0;
   case '~':

@@ -9,12 +9,10 @@
 
 #define PI 3.14159265358979323846
 
-static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
 static char lower(char c) { return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c; }
 
 const char *cs_svg_skip_space(const char *text) {
-  while (is_space(*text))
+  while (cs_svg_is_space(*text))
     text++;
   return text;
 }
@@ -152,7 +150,7 @@ bool cs_svg_take_reference(const char **text, cs_svg_reference *out) {
   const char *close = strchr(end, ')');
   if (!close)
     return false;
-  while (!quote && end > at && is_space(end[-1]))
+  while (!quote && end > at && cs_svg_is_space(end[-1]))
     end--;
   *out =
       *at == '#' ? (cs_svg_reference){at + 1, (size_t)(end - at - 1)} : (cs_svg_reference){at, 0};

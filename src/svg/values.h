@@ -46,6 +46,7 @@ typedef struct cs_svg_view_box {
   double x, y, width, height;
 } cs_svg_view_box;
 
+static inline bool cs_svg_is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 const char *cs_svg_skip_space(const char *text);
 /* Space and at most one comma. */
 const char *cs_svg_skip_comma(const char *text);

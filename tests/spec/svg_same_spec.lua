@@ -99,6 +99,7 @@ describe("style sheets", function()
     same {
       { sheet "rect{fill:red} rect{fill:lime}", LIME },
       { sheet "rect{fill:lime!important} rect{fill:red}", LIME },
+      { sheet "rect{fill:lime!Important} rect{fill:red}", LIME },
       { sheet "rect{fill:lime ! important} #r-1{fill:red}", LIME },
       { sheet ".a{fill:lime} rect{fill:red}", LIME },
       { sheet "#r-1{fill:lime} .a.b{fill:red}", LIME },

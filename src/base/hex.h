@@ -1,0 +1,14 @@
+/* Digits of sixteen, as colours and addresses have them. */
+#ifndef CS_BASE_HEX_H
+#define CS_BASE_HEX_H
+
+/* The value of a digit, 0..15, of either case; -1 for what is none. */
+static inline int cs_hex_digit(char c) {
+  if (c >= '0' && c <= '9')
+    return c - '0';
+  if (c >= 'a' && c <= 'f')
+    return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+#endif
