@@ -45,9 +45,7 @@ static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node
                    "line %u: elements refer to one another in a "
                    "circle, or more than %d deep",
                    node->line, CS_SVG_DEPTH);
-  if (++reading->drawn > CS_SVG_DRAWN)
-    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
-                   node->line, CS_SVG_DRAWN);
+  CS_TRY(cs_svg_count_drawn(reading, node));
   CS_TRY(cs_svg_enter(reading, node, &place));
   place.open = &open;
   if (place.style.is_displayed)

@@ -42,9 +42,7 @@ static celspan_status add_children(builder *b, const cs_svg_node *node, const cs
 /* Counts an element against the limits. */
 static celspan_status count_element(builder *b, const cs_svg_node *node) {
   cs_svg_reading *reading = b->reading;
-  if (++reading->drawn > CS_SVG_DRAWN)
-    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
-                   node->line, CS_SVG_DRAWN);
+  CS_TRY(cs_svg_count_drawn(reading, node));
   if (++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
                    "line %u: what use shows is nested more than %d deep", node->line, CS_SVG_DEPTH);

@@ -89,9 +89,7 @@ celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *n
                                    cs_svg_place place, bool uses_fill_rule, celspan_object **out,
                                    cs_svg_style *style) {
   *out = NULL;
-  if (++reading->drawn > CS_SVG_DRAWN)
-    return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
-                   node->line, CS_SVG_DRAWN);
+  CS_TRY(cs_svg_count_drawn(reading, node));
   CS_TRY(cs_svg_enter(reading, node, &place));
   *style = place.style;
   if (!place.style.is_displayed)

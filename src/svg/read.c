@@ -1,6 +1,5 @@
 /* Reading a drawing: the file, and the drawings that are kept from frame to frame. */
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -186,17 +185,12 @@ static celspan_status fail_file(celspan_context *context, const char *file) {
 /* Fills `bytes` from the file; less than `size` is a failure. */
 static celspan_status fill(celspan_context *context, const char *file, int descriptor, char *bytes,
                            size_t size) {
-  for (size_t done = 0; done < size;) {
-    ssize_t count = read(descriptor, bytes + done, size - done);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count < 0)
-      return fail_file(context, file);
-    if (count == 0)
-      return cs_fail(context, CELSPAN_INPUT, "%s: the file became shorter while it was read", file);
-    done += (size_t)count;
-  }
-  return CELSPAN_OK;
+  ssize_t count = cs_open_read_at(descriptor, bytes, size, 0);
+  if (count < 0)
+    return fail_file(context, file);
+  return (size_t)count == size ? CELSPAN_OK
+                               : cs_fail(context, CELSPAN_INPUT,
+                                         "%s: the file became shorter while it was read", file);
 }
 
 static celspan_status read_open(cs_svg_reading *reading, int descriptor, size_t size,

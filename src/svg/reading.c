@@ -24,6 +24,13 @@ celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node, con
   return CELSPAN_OK;
 }
 
+celspan_status cs_svg_count_drawn(cs_svg_reading *reading, const cs_svg_node *node) {
+  if (++reading->drawn <= CS_SVG_DRAWN)
+    return CELSPAN_OK;
+  return cs_fail(reading->context, CELSPAN_LIMIT, "line %u: more than %d elements are drawn",
+                 node->line, CS_SVG_DRAWN);
+}
+
 bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node) {
   for (; open; open = open->outer)
     if (open->node == node)

@@ -74,6 +74,9 @@ CELSPAN_CHECKED celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg
                                            const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* Counts an element that is drawn, or measured to be. Errors: LIMIT for more than CS_SVG_DRAWN. */
+CELSPAN_CHECKED celspan_status cs_svg_count_drawn(cs_svg_reading *reading, const cs_svg_node *node);
+
 bool cs_svg_is_open(const cs_svg_open *open, const cs_svg_node *node);
 
 /* The element that a reference means; NULL: there is none. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "svg/rectangles.h"
 #include "svg/shapes.h"
 #include "svg/stops.h"
 
@@ -105,7 +106,6 @@ static celspan_status read_radial(gradient *g) {
 /* The gradient's units to the shape's. */
 static void read_matrix(gradient *g) {
   celspan_matrix own;
-  const celspan_box *box = &g->shape->box;
   g->matrix = celspan_matrix_identity();
   if (cs_svg_parse_transform(text_of(g, CS_SVG_GRADIENT_TRANSFORM), &own))
     g->matrix = own;
@@ -113,8 +113,7 @@ static void read_matrix(gradient *g) {
   if (*origin)
     g->matrix = cs_svg_about_origin(g->matrix, origin, &g->measure);
   if (g->is_in_box)
-    g->matrix = celspan_matrix_then(
-        g->matrix, (celspan_matrix){{box->width, 0, box->x, 0, box->height, box->y, 0, 0, 1}});
+    g->matrix = celspan_matrix_then(g->matrix, cs_svg_box_matrix(&g->shape->box));
 }
 
 /* ---------------------------------------------------------------- spreading */
