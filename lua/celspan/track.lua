@@ -138,7 +138,7 @@ local function check_options(options)
   local at = options.at
   if type(at) == "table" then
     fields.numbers("track", "at[%d]", at, 4, "{x, y, w, h} or an object", 3)
-  elseif type(at) ~= "userdata" then
+  elseif type(at) ~= "userdata" or not pcall(celspan.cel, { at }) then -- cels are of objects alone
     error("track: field 'at' must be {x, y, w, h} or an object, got " .. fields.kind(at), 3)
   end
   return place
@@ -215,12 +215,14 @@ local function both_ways(numbers, from)
   return after, before
 end
 
---- The region as {x, y, w, h}, and an object as codes too.
+--- The region as {x, y, w, h}, and an object as codes too; nil and a message.
 local function region_of(at, w, h)
   if type(at) == "table" then return { at[1], at[2], at[3], at[4] } end
   local x, y, width, height = at:bounds()
+  if not x then return nil, "the object 'at' covers nothing" end
   local mask, message = codes_of(celspan.clip(celspan.rect { x, y, width, height }, at), w, h)
-  return { x, y, width, height }, mask, message
+  if not mask then return nil, message end
+  return { x, y, width, height }, mask
 end
 
 ---@class celspan.track.options
@@ -247,6 +249,7 @@ function track.follow(pattern, options)
   local codes, w, h = read_frame(core.frame_name(where, from))
   if not codes then return nil, ("frame %d: %s"):format(from, w) end
   local region, mask = region_of(options.at, w, h)
+  if not region then return nil, ("%s: frame %d: %s"):format(pattern, from, mask) end
   local tracker
   tracker, message = core.tracker(codes, w, h, model, region, mask)
   if not tracker then return nil, ("%s: frame %d: %s"):format(pattern, from, message) end

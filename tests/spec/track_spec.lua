@@ -163,6 +163,8 @@ describe("following", function()
     assert.is_truthy(follow({ from = 1, at = at, frames = "1-" }):find("1-", 1, true))
     assert.is_truthy(follow({ from = 1, at = { 1, 1, 5,
       5 } }):find("frame 1: track: the region is 5 x 5", 1, true))
+    assert.is_truthy(follow({ from = 1, at = celspan.union {} })
+      :find("card.####.png: frame 1: the object 'at' covers nothing", 1, true))
     assert.is_truthy(follow({ from = 1, at = at }, folder):find(folder, 1, true))
     local grey = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 99, 99, texture = "#888" } } }
     assert(assert(celspan.pixels(grey, { size = { 90, 90 } })):write(folder .. "/grey.1.png"))
@@ -187,6 +189,7 @@ describe("following", function()
     has(refused { at = at }, "field 'from' must be the number of a frame, got nil")
     has(refused { from = 1.5, at = at }, "got 1.5")
     has(refused { from = 1 }, "field 'at' must be {x, y, w, h} or an object, got nil")
+    has(refused { from = 1, at = celspan.cel { region() } }, "or an object, got a cel")
     has(refused { from = 1, at = { 1, 2, 3 } }, "at[4]")
     has(refused { from = 1, at = at, model = "affine" }, "affine")
     has(raised.message(function() followed:place(3, 1) end),
