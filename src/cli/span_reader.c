@@ -32,19 +32,10 @@ struct cs_span_reader {
 /* ---------------------------------------------------------------- the file */
 
 static bool read_all(int descriptor, uint64_t offset, unsigned char *bytes, size_t size) {
-  while (size > 0) {
-    ssize_t got = pread(descriptor, bytes, size, (off_t)offset);
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got == 0)
-      errno = EIO; /* the file has become shorter */
-    if (got <= 0)
-      return false;
-    bytes += got;
-    offset += (uint64_t)got;
-    size -= (size_t)got;
-  }
-  return true;
+  ssize_t got = cs_open_read_at(descriptor, bytes, size, (off_t)offset);
+  if (got >= 0 && (size_t)got < size)
+    errno = EIO; /* the file has become shorter */
+  return got == (ssize_t)size;
 }
 
 static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {

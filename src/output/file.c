@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error_text.h"
+#include "base/open.h"
 #include "output/temporary.h"
 
 enum {
@@ -34,22 +35,16 @@ enum { CHUNK = 1 << 16 }; /* of what is hashed: part of the records that program
 
 bool cs_file_contents_read(int descriptor, cs_file_contents *out) {
   unsigned char chunk[CHUNK];
-  ssize_t got = 0;
+  ssize_t got;
   *out = (cs_file_contents){.hash = cs_hash_begin(2)};
-  for (size_t size = 0; size == 0 || size == CHUNK; out->bytes += size) {
-    for (size = 0; size < CHUNK; size += (size_t)got) {
-      got = pread(descriptor, chunk + size, CHUNK - size, (off_t)(out->bytes + size));
-      if (got < 0 && errno == EINTR)
-        got = 0;
-      else if (got < 0)
-        return false;
-      else if (got == 0)
-        break;
-    }
-    if (size == 0)
-      break;
-    cs_hash_bytes(&out->hash, chunk, size);
-  }
+  do {
+    got = cs_open_read_at(descriptor, chunk, CHUNK, (off_t)out->bytes);
+    if (got < 0)
+      return false;
+    if (got > 0)
+      cs_hash_bytes(&out->hash, chunk, (size_t)got);
+    out->bytes += (uint64_t)got;
+  } while (got == CHUNK);
   out->hash = cs_hash_end(out->hash);
   return true;
 }

@@ -68,21 +68,14 @@ static celspan_status copy_bytes(celspan_context *context, const cs_input *input
 
 celspan_status cs_input_read(celspan_context *context, const cs_input *input, int64_t offset,
                              void *bytes, size_t size) {
-  size_t done = 0;
   if (input->bytes)
     return copy_bytes(context, input, offset, bytes, size);
-  while (done < size) {
-    ssize_t got =
-        pread(input->descriptor, (char *)bytes + done, size - done, offset + (int64_t)done);
-    if (got < 0 && errno == EINTR)
-      continue;
-    if (got < 0)
-      return cs_input_fail(context, input, offset, CELSPAN_INPUT, "cannot be read: %s",
-                           strerror(errno));
-    if (got == 0)
-      return cs_input_fail(context, input, offset + (int64_t)done, CELSPAN_INPUT,
-                           "the file ends here; %zu more bytes are missing", size - done);
-    done += (size_t)got;
-  }
+  ssize_t got = cs_open_read_at(input->descriptor, bytes, size, offset);
+  if (got < 0)
+    return cs_input_fail(context, input, offset, CELSPAN_INPUT, "cannot be read: %s",
+                         strerror(errno));
+  if ((size_t)got < size)
+    return cs_input_fail(context, input, offset + got, CELSPAN_INPUT,
+                         "the file ends here; %zu more bytes are missing", size - (size_t)got);
   return CELSPAN_OK;
 }
