@@ -346,36 +346,57 @@ static void check_tiny(void) {
 }
 
 /* The integral of the share of a Gaussian that is left of an edge, over its place: in sigmas. */
-static double shares_up_to(double place) {
+static double gaussian_up_to(double place) {
   return 0.5 * place * (1 + erf(place / sqrt(2))) + exp(-0.5 * place * place) / sqrt(2 * PI);
 }
 
-/* The light that a pixel has of what is right of an edge: at its centre, or on average over the part
- * of its width that antialiasing adds to a Gaussian, all of it when that is narrow. */
-static double light_of_edge(double distance, double sigma, double width) {
-  double a = (distance - 0.5 * width) / sigma, b = (distance + 0.5 * width) / sigma;
-  return width == 0 ? 0.5 * (1 + erf(distance / sigma / sqrt(2)))
-                    : (shares_up_to(b) - shares_up_to(a)) * sigma / width;
+/* The same of a box: in half widths. */
+static double box_up_to(double place) {
+  double low = fmin(fmax(place + 1, 0), 2); /* beyond the box all light is there */
+  return 0.25 * low * low + fmax(place - 1, 0);
 }
 
-/* A bar through a Gaussian of any width, its edges anywhere in their pixels, against erf. */
-static void check_bars(celspan_antialias_mode mode, double narrowest, int count) {
+/* A kernel along one axis: its light left of an edge, and the integral of that over the edge's place. */
+typedef struct profile {
+  double (*share)(double place), (*up_to)(double place);
+  double unit; /* of places, pixels */
+} profile;
+
+static double gaussian_share(double place) { return 0.5 * (1 + erf(place / sqrt(2))); }
+
+static double box_share(double place) { return 0.5 * fmin(fmax(place + 1, 0), 2); }
+
+/* The light that a pixel has of what is right of an edge: at its centre, or on average over the part
+ * of its width that antialiasing adds to the kernel, all of it when that is narrow. */
+static double light_of_edge(const profile *p, double distance, double width) {
+  double a = (distance - 0.5 * width) / p->unit, b = (distance + 0.5 * width) / p->unit;
+  return width == 0 ? p->share(distance / p->unit) : (p->up_to(b) - p->up_to(a)) * p->unit / width;
+}
+
+/* A bar through a kernel of any width, its edges anywhere in their pixels, against closed forms.
+ * An antialiased box of more than half a pixel is no closed form: its light is evened out. */
+static void check_bars(celspan_defocus_kernel kernel, celspan_antialias_mode mode, double narrowest,
+                       int count) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < count; k++) {
-    double radius = narrowest * pow(1.21, k % 18), low = 16 + 0.17 * k, sigma = radius / 2;
+    double radius = narrowest * pow(1.21, k % 18), low = 16 + 0.17 * k;
     double width = mode == CELSPAN_ANTIALIAS_NONE ? 0 : 1;
+    profile along = kernel == CELSPAN_DEFOCUS_BOX
+                        ? (profile){box_share, box_up_to, radius}
+                        : (profile){gaussian_share, gaussian_up_to, radius / 2};
     celspan_object *bar =
         studio_rect(&s, low, -100, 8, 300, studio_paint(&s, celspan_paint_rgb(1, 1, 1, 1)));
     celspan_cel_desc desc = CELSPAN_CEL_DESC;
     desc.defocus_radius = radius;
+    desc.defocus_kernel = kernel;
     celspan_cel *cel = studio_cel(&s, desc, &bar, 1);
     view v = {SIDE, SIDE, SIDE, SIDE, mode};
     image i = make(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &v, 1);
     for (int32_t x = 0; x < SIDE; x++) {
       double d = x + 0.5 - low;
       CHECK_NEAR((double)i.rgba[20 * SIDE + x][0],
-                 light_of_edge(d, sigma, width) - light_of_edge(d - 8, sigma, width), 0.002);
+                 light_of_edge(&along, d, width) - light_of_edge(&along, d - 8, width), 0.002);
     }
     free(i.rgba);
     studio_finish(&s);
@@ -447,8 +468,10 @@ int main(void) {
   if (check_is_for_threads())
     return check_done();
   check_memory();
-  check_bars(CELSPAN_ANTIALIAS_NONE, 0.7, 36);
-  check_bars(CELSPAN_ANTIALIAS_AREA, 0.05, 12);
+  check_bars(CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_NONE, 0.7, 36);
+  check_bars(CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_AREA, 0.05, 12);
+  check_bars(CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_AREA, 0.019, 36);
+  check_bars(CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_NONE, 0.7, 18);
   check_light();
   check_tiny();
   check_ramps();
