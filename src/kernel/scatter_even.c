@@ -29,12 +29,6 @@ typedef struct segment {
   int32_t first, end; /* columns whose kernel it divides; from `end` on the kernel has passed it */
 } segment;
 
-static celspan_status change(cs_scatter *g, const cs_retained_edge *edge, int32_t p,
-                             double weight) {
-  cs_scatter_step(g, edge, p, weight);
-  return cs_scatter_shift(g, edge, p, weight);
-}
-
 static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
 
 /* The share of the chord of a kernel with centre c that lies right of a segment, as a mean over the
@@ -78,25 +72,26 @@ static void tilt(cs_scatter *g, const cs_retained_edge *edge, int32_t p, double 
     sum[c] += slope * ((double)edge->right.colour[c] - (double)edge->left.colour[c]);
 }
 
-/* An upright segment under a chord is a ramp: one change where it begins, one where it ends. */
-static celspan_status spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
+/* An upright segment between flat colours under a chord is a ramp: one change where it begins, one
+ * where it ends. */
+static void spread_ramp(cs_scatter *g, const cs_retained_edge *edge, const segment *t) {
   cs_convolve *convolve = g->convolve;
   double x = 0.5 * (t->low + t->high), slope = 1 / (t->to - t->from);
   int32_t first = cs_number_first_centre(x - t->to), end = cs_number_first_centre(x - t->from);
   first = first > 0 ? first : 0;
   if (first >= convolve->width)
-    return CELSPAN_OK;
+    return;
   double now = end > first ? (first + 0.5 + t->to - x) * slope : 1;
   cs_scatter_touch(convolve, first);
-  CS_TRY(change(g, edge, first, t->weight * now));
+  cs_scatter_step(g, edge, first, t->weight * now);
   if (end <= first)
-    return CELSPAN_OK;
+    return;
   tilt(g, edge, first, t->weight * slope);
   if (end >= convolve->width)
-    return CELSPAN_OK;
+    return;
   cs_scatter_touch(convolve, end);
   tilt(g, edge, end, -t->weight * slope);
-  return change(g, edge, end, t->weight * (1 - (now + (end - first) * slope)));
+  cs_scatter_step(g, edge, end, t->weight * (1 - (now + (end - first) * slope)));
 }
 
 static celspan_status add_segment(cs_scatter *g, const cs_retained_edge *edge, segment *t) {
@@ -106,7 +101,10 @@ static celspan_status add_segment(cs_scatter *g, const cs_retained_edge *edge, s
   t->end = cs_number_first_centre(t->high - t->from);
   bool is_ramp = t->end - t->first > RAMP && t->high - t->low <= (t->to - t->from) / RAMP &&
                  cs_scatter_is_flat(edge);
-  return is_ramp ? spread_ramp(g, edge, t) : spread(g, edge, t);
+  if (!is_ramp)
+    return spread(g, edge, t);
+  spread_ramp(g, edge, t);
+  return CELSPAN_OK;
 }
 
 /* Into how many segments an edge is cut so that the kernel has nearly one chord over the heights of

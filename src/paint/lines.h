@@ -6,7 +6,7 @@
  *       |           /:           :`-._          a run is cut where a formula bends or a texel
  *       |         /  :           :    `-._      begins (ends.h); between two cuts it becomes one
  *       |  _____/    :           :        |     span if it is straight enough, else it is halved
- *       |  |    :    :           :        |     (line.h)
+ *       |  |    :    :           :        |     (halving.h)
  *       +--+----+----+-----------+--------+---> column
  *          x0  cut  cut         cut       x1
  */

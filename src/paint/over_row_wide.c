@@ -26,12 +26,12 @@ void CS_WIDE(cs_over_row_add_flat)(cs_over_row_state *state, int32_t count, cons
 
 void CS_WIDE(cs_over_row_add_picture)(cs_over_row_state *state, int32_t count, const float front[4],
                                       float fade, bool is_gel, const float (*rgba)[4]) {
-  const cs_wide_int colours = CS_WIDE_PIXEL(-1, -1, -1, 0);
+  const cs_wide_int rgb = CS_WIDE_PIXEL(-1, -1, -1, 0);
   cs_wide light = cs_over_wide_all(front);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS) {
     cs_wide v = cs_wide_load(rgba[i]);
     cs_wide clear = 1 - cs_wide_unit(CS_WIDE_SPREAD(v, 3));
-    cs_wide colour = (cs_wide)((cs_wide_int)v & colours);
+    cs_wide colour = (cs_wide)((cs_wide_int)v & rgb);
     if (is_gel)
       add(state, i, cs_wide_all(0), (1 - fade) + fade * cs_wide_unit(clear + colour));
     else

@@ -6,6 +6,14 @@ return {
     { "events += cs_active_chain(active, i)->y1 < y + 1.0;", "`<` to `<=`",
       "counts ends at the foot of the row too: into how many slabs it is cut decides the time" },
   },
+  ["src/area/local_sweep.c"] = {
+    { "while (member->points[at].y <= y && at + 1 < member->point_count)", "`1` to `0`",
+      "members that are compared end below y, which ends the walk" },
+  },
+  ["src/area/window.c"] = {
+    { "while (end > first && weight_in(cell, end - 1) == 0)", "`>` to `>=`",
+      "a cell that has area nowhere is painted in no column, or in one less than that" },
+  },
   ["src/compose/composer.c"] = {
     { "if (composer->item_count <= ITEM_LIMIT)", "`<=` to `<`",
       "programs are forgotten one item sooner, and found again" },
@@ -31,6 +39,31 @@ return {
     { "for (size_t k = 0; k < count; k++)", "`0` to `1`",
       "the weight of the middle is not read: it has what those of the pairs leave" },
   },
+  ["src/kernel/convolve_parts.h"] = {
+    { "static inline size_t cs_convolve_words(int32_t width) { return (size_t)width / 64 + 1; }",
+      "`1` to `2`", "makes room for one word more, of which no bit is ever set" },
+  },
+  ["src/paint/gradient_table.c"] = {
+    { "cs_set_hash name = {0};", "`0` to `1`", "every name differs by the same from what it was" },
+  },
+  ["src/paint/lines.c"] = {
+    { "if (last->column - first->column > 1)", "`-` to `+`",
+      "computes colours between two neighbouring columns, where nothing is compared" },
+    { "if (last->column - first->column > 1)", "`>` to `>=`",
+      "computes colours between two neighbouring columns, where nothing is compared" },
+    { "if (last->column - first->column > 1)", "`1` to `0`",
+      "computes colours between two neighbouring columns, where nothing is compared" },
+  },
+  ["src/paint/over_row_wide.c"] = {
+    { "const cs_wide_int rgb = CS_WIDE_PIXEL(-1, -1, -1, 0);", "`0` to `1`",
+      "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
+  },
+  ["src/paint/shown.c"] = {
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`<` to `<=`",
+      "asks about fewer columns at a time what is hidden, where one cel is defocused" },
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`1` to `0`",
+      "asks about fewer columns at a time what is hidden, where one cel is defocused" },
+  },
   ["src/row/centre.c"] = {
     { "(w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {",
       "`<=` to `<`", "no column lies between two crossings at one place" },
@@ -52,6 +85,18 @@ return {
       "settles once more what is settled, which changes nothing" },
     { "if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)",
       "`<` to `<=`", "walking on gives the same as beginning anew: it only takes longer", 2 },
+  },
+  ["src/stroke/taper.c"] = {
+    { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
+      "`<` to `<=`", "a piece is cut where a taper ends: its middle is not there" },
+    { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
+      "`>` to `>=`", "a piece is cut where a taper begins: its middle is not there" },
+    { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
+      "`-` to `nothing`", "multiplies the radius between the tapers by 1" },
+    { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
+      "`1` to `0`", "multiplies the radius between the tapers by 1", 3 },
+    { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
+      "`1` to `2`", "is asked only whether it is less than 0", 3 },
   },
   ["src/sweep/active.c"] = {
     { "if (tile_row > active->tile_row + 1)", "`+` to `-`",

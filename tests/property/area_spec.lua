@@ -123,6 +123,50 @@ describe("area antialiasing of random B-splines", function()
   end
 end)
 
+-- ---------------------------------------------------------------- very many boundaries
+
+--- A polygon that goes up and down through a frame so many times, from its first row to its last.
+local function tangle(random, count, width, height, texture)
+  local fields = { rule = "evenodd", texture = texture }
+  for i = 1, count do
+    local y = random:between(-0.5, 0.5)
+    fields[i] = { random:between(0.3, width - 0.4), i % 2 == 0 and y or height + y }
+  end
+  return celspan.polygon(fields)
+end
+
+describe("area antialiasing of thousands of boundaries in a few pixels", function()
+  it("is the mean of many centres, over and under shapes, of a colour and of a gradient", function()
+    local random, width, height = prng.new(3), 3, 2
+    local ramp = celspan.linear { from = { 0, 0 }, to = { width, 0 }, { 0, "#840" }, { 1, "#048" } }
+    for _, texture in ipairs { celspan.rgb(1, 1, 1), ramp } do
+      local rostrum = celspan.rostrum { celspan.cel {
+        celspan.rect { -9, -9, 20, 20, texture = "#246" },
+        celspan.circle { centre = { 0.7, 1.1 }, radius = 0.6, texture = "#fc0" },
+        tangle(random, 2600, width, height, texture),
+        celspan.circle { centre = { 2.1, 1 }, radius = 0.6, texture = "#3c6" } } }
+      local size = { width, height }
+      local means = supersample.means(rostrum, { size = size, film = size, k = 128 })
+      local _, rms = supersample.errors(area(rostrum, size, size), means)
+      assert.is_true(rms <= CODE, ("rms error %.3f of 255"):format(rms * 255))
+    end
+  end)
+end)
+
+describe("two edges that cross where others begin", function()
+  it("leave what begins there", function()
+    -- Two rectangles that meet at x = 16 begin in the row in which the cross has its middle.
+    local rostrum = celspan.rostrum { celspan.cel {
+      celspan.polygon { { -9, -9 }, { 41, -9 }, { -9, 41 }, { 41, 41 }, texture = "#fff" },
+      celspan.rect { 2, 16.3, 14, 9, texture = "#fc0" },
+      celspan.rect { 16, 16.3, 14, 9, texture = "#3c6" } } }
+    local size = { 32, 32 }
+    local means = supersample.means(rostrum, { size = size, film = size, k = 128 })
+    local most = supersample.errors(area(rostrum, size, size), means)
+    assert.is_true(most <= MOST, ("greatest error %.3f of 255"):format(most * 255))
+  end)
+end)
+
 -- ---------------------------------------------------------------- no leaks
 
 --- Wedges of a wheel about (16, 16), each from one spoke to the next.

@@ -229,15 +229,15 @@ static void check_coarse(void) {
 }
 
 /* Layers that vary are filtered with all else. */
-static void check_ramps(void) {
+static void check_ramps(double least, celspan_antialias_mode mode) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 12; k++) {
-    double radius = 4 + k % 4 * 3;
+    double radius = least * (1 + 0.75 * (k % 4));
     celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k % 3);
     random_state = 4000 + (uint64_t)k;
     stage set = random_stage(&s, 4 + k % 4, radius, kernel, k % 2 ? 0.5 : 0);
-    view v = {SIDE, SIDE, SIDE, SIDE, CELSPAN_ANTIALIAS_AREA};
+    view v = {SIDE, SIDE, SIDE, SIDE, mode};
     compare(&s, &set, kernel, radius, &v, 8, "ramps");
     studio_finish(&s);
   }
@@ -373,29 +373,45 @@ static double light_of_edge(const profile *p, double distance, double width) {
   return width == 0 ? p->share(distance / p->unit) : (p->up_to(b) - p->up_to(a)) * p->unit / width;
 }
 
+typedef struct lens { /* what a bar is seen through */
+  celspan_defocus_kernel kernel;
+  celspan_antialias_mode mode;
+  double turn; /* of the camera, radians */
+} lens;
+
+/* A bar of 8 pixels from `low` on, which stands or lies, whatever the camera's turn. */
+static image make_bar(studio *s, const lens *l, double radius, double low, bool lies) {
+  const celspan_point middle = {0.5 * SIDE, 0.5 * SIDE};
+  celspan_texture *white = studio_paint(s, celspan_paint_rgb(1, 1, 1, 1));
+  celspan_object *bar =
+      lies ? studio_rect(s, -100, low, 300, 8, white) : studio_rect(s, low, -100, 8, 300, white);
+  bar = studio_transform(s, bar, celspan_matrix_rotation(l->turn, middle));
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.defocus_radius = radius;
+  desc.defocus_kernel = l->kernel;
+  celspan_rostrum_desc camera = CELSPAN_ROSTRUM_DESC;
+  camera.camera_rotation = l->turn;
+  celspan_cel *cel = studio_cel(s, desc, &bar, 1);
+  view v = {SIDE, SIDE, SIDE, SIDE, l->mode};
+  return make(s, studio_rostrum(s, camera, &cel, 1), &v, 1);
+}
+
 /* A bar through a kernel of any width, its edges anywhere in their pixels, against closed forms.
- * An antialiased box of more than half a pixel is no closed form: its light is evened out. */
-static void check_bars(celspan_defocus_kernel kernel, celspan_antialias_mode mode, double narrowest,
-                       int count) {
+ * Antialiased boxes have one up to half a pixel, beyond which their light is evened out; those in a
+ * turned camera up to .4, for these are held upright. */
+static void check_bars(lens l, double narrowest, int count) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
-  for (int k = 0; k < count; k++) {
-    double radius = narrowest * pow(1.21, k % 18), low = 16 + 0.17 * k;
-    double width = mode == CELSPAN_ANTIALIAS_NONE ? 0 : 1;
-    profile along = kernel == CELSPAN_DEFOCUS_BOX
+  for (int k = 0; k < 2 * count; k++) {
+    double radius = narrowest * pow(1.21, k / 2 % 18), low = 16 + 0.17 * (k / 2);
+    double width = l.mode == CELSPAN_ANTIALIAS_NONE ? 0 : 1;
+    profile along = l.kernel == CELSPAN_DEFOCUS_BOX
                         ? (profile){box_share, box_up_to, radius}
                         : (profile){gaussian_share, gaussian_up_to, radius / 2};
-    celspan_object *bar =
-        studio_rect(&s, low, -100, 8, 300, studio_paint(&s, celspan_paint_rgb(1, 1, 1, 1)));
-    celspan_cel_desc desc = CELSPAN_CEL_DESC;
-    desc.defocus_radius = radius;
-    desc.defocus_kernel = kernel;
-    celspan_cel *cel = studio_cel(&s, desc, &bar, 1);
-    view v = {SIDE, SIDE, SIDE, SIDE, mode};
-    image i = make(&s, studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &cel, 1), &v, 1);
+    image i = make_bar(&s, &l, radius, low, k % 2);
     for (int32_t x = 0; x < SIDE; x++) {
       double d = x + 0.5 - low;
-      CHECK_NEAR((double)i.rgba[20 * SIDE + x][0],
+      CHECK_NEAR((double)i.rgba[k % 2 ? x * SIDE + 20 : 20 * SIDE + x][0],
                  light_of_edge(&along, d, width) - light_of_edge(&along, d - 8, width), 0.002);
     }
     free(i.rgba);
@@ -468,13 +484,15 @@ int main(void) {
   if (check_is_for_threads())
     return check_done();
   check_memory();
-  check_bars(CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_NONE, 0.7, 36);
-  check_bars(CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_AREA, 0.05, 12);
-  check_bars(CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_AREA, 0.019, 36);
-  check_bars(CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_NONE, 0.7, 18);
+  check_bars((lens){CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_NONE, 0}, 0.7, 36);
+  check_bars((lens){CELSPAN_DEFOCUS_GAUSSIAN, CELSPAN_ANTIALIAS_AREA, 0}, 0.05, 12);
+  check_bars((lens){CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_AREA, 0}, 0.019, 36);
+  check_bars((lens){CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_AREA, 0.5}, 0.06, 10);
+  check_bars((lens){CELSPAN_DEFOCUS_BOX, CELSPAN_ANTIALIAS_NONE, 0}, 0.7, 18);
   check_light();
   check_tiny();
-  check_ramps();
+  check_ramps(4, CELSPAN_ANTIALIAS_AREA);
+  check_ramps(0.8, CELSPAN_ANTIALIAS_NONE);
   check_coarse();
   return check_done();
 }

@@ -176,6 +176,73 @@ static void test_programs(celspan_context *context, bool is_grouped, double pers
   cs_composer_finish(&composer);
 }
 
+/* ---------------------------------------------------------------- more than are remembered */
+
+enum { FLATS = 9, PROGRAMS = 1 << FLATS, MANY_STOPS = 200, COLUMNS = 4 };
+
+/* Any of the flat layers over and under a gradient of many stops. */
+static cs_program make_subset(cs_item *items, unsigned subset) {
+  uint32_t length = 0;
+  for (uint32_t layer = FLATS + 1; layer-- > 0;)
+    if (layer == FLATS / 2 || (subset >> (layer - (layer > FLATS / 2)) & 1))
+      items[length++] = (cs_item){.layer = layer};
+  return (cs_program){.items = items, .length = length};
+}
+
+static void find_colours(cs_painter *painter, unsigned subset, float (*out)[4]) {
+  cs_item items[FLATS + 1];
+  const int32_t columns[COLUMNS] = {25, 60, 100, 149};
+  const cs_gradient_table *table;
+  cs_program program = make_subset(items, subset);
+  CHECK(cs_gradient_table_find(painter->gradients, &program, &table) == CELSPAN_OK);
+  if (CHECK(table != NULL))
+    cs_gradient_table_colours(table, &(cs_batch){columns, 0, COLUMNS, 30}, out);
+}
+
+/* Programs are forgotten when there are many, and made again: a frame that has more of them than are
+ * remembered has the same colours. */
+static void test_forgotten(celspan_context *context) {
+  static cs_layer many[FLATS + 1];
+  static cs_layer_rule keys[FLATS + 1];
+  static float colours[PROGRAMS][COLUMNS][4], again[COLUMNS][4];
+  celspan_stop stops[MANY_STOPS];
+  celspan_texture *texture;
+  for (int i = 0; i < MANY_STOPS; i++)
+    stops[i] = (celspan_stop){(double)i / MANY_STOPS, random_paint()};
+  CHECK(celspan_texture_create_linear(context, (celspan_point){20, 10}, (celspan_point){150, 60},
+                                      stops, MANY_STOPS, &texture) == CELSPAN_OK);
+  for (uint32_t i = 0; i <= FLATS; i++) {
+    float red = random_unit(&numbers), through = random_unit(&numbers);
+    many[i] = (cs_layer){.kind = i == FLATS / 2 ? CS_LAYER_SHADED : CS_LAYER_FLAT,
+                         .fade = 1,
+                         .group = CS_STACK_NONE,
+                         .front = {1, 1, 1, 0},
+                         .s = {0.2f * red, 0.1f, 0, 0},
+                         .t = {through, 0.8f, 0.9f, 0}};
+    for (int k = 0; k < 2; k++)
+      keys[i].key[k] = random_bits(&numbers);
+  }
+  cs_shade shade = {.texture = texture, .inverse = {{1, 0, 0, 0, 1, 0, 0, 0, 1}}};
+  const cs_stack full = {
+      .layers = many, .rules = keys, .shades = &shade, .layer_count = FLATS + 1, .shade_count = 1};
+  cs_composer composer;
+  cs_painter painter;
+  cs_shade_prepare(&shade);
+  CHECK(cs_composer_init(&composer, context, &full, cs_painter_opacity(&painter)) == CELSPAN_OK);
+  CHECK(cs_painter_init(&painter, context, &composer) == CELSPAN_OK);
+  for (unsigned subset = 0; subset < PROGRAMS; subset++)
+    find_colours(&painter, subset, colours[subset]);
+  int wrong = 0;
+  for (unsigned subset = 0; subset < PROGRAMS; subset++) {
+    find_colours(&painter, subset, again);
+    wrong += memcmp(again, colours[subset], sizeof again) != 0;
+  }
+  CHECK(wrong == 0);
+  cs_painter_finish(&painter);
+  cs_composer_finish(&composer);
+  celspan_texture_unref(texture);
+}
+
 int main(void) {
   celspan_context *context;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
@@ -184,6 +251,7 @@ int main(void) {
   test_programs(context, true, 0);
   test_programs(context, false, 0.002);
   test_programs(context, false, -0.012); /* with a horizon */
+  test_forgotten(context);
   celspan_texture_unref(linear);
   celspan_texture_unref(radial);
   celspan_context_destroy(context);

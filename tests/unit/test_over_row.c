@@ -54,11 +54,11 @@ static void fold(celspan_context *context, cs_arena *arena, cs_isa isa, int32_t 
       cs_over_row_add_layer(&over, &all_layers[layer]);
     else if (layer % 3 == 1)
       CHECK(cs_over_row_add_paint(&over, &all_layers[layer], (const float(*)[4])s + from,
-                            (const float(*)[4])t + from) == CELSPAN_OK);
+                                  (const float(*)[4])t + from) == CELSPAN_OK);
     else
       CHECK(cs_over_row_add_samples(&over, &all_layers[layer],
-                              layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
-                              (const float(*)[4])rgba + from) == CELSPAN_OK);
+                                    layer == 2 ? CELSPAN_PICTURE_GEL : CELSPAN_PICTURE_PAINT,
+                                    (const float(*)[4])rgba + from) == CELSPAN_OK);
   }
   cs_over_row_end(&over, out);
 }
@@ -111,7 +111,8 @@ static void check_bare(celspan_context *context, cs_arena *arena, const cs_stack
   const float(*samples[2])[4] = {(const float(*)[4])rgba, (const float(*)[4])s};
   for (uint32_t i = 0; i < 2; i++) {
     CHECK(cs_over_row_move(&over, 5 - i) == CELSPAN_OK);
-    CHECK(cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]) == CELSPAN_OK);
+    CHECK(cs_over_row_add_samples(&over, &all_layers[5], CELSPAN_PICTURE_PAINT, samples[i]) ==
+          CELSPAN_OK);
     layers.last = shown_samples(&layers, samples[i], are_planes);
     if (i == 0)
       cs_over_bare_add(isa, &layers);
@@ -139,6 +140,16 @@ static void check_shown(cs_isa isa, int32_t count, int32_t opaque) {
     CHECK(shown.first >= shown.end);
   else
     CHECK(shown.first <= opaque && shown.first > opaque - CS_SAMPLES_PLANE && shown.end == count);
+}
+
+/* A picture that is opaque wherever it is shown lets nothing be asked for behind it, whatever lies
+ * beside the pixels that are shown. */
+static void check_ends(cs_isa isa) {
+  for (int32_t count = 1; count <= 40; count++) {
+    for (int i = 0; i < CS_OVER_ROW_BATCH; i++)
+      rgba[i][3] = i < count ? 1 : 0.5f;
+    check_shown(isa, count, count);
+  }
 }
 
 static void test_bare(celspan_context *context, cs_arena *arena) {
@@ -190,6 +201,8 @@ int main(void) {
       CHECK_NEAR((double)wanted[i][3], by_hand_alpha(i), 1e-6);
   }
   test_bare(context, &arena);
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+    check_ends(isa);
   cs_arena_finish(&arena, context->memory);
   celspan_context_destroy(context);
   return check_done();
