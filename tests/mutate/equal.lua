@@ -3,6 +3,8 @@
 -- the line has several that are told alike, from 1 }.
 return {
   ["src/area/area.c"] = {
+    { "return interval->high - i == 2 && interval->events.low > interval->events.high &&",
+      "`>` to `>=`", "what a layer begins and ends in one column of no width has no area" },
     { "events += cs_active_chain(active, i)->y1 < y + 1.0;", "`<` to `<=`",
       "counts ends at the foot of the row too: into how many slabs it is cut decides the time" },
   },
@@ -59,6 +61,14 @@ return {
       "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
   },
   ["src/paint/shown.c"] = {
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)",
+      "`layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE` to "
+        .. "`!(layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)`",
+      "asks about a stride at a time what is hidden, where more columns would do" },
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`&&` to `||`",
+      "asks about a stride at a time what is hidden, where more columns would do", 1 },
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`&&` to `||`",
+      "asks about a stride at a time what is hidden, where more columns would do", 2 },
     { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`<` to `<=`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
     { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`1` to `0`",

@@ -153,20 +153,6 @@ describe("area antialiasing of thousands of boundaries in a few pixels", functio
   end)
 end)
 
-describe("two edges that cross where others begin", function()
-  it("leave what begins there", function()
-    -- Two rectangles that meet at x = 16 begin in the row in which the cross has its middle.
-    local rostrum = celspan.rostrum { celspan.cel {
-      celspan.polygon { { -9, -9 }, { 41, -9 }, { -9, 41 }, { 41, 41 }, texture = "#fff" },
-      celspan.rect { 2, 16.3, 14, 9, texture = "#fc0" },
-      celspan.rect { 16, 16.3, 14, 9, texture = "#3c6" } } }
-    local size = { 32, 32 }
-    local means = supersample.means(rostrum, { size = size, film = size, k = 128 })
-    local most = supersample.errors(area(rostrum, size, size), means)
-    assert.is_true(most <= MOST, ("greatest error %.3f of 255"):format(most * 255))
-  end)
-end)
-
 -- ---------------------------------------------------------------- no leaks
 
 --- Wedges of a wheel about (16, 16), each from one spoke to the next.
