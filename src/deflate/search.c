@@ -138,7 +138,7 @@ static inline match find_long(cs_deflate_search *search, const unsigned char *at
     if (distance <= last_distance || distance >= WINDOW || distance > history)
       break;
     last_distance = distance;
-    if (load_8(at - distance) != word || at[best.length] != at[best.length - distance])
+    if (load_8(at - distance) != word || at[best.length] != (at - distance)[best.length])
       continue;
     match found = {match_length(at, distance, most), distance};
     if (score(found) > score(best))

@@ -93,7 +93,7 @@ CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_act
 static inline const cs_deferred *cs_active_deferred(const cs_active *active,
                                                     const cs_deferred **end) {
   const cs_cull *cull = active->cull;
-  if (cull->tile_rows == 0)
+  if (cull->tile_rows == 0 || cull->deferred_count == 0)
     return *end = NULL;
   *end = cull->deferred_list + cull->deferred_starts[active->tile_row + 1];
   return cull->deferred_list + cull->deferred_starts[active->tile_row];

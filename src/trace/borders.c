@@ -124,7 +124,8 @@ static celspan_status add_direction(walker *w, int32_t x, int32_t y, int directi
   CS_TRY(cs_mem_reserve(w->context, (void **)&out->directions, &out->direction_capacity,
                         out->direction_count + 1, 1));
   out->directions[out->direction_count++] = (unsigned char)direction;
-  *mark_of(w, x, y, direction, &bit) |= bit;
+  unsigned char *mark = mark_of(w, x, y, direction, &bit);
+  *mark |= bit;
   return CELSPAN_OK;
 }
 

@@ -92,7 +92,7 @@ static cs_samples shown_samples(const cs_over_bare *over, const float (*picture)
   for (int32_t i = 0; i < over->shown.end - over->shown.first; i++)
     for (int32_t c = 0; c < 4; c++) {
       int32_t lane = 4 * (i % 4) + i / 4 % 4, plane = i / CS_SAMPLES_PLANE * CS_SAMPLES_PLANE;
-      float *at = are_planes ? out.rgba[plane] + 16 * c + lane : out.rgba[i] + c;
+      float *at = (float *)out.rgba + (are_planes ? 4 * plane + 16 * c + lane : 4 * i + c);
       *at = picture[over->shown.first + i][c];
     }
   return out;

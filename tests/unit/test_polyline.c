@@ -86,8 +86,9 @@ static double passed(double low, double high, double x) {
 /* A line inside a row. */
 static void add_line(areas *sum, celspan_point top, celspan_point foot, double sign) {
   double low = fmin(top.x, foot.x), high = fmax(top.x, foot.x), height = foot.y - top.y;
-  int row = (int)floor(0.5 * (top.y + foot.y));
-  for (int p = 0; p < SIDE && height > 0 && row >= 0 && row < SIDE; p++) {
+  double middle = 0.5 * (top.y + foot.y);
+  int row = middle >= 0 && middle < SIDE ? (int)middle : -1;
+  for (int p = 0; p < SIDE && height > 0 && row >= 0; p++) {
     double share = high - low > 1e-9 ? passed(low, high, p + 1) - passed(low, high, p)
                                      : fmin(fmax(p + 1 - low, 0), 1);
     sum->pixels[row][p] += sign * height * share;

@@ -149,12 +149,11 @@ static celspan_status runs_to_bytes(const cs_png_rows *rows, celspan_context *co
   CS_TRY(reserve_bytes(rows, context, row));
   unsigned char *at = row->bytes;
   int32_t x = 0;
-  const cs_png_run *run = row->runs.runs;
-  for (const cs_png_run *last = run + row->runs.count; run < last; run++)
-    for (; x < run->end; x++, at += rows->pixel_size)
-      memcpy(at, &run->pixel, rows->pixel_size);
   if (row->runs.count == 0)
     memset(row->bytes, 0, (size_t)rows->width * rows->pixel_size);
+  for (size_t i = 0; i < row->runs.count; i++)
+    for (const cs_png_run *run = &row->runs.runs[i]; x < run->end; x++, at += rows->pixel_size)
+      memcpy(at, &run->pixel, rows->pixel_size);
   return CELSPAN_OK;
 }
 

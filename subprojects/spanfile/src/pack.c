@@ -53,6 +53,8 @@ static inline void pack_runs(sf_row *row, size_t pixel_size, const spanfile_run 
 
 bool sf_pack_runs(const sf_memory *memory, sf_row *row, size_t pixel_size, const spanfile_run *runs,
                   size_t run_count) {
+  if (run_count == 0)
+    return true;
   if (!make_room(memory, row, pixel_size, run_count))
     return false;
   if (pixel_size == 4)
