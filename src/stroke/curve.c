@@ -181,8 +181,8 @@ bool cs_curve_is_point(const cs_bezier *line) {
 celspan_point cs_curve_departure(const cs_bezier *line) {
   double extent = cs_curve_extent(line);
   celspan_point first = project(line->points[0]);
-  for (int i = 1; i <= line->degree; i++) {
-    celspan_point p = project(line->points[i]);
+  for (int k = 1; k <= line->degree; k++) {
+    celspan_point p = project(line->points[k]);
     double x = p.x - first.x, y = p.y - first.y, length = sqrt(x * x + y * y);
     if (length > 1e-9 * extent)
       return (celspan_point){x / length, y / length};

@@ -8,6 +8,7 @@
  *               0  taper[0]   taper[1]         within WAY_ERROR of the taper.
  */
 #include <math.h>
+#include <string.h>
 
 #include "stroke/parts.h"
 
@@ -65,8 +66,7 @@ static celspan_status append(tapering *t, const cs_curve *curve, double length, 
     cs_curve_split(curve, 0.5, &low, &high);
     double half = is_straight ? 0.5 * length : cs_curve_length(&low.line, 0, 1);
     double half_way[WAY_DEGREE + 1];
-    for (int i = 0; i <= WAY_DEGREE; i++)
-      half_way[i] = way[i];
+    memcpy(half_way, way, sizeof half_way);
     cs_curve_cut_polynomial(half_way, WAY_DEGREE, 0, 0.5);
     bool is_right =
         fabs(way[WAY_DEGREE] - length) <= error && fabs(half_way[WAY_DEGREE] - half) <= error;

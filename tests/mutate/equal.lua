@@ -96,6 +96,24 @@ return {
     { "if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)",
       "`<` to `<=`", "walking on gives the same as beginning anew: it only takes longer", 2 },
   },
+  ["src/stroke/curve.c"] = {
+    { "for (int k = 1; k <= line->degree; k++) {", "`1` to `2`",
+      "is asked where a line rests: its second point is the first one" },
+  },
+  ["src/stroke/follow.c"] = {
+    { "if (fabs(angle) > 3)", "`>` to `>=`", "an angle is not 3 to the bit; half a turn is meant" },
+  },
+  ["src/stroke/parts.c"] = {
+    { "cs_curve_load_line(&r->stroke->line, piece, 0, 1, &line);", "`1` to `2`",
+      "what ends at 1 or beyond is not cut there" },
+  },
+  ["src/stroke/side.c"] = {
+    { "bool goes_on = has_fold(side) && are_same(last_tip(side), tips[0]);",
+      "`last_tip(side), tips[0]` to `tips[0], last_tip(side)`",
+      "are the same whichever of them is named first" },
+    { "return draw_arc(a, from, to, end, 0);", "`0` to `1`",
+      "halves an arc once less where that has long made no difference" },
+  },
   ["src/stroke/taper.c"] = {
     { "int side = middle < t->taper[0] ? 0 : middle > t->length - t->taper[1] ? 1 : -1;",
       "`<` to `<=`", "a piece is cut where a taper ends: its middle is not there" },

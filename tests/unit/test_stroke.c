@@ -421,6 +421,42 @@ static void test_folds(celspan_context *context) {
   }
 }
 
+/* Where a line turns back on itself the disc of that place is seen whole, to whichever side rounding turns
+ * it: half of it lies beyond both sides. */
+static void test_cusps(celspan_context *context) {
+  static const celspan_point shapes[][4] = {{{-20, -10}, {20, 10}, {-20, 10}, {20, -10}},
+                                            {{-20, 0}, {20, 0}, {20, 0}, {-20, 0}},
+                                            {{-20, 0}, {30, 0}, {0, 0}, {-10, 0}}};
+  int wrong = 0;
+  for (int k = 0; k < 3 * 72; k++) {
+    char data[400];
+    double c = cos(0.0872664626 * (k / 3)), d = sin(0.0872664626 * (k / 3)), p[8];
+    for (int i = 0; i < 4; i++) {
+      p[2 * i] = 50 + c * shapes[k % 3][i].x - d * shapes[k % 3][i].y;
+      p[2 * i + 1] = 50 + d * shapes[k % 3][i].x + c * shapes[k % 3][i].y;
+    }
+    snprintf(data, sizeof data, "M%.17g %.17gC%.17g %.17g %.17g %.17g %.17g %.17g", p[0], p[1],
+             p[2], p[3], p[4], p[5], p[6], p[7]);
+    celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
+    desc.data = data;
+    desc.width = 6;
+    counted stroke = make_stroke(context, &desc);
+    const cs_stroke_view view = whole_view(celspan_matrix_scaling(10, 10), 1000);
+    cs_outline outline;
+    make_outline(&stroke, &view, &outline);
+    for (double x = 20; x < 80; x += 0.7)
+      for (double y = 45; y < 55; y += 0.7) {
+        celspan_point at = {50 + c * (x - 50) - d * (y - 50), 50 + d * (x - 50) + c * (y - 50)};
+        bool is_inside = cs_inside_stroke(stroke.object->data->stroke, at);
+        wrong += is_inside != cs_inside_outline(&outline, CELSPAN_RULE_NONZERO, at);
+      }
+    cs_outline_finish(&outline, stroke.object->memory);
+    celspan_object_unref(stroke.object);
+  }
+  printf("cusps: %d of the places are wrong\n", wrong);
+  CHECK(wrong == 0);
+}
+
 /* One width among many of 0 makes a bump, whose flanks are so steep that discs are inside their
  * neighbours for a short way, anywhere along the piece. */
 static void test_swallowed(celspan_context *context) {
@@ -664,6 +700,7 @@ int main(void) {
     test_many_dashes(context);
     test_far(context);
     test_folds(context);
+    test_cusps(context);
     test_swallowed(context);
     test_short_corners(context);
     test_windows(context);
