@@ -74,6 +74,9 @@ return {
     { "if (layer->kind == CS_LAYER_DEFOCUSED && i + 1 < dear && columns > STRIDE)", "`1` to `0`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
   },
+  ["src/render/objects.c"] = {
+    { "size_t depth = 0, most = 0;", "`0` to `1`", "makes room for one more than are kept", 1 },
+  },
   ["src/row/centre.c"] = {
     { "(w->boundary < active->count && active->x[w->boundary] <= w->edges.edges[w->edge].x)) {",
       "`<=` to `<`", "no column lies between two crossings at one place" },
