@@ -14,6 +14,11 @@ enum { GAP_MOST = 4 };
 /* How much more than the noise points may be off an arc that is no corner. */
 #define DOUBT 1.4
 
+/* Points on either side through which a bend goes that a corner is not told from, and its least
+ * radius in pixels. */
+enum { ROUND = 5 };
+#define ROUND_LEAST 2.0
+
 typedef struct finder {
   celspan_context *context;
   const cs_points *points;
@@ -98,6 +103,23 @@ static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b)
   return true;
 }
 
+/* Whether an arc passes through the gates about where two stretches meet, of which one is an arc
+ * itself: as likely as a corner is that the bend goes on. */
+static bool goes_round(const finder *f, const cs_stretch *a, const cs_stretch *b) {
+  ptrdiff_t middle = (a->to + b->from) / 2, from = middle - ROUND, to = middle + ROUND;
+  cs_gate_row row;
+  cs_street street;
+  if (!f->rules->is_exact || (a->arc.bend == 0 && b->arc.bend == 0))
+    return false;
+  if (!f->is_closed) {
+    from = from < 1 ? 1 : from;
+    to = to > point_count(f) - 1 ? point_count(f) - 1 : to;
+  }
+  cs_stretches_row(f->points, from, to, &row);
+  return row.count >= CS_STRETCH_FEWEST && cs_street_find(&row, false, &street) &&
+         fabs(street.middle.bend) < 0.5 / ROUND_LEAST;
+}
+
 /* The one of points [from, to) that is nearest. */
 static size_t nearest(const finder *f, celspan_point point, ptrdiff_t from, ptrdiff_t to) {
   ptrdiff_t best = from, count = point_count(f);
@@ -132,11 +154,14 @@ static celspan_status find_between(finder *f, ptrdiff_t from, ptrdiff_t to, ptrd
     begin = begin < 0 ? 0 : begin;
     end = end > count ? count : end;
   }
-  CS_TRY(cs_stretches_find(f->context, f->points, begin, end, f->rules->noise, &f->stretches));
+  CS_TRY(f->rules->is_exact ? cs_stretches_thread(f->context, f->points, begin, end, &f->stretches)
+                            : cs_stretches_find(f->context, f->points, begin, end, f->rules->noise,
+                                                &f->stretches));
   for (size_t i = 0; i + 1 < f->stretches.count; i++) {
     const cs_stretch *a = &f->stretches.items[i], *b = a + 1;
     celspan_point point;
-    if (a->to < from || a->to >= to || !is_filled(f, a, b) || !meet(f, a, b, &point))
+    if (a->to < from || a->to >= to || !is_filled(f, a, b) || !meet(f, a, b, &point) ||
+        goes_round(f, a, b))
       continue;
     CS_TRY(add(f, nearest(f, point, a->to - 1, b->from + 1), point));
   }

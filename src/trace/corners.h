@@ -23,6 +23,7 @@ typedef struct cs_fit_rules {
   int near;         /* points on either side that lie on an arc where there is no corner */
   double rounding;  /* pixels that points next to a corner are off both of its sides */
   double noise;     /* pixels, root mean square, that points are off a smooth border */
+  bool is_exact;    /* what is fitted passes all gates: tolerance, mean and straight do not count */
 } cs_fit_rules;
 
 typedef struct cs_corner {

@@ -3,11 +3,17 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "trace/solve.h"
 
 /* Times that parameters are brought to the curve; points that are asked in doing so, at most. */
 enum { ROUNDS = 4, ASKED = 40 };
 /* What is so many times as far away as is allowed will not come near. */
 #define HOPELESS 6.0
+/* The same for gates, which weights have to find; and what of its weight a point keeps that the curve
+ * goes through. */
+enum { THREAD_ROUNDS = 12 };
+#define THREAD_HOPELESS 20.0
+#define STAYS 0.05
 
 typedef struct cubic {
   celspan_point p[4];
@@ -36,18 +42,19 @@ static celspan_point bend_at(const cubic *c, double t) {
 
 /* ---------------------------------------------------------------- parameters */
 
-static void begin_parameters(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
-                             double *parameters) {
+static void begin_stations(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
+                           cs_cubic_station *stations) {
   double sum = 0;
   celspan_point from = ends[0].point;
   for (size_t i = 0; i < count; i++) {
-    sum += cs_number_length(points[i].x - from.x, points[i].y - from.y);
-    parameters[i] = sum;
-    from = points[i];
+    celspan_point at = points[i].at;
+    sum += cs_number_length(at.x - from.x, at.y - from.y);
+    stations[i] = (cs_cubic_station){sum, 1, 1};
+    from = at;
   }
   sum += cs_number_length(ends[1].point.x - from.x, ends[1].point.y - from.y);
   for (size_t i = 0; i < count; i++)
-    parameters[i] = sum > 0 ? parameters[i] / sum : 0;
+    stations[i].parameter = sum > 0 ? stations[i].parameter / sum : 0;
 }
 
 /* One step of Newton's method towards the nearest place. */
@@ -63,30 +70,6 @@ static double nearer(const cubic *c, celspan_point point, double t) {
 }
 
 /* ---------------------------------------------------------------- least squares */
-
-/* Solves m x = v by elimination, the largest pivots first; false where it cannot be solved. */
-static bool solve(double m[4][5], int n) {
-  for (int k = 0; k < n; k++) {
-    int best = k;
-    for (int i = k + 1; i < n; i++)
-      best = fabs(m[i][k]) > fabs(m[best][k]) ? i : best;
-    if (fabs(m[best][k]) < 1e-9)
-      return false;
-    for (int j = 0; j <= n; j++) {
-      double kept = m[k][j];
-      m[k][j] = m[best][j];
-      m[best][j] = kept;
-    }
-    for (int i = 0; i < n; i++) {
-      double factor = i == k ? 0 : m[i][k] / m[k][k];
-      for (int j = k; j <= n; j++)
-        m[i][j] -= factor * m[k][j];
-    }
-  }
-  for (int k = 0; k < n; k++)
-    m[k][n] /= m[k][k];
-  return true;
-}
 
 /* The unknowns: how far each control point is from its end, along its tangent or along x and y. */
 typedef struct unknown {
@@ -112,16 +95,18 @@ typedef struct sums {
   celspan_point r[2]; /* of their weights with what the ends leave over */
 } sums;
 
-static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, double t) {
+static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, double t,
+                      double weight) {
   double u = 1 - t, w[2] = {3 * u * u * t, 3 * u * t * t};
   double near = u * u * u + w[0], far = t * t * t + w[1];
   double dx = point.x - near * ends[0].point.x - far * ends[1].point.x;
   double dy = point.y - near * ends[0].point.y - far * ends[1].point.y;
   for (int i = 0; i < 2; i++) {
-    s->b[i][0] += w[i] * w[0];
-    s->b[i][1] += w[i] * w[1];
-    s->r[i].x += w[i] * dx;
-    s->r[i].y += w[i] * dy;
+    double own = weight * w[i];
+    s->b[i][0] += own * w[0];
+    s->b[i][1] += own * w[1];
+    s->r[i].x += own * dx;
+    s->r[i].y += own * dy;
   }
 }
 
@@ -155,20 +140,21 @@ static bool is_sound(const cs_cubic_end ends[2], const celspan_point control[2])
 
 static void place_controls(const sums *s, const cs_cubic_end ends[2], celspan_point control[2]) {
   unknown list[4];
-  double m[4][5];
-  int count = list_unknowns(ends, list);
+  double m[4 * 5];
+  int count = list_unknowns(ends, list), width = count + 1;
   for (int i = 0; i < count; i++) {
+    const unknown *own = &list[i];
     for (int j = 0; j < count; j++)
-      m[i][j] = s->b[list[i].end][list[j].end] *
-                (list[i].along.x * list[j].along.x + list[i].along.y * list[j].along.y);
-    m[i][count] = list[i].along.x * s->r[list[i].end].x + list[i].along.y * s->r[list[i].end].y;
+      m[i * width + j] = s->b[own->end][list[j].end] *
+                         (own->along.x * list[j].along.x + own->along.y * list[j].along.y);
+    m[i * width + count] = own->along.x * s->r[own->end].x + own->along.y * s->r[own->end].y;
   }
-  bool is_solved = solve(m, count);
+  bool is_solved = cs_solve(m, count, 1e-9);
   control[0] = ends[0].point;
   control[1] = ends[1].point;
   for (int i = 0; i < count && is_solved; i++) {
-    control[list[i].end].x += m[i][count] * list[i].along.x;
-    control[list[i].end].y += m[i][count] * list[i].along.y;
+    control[list[i].end].x += m[i * width + count] * list[i].along.x;
+    control[list[i].end].y += m[i * width + count] * list[i].along.y;
   }
   if (!is_solved || !is_sound(ends, control))
     place_plainly(ends, control);
@@ -187,12 +173,13 @@ typedef struct distances {
 } distances;
 
 /* After parameters have come nearer. step: of points. */
-static distances bring_nearer(const cubic *c, const celspan_point *points, size_t count,
-                              size_t step, double *parameters) {
+static distances bring_nearer(const cubic *c, const cs_edge_point *points, size_t count,
+                              size_t step, cs_cubic_station *stations) {
   double most = 0, squares = 0, asked = 0;
   for (size_t i = 0; i < count; i += step) {
-    parameters[i] = nearer(c, points[i], parameters[i]);
-    double far = far_from(c, points[i], parameters[i]);
+    double t = nearer(c, points[i].at, stations[i].parameter);
+    double far = far_from(c, points[i].at, t);
+    stations[i].parameter = t;
     most = far > most ? far : most;
     squares += far * far;
     asked++;
@@ -200,27 +187,85 @@ static distances bring_nearer(const cubic *c, const celspan_point *points, size_
   return (distances){most, sqrt(squares / asked)};
 }
 
-bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
-                  double tolerance, double mean, double *parameters, celspan_point control[2]) {
+/* The cubic of least squares where the points are said to be. */
+static cubic solve(const cs_edge_point *points, size_t count, size_t step,
+                   const cs_cubic_end ends[2], const cs_cubic_station *stations,
+                   celspan_point control[2]) {
+  sums s = {.b = {{0}}};
+  for (size_t i = 0; i < count; i += step)
+    add_point(&s, ends, points[i].at, stations[i].parameter,
+              stations[i].weight / (stations[i].room * stations[i].room));
+  place_controls(&s, ends, control);
+  return (cubic){{ends[0].point, control[0], control[1], ends[1].point}};
+}
+
+bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
+                  double tolerance, double mean, cs_cubic_station *stations,
+                  celspan_point control[2]) {
   size_t step = count / ASKED + 1;
-  begin_parameters(points, count, ends, parameters);
+  begin_stations(points, count, ends, stations);
   place_plainly(ends, control);
   if (count == 0)
     return true;
   for (int round = 0; round < ROUNDS; round++) {
-    sums s = {.b = {{0}}};
-    for (size_t i = 0; i < count; i += step)
-      add_point(&s, ends, points[i], parameters[i]);
-    place_controls(&s, ends, control);
-    const cubic c = {{ends[0].point, control[0], control[1], ends[1].point}};
-    distances off = bring_nearer(&c, points, count, step, parameters);
+    const cubic c = solve(points, count, step, ends, stations, control);
+    distances off = bring_nearer(&c, points, count, step, stations);
     if (off.most <= tolerance && off.mean <= mean) {
       if (step == 1)
         return true;
-      off = bring_nearer(&c, points, count, 1, parameters);
+      off = bring_nearer(&c, points, count, 1, stations);
       return off.most <= tolerance && off.mean <= mean;
     }
     if (off.most > HOPELESS * tolerance)
+      return false;
+  }
+  return false;
+}
+
+/* ---------------------------------------------------------------- through gates */
+
+/* How far aside a point is passed, as a share of the room that its gate leaves: 1 is just through.
+ * Beyond an end, where nothing is across the curve, the distance is that from the end. */
+static double pass(const cubic *c, const cs_edge_point *point, cs_cubic_station *station) {
+  double t = nearer(c, point->at, station->parameter);
+  celspan_point at = point_at(c, t), slope = slope_at(c, t);
+  double dx = point->at.x - at.x, dy = point->at.y - at.y, fast = length(slope.x, slope.y);
+  bool is_across = fast > 0 && t > 0 && t < 1;
+  celspan_point along = {0, 0};
+  if (fast > 0)
+    along = (celspan_point){slope.x / fast, slope.y / fast};
+  station->parameter = t;
+  station->room = cs_edge_room(point, along);
+  return (is_across ? fabs(dx * along.y - dy * along.x) : length(dx, dy)) / station->room;
+}
+
+/* Passes all gates and weighs them anew; the most that any is passed aside. */
+static double pass_all(const cubic *c, const cs_edge_point *points, size_t count,
+                       cs_cubic_station *stations) {
+  double most = 0, total = 0;
+  for (size_t i = 0; i < count; i++) {
+    double share = pass(c, &points[i], &stations[i]);
+    most = share > most ? share : most;
+    stations[i].weight *= share + STAYS;
+    total += stations[i].weight;
+  }
+  for (size_t i = 0; i < count; i++)
+    stations[i].weight *= (double)count / total;
+  return most;
+}
+
+bool cs_cubic_thread(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
+                     cs_cubic_station *stations, celspan_point control[2]) {
+  begin_stations(points, count, ends, stations);
+  place_plainly(ends, control);
+  if (count == 0)
+    return true;
+  for (int round = 0; round < THREAD_ROUNDS; round++) {
+    const cubic c = solve(points, count, 1, ends, stations, control);
+    double most = pass_all(&c, points, count, stations);
+    if (most <= 1)
+      return true;
+    if (most > THREAD_HOPELESS)
       return false;
   }
   return false;

@@ -11,7 +11,7 @@
 #ifndef CS_TRACE_CUBIC_H
 #define CS_TRACE_CUBIC_H
 
-#include "celspan/celspan.h"
+#include "trace/edge.h"
 
 /* An end: where the curve is and, where has_tangent, in what direction it leaves towards the other
  * end. */
@@ -20,10 +20,21 @@ typedef struct cs_cubic_end {
   bool has_tangent;
 } cs_cubic_end;
 
-/* `parameters` is room for count numbers; the points lie between the ends, which are not among them.
- * Returns whether no point is farther away than the tolerance, and all of them, root mean square, not
- * farther than `mean`. */
-bool cs_cubic_fit(const celspan_point *points, size_t count, const cs_cubic_end ends[2],
-                  double tolerance, double mean, double *parameters, celspan_point control[2]);
+/* What is known of a point while a cubic is fitted. */
+typedef struct cs_cubic_station {
+  double parameter;
+  double weight, room; /* where gates are passed */
+} cs_cubic_station;
+
+/* The points lie between the ends, which are not among them; `stations` is one for each. Returns
+ * whether no point is farther away than the tolerance, and all of them, root mean square, not farther
+ * than `mean`. */
+bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
+                  double tolerance, double mean, cs_cubic_station *stations,
+                  celspan_point control[2]);
+/* The same, of points of whole pixels: returns whether the curve passes all their gates. Those that
+ * are passed farthest aside get the more weight, round by round (Lawson's algorithm, 1961). */
+bool cs_cubic_thread(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
+                     cs_cubic_station *stations, celspan_point control[2]);
 
 #endif

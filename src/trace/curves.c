@@ -30,7 +30,7 @@ static cs_fit_rules rules_of_mixed(double smooth) {
 }
 
 /* A picture of whole pixels does not tell where within half a pixel of a side an edge is: that is
- * noise of the square root of 1/12. */
+ * noise of the square root of 1/12. What is smoothed more need not pass between the pixels. */
 static cs_fit_rules rules_of_whole(double smooth) {
   return (cs_fit_rules){.tolerance = 0.3 + 0.25 * smooth,
                         .mean = 0.1 + 0.15 * smooth,
@@ -38,7 +38,8 @@ static cs_fit_rules rules_of_whole(double smooth) {
                         .about = 8,
                         .near = 8,
                         .rounding = 0.7,
-                        .noise = 0.28 * most(smooth, 1)};
+                        .noise = 0.28 * most(smooth, 1),
+                        .is_exact = smooth <= 1};
 }
 
 static cs_fit_rules rules_for(double smooth, bool is_whole) {
@@ -57,10 +58,10 @@ static celspan_status follow_pixels(const maker *m, const cs_chain *chain, cs_po
                                     celspan_point *start) {
   CS_TRY(cs_edge_turns(m->context, m->borders, chain, points));
   if (chain->from != CS_NODE_NONE) {
-    points->items[0] = m->places[chain->from];
-    points->items[points->count - 1] = m->places[chain->to];
+    points->items[0].at = m->places[chain->from];
+    points->items[points->count - 1].at = m->places[chain->to];
   }
-  *start = cs_fit_snap(points->items[0]);
+  *start = cs_fit_snap(points->items[0].at);
   return cs_fit_lines(m->context, points, &m->out->pieces);
 }
 
@@ -78,7 +79,7 @@ static celspan_status follow_edge(const maker *m, const cs_chain *chain, cs_poin
   if (!is_open)
     return cs_fit_closed(m->context, points, &m->rules, start, &m->out->pieces);
   CS_TRY(cs_points_add(m->context, points, m->places[chain->to]));
-  *start = cs_fit_snap(points->items[0]);
+  *start = cs_fit_snap(points->items[0].at);
   return cs_fit_open(m->context, points, &m->rules, &m->out->pieces);
 }
 

@@ -18,11 +18,21 @@
 
 /* ---------------------------------------------------------------- points */
 
-celspan_status cs_points_add(celspan_context *context, cs_points *points, celspan_point point) {
+celspan_status cs_points_copy(celspan_context *context, cs_points *points,
+                              const cs_edge_point *point) {
   CS_TRY(cs_mem_reserve(context, (void **)&points->items, &points->capacity, points->count + 1,
                         sizeof *points->items));
-  points->items[points->count++] = point;
+  points->items[points->count++] = *point;
   return CELSPAN_OK;
+}
+
+celspan_status cs_points_add(celspan_context *context, cs_points *points, celspan_point point) {
+  return cs_points_copy(context, points, &(cs_edge_point){.at = point});
+}
+
+double cs_edge_room(const cs_edge_point *point, celspan_point along) {
+  double room = fabs(point->aside.x * along.y - point->aside.y * along.x);
+  return room > CS_EDGE_TIGHTEST ? room : CS_EDGE_TIGHTEST;
 }
 
 void cs_points_finish(celspan_context *context, cs_points *points) {
@@ -180,7 +190,7 @@ static bool is_asked(celspan_point way, int direction) {
 static bool goes_on(const cs_points *points, celspan_point point, celspan_point way) {
   if (points->count == 0)
     return true;
-  celspan_point last = points->items[points->count - 1];
+  celspan_point last = points->items[points->count - 1].at;
   double length = cs_number_length(way.x, way.y);
   return (point.x - last.x) * way.x + (point.y - last.y) * way.y >= LEAST_STEP * length;
 }
@@ -189,14 +199,19 @@ static course course_of(const cs_borders *borders, const cs_chain *chain) {
   return (course){borders->directions + chain->first, chain->count, chain->from == CS_NODE_NONE};
 }
 
+/* The middle of a side of whole pixels: left of direction 0 is above. */
+static celspan_status add_middle(celspan_context *context, celspan_point from, int direction,
+                                 cs_points *out) {
+  double x = 0.5 * cs_border_x(direction), y = 0.5 * cs_border_y(direction);
+  return cs_points_copy(context, out, &(cs_edge_point){{from.x + x, from.y + y}, {y, -x}});
+}
+
 /* Adds the point of side i, which begins at (x, y), where it has one. */
 static celspan_status add_point_of(celspan_context *context, const cs_material *material,
                                    const course *c, size_t i, celspan_point from, cs_points *out) {
   int direction = c->directions[i];
   if (material->is_whole)
-    return cs_points_add(context, out,
-                         (celspan_point){from.x + 0.5 * cs_border_x(direction),
-                                         from.y + 0.5 * cs_border_y(direction)});
+    return add_middle(context, from, direction, out);
   celspan_point way = way_about(c, i);
   if (!is_asked(way, direction))
     return CELSPAN_OK;
@@ -234,9 +249,11 @@ celspan_status cs_edge_turns(celspan_context *context, const cs_borders *borders
       y += cs_border_y(c.directions[i]);
     }
   }
-  bool is_open = out->count > 0 && (out->items[0].x != out->items[out->count - 1].x ||
-                                    out->items[0].y != out->items[out->count - 1].y);
-  return c.is_closed && is_open ? cs_points_add(context, out, out->items[0]) : CELSPAN_OK;
+  if (!c.is_closed || out->count == 0)
+    return CELSPAN_OK;
+  celspan_point first = out->items[0].at, last = out->items[out->count - 1].at;
+  bool is_open = first.x != last.x || first.y != last.y;
+  return is_open ? cs_points_add(context, out, first) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- whole pixels */

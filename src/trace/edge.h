@@ -31,18 +31,38 @@
 #define CS_TRACE_EDGE_H
 
 #include "trace/borders.h"
+#include "trace/gates.h"
 
 /* Pixels that are asked on either side. */
 #define CS_EDGE_EXTENT 3
 #define CS_EDGE_FAR 1.0
+#define CS_EDGE_TIGHTEST 0.05
+
+/* aside: where pixels are whole, from the middle of a side to that of the pixel on its left; otherwise,
+ * and at ends, 0, 0. */
+typedef struct cs_edge_point {
+  celspan_point at, aside;
+} cs_edge_point;
 
 typedef struct cs_points {
-  celspan_point *items;
+  cs_edge_point *items;
   size_t count, capacity;
 } cs_points;
 
+/* The gate that a point of whole pixels is the middle of. */
+static inline cs_gate cs_edge_gate(const cs_edge_point *point) {
+  celspan_point at = point->at, aside = point->aside;
+  return (cs_gate){{at.x + aside.x, at.y + aside.y}, {at.x - aside.x, at.y - aside.y}};
+}
+
+/* How far from the point an edge in a direction, of length 1, may pass and still be in its gate; at
+ * least CS_EDGE_TIGHTEST, which is too little to see. */
+double cs_edge_room(const cs_edge_point *point, celspan_point along);
+
 CELSPAN_CHECKED celspan_status cs_points_add(celspan_context *context, cs_points *points,
                                              celspan_point point);
+CELSPAN_CHECKED celspan_status cs_points_copy(celspan_context *context, cs_points *points,
+                                              const cs_edge_point *point);
 void cs_points_finish(celspan_context *context, cs_points *points);
 
 /* The corners of pixels that a chain turns at, and both of its ends: the border of the pixels

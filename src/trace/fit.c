@@ -50,7 +50,7 @@ static celspan_status add_line(celspan_context *context, cs_pieces *out, celspan
 
 celspan_status cs_fit_lines(celspan_context *context, const cs_points *points, cs_pieces *out) {
   for (size_t i = 1; i < points->count; i++)
-    CS_TRY(add_line(context, out, points->items[i]));
+    CS_TRY(add_line(context, out, points->items[i].at));
   return CELSPAN_OK;
 }
 
@@ -61,8 +61,8 @@ typedef struct part {
   celspan_context *context;
   const cs_fit_rules *rules;
   cs_points points;
-  double *parameters; /* room, for each point */
-  size_t *ends;       /* points at which pieces end; room for all */
+  cs_cubic_station *stations; /* room, for each point */
+  size_t *ends;               /* points at which pieces end; room for all */
   size_t end_count;
   bool is_ring; /* its ends are one joint, not corners */
   cs_pieces *out;
@@ -81,11 +81,17 @@ static double off_line(celspan_point from, celspan_point to, celspan_point point
 }
 
 static bool is_straight(const part *p) {
-  const celspan_point *items = p->points.items;
+  const cs_edge_point *items = p->points.items;
   size_t last = p->points.count - 1;
-  for (size_t i = 1; i < last; i++)
-    if (off_line(items[0], items[last], items[i]) > p->rules->straight)
+  celspan_point from = items[0].at, to = items[last].at;
+  double far = apart(from, to);
+  celspan_point along = far > 0 ? (celspan_point){(to.x - from.x) / far, (to.y - from.y) / far}
+                                : (celspan_point){0, 0};
+  for (size_t i = 1; i < last; i++) {
+    double most = p->rules->is_exact ? cs_edge_room(&items[i], along) : p->rules->straight;
+    if (off_line(from, to, items[i].at) > most)
       return false;
+  }
   return true;
 }
 
@@ -100,7 +106,7 @@ static cs_arc_sums sum_about(const part *p, ptrdiff_t i, ptrdiff_t extent) {
     from = from < 0 ? 0 : from;
     wanted = wanted < end - from ? wanted : end - from;
   }
-  cs_arc_sums sums = cs_arc_begin(p->points.items[i]);
+  cs_arc_sums sums = cs_arc_begin(p->points.items[i].at);
   for (ptrdiff_t k = 0; k < wanted && k < (ptrdiff_t)once.count; k++)
     cs_arc_add(&sums, cs_points_at(&once, from + k));
   return sums;
@@ -112,11 +118,8 @@ static bool is_line(const part *p, const cs_arc_sums *sums) {
   return sums->count < 4 || scale * (cs_arc_line_error(sums) - cs_arc_error(sums)) <= 3;
 }
 
-/* The joint at a point: on the longest arc about it that is as near to its points as noise lets them
- * be. */
-static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
-  const celspan_point *items = p->points.items;
-  size_t last = p->points.count - 1;
+/* The longest arc about a point that is as near to its points as noise lets them be. */
+static cs_arc arc_about(const part *p, size_t i) {
   double most = p->rules->noise;
   cs_arc_sums sums;
   for (int extent = p->rules->about; extent > 1; extent--) {
@@ -124,10 +127,41 @@ static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
     if (cs_arc_error(&sums) <= most * most)
       break;
   }
-  celspan_point before = items[i > 0 ? i - 1 : last - 1], after = items[i < last ? i + 1 : 1];
+  return cs_arc_of(&sums, is_line(p, &sums));
+}
+
+/* The longest arc that passes the gates about a point; false: none does. */
+static bool pass_about(const part *p, size_t i, cs_arc *arc) {
+  ptrdiff_t at = (ptrdiff_t)i, last = (ptrdiff_t)p->points.count - 1;
+  cs_points once = p->points;
+  once.count -= p->is_ring;
+  for (ptrdiff_t extent = p->rules->about; extent > 1; extent--) {
+    ptrdiff_t from = at - extent, to = at + extent + 1;
+    cs_gate_row row;
+    cs_street street;
+    if (!p->is_ring) {
+      from = from < 1 ? 1 : from;
+      to = to > last ? last : to;
+    }
+    cs_stretches_row(&once, from, to, &row);
+    if (row.count >= CS_STRETCH_FEWEST && cs_street_find(&row, false, &street)) {
+      *arc = street.middle;
+      return true;
+    }
+  }
+  return false;
+}
+
+/* The joint at a point: on the arc about it. */
+static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
+  const cs_edge_point *items = p->points.items;
+  size_t last = p->points.count - 1;
+  celspan_point before = items[i > 0 ? i - 1 : last - 1].at, after = items[i < last ? i + 1 : 1].at;
   celspan_point across;
-  cs_arc arc = cs_arc_of(&sums, is_line(p, &sums));
-  out->point = cs_arc_nearest(&arc, items[i]);
+  cs_arc arc;
+  if (!p->rules->is_exact || !pass_about(p, i, &arc))
+    arc = arc_about(p, i);
+  out->point = cs_arc_nearest(&arc, items[i].at);
   (void)cs_arc_off(&arc, out->point, &across);
   double length = cs_number_length(across.x, across.y);
   bool is_back = across.x * (after.y - before.y) - across.y * (after.x - before.x) < 0;
@@ -139,7 +173,7 @@ static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
 /* The end of a fit at a point, towards points after it (step 1) or before it (-1). */
 static cs_cubic_end end_at(const part *p, size_t i, int step) {
   size_t last = p->points.count - 1;
-  cs_cubic_end end = {.point = p->points.items[i]};
+  cs_cubic_end end = {.point = p->points.items[i].at};
   if (p->is_ring || (i > 0 && i < last))
     make_joint(p, i, &end);
   end.tangent.x *= step;
@@ -152,8 +186,11 @@ static bool fit(const part *p, size_t from, size_t to, cs_piece *out) {
   const cs_cubic_end ends[2] = {end_at(p, from, 1), end_at(p, to, -1)};
   out->is_line = false;
   out->to = ends[1].point;
-  return cs_cubic_fit(p->points.items + from + 1, to - from - 1, ends, p->rules->tolerance,
-                      p->rules->mean, p->parameters, out->control);
+  const cs_edge_point *points = p->points.items + from + 1;
+  size_t count = to - from - 1;
+  return p->rules->is_exact ? cs_cubic_thread(points, count, ends, p->stations, out->control)
+                            : cs_cubic_fit(points, count, ends, p->rules->tolerance, p->rules->mean,
+                                           p->stations, out->control);
 }
 
 /* The farthest point that one cubic gets to: twice as many points as long as that goes, then halves
@@ -189,7 +226,7 @@ static size_t farthest(const part *p, size_t from, cs_piece *best) {
 static celspan_status fit_greedily(part *p) {
   size_t last = p->points.count - 1;
   for (size_t from = 0; from < last;) {
-    cs_piece best = {.is_line = true, .to = p->points.items[from + 1]};
+    cs_piece best = {.is_line = true, .to = p->points.items[from + 1].at};
     size_t to = farthest(p, from, &best);
     CS_TRY(cs_pieces_add(p->context, p->out, &best));
     from = to > from ? to : from + 1;
@@ -241,21 +278,21 @@ static celspan_status add_between(part *p, const cs_points *points, size_t from,
                                   celspan_point begin, celspan_point end) {
   CS_TRY(cs_points_add(p->context, &p->points, begin));
   for (size_t i = 0; i < count; i++) {
-    celspan_point point = points->items[(from + i) % points->count];
-    if (apart(point, begin) > NEAR && apart(point, end) > NEAR)
-      CS_TRY(cs_points_add(p->context, &p->points, point));
+    const cs_edge_point *point = &points->items[(from + i) % points->count];
+    if (apart(point->at, begin) > NEAR && apart(point->at, end) > NEAR)
+      CS_TRY(cs_points_copy(p->context, &p->points, point));
   }
   return cs_points_add(p->context, &p->points, end);
 }
 
 static celspan_status run_part(part *p) {
   if (p->points.count < 3 || (!p->is_ring && is_straight(p)))
-    return add_line(p->context, p->out, p->points.items[p->points.count - 1]);
+    return add_line(p->context, p->out, p->points.items[p->points.count - 1].at);
   size_t room = p->points.count;
-  p->parameters = cs_mem_array(p->context->memory, room, sizeof *p->parameters);
+  p->stations = cs_mem_array(p->context->memory, room, sizeof *p->stations);
   p->ends = cs_mem_array(p->context->memory, room, sizeof *p->ends);
-  celspan_status status = p->parameters && p->ends ? fit_part(p) : cs_fail_memory(p->context);
-  cs_mem_free(p->context->memory, p->parameters, room * sizeof *p->parameters);
+  celspan_status status = p->stations && p->ends ? fit_part(p) : cs_fail_memory(p->context);
+  cs_mem_free(p->context->memory, p->stations, room * sizeof *p->stations);
   cs_mem_free(p->context->memory, p->ends, room * sizeof *p->ends);
   return status;
 }
@@ -279,7 +316,7 @@ celspan_status cs_fit_open(celspan_context *context, const cs_points *points,
   const part p = {.context = context, .rules = rules, .out = out};
   cs_corner_list corners = {.items = NULL};
   size_t last = points->count - 1, from = 0;
-  celspan_point ends[2] = {points->items[0], points->items[last]};
+  celspan_point ends[2] = {points->items[0].at, points->items[last].at};
   celspan_status status = cs_corners_find(context, points, false, rules, &corners);
   for (size_t i = 0; i < corners.count && status == CELSPAN_OK; i++) {
     const cs_corner *corner = &corners.items[i];
@@ -302,7 +339,7 @@ static celspan_status fit_ring(const part *like, const cs_points *points, celspa
   p.points = (cs_points){.items = NULL};
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i <= points->count && status == CELSPAN_OK; i++)
-    status = cs_points_add(like->context, &p.points, points->items[i % points->count]);
+    status = cs_points_copy(like->context, &p.points, &points->items[i % points->count]);
   if (status == CELSPAN_OK) {
     make_joint(&p, 0, &joint);
     *start = cs_fit_snap(joint.point);

@@ -20,7 +20,7 @@ typedef struct sums {
 static void add_line(sums *s, const cs_points *points, const cs_node *node) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
   for (size_t i = 0; i < points->count; i++) {
-    double x = points->items[i].x - node->x, y = points->items[i].y - node->y;
+    double x = points->items[i].at.x - node->x, y = points->items[i].at.y - node->y;
     double far = cs_number_length(x, y);
     if (far < NEAREST || far > FARTHEST)
       continue;

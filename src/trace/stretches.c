@@ -2,10 +2,13 @@
 
 #include <math.h>
 
-/* What a line costs, an arc, and a point that is left out. */
+#include "trace/preimage.h"
+
+/* What a line costs, an arc, a point that is left out, and one that is although it has a gate. */
 #define LINE 5.0
 #define ARC 8.0
 #define LEFT_OUT 2.2
+#define GATE_LEFT_OUT 6.0
 /* With so much more than one for each of its points, an arc is longer than one that is taken. */
 #define HOPELESS 24.0
 
@@ -19,8 +22,11 @@ typedef struct way {
 typedef struct finder {
   const cs_points *points;
   ptrdiff_t from, count;
-  double scale; /* from the sum of squares to what it costs */
-  way *ways;    /* count + 1 */
+  bool is_exact;       /* through gates */
+  double scale;        /* otherwise: from the sum of squares to what it costs */
+  double (*widths)[2]; /* how wide streets of arcs and of lines from each point on are at most, for
+                        * with each gate they narrow */
+  way *ways;           /* count + 1 */
 } finder;
 
 static void try(const finder *f, ptrdiff_t end, ptrdiff_t count, double own, bool is_line) {
@@ -47,13 +53,90 @@ static void find_way(const finder *f, ptrdiff_t end) {
   }
 }
 
+/* ---------------------------------------------------------------- through gates */
+
+void cs_stretches_row(const cs_points *points, ptrdiff_t from, ptrdiff_t to, cs_gate_row *row) {
+  ptrdiff_t count = (ptrdiff_t)points->count;
+  row->count = 0;
+  for (ptrdiff_t i = from; i < to && row->count < CS_GATES_MOST; i++)
+    row->list[row->count++] = cs_edge_gate(&points->items[((i % count) + count) % count]);
+}
+
+static void row_between(const finder *f, ptrdiff_t start, ptrdiff_t end, cs_gate_row *row) {
+  cs_stretches_row(f->points, f->from + start, f->from + end, row);
+}
+
+/* The longest stretch that ends at a point. */
+typedef struct longest {
+  bool is_line, is_known; /* known: what passes its gates */
+  ptrdiff_t start;
+  cs_street street;
+} longest;
+
+/* To the next end. It does not begin before the one that ended a point before, and begins with it where
+ * that passes one more gate. */
+static void go_on(const finder *f, ptrdiff_t end, longest *l) {
+  cs_gate_row row;
+  bool is_full = end - l->start > CS_STRETCH_MOST;
+  row_between(f, end - 1, end, &row);
+  if (l->is_known && cs_street_passes(&l->street, &row.list[0])) {
+    l->start += is_full;
+    return;
+  }
+  l->is_known = false;
+  for (l->start += is_full; end - l->start >= CS_STRETCH_FEWEST && !l->is_known; l->start++) {
+    row_between(f, l->start, end, &row);
+    l->is_known = cs_street_find_any(&row, l->is_line, &l->street);
+  }
+  l->start -= l->is_known;
+}
+
+/* A stretch costs less by how wide its street is. */
+static void try_street(const finder *f, ptrdiff_t start, ptrdiff_t end, bool is_line) {
+  double cost = is_line ? LINE : ARC, *width = &f->widths[start][is_line];
+  cs_gate_row row;
+  cs_street street;
+  if (f->ways[start].cost + cost - *width >= f->ways[end].cost)
+    return;
+  row_between(f, start, end, &row);
+  if (!cs_street_find(&row, is_line, &street))
+    return;
+  *width = street.width;
+  try(f, end, end - start, cost - street.width, is_line);
+}
+
+/* Where a line passes no arc is needed. */
+static void find_ways_through(const finder *f) {
+  longest line = {.is_line = true}, arc = {.is_line = false};
+  for (ptrdiff_t end = 1; end <= f->count; end++) {
+    f->ways[end] = (way){f->ways[end - 1].cost + GATE_LEFT_OUT, 0, false};
+    f->widths[end - 1][0] = f->widths[end - 1][1] = 1;
+    go_on(f, end, &line);
+    go_on(f, end, &arc);
+    for (ptrdiff_t start = arc.start; start + CS_STRETCH_FEWEST <= end; start++)
+      try_street(f, start, end, start >= line.start);
+  }
+}
+
+/* ---------------------------------------------------------------- the cheapest way */
+
+static cs_arc arc_of(const finder *f, const cs_stretch *stretch, bool is_line) {
+  cs_arc_sums sums = cs_arc_begin(cs_points_at(f->points, stretch->from));
+  for (ptrdiff_t i = stretch->from; i < stretch->to; i++)
+    cs_arc_add(&sums, cs_points_at(f->points, i));
+  return cs_arc_of(&sums, is_line);
+}
+
 static cs_stretch stretch_of(const finder *f, ptrdiff_t end) {
   const way *last = &f->ways[end];
   cs_stretch out = {.from = f->from + end - last->count, .to = f->from + end};
-  cs_arc_sums sums = cs_arc_begin(cs_points_at(f->points, out.from));
-  for (ptrdiff_t i = out.from; i < out.to; i++)
-    cs_arc_add(&sums, cs_points_at(f->points, i));
-  out.arc = cs_arc_of(&sums, last->is_line);
+  cs_gate_row row;
+  cs_street street;
+  cs_stretches_row(f->points, out.from, out.to, &row);
+  if (!f->is_exact || !cs_street_find(&row, last->is_line, &street))
+    out.arc = arc_of(f, &out, last->is_line);
+  else if (!last->is_line || !cs_preimage_middle(&row, &out.arc))
+    out.arc = street.middle;
   return out;
 }
 
@@ -83,18 +166,39 @@ static celspan_status list(celspan_context *context, const finder *f, cs_stretch
   return CELSPAN_OK;
 }
 
+static void find_ways(const finder *f) {
+  for (ptrdiff_t end = 1; end <= f->count; end++)
+    find_way(f, end);
+}
+
+static celspan_status run(celspan_context *context, finder *f, cs_stretches *out) {
+  f->ways[0] = (way){.cost = 0};
+  if (f->is_exact)
+    find_ways_through(f);
+  else
+    find_ways(f);
+  return list(context, f, out);
+}
+
 celspan_status cs_stretches_find(celspan_context *context, const cs_points *points, ptrdiff_t from,
                                  ptrdiff_t to, double noise, cs_stretches *out) {
-  size_t size = (size_t)(to - from) + 1;
-  finder f = {points, from, to - from, 0.5 / (noise * noise),
-              cs_mem_array(context->memory, size, sizeof *f.ways)};
-  if (!f.ways)
-    return cs_fail_memory(context);
-  f.ways[0] = (way){.cost = 0};
-  for (ptrdiff_t end = 1; end <= f.count; end++)
-    find_way(&f, end);
-  celspan_status status = list(context, &f, out);
+  finder f = {.points = points, .from = from, .count = to - from, .scale = 0.5 / (noise * noise)};
+  size_t size = (size_t)f.count + 1;
+  f.ways = cs_mem_array(context->memory, size, sizeof *f.ways);
+  celspan_status status = f.ways ? run(context, &f, out) : cs_fail_memory(context);
   cs_mem_free(context->memory, f.ways, size * sizeof *f.ways);
+  return status;
+}
+
+celspan_status cs_stretches_thread(celspan_context *context, const cs_points *points,
+                                   ptrdiff_t from, ptrdiff_t to, cs_stretches *out) {
+  finder f = {.points = points, .from = from, .count = to - from, .is_exact = true};
+  size_t size = (size_t)f.count + 1;
+  f.ways = cs_mem_array(context->memory, size, sizeof *f.ways);
+  f.widths = cs_mem_array(context->memory, size, sizeof *f.widths);
+  celspan_status status = f.ways && f.widths ? run(context, &f, out) : cs_fail_memory(context);
+  cs_mem_free(context->memory, f.ways, size * sizeof *f.ways);
+  cs_mem_free(context->memory, f.widths, size * sizeof *f.widths);
   return status;
 }
 

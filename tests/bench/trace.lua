@@ -45,6 +45,8 @@ end
 local art = drawing()
 local truth = ink(art)
 assert(celspan.render(rostrum(art), folder .. "/art.png", { size = { width, height } }))
+assert(celspan.render(celspan.rostrum { celspan.cel { art }, back = "#ffffff", antialias = "none" },
+  folder .. "/whole.png", { size = { width, height } }))
 do -- the same for potrace, with 8 bits and, because its programs threshold at one half, in linear light
   local file, row = assert(io.open(folder .. "/art.pgm", "wb")), {}
   file:write(("P5 %d %d 255\n"):format(width, height))
@@ -107,6 +109,7 @@ end
 print(("%d x %d pixels"):format(width, height))
 print(("%-24s %8s %9s %9s %10s %8s"):format("", "cpu s", "curves", "bytes", "mean off", "worst"))
 measure("celspan", binary .. " trace FOLDER/art.png -o FOLDER/a.svg --colours \"#ffffff,#000000\"", "a.svg", true)
+measure("celspan, one bit", binary .. " trace FOLDER/whole.png -o FOLDER/d.svg --colours \"#ffffff,#000000\"", "d.svg", true)
 measure("potrace", "mkbitmap -x -t 0.5 -o FOLDER/b.pbm FOLDER/art.pgm; potrace -s FOLDER/b.pbm -o FOLDER/b.svg", "b.svg")
 measure("potrace, mkbitmap -s 2",
   "mkbitmap -x -s 2 -3 -t 0.5 -o FOLDER/c.pbm FOLDER/art.pgm; potrace -s FOLDER/c.pbm -o FOLDER/c.svg", "c.svg")
