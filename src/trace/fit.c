@@ -181,9 +181,9 @@ static cs_cubic_end end_at(const part *p, size_t i, int step) {
   return end;
 }
 
-/* Fits the points from one to another. */
-static bool fit(const part *p, size_t from, size_t to, cs_piece *out) {
-  const cs_cubic_end ends[2] = {end_at(p, from, 1), end_at(p, to, -1)};
+/* Fits the points from one, at which the curve begins, to another. */
+static bool fit(const part *p, const cs_cubic_end *begin, size_t from, size_t to, cs_piece *out) {
+  const cs_cubic_end ends[2] = {*begin, end_at(p, to, -1)};
   out->is_line = false;
   out->to = ends[1].point;
   const cs_edge_point *points = p->points.items + from + 1;
@@ -198,10 +198,11 @@ static bool fit(const part *p, size_t from, size_t to, cs_piece *out) {
 static size_t farthest(const part *p, size_t from, cs_piece *best) {
   size_t last = p->points.count - 1, good = from, step = FIRST;
   size_t bad = last + 1;
+  const cs_cubic_end begin = end_at(p, from, 1);
   cs_piece tried;
   while (good < last && bad > last) {
     size_t to = from + step < last ? from + step : last;
-    if (fit(p, from, to, &tried)) {
+    if (fit(p, &begin, from, to, &tried)) {
       good = to;
       *best = tried;
       step *= 2;
@@ -211,7 +212,7 @@ static size_t farthest(const part *p, size_t from, cs_piece *best) {
   }
   while (bad - good > 1 && good < last) {
     size_t middle = good + (bad - good) / 2;
-    if (fit(p, from, middle, &tried)) {
+    if (fit(p, &begin, from, middle, &tried)) {
       good = middle;
       *best = tried;
     } else {
@@ -242,8 +243,9 @@ static celspan_status fit_shares(const part *p, double share, bool *fits) {
   for (size_t i = 0; i < p->end_count && *fits; i++) {
     bool is_last = i + 1 == p->end_count;
     size_t to = is_last ? p->points.count - 1 : (size_t)(share * (double)p->ends[i] + 0.5);
+    const cs_cubic_end begin = end_at(p, from, 1);
     cs_piece piece;
-    *fits = to > from && fit(p, from, to, &piece);
+    *fits = to > from && fit(p, &begin, from, to, &piece);
     if (*fits)
       CS_TRY(cs_pieces_add(p->context, p->out, &piece));
     from = to;

@@ -9,6 +9,8 @@
 #define ARC 8.0
 #define LEFT_OUT 2.2
 #define GATE_LEFT_OUT 6.0
+/* How much less a stretch costs by each pixel of the width of its street. */
+#define WIDE 1.5
 /* With so much more than one for each of its points, an arc is longer than one that is taken. */
 #define HOPELESS 24.0
 
@@ -96,13 +98,13 @@ static void try_street(const finder *f, ptrdiff_t start, ptrdiff_t end, bool is_
   double cost = is_line ? LINE : ARC, *width = &f->widths[start][is_line];
   cs_gate_row row;
   cs_street street;
-  if (f->ways[start].cost + cost - *width >= f->ways[end].cost)
+  if (f->ways[start].cost + cost - WIDE * *width >= f->ways[end].cost)
     return;
   row_between(f, start, end, &row);
   if (!cs_street_find(&row, is_line, &street))
     return;
   *width = street.width;
-  try(f, end, end - start, cost - street.width, is_line);
+  try(f, end, end - start, cost - WIDE * street.width, is_line);
 }
 
 /* Where a line passes no arc is needed. */

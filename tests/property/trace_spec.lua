@@ -23,9 +23,9 @@ local function leaks(object, w, h, size)
 end
 
 local function retrace(case, antialias)
-  local off, object, w, h = traced.retrace(case, antialias)
+  local off, object, w, h, original = traced.retrace(case, antialias)
   if REPORT then print(("case %d: %d x %d, %s, off %.3f"):format(case, w, h, antialias, off)) end
-  return off, object, w, h
+  return off, object, w, h, original
 end
 
 local it_traces = present.pictures() and it or pending
@@ -49,11 +49,15 @@ describe("a drawing that is traced", function()
     end)
   end
 
-  it_traces("keeps its edges within half a pixel in three of four where pixels are whole", function()
-    local far, all = 0, 0
-    for _, case in cases.of(COUNT) do
-      all, far = all + 1, far + (retrace(case, "none") > 0.5 and 1 or 0)
-    end
-    assert.is_true(far <= math.max(8, 0.25 * all), ("%d of %d are farther off"):format(far, all))
-  end)
+  it_traces("keeps six of seven within half a pixel where pixels are whole, and their pixels",
+    function()
+      local far, changed, all = 0, 0, 0
+      for _, case in cases.of(COUNT) do
+        local off, object, w, h, original = retrace(case, "none")
+        all, far = all + 1, far + (off > 0.5 and 1 or 0)
+        changed = changed + traced.changed(original, object, w, h)
+      end
+      assert.is_true(far <= math.max(4, all / 7), ("%d of %d are farther off"):format(far, all))
+      assert.is_true(changed <= 2 * all, ("%d pixels of %d drawings changed"):format(changed, all))
+    end)
 end)

@@ -34,10 +34,11 @@ end
 local drawn = 0
 
 --- Each under another name: a picture is read once.
-local function draw(object, w, h)
+local function draw(object, w, h, antialias)
   drawn = drawn + 1
   local path = ("%s/drawing%d.png"):format(bench.folder, drawn)
-  assert(celspan.render(celspan.rostrum { celspan.cel { object } }, path, { size = { w, h } }))
+  assert(celspan.render(celspan.rostrum { antialias = antialias, celspan.cel { object } }, path,
+    { size = { w, h } }))
   return path
 end
 
@@ -126,6 +127,21 @@ describe("trace.picture", function()
     _, curves = box.shapes[2].d:gsub("C", "")
     local _, lines = box.shapes[2].d:gsub("L", "")
     assert.same({ 0, 4 }, { curves, lines })
+  end)
+
+  it_traces("makes four lines of a tilted square of whole pixels, and draws its pixels again", function()
+    for _, turn in ipairs { 3, 20, 45 } do
+      local square = celspan.rect { 10, 10, 20, 20, texture = ink }:rotate(turn, 20, 20)
+      local object = celspan.union { celspan.rect { 0, 0, 40, 40, texture = paper }, square }
+      local path = draw(object, 40, 40, "none")
+      local art = assert(trace.picture(path, { colours = { paper, ink } }))
+      assert.equal("MLLLLZ", (art.shapes[2].d:gsub("[^%a]", "")))
+      local function whole(drawing)
+        return celspan.pixels(celspan.rostrum { antialias = "none", celspan.cel { drawing } },
+          { film = { 40, 40 }, size = { 40, 40 } }):bytes { depth = 8 }
+      end
+      assert.is_true(whole(object) == whole(art.object), "turned by " .. turn)
+    end
   end)
 
   it_traces("takes lines thinner than a pixel by their middle and width", function()
