@@ -8,7 +8,8 @@
  * Each cubic goes from joint to joint by least squares: at a joint, which lies on the arc of the points
  * about it, its control point lies on the tangent; at a corner it is free. It is made as long as points
  * are not farther from it than the tolerance, each of them and on the average; what the last one then
- * leaves over is shared out among all. Between two corners a line takes precedence.
+ * leaves over is shared out among all. Between two corners a line takes precedence. Points of whole
+ * pixels have gates, and each piece passes those of its points: tolerances do not count then.
  *
  * INVARIANT: the result is a function of the points and rules. Coordinates are whole multiples of
  * 1 / CS_FIT_GRID, so that they are the same when written as decimals and read again.

@@ -5,11 +5,19 @@
 /* Pixels that a line may be beside an end of its row. */
 #define FAR 2.0
 
-/* Each half-plane that cuts a convex polygon adds one corner at most. */
+/* Each half-plane that cuts a convex polygon adds one corner at most; what rounding would add to that
+ * is nothing to see. */
+enum { CORNERS_MOST = 4 + 2 * CS_GATES_MOST };
+
 typedef struct polygon {
-  celspan_point corners[4 + 2 * CS_GATES_MOST];
+  celspan_point corners[CORNERS_MOST];
   int count;
 } polygon;
+
+static void add_corner(polygon *p, double x, double y) {
+  if (p->count < CORNERS_MOST)
+    p->corners[p->count++] = (celspan_point){x, y};
+}
 
 /* Points with x * across.x + y * across.y <= bound. */
 typedef struct half_plane {
@@ -27,11 +35,10 @@ static void cut(polygon *p, half_plane half) {
     celspan_point a = p->corners[i], b = p->corners[(i + 1) % p->count];
     double off_a = beyond(&half, a), off_b = beyond(&half, b);
     if (off_a <= 0)
-      left.corners[left.count++] = a;
+      add_corner(&left, a.x, a.y);
     if (off_a * off_b < 0) {
       double share = off_a / (off_a - off_b);
-      left.corners[left.count++] =
-          (celspan_point){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+      add_corner(&left, a.x + share * (b.x - a.x), a.y + share * (b.y - a.y));
     }
   }
   *p = left;
