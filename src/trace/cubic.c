@@ -229,14 +229,15 @@ bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end 
 static double pass(const cubic *c, const cs_edge_point *point, cs_cubic_station *station) {
   double t = nearer(c, point->at, station->parameter);
   celspan_point at = point_at(c, t), slope = slope_at(c, t);
-  double dx = point->at.x - at.x, dy = point->at.y - at.y, fast = length(slope.x, slope.y);
+  double dx = point->at.x - at.x, dy = point->at.y - at.y,
+         fast = cs_number_length(slope.x, slope.y);
   bool is_across = fast > 0 && t > 0 && t < 1;
   celspan_point along = {0, 0};
   if (fast > 0)
     along = (celspan_point){slope.x / fast, slope.y / fast};
   station->parameter = t;
   station->room = cs_edge_room(point, along);
-  return (is_across ? fabs(dx * along.y - dy * along.x) : length(dx, dy)) / station->room;
+  return (is_across ? fabs(dx * along.y - dy * along.x) : cs_number_length(dx, dy)) / station->room;
 }
 
 /* Passes all gates and weighs them anew; the most that any is passed aside. */

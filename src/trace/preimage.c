@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/number.h"
+
 /* Pixels that a line may be beside an end of its row. */
 #define FAR 2.0
 
@@ -53,7 +55,7 @@ typedef struct axis {
 static axis axis_of(const cs_gate_row *row) {
   celspan_point from = cs_gate_middle(&row->list[0]);
   celspan_point to = cs_gate_middle(&row->list[row->count - 1]);
-  double dx = to.x - from.x, dy = to.y - from.y, length = sqrt(dx * dx + dy * dy);
+  double dx = to.x - from.x, dy = to.y - from.y, length = cs_number_length(dx, dy);
   return (axis){from, {dx / length, dy / length}, length};
 }
 

@@ -1,8 +1,9 @@
 /* What ran is written to the files of a build for coverage (-Db_coverage=true) when a process ends by
  * exit, and only where it may write them. This stands before the calls by which celspan ends in other
- * ways, and lets a process that confines itself write in the folder of the build, too: the linker puts
- * it there (--wrap). A process whose files may not grow beyond some size writes no counts, for those
- * that were cut off would spoil the others. */
+ * ways, and lets a process that confines itself write in the folder of the build, too, as it could not
+ * if its files might not grow: the linker puts it there (--wrap). A process that was begun with such a
+ * limit writes no counts, for those that were cut off would spoil the others. */
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
@@ -14,6 +15,8 @@ void __gcov_reset(void);
 _Noreturn void __real__exit(int code);
 _Noreturn void __wrap__exit(int code);
 int __real_raise(int number);
+int __real_setrlimit64(int resource, const struct rlimit *limit);
+int __wrap_setrlimit64(int resource, const struct rlimit *limit);
 int __wrap_raise(int number);
 const char *__real_cs_strict_enter(const cs_roots *read, const cs_roots *write);
 const char *__wrap_cs_strict_enter(const cs_roots *read, const cs_roots *write);
@@ -29,9 +32,15 @@ __attribute__((constructor)) static void begin(void) {
     setenv("GCOV_PREFIX", "/dev/null", 1);
 }
 
+/* A process without memory may fail in telling, and then come here again by its handler of signals. */
 static void tell(void) {
+  static volatile sig_atomic_t is_telling;
+  if (is_telling)
+    return;
+  is_telling = 1;
   __gcov_dump();
   __gcov_reset();
+  is_telling = 0;
 }
 
 void __wrap__exit(int code) {
@@ -42,6 +51,10 @@ void __wrap__exit(int code) {
 int __wrap_raise(int number) {
   tell();
   return __real_raise(number);
+}
+
+int __wrap_setrlimit64(int resource, const struct rlimit *limit) {
+  return resource == RLIMIT_FSIZE ? 0 : __real_setrlimit64(resource, limit);
 }
 
 const char *__wrap_cs_strict_enter(const cs_roots *read, const cs_roots *write) {
