@@ -26,10 +26,19 @@ static bool has_size_limit(void) {
   return getrlimit(RLIMIT_FSIZE, &files) == 0 && files.rlim_cur != RLIM_INFINITY;
 }
 
+void starve_end(void) __attribute__((weak)); /* of the library of starve.c, where it is loaded */
+
+/* Libgcov does not ask whether it has memory. */
+static void end_faults(void) {
+  if (starve_end)
+    starve_end();
+}
+
 /* Counts go to files below GCOV_PREFIX; there can be none below this. */
 __attribute__((constructor)) static void begin(void) {
   if (has_size_limit())
     setenv("GCOV_PREFIX", "/dev/null", 1);
+  atexit(end_faults);
 }
 
 /* A process without memory may fail in telling, and then come here again by its handler of signals. */
@@ -38,6 +47,7 @@ static void tell(void) {
   if (is_telling)
     return;
   is_telling = 1;
+  end_faults();
   __gcov_dump();
   __gcov_reset();
   is_telling = 0;

@@ -55,6 +55,10 @@ static bool fails(void) {
   return true;
 }
 
+/* From here on nothing fails: a program calls this that counts what it runs (counted.c), before it tells. */
+void starve_end(void);
+void starve_end(void) { fail_at = 0; }
+
 void *malloc(size_t size) { return fails() ? NULL : __libc_malloc(size); }
 
 void *calloc(size_t count, size_t size) { return fails() ? NULL : __libc_calloc(count, size); }
