@@ -164,6 +164,8 @@ local function read_tracks(state, field, id, path)
   for track, here in each(field, path, "tracks", {}) do
     local place = whole(track, here, "trackNo", 0, columns.most_layers - 1) + 1
     if id == CELLS then
+      if state.has_cells[place] then columns.fail("%s: track %d is there twice", here, place - 1) end
+      state.has_cells[place] = true
       for i = #state.layers + 1, place do state.layers[i] = columns.new(("track %d"):format(i)) end
       read_cells(state.layers[place], track, here)
     else
@@ -182,7 +184,7 @@ local function try_tracks(state, field, id, path)
 end
 
 local function read_fields(tables, path)
-  local state = { headers = read_headers(tables, path), layers = {}, notes = {} }
+  local state = { headers = read_headers(tables, path), layers = {}, notes = {}, has_cells = {} }
   for i, name in ipairs(state.headers[CELLS] or {}) do
     check_places(i, path)
     state.layers[i] = columns.new(name)

@@ -157,6 +157,7 @@ describe("an XDTS", function()
         "timeTables[1].duration is 0",
       [head .. '{"version":5,"timeTables":[{"duration":1e300,"timeTableHeaders":[]}]}'] =
         "timeTables[1].duration is 1e+300",
+      [xdts_of(3, '{"trackNo":0},{"trackNo":0}')] = "timeTables[1].fields[1].tracks[2]: track 0 is there twice",
       [xdts_of(3, '{"trackNo":-1}')] = "timeTables[1].fields[1].tracks[1].trackNo is -1",
       [xdts_of(3, '{"trackNo":0,"frames":[{"frame":"x"}]}')] =
         "timeTables[1].fields[1].tracks[1].frames[1].frame must be a number, got string",
