@@ -83,11 +83,14 @@ local function try(count, options)
   return table.concat(failures, "\n"), tried, excused
 end
 
+--- Whether no case is left out: what is excused is counted over all, for in some it is much more.
+local function are_all(count) return not ONLY and cases.count(count) >= count end
+
 describe("the oracle", function()
   it("agrees with the spans of random scenes at pixel centres", function()
     local failures, tried, excused = try(COUNT)
     assert.are.equal("", failures)
-    if ONLY then return end
+    if not are_all(COUNT) then return end
     -- A curve 60 pixels long passes within 0.03 of about 4 centres; most miss by far less.
     assert.is_true(excused[true] < tried / 500, excused[true] .. " points near curves were excused")
     assert.is_true(excused[false] < tried / 5000, excused[false] .. " points were excused")
@@ -97,6 +100,6 @@ describe("the oracle", function()
   with_type("agrees with the spans of random scenes of letters", function()
     local failures, tried, excused = try(COUNT // 4, { has_text = true })
     assert.are.equal("", failures)
-    assert.is_true(ONLY or excused[true] < tried / 250, excused[true] .. " points were excused")
+    assert.is_true(not are_all(COUNT // 4) or excused[true] < tried / 250, excused[true] .. " points were excused")
   end)
 end)

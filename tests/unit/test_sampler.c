@@ -466,7 +466,8 @@ static bool same_samples(const cs_sampler *s, cs_run run, const float (*wanted)[
   for (int32_t i = 0; i < run.x1 - run.x0; i++)
     for (int32_t c = 0; c < 4; c++) {
       int32_t lane = 4 * (i % 4) + i / 4 % 4, plane = i / CS_SAMPLES_PLANE * CS_SAMPLES_PLANE;
-      const float *at = made.are_planes ? made.rgba[plane] + 16 * c + lane : made.rgba[i] + c;
+      const float *at =
+          (const float *)made.rgba + (made.are_planes ? 4 * plane + 16 * c + lane : 4 * i + c);
       are_same = are_same && memcmp(at, &wanted[i][c], sizeof *at) == 0;
     }
   return are_same;
@@ -594,7 +595,9 @@ static void test_coded(void) {
     for (int y = 0; y < CS_PICTURE_BLOCK; y++)
       for (int x = 0; x < width; x++) {
         float light[4], wanted[4];
-        cs_srgb8_colour(&curve, block->codes[0] + 4 * (y * CS_PICTURE_CODES_ROW + x), light);
+        cs_srgb8_colour(&curve,
+                        (const unsigned char *)block->codes + 4 * (y * CS_PICTURE_CODES_ROW + x),
+                        light);
         CHECK(picture_texel(context, coded_picture, 0, column * CS_PICTURE_BLOCK + x,
                             CS_PICTURE_BLOCK + y, wanted) == CELSPAN_OK);
         wrong += memcmp(light, wanted, sizeof light) != 0;
