@@ -300,6 +300,9 @@ local function set_lights(self, lights, i, given)
   end
 end
 
+--- What the keys of changes are, in the order in which they are taken; others come last, and are refused.
+local ranks = { string = 1, number = 2 }
+
 --- The frame in other lights: those that are not given are the rostrum's.
 ---@param changes? table<string|integer, {front: number[]|string, back: number[]|string}> By the names or places of cels; 0: of the rostrum itself
 ---@return celspan.image? image
@@ -313,8 +316,9 @@ function methods:light(changes)
   end
   for key in pairs(changes or {}) do keys[#keys + 1] = key end
   table.sort(keys, function(a, b) -- places count more than names, and cels more than the rostrum
-    if type(a) ~= type(b) then return type(a) == "string" end
-    return (type(a) == "string" or type(a) == "number") and a < b
+    local rank_a, rank_b = ranks[type(a)] or 3, ranks[type(b)] or 3
+    if rank_a ~= rank_b or rank_a == 3 then return rank_a < rank_b end
+    return a < b
   end)
   for _, key in ipairs(keys) do
     fields.check("relight: light", changes[key], { front = "any", back = "any" })
