@@ -122,6 +122,7 @@ static void find_ways_through(const finder *f) {
 
 /* ---------------------------------------------------------------- the cheapest way */
 
+/* The arc or line that is nearest to the points. */
 static cs_arc arc_of(const finder *f, const cs_stretch *stretch, bool is_line) {
   cs_arc_sums sums = cs_arc_begin(cs_points_at(f->points, stretch->from));
   for (ptrdiff_t i = stretch->from; i < stretch->to; i++)
@@ -129,16 +130,23 @@ static cs_arc arc_of(const finder *f, const cs_stretch *stretch, bool is_line) {
   return cs_arc_of(&sums, is_line);
 }
 
+/* The one that passes through the gates; false: none does. */
+static bool pass_gates(const finder *f, const cs_stretch *stretch, bool is_line, cs_arc *out) {
+  cs_gate_row row;
+  cs_street street;
+  cs_stretches_row(f->points, stretch->from, stretch->to, &row);
+  if (!cs_street_find(&row, is_line, &street))
+    return false;
+  if (!is_line || !cs_preimage_middle(&row, out))
+    *out = street.middle;
+  return true;
+}
+
 static cs_stretch stretch_of(const finder *f, ptrdiff_t end) {
   const way *last = &f->ways[end];
   cs_stretch out = {.from = f->from + end - last->count, .to = f->from + end};
-  cs_gate_row row;
-  cs_street street;
-  cs_stretches_row(f->points, out.from, out.to, &row);
-  if (!f->is_exact || !cs_street_find(&row, last->is_line, &street))
+  if (!f->is_exact || !pass_gates(f, &out, last->is_line, &out.arc))
     out.arc = arc_of(f, &out, last->is_line);
-  else if (!last->is_line || !cs_preimage_middle(&row, &out.arc))
-    out.arc = street.middle;
   return out;
 }
 
