@@ -4,52 +4,19 @@
 #include <stdlib.h>
 
 #include "tests/support/frame_rows.h"
+#include "tests/support/gradient.h"
 #include "tests/support/random.h"
 
 #define WIDTH 300
 #define HEIGHT 12
-#define STOPS 4
 
-typedef enum shape { LINEAR, RADIAL, FOCAL, TRIANGLE, SHAPES } shape;
-
-typedef struct gradient {
-  shape shape;
-  celspan_point points[3];   /* from and to; centre, a point at the radius and focus; the corners */
-  celspan_stop stops[STOPS]; /* opaque, ascending */
-  celspan_paint paints[3];   /* of the corners */
+/* A gradient that a matrix puts somewhere; its stops are opaque. */
+typedef struct put_gradient {
+  gradient gradient;
   celspan_matrix matrix;
-} gradient;
+} put_gradient;
 
 /* ---------------------------------------------------------------- what is meant */
-
-static celspan_point away(celspan_point a, celspan_point b) {
-  return (celspan_point){b.x - a.x, b.y - a.y};
-}
-
-static double dot(celspan_point a, celspan_point b) { return a.x * b.x + a.y * b.y; }
-
-static double cross(celspan_point a, celspan_point b) { return a.x * b.y - a.y * b.x; }
-
-static double radius_of(const gradient *g) {
-  celspan_point leg = away(g->points[0], g->points[1]);
-  return sqrt(dot(leg, leg));
-}
-
-/* Which of the circles from the focus to the whole one goes through a point, 0..1 and beyond: p with
- * |p - focus - t d| = t radius, d the way from the focus to the centre. */
-static double circle_through(const gradient *g, celspan_point at) {
-  celspan_point focus = g->shape == FOCAL ? g->points[2] : g->points[0];
-  celspan_point d = away(focus, g->points[0]), q = away(focus, at);
-  double a = radius_of(g) * radius_of(g) - dot(d, d), b = dot(q, d);
-  return (sqrt(b * b + a * dot(q, q)) - b) / a;
-}
-
-/* Where a point lies between the first stop's end and the last one's, 0..1 and beyond. */
-static double place_of(const gradient *g, celspan_point at) {
-  celspan_point way = away(g->points[0], g->points[1]);
-  return g->shape == LINEAR ? dot(away(g->points[0], at), way) / dot(way, way)
-                            : circle_through(g, at);
-}
 
 /* The colour of an opaque stop is its pigment. */
 static double mix_stops(const gradient *g, double place, int channel) {
@@ -68,10 +35,8 @@ static double mix_stops(const gradient *g, double place, int channel) {
 
 /* Premultiplied values are linear over the plane, and held where they leave their range. */
 static void mix_corners(const gradient *g, celspan_point at, double rgba[4]) {
-  const celspan_point *p = g->points;
-  double whole = cross(away(p[0], p[1]), away(p[0], p[2])), weights[3];
-  for (int i = 0; i < 3; i++)
-    weights[i] = cross(away(at, p[(i + 1) % 3]), away(at, p[(i + 2) % 3])) / whole;
+  double weights[3];
+  gradient_weights(g, at, weights);
   for (int c = 0; c < 4; c++)
     rgba[c] = 0;
   for (int i = 0; i < 3; i++) {
@@ -91,7 +56,7 @@ static void colour_at(const gradient *g, celspan_point at, double rgba[4]) {
     return;
   }
   for (int c = 0; c < 3; c++)
-    rgba[c] = mix_stops(g, place_of(g, at), c);
+    rgba[c] = mix_stops(g, gradient_place(g, at), c);
   rgba[3] = 1;
 }
 
@@ -111,22 +76,24 @@ static celspan_paint random_paint(test_random *random, float alpha) {
   return celspan_paint_rgb(r, g, b, alpha);
 }
 
-static gradient random_gradient(test_random *random, shape kind) {
-  gradient out = {.shape = kind, .matrix = random_matrix(random)};
+static put_gradient random_gradient(test_random *random, shape kind) {
+  put_gradient put = {.gradient = {.shape = kind}, .matrix = random_matrix(random)};
+  gradient *out = &put.gradient;
   double size = exp2(random_between(random, -6, 1)); /* most are narrow beside the row */
-  out.points[0] = random_point(random, 20, 200, -10, 20);
+  out->points[0] = random_point(random, 20, 200, -10, 20);
   celspan_point way = random_point(random, 30, 160, -80, 80);
   double along = random_between(random, -0.5, 0.5), across = kind == FOCAL ? 0.3 : 0.8;
-  out.points[1] = (celspan_point){out.points[0].x + size * way.x, out.points[0].y + size * way.y};
-  out.points[2] = (celspan_point){out.points[0].x + size * (along * way.x - across * way.y),
-                                  out.points[0].y + size * (along * way.y + across * way.x)};
+  out->points[1] =
+      (celspan_point){out->points[0].x + size * way.x, out->points[0].y + size * way.y};
+  out->points[2] = (celspan_point){out->points[0].x + size * (along * way.x - across * way.y),
+                                   out->points[0].y + size * (along * way.y + across * way.x)};
   for (int i = 0; i < STOPS; i++) {
-    out.stops[i].at = 0.1 + 0.25 * i + random_between(random, 0, 0.1);
-    out.stops[i].paint = random_paint(random, 1);
+    out->stops[i].at = 0.1 + 0.25 * i + random_between(random, 0, 0.1);
+    out->stops[i].paint = random_paint(random, 1);
   }
   for (int i = 0; i < 3; i++)
-    out.paints[i] = random_paint(random, 0.2f + 0.3f * (float)i);
-  return out;
+    out->paints[i] = random_paint(random, 0.2f + 0.3f * (float)i);
+  return put;
 }
 
 /* ---------------------------------------------------------------- rows */
@@ -137,16 +104,16 @@ static celspan_point move(const celspan_matrix *matrix, double x, double y) {
 }
 
 /* How far a row is from the gradient, at most. */
-static double error_of(const gradient *g, const cs_row *row, int32_t y) {
+static double error_of(const put_gradient *p, const cs_row *row, int32_t y) {
   celspan_matrix inverse;
   double worst = 0;
-  CHECK(celspan_matrix_inverse(g->matrix, &inverse));
+  CHECK(celspan_matrix_inverse(p->matrix, &inverse));
   for (size_t i = 0; i < row->count; i++)
     for (int32_t x = row->spans[i].x0; x < row->spans[i].x1; x++) {
       celspan_point at = move(&inverse, x + 0.5, y + 0.5);
       double want[4];
       float rgba[4];
-      colour_at(g, at, want);
+      colour_at(&p->gradient, at, want);
       celspan_span_colour(&row->spans[i], x, rgba);
       for (int c = 0; c < 4; c++)
         worst = fmax(worst, fabs((double)rgba[c] - want[c]));
@@ -160,32 +127,34 @@ static celspan_texture *texture_of(studio *s, const gradient *g) {
   case LINEAR:
     return studio_linear(s, g->points[0], g->points[1], g->stops, STOPS);
   case RADIAL:
-    return studio_radial(s, g->points[0], radius_of(g), g->stops, STOPS);
+    return studio_radial(s, g->points[0], gradient_radius(g), g->stops, STOPS);
   case TRIANGLE:
     return studio_gradient(s, g->points, g->paints);
   default:
-    studio_check(s, celspan_texture_create_focal(s->context, g->points[0], radius_of(g),
+    studio_check(s, celspan_texture_create_focal(s->context, g->points[0], gradient_radius(g),
                                                  g->points[2], g->stops, STOPS, &out));
     s->textures[s->texture_count++] = out;
     return out;
   }
 }
 
-static celspan_rostrum *show(studio *s, const gradient *g) {
-  celspan_object *sheet = studio_rect(s, -2000, -2000, 4000, 4000, texture_of(s, g));
-  return studio_show(s, studio_transform(s, sheet, g->matrix));
+static celspan_rostrum *show(studio *s, const put_gradient *p) {
+  celspan_object *sheet = studio_rect(s, -2000, -2000, 4000, 4000, texture_of(s, &p->gradient));
+  return studio_show(s, studio_transform(s, sheet, p->matrix));
 }
 
-static void check_gradient(studio *s, const gradient *g, celspan_antialias_mode mode, int number) {
-  celspan_exposure exposure = {show(s, g), 1};
+static void check_gradient(studio *s, const put_gradient *p, celspan_antialias_mode mode,
+                           int number) {
+  celspan_exposure exposure = {show(s, p), 1};
   celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, &mode);
   frame_rows rows;
   double worst = 0;
   frame_rows_open(&rows, s, &desc);
   for (int32_t y = 0; y < HEIGHT; y++)
-    worst = fmax(worst, error_of(g, worker_row(&rows.worker, y), y));
+    worst = fmax(worst, error_of(p, worker_row(&rows.worker, y), y));
   if (!CHECK_NEAR(worst, 0, 1.0 / 1023))
-    fprintf(stderr, "  gradient %d, shape %d, mode %d\n", number, (int)g->shape, (int)mode);
+    fprintf(stderr, "  gradient %d, shape %d, mode %d\n", number, (int)p->gradient.shape,
+            (int)mode);
   frame_rows_close(&rows);
 }
 
@@ -194,9 +163,9 @@ int main(void) {
   test_random random = {12};
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 400; k++) {
-    gradient g = random_gradient(&random, (shape)(k % SHAPES));
-    check_gradient(&s, &g, CELSPAN_ANTIALIAS_NONE, k);
-    check_gradient(&s, &g, CELSPAN_ANTIALIAS_AREA, k);
+    put_gradient p = random_gradient(&random, (shape)(k % SHAPES));
+    check_gradient(&s, &p, CELSPAN_ANTIALIAS_NONE, k);
+    check_gradient(&s, &p, CELSPAN_ANTIALIAS_AREA, k);
     studio_finish(&s);
   }
   celspan_context_destroy(s.context);

@@ -7,32 +7,19 @@
 #include <stdlib.h>
 
 #include "tests/support/check.h"
+#include "tests/support/gradient.h"
 #include "tests/support/random.h"
 
-#define STOPS 4
 #define WIDTH 200
 #define MOST 21     /* places at which any of them bends on a row */
 #define SAMPLES 9   /* between two such places */
 #define NARROW 0.01 /* columns: places that are nearer to each other are not told apart */
 
-typedef enum shape { LINEAR, RADIAL, FOCAL, TRIANGLE, SHAPES } shape;
-
 typedef struct formula {
-  shape shape;
-  celspan_point points[3];   /* from and to; centre, a point at the radius and focus; the corners */
-  celspan_stop stops[STOPS]; /* ascending */
-  celspan_paint paints[3];   /* of the corners */
+  gradient gradient;
   celspan_texture *texture;
   cs_shade shade;
 } formula;
-
-static celspan_point away(celspan_point a, celspan_point b) {
-  return (celspan_point){b.x - a.x, b.y - a.y};
-}
-
-static double dot(celspan_point a, celspan_point b) { return a.x * b.x + a.y * b.y; }
-
-static double cross(celspan_point a, celspan_point b) { return a.x * b.y - a.y * b.x; }
 
 /* ---------------------------------------------------------------- random ones */
 
@@ -46,38 +33,41 @@ static celspan_paint random_paint(test_random *random) {
 }
 
 static void make_texture(celspan_context *context, formula *f) {
-  const celspan_point *p = f->points, way = away(p[0], p[1]);
+  const celspan_point *p = f->gradient.points;
   celspan_texture **out = &f->texture;
-  switch (f->shape) {
+  switch (f->gradient.shape) {
   case LINEAR:
-    CHECK(celspan_texture_create_linear(context, p[0], p[1], f->stops, STOPS, out) == CELSPAN_OK);
+    CHECK(celspan_texture_create_linear(context, p[0], p[1], f->gradient.stops, STOPS, out) ==
+          CELSPAN_OK);
     return;
   case TRIANGLE:
-    CHECK(celspan_texture_create_gradient(context, p, f->paints, out) == CELSPAN_OK);
+    CHECK(celspan_texture_create_gradient(context, p, f->gradient.paints, out) == CELSPAN_OK);
     return;
   default:
-    CHECK(celspan_texture_create_focal(context, p[0], sqrt(dot(way, way)), p[2], f->stops, STOPS,
-                                       out) == CELSPAN_OK);
+    CHECK(celspan_texture_create_focal(context, p[0], gradient_radius(&f->gradient), p[2],
+                                       f->gradient.stops, STOPS, out) == CELSPAN_OK);
   }
 }
 
 /* perspective: how much w grows over the frame's width. */
 static void make(celspan_context *context, test_random *random, shape kind, double perspective,
                  formula *f) {
-  f->shape = kind;
-  f->points[0] = random_point(random, 20, 150, -20, 40);
+  f->gradient.shape = kind;
+  f->gradient.points[0] = random_point(random, 20, 150, -20, 40);
   celspan_point way = random_point(random, 20, 60, -60, 60);
   double along = random_between(random, -0.5, 0.5), across = kind == TRIANGLE ? 0.8 : 0.3;
-  f->points[1] = (celspan_point){f->points[0].x + way.x, f->points[0].y + way.y};
-  f->points[2] = kind == RADIAL ? f->points[0]
-                                : (celspan_point){f->points[0].x + along * way.x - across * way.y,
-                                                  f->points[0].y + along * way.y + across * way.x};
+  f->gradient.points[1] =
+      (celspan_point){f->gradient.points[0].x + way.x, f->gradient.points[0].y + way.y};
+  f->gradient.points[2] =
+      kind == RADIAL ? f->gradient.points[0]
+                     : (celspan_point){f->gradient.points[0].x + along * way.x - across * way.y,
+                                       f->gradient.points[0].y + along * way.y + across * way.x};
   for (int i = 0; i < STOPS; i++) {
-    f->stops[i].at = 0.1 + 0.25 * i + random_between(random, 0, 0.1);
-    f->stops[i].paint = random_paint(random);
+    f->gradient.stops[i].at = 0.1 + 0.25 * i + random_between(random, 0, 0.1);
+    f->gradient.stops[i].paint = random_paint(random);
   }
   for (int i = 0; i < 3; i++)
-    f->paints[i] = random_paint(random);
+    f->gradient.paints[i] = random_paint(random);
   make_texture(context, f);
   f->shade = (cs_shade){.texture = f->texture};
   for (int k = 0; k < 6; k++)
@@ -98,20 +88,9 @@ static bool own_point(const formula *f, double x, double y, celspan_point *out) 
   return w > 0;
 }
 
-/* Where a point lies along the stops: that t of a circle between the focus and the whole one with
- * |p - focus - t d| = t radius, d the way from the focus to the centre. */
-static double place_of(const formula *f, celspan_point at) {
-  celspan_point way = away(f->points[0], f->points[1]), from = f->points[f->shape == FOCAL ? 2 : 0];
-  celspan_point d = away(from, f->points[0]), q = away(from, at);
-  if (f->shape == LINEAR)
-    return dot(q, way) / dot(way, way);
-  double a = dot(way, way) - dot(d, d), b = dot(q, d);
-  return (sqrt(b * b + a * dot(q, q)) - b) / a;
-}
-
 static int stops_before(const formula *f, double place) {
   int count = 0;
-  while (count < STOPS && f->stops[count].at <= place)
+  while (count < STOPS && f->gradient.stops[count].at <= place)
     count++;
   return count;
 }
@@ -126,11 +105,10 @@ static double value_of(const celspan_paint *paint, int value) {
 
 /* The plane through the corners. */
 static double plane_at(const formula *f, celspan_point at, int value) {
-  const celspan_point *p = f->points;
-  double whole = cross(away(p[0], p[1]), away(p[0], p[2])), sum = 0;
+  double weights[3], sum = 0;
+  gradient_weights(&f->gradient, at, weights);
   for (int i = 0; i < 3; i++)
-    sum += cross(away(at, p[(i + 1) % 3]), away(at, p[(i + 2) % 3])) / whole *
-           value_of(&f->paints[i], value);
+    sum += weights[i] * value_of(&f->gradient.paints[i], value);
   return sum;
 }
 
@@ -147,8 +125,8 @@ static double triangle_value(const formula *f, celspan_point at, int value, form
 static double stops_value(const formula *f, double place, int value) {
   int next = stops_before(f, place);
   if (next == 0 || next == STOPS)
-    return value_of(&f->stops[next == 0 ? 0 : STOPS - 1].paint, value);
-  const celspan_stop *a = &f->stops[next - 1], *b = &f->stops[next];
+    return value_of(&f->gradient.stops[next == 0 ? 0 : STOPS - 1].paint, value);
+  const celspan_stop *a = &f->gradient.stops[next - 1], *b = &f->gradient.stops[next];
   double share = (place - a->at) / (b->at - a->at), before = value_of(&a->paint, value);
   return before + share * (value_of(&b->paint, value) - before);
 }
@@ -161,9 +139,10 @@ static void check_paint(const formula *f, double x, double y) {
   cs_shade_lanes got = cs_shade_paint(&f->shade, x, y);
   for (int value = 0; value < 6; value++) {
     formula_part part;
-    double want = !is_seen               ? value >= 3
-                  : f->shape == TRIANGLE ? triangle_value(f, at, value, &part)
-                                         : stops_value(f, place_of(f, at), value);
+    double want = !is_seen ? value >= 3
+                  : f->gradient.shape == TRIANGLE
+                      ? triangle_value(f, at, value, &part)
+                      : stops_value(f, gradient_place(&f->gradient, at), value);
     CHECK_NEAR((double)(value < 3 ? got.s[value] : got.t[value - 3]), want, 1e-5);
   }
 }
@@ -175,8 +154,8 @@ static int formula_at(const formula *f, double x, double y) {
   celspan_point at;
   if (!own_point(f, x, y, &at))
     return -1;
-  if (f->shape != TRIANGLE)
-    return stops_before(f, place_of(f, at));
+  if (f->gradient.shape != TRIANGLE)
+    return stops_before(f, gradient_place(&f->gradient, at));
   int all = 0;
   for (int value = 0; value < 6; value++) {
     formula_part part;
@@ -189,9 +168,10 @@ static int formula_at(const formula *f, double x, double y) {
 /* The distance from the focus by which an affine place bends the most where it is least: ways across
  * that from focus to centre count more, for circles there are narrower. */
 static double bent_distance(const formula *f, double x, double y) {
-  celspan_point at, way = away(f->points[0], f->points[1]), focus = f->points[2];
+  celspan_point at, way = away(f->gradient.points[0], f->gradient.points[1]),
+                    focus = f->gradient.points[2];
   own_point(f, x, y, &at);
-  celspan_point d = away(focus, f->points[0]), q = away(focus, at);
+  celspan_point d = away(focus, f->gradient.points[0]), q = away(focus, at);
   double square = dot(d, d), rest = 1 - square / dot(way, way);
   double along = square > 0 ? dot(q, d) * dot(q, d) / square : 0;
   return along / rest + (dot(q, q) - along);
@@ -208,7 +188,8 @@ static int ascending(const void *a, const void *b) {
 
 /* Between two places a texture has one formula, and the distance from the focus one direction. */
 static void check_between(const formula *f, double from, double to, double y) {
-  bool has_nearest = (f->shape == RADIAL || f->shape == FOCAL) && f->shade.is_affine;
+  bool has_nearest =
+      (f->gradient.shape == RADIAL || f->gradient.shape == FOCAL) && f->shade.is_affine;
   if (to - from < NARROW)
     return;
   double middle = 0.5 * (from + to);
@@ -239,7 +220,7 @@ static void check_shape(celspan_context *context, test_random *random, shape kin
                         double perspective) {
   size_t found = 0;
   for (int k = 0; k < 60; k++) {
-    formula f = {.shape = kind};
+    formula f;
     make(context, random, kind, perspective, &f);
     for (double y = 0.5; y < 40; y += 8) {
       found += check_row(&f, y);
