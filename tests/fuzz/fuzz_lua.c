@@ -14,7 +14,7 @@
 #include "celspan/lua.h"
 
 #define MOST_BYTES ((size_t)256 << 20)
-#define MOST_STEPS 100000000 /* instructions of Lua in one run: a mouth for every frame of a day */
+#define MOST_STEPS 200000000 /* instructions of Lua in one run: a mouth for every frame of a day */
 #define HOOK_STEPS 10000
 
 /* ---------------------------------------------------------------- what runs */
