@@ -165,6 +165,8 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 const char *cs_userdata_type(lua_State *L, int index) {
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
     const cs_userdata *value = luaL_testudata(L, index, kinds[i]->name);
+    if (value && value->noun == &cs_noun_rostrum_object)
+      return lua_pushstring(L, "a rostrum as an object, which belongs in a cel");
     if (value)
       return lua_pushfstring(L, "a %s", value->noun->name);
   }

@@ -7,8 +7,16 @@
  * so that a chain of n operators costs n steps and not n * n. The object that shows all of a list
  * may add to it; a second one that is made from the same beginning gets a list of its own.
  *
- * INVARIANT: `used` is at least the count of every view of the list that lives, and no two living
- * views have the same count. What lies before `used` never changes while a view shows it.
+ * An operand may itself show the beginning of the list that it is in, and keep it alive:
+ *
+ *   c = a | b
+ *   d = c | c       shows 3 of   [ a  b  c | . . . ]     c shows 2 of the same
+ *
+ * so places are freed as soon as no living view shows them, and not when the list goes.
+ *
+ * INVARIANT: the longest view of a list that lives shows all that is used of it; no two living views show
+ * equally many. An operand shows, of the list that it is in, only what lies before it. What a living view shows
+ * never changes.
  * Threads: views of one list may be extended and dropped on any threads.
  */
 #ifndef CS_SCENE_OPERANDS_H
@@ -23,7 +31,6 @@ typedef struct cs_operands {
   cs_operands_list *list;
   celspan_object **objects; /* in the list */
   size_t count;
-  size_t first; /* [first, count) was added by this view, and goes with it if it can */
 } cs_operands;
 
 /* A view of a new list of these objects, each of which is kept. noun: for the message. Errors:

@@ -352,8 +352,8 @@ end
 
 local function look()
   local what = of_kind "rostrum" or of_kind "film"
-  if not what then
-    local object = of_kind "%l"
+  if not what or getmetatable(what) == "celspan.object" then -- a rostrum that was moved is an object
+    local object = what or of_kind "%l"
     local good, made_rostrum = pcall(function() return celspan.rostrum { celspan.cel { object } } end)
     if not good then return end
     what = made_rostrum

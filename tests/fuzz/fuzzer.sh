@@ -40,6 +40,7 @@ is_foreign() {
   awk '
     $1 ~ /^#[0-9]+$/ && $3 == "in" {
       if ($0 ~ /compiler-rt|__asan|__sanitizer|__interceptor|fuzzer::|operator (new|delete)/) next
+      if ($4 ~ /^(malloc|calloc|realloc)$/) next
       if ($0 ~ /\/(libc|libm|libstdc\+\+|libgcc_s)[.-]/) next
       foreign = $0 ~ /\(\/(usr\/)?lib\// && $0 !~ /liblua/
       exit

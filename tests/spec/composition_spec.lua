@@ -74,6 +74,18 @@ describe("a rostrum with a size", function()
     end
   end)
 
+  it("is no frame of its own once it was moved", function()
+    local moved = small():translate(1, 0)
+    for _, call in ipairs {
+      function() return celspan.pixels(moved, { size = { 8, 6 } }) end,
+      function() return celspan.spans(moved, { size = { 8, 6 } }) end,
+      function() return celspan.probe(moved, 1, 1) end,
+    } do
+      assert.matches("must be a rostrum or a list {{rostrum, weight}, ...}, got a rostrum as an object, "
+        .. "which belongs in a cel", raised(call), 1, true)
+    end
+  end)
+
   it("is refused with a size that is none, and with a camera that sees nothing", function()
     assert.matches("rostrum: size.width is 0; it must be more than 0", raised(function()
       celspan.rostrum { size = { 0, 10 } } end), 1, true)

@@ -39,7 +39,7 @@ local function psd(fields)
   local side = fields.side or 8
   return (">c4I2c6I2I4I4I2I2"):pack("8BPS", is_large and 2 or 1, "", fields.channels or 3, side,
       side, 8, 3)
-    .. (">I4s4"):pack(0, fields.resources or "")
+    .. (fields.colours or (">I4"):pack(0)) .. (">s4"):pack(fields.resources or "")
     .. (is_large and ">s8" or ">s4"):pack(fields.layers or "")
     .. (">I2"):pack(fields.packing or 0) .. (fields.pixels or ("\0"):rep(3 * 64))
 end
@@ -75,13 +75,14 @@ local function thumbnail(number, side, data)
   return resource(number, "", head .. data)
 end
 
---- A length that leads out of the file, so that whoever walks by it looks at nothing more.
+--- A resource whose length leads out of the file, so that whoever walks by it looks at nothing more.
 local astray = "8BIM" .. (">I2I2I4"):pack(1000, 0, 0x7fffffff)
 
 -- ---------------------------------------------------------------- what becomes of them
 
 local TOO_MUCH = "decoding it needs more than 256 MiB, or than the system has (--limit picture-m"
 local ROWS = "is damaged: its layers tell of more rows than it has bytes"
+local LONGER = "is damaged: a part of it is longer than the file"
 local caption = resource(1008, "told", "odd")
 local zeros = ("\0"):rep(24000)
 
@@ -95,7 +96,8 @@ local pictures = {
   { "packed.dpx", dpx { width = 1048576, height = 1048576, descriptor = 51, bits = 10,
     encoding = 1 }, 33, TOO_MUCH, is_decoded = true },
   { "layers.psd", psd { layers = layers(60) }, 4, ROWS },
-  { "astray.psd", psd { resources = astray, layers = layers(60) }, 4, ROWS },
+  { "astray.psd", psd { resources = astray, layers = layers(60) }, 4, LONGER },
+  { "colours.psd", psd { colours = (">I4"):pack(0xfffffff0) }, 4, LONGER },
   { "thumbnail.psd", psd { resources = caption .. thumbnail(1036, 32000, jpeg(32000)) }, 0 },
   { "old-thumbnail.psd", psd { resources = thumbnail(1033, 32000, jpeg(32000)) }, 0 },
   { "thumbnails.psd", psd { resources = thumbnail(1036, 1, ""):rep(400) }, 4,

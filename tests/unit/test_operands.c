@@ -151,6 +151,28 @@ static void test_nothing_is_held(void) {
   CHECK(watch.blocks == 0 && watch.size_errors == 0);
 }
 
+/* A chain that has itself as an operand, moved or as it is: whatever is let go first, nothing is kept. */
+static void test_own_beginning(void) {
+  static const int orders[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (int i = 0; i < 12; i++) {
+    memory_watch watch = {0};
+    studio s = {.context = memory_watch_context(&watch)};
+    celspan_object *rect = studio_rect(&s, 0, 0, 1, 1, NULL);
+    celspan_object *chain = chain_of(s.context, CELSPAN_UNION, rect, 5), *moved = NULL;
+    celspan_matrix right = celspan_matrix_translation(i < 6 ? 5 : 0, 0);
+    CHECK(celspan_object_transform(s.context, chain, &right, &moved) == CELSPAN_OK);
+    celspan_object *twice = extend(s.context, chain, moved), *more = extend(s.context, twice, rect);
+    celspan_object_unref(moved);
+    CHECK(more->data->boolean->operands == chain->data->boolean->operands);
+    celspan_object *made[] = {chain, twice, more};
+    for (int k = 0; k < 3; k++)
+      celspan_object_unref(made[orders[i % 6][k]]);
+    studio_finish(&s);
+    celspan_context_destroy(s.context);
+    CHECK(watch.blocks == 0 && watch.size_errors == 0);
+  }
+}
+
 /* ---------------------------------------------------------------- cost */
 
 /* The bytes that one chain asks for while it is made, all in all. */
@@ -244,7 +266,7 @@ typedef struct extender {
   bool is_good;
 } extender;
 
-/* Each thread has a context of its own; the base and its operands are shared. */
+/* Each thread has a context of its own; the base and its operands, some of them the base itself, are shared. */
 static void *extend_often(void *user) {
   extender *e = user;
   celspan_context *context = NULL;
@@ -269,7 +291,9 @@ static void test_threads(studio *s) {
   extender extenders[4];
   pthread_t threads[4];
   for (int i = 0; i < 4; i++) {
-    extenders[i] = (extender){base, studio_rect(s, i, 0, 1, 1, NULL), false};
+    celspan_object *operand = i < 2 ? studio_rect(s, i, 0, 1, 1, NULL)
+                                    : studio_transform(s, base, celspan_matrix_translation(i, 0));
+    extenders[i] = (extender){base, operand, false};
     CHECK(pthread_create(&threads[i], NULL, extend_often, &extenders[i]) == 0);
   }
   for (int i = 0; i < 4; i++) {
@@ -296,6 +320,7 @@ int main(void) {
   studio_finish(&s);
   celspan_context_destroy(s.context);
   test_nothing_is_held();
+  test_own_beginning();
   test_cost_grows_with_the_length();
   test_held_steps();
   test_every_allocation_can_fail();
