@@ -1,5 +1,6 @@
 #include "stroke/curve.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -213,7 +214,8 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 /* ---------------------------------------------------------------- lengths */
 
 #define LENGTH_DEPTH 30
-#define LENGTH_ERROR 1e-11 /* of the polygon, for every halving alike */
+#define LENGTH_ERROR                                                                               \
+  1e-11 /* of the polygon, for every halving alike; not below what coordinates round off */
 
 static double speed(const cs_bezier *line, double t) {
   celspan_point point, velocity;
@@ -246,14 +248,17 @@ static double measure(const cs_bezier *line, double begin, double end, double wh
 double cs_curve_length(const cs_bezier *line, double begin, double end) {
   if (!(end > begin))
     return 0;
-  double polygon = 0;
+  double polygon = 0, farthest = 0; /* from an axis */
   for (int i = 0; i < line->degree; i++) {
     celspan_point a = project(line->points[i]), b = project(line->points[i + 1]);
     polygon += sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    farthest = fmax(farthest, fmax(fabs(a.x), fabs(a.y)));
   }
   if (cs_curve_is_straight(line))
     return (end - begin) * polygon;
-  return measure(line, begin, end, gauss(line, begin, end), LENGTH_ERROR * polygon, 0);
+  double rounding = line->degree * DBL_EPSILON * farthest;
+  return measure(line, begin, end, gauss(line, begin, end), fmax(LENGTH_ERROR * polygon, rounding),
+                 0);
 }
 
 /* Newton's steps inside a bracket that they make smaller, and halvings where they leave it. */
