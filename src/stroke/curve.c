@@ -147,7 +147,7 @@ cs_curve_place cs_curve_at(const cs_curve *curve, double t) {
   line_at(&curve->line, t, &place.point, &place.velocity, &place.acceleration);
   place.radius = curve->radius[0];
   place.growth = place.growth_change = 0;
-  if (degree == 0)
+  if (degree < 1)
     return place;
   for (int i = 0; i <= degree; i++)
     work[i] = curve->radius[i];

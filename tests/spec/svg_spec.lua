@@ -716,6 +716,58 @@ describe("reading", function()
     assert.is_truthy(select(2, svg.read "."):find "that is no file")
   end)
 
+  local INNER = "<svg xmlns='http://www.w3.org/2000/svg' width='1' height='1'/>"
+  local IMAGE = '<image href="data:image/svg+xml,' .. INNER:gsub("[<>]", { ["<"] = "%%3C", [">"] = "%%3E" }) .. '" %s/>'
+  local CLIP = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width="1" height="1"/></clipPath>'
+  --- What is in a drawing that shows an element with an attribute, and which attributes of it are numbers.
+  local NUMBERS = {
+    { "<rect %s/>", "x y width height rx ry" },
+    { "<ellipse %s/>", "cx cy rx ry" },
+    { "<circle %s/>", "cx cy r" },
+    { '<line stroke="red" %s/>', "x1 y1 x2 y2" },
+    { "<svg %s/>", "x y width height" },
+    { '<rect id="r" width="1" height="1"/><use href="#r" %s/>', "x y" },
+    { IMAGE, "x y width height" },
+    { CLIP .. '<g clip-path="url(#c)">' .. IMAGE .. "</g>", "x y width height" },
+    { "<text %s>A</text>", "x y dx dy rotate textLength" },
+    { '<path id="p" d="M0 0H9" %s/><text><textPath href="#p">A</textPath></text>', "pathLength" },
+    { '<path id="p" d="M0 0H9"/><text><textPath href="#p" %s>A</textPath></text>', "startOffset" },
+    { '<linearGradient id="g" %s><stop/><stop offset="1"/></linearGradient><rect width="9" height="9" fill="url(#g)"/>',
+      "x1 y1 x2 y2" },
+    { '<radialGradient id="g" %s><stop/><stop offset="1"/></radialGradient><rect width="9" height="9" fill="url(#g)"/>',
+      "cx cy r fx fy fr" },
+    { '<clipPath id="c"><rect id="r" width="1" height="1"/><use href="#r" %s/></clipPath><rect width="9" height="9" clip-path="url(#c)"/>',
+      "x y" },
+    { CLIP .. '<rect id="r" width="1" height="1"/><g clip-path="url(#c)"><use href="#r" %s/></g>', "x y" },
+    { CLIP .. '<g clip-path="url(#c)"><svg %s><rect width="1" height="1"/></svg></g>', "x y width height" },
+    { '<mask id="m" %s><rect width="1" height="1"/></mask><rect width="9" height="9" mask="url(#m)"/>', "x y width height" },
+    { '<mask id="m"><rect id="r" width="1" height="1"/><use href="#r" %s/></mask><rect width="9" height="9" mask="url(#m)"/>', "x y" },
+    { '<marker id="m" %s><rect width="1" height="1"/></marker><path d="M0 0H9" marker-start="url(#m)"/>',
+      "markerWidth markerHeight refX refY" },
+    { '<symbol id="s" viewBox="0 0 9 9" %s><rect width="1" height="1"/></symbol><use href="#s"/>', "refX refY" },
+    -- What is inside of something else is told wherever that is met.
+    { '<mask id="m"><g %s><rect width="1" height="1"/></g></mask><rect width="9" height="9" mask="url(#m)"/>', "opacity" },
+    { '<mask id="m"><rect width="1" height="1" %s/></mask><rect width="9" height="9" mask="url(#m)"/>', "opacity" },
+    { '<clipPath id="c"><rect width="1" height="1" %s/></clipPath><rect width="9" height="9" clip-path="url(#c)"/>', "opacity" },
+    { CLIP .. '<g clip-path="url(#c)"><g %s><rect width="1" height="1"/></g></g>', "opacity" },
+    { "<text><tspan %s>A</tspan></text>", "opacity" },
+    { '<marker id="m"><g %s><rect width="1" height="1"/></g></marker><path d="M0 0H9" marker-start="url(#m)"/>', "opacity" },
+    { '<linearGradient id="g"><stop %s/><stop offset="1"/></linearGradient><rect width="9" height="9" fill="url(#g)"/>', "opacity" },
+  }
+
+  it("takes no number that is none or is too large, of whatever it is", function()
+    for _, case in ipairs(NUMBERS) do
+      for name in case[2]:gmatch "%w+" do
+        for _, number in ipairs { "nan", "-inf", "1e13" } do
+          local content = case[1]:format(('%s="%s"'):format(name, number))
+          local line, sentence = refusal(in_svg(content))
+          assert.are.equal(2, line, content)
+          assert.is_truthy(sentence:find(('%s is "%s"'):format(name, number), 1, true), content .. sentence)
+        end
+      end
+    end
+  end)
+
   it("ends when use grows without bound", function()
     local content = { '<g id="a0"><rect width="1" height="1"/></g>' }
     for i = 1, 30 do
