@@ -189,10 +189,87 @@ describe("a Photoshop document", function()
     end
   end)
 
+  it("is refused wherever it is cut off before its pixels", function()
+    local layer = { packing = "packbits", mask = mask { w = 2, h = 2, flags = 16, more = "\15\255" .. ("\0"):rep(17) },
+      ranges = string.pack(">I4", 0xFFFF), w = 2, h = 2 }
+    local merged = "\0\1" .. ("\0\3"):rep(6) .. "\1\1\2\1\3\4\1\5\6\1\7\8\1\9\10\1\11\12"
+    for _, document in ipairs { { profile = "icc" }, { depth = 16, large = true }, { w = 2, h = 2, layers = {}, merged = merged } } do
+      local whole = psd(layer, document)
+      for size = 4, document.merged and #whole - 1 or whole:find("\0*$") - 1 do
+        local path = bench:write("cut.psd", whole:sub(1, size))
+        local tree, message = layers.read(path)
+        if tree then tree, message = seen(tree) end
+        assert.is_nil(tree, size)
+        assert.matches("cut%.psd: %l", message)
+      end
+    end
+  end)
+
+  it("shows its merged picture where a section has no layers", function()
+    local plain = paintings.psd { w = 1, h = 1, merged = "\0\0\7\8\9" }
+    for _, section in ipairs { string.pack(">I4I2I4", 2, 0, 0), string.pack(">I4I2", 2, 0), string.pack(">I4I4", 0, 0),
+      string.pack(">I4I4", 0, 0) .. paintings.tag("zzzz", "abcd"), string.pack(">I4I4", 0, 0) .. paintings.tag("Layr", "\0\0") } do
+      local tree = read(plain:sub(1, 34) .. string.pack(">s4", section) .. plain:sub(39))
+      assert.are.equal("Background", tree[1].name)
+      assert.are.equal("\7\8\9\255", assert(seen(tree)):bytes():sub(1, 4))
+    end
+  end)
+
+  it("takes no channel twice and none that it does not know, and one that is missing as the greatest value", function()
+    local flat = { x = 0, y = 0, w = 12, h = 10, pixel = function() return 41, 12, 99, 200 end }
+    local function renumbered(from, to)
+      local size = 2 + 12 * 10
+      return (psd(flat):gsub(string.pack(">I2I4", from, size), string.pack(">I2I4", to, size), 1))
+    end
+    local function codes(bytes) return { assert(seen(read(bytes))):bytes():byte(-4, -1) } end
+    assert.are.same({ 41, 12, 99, 200 }, codes(psd(flat)))
+    for _, to in ipairs { 3, 0, 1, 0xFFFD } do assert.are.same({ 41, 12, 255, 200 }, codes(renumbered(2, to)), to) end
+    flat.alpha = "\0"
+    assert.are.same({ 41, 12, 99, 255 }, codes(psd(flat)))
+    flat.alpha = nil
+    assert.are.same({ 0, 0, 0, 0 }, codes(renumbered(0, 3))) -- without red there is nothing
+  end)
+
+  it("may have bytes in packed rows that mean nothing, and masks beside the layer", function()
+    local row = "\128\1\1\2\128\248\9"
+    local image = assert(seen(read(psd { x = 0, y = 0, h = 1, w = 11, alpha = "\0\1" .. string.pack(">I2", #row) .. row })))
+    local function alpha(x) return math.floor(255 * select(4, image:get(x, 0)) + 0.5) end
+    assert.are.same({ 1, 2, 9, 9, 0 }, { alpha(0), alpha(1), alpha(2), alpha(10), alpha(11) })
+    for _, beyond in ipairs { 0, 255 } do
+      local beside = mask { y = -20, h = 3, beyond = beyond, value = function() return 255 - beyond end }
+      image = assert(seen(read(psd { x = 0, y = 0, w = 12, h = 10, pixel = function() return 1, 2, 3, 255 end, mask = beside })))
+      assert.are.equal(beyond / 255, select(4, image:get(3, 3)))
+    end
+  end)
+
+  it("has short names in which what is no character is a question mark", function()
+    local function named(name)
+      local bytes = psd({ name = ("x"):rep(#name) }):gsub("8BIMluni", "8BIMlunx", 1)
+      return read((bytes:gsub(string.char(#name) .. ("x"):rep(#name), function() return string.char(#name) .. name end, 1)))[1].name
+    end
+    local names = { ["\xC3\xA4b"] = "\xC3\xA4b", ["a\xFFb"] = "a?b", ["ab\xC3"] = "ab?", ["\xE2\x28b"] = "?(b", ["\xC0\x80b"] = "??b",
+      ["\xED\xA0\x80"] = "???", ["\xF4\x90\x80\x80"] = "????", ["\xE0\x80\x80"] = "???", ["\xC2\x85b"] = "?b",
+      ["\xC2\xA9b"] = "\xC2\xA9b", ["ab\127"] = "ab?", ["ab\0c"] = "ab" }
+    for name, shown in pairs(names) do assert.are.equal(shown, named(name)) end
+  end)
+
+  it("tells that the mask of a group is not drawn", function()
+    local group = paintings.psd { w = 12, h = 10, layers = { { name = "g", mask = mask {}, layers = { layer_of() } } } }
+    assert.are.same({ "g: the mask of a group: it is shown whole" }, told(read(group)))
+  end)
+
   it("is refused where it tells what cannot be", function()
     refused(psd({}, { version = 3 }), "an unknown version")
     refused(psd({}, { channels = 2 }), "no such number of channels")
     refused(psd({}, { channels = 57 }), "no such number of channels")
+    refused(psd({}, { w = 0 }), "the document has a size of 0 x 10 pixels")
+    local function masked(fields)
+      fields.value = function() return 0 end
+      local bytes = psd { mask = { x = 0, y = 0, w = 1, h = 1, value = fields.value } }
+      return (bytes:gsub(string.pack(">i4i4i4i4", 0, 0, 1, 1), string.pack(">i4i4i4i4", fields[2], fields[1], fields[4], fields[3]), 1))
+    end
+    refused(masked { 0, 0, 2147483647, 2147483647 }, "a mask has 2147483647 x 2147483647 pixels")
+    refused(masked { 2147483000, 0, 2147483001, 1 }, "a mask lies at 2147483000, 0")
     refused(psd({}, { mode = 11 }), "in an unknown kind of colour")
     refused((psd { tags = "" }):gsub("8BIMnorm", "8BIXnorm", 1), "the record of a layer is damaged")
     refused(psd { tags = "8BIMzzzz" .. string.pack(">I4", 0x7FFFFFFF) }, "a block of a layer")
