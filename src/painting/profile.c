@@ -167,7 +167,7 @@ void cs_profile_of_power(uint32_t power, const uint32_t *places, cs_profile *out
   *out = (cs_profile){.codes = is_other          ? CS_PROFILE_OTHER
                                : power == 100000 ? CS_PROFILE_LINEAR
                                                  : CS_PROFILE_SRGB};
-  snprintf(out->name, sizeof out->name, "gamma %.5g%s", power > 0 ? 100000.0 / power : 0,
+  snprintf(out->name, sizeof out->name, "gamma %.5g%s", 100000.0 / power,
            places ? " with primaries" : "");
 }
 

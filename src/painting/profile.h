@@ -32,8 +32,8 @@ typedef struct cs_profile {
 void cs_profile_read(const unsigned char *bytes, size_t size, cs_profile *out);
 /* What the name of a profile tells, where it is not embedded: those that Krita comes with. */
 void cs_profile_of_name(const char *name, cs_profile *out);
-/* What the gAMA and cHRM chunks of a PNG tell: light as a power of the codes, in 1/100,000; x and y
- * of white, red, green and blue in the same unit, or NULL. */
+/* What the gAMA and cHRM chunks of a PNG tell: light as a power of the codes, in 1/100,000 (above 0); x
+ * and y of white, red, green and blue in the same unit, or NULL. */
 void cs_profile_of_power(uint32_t power, const uint32_t *places, cs_profile *out);
 /* The word for the codes: that of celspan_picture_desc. */
 const char *cs_profile_colour(const cs_profile *profile);

@@ -501,6 +501,13 @@ describe("a colour profile", function()
     return told, tree
   end
 
+  --- Numbers of a profile, with 16 bits behind the point.
+  local function numbers(...)
+    local out = {}
+    for i, number in ipairs { ... } do out[i] = string.pack(">i4", math.floor(number * 65536 + 0.5)) end
+    return table.concat(out)
+  end
+
   --- Codes as they are, shown as light.
   local function check_linear(tree)
     local image = celspan.pixels(celspan.rostrum { celspan.cel { tree[1].object } },
@@ -516,7 +523,8 @@ describe("a colour profile", function()
 
   for _, format in ipairs { "openraster", "krita", "psd" } do
     it("of sRGB needs no note in " .. format, function()
-      for _, profile in ipairs { { curve = "srgb" }, { curve = "formula" }, { wide = true } } do
+      for _, profile in ipairs { { curve = "srgb" }, { curve = "formula" }, { wide = true },
+        { curve = "para\0\0\0\0\0\4\0\0" .. numbers(2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045, 0, 0) } } do
         local told, tree = told_of(painting_with(format, paintings.profile(profile)))
         assert.are.same({}, told)
         check_pixels(tree[1], layer_of {}, 40, 30)
@@ -525,7 +533,8 @@ describe("a colour profile", function()
 
     it("of light is honoured in " .. format, function()
       for _, profile in ipairs { { curve = 1 }, { curve = "curv\0\0\0\0\0\0\0\0" },
-        { curve = "para\0\0\0\0\0\0\0\0\0\1\0\0" }, { curve = 1, grey = true } } do
+        { curve = "para\0\0\0\0\0\0\0\0\0\1\0\0" }, { curve = 1, grey = true },
+        { curve = "curv\0\0\0\0\0\0\0\2\0\0\255\255" } } do
         local told, tree = told_of(painting_with(format, paintings.profile(profile)))
         assert.are.same({}, told)
         check_linear(tree)
@@ -537,7 +546,9 @@ describe("a colour profile", function()
       for _, profile in ipairs { { places = adobe, curve = 2.19921875 }, { places = adobe },
         { curve = 2.2 }, { grey = true, curve = 2.2 }, { wide = true, places = adobe, curve = 1 },
         { curve = "curv\0\0\0\0\0\0\9\9" }, { curve = "para\0\0\0\0\0\7\0\0" },
-        { curve = "mft2\0\0\0\0\0\0\0\0" } } do
+        { curve = "mft2\0\0\0\0\0\0\0\0" }, { curve = "curv\0\0\0\0\0\0\0\3\0\0\0\9\255\255" },
+        { curve = "para\0\0\0\0\0\3\0\0" .. numbers(2.2, 1, 0, 1, 0) }, { curve = "para\0\0\0\0\0\0\0\0" .. numbers(2.2) },
+        { curve = "para\0\0\0\0\0\3\0\0" .. numbers(2.4) }, { curve = "para\0\0\0" } } do
         profile.name = "Wide (1998)"
         local told, tree = told_of(painting_with(format, paintings.profile(profile)))
         assert.are.same({ path .. note:format "Wide (1998)" }, told)
@@ -553,8 +564,33 @@ describe("a colour profile", function()
         assert.are.equal(1, #told)
         assert.are.equal(path, told[1]:match "^.-: ")
       end
+      for before, behind in pairs { acsp = "acsq", ["RGB "] = "CMYK", ["gXYZ" .. "....(....)"] = "gXYZ\0\0\0\0%1",
+        ["XYZ (....)"] = "Lab %1", ["rTRC(....)...."] = "rTRC%1\0\0\0\9" } do
+        local bytes, found = whole:gsub(before, behind, before == "XYZ (....)" and 9 or 1)
+        assert.is_true(found > 0)
+        assert.are.equal(1, #told_of(painting_with(format, bytes)), before)
+      end
     end)
   end
+
+  it("has a name whose characters are mended, or none", function()
+    local function named(name, wide, mend)
+      local bytes = paintings.profile { name = name, wide = wide, curve = 2.2 }
+      local told = told_of(painting_with("psd", mend and bytes:gsub(mend[1], mend[2], 1) or bytes))
+      return told[1]:match 'profile "(.-)"'
+    end
+    assert.are.equal("a?b?c", named "a\1b\200c")
+    assert.are.equal("ab", named "ab\0c")
+    assert.are.equal("ab", named("ab\0c", true))
+    assert.are.equal("a?b", named("a\1b", true))
+    assert.are.equal("?b", named("ab", true, { "\0a\0b", "\1a\0b" }))
+    assert.are.equal("?b", named("ab", true, { "\0a\0b", "\1\0\0b" }))
+    for _, wide in ipairs { false, true } do assert.are.equal(("n"):rep(63), named(("n"):rep(70), wide)) end
+    assert.are.equal("without a name", named("ab", false, { "(desc....)\0\0\0\3", "%1\0\0\0\250" }))
+    assert.are.equal("without a name", named("ab", true, { "(enUS)\0\0\0\4", "%1\0\0\0\250" }))
+    assert.are.equal("without a name", named("ab", true, { "(enUS....)\0\0\0\28", "%1\0\0\9\28" }))
+    assert.are.equal("without a name", named("ab", true, { "mluc", "mlux" }))
+  end)
 
   it("of Krita may be named without being there, and be that of a layer", function()
     local function told_with(image, layer, profile)
@@ -564,6 +600,10 @@ describe("a colour profile", function()
     end
     assert.are.same({}, told_with("sRGB-elle-V2-srgbtrc.icc", "sRGB built-in"))
     assert.are.same({}, told_with("Gray-D50-elle-V2-srgbtrc.icc"))
+    assert.are.same({}, told_with("Gray-D50-elle-V2-g10.icc", "Gray-D50-elle-V2-g10.icc"))
+    assert.are.same({}, told_with("sRGB linear", "sRGB linear"))
+    assert.are.same({ ": " .. note:format "Gray-D50-elle-V2-rec709.icc" },
+      (told_with("Gray-D50-elle-V2-rec709.icc", "Gray-D50-elle-V2-rec709.icc")))
     local told, tree = told_with("sRGB-elle-V2-srgbtrc.icc", "sRGB-elle-V2-g10.icc")
     assert.are.same({}, told)
     check_linear(tree)
@@ -596,6 +636,10 @@ describe("a colour profile", function()
       (told_with(power(45455), places(70000))))
     assert.are.same({ "ink: " .. note:format "without a name" },
       (told_with({ "iCCP", "bad\0\0no zlib" }, { "sRGB", "\0" })))
+    assert.are.same({ "ink: " .. note:format "without a name" }, (told_with { "iCCP", ("n"):rep(90) }))
+    assert.are.same({}, (told_with(power(0), { "cHRM", "short" })))
+    assert.are.same({}, told_with({ "gAMA", "longer" }))
+    assert.are.same({}, told_with({ "sRGB", "\0" }, power(50000)))
     assert.are.same({ "ink: " .. note:format "without a name" }, (told_with { "iCCP", "" }))
   end)
 

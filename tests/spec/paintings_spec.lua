@@ -315,6 +315,8 @@ describe("an archive", function()
     refused(wide:sub(1, locator + 7) .. string.pack("<I8", 1 << 40) .. wide:sub(locator + 16), "the end of the table lies outside")
     refused(wide:sub(1, locator + 7) .. string.pack("<I8", 3) .. wide:sub(locator + 16), "the 64%-bit end of the table is missing")
     refused(wide:gsub("PK\6\7", "PK\6\8"), "the table of members lies outside")
+    local wide_end = wide:find("PK\6\6", 1, true)
+    refused(wide:sub(1, wide_end + 31) .. string.pack("<I8", 1 << 20) .. wide:sub(wide_end + 40), "1048576 members; at most 65536 are read")
     local function extra(data) return paintings.zip({ { name = "stack.xml", data = stack, size = 0xFFFFFFFF, extra = data } }) end
     refused(extra(string.pack("<I2I2I4", 1, 4, 9)), "a member lies outside the archive")
     refused(extra(string.pack("<I2I2I8", 1, 8, -1)), "a member lies outside the archive")
@@ -331,6 +333,12 @@ describe("an archive", function()
     refused(whole:sub(1, local_name + 25) .. "\255\255" .. whole:sub(local_name + 28), '"a.png" is cut off')
     local many = whole:sub(1, -15) .. string.pack("<I2I2", 60000, 60000) .. whole:sub(-10)
     refused(many, "the table of members is too short")
+    local function told_size(size, many)
+      return "PK" .. ("x"):rep((1 << 25) - 2) .. "PK\5\6" .. string.pack("<I2I2I2I2I4I4I2", 0, 0, many, many, size, 0, 0)
+    end
+    refused(told_size(1 << 25, 9), "the table of members has 33554432 bytes; at most %d+ are read")
+    refused("PK\6\7" .. ("\0"):rep(16) .. "PK\5\6" .. ("\255"):rep(16) .. "\0\0", "byte 42: the file ends here; 14 more bytes are missing")
+    refused("PQ" .. ("x"):rep(99), "is no layered painting")
   end)
 end)
 
@@ -366,6 +374,11 @@ describe("an OpenRaster file", function()
       if tree then message = select(2, seen(tree)) end
       assert.matches(pattern, message)
     end
+    fails((png(1, 1, 8, 6, rows[8]):gsub("IHDR", "IHDX")), "is not a PNG picture")
+    for place = 27, 28 do
+      local whole = png(1, 1, 8, 6, rows[8])
+      fails(whole:sub(1, place - 1) .. "\1" .. whole:sub(place + 1), "its PNG header is damaged")
+    end
     for _, form in ipairs { { 3, 0 }, { 16, 3 }, { 4, 2 }, { 8, 5 }, { 2, 6 }, { 1, 4 } } do
       fails(png(1, 1, form[1], form[2], rows[8]), "its PNG header is damaged")
     end
@@ -375,6 +388,45 @@ describe("an OpenRaster file", function()
     fails(png(1, 1, 8, 3, "\0\0", indexed .. stored.chunk("tRNS", ("\1"):rep(300))), "its transparency is damaged")
     fails(png(1, 1, 8, 0, "\0\0", stored.chunk("tRNS", "\1")), "its transparency is damaged")
     fails(png(1, 1, 8, 2, "\0\0\0\0", stored.chunk("tRNS", "\1\2\3\4\5")), "its transparency is damaged")
+  end)
+
+  it_reads_archives("fails wherever one of its PNGs is cut off", function()
+    local wide = ("\0" .. ("\1\2\3"):rep(2)):rep(2)
+    local packed = stored.zlib(wide)
+    local whole = "\x89PNG\r\n\x1a\n" .. stored.chunk("IHDR", string.pack(">I4I4BBBBB", 2, 2, 8, 2, 0, 0, 0))
+      .. stored.chunk("iCCP", "name\0\0" .. stored.zlib(paintings.profile { curve = 1 })) .. stored.chunk("gAMA", "\0\0\xB1\x8F")
+      .. stored.chunk("cHRM", ("\0"):rep(32)) .. stored.chunk("tEXt", "more") .. stored.chunk("PLTE", "\1\2\3")
+      .. stored.chunk("tRNS", "\0\1\0\2\0\3") .. stored.chunk("IDAT", packed:sub(1, 9)) .. stored.chunk("IDAT", packed:sub(10))
+    local function try(size)
+      local tree, message = layers.read(bench:write("cut.ora", ora('<stack><layer src="b.png"/></stack>',
+        { { name = "b.png", data = whole:sub(1, size) } })))
+      if tree then return seen(tree) end
+      return nil, message
+    end
+    for size = 0, #whole - 9 do -- the sums are not looked at
+      local image, message = try(size)
+      assert.is_nil(image, size)
+      assert.matches("%.ora: .", message)
+    end
+    assert.are.equal(("\0"):rep(8), assert(try(#whole)):bytes():sub(1, 8)) -- its colour is the clear one
+  end)
+
+  it_reads_archives("is refused where its attributes are none", function()
+    for attributes, pattern in pairs { ['x="nan"'] = 'x is "nan"', ['y="2e9"'] = 'y is "2e9"; it must be a number from', ['opacity="2"'] = "from 0 to 1",
+      ['opacity="0.5x"'] = 'opacity is "0.5x"', ['opacity=""'] = 'opacity is ""' } do
+      refused(ora('<stack><layer src="a.png" ' .. attributes .. "/></stack>"), pattern)
+      refused(ora("<stack><stack " .. attributes .. "/></stack>"), pattern)
+      refused(ora("<stack><text " .. attributes .. "/></stack>"), pattern)
+    end
+    for _, src in ipairs { "", "a\\b.png", "b/../../a.png", "b/..", "/a.png" } do
+      refused(ora('<stack><layer src="' .. src .. '"/></stack>'), "it must lie in the archive")
+    end
+    refused(ora '<stack><layer src="..a.png"/></stack>', "which is not in the archive")
+    local tree = read(ora '<stack><layer name="l" src="a" visibility="visible" composite-op="my:blend mode_\xC3\xA4"/></stack>')
+    assert.is_true(tree[1].visible)
+    assert.are.equal("blend?mode-??", tree[1].blend)
+    assert.matches("^l: ", told(tree)[1])
+    refused(paintings.zip { { name = "stack.xml", data = '<image w="4" h="x"/>' } }, 'h is "x"')
   end)
 
   it_reads_archives("has pictures of every depth of grey and of palettes", function()
@@ -438,5 +490,34 @@ describe("a Krita document", function()
     assert.are_not.same(attributes ' channelflags="0111"', attributes ' channelflags="1110"')
     local through = read(paintings.krita { w = 12, h = 10, layers = { { name = "g", attributes = ' passthrough="1"', layers = { layer_of() } } } })
     assert.are.equal("pass-through", through[1].blend)
+    local plain = read(paintings.krita { w = 12, h = 10, layers = { layer_of { attributes = ' passthrough="1"' } } })
+    assert.are.equal("normal", plain[1].blend)
+    assert.are.same({ "ink: animation: its first drawing is shown" }, attributes ' keyframes="ink.keyframes.xml"')
+    local masked = paintings.krita { w = 12, h = 10, layers = { layer_of { inside = '<masks><mask/><mask nodetype="filtermask"/></masks>' } } }
+    assert.are.same({ 'ink: has a "mask": it changes nothing here', 'ink: has a "filtermask": it changes nothing here' }, told(read(masked)))
+  end)
+
+  it_reads_archives("is refused where its attributes are none", function()
+    local function attributes(fields) return paintings.krita { w = 12, h = 10, layers = { layer_of(fields) } } end
+    refused(attributes { opacity = 2 }, 'opacity is "510"; it must be a number from 0 to 255')
+    refused(attributes { x = 2000000000 }, 'x is "2000000000"')
+    refused(attributes { y = -2000000000 }, 'y is "%-2000000000"')
+    refused((paintings.zip { { name = "maindoc.xml", data = '<DOC><IMAGE width="4" height="x"/></DOC>' } }), 'height is "x"')
+    local function of(content, more)
+      local list = { { name = "maindoc.xml", data = '<DOC><IMAGE width="4" height="4">' .. content .. "</IMAGE></DOC>" } }
+      for _, one in ipairs(more or {}) do list[#list + 1] = one end
+      return paintings.zip(list)
+    end
+    refused(of '<layer name="l"/>', 'filename is ""; it must name a layer')
+    refused(of '<layer filename="a/b"/>', 'filename is "a/b"; it must name a layer')
+    refused(of '<layer filename="a"/>', 'filename is "a", which is not in the archive')
+    assert.are.same({}, told(read(of '<mask nodetype="selectionmask"/>')))
+    local tiles = { name = "any/layers/a", data = HEAD:format "0" }
+    assert.are.equal(1, #read(of('<layer filename="a"/>', { tiles })))
+    for _, name in ipairs { "any/annotations/icc", "any/layers/a.icc", "any/layers/a.defaultpixel" } do
+      refused(of('<layer filename="a"/>', { tiles, { name = name, data = "some bytes", sum = 1 } }), "its checksum is wrong")
+    end
+    local short = { name = "any/layers/a.defaultpixel", data = "abc" }
+    assert.are.equal(1, #read(of('<layer filename="a"/>', { tiles, short })))
   end)
 end)
