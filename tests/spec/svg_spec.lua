@@ -176,6 +176,56 @@ describe("styles", function()
     assert.are.equal("000000 0", at(art.object, 48, 27))
   end)
 
+  it("ask for attributes in each way, and in no other", function()
+    local function is_red(selector, attributes)
+      local art = read(("<style>%s{fill:red}</style><rect width='9' height='9' %s/>"):format(selector, attributes or ""))
+      return at(art.object, 5, 5) == "ff0000 255", #art.skipped
+    end
+    local with = { ["[id|=en]"] = { "en", "en-GB" }, ["[id^=en]"] = { "en", "end" }, ["[id$=en]"] = { "en", "when" }, ["[id*=en]"] = { "send" },
+      ["[class~=en]"] = { "", "en" }, ["[id=en][id]"] = { "en" }, ["[ id = 'en' ]"] = { "en" }, ["rect#en"] = { "en" } }
+    for selector, ids in pairs(with) do
+      for _, id in ipairs(ids) do
+        local name = selector:find "class" and "class='de en'" or ("id='%s'"):format(id)
+        assert.are.same({ true, 0 }, { is_red(selector, name) }, selector .. id)
+      end
+      assert.are.same({ false, 0 }, { is_red(selector, "id='other' class='other'") }, selector)
+      assert.are.same({ false, 0 }, { is_red(selector) }, selector)
+    end
+    assert.are.same({ false, 0 }, { is_red("[id|=en]", "id='end'") })
+    for _, empty in ipairs { "[id^='']", "[id$='']", "[id*='']", "[class~='']" } do
+      assert.are.same({ false, 0 }, { is_red(empty, "id='a' class='a'") }, empty)
+    end
+    for _, selector in ipairs { "[id~]", "[id|x]", "[id", "[id=en", "[unheard]", "[]", ".", "#", "#a#b", "rect.", "> rect", "rect:hover", "rect+rect",
+      ("[id]"):rep(99), (".a"):rep(99), ("g "):rep(99) .. "rect" } do
+      assert.are.same({ false, 1 }, { is_red(selector, "id='en'") }, selector)
+    end
+  end)
+
+  it("leave out declarations that are none", function()
+    local function seen(style, more)
+      local art = read(("<style>%s</style><rect width='9' height='9' %s/>"):format(style, more or ""))
+      return at(art.object, 5, 5)
+    end
+    for _, damaged in ipairs { ":red", "fill", "fill red", ("f"):rep(40) .. ":red", "unheard: red", "x: red", "fill:", "fill: no colour", "fill: red !imp",
+      "fill: 'a;fill:red", "fill: context", "opacity: x", "opacity: .5 !x", "color: no colour", "fill-rule: x", "stroke-width: x", "font-size: x", "display: block", "filter: none",
+      "mix-blend-mode: normal", "mask: none", "clip-path: none", "fill-opacity: y" } do
+      assert.are.equal("0000ff 255", seen("rect { fill: blue; " .. damaged .. " }"), damaged)
+    end
+    assert.are.equal("ff0000 255", seen("rect { fill: red ! IMPORTANT } rect { fill: blue }"))
+    assert.are.equal("ff0000 255", seen("rect { fill: red; } @media x { rect { fill: blue } }"))
+    assert.are.equal("ff0000 255", seen("rect { fill: red; } @media x { rect { fill: blue }"))
+    assert.are.equal("ff0000 255", seen("rect { fill: red; } rect"))
+    assert.are.equal("ff0000 255", seen("rect { fill: red; } @x"))
+    assert.are.equal("ff0000 255", seen("@x } rect { fill: red"))
+    assert.are.equal("ff0000 128", seen("rect { opacity: inherit }", "fill='red' opacity='.5' style='opacity: 50%'"))
+    assert.are.equal("ff0000 255", seen("", "fill='red' style='/* fill: blue */'"))
+  end)
+
+  it("of more than 65,536 rules are refused", function()
+    local _, sentence = refusal(in_svg("<style>" .. ("a{}"):rep(65537) .. "</style>"))
+    assert.is_truthy(sentence:find("the style sheets have more than 65536 rules", 1, true), sentence)
+  end)
+
   it("tell of selectors that do not count", function()
     local art = read '<style>rect:hover { fill: red } @import "x.css";</style><rect width="9" height="9"/>'
     assert.are.equal("000000 255", at(art.object, 5, 5))
@@ -255,6 +305,90 @@ describe("clip paths and masks", function()
     assert.are.equal("mask that is not flat", art.skipped[1].what)
   end)
 
+  --- What a mask of these shapes, and these attributes, shows of a red drawing; or what is told of it.
+  local function masked(shapes, x, y, attributes, shown)
+    local art = read(("<defs><filter id='f'/><marker id='k'/><rect id='r' width='9' height='9'/>"
+      .. "<clipPath id='c'><rect width='50' height='100'/></clipPath><mask id='n'><rect width='9' height='9'/></mask></defs>"
+      .. "<mask id='m' %s>%s</mask>%s"):format(attributes or "", shapes,
+      shown or "<rect width='100' height='100' fill='red' mask='url(#m)'/>"))
+    return art.skipped[1] and art.skipped[1].what or at(art.object, x, y)
+  end
+
+  it("are flat where their shapes are, and are not where these shine through one another", function()
+    local white = "<rect width='100' height='100' fill='white' %s/>"
+    for _, attributes in ipairs { "mask='url(#n)'", "filter='url(#f)'", "stroke='red' clip-path='url(#c)'", "stroke='red' opacity='.5'" } do
+      assert.are.equal("mask that is not flat", masked(white:format(attributes), 5, 5), attributes)
+    end
+    assert.are.equal("mask that is not flat", masked("<path d='M0 0H9' stroke='red' marker-start='url(#k)'/>", 5, 5))
+    for _, attributes in ipairs { "mask='url(#n)'", "filter='url(#f)'", "clip-path='url(#c)'" } do
+      assert.are.equal("mask that is not flat", masked("<g " .. attributes .. ">" .. white:format "" .. "</g>", 5, 5), attributes)
+    end
+    for _, attributes in ipairs { "mask='url(#n)'", "clip-path='url(#c)'" } do
+      assert.are.equal("mask that is not flat", masked(white:format "", 5, 5, attributes), attributes)
+    end
+    for _, element in ipairs { "image", "svg", "switch", "symbol", "text" } do
+      assert.are.equal("mask that is not flat", masked("<" .. element .. "/>", 5, 5), element)
+    end
+    assert.are.equal("ff0000 128", masked(white:format "opacity='.5'", 5, 5))
+    assert.are.equal("ff0000 128", masked("<g opacity='.5'>" .. white:format "" .. "</g>", 5, 5))
+    local halves = "<rect width='%d' height='100' fill='white' fill-opacity='.5'/><rect x='50' width='50' height='100' fill='white' fill-opacity='.5'/>"
+    assert.are.equal("ff0000 128", masked(halves:format(50), 5, 5))
+    assert.are.equal("mask that is not flat", masked(halves:format(60), 5, 5))
+    assert.are.equal("mask that is not flat", masked("<g opacity='.5'>" .. halves:format(50) .. "</g>", 5, 5))
+    assert.are.equal("ff0000 128", masked((halves:gsub("x='50' width='50' height='100'", "y='50' width='50' height='50'"))
+      :format(50):gsub("height='100'", "height='50'", 1), 5, 5))
+    assert.are.equal("mask that is not flat", masked(("<rect width='1' height='1'/>"):rep(65), 5, 5))
+    assert.are.equal("ff0000 255", masked(("<rect width='1' height='1'/>"):rep(63) .. white:format "", 5, 5))
+  end)
+
+  it("let through what is displayed and visible in them", function()
+    local white = "<rect width='100' height='100' fill='white'/>"
+    for _, hidden in ipairs { "display='none'", "visibility='hidden'" } do
+      assert.are.equal("000000 0", masked("<g " .. hidden .. ">" .. white .. "</g>", 5, 5), hidden)
+    end
+    assert.are.equal("000000 0", masked("<rect/><use href='#none'/><use/><desc/>", 5, 5))
+    assert.are.equal("ff0000 255", masked("<a>" .. white .. "</a>", 5, 5))
+    assert.are.equal("ff0000 128", masked("<rect width='100' height='100' fill='black' opacity='.5'/>", 5, 5, "mask-type='alpha'"))
+    assert.are.equal("000000 0", masked("<rect width='100' height='100' fill='black'/>", 5, 5, "mask-type='luminance'"))
+    assert.are.equal("mask that is not there", masked("", 5, 5, "", "<rect width='9' height='9' mask='url(#none)'/>"))
+    assert.are.equal("mask that is not there", masked("", 5, 5, "", "<rect width='9' height='9' mask='url(#c)'/>"))
+    assert.are.equal("ff0000 255", masked("", 5, 5, "", "<rect width='9' height='9' fill='red' mask='none'/>"))
+  end)
+
+  it("have a region and units that are said", function()
+    local white, line = "<rect width='.5' height='1' fill='white'/>", "<path d='M0 50H100' stroke='red' stroke-width='9' mask='url(#m)'/>"
+    assert.are.equal("ff0000 255", masked(white, 40, 50, "maskUnits='objectBoundingBox' maskContentUnits='objectBoundingBox'"))
+    assert.are.equal("000000 0", masked(white, 60, 50, "maskContentUnits='objectBoundingBox'"))
+    assert.are.equal("000000 0", masked(white, 40, 50, "maskContentUnits='userSpaceOnUse'"))
+    assert.are.equal("000000 0", masked(white, 40, 50, "maskContentUnits='objectBoundingBox' width='0'"))
+    assert.are.equal("000000 0", masked(white, 40, 50, "maskContentUnits='objectBoundingBox' height='-1'"))
+    local whole = "<rect width='100' height='100' fill='white'/>"
+    assert.are.equal("ff0000 255", masked(whole, 40, 50, "maskUnits='userSpaceOnUse'", line))
+    assert.are.equal("000000 0", masked(whole, 40, 50, "", line))
+    assert.are.equal("000000 0", masked(white, 40, 50, "maskUnits='userSpaceOnUse' maskContentUnits='objectBoundingBox'", line))
+  end)
+
+  it("refer to one another 128 deep, and no deeper", function()
+    local function chain(first, step, count)
+      local out = { first }
+      for i = 1, count do out[#out + 1] = step:format(i, i - 1) end
+      return "<defs>" .. table.concat(out) .. "</defs>"
+    end
+    local use = chain('<g id="a0"><rect width="9" height="9" fill="white"/></g>', '<g id="a%d"><use href="#a%d"/></g>', 200)
+    local cases = {
+      [use .. '<use href="#a200"/>'] = "what use shows is nested more than 128 deep",
+      [use .. '<mask id="m"><use href="#a200"/></mask><rect width="9" height="9" mask="url(#m)"/>'] =
+        "elements of a mask refer to one another more than 128 deep",
+      [chain('<clipPath id="a0"/>', '<clipPath id="a%d" clip-path="url(#a%d)"><rect width="9" height="9"/></clipPath>', 200)
+        .. '<rect width="9" height="9" clip-path="url(#a200)"/>'] = "clip paths refer to one another more than 128 deep",
+    }
+    for content, told in pairs(cases) do
+      local _, sentence = refusal(in_svg(content))
+      assert.is_truthy(sentence:find(told, 1, true), sentence)
+      assert.are.same({}, read((content:gsub("a200", "a50"))).skipped)
+    end
+  end)
+
   it("end where what they show is themselves", function()
     local art = read [[<mask id="m"><g id="g"><use href="#g"/></g></mask><rect width="9" height="9" mask="url(#m)"/>]]
     assert.are.equal("mask that is not flat", art.skipped[1].what)
@@ -282,6 +416,47 @@ describe("gradients", function()
     local art = read [[<linearGradient id="g"><stop stop-color="#f00" stop-opacity="0"/>
       <stop offset="1" stop-color="#00f"/></linearGradient><rect width="100" height="100" fill="url(#g)"/>]]
     assert.are.equal("800080 128", at(art.object, 50, 50))
+  end)
+
+  it("are spread from a focus with a radius, down to the centre", function()
+    local gradient = [[<radialGradient id="g" gradientUnits="userSpaceOnUse" cx="0" cy="50" r="50" fr="20" spreadMethod="%s">%s</radialGradient>
+      <rect width="100" height="100" fill="url(#g)"/>]]
+    local hard = [[<stop stop-color="red"/><stop offset=".5" stop-color="red"/><stop offset=".5" stop-color="blue"/><stop offset="1" stop-color="blue"/>]]
+    local spreads = { ["repeat"] = function(t) return t % 1 end, reflect = function(t) return math.abs((t + 1) % 2 - 1) end }
+    for spread, period in pairs(spreads) do
+      local art = read(gradient:format(spread, hard))
+      for x = 1.5, 96, 3 do
+        local red = period((x - 20) / 30) < 0.5
+        assert.are.equal(red and "ff0000 255" or "0000ff 255", at(art.object, x, 50), spread .. x)
+      end
+      art = read(gradient:format(spread, '<stop stop-color="#f00"/><stop offset="1" stop-color="#00f"/>'))
+      for _, x in ipairs { 1, 4, 8, 14, 26, 44, 56, 70 } do
+        local shown = tonumber(at(art.object, x, 50):sub(1, 2), 16)
+        assert.is_true(math.abs(shown - 255 * (1 - period((x - 20) / 30))) <= 4, spread .. x .. " " .. shown)
+      end
+    end
+  end)
+
+  it("that are degenerate show their last colour, or nothing", function()
+    local function seen(gradient, shape)
+      local art = read(gradient .. (shape or '<rect width="9" height="9" fill="url(#g)"/>'))
+      return at(art.object, 5, 5), art.skipped[1] and art.skipped[1].what
+    end
+    local stops = '<stop stop-color="red"/><stop offset="1" stop-color="lime"/>'
+    local linear, radial = '<linearGradient id="g" %s>' .. stops .. "</linearGradient>", '<radialGradient id="g" %s>' .. stops .. "</radialGradient>"
+    for _, one in ipairs { linear:format 'x1="0" x2="0"', radial:format 'r="0"', '<linearGradient id="g"><stop stop-color="lime"/></linearGradient>',
+      linear:format 'x1="1" x2="1" spreadMethod="repeat"' } do
+      assert.are.equal("00ff00 255", seen(one), one)
+    end
+    for _, one in ipairs { '<linearGradient id="g"/>', radial:format 'r="-1"', radial:format 'fr="1"', linear:format 'gradientTransform="scale(0)"',
+      linear:format 'gradientTransform="scale(0)" spreadMethod="repeat"' } do
+      assert.are.equal("000000 0", seen(one), one)
+    end
+    assert.are.equal("radius of the focus of radialGradient", select(2, seen(radial:format 'fr=".1" fy=".2"')))
+    local flat = '<path d="M0 5H9" stroke="%s" stroke-width="4"/>'
+    assert.are.equal("0000ff 255", seen(linear:format "", flat:format "url(#g) blue"))
+    assert.are.equal("000000 0", seen(linear:format "", flat:format "url(#g)"))
+    assert.are.equal("pattern of path", select(2, seen('<pattern id="g"/>', flat:format "url(#g)")))
   end)
 
   it("are spread, turned, and inherited from templates", function()
@@ -499,6 +674,37 @@ describe("strokes", function()
     assert.are.equal("000000 0", at(art.object, 52, 50))
     art = read(gradient .. [[<path d="M10 20H90" stroke="url(#a) blue" stroke-width="20"/>]])
     assert.are.equal("0000ff 255", at(art.object, 48, 20))
+  end)
+
+  it("have dashes where their list is one, and are whole where it is not", function()
+    local line = '<path d="M0 50H100" stroke="red" stroke-width="10" stroke-dasharray="%s" stroke-dashoffset="%s"/>'
+    local function dashed(list, offset)
+      local art = read(line:format(list, offset or "0"))
+      assert.are.same({}, art.skipped)
+      return at(art.object, 5, 50) == "ff0000 255", at(art.object, 15, 50) == "ff0000 255"
+    end
+    assert.are.same({ true, false }, { dashed "10" })
+    assert.are.same({ false, true }, { dashed("10", "10") })
+    assert.are.same({ true, false }, { dashed("10", "1e12em") })
+    for _, list in ipairs { "none", "10 -1", "10 x", "0 0", "", "1e12 1e12", "inherit" } do
+      assert.are.same({ true, true }, { dashed(list) }, list)
+    end
+  end)
+
+  it("are not drawn where they have no width, no outline or no place", function()
+    local gradient = '<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="red"/></linearGradient>'
+    local function shown(style, path)
+      local art = read(gradient .. ('<path d="%s" style="stroke: red; stroke-width: 10; %s"/>'):format(path or "M0 50L100 51", style))
+      return at(art.object, 50, 50) == "ff0000 255"
+    end
+    for _, style in ipairs { "", "stroke: url(#g)", "vector-effect: non-scaling-stroke", "stroke-width: -5", "stroke: url(#none) red" } do
+      assert.is_true(shown(style), style)
+    end
+    for _, style in ipairs { "stroke-width: 0", "stroke-width: 1e12em", "transform: scale(0)", "stroke: url(#g); transform: scale(0)",
+      "stroke: none", "stroke: url(#none)", "stroke-opacity: 0" } do
+      assert.is_false(shown(style), style)
+    end
+    for _, path in ipairs { "", "none", "M50 50", "x" } do assert.is_false(shown("", path), path) end
   end)
 
   it("may have more dashes than are drawn", function()
