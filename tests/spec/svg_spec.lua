@@ -974,6 +974,15 @@ describe("reading", function()
     end
   end)
 
+  it("takes no file that is too large, and tells 10,000 things that it left out", function()
+    local path = bench.folder .. "/large.svg"
+    assert(os.execute(("truncate -s 300M '%s'"):format(path)))
+    assert.matches("large%.svg: the file has 314572800 bytes; at most 268435456 are read", (select(2, svg.read(path))))
+    local _, message = svg.read(drawing "<text>A</text>", { fonts = { default = path } })
+    assert.matches("large%.svg: the font has 314572800 bytes; the limit is 268435456", message)
+    assert.are.equal(10000, #read(("<foreignObject/>"):rep(10001)).skipped)
+  end)
+
   it("ends when use grows without bound", function()
     local content = { '<g id="a0"><rect width="1" height="1"/></g>' }
     for i = 1, 30 do
@@ -1121,6 +1130,34 @@ describe("a text", function()
     assert.are.same({ "clip-path of tspan", "mask of tspan", "filter of tspan" }, told)
   end)
 
+  it("has at most 64 lengths and 64 lines", function()
+    local tspans = ('<tspan textLength="9">A</tspan>'):rep(64)
+    assert.are.same({}, letters("<text>" .. tspans .. "</text>").skipped)
+    assert.are.equal("textLength: a text has more than 64", letters("<text>" .. tspans .. '<tspan textLength="9">A</tspan></text>').skipped[1].what)
+    local line, ways = '<path id="p" d="M0 0H99"/>', ('<textPath href="#p">A</textPath>'):rep(64)
+    assert.are.same({}, letters(line .. "<text>" .. ways .. "</text>").skipped)
+    assert.are.equal("textPath: a text has more than 64", letters(line .. "<text>" .. ways .. '<textPath href="#p">A</textPath></text>').skipped[1].what)
+    assert.are.equal("side of textPath", letters(line .. '<text><textPath href="#p" side="right">A</textPath></text>').skipped[1].what)
+    assert.are.same({}, letters(line .. '<text><textPath href="#p" side="left">A</textPath></text>').skipped)
+    assert.are.same({}, letters(line .. '<text><textPath href="#p"></textPath><tspan textLength="9"></tspan></text>').skipped)
+  end)
+
+  it("is stretched to its length in its spaces, or with its glyphs", function()
+    local function width(attributes, words)
+      local x, _, w = letters('<text font-size="20" ' .. attributes .. ">" .. (words or "MM") .. "</text>").object:bounds()
+      return x + w
+    end
+    local plain, wide = width "", width 'textLength="80"'
+    assert.is_true(wide > plain + 10)
+    assert.is_true(width 'textLength="80" lengthAdjust="spacing"' == wide)
+    assert.is_true(width 'textLength="80" lengthAdjust="spacingAndGlyphs"' < wide) -- what is right of a glyph grows
+    assert.are.equal(width("", "M"), width('textLength="80"', "M")) -- there is no space in it
+    assert.is_true(width('textLength="80" lengthAdjust="spacingAndGlyphs"', "M") > 2 * width("", "M"))
+    assert.are.equal(plain, width 'textLength="-1"')
+    local art = letters '<text x="1e12" dx="1e12" font-size="20">M</text><text font-size="0">M</text><text font-size="1e11">M</text>'
+    assert.is_nil(art.object:bounds())
+  end)
+
   it("of more than 100,000 characters is told", function()
     local art = letters("<text>" .. ("A"):rep(100001) .. "</text>")
     assert.are.equal("text of more than 100000 characters", art.skipped[1].what)
@@ -1180,6 +1217,75 @@ describe("an image", function()
       assert.is_truthy(left:find "^f[c-f]0[0-3]0[0-3] 255$", left)
       assert.is_truthy(right:find "^0[0-3]0[0-3]f[c-f] 255$", right)
     end
+  end)
+
+  it("may have codes of 16 bits, multiplied by alpha or not", function()
+    for _, coding in ipairs { "straight", "premultiplied" } do
+      local rostrum = celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 20, 20, texture = celspan.rgb(1, 0, 0, 0.5) } } }
+      local path = bench.folder .. "/deep.tif"
+      assert(assert(celspan.pixels(rostrum, { size = { 20, 20 }, film = { 20, 20 } })):write(path, { depth = 16, alpha = coding }))
+      local art = read(embedded(assert(io.open(path, "rb")):read "a"))
+      assert.are.same({}, art.skipped)
+      assert.are.equal("ff0000 128", at(art.object, 50, 50), coding)
+    end
+  end)
+
+  it("without codes of sRGB is told, for there it would be another picture", function()
+    for _, format in ipairs { "exr", "dpx" } do
+      local path = bench.folder .. "/light." .. format
+      local image = assert(celspan.pixels(celspan.rostrum { celspan.cel {} , back = { 1, 0, 0, 1 } }, { size = { 4, 4 } }))
+      assert(image:write(path, { colour = "linear" }))
+      local art = read(embedded(assert(io.open(path, "rb")):read "a"))
+      assert.are.equal("image: its colours are no sRGB codes; make it a file beside the drawing", art.skipped[1].what, format)
+    end
+  end)
+
+  it("has the size that it is given, or a part of it that follows from its own", function()
+    local halves = two_halves("png", 40, 20)
+    for attributes, box in pairs { [""] = { 0, 0, 40, 20 }, ['width="20"'] = { 0, 0, 20, 10 }, ['height="5" x="3"'] = { 3, 0, 10, 5 } } do
+      assert.are.same(box, { read(embedded(halves, attributes == "" and " " or attributes)).object:bounds() }, attributes)
+    end
+    for _, attributes in ipairs { 'width="0"', 'width="9" height="0"', 'transform="scale(0)"', 'visibility="hidden"', 'display="none"' } do
+      local art = read(embedded(halves, attributes))
+      assert.are.equal("000000 0", at(art.object, 5, 2), attributes)
+      assert.are.same({}, art.skipped)
+    end
+    assert.are.same({}, read('<image/><image href=""/><image href="  "/>').skipped)
+    local clip = '<clipPath id="c" clipPathUnits="objectBoundingBox"><rect width=".5" height="1"/></clipPath><g clip-path="url(#c)">%s%s</g>'
+    local whole = embedded(halves, 'width="40"')
+    for _, none in ipairs { '<image/>', '<image href="data:,"/>', embedded(halves, 'x="90" width="0"') } do
+      assert.are.equal("000000 0", at(read(clip:format(whole, none)).object, 25, 5), none)
+      assert.are.equal("ff0000 255", at(read(clip:format(whole, none)).object, 15, 5), none)
+    end
+  end)
+
+  it("may be a drawing that has others, four deep", function()
+    for depth = 1, 7 do
+      bench:write(("deep-%d.svg"):format(depth), in_svg(depth == 1 and '<rect width="50" height="50" fill="red"/><foreignObject/>'
+        or ('<image width="100" height="100" href="deep-%d.svg"/>'):format(depth - 1)))
+    end
+    local art = assert(svg.read(bench.folder .. "/deep-4.svg"))
+    assert.are.equal("ff0000 255", at(art.object, 25, 25))
+    assert.matches("foreignObject$", art.skipped[1].what)
+    art = assert(svg.read(bench.folder .. "/deep-7.svg"))
+    assert.are.equal("000000 0", at(art.object, 25, 25))
+    assert.matches("drawings are images of one another too deep$", art.skipped[1].what)
+  end)
+
+  it("is told where its name is too long, or its drawing has no size or is damaged", function()
+    local function told(href) return (read(('<image width="9" height="9" href="%s"/>'):format(href)).skipped[1] or { what = "nothing" }).what end
+    assert.matches("its name", told(("n"):rep(5000)))
+    assert.matches("its name is too long", told(("n"):rep(4090)))
+    assert.matches("File name too long", told(("n"):rep(400)))
+    bench:write("inner.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="0" height="0"/>')
+    assert.are.equal("nothing", told "inner.svg")
+    bench:write("inner.svg", in_svg "<g>")
+    assert.matches("mismatched tag", told "inner.svg")
+    bench:write("inner.svg", "")
+    assert.matches("^image: ", told "inner.svg")
+    assert.are.equal("image no such.svg: No such file or directory", told "no such.svg")
+    assert.matches("its data: address is damaged", told "data:image/png;base64")
+    assert.matches("^image: ", told "data:image/png%20;base64,AAAA")
   end)
 
   it("is sliced or fitted to its place", function()
