@@ -34,7 +34,7 @@ static int resume(lua_State *L, lua_State *co, int count) {
 
 static int resume_thread(lua_State *L) {
   lua_State *co = lua_tothread(L, 1);
-  luaL_argexpected(L, co, 1, "coroutine");
+  luaL_argexpected(L, co, 1, "thread");
   int results = resume(L, co, lua_gettop(L) - 1);
   lua_pushboolean(L, results >= 0);
   lua_insert(L, -(results < 0 ? 1 : results) - 1);

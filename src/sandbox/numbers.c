@@ -126,7 +126,7 @@ static int random_number(lua_State *L) {
     lua_pushinteger(L, (lua_Integer)next_word(L));
     return 1;
   }
-  luaL_argcheck(L, low <= high, lua_gettop(L), "interval is empty");
+  luaL_argcheck(L, low <= high, 1, "interval is empty");
   uint64_t count = (uint64_t)high - (uint64_t)low + 1;
   lua_pushinteger(L, (lua_Integer)((uint64_t)low + word_below(L, count)));
   return 1;

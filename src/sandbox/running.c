@@ -9,8 +9,8 @@
 
 #define BYTES_A_STEP 16
 
-/* Pushes the pieces that the function at 1 gives until it gives none, as one text. */
-static void push_pieces(lua_State *L) {
+/* The pieces that the function at 1 gives until it gives none, as one text. */
+static int join_pieces(lua_State *L) {
   luaL_Buffer all;
   luaL_buffinit(L, &all);
   for (;;) {
@@ -24,6 +24,28 @@ static void push_pieces(lua_State *L) {
   }
   lua_pop(L, 1);
   luaL_pushresult(&all);
+  return 1;
+}
+
+/* Pushes the text that load is given, as it is or in pieces, or why the pieces could not be had. */
+static bool push_source(lua_State *L) {
+  if (lua_isstring(L, 1)) {
+    lua_pushvalue(L, 1);
+    return true;
+  }
+  lua_pushcfunction(L, join_pieces);
+  lua_pushvalue(L, 1);
+  int outcome = lua_pcall(L, 1, 1, 0);
+  if (outcome != LUA_OK)
+    cs_guard_pass(L, outcome);
+  return outcome == LUA_OK;
+}
+
+/* Under the message on top. */
+static int push_failure(lua_State *L) {
+  luaL_pushfail(L);
+  lua_insert(L, -2);
+  return 2;
 }
 
 /* load(chunk [, name [, mode [, globals]]]): texts alone, and with the script's globals. */
@@ -31,27 +53,24 @@ static int load(lua_State *L) {
   size_t size;
   bool has_globals = !lua_isnone(L, 4);
   const char *mode = luaL_optstring(L, 3, "bt");
+  if (!lua_isstring(L, 1))
+    luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 4);
-  if (lua_type(L, 1) == LUA_TFUNCTION)
-    push_pieces(L);
-  else
-    lua_pushvalue(L, 1);
-  const char *text = luaL_checklstring(L, 5, &size);
-  const char *name = luaL_optstring(L, 2, lua_type(L, 1) == LUA_TSTRING ? text : "=(load)");
+  if (!push_source(L))
+    return push_failure(L);
+  const char *text = lua_tolstring(L, 5, &size);
+  const char *name = luaL_optstring(L, 2, lua_isstring(L, 1) ? text : "=(load)");
   cs_guard_charge(L, size / BYTES_A_STEP);
   if (!strchr(mode, 't') || luaL_loadbufferx(L, text, size, name, "t") != LUA_OK) {
     if (!strchr(mode, 't'))
       lua_pushfstring(L, "load: mode '%s': the sandbox loads text ('t') alone", mode);
-    luaL_pushfail(L);
-    lua_insert(L, -2);
-    return 2;
+    return push_failure(L);
   }
   if (has_globals)
     lua_pushvalue(L, 4);
   else
     cs_host_push_globals(L);
-  if (!lua_setupvalue(L, -2, 1))
-    lua_pop(L, 1);
+  lua_setupvalue(L, -2, 1); /* what is compiled from text has one: _ENV */
   return 1;
 }
 

@@ -70,7 +70,7 @@ static bool push_own(lua_State *L, int index) {
 
 static int set_metatable(lua_State *L) {
   luaL_checktype(L, 1, LUA_TTABLE);
-  luaL_argexpected(L, lua_isnoneornil(L, 2) || lua_istable(L, 2), 2, "nil or table");
+  luaL_argexpected(L, lua_isnil(L, 2) || lua_istable(L, 2), 2, "nil or table");
   if (lua_getmetatable(L, 1)) {
     bool is_own = push_own(L, 1);
     if (is_own)
@@ -234,7 +234,7 @@ static int compare_numbers(const key *a, const key *b) {
     return (a->whole > b->whole) - (a->whole < b->whole);
   if (a->number != b->number)
     return a->number < b->number ? -1 : 1;
-  return (int)a->is_whole - (int)b->is_whole; /* not equal, but nearer than numbers tell */
+  return (int)b->is_whole - (int)a->is_whole; /* 2^63, and integers it is the nearest of */
 }
 
 static int compare_keys(const void *x, const void *y) {

@@ -78,6 +78,23 @@ end
 
 -- ---------------------------------------------------------------- the rest
 
+-- What lots seldom or never draw.
+for _, one in ipairs {
+  { "find", "abc", "" }, { "find", "abc", "", 3, true }, { "find", "abc", "", 9 }, { "match", "abc", "" },
+  { "match", "f(a(b)c)", "%b()" }, { "match", "f(a(b)c", "%b()" }, { "match", "'a'b'", "%b''" }, { "match", "a", "%b(" },
+  { "match", "THE (quick) fox", "%f[%a]%a+%f[%A]" }, { "match", "a", "%f" }, { "match", "a", "%fa" }, { "match", "a", "%0" },
+  { "match", "a", ("()"):rep(33) }, { "match", "a", ("()"):rep(32) }, { "match", "a1_\t B", "%l%d%p%c%s%u" },
+  { "match", "a1_\t B", "%g+" }, { "match", "aB", "%L%U" }, { "match", "Ab", "%L%U" }, { "gsub", "abc", "", "-" },
+  { "gsub", "abc", "^a", "%%" }, { "gsub", "abc", "b", "%a" }, { "gsub", "abc", "b", "%!" }, { "gsub", "abc", "b" },
+  { "gsub", "abc", "b", true }, { "gsub", ("a"):rep(3000), "a", "%%" }, { "rep", "ab", math.maxinteger },
+  { "format", "%s %s", 1 }, { "format", "%10q", "a" }, { "format", "%s", setmetatable({}, { __name = "N" }) },
+} do answer(one[1], string[one[1]], table.unpack(one, 2)) end
+answer("insert", function() local t = { 1 } table.insert(t, 2) return #t, t[2] end)
+answer("unpack", function()
+  local a, b, c = table.unpack(celspan.cel { celspan.rect { 0, 0, 1, 2 }, celspan.rect { 0, 0, 3, 4 } })
+  return a[4], b[4], c
+end)
+
 local function fails() error({}) end
 answer("pcall", pcall, error, "x")
 answer("pcall", pcall)
@@ -92,6 +109,24 @@ answer("load", load, "return 1 +")
 answer("load", function() return load("return ...", "x")(5) end)
 answer("load", function() return load("return x", "x", "t", { x = 7 })() end)
 answer("load", function() local n = 0 return load(function() n = n + 1 return ({ "return", " 8" })[n] end)() end)
+answer("load", load, function() return {} end)
+answer("load", load, function() error "no more" end)
+answer("load", load, function() error({}) end)
+answer("load", load)
+answer("tostring", tostring, setmetatable({}, { __tostring = function() return {} end }))
+answer("tostring", tostring, setmetatable({}, { __name = "N" }))
+answer("tostring", tostring, setmetatable({}, { __name = 5 }))
+answer("tostring", tostring)
+answer("setmetatable", setmetatable, {})
+answer("setmetatable", setmetatable, {}, 5)
+answer("setmetatable", function()
+  local t = setmetatable({}, { __index = { a = 1 } })
+  local before = t.a
+  setmetatable(t, { __index = { a = 2 } })
+  local between = t.a
+  return before, between, getmetatable(setmetatable(t, nil)), t.a
+end)
+answer("getmetatable", function() return getmetatable(5), getmetatable({}), getmetatable(print) end)
 answer("setmetatable", function()
   local class = {}
   class.__index = class
@@ -146,11 +181,33 @@ answer("coroutine", function()
   return co()
 end)
 answer("coroutine", coroutine.wrap, 1)
+answer("coroutine", coroutine.wrap(fails))
+answer("coroutine", coroutine.resume, 5)
+answer("coroutine", coroutine.resume, coroutine.create(fails))
+-- A stack holds a million values.
+local function with_half_a_stack(work) return work(table.unpack({}, 1, 600000)) end
+answer("coroutine", function()
+  local co = coroutine.create(function() with_half_a_stack(function(...) coroutine.yield() return (...) end) end)
+  coroutine.resume(co)
+  return coroutine.resume(co, table.unpack({}, 1, 600000))
+end)
+answer("coroutine", function()
+  local co = coroutine.create(function() return table.unpack({}, 1, 600000) end)
+  return with_half_a_stack(function(...)
+    local good, why = coroutine.resume(co)
+    return good, why, (...)
+  end)
+end)
 answer("next", function() local t = { 7 } local k, v = next(t) return k, v, next(t, k), next {} end)
 answer("pairs", function()
   local t, all = { 1, 2, 3 }, {}
   for k in pairs(t) do t[k] = nil all[#all + 1] = k end
   return table.concat(all, ","), next(t)
+end)
+answer("pairs", function()
+  local t, all = { 1, 2, 3 }, {}
+  for k in pairs(t) do t[k + 1] = nil all[#all + 1] = k end
+  return table.concat(all, ",")
 end)
 answer("goto", function() for i = 1, 3 do if i == 2 then goto out end end ::out:: return "out" end)
 for x = -8, 8, 0.37 do
@@ -162,6 +219,13 @@ for x = -8, 8, 0.37 do
     return ("%.10g %.10g %.10g"):format(math.asin(x / 9), math.acos(x / 9), math.log(math.abs(x), 10))
   end)
 end
+answer("log", function() return ("%.12g %.12g %.12g"):format(math.log(3, 2), math.log(8, 3), math.log(0.125, 2)) end)
+answer("log", function() return math.log(math.huge, 2), math.log(-8, 2) ~= math.log(-8, 2), math.log(0, 2) end)
+answer("random", math.random, 3, 1)
+answer("random", math.random, 1, 2, 3)
+answer("random", math.random, "x")
+answer("random", function() return math.random(7, 7) end)
+answer("randomseed", math.randomseed, "x")
 answer("whole", function() return math.log(8, 2), math.log(1024, 2), math.exp(0), math.sin(0), math.cos(0) end)
 for _, x in ipairs { math.huge, -math.huge, 0 / 0, 1e300, -1e300, 1e-300, 2e6, -745.5, 709.9, 0.0, -0.0 } do
   answer("far", function()

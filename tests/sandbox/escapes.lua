@@ -50,6 +50,7 @@ return {
   { "bytecode", [[return load("\27Lua\x54\0\x19\x93\r\n\x1a\n") ~= nil]], "%(a nil value%)$|false" },
   { "bytecode by mode", [[local f, why = load("\27Lua", "x", "b") return f ~= nil or why]], "loads text" },
   { "bytecode by both modes", [[local f, why = load("\27Lua", "x", "bt") return f ~= nil or why]], "binary chunk" },
+  { "a global that has no name", [[return _G[1] ~= nil or "none"]], "^none$" },
   { "setfenv", [[return setfenv ~= nil or "none"]], "^none$" },
   { "an upvalue of a function of celspan", [[return getmetatable(require("celspan.ease")) ~= "celspan" or "celspan"]],
     "^celspan$" },
@@ -64,6 +65,9 @@ return {
   { "require coroutine", [[return require("coroutine").close ~= nil or "none"]], "^none$" },
   { "require celspan.core", [[return require("celspan.core") ~= nil]], "celspan.core' is not in the sandbox" },
   { "require celspan.spec", [[return require("celspan.spec") ~= nil]], "celspan.spec' is not in the sandbox" },
+  { "require of what celspan has not", [[return require("celspan.nothing") ~= nil]], "module 'celspan.nothing' not found" },
+  { "require of a module that gives nothing", [[return tostring(require("silent")) .. tostring(require("silent"))]],
+    "^truetrue$" },
   { "require above", [[return require("../beside") == "escaped"]], "not found" },
   { "require above by points", [[return require("...beside") == "escaped"]], "not found" },
   { "require by an absolute name", [[return require(BESIDE .. "/beside") == "escaped"]], "not found" },
@@ -86,6 +90,8 @@ return {
     "lets scripts read below" },
   { "a picture in a folder of the same beginning", [[return celspan.picture{ file = "../scriptsother/x.png" } ~= nil]],
     "lets scripts read below" },
+  { "a picture of a long name", [[return celspan.picture{ file = ("x/"):rep(3000) } ~= nil]], "lets scripts read below" },
+  { "a picture of no folder", [[return celspan.picture{ file = "/no-such" } ~= nil]], "lets scripts read below" },
   { "an image", [[return celspan.image{ file = SECRET } ~= nil]], "lets scripts read below" },
   { "a picture by with", [[return celspan.picture{ file = "there.png" }:with{ file = SECRET } ~= nil]],
     "lets scripts read below" },
@@ -168,6 +174,29 @@ return {
   { "addresses as order of next", [[return next{ [print] = 1 } ~= nil]], "a key is a function" },
   { "a seed from the clock", [[math.randomseed() return true]], "needs a number" },
   { "random numbers", [[return ("%.17g"):format(math.random())]], "^0%.883310808213642" },
+  { "random numbers of a range", [[local all = {}
+    for i = 1, 12 do all[i] = math.random(i % 3 == 0 and 3 or -1, 3) end
+    for _ = 1, 400 do local n = math.random(6) all[12 + n] = n end
+    return table.concat(all, " ")]], "^[-0123 ]+ 1 2 3 4 5 6$" },
+  { "random numbers of all integers", [[local low, high, negative = 0, 0, 0
+    for _ = 1, 200 do
+      local n = math.random(math.mininteger, 0)
+      assert(n <= 0)
+      low = low + (n < math.mininteger // 2 and 1 or 0)
+      negative = negative + (math.random(0) < 0 and 1 or 0)
+      high = high + (math.random(math.mininteger, math.maxinteger) > 0 and 1 or 0)
+    end
+    return low > 60 and low < 140 and high > 60 and high < 140 and negative > 60 and negative < 140 and "even"]], "^even$" },
+  { "random numbers of a seed", [[local function draw(seed) math.randomseed(seed) return math.random(1 << 60) end
+    return draw(1) == draw(1) and draw(1) ~= draw(2) and draw(1.5) == draw(1.5) and draw(1.5) ~= draw(1) and "the seed's"]],
+    "^the seed's$" },
+  { "the order of large numbers", [[local t, all = { [math.maxinteger] = "b", [0x1p63] = "c", [1 << 62] = "a" }, {}
+    for _, v in pairs(t) do all[#all + 1] = v end
+    for _, v in next, t do all[#all + 1] = v end
+    return table.concat(all)]], "^abcabc$" },
+  { "the order of next", [[local t, names = { b = 0, a = 0, ab = 0, [true] = 0, [false] = 0, [1] = 0, [-1] = 0 }, {}
+    for k in next, t do names[#names + 1] = tostring(k) end return table.concat(names, " ")]],
+    "^%-1 1 a ab b false true$" },
   { "the order of pairs", [[local t = {} for i = 1, 9 do t["k" .. i] = i end t[2.5] = 0 t[true] = 0 t[1] = 0
     local names = {} for k in pairs(t) do names[#names + 1] = tostring(k) end return table.concat(names, " ")]],
     "^1 2.5 k1 k2 k3 k4 k5 k6 k7 k8 k9 true$" },
@@ -185,7 +214,7 @@ return {
   { "xpcall's handler", [[local _, got = xpcall(error, function() return io end) return type(got) == "table" or "none"]],
     "^none$" },
   { "a replacement function", [[return ("x"):gsub(".", function() return io end) ~= nil]], "io is not in" },
-  { "a reader that loads", [[return load(function() return io end) ~= nil]], "io is not in" },
+  { "a reader that loads", [[return select(2, load(function() return io end))]], "io is not in" },
   { "a comparison that loads", [[table.sort({ 1, 2 }, function() return io end) return true]], "io is not in" },
   { "a scan-line procedure", [[celspan.pixels(celspan.rostrum{ celspan.cel{ celspan.scanline{ bounds = { 0, 0, 4, 4 },
     spans = function() leaked = io return nil end } } }, { size = { 4, 4 } }) return rawget(_G, "leaked") ~= nil or "none"]],

@@ -81,6 +81,8 @@ return {
   { "a picture without end", [[celspan.pixels(celspan.rostrum{ celspan.cel{ celspan.circle{ centre = { 1, 1 }, radius = 1,
     texture = celspan.radial{ centre = { 0, 0 }, radius = 1, { 0, "#fff" }, { 1, "#000" } } } } }, { size = { 30000, 30000 } })]], 6 },
 
+  { "a file that nobody writes to", [[require("celspan.sheet").read("pipe.lua")]], 6, "--limit time=0.05" },
+
   -- memory
   { "a text that doubles, caught", [[pcall(function() local s = "x" while true do s = s .. s end end)]], 6 },
   { "a text that doubles, caught by xpcall", [[xpcall(function() local s = "x" while true do s = s .. s end end, print)]], 6 },

@@ -58,7 +58,7 @@ describe("the sandbox", function()
     bench:shell(([[cd '%s' && mkdir scripts scriptsother && echo secret >secret.txt &&
       echo 'return "escaped"' >beside.lua && ln -s ../secret.txt scripts/link.txt &&
       ln -s ../beside.lua scripts/linked.lua && ln -s .. scripts/around && mkfifo scripts/pipe.lua &&
-      printf '\033Lua' >scripts/compiled.lua && echo 'return io' >scripts/inner.lua &&
+      printf '\033Lua' >scripts/compiled.lua && echo 'return io' >scripts/inner.lua && echo 'given = 1' >scripts/silent.lua &&
       echo >scripts/native.so && truncate -s 17M scripts/huge.lua]]):format(bench.folder))
   end)
 
