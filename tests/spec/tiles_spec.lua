@@ -46,6 +46,12 @@ return celspan.film{ size = {700, 500}, frames = 2, title = "a <plain> one", fra
 end }
 ]]
 
+-- For what is not about tiles: as few as there can be.
+local SMALL = [[
+local celspan = require "celspan"
+return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 9, 9 } } }
+]]
+
 local script
 
 before_each(function()
@@ -171,6 +177,19 @@ describe("a IIIF image", function()
   end)
 end)
 
+describe("tiles of JPEG", function()
+  it_compares("come close to the frame, and are told of in its information", function()
+    write("a 50% one.lua", (PLAIN:gsub("} } } }", '} } }, back = "#fbe9c6" }')))
+    assert_success("tiles '%s/a 50%% one.lua' -o %s/p --format iiif --picture JPEG --tile 512 --progress none", folder, folder)
+    local info = read(folder .. "/p/a 50% one/info.json")
+    assert.is_truthy(info:find('"id": "http://localhost:8000/a%2050%25%20one"', 1, true), info)
+    assert.is_nil(info:find("Formats", 1, true))
+    assert_success("render '%s/a 50%% one.lua' --frames 1 --size 350x250 -o %s/x.png --progress none", folder, folder)
+    local differs = difference(folder .. "/x.png", folder .. "/p/a 50% one/0,0,700,500/350,250/0/default.jpg")
+    assert.is_true(differs > 0 and differs < 0.3, tostring(differs))
+  end)
+end)
+
 describe("a large frame", function()
   it("is refused with the levels that are within the limit", function()
     local code, _, err = celspan("tiles %s --size 1000000x700000 -o %s/p", script, folder)
@@ -178,6 +197,12 @@ describe("a large frame", function()
     assert.is_truthy(err:find("levels 0 to 20 have", 1, true), err)
     assert.is_truthy(err:find("--levels 0-16", 1, true), err)
     assert.is_nil(read(folder .. "/p/plain.tiles"))
+  end)
+
+  it("is refused without them where not even the first is", function()
+    local code, _, err = celspan("tiles %s -o %s/p --levels 9-10 --tiles-limit 1", script, folder)
+    assert.are.equal(6, code)
+    assert.is_truthy(err:find("levels 9 to 10 have 8 tiles, and the limit is 1: raise --tiles-limit", 1, true), err)
   end)
 
   it("is made where it is asked for, and the deep levels around places", function()
@@ -203,7 +228,7 @@ describe("a run that goes on", function()
     assert_success("tiles %s -o %s/p --tile 64 --levels 0-9 --progress none", script, folder)
     local before = identity(folder .. "/p/plain_files/9/0_0.png")
     local log = read(folder .. "/p/plain.tiles")
-    write("p/plain.tiles", log .. "row 10 0 0 1")
+    write("p/plain.tiles", log .. "row 10 1 0 10 and more\nrow 10 0 0 1")
     assert_success("tiles %s -o %s/p --tile 64 --progress none", script, folder)
     assert.are.equal(before, identity(folder .. "/p/plain_files/9/0_0.png"))
     assert.are.equal(0, (shell(("diff -r %s/whole/plain_files %s/p/plain_files"):format(folder,
@@ -242,10 +267,58 @@ describe("a run that goes on", function()
   end)
 
   it("leaves a folder alone that it did not make", function()
-    shell(("mkdir -p %s/p/plain_files && echo mine >%s/p/plain_files/mine"):format(folder, folder))
-    local code, _, err = celspan("tiles %s -o %s/p --fresh --progress none", script, folder)
-    assert.are.equal(2, code, err)
+    shell(("mkdir -p %s/p/plain_files %s/p/plain && echo mine >%s/p/plain_files/mine"):format(folder, folder, folder))
+    for layout, name in pairs { dzi = "plain_files", iiif = "plain" } do
+      local code, _, err = celspan("tiles %s -o %s/p --format %s --fresh --progress none", script, folder, layout)
+      assert.are.equal(2, code, err)
+      assert.is_truthy(err:find(("already holds a %s that was not made by celspan tiles"):format(name), 1, true), err)
+    end
     assert.are.equal("mine\n", read(folder .. "/p/plain_files/mine"))
+  end)
+
+  it("waits for no other one", function()
+    local small = write("small.lua", SMALL)
+    assert_success("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
+    for _, options in ipairs { "", "--fresh" } do
+      local code, _, err = shell(("flock '%s/p/small.tiles' '%s' tiles '%s' --size 20x20 -o '%s/p' --progress none %s")
+        :format(folder, workbench.binary, small, folder, options))
+      assert.are.equal(5, code)
+      assert.is_truthy(err:find("small.tiles: another celspan is at work on these tiles", 1, true), err)
+    end
+  end)
+
+  it("starts over where the tiles of a record are gone, or it is of another version", function()
+    local small = write("small.lua", SMALL)
+    assert_success("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
+    shell(("rm -r '%s/p/small_files'"):format(folder))
+    assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none", small, folder)
+    assert.is_truthy(read(folder .. "/p/small_files/5/0_0.png"))
+    for _, record in ipairs { "", "celspan tiles 0\n", "celspan tiles 1 00112233445566778899aabbccddeeff\n" } do
+      write("p/small.tiles", record)
+      local code, _, err = celspan("tiles %s --size 20x20 -o %s/p --progress none", small, folder)
+      assert.are.equal(2, code)
+      assert.is_truthy(err:find("give --fresh to remove them", 1, true), err)
+    end
+  end)
+
+  it("tells what a script is given as its arguments from other ones, where it has procedures", function()
+    local small = write("small.lua", [[
+      local celspan = require "celspan"
+      local colour = ...
+      return celspan.rostrum{ celspan.cel{ celspan.scanline{ bounds = {0, 0, 9, 9},
+        spans = function(y) return { {0, y, colour} } end } } }]])
+    local arguments = "tiles %s --size 20x20 -o %s/p --progress none -- %s"
+    assert_success(arguments, small, folder, "'#f00'")
+    assert_success(arguments, small, folder, "'#f00'")
+    assert.are.equal(2, (celspan(arguments, small, folder, "'#00f'")))
+  end)
+
+  it("tells the tile that cannot be written", function()
+    assert_success("tiles %s -o %s/p --tile 64 --levels 0-1 --progress none", script, folder)
+    shell(("mkdir -p '%s/p/plain_files/9/4_3.png/in the way'"):format(folder))
+    local code, _, err = celspan("tiles %s -o %s/p --tile 64 --levels 9-9 --progress none", script, folder)
+    assert.are.equal(5, code, err)
+    assert.is_truthy(err:find("plain_files/9/4_3.png", 1, true), err)
   end)
 
   it("ends by its signal and leaves nothing half-written", function()
@@ -274,11 +347,28 @@ describe("wrong usage", function()
     end)
   end
 
-  it("is a places file that is none", function()
-    write("places.txt", "somewhere\n")
-    local code, _, err = celspan("tiles %s -o %s/p --places %s/places.txt", script, folder, folder)
+  it("is a places file that is none, or has places beside the film", function()
+    for _, place in ipairs { "somewhere", "1 2 3", "1 2 nan it", "1 2 inf it", "1 2 0 it", "1 2 -1 it", "-1 2 3 it",
+      "701 2 3 it", "1 -2 3 it", "1 501 3 it", "1 2 3 " .. ("long "):rep(60) } do
+      write("places.txt", "0 0 1 the corner\n" .. place .. "\n")
+      local code, _, err = celspan("tiles %s -o %s/p --places %s/places.txt", script, folder, folder)
+      assert.are.equal(2, code, place)
+      assert.is_truthy(err:find("places.txt:2: a place is X Y WIDTH NAME, within the film of 700 x 500 units", 1, true), err)
+    end
+  end)
+
+  it("is a folder whose name is too long, or is none", function()
+    for _, case in ipairs { { ("x/"):rep(3000), "the name is too long" }, { "/proc/nothing/here", "cannot make its folder" } } do
+      local code, _, err = celspan("tiles %s -o %s --progress none", script, case[1])
+      assert.are.equal(5, code, err)
+      assert.is_truthy(err:find(case[2], 1, true), err)
+    end
+  end)
+
+  it("is a limit that a picture does not have", function()
+    local code, _, err = celspan("tiles tests/faults/pixels.png -o %s/p --limit steps=1", folder)
     assert.are.equal(2, code)
-    assert.is_truthy(err:find("places.txt:1: a place is X Y WIDTH NAME", 1, true), err)
+    assert.is_truthy(err:find("are for scripts", 1, true), err)
   end)
 
   it("is a file that is not there, or a folder that cannot be made", function()
@@ -289,10 +379,58 @@ describe("wrong usage", function()
   end)
 end)
 
+describe("a viewer that is there", function()
+  local VIEWER = ("// a viewer\n"):rep(3000) -- more than is copied at a time
+
+  local function is_copied(options)
+    local small = write("small.lua", SMALL)
+    assert_success("tiles %s --size 20x20 -o %s/p --fresh --progress none %s", small, folder, options)
+    local page = read(folder .. "/p/index.html")
+    return page:find([["openseadragon": true]], 1, true) ~= nil, read(folder .. "/p/openseadragon/openseadragon.min.js")
+  end
+
+  it("is copied beside the page, which tells so, and stays there", function()
+    shell(("mkdir -p '%s/checkout/build/openseadragon' '%s/plain'"):format(folder, folder))
+    write("plain/openseadragon.min.js", VIEWER)
+    write("checkout/build/openseadragon/openseadragon.min.js", VIEWER)
+    for _, place in ipairs { "plain", "checkout", "plain/openseadragon.min.js" } do
+      shell(("rm -rf '%s/p'"):format(folder))
+      for _, options in ipairs { ("--viewer %s/%s"):format(folder, place), "" } do -- then by the run before
+        local is_told, bytes = is_copied(options)
+        assert.is_true(is_told and bytes == VIEWER, place)
+      end
+    end
+  end)
+
+  it("is copied, and places are read, by a confined process too", function()
+    shell(("mkdir -p '%s/viewers' '%s/scripts'"):format(folder, folder))
+    write("viewers/a.js", VIEWER)
+    write("places.txt", "3 3 2 here\n")
+    -- A search for leaks looks into the process from another one, which --strict does not let it.
+    local code, _, err = shell(("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 '%s' tiles '%s' --size 20x20 -o '%s/p' --strict "
+      .. "--viewer '%s/viewers/a.js' --places '%s/places.txt' --progress none"):format(workbench.binary,
+      write("scripts/small.lua", SMALL), folder, folder, folder))
+    if code == 6 and err:find("--strict: ", 1, true) then return pending "the kernel cannot confine a process" end
+    assert.are.equal(0, code, err)
+    assert.is_true(VIEWER == read(folder .. "/p/openseadragon/openseadragon.min.js"))
+    assert.is_truthy(read(folder .. "/p/index.html"):find('"here"', 1, true))
+  end)
+
+  it("is an error where it cannot be written", function()
+    write("a.js", VIEWER)
+    shell(("mkdir -p '%s/p/openseadragon/openseadragon.min.js/in the way'"):format(folder))
+    local code, _, err = celspan("tiles %s --size 20x20 -o %s/p --viewer %s/a.js --progress none",
+      write("small.lua", SMALL), folder, folder)
+    assert.are.equal(5, code)
+    assert.is_truthy(err:find("openseadragon.min.js", 1, true), err)
+  end)
+end)
+
 describe("a viewer that is not there", function()
   it("is told before anything is made", function()
     os.execute(("mkdir -p '%s/x.js'"):format(folder))
-    for _, viewer in ipairs { "nowhere", folder, folder .. "/x.js" } do
+    write("empty.js", "")
+    for _, viewer in ipairs { "nowhere", "x", folder, folder .. "/x.js", folder .. "/empty.js" } do
       local code, _, err = celspan("tiles %s -o %s/p --viewer %s --progress none", script, folder,
         viewer)
       assert.are.equal(4, code)

@@ -155,7 +155,7 @@ static celspan_status write_tile(cs_tile_writer *writer, const cs_pyramid_box *b
 }
 
 static celspan_status refuse_path(cs_tile_writer *writer) {
-  return cs_fail(&writer->context, CELSPAN_OUTPUT, "%s: the names of its tiles are too long",
+  return cs_fail(&writer->context, CELSPAN_OUTPUT, "%.80s...: the names of its tiles are too long",
                  writer->output->pyramid->folder);
 }
 
