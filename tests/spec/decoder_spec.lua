@@ -14,10 +14,10 @@ local is_slow = present.sanitizer()
 -- A search for leaks looks into the process from another one, which --strict does not let it.
 local OPTIONS = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0"
 
---- Runs celspan with the hostile module, in the folder of the bench.
-local function with_hostile(arguments)
-  return bench:shell(("cd '%s' && %s DECODER_SPEC='%s' CELSPAN_PICTURE_MODULE='%s' '%s' %s")
-    :format(bench.folder, OPTIONS, bench.folder, HOSTILE, workbench.absolute, arguments))
+--- Runs celspan with the hostile module, in the folder of the bench. environment: what else is set.
+local function with_hostile(arguments, environment)
+  return bench:shell(("cd '%s' && %s %s DECODER_SPEC='%s' CELSPAN_PICTURE_MODULE='%s' '%s' %s")
+    :format(bench.folder, OPTIONS, environment or "", bench.folder, HOSTILE, workbench.absolute, arguments))
 end
 
 local function seconds(work)
@@ -47,8 +47,8 @@ return celspan.film { size = { 8, 8 }, frames = #names, frame = function(f)
     :format(table.concat(names, '", "')))
 end
 
-local function fails(code, pattern, arguments)
-  local got, _, err = with_hostile(arguments)
+local function fails(code, pattern, arguments, environment)
+  local got, _, err = with_hostile(arguments, environment)
   assert.are.equal(code, got, err)
   assert.truthy(err:find(pattern), err)
   local _, left = bench:shell(("grep -l 'DECODER_SPEC=%s' /proc/[0-9]*/environ"):format(bench.folder))
@@ -77,9 +77,34 @@ describe("a picture that", function()
     end
   end
 
-  it("has a header that no picture has is an error that names it", function()
-    film { "lie.png" }
-    fails(4, "lie%.png: its decoder answered what cannot be", "info lie.png")
+  for _, what in ipairs { "width", "height", "channels", "bits", "alpha", "format", "colour", "beyond" } do
+    it("has a header that no picture has is an error that names it: " .. what, function()
+      local name = "lie-" .. what .. ".png"
+      write_picture(name)
+      fails(4, "lie%-" .. what .. "%.png: its decoder answered what cannot be", "info " .. name)
+    end)
+  end
+
+  for _, how in ipairs { "babble", "endless", "odd", "tell" } do
+    for _, when in ipairs { "", "open-" } do
+      it("has taken over its decoder is not believed: " .. when .. how, function()
+        local name = when .. how .. ".png"
+        film { name }
+        fails(4, name:gsub("%p", "%%%0") .. ": its decoder answered what cannot be", "render film.lua --hash --progress none")
+      end)
+    end
+  end
+
+  it("is another one when it is read than when it was opened is an error", function()
+    film { "touch.png" }
+    fails(4, "touch%.png: changed while it was in use", "render film.lua --hash --progress none")
+  end)
+
+  it("has a layer with a name that is too long is an error", function()
+    write_picture "good.png"
+    bench:write("film.lua", [[local celspan = require "celspan"
+return celspan.rostrum { celspan.cel { celspan.image { file = "good.png", layer = ("x"):rep(33 << 20) } } }]])
+    fails(3, "good%.png: the name of its layer is too long", "render film.lua --hash --progress none")
   end)
 
   it("ended a decoder is refused afterwards without another try; others have a new decoder", function()
@@ -134,6 +159,35 @@ describe("a decoder", function()
         "render film.lua --progress none --frames 1 -o out/" .. name)
       assert.are.same({}, bench:files "out")
     end
+  end)
+
+  it("that puts what is not to be written leaves no file", function()
+    film { "good.png" }
+    for _, name in ipairs { "greedy.tif", "confused.exr" } do
+      fails(5, "not taken", "render film.lua --progress none --frames 1 -o out/" .. name)
+      assert.are.same({}, bench:files "out")
+    end
+  end)
+
+  it("that cannot be begun is an error", function()
+    film { "good.png" }
+    local loading = { crash = { 4, "ended before it began %(signal 11%); %-%-trust does without it" },
+      leave = { 33, "out of memory in starting the decoder of pictures" } }
+    for how, expected in pairs(is_slow and {} or loading) do
+      fails(expected[1], "good%.png: .*" .. expected[2], "render film.lua --hash --progress none", "HOSTILE_LOADING=" .. how)
+    end
+    fails(4, "good%.png: .*version", "render film.lua --hash --progress none", "HOSTILE_IS_OLD=1")
+    bench:write("film.lua", 'return require "celspan".rostrum { size = { 8, 8 } }')
+    fails(5, "x%.exr: .*version", "render film.lua --progress none -o x.exr", "HOSTILE_IS_OLD=1")
+  end)
+
+  it("that does not begin ends with the program", function()
+    film { "good.png" }
+    local code = bench:shell(([[cd '%s' && HOSTILE_LOADING=hang CELSPAN_PICTURE_MODULE='%s' '%s' render film.lua --hash \
+      --progress none & pid=$!; for i in $(seq 100); do keeper=$(pgrep -P $pid); [ -n "$keeper" ] && break; sleep 0.02; done
+      sleep 0.2; kill -TERM $pid; (sleep 20; kill -KILL $pid) & late=$!
+      wait $pid; code=$?; kill -KILL $late $keeper; exit $code]]):format(bench.folder, HOSTILE, workbench.absolute))
+    assert.are.equal(143, code)
   end)
 
   it("ends with the program, however that ends", function()

@@ -6,14 +6,20 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
 
 #include "sandbox/strict.h"
 
 void __gcov_dump(void);
 void __gcov_reset(void);
 
+enum { ASKED = SIGPWR, PATIENCE = 1000 /* milliseconds */ };
+
 _Noreturn void __real__exit(int code);
 _Noreturn void __wrap__exit(int code);
+int __real_kill(pid_t process, int number);
+int __wrap_kill(pid_t process, int number);
 int __real_raise(int number);
 int __real_setrlimit64(int resource, const struct rlimit *limit);
 int __wrap_setrlimit64(int resource, const struct rlimit *limit);
@@ -34,13 +40,6 @@ static void end_faults(void) {
     starve_end();
 }
 
-/* Counts go to files below GCOV_PREFIX; there can be none below this. */
-__attribute__((constructor)) static void begin(void) {
-  if (has_size_limit())
-    setenv("GCOV_PREFIX", "/dev/null", 1);
-  atexit(end_faults);
-}
-
 /* A process without memory may fail in telling, and then come here again by its handler of signals. */
 static void tell(void) {
   static volatile sig_atomic_t is_telling;
@@ -51,6 +50,34 @@ static void tell(void) {
   __gcov_dump();
   __gcov_reset();
   is_telling = 0;
+}
+
+static void end_when_asked(int number) {
+  (void)number;
+  tell();
+  __real_raise(SIGKILL);
+}
+
+/* Counts go to files below GCOV_PREFIX; there can be none below this. */
+__attribute__((constructor)) static void begin(void) {
+  if (has_size_limit())
+    setenv("GCOV_PREFIX", "/dev/null", 1);
+  atexit(end_faults);
+  signal(ASKED, end_when_asked);
+}
+
+static bool has_ended(pid_t process) {
+  siginfo_t found = {.si_pid = 0};
+  return waitid(P_PID, (id_t)process, &found, WEXITED | WNOHANG | WNOWAIT) != 0 || found.si_pid == process;
+}
+
+/* A process that is killed could not tell what it ran: it is asked to end itself before, and is given time. */
+int __wrap_kill(pid_t process, int number) {
+  const struct timespec pause = {.tv_nsec = 1000000};
+  if (number == SIGKILL && process > 0 && __real_kill(process, ASKED) == 0)
+    for (int i = 0; i < PATIENCE && !has_ended(process); i++)
+      nanosleep(&pause, NULL);
+  return __real_kill(process, number);
 }
 
 void __wrap__exit(int code) {

@@ -6,19 +6,27 @@
  *   eat                          memory is taken by reading until there is none, which is a failure
  *   choke                        likewise, but it is not noticed: a fault
  *   keep                         48 MiB are taken in reading, and never given back
+ *   babble, endless, odd, tell   what is no message is sent to the program: other bytes, a text without an
+ *                                end, a status that there is not, or one that was not asked for
+ *   touch                        the file has another time
  *   open-crash, open-hang, ...   the same in opening
- *   lie                          a header that no picture has
+ *   lie, lie-height, ...         a header that no picture has
+ *   greedy, confused             in writing: more bytes than are shared are put, or something else
  *
- * With HOSTILE_IS_OLD in the environment it is of another version of celspan.
+ * With HOSTILE_IS_OLD in the environment it is of another version of celspan; what HOSTILE_LOADING names
+ * it does when it is loaded.
  */
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include "pictures/module.h"
+#include "cli/decoder/message.h"
 
-enum { SIDE = 64, PIECE = 1 << 22, KEPT = 48 << 20 };
+enum { SIDE = 64, PIECE = 1 << 22, KEPT = 48 << 20, DESCRIPTORS = 256 };
 
 struct cs_picture_reader {
   char name[4096]; /* of the file, in its folder */
@@ -34,7 +42,7 @@ static const volatile int *nowhere;
 static celspan_status fail(cs_picture_failure *failure, celspan_status status, const char *name,
                            const char *text) {
   failure->status = status;
-  snprintf(failure->text, sizeof failure->text, "%s: %s", name, text);
+  snprintf(failure->text, sizeof failure->text, "%.255s: %s", name, text);
   return status;
 }
 
@@ -56,6 +64,40 @@ static void eat(void) {
   }
 }
 
+/* The way to the program, which a picture that has taken over its decoder would find like this. */
+static int find_socket(void) {
+  for (int found = 3; found < DESCRIPTORS; found++) {
+    int type = 0;
+    socklen_t size = sizeof type;
+    if (getsockopt(found, SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_SEQPACKET)
+      return found;
+  }
+  return -1;
+}
+
+static void say(const void *bytes, size_t size) { (void)!send(find_socket(), bytes, size, MSG_NOSIGNAL); }
+
+static void misspeak(const char *name) {
+  cs_message message = {.kind = CS_MESSAGE_DONE};
+  if (strstr(name, "babble"))
+    say(name, strlen(name));
+  if (strstr(name, "endless"))
+    memset(message.text, 'x', sizeof message.text);
+  if (strstr(name, "odd"))
+    message.status = 99;
+  if (strstr(name, "tell"))
+    message.kind = CS_MESSAGE_PART;
+  say(&message, sizeof message);
+}
+
+/* Puts what the program cannot take. Whether it took it. */
+static bool put_wrongly(const char *name) {
+  cs_message message = {.kind = strstr(name, "confused") ? CS_MESSAGE_PART : CS_MESSAGE_PUT,
+                        .put = {.size = strstr(name, "greedy") ? CS_SHARED : 0}};
+  say(&message, sizeof message);
+  return recv(find_socket(), &message, sizeof message, 0) > 0 && message.status == CELSPAN_OK;
+}
+
 static celspan_status behave(const char *name, cs_picture_failure *failure) {
   if (strstr(name, "crash"))
     return (celspan_status)*nowhere;
@@ -63,6 +105,8 @@ static celspan_status behave(const char *name, cs_picture_failure *failure) {
     abort();
   if (strstr(name, "leave"))
     exit(3);
+  if (strstr(name, "babble") || strstr(name, "endless") || strstr(name, "odd") || strstr(name, "tell"))
+    misspeak(name);
   while (strstr(name, "hang"))
     pause();
   if (strstr(name, "eat") || strstr(name, "choke"))
@@ -82,6 +126,25 @@ static celspan_status behave(const char *name, cs_picture_failure *failure) {
 
 /* ---------------------------------------------------------------- reading */
 
+static void falsify(const char *name, cs_picture_header *header) {
+  if (strstr(name, "height"))
+    header->info.height = 0;
+  else if (strstr(name, "channels"))
+    header->info.channels = CS_PICTURE_CHANNELS + 1;
+  else if (strstr(name, "bits"))
+    header->bits = 17;
+  else if (strstr(name, "alpha"))
+    header->alpha = (cs_picture_alpha)99;
+  else if (strstr(name, "format"))
+    memset(header->info.format, 'x', sizeof header->info.format);
+  else if (strstr(name, "colour"))
+    strcpy(header->info.colour, "s\nrgb");
+  else if (strstr(name, "beyond"))
+    strcpy(header->info.colour, "s\xc3\xa4");
+  else
+    header->info.width = -1;
+}
+
 static celspan_status open_file(const cs_picture_request *request, cs_picture_reader **out,
                                 cs_picture_header *header, cs_picture_failure *failure) {
   cs_picture_reader *reader = malloc(sizeof *reader);
@@ -89,19 +152,20 @@ static celspan_status open_file(const cs_picture_request *request, cs_picture_re
   if (!reader)
     return fail(failure, CELSPAN_NO_MEMORY, request->file, "out of memory");
   find_name(request->file, reader->name);
+  if (strstr(reader->name, "touch"))
+    utimensat(AT_FDCWD, request->file, (struct timespec[2]){{.tv_sec = 1}, {.tv_sec = 1}}, 0);
   if (strstr(reader->name, "open-"))
     status = behave(reader->name, failure);
   if (status != CELSPAN_OK) {
     free(reader);
     return status;
   }
-  *header = (cs_picture_header){.info = {.width = strstr(reader->name, "lie") ? -1 : SIDE,
-                                         .height = SIDE,
-                                         .channels = 3,
-                                         .format = "faulty",
-                                         .colour = "srgb"},
-                                .alpha = CS_PICTURE_ALPHA_STRAIGHT,
-                                .bits = 8};
+  *header = (cs_picture_header){
+      .info = {.width = SIDE, .height = SIDE, .channels = 3, .format = "faulty", .colour = "srgb"},
+      .alpha = CS_PICTURE_ALPHA_STRAIGHT,
+      .bits = 8};
+  if (strstr(reader->name, "lie"))
+    falsify(reader->name, header);
   *out = reader;
   return CELSPAN_OK;
 }
@@ -144,6 +208,8 @@ static celspan_status open_output(const cs_picture_output *output, cs_picture_wr
 static celspan_status write_output(cs_picture_writer *writer, int32_t y, int32_t count,
                                    const void *rows, cs_picture_failure *failure) {
   (void)y, (void)count, (void)rows;
+  if (strstr(writer->name, "greedy") || strstr(writer->name, "confused"))
+    return put_wrongly(writer->name) ? CELSPAN_OK : fail(failure, CELSPAN_OUTPUT, writer->name, "not taken");
   return behave(writer->name, failure);
 }
 
@@ -156,6 +222,13 @@ static celspan_status complete_output(cs_picture_writer *writer, cs_picture_fail
 static void abandon_output(cs_picture_writer *writer) { free(writer); }
 
 static void watch_memory(void) {}
+
+__attribute__((constructor)) static void load(void) {
+  cs_picture_failure failure;
+  const char *how = getenv("HOSTILE_LOADING");
+  if (how)
+    behave(how, &failure);
+}
 
 CELSPAN_API const void *celspan_picture_module(void) {
   static const uint32_t old = CS_PICTURE_MODULE_VERSION - 1;
