@@ -122,6 +122,14 @@ describe("the command line", function()
       assert.truthy(out:find("--frames LIST", 1, true))
     end)
 
+    it("is asked for in several ways", function()
+      local _, all = celspan "--help"
+      for _, asked in ipairs { "help", "-h" } do assert.same({ 0, all, "" }, { celspan(asked) }) end
+      local _, probe = celspan "help probe"
+      assert.same({ 0, probe, "" }, { celspan "probe -h" })
+      usage_error("help proeb", "did you mean 'probe'?")
+    end)
+
     it("is wrong usage to give no verb, and goes to standard error", function()
       local code, out, err = celspan("")
       assert.equal(2, code)
@@ -135,6 +143,8 @@ describe("the command line", function()
       usage_error("rendr x.lua", "did you mean 'render'?")
       usage_error("render x.lua -o y.png --frmaes 1", "did you mean '--frames'?")
       usage_error("render x.lua -o y.png --nothing-like-it 1", "celspan help render")
+      usage_error("xyzzyxyzzy x.lua", "unknown verb 'xyzzyxyzzy' ('celspan help' lists them)")
+      usage_error("render x.lua -o y.png --" .. ("long"):rep(100), "unknown option '--longlong")
     end)
 
     it("names the option, what was given and what is allowed", function()
@@ -149,6 +159,7 @@ describe("the command line", function()
       usage_error("spans x.lua --rows 5-2", "--rows")
       usage_error("render x.lua -o y.png --hash=1", "--hash takes no value")
       usage_error("render x.lua -o", "-o needs a value")
+      usage_error("render x.lua -o y.png --depth", "--depth needs a value: 8, 16, half or float")
     end)
 
     it("says which verb makes videos", function()
@@ -170,6 +181,9 @@ describe("the command line", function()
       usage_error("info x.lua y.lua", "'y.lua' is one too many")
       usage_error("convert a b -- c", "runs none")
       usage_error("probe " .. plain .. " one 2", "X: 'one' is not a number")
+      usage_error("probe " .. plain .. " 1 two", "Y: 'two' is not a number")
+      usage_error("track x.png --at 1,2,3,4 -o y.lua", "track needs --from N and --at X,Y,W,H")
+      usage_error("track x.png --from 1 -o y.lua", "track needs --from N and --at X,Y,W,H")
     end)
 
     it("refuses to guess", function()
@@ -185,6 +199,7 @@ describe("the command line", function()
       usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 12-13", "13")
       usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 1-3,2", "2")
       usage_error("render " .. plain .. " -o " .. one .. " --frames 1 --crop 4,0,5,4", "8 x 4")
+      usage_error("render " .. plain .. " -o " .. one .. " --frames 1 --crop 0,1,8,4", "8 x 4")
       usage_error("spans " .. plain .. " --frame 13", "13")
       usage_error("spans " .. plain .. " --rows 0-4", "rows 0 to 3")
       assert.is_nil(read(one))
@@ -249,6 +264,31 @@ describe("the command line", function()
       end
       failure(6, "render " .. plain .. " --size 100000x1 --progress none --frames 1 -o " .. folder
         .. "/f.jpg", "at most 65500")
+    end)
+
+    it("of a size that no picture has end with 6", function()
+      failure(6, "render " .. plain .. " --scale 1e6 --hash", "a film of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: lower --scale")
+      assert.equal(0, (celspan("render " .. plain .. " --scale 1e-9 --hash --frames 1 --progress none"))) -- one pixel
+    end)
+
+    it("of raw frames that nobody takes end with 5", function()
+      local code, _, err = celspan("render " .. plain .. " --frames 1 --size 5000x100 --progress none -o - > /dev/full")
+      assert.equal(5, code)
+      assert.truthy(err:find("standard output: row %d+: No space left on device"), err)
+    end)
+
+    it("of a film that is another one when its script runs again end with 3", function()
+      failure(3, "check --trust " .. write("again.lua", ([[
+        local celspan = require "celspan"
+        local path, count = "%s/count", 0
+        local file = io.open(path)
+        if file then count = file:read "n" file:close() end
+        file = assert(io.open(path, "w"))
+        file:write(count + 1)
+        file:close()
+        return celspan.film{ size = {8, 4}, frames = 3 + count, frame = function()
+          return celspan.rostrum{ celspan.cel{ celspan.rect{ 0, 0, 8, 4 } } } end }]]):format(folder)),
+        "the script made a film of other frames when it was run again: 4 from 1, not 3 from 1")
     end)
 
     it("of a closed pipe end with 5, not with a signal", function()
@@ -340,6 +380,28 @@ describe("the command line", function()
       assert.equal(0, code)
       assert.equal("", out)
       assert.truthy(err:match("12 frames in 0:%d%d %(100 %%%)\n$"), err)
+    end)
+
+    local SLOW = PLAIN:gsub("return celspan%.rostrum", "os.execute('sleep %%s') %0"):gsub("frames = 12", "frames = 3")
+
+    it("draws the bar in a terminal, no wider than that", function()
+      local slow = write("slow.lua", SLOW:format "0.12")
+      for columns, left in pairs { [0] = "] +%d+ %%  frame 2 of 3", [20] = "" } do
+        local code, out = shell(("script -qec 'stty cols %d; %s render --trust %s --hash' /dev/null </dev/null")
+          :format(columns, BINARY, slow))
+        assert.equal(0, code, out)
+        local bar = out:match("%[#[#.]*" .. left)
+        assert.truthy(bar, out)
+        if columns > 0 then assert.equal(columns - 1, #bar) end
+        assert.falsy(out:find("frame 1:", 1, true), out)
+      end
+    end)
+
+    it("tells what is left of a second or more", function()
+      local slow = write("slow.lua", SLOW:format "1.02")
+      local code, _, err = celspan("render --trust " .. slow .. " --hash --frames 1-2 --progress lines")
+      assert.equal(0, code, err)
+      assert.truthy(err:find("frame 1: [^\n]*%(1 of 2, 50 %%, 0:0%d left%)\n"), err)
     end)
 
     it("puts raw frames on standard output, and nothing else", function()
@@ -677,6 +739,20 @@ describe("the command line", function()
       local code, out, err = celspan("info " .. write("a.bin", "none of\0these"))
       assert.same({ 4, "" }, { code, out })
       assert.truthy(err:find("a.bin: is not a picture of a known format", 1, true), err)
+    end)
+
+    it("lists names as long as they are not too many", function()
+      local script = write("named.lua", [[
+        local celspan = require "celspan"
+        local cels = {}
+        for i = 1, tonumber((...)) do cels[i] = celspan.cel{}:named("cel " .. i) end
+        return celspan.rostrum(cels)]])
+      local _, out = celspan("info " .. script .. " -- 1000")
+      assert.equal(1000, select(2, out:gsub("named cel 1 cel %d+", "")))
+      assert.falsy(out:find("named more", 1, true))
+      _, out = celspan("info " .. script .. " -- 1001")
+      assert.equal(1000, select(2, out:gsub("named cel 1 cel %d+", "")))
+      assert.truthy(out:find("\nnamed more\n$"), out:sub(-100))
     end)
 
     it("is refused by the verbs that run a script", function()

@@ -95,6 +95,40 @@ describe("celspan test", function()
     assert.truthy(out:find("1 passed, 3 failed, 0 skipped in 4 spec files", 1, true), out)
   end)
 
+  it("counts a spec that busted cannot run, and shows why", function()
+    bench:write("film_spec.lua", SPEC)
+    bench:shell(("mkdir -p %s/broken/busted"):format(bench.folder))
+    for _, part in ipairs { "init", "runner", "core" } do bench:write("broken/busted/" .. part .. ".lua", "error 'this one is broken'") end
+    local code, out = bench:shell(("cd %s && LUA_PATH_5_4='./broken/?.lua;./broken/?/init.lua' %s test film_spec.lua")
+      :format(bench.folder, BINARY))
+    assert.equal(1, code)
+    assert.truthy(out:find("this one is broken\n", 1, true), out)
+    assert.truthy(out:find("stack traceback:\n", 1, true), out)
+    assert.truthy(out:find("film_spec.lua ended before its tests did, with exit code 3", 1, true), out)
+  end)
+
+  it("ends with its specs at a signal", function()
+    bench:write("slow_spec.lua", [[it("waits", function() os.execute "echo $PPID >id; exec sleep 60" end)]])
+    bench:write("slower_spec.lua", [[it("waits", function() os.execute "exec sleep 60" end)]])
+    local code, _, err = bench:shell(([[cd %s && { %s test slow_spec.lua slower_spec.lua --workers 1 & pid=$!
+      for i in $(seq 200); do [ -s id ] && break; sleep 0.02; done; kill -TERM $pid; wait $pid; }]]):format(bench.folder, BINARY))
+    assert.equal(143, code, err)
+    local id = assert(tonumber(bench:read "id"))
+    assert.falsy(os.execute(("kill -0 %d 2>/dev/null"):format(id)))
+  end)
+
+  it("looks for specs in folders as deep as films have them, and in none that is hidden", function()
+    bench:write("film.lua", FILM)
+    local deep = ("d/"):rep(31)
+    bench:shell(("cd %s && mkdir -p %sd .hidden"):format(bench.folder, deep))
+    for _, folder in ipairs { deep, ".hidden/", deep .. "d/" } do
+      bench:write(folder .. "a_spec.lua", "it('passes', function() end)")
+    end
+    local code, out = run "test ."
+    assert.equal(0, code, out)
+    assert.truthy(out:find("1 passed, 0 failed, 0 skipped in 1 spec file", 1, true), out)
+  end)
+
   it("runs the tests that --only asks for, and fails when there are none", function()
     bench:write("film.lua", FILM)
     bench:write("film_spec.lua", SPEC)
@@ -172,8 +206,19 @@ describe("celspan init", function()
     assert.equal("mine", bench:read(bench.folder .. "/walk/film.lua"))
   end)
 
+  it("takes an empty folder, and says why another place is none", function()
+    bench:shell(("cd %s && mkdir empty && echo >file"):format(bench.folder))
+    assert.equal(0, (run "init empty"))
+    for path, expected in pairs { ["file/walk"] = { 5, "file/walk: cannot be a folder for the film: Not a directory" },
+      ["/proc/none/walk"] = { 5, "/proc/none/walk/" }, [("x/"):rep(1100) .. "walk"] = { 2, "is too long a path" } } do
+      local code, _, err = run("init " .. path)
+      assert.equal(expected[1], code, err)
+      assert.truthy(err:find(expected[2], 1, true), err)
+    end
+  end)
+
   it("refuses names that are none", function()
-    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'" } do
+    for _, name in ipairs { "'a b'", "'a\"b'", ".", "..", "''", "walk/", "'@NAME@'", ("long"):rep(26) } do
       local code, _, err = run("init " .. name)
       assert.equal(2, code, name)
       assert.truthy(err:find("is no name for a film", 1, true), err)

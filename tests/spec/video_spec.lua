@@ -405,11 +405,18 @@ end }]])
       ["-o out.####.png --quality 50"] = "--quality belongs to videos",
       ["-o - --quality 50"] = "--quality belongs to videos",
       ["-o out.mp4 --size 20000x20"] = "a video has at most 16384 a side",
+      ["-o out.mp4 --size 20x20000"] = "a video has at most 16384 a side",
+      ["-o out.mp4 --size 1x7"] = "mp4 needs an even width and height: give --size 2x6",
+      ["-o out.mp4 --size 8x1"] = "give --size 8x2",
     } do
       local code, _, err = celspan(arguments)
       assert.equal(2, code, err)
       assert.truthy(err:find(sentence, 1, true), err)
     end
+    bench:write("film.lua", "return require 'celspan'.film { fps = 101, frames = 2, frame = function() end }\n")
+    local code, _, err = celspan "-o out.gif"
+    assert.equal(2, code, err)
+    assert.truthy(err:find("out.gif: 101 frames a second: gif holds at most 100", 1, true), err)
     nothing_is_left()
   end)
 
@@ -422,7 +429,19 @@ end }]])
       nothing_is_left()
     end)
 
+    it("cannot be started, says why", function()
+      fake "exit 0\n"
+      assert(os.execute(("chmod -x '%s/bin/ffmpeg'"):format(bench.folder)))
+      local code, _, err = run("PATH='%s/bin' '%s' render film.lua --progress none -o out.mp4", bench.folder, workbench.absolute)
+      assert.equal(5, code)
+      assert.equal("celspan: error: out.mp4: ffmpeg cannot be started: Permission denied\n", err)
+      nothing_is_left()
+    end)
+
     local deaths = {
+      { "dies with many words", "seq 20000 >&2; printf '\\n  no \\t such\\033\\n\\n encoder \\n\\n' >&2; exit 3\n",
+        "19999 20000 no such encoder\n" },
+      { "dies without a word", "printf '\\n  \\n' >&2; exit 4\n", "ffmpeg ended with exit code 4\n" },
       { "dies at once", "echo 'no such encoder' >&2; exit 3\n", "ffmpeg ended with exit code 3: no such encoder" },
       { "dies in the middle", "head -c 50000 >/dev/null; echo disk >&2; echo full >&2; exit 1\n",
         "ffmpeg ended with exit code 1: disk full" },

@@ -18,11 +18,8 @@
 
 /* ---------------------------------------------------------------- last words */
 
+/* size: at most CS_PROCESS_WORDS. */
 static void keep_last(cs_process *process, const char *bytes, size_t size) {
-  if (size > CS_PROCESS_WORDS) {
-    bytes += size - CS_PROCESS_WORDS;
-    size = CS_PROCESS_WORDS;
-  }
   size_t kept = process->last_size;
   if (kept > CS_PROCESS_WORDS - size)
     kept = CS_PROCESS_WORDS - size;
