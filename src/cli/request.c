@@ -186,7 +186,7 @@ static const option OPTIONS[] = {
      "decode pictures in this process, without limits"},
     {"--strict", NULL, NULL, CS_VERBS_WITH_SCRIPT, FIELD(is_strict), NULL,
      "confine the process too, by the kernel: no other files, programs or network"},
-    {"--allow", "DIR", "the name of a folder", CS_VERBS_WITH_SCRIPT, FIELD(allowed),
+    {"--allow", "DIR", "the name of a folder, of which there may be 48", CS_VERBS_WITH_SCRIPT, FIELD(allowed),
      cs_argument_texts, "let the script read below this folder too; may be given several times"},
     {"--limit", "NAME=V",
      "memory=SIZE, steps=N, time=SECONDS, print=SIZE, picture-memory=SIZE or picture-time=SECONDS, "

@@ -51,16 +51,18 @@ return celspan.film { size = { 1920, 1080 }, frames = 99, frame = function()
 end }]]):format(before, frame, object)
 end
 
---- Stops a render by a signal; nothing is left of frames that were not finished.
-local function stop(text, signal, code)
+--- Stops a render by a signal; nothing is left of frames that were not finished. options: of render, "--trust" by
+--- default. Answers what it said.
+local function stop(text, signal, code, options)
   bench:write("film.lua", text)
-  local started = workbench.absolute .. " render --trust film.lua -o out/f.##.png --progress none"
+  local started = ("%s render %s film.lua -o out/f.##.png --progress none"):format(workbench.absolute, options or "--trust")
   local got, out, err = bench:shell(([[cd '%s' && mkdir out && { %s & pid=$!; sleep %g
     kill -%s $pid; before=$(date +%%s%%N); wait $pid; code=$?; echo $(( ($(date +%%s%%N) - before) / 1000000 ))
     exit $code; }]]):format(bench.folder, started, START, signal))
   assert.are.equal(code, got, err)
   assert.is_true(tonumber(out) <= 1000 * LIMIT, "stopped after " .. out .. " ms")
   for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.%d%d%.png$", name) end
+  return err
 end
 
 --- What nohup starts lets SIGHUP pass, and so does all that is started by it.
@@ -82,4 +84,9 @@ describe("a signal ends", function()
       end
     end)
   end
+
+  it("a function of C in the sandbox, in order", function()
+    local said = stop(script("", HUNG, ""), "TERM", 143, "--limit time=0")
+    assert.falsy(said:find("given up", 1, true), said)
+  end)
 end)
