@@ -702,8 +702,8 @@ describe("the command line", function()
       end)
     end)
 
-    --- An OpenEXR file of one pixel, all 1, with these channels of half floats.
-    local function exr(channels)
+    --- An OpenEXR file of one pixel, all 1 or what these bits are, with these channels of half floats.
+    local function exr(channels, bits)
       local function attribute(name, kind, value)
         return name .. "\0" .. kind .. "\0" .. string.pack("<s4", value)
       end
@@ -716,8 +716,22 @@ describe("the command line", function()
         .. attribute("screenWindowCenter", "v2f", string.pack("<ff", 0, 0))
         .. attribute("screenWindowWidth", "float", string.pack("<f", 1)) .. "\0"
       return head .. string.pack("<I8", #head + 8)
-        .. string.pack("<i4s4", 0, string.pack("<I2", 0x3c00):rep(#channels))
+        .. string.pack("<i4s4", 0, string.pack("<I2", bits or 0x3c00):rep(#channels))
     end
+
+    it_reads_pictures("has light below 0, and more than is ever shown, in span files too", function()
+      write("one.exr", exr { "B", "G", "R" })
+      for bits, difference in pairs { [0xbc00] = 2, [0x7bff] = 106.104507, [0x7c00] = 106.104507, [0xfc00] = 108.104507, [0x8000] = 1,
+        [0x0001] = 0.99999923 } do
+        write("other.exr", exr({ "B", "G", "R" }, bits))
+        assert.equal(0, (celspan(("convert %s/other.exr %s/other.span --depth half"):format(folder, folder))))
+        for _, ending in ipairs { "exr", "span" } do
+          local code, out, err = celspan(("compare %s/other.%s %s/one.exr"):format(folder, ending, folder))
+          assert.equal(1, code, err)
+          assert.equal(("largest_difference %.9g x 0 y 0 channel r pixels_differing 1 pixels 1\n"):format(difference), out)
+        end
+      end
+    end)
 
     it_reads_pictures("names groups of channels as layers", function()
       local path = write("a.exr", exr { "B", "G", "R", "beauty.key.B", "beauty.key.G", "beauty.key.R",

@@ -393,6 +393,20 @@ describe("--progress", function()
     assert.are.same({ 5, 5, 0 }, { code, last.exit, last.failures })
   end)
 
+  it("json has names of all bytes as text", function()
+    local names = { ["\u{e9}\u{a3ff}\u{ffee}\u{e000}\u{1f600}\u{10ffff}"] = false, ["\x7f\"\\\9"] = false,
+      ["\xe0\x9f\xbf"] = 3, ["\xed\xa0\x80"] = 3, ["\xf0\x8f\xbf\xbf"] = 4, ["\xf4\x90\x80\x80"] = 4, ["\xf5\xc1"] = 2,
+      ["\xc3x"] = 1, ["\xf0\x9f\x98"] = 3, ["\x80"] = 1 }
+    for name, broken in pairs(names) do
+      local output = bench.folder .. "/" .. name .. ".#.png"
+      local code, _, err = bench:shell(("%s render %s/film.lua --frames 1 --size 4x4 --progress json -o '%s'")
+        :format(bench.binary, bench.folder, output))
+      assert.are.equal(0, code, err)
+      local expected = broken and (name:gsub("[\x80-\xff]", "\u{fffd}")) or name
+      assert.are.equal(bench.folder .. "/" .. expected .. ".1.png", events(err, "frame")[1].output)
+    end
+  end)
+
   it("json of tiles has its errors before the end, too", function()
     local arguments = "tiles %s/film.lua -o %s/t --tile 32 --progress json"
     local code, _, err = bench:celspan(arguments, bench.folder, bench.folder)
@@ -474,6 +488,29 @@ describe("--resume", function()
     assert.are.equal("1 kept 2 kept 3 kept", resume "--frames 1-3")
   end)
 
+  it("knows lines that are no lines of a record for none", function()
+    resume "--frames 1-2"
+    local record = bench:read(RECORD)
+    bench:write(RECORD, (record:gsub("\n(frame 1 [^\n]*)", "\n%1 and more"):gsub("\n(frame 2 .* )[^ \n]+\n", "\n%1zz\n")))
+    assert.are.equal("1 made 2 made", resume "--frames 1-2")
+    bench:write(RECORD, "")
+    assert.are.equal("1 made 2 made", resume "--frames 1-2")
+  end)
+
+  it("ends with 5 where its record cannot be read or written", function()
+    bench:shell(("mkdir -p '%s/out/%s'"):format(bench.folder, ".f.##.png.frames"))
+    local code, _, err = render("film.lua", "-o %s/out/f.##.png --resume --progress none", bench.folder)
+    assert.are.equal(5, code, err)
+    assert.is_truthy(err:find(".f.##.png.frames: cannot ", 1, true), err)
+    bench:shell(("cd '%s/out' && rmdir .f* && ln -s .f.##.png.frames .f.##.png.frames"):format(bench.folder))
+    code, _, err = render("film.lua", "-o %s/out/f.##.png --resume --progress none", bench.folder)
+    assert.are.equal(5, code, err)
+    assert.is_truthy(err:find(".f.##.png.frames: cannot read: ", 1, true), err)
+    code, _, err = render("film.lua", "-o %sf.##.png --resume --progress none", ("x/"):rep(2050))
+    assert.are.equal(5, code, err)
+    assert.is_truthy(err:find("the name is too long", 1, true), err)
+  end)
+
   it("makes frames with procedures always", function()
     bench:write("procedures.lua", PROCEDURES)
     resume("", "procedures.lua")
@@ -491,6 +528,8 @@ describe("--resume", function()
     assert.are.equal(3, count(anew, "\n"))
     assert.are.equal(anew, digests "--resume")
     assert.are.equal(anew, digests "--resume")
+    os.remove(bench.folder .. "/" .. RECORD)
+    assert.are.equal(anew, digests "--resume --force") -- what nobody knows the digests of is made
   end)
 
   it("by force keeps what stands there whole", function()
@@ -500,6 +539,8 @@ describe("--resume", function()
     assert.are.equal("1 kept 2 kept 3 kept", resume "--force --frames 1-3")
     bench:write("out/f.03.png", "no picture")
     assert.are.equal("1 kept 2 kept 3 made", resume "--force --frames 1-3")
+    bench:write("out/f.04.png", "")
+    assert.are.equal("4 made 5 made", resume "--force --frames 4-5")
     assert.are.equal("1 made 2 made 3 kept", resume "--frames 1-3")
   end)
 
