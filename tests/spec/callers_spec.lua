@@ -74,6 +74,23 @@ return celspan.film { frame = function() return celspan.rect { 0, 0, -1, 1 } end
     assert.is_nil(text:find("called from", 1, true), text)
   end)
 
+  it("tells them once where a film is made of another film's frames", function()
+    local shots = celspan.film { size = { 4, 4 }, frame = function()
+      local function draw() error "torn" end
+      local cel = draw()
+      return celspan.rostrum { cel }
+    end }
+    local cut = celspan.film { size = { 4, 4 }, frame = function()
+      local function take() local frame = shots:at(1) return frame end
+      local frame = take()
+      return frame
+    end }
+    local _, message = pcall(cut.at, cut, 1)
+    assert.are.equal(1, select(2, message:gsub("%(called from ", "")), message)
+    assert.are.equal(1, select(2, message:gsub("frame 1: ", "")), message)
+    assert.is_truthy(message:find("torn (called from ", 1, true), message)
+  end)
+
   it("tells a function that calls itself once", function()
     assert.is_truthy(message_of("hand.count(50)"):find(
       "(called from hand.lua:15, shot.lua:4, shot.lua:8)", 1, true), message_of "hand.count(50)")

@@ -780,6 +780,20 @@ describe("the command line", function()
       end
     end)
 
+    it("is known by its first words where it is text", function()
+      local function is_script(text)
+        local _, _, err = celspan("check " .. write("a.lua", text))
+        return not err:find("is not a Lua script", 1, true)
+      end
+      for _, picture in ipairs { "P1 2 2\n", "P3\n# four\n2 2", "P6\t1", "PF 1 1\n", "Pf\n1 1\n", "#?RADIANCE\n", "#?RGBE\n", "return 1 \127",
+        "\0" } do
+        assert.is_false(is_script(picture), picture)
+      end
+      for _, script in ipairs { "", "P", "P6", "P6 = 1", "P7 1 1", "P66 1", "#?RADIO", "#? RGBE", "#!/usr/bin/celspan\nreturn 1", "\v\f\r" } do
+        assert.is_true(is_script(script), script)
+      end
+    end)
+
     it("is no script that begins like one, or holds odd bytes, and no pipe", function()
       local script = "P1 = 3 -- \233\27\n" .. PLAIN
       assert.equal(0, (celspan("info " .. write("odd.lua", script))))

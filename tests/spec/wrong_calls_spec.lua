@@ -1,8 +1,10 @@
 -- Calls that are wrong, a line each: every one raises where it was made, and says what it got.
 -- tests/spec/errors_spec.lua has the sentences whole.
 local celspan = require "celspan"
+local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 
+local FONT = "../../scripts/type/block.ttf"
 local circle = celspan.circle { centre = { 5, 5 }, radius = 3 }
 local rostrum = celspan.rostrum { celspan.cel { circle } }
 local one = { film = { 9, 9 }, size = { 9, 9 } }
@@ -52,6 +54,8 @@ describe("wrong calls", function()
       { function() celspan.render(film, "/tmp/celspan-none/#.png", { frames = {} }) end, "frames" },
       { function() celspan.spans(rostrum, with { rows = { 5, 2 } }) end, "rows" },
       { function() celspan.spans(rostrum, with { rows = { 9, 9 } }) end, "rows" },
+      { function() celspan.spans(rostrum, with { rows = { -1, 2 } }) end,
+        "field 'rows' must be {first, last} with 0 <= first <= last, first below 9, got {-1, 2}" },
     }
   end)
 
@@ -67,7 +71,21 @@ describe("wrong calls", function()
       { function() celspan.film { size = { 4, 4 }, sound = "a.wav", sound_offset = 1e12, frame = frame } end,
         "field 'sound_offset' must be from" },
       { function() film:at(9) end, "9" }, { function() film:at "x" end, "at" },
+      { function() film:at(0) end, "0" },
     }
+    for step, told in pairs { [0] = "0", [-2] = "-2", [1.5] = "1.5", [1e300] = "1e+300", two = "string" } do
+      local held = film:with { frame = function(f) f:on(step) return rostrum end }
+      check { { function() held:at(1) end, "on: takes a whole number of frames, 1 or more, f:on(2), got " .. told } }
+    end
+  end)
+
+  it("of names that celspan does not have say so", function()
+    check {
+      { function() return celspan.circl end, "celspan has no 'circl'; did you mean 'circle'?" },
+      { function() return celspan.xyzzyq end, "celspan has no 'xyzzyq'" },
+    }
+    assert.is_nil(celspan[1])
+    assert.is_nil(celspan[film])
   end)
 
   it("of primitives say which", function()
@@ -103,6 +121,10 @@ describe("wrong calls", function()
       { function() celspan.cel { circle, defocus = "far" } end, "field 'defocus' must be a radius" },
       { function() celspan.picture { pixels = "abc", size = { 1, 1 }, format = "rgba8" } end, "bytes" },
       { function() celspan.picture { pixels = "abcd", size = { 1.5, 1 }, format = "rgba8" } end, "size" },
+      { function() celspan.picture { pixels = "abcd", size = { 1, 0 }, format = "rgba8" } end,
+        "size[2] must be a whole number from 1 to 1048576, got 0" },
+      { function() celspan.picture { pixels = "abcd", size = { 1e9, 1 }, format = "rgba8" } end,
+        "size[1] must be a whole number from 1 to 1048576, got 1000000000" },
     }
   end)
 
@@ -115,6 +137,17 @@ describe("wrong calls", function()
       { function() celspan.text { "A", font = "a.ttf", features = { liga = 1.5 } } end, "liga" },
       { function() celspan.text { "A", font = "a.ttf", features = { "liga" } } end, "liga = false" },
       { function() celspan.text { "A", font = "a.ttf", variations = { 700 } } end, "wght = 700" },
+      { function() celspan.text { "A", font = "a.ttf", features = { liga = 65536 } } end, "from 0 to 65535, got 65536" },
+      { function() celspan.text { "A", font = "a.ttf", features = { liga = "on" } } end, "from 0 to 65535, got on" },
+      { function() celspan.text { "A", font = "a.ttf", variations = { wght = "bold" } } end, "wght must be a number, got string" },
+    }
+    if not present.art() then return end -- fonts are not read
+    local many = {}
+    for i = 1, 66 do many[("f%03d"):format(i)] = true end
+    check { -- in the order of their names, whatever that of the table is
+      { function() celspan.text { "A", font = FONT, features = many } end, "65 features; at most 64 are allowed" },
+      { function() celspan.text { "A", font = FONT, features = { zzzzz = 1, mmmmm = 1, aaaaa = 1 } } end, 'got "aaaaa"' },
+      { function() celspan.text { "A", font = FONT, variations = { zzzzz = 1, mmmmm = 1, aaaaa = 1 } } end, 'got "aaaaa"' },
     }
   end)
 
