@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <string.h>
 
+#include "output/strip.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 
@@ -133,6 +134,41 @@ static void check_whole(const char *path, bool dithers) {
   unlink(path);
 }
 
+/* Strips begin and end at multiples of some rows, or at the end of their picture. */
+static void check_strips(const char *path) {
+  enum { UNIT = CS_STRIP_ROWS };
+  static const struct {
+    int32_t row, whole, rows;
+    bool is_strip;
+  } strips[] = {{0, 2 * UNIT, UNIT, true},
+                {UNIT, 2 * UNIT, UNIT, true},
+                {UNIT, 2 * UNIT - 3, UNIT - 3, true},
+                {0, 9, 9, true},
+                {-UNIT, 2 * UNIT, UNIT, false},
+                {UNIT / 2, 2 * UNIT, UNIT / 2, false},
+                {0, 2 * UNIT, UNIT - 1, false},
+                {UNIT, 2 * UNIT - 3, UNIT, false},
+                {UNIT, 2 * UNIT, UNIT - 3, false},
+                {2 * UNIT, 2 * UNIT, UNIT, false},
+                {UNIT, -1, UNIT, false},
+                {INT32_MIN, 2 * UNIT, UNIT, false},
+                {INT32_MAX / UNIT * UNIT, 2 * UNIT, UNIT, false}};
+  for (size_t i = 0; i < sizeof strips / sizeof *strips; i++) {
+    celspan_file_desc file = CELSPAN_FILE_DESC;
+    celspan_sink sink;
+    file.strip_row = strips[i].row;
+    file.strip_height = strips[i].whole;
+    CHECK(celspan_file_sink_create(context, path, &file, &sink) == CELSPAN_OK);
+    celspan_status status = begin(&sink, WIDTH, strips[i].rows);
+    if (strips[i].is_strip)
+      CHECK(status == CELSPAN_OK);
+    else
+      check_refused(status, path);
+    CHECK(sink.end(sink.user, context, CELSPAN_CANCELLED) != CELSPAN_OK);
+    CHECK(access(path, F_OK) != 0);
+  }
+}
+
 static void check_format(const char *format, bool dithers) {
   char path[512];
   snprintf(path, sizeof path, "%s.%s", picture_path("guard"), format);
@@ -163,6 +199,11 @@ int main(void) {
     return 1;
   for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
     check_format(formats[i], false);
+  for (int i = 0; i < 3; i++) {
+    char path[512];
+    snprintf(path, sizeof path, "%s.%s", picture_path("strip"), formats[i]); /* those that have strips */
+    check_strips(path);
+  }
   check_format("png", true);
   check_format("tga", true);
   check_names();
