@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "output/file_copy.h"
 #include "tests/support/check.h"
 
 /* ---------------------------------------------------------------- a system that fails */
@@ -279,6 +280,42 @@ static void check_contents(celspan_context *context) {
   unlink(path);
 }
 
+/* Whether the file is copied whole; it is not only where there is none of that stamp any more. */
+static bool is_copied(celspan_context *context, const char *from, const cs_file_stamp *stamp) {
+  char to[256];
+  bool is_copied;
+  in_root(to, "copy");
+  CHECK(cs_file_copy(context, from, stamp, to, &is_copied) == CELSPAN_OK);
+  CHECK(state_of(to) == (is_copied ? 2 : 0));
+  unlink(to);
+  return is_copied;
+}
+
+static void check_copies(celspan_context *context) {
+  char from[256], other[256];
+  cs_file_stamp stamp, of_other;
+  bool copied = true;
+  in_root(from, "original");
+  in_root(other, "other");
+  CHECK(!cs_file_stamp_read(from, &stamp) && !cs_file_stamp_read(root, &stamp));
+  CHECK(write_content(context, NULL, from) == CELSPAN_OK && cs_file_stamp_read(from, &stamp));
+  CHECK(is_copied(context, from, &stamp));
+  CHECK(cs_file_copy(context, from, &stamp, "/proc/none/copy", &copied) == CELSPAN_OUTPUT && !copied);
+  CHECK(write_content(context, NULL, other) == CELSPAN_OK && cs_file_stamp_read(other, &of_other));
+  CHECK(!is_copied(context, from, &of_other) && !is_copied(context, root, &stamp));
+  for (int what = 0; what < 4; what++) {
+    cs_file_stamp wrong = stamp;
+    wrong.device += what == 0;
+    wrong.size += what == 1;
+    wrong.changed.tv_sec += what == 2;
+    wrong.changed.tv_nsec += what == 3;
+    CHECK(!is_copied(context, from, &wrong));
+  }
+  unlink(other);
+  unlink(from);
+  CHECK(!is_copied(context, from, &stamp));
+}
+
 int main(void) {
   celspan_context *context;
   if (celspan_context_create(NULL, &context) != CELSPAN_OK || !mkdtemp(root))
@@ -298,6 +335,7 @@ int main(void) {
   check_long_name(context);
   check_discard_and_places(context);
   check_contents(context);
+  check_copies(context);
   celspan_context_memory(context, &after, &peak, &allocations);
   CHECK(after == before);
   CHECK(rmdir(root) == 0);
