@@ -411,6 +411,17 @@ describe("the template of Open Job Description", function()
 end)
 
 describe("celspan farm", function()
+  it("refuses more options than a task takes, and names that are too long", function()
+    refused("--scale: there are more than 128 options", "farm film.lua --slurm -o out/####.png" .. (" --scale 1"):rep(129))
+    refused("the name is too long", "farm film.lua --slurm -o " .. ("x/"):rep(2100) .. "####.png")
+  end)
+
+  it("ends with 4 in a folder that is gone", function()
+    local code, _, err = shell 'mkdir gone && cd gone && rmdir ../gone && "$CELSPAN" farm ../film.lua --slurm -o out/####.png'
+    assert.equal(4, code)
+    assert.is_truthy(err:find("the current folder has no name: No such file or directory", 1, true), err)
+  end)
+
   it("refuses what no task could do, before there is a job", function()
     refused("where to?", "farm film.lua --slurm")
     refused("for which farm?", "farm film.lua -o o/#.png")
