@@ -1,5 +1,6 @@
 -- Pictures of many kinds are the same, and are told in the same words, whether a process of its own
 -- decodes them or, with --trust, the program itself: tiles, subimages and layers, film codes.
+local library = require "celspan"
 local cases = require "tests.support.cases"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -91,6 +92,42 @@ local function tiff(pages)
   return out
 end
 
+-- ---------------------------------------------------------------- OpenEXR
+
+local function box(x0, y0, x1, y1) return string.pack("<i4i4i4i4", x0, y0, x1, y1) end
+
+--- An OpenEXR file of 32-bit floats, uncompressed, 2 by 2: channels in the order of their names, of which
+--- that of number i is i / 10 everywhere. data: its window, of the same size.
+local function exr(channels, data)
+  local x, y = table.unpack(data or { 0, 0 })
+  local function attribute(name, kind, bytes) return ("%s\0%s\0"):format(name, kind) .. string.pack("<s4", bytes) end
+  local list, row = {}, {}
+  for i, name in ipairs(channels) do
+    list[i] = name .. "\0" .. string.pack("<i4I4i4i4", 2, 0, 1, 1)
+    row[i] = string.pack("<ff", i / 10, i / 10)
+  end
+  local head = "\x76\x2f\x31\x01\2\0\0\0" .. attribute("channels", "chlist", table.concat(list) .. "\0")
+    .. attribute("compression", "compression", "\0") .. attribute("dataWindow", "box2i", box(x, y, x + 1, y + 1))
+    .. attribute("displayWindow", "box2i", box(0, 0, 1, 1)) .. attribute("lineOrder", "lineOrder", "\0")
+    .. attribute("pixelAspectRatio", "float", string.pack("<f", 1)) .. attribute("screenWindowCenter", "v2f", string.pack("<ff", 0, 0))
+    .. attribute("screenWindowWidth", "float", string.pack("<f", 1)) .. "\0"
+  local line = table.concat(row)
+  local first = #head + 16
+  return head .. string.pack("<I8I8", first, first + 8 + #line)
+    .. string.pack("<i4s4", y, line) .. string.pack("<i4s4", y + 1, line)
+end
+
+-- ---------------------------------------------------------------- film
+
+--- A film scan of Kodak's format, 2 by 2 in ten bits, with these three codes everywhere.
+local function cineon(r, g, b)
+  local word = string.pack(">I4", r << 22 | g << 12 | b << 2)
+  local element = (">BBBBI4I4ffff"):pack(0, 0, 10, 0, 2, 2, 0, 0, 1023, 2.046)
+  local head = (">I4I4I4I4I4I4c8c100c12c12c36"):pack(0x802a5fd7, 2048, 1024, 1024, 0, 2048 + 16, "V4.5", "", "", "", "")
+    .. "\0\3\0\0" .. element:rep(8) .. ("\255"):rep(32) .. ("\0"):rep(228) .. "\0\5\0\0" .. ("\0"):rep(28)
+  return head .. ("\0"):rep(2048 - #head) .. word:rep(4)
+end
+
 --- Pictures of the fuzz corpus that are refused.
 local damaged = { ["cmyk-of-three-channels"] = true, ["rgb-of-one-channel"] = true }
 
@@ -168,6 +205,73 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
         if apart[4] ~= 0 then assert.matches(" cut: ", apart[5]) end
       end
     end
+  end)
+
+  local count = 0
+
+  --- What shows in the middle of a picture, read in this process: red, green, blue and alpha, or nil and why not.
+  local function middle(bytes, fields)
+    fields = fields or {}
+    count = count + 1
+    fields.file = bench:write(("picture-%d.bin"):format(count), bytes)
+    local image = library.rect { 0, 0, 2, 2, texture = library.picture(fields) }
+    return library.probe(library.rostrum { library.cel { image } }, 0.7, 0.7, { film = { 2, 2 } })
+  end
+
+  local function refused(bytes, pattern, fields)
+    local red, message = middle(bytes, fields)
+    assert.is_nil(red)
+    assert.matches("picture%-%d+%.bin: .*" .. pattern, message)
+  end
+
+  it("of OpenEXR has layers, and colours in channels of any name", function()
+    local function near(expected, ...)
+      for i, number in ipairs { ... } do assert.is_near(expected[i], number, 1e-6) end
+      assert.are.equal(4, select("#", ...))
+    end
+    near({ 0.3, 0.2, 0.1, 1 }, middle(exr { "B", "G", "R" }))
+    near({ 0.1, 0.1, 0.1, 1 }, middle(exr { "Y" }))
+    near({ 0.1, 0.1, 0.1, 1 }, middle(exr { "Z" }))
+    near({ 0.1, 0.2, 0.3, 1 }, middle(exr { "c1", "c2", "c3" }))
+    near({ 0.4, 0.3, 0.2, 0.1 }, middle(exr { "A", "B", "G", "R" }))
+    local layered = exr { "B", "G", "R", "deep.left.B", "deep.left.G", "deep.left.R", "depth.Z", "grey.Y", "half.R", "light.A", "light.B",
+      "light.G", "light.R" }
+    near({ 0.6, 0.5, 0.4, 1 }, middle(layered, { layer = "deep.left" }))
+    near({ 0.8, 0.8, 0.8, 1 }, middle(layered, { layer = "grey" }))
+    for _, none in ipairs { "depth", "half", "deep" } do refused(layered, 'has no layer "' .. none .. '"', { layer = none }) end
+    bench:write("layers.exr", layered)
+    local _, out = celspan "info layers.exr --trust"
+    local told = {}
+    for name, channels in out:gmatch "layer (%S+) .-channels (%d+)" do told[#told + 1] = name .. " " .. channels end
+    assert.are.same({ "deep.left 3", "grey 1", "light 4" }, told, out)
+  end)
+
+  it("of Kodak's film format has its codes", function()
+    local bytes = cineon(685, 95, 400)
+    local r, g, b, a = middle(bytes)
+    assert.is_near(1, r, 0.01) -- the white of film
+    assert.is_near(0, g, 0.01)
+    assert.is_true(b > 0.05 and b < 0.5)
+    assert.are.equal(1, a)
+    bench:write("film.cin", bytes)
+    local _, out = celspan "info film.cin --trust"
+    assert.matches("format cineon\n", out)
+    assert.matches("colour cineon\n", out)
+    refused(bytes:sub(1, -2), "is truncated: it has 2063 of the 2064 bytes it tells of")
+  end)
+
+  it("that is none, or more than is read, is told with its name", function()
+    refused("", "is empty")
+    refused("GIF89a" .. string.pack("<I2I2", 0, 5) .. "\0\0\0", "is a picture without pixels")
+    refused("\xff\x4f\xff\x51" .. ("\0"):rep(4) .. string.pack(">I4I4I4I4", 6, 5, 5, 9), "is a picture without pixels")
+    refused(exr({ "Y" }, { 2000000000, 0 }), "data window")
+    for _, form in ipairs { { 2, 24, 0, 1, 0 }, { 2, 24, 0, 0, 1 }, { 2, 24, 0x40, 1, 1 }, { 9, 8, 0, 1, 1 }, { 4, 24, 0, 1, 1 }, { 2, 23, 0, 1, 1 }, { 2, 24, 0, 1, 1, 2 } } do
+      local targa = string.pack("<BBBI2I2BI2I2I2I2BB", 0, form[6] or 0, form[1], 0, 0, 0, 0, 0, form[4], form[5], form[2], form[3])
+      refused(targa .. ("\0"):rep(9), "is not a picture of a known format")
+    end
+    local many = {}
+    for i = 1, 65 do many[i] = ("c%02d"):format(i) end
+    refused(exr(many), "has 65 channels; at most 64 are read")
   end)
 
   it("in a space of OpenColorIO needs its configuration", function()
