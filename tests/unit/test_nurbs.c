@@ -183,12 +183,21 @@ static void mistakes_are_named(void) {
   check_refused(&desc, "the degree is -1; it must be from 1 to 15");
   desc.degree = 5;
   check_refused(&desc, "there are 5 points; degree 5 needs from 6 to 100000");
+  desc.point_count = 100001;
+  check_refused(&desc, "there are 100001 points; degree 5 needs from 6 to 100000");
+  desc.point_count = 5;
   desc.degree = 2;
   desc.knot_count = 6;
   desc.knots = (const double[6]){0, 1, 2, 1.5, 4, 5};
   check_refused(&desc, "knot 4 is 1.5, less than knot 3, which is 2; knots must not decrease");
   desc.knots = (const double[6]){0, 1, HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
   check_refused(&desc, "knots[3] must be a finite number, got inf");
+  desc.knots = (const double[6]){-HUGE_VAL, 1, 2, 3, 4, 5};
+  check_refused(&desc, "knots[1] must be a finite number, got -inf");
+  desc.knots = (const double[6]){0, NAN, 2, 3, 4, 5};
+  check_refused(&desc, "knots[2] must be a finite number, got nan");
+  desc.knots = (const double[6]){0, 1, 2, 3, 4, 2e12};
+  check_refused(&desc, "knot 6 is 2e+12; it must be between -1e12 and 1e12");
   desc.knots = (const double[6]){3, 3, 3, 3, 3, 3};
   check_refused(&desc, "knots 1 to 6 are all 3; the curve has no length between them");
   desc.knots = (const double[6]){0, 1, 1, 1, 2, 3};
@@ -205,6 +214,14 @@ static void mistakes_are_named(void) {
   desc.knots = NULL;
   desc.weights = (const double[5]){1, 1, 0, 1, 1};
   check_refused(&desc, "weight 3 is 0; weights must be above 0 and at most 1e12");
+  desc.weights = (const double[5]){1, 1, 1, -1, 1};
+  check_refused(&desc, "weight 4 is -1; weights must be above 0 and at most 1e12");
+  desc.weights = (const double[5]){1, 2e12, 1, 1, 1};
+  check_refused(&desc, "weight 2 is 2e+12; weights must be above 0 and at most 1e12");
+  desc.weights = (const double[5]){NAN, 1, 1, 1, 1};
+  check_refused(&desc, "weights[1] must be a finite number, got nan");
+  desc.weights = (const double[5]){1, 1, 1, 1, HUGE_VAL};
+  check_refused(&desc, "weights[5] must be a finite number, got inf");
   desc.weights = (const double[5]){1, 1, 1e7, 1, 1};
   check_refused(&desc, "the weights go from 1 to 1e+07; the largest may be 1e6 times the smallest");
 }

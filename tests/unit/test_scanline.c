@@ -89,6 +89,50 @@ static void test_bad_paint_is_refused(celspan_context *context) {
   cs_scanline_finish(&output, context->memory);
 }
 
+static void check_ends(celspan_context *context, double x0, double x1, const char *sentence) {
+  celspan_scanline_output output;
+  cs_scanline_init(&output);
+  script played = {{{1, 2}, {x0, x1}, {3, 4}}, 3, 1, 0};
+  CHECK(collect(context, &played, 1, &output) == CELSPAN_CALLBACK);
+  CHECK_TEXT(celspan_context_error(context), sentence);
+  cs_scanline_finish(&output, context->memory);
+}
+
+static void test_bad_ends_are_refused(celspan_context *context) {
+  check_ends(context, NAN, 4,
+             "scanline: the beginning of span 2 at y = 1 must be a finite number, got nan");
+  check_ends(context, 2, INFINITY,
+             "scanline: the end of span 2 at y = 1 must be a finite number, got inf");
+  check_ends(context, 2e12, 3e12,
+             "scanline: the beginning of span 2 at y = 1 must be a number between -1e12 and 1e12, got 2e12");
+  check_ends(context, 3, 2e12,
+             "scanline: the end of span 2 at y = 1 must be a number between -1e12 and 1e12, got 2e12");
+  check_ends(context, 4, 3, "scanline: span 2 at y = 1 ends at 3, before it begins at 4");
+  check_ends(context, 1.5, 3,
+             "scanline: span 2 at y = 1 begins at 1.5, before the one before it ends at 2; "
+             "spans must ascend and not overlap");
+}
+
+static celspan_status emit_without_looking(void *user, celspan_context *context, double y,
+                                           const celspan_scanline_row *row,
+                                           celspan_scanline_output *output) {
+  (void)user, (void)context, (void)y, (void)row;
+  for (int i = 4; i > 0; i--)
+    CHECK(celspan_scanline_emit(output, i, i + 1, ramp, 1) == (i == 4 ? CELSPAN_OK : CELSPAN_CALLBACK));
+  return CELSPAN_OK;
+}
+
+/* A procedure that goes on after a refusal is told of the first, and so is who asked for the row. */
+static void test_refusal_lasts(celspan_context *context) {
+  celspan_scanline_output output;
+  cs_scanline_init(&output);
+  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = emit_without_looking};
+  celspan_scanline_row row = {0, 10, 1};
+  CHECK(cs_scanline_collect(context, &desc, 1, &row, &output) == CELSPAN_CALLBACK);
+  CHECK(strstr(celspan_context_error(context), "span 2 at y = 1 begins at 3"));
+  cs_scanline_finish(&output, context->memory);
+}
+
 /* After a refused row the same output serves the next one. */
 static void test_output_is_used_again(celspan_context *context) {
   celspan_scanline_output output;
@@ -123,6 +167,8 @@ int main(void) {
       test_rows_outside_are_not_asked_for,
       test_span_without_paint_is_refused,
       test_bad_paint_is_refused,
+      test_bad_ends_are_refused,
+      test_refusal_lasts,
       test_output_is_used_again,
   };
   for (size_t i = 0; i < sizeof tests / sizeof *tests; i++) {

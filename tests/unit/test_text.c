@@ -385,6 +385,18 @@ static void bad_arguments_are_refused(void) {
   REFUSE((bad.variations = not_finite, bad.variation_count = 1), BAD_ARGUMENT, "wght");
   REFUSE(bad.language = "not a language at all, and far too long for one", BAD_ARGUMENT,
          "language");
+  const char *const no_languages[] = {"", "en_GB", "d\xc3\xa9", "@", "[", "{", "/", ":", "`"};
+  for (size_t i = 0; i < sizeof no_languages / sizeof *no_languages; i++)
+    REFUSE(bad.language = no_languages[i], BAD_ARGUMENT, "language is a tag such as");
+  const char *const no_tags[] = {NULL, "", "abcde", " abc", "ab\x7f" "c", "ab\x1f" "c"};
+  for (size_t i = 0; i < sizeof no_tags / sizeof *no_tags; i++) {
+    const celspan_feature unnamed = {no_tags[i], 1};
+    const celspan_variation nameless = {no_tags[i], 1};
+    REFUSE((bad.features = &unnamed, bad.feature_count = 1), BAD_ARGUMENT, "such as \"liga\"");
+    REFUSE((bad.variations = &nameless, bad.variation_count = 1), BAD_ARGUMENT, "such as \"wght\"");
+  }
+  REFUSE((bad.fonts = fonts, bad.font_count = 2, bad.variations = axis, bad.variation_count = 1),
+         BAD_ARGUMENT, "none of the fonts has no axis");
 #undef REFUSE
 }
 
