@@ -7,6 +7,7 @@
  */
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/context.h"
 #include "cli/change.h"
@@ -113,18 +114,23 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   return CELSPAN_OK;
 }
 
-/* "2, 5-6": the frames that failed, in the order of the run. */
+/* "2, 5-6": the frames that failed, in the order of the run; "2, 5-6, ..." where not all fit. */
 static void list_failed(const render_job *job, char *out, size_t size) {
+  static const char more[] = ", ...";
+  const int64_t *failed = job->failed;
   size_t length = 0;
-  for (size_t i = 0, end; i < job->failed_count && length < size; i = end) {
-    const int64_t *failed = job->failed;
+  for (size_t i = 0, end; i < job->failed_count; i = end) {
+    char run[48];
     for (end = i + 1; end < job->failed_count && failed[end] == failed[end - 1] + 1;)
       end++;
-    int added = snprintf(out + length, size - length, "%s%" PRId64, i ? ", " : "", failed[i]);
-    if (end > i + 1 && added > 0 && length + (size_t)added < size)
-      added += snprintf(out + length + added, size - length - (size_t)added, "-%" PRId64,
-                        failed[end - 1]);
-    length += added > 0 ? (size_t)added : size;
+    int added = snprintf(run, sizeof run, "%s%" PRId64, i ? ", " : "", failed[i]);
+    if (end > i + 1)
+      added += snprintf(run + added, sizeof run - (size_t)added, "-%" PRId64, failed[end - 1]);
+    bool fits = length + (size_t)added + sizeof more <= size;
+    memcpy(out + length, fits ? run : more, fits ? (size_t)added + 1 : sizeof more);
+    length += (size_t)added;
+    if (!fits)
+      return;
   }
 }
 

@@ -267,6 +267,8 @@ describe("the command line", function()
     end)
 
     it("of a size that no picture has end with 6", function()
+      failure(6, "render " .. write("tall.lua", (PLAIN:gsub("size = {8, 4}", "size = {1, 8}"))) .. " --scale 2e5 --hash",
+        "a film of 1 x 8 at scale 200000 is more than 1048576 pixels a side")
       failure(6, "render " .. plain .. " --scale 1e6 --hash", "a film of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: lower --scale")
       assert.equal(0, (celspan("render " .. plain .. " --scale 1e-9 --hash --frames 1 --progress none"))) -- one pixel
     end)
@@ -794,6 +796,11 @@ describe("the command line", function()
       end
     end)
 
+    it_reads_pictures("shows controls in names of layers as blanks", function()
+      local _, out = celspan("info " .. write("a.exr", exr { "B", "G", "R", "a\1b.B", "a\1b.G", "a\1b.R", "c\127.Y" }))
+      assert.truthy(out:find("\nlayer a b channels 3\nlayer c  channels 1\n", 1, true), out)
+    end)
+
     it("is no script that begins like one, or holds odd bytes, and no pipe", function()
       local script = "P1 = 3 -- \233\27\n" .. PLAIN
       assert.equal(0, (celspan("info " .. write("odd.lua", script))))
@@ -1025,6 +1032,9 @@ describe("the command line", function()
       local script = bench:write("controls.lua", 'error("a\\27[31mred\\nnew\\u{9b}31m \\u{e4}", 0)')
       local _, _, message = celspan("check " .. script)
       assert.equal(("celspan: error: %s:1: a\\x1b[31mred\n    new\\x9b31m \u{e4}\n"):format(script), message)
+      script = bench:write("controls.lua", 'error("a\\127\\8\\tb\\xc2", 0)')
+      _, _, message = celspan("check " .. script)
+      assert.equal(("celspan: error: %s:1: a\\x7f\\x08\tb\xc2\n"):format(script), message)
     end)
   end)
 end)

@@ -138,6 +138,10 @@ describe("celspan test", function()
     local none, _, err = run "test film_spec.lua --only nothing"
     assert.equal(1, none)
     assert.truthy(err:find("no test has a name that --only asks for", 1, true), err)
+    bench:write("empty_spec.lua", "describe('nothing', function() end)")
+    none, _, err = run "test empty_spec.lua"
+    assert.equal(1, none)
+    assert.truthy(err:find("no spec holds a test", 1, true), err)
   end)
 
   it("says what a test prints, under the name of its spec", function()

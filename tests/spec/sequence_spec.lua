@@ -299,6 +299,23 @@ describe("--keep-going", function()
     end
   end)
 
+  it("lists as many as a line takes, and none by halves", function()
+    bench:write("odd.lua", [[
+      local celspan = require "celspan"
+      return celspan.film{ size = {1, 1}, frames = 900, frame = function(f)
+        return f.number % 3 > 0 and error "odd" or celspan.rostrum{} end }]])
+    local code, _, err = render("odd.lua", "--hash --keep-going --progress none")
+    assert.are.equal(1, code)
+    local list = err:match "celspan: error: 600 of 900 frames failed: 1%-2, 4%-5, ([^\n]*)\n$"
+    assert.is_truthy(list and list:find ", %.%.%.$", err:sub(-1200))
+    local last = 5
+    for first, second in list:gmatch "(%d+)%-(%d+), " do
+      assert.are.same({ last + 2, last + 3 }, { tonumber(first), tonumber(second) })
+      last = last + 3
+    end
+    assert.is_true(#list > 900 and last > 300)
+  end)
+
   it("ends with 0 when nothing failed, and with 3 when there is no film", function()
     assert.are.equal(0, (render("film.lua", "--hash --keep-going --progress none")))
     bench:write("none.lua", "return 7")
@@ -569,14 +586,16 @@ describe("--resume", function()
   it("leaves alone what others are still writing, and what is not its own", function()
     bench:shell(("mkdir %s/out"):format(bench.folder))
     for _, name in ipairs { ".f.03.png.00ff.part", ".f.04.png.0001.part", ".g.03.png.00ff.part",
-                            ".f.x.png.00ff.part", "f.03.png.00ff.part" } do
+                            ".f.x.png.00ff.part", "f.03.png.00ff.part", ".f.03.png.00gg.part", ".f.03.png.00ff.gone",
+                            ".f.03.pngx00ff.part" } do
       bench:write("out/" .. name, "half")
     end
     local code, _, err = bench:shell(("flock %s/out/.f.04.png.0001.part %s render %s/film.lua "
       .. "-o %s/out/f.##.png --resume --frames 1 --progress none"):format(bench.folder, bench.binary,
       bench.folder, bench.folder))
     assert.are.equal(0, code, err)
-    assert.are.same({ ".f.##.png.frames", ".f.04.png.0001.part", ".f.x.png.00ff.part",
+    assert.are.same({ ".f.##.png.frames", ".f.03.png.00ff.gone", ".f.03.png.00gg.part", ".f.03.pngx00ff.part",
+      ".f.04.png.0001.part", ".f.x.png.00ff.part",
       ".g.03.png.00ff.part", "f.01.png", "f.03.png.00ff.part" }, bench:files "out")
   end)
 

@@ -176,6 +176,19 @@ describe("a video", function()
       assert.is_true(math.abs(time - 500) <= 42, time)
     end)
 
+    it_reads("is a part of the film, coded otherwise, where that is asked for", function()
+      render "-o whole.mkv"
+      render "-o out.mkv --crop 32,32,64,40 --colour rec709 --dither"
+      local found = probe("out.mkv", "stream=color_transfer,width,height")
+      assert.same({ "bt709", "64", "40" }, { found.color_transfer, found.width, found.height })
+      local part, whole = pixels("out.mkv", 4, 64, 40), pixels("whole.mkv", 4, 128, 80)
+      -- The same light has lower codes in Rec. 709, but for black and white.
+      for i, value in ipairs(mean(part, 64, 36, 4, 24)) do
+        local same = mean(whole, 128, 68, 36, 24)[i]
+        assert.is_true(i == 4 and value == same or value < same - 2 and value > same - 30, ("%d: %g %g"):format(i, value, same))
+      end
+    end)
+
     it_reads("is one picture of one frame for gif and webp", function()
       local code = celspan "-o out.webp --frames 2"
       if code ~= 0 then return end -- built without OpenImageIO
@@ -357,13 +370,16 @@ end }]])
       local code, _, err = bench:celspan("check %s/film.lua --deep", bench.folder)
       assert.equal(4, code)
       assert.truthy(err:find("noise.wav cannot be read: ffmpeg ended", 1, true), err)
+      assert.equal(0, (run("PATH=/nowhere '%s' check film.lua --deep", workbench.absolute))) -- nobody listens
     end)
 
     it_reads("says what it cannot be", function()
       bench:write("click.wav", click(0.1))
       bench:write("noise.wav", "no sound at all")
+      fake ""
       local cases = {
         { 4, "the sound nowhere.wav cannot be opened: No such file", "-o out.mp4 -- nowhere.wav" },
+        { 4, "the sound ./bin cannot be opened: Is a directory", "-o out.mp4 -- ./bin" },
         { 4, "the sound noise.wav cannot be read: ffmpeg ended", "-o out.mp4 -- noise.wav" },
         { 2, "goes with one run of frames", "-o out.mp4 --frames 1-7:2 -- click.wav" },
         { 0, "gif holds no sound", "-o out.gif -- click.wav" },
