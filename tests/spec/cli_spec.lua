@@ -269,7 +269,8 @@ describe("the command line", function()
     it("of a size that no picture has end with 6", function()
       failure(6, "render " .. write("tall.lua", (PLAIN:gsub("size = {8, 4}", "size = {1, 8}"))) .. " --scale 2e5 --hash",
         "a film of 1 x 8 at scale 200000 is more than 1048576 pixels a side")
-      failure(6, "render " .. plain .. " --scale 1e6 --hash", "a film of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: lower --scale")
+      failure(6, "render " .. plain .. " --scale 1e6 --hash",
+        "a film of 8 x 4 at scale 1e+06 is more than 1048576 pixels a side: lower --scale")
       assert.equal(0, (celspan("render " .. plain .. " --scale 1e-9 --hash --frames 1 --progress none"))) -- one pixel
     end)
 
@@ -400,7 +401,7 @@ describe("the command line", function()
     end)
 
     it("tells what is left of a second or more", function()
-      local slow = write("slow.lua", SLOW:format "1.02")
+      local slow = write("slow.lua", (SLOW:format("1.02"):gsub("os%.execute", "local _ = f.number == 1 and %0")))
       local code, _, err = celspan("render --trust " .. slow .. " --hash --frames 1-2 --progress lines")
       assert.equal(0, code, err)
       assert.truthy(err:find("frame 1: [^\n]*%(1 of 2, 50 %%, 0:0%d left%)\n"), err)
@@ -787,11 +788,12 @@ describe("the command line", function()
         local _, _, err = celspan("check " .. write("a.lua", text))
         return not err:find("is not a Lua script", 1, true)
       end
-      for _, picture in ipairs { "P1 2 2\n", "P3\n# four\n2 2", "P6\t1", "PF 1 1\n", "Pf\n1 1\n", "#?RADIANCE\n", "#?RGBE\n", "return 1 \127",
-        "\0" } do
+      for _, picture in ipairs { "P1 2 2\n", "P3\n# four\n2 2", "P6\t1", "PF 1 1\n", "Pf\n1 1\n", "#?RADIANCE\n",
+        "#?RGBE\n", "return 1 \127", "\0" } do
         assert.is_false(is_script(picture), picture)
       end
-      for _, script in ipairs { "", "P", "P6", "P6 = 1", "P7 1 1", "P66 1", "#?RADIO", "#? RGBE", "#!/usr/bin/celspan\nreturn 1", "\v\f\r" } do
+      for _, script in ipairs { "", "P", "P6", "P6 = 1", "P7 1 1", "P66 1", "#?RADIO", "#? RGBE",
+        "#!/usr/bin/celspan\nreturn 1", "\v\f\r" } do
         assert.is_true(is_script(script), script)
       end
     end)
