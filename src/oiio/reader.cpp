@@ -122,6 +122,17 @@ void check_film_end(Source &source, const std::string &format) {
     throw Failure(CELSPAN_INPUT, "is damaged: it tells of more user data than it has bytes");
 }
 
+/* Where rows are packed, the header is followed by two tables of four bytes for each row of each channel,
+ * for which the reader takes memory before it reads them (SGI image file format, 1.00). */
+void check_sgi_end(Source &source) {
+  const uint64_t header = 512, packed = 1;
+  unsigned char head[12] = {0};
+  source.pread(head, sizeof head, 0);
+  uint64_t rows = uint64_t(head[8]) << 8 | head[9], channels = uint64_t(head[10]) << 8 | head[11];
+  if (head[2] == packed && source.size() < header + 2 * 4 * rows * channels)
+    throw Failure(CELSPAN_INPUT, "is damaged: it tells of more rows than it has bytes");
+}
+
 int find_channel(const ImageSpec &spec, const std::string &prefix, const char *name) {
   for (int i = 0; i < spec.nchannels; i++)
     if (OIIO::Strutil::iequals(spec.channelnames[size_t(i)], prefix + name))
@@ -495,6 +506,8 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
     check_psd(*reader->source);
   if (reader->kind.format == "dpx" || reader->kind.format == "cineon")
     check_film_end(*reader->source, reader->kind.format);
+  if (reader->kind.format == "sgi")
+    check_sgi_end(*reader->source);
   reader->subimage = request.layer ? 0 : request.subimage;
   open_input(*reader);
   choose_layer(*reader, request);
