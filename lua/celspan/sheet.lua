@@ -92,7 +92,8 @@ local function finish(found)
       fields.shown(found.fps))
   end
   if not (found.frames >= 1 and found.frames <= columns.most_frames) then
-    columns.fail("it has %d frames; it must be 1 to %d", found.frames, columns.most_frames)
+    columns.fail("it has %s frames; it must be 1 to %d", fields.shown(found.frames),
+      columns.most_frames)
   end
   check_names(found.layers)
   check_notes(found.notes, found.frames)

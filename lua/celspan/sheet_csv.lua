@@ -103,12 +103,13 @@ local function read_row(layers, cells, number)
 end
 
 local function read_frame(layers, cells, number)
-  local frame = tonumber(cells[1]:match "^#(%d+)$")
-  if not frame then
+  local digits = cells[1]:match "^#0*(%d+)$"
+  if not digits then
     columns.fail("line %d begins with %q; a frame begins with # and its number", number, cells[1])
   end
+  local frame = tonumber(digits) -- a float where there are many digits
   if frame >= columns.most_frames then
-    columns.fail("line %d: frame %d is beyond %d, which is the limit", number, frame,
+    columns.fail("line %d: frame %s is beyond %d, which is the limit", number, digits,
       columns.most_frames)
   end
   if #cells - 1 > #layers then

@@ -123,12 +123,15 @@ void check_film_end(Source &source, const std::string &format) {
 }
 
 /* Where rows are packed, the header is followed by two tables of four bytes for each row of each channel,
- * for which the reader takes memory before it reads them (SGI image file format, 1.00). */
-void check_sgi_end(Source &source) {
+ * for which the reader takes memory before it reads them; it has no tables, but looks into them, where
+ * rows are stored in a way that there is not (SGI image file format, 1.00). */
+void check_sgi(Source &source) {
   const uint64_t header = 512, packed = 1;
   unsigned char head[12] = {0};
   source.pread(head, sizeof head, 0);
   uint64_t rows = uint64_t(head[8]) << 8 | head[9], channels = uint64_t(head[10]) << 8 | head[11];
+  if (head[2] > packed)
+    throw Failure(CELSPAN_INPUT, "is damaged: its rows are stored in a way that there is not");
   if (head[2] == packed && source.size() < header + 2 * 4 * rows * channels)
     throw Failure(CELSPAN_INPUT, "is damaged: it tells of more rows than it has bytes");
 }
@@ -507,7 +510,7 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
   if (reader->kind.format == "dpx" || reader->kind.format == "cineon")
     check_film_end(*reader->source, reader->kind.format);
   if (reader->kind.format == "sgi")
-    check_sgi_end(*reader->source);
+    check_sgi(*reader->source);
   reader->subimage = request.layer ? 0 : request.subimage;
   open_input(*reader);
   choose_layer(*reader, request);

@@ -82,7 +82,9 @@ local astray = "8BIM" .. (">I2I2I4"):pack(1000, 0, 0x7fffffff)
 
 local TOO_MUCH = "decoding it needs more than 256 MiB, or than the system has (--limit picture-m"
 local ROWS = "is damaged: its layers tell of more rows than it has bytes"
-local sgi = (">I2BBI2I2I2I2"):pack(474, 1, 1, 3, 4, 65535, 65535) .. ("\0"):rep(600)
+local function sgi(storage, rows, channels)
+  return (">I2BBI2I2I2I2"):pack(474, storage, 1, 3, 4, rows, channels) .. ("\0"):rep(600)
+end
 local LONGER = "is damaged: a part of it is longer than the file"
 local caption = resource(1008, "told", "odd")
 local zeros = ("\0"):rep(24000)
@@ -96,7 +98,8 @@ local pictures = {
     is_decoded = true },
   { "packed.dpx", dpx { width = 1048576, height = 1048576, descriptor = 51, bits = 10,
     encoding = 1 }, 33, TOO_MUCH, is_decoded = true },
-  { "rows.sgi", sgi, 4, "is damaged: it tells of more rows than it has bytes" },
+  { "rows.sgi", sgi(1, 65535, 65535), 4, "is damaged: it tells of more rows than it has bytes" },
+  { "storage.sgi", sgi(2, 4, 3), 4, "is damaged: its rows are stored in a way that there is not" },
   { "layers.psd", psd { layers = layers(60) }, 4, ROWS },
   { "astray.psd", psd { resources = astray, layers = layers(60) }, 4, LONGER },
   { "colours.psd", psd { colours = (">I4"):pack(0xfffffff0) }, 4, LONGER },

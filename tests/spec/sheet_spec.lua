@@ -213,6 +213,8 @@ describe("the CSV of TVPaint and Krita", function()
       ["line 9 has 3 cells; there are 2 layers"] = text:gsub('"x.png"', '"x.png", "z"', 1),
       ['line 8 begins with "7"'] = text:gsub("#00000", "7"),
       ["line 3: frame rate"] = text:gsub("12%.000000", "fast"),
+      ["line 11: frame 10000000 is beyond 10000000"] = text:gsub("#00003", "#010000000"),
+      ["frame 1" .. ("0"):rep(30) .. " is beyond"] = text:gsub("#00003", "#01" .. ("0"):rep(30)),
     } do
       local s, message = read("a.csv", bad)
       assert.is_nil(s)
