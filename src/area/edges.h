@@ -49,9 +49,10 @@ CS_WIDE_DECLARE(void, cs_edges_straight,
                 (cs_edges * edges, const double *top, const double *foot, size_t count,
                  int32_t width));
 
-/* Columns of the frame at or left of x (floor) and at or right of it (ceil), clamped to the row. */
+/* Columns of the frame at or left of x (floor) and at or right of it (ceil), clamped to the row; 0 of what
+ * is no number. */
 static inline int32_t cs_edges_floor(double x, int32_t width) {
-  return x <= 0 ? 0 : x >= width ? width : (int32_t)x;
+  return !(x > 0) ? 0 : x >= width ? width : (int32_t)x;
 }
 
 static inline int32_t cs_edges_ceil(double x, int32_t width) {
