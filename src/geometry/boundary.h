@@ -77,10 +77,10 @@ void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
  * sweep meets them. Call once, after the last outline. */
 void cs_boundary_sort(cs_boundary_set *set);
 
-/* The segments of a group, from vertex to vertex, from the top. */
+/* The segments of a group, from vertex to vertex, from the top. Every number is finite. */
 typedef struct cs_boundary_group {
   double x[CS_BOUNDARY_GROUP + 1], y[CS_BOUNDARY_GROUP + 1];
-  double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 without height */
+  double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 where it is flat */
   double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
   uint32_t count;                      /* of segments; an arc is one */
   uint32_t first, groups;              /* of the piece: one, or those of a leap */

@@ -8,6 +8,9 @@
 /* A single chord must be nearer than the tolerance, because its vertices are the ends of the piece,
  * which cannot be displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
+/* Pixels. A piece that is lower counts as flat: one chord without a slope. Its slope might be beyond
+ * every number, and so might what an arc divides by the third power of a height. */
+#define FLAT 0x1p-100
 /* 4 times the distance that an arc may have from its chord within a row: pixels. */
 #define ARC_CURVE 0.02
 /* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
@@ -188,13 +191,15 @@ static bool try_arcs(const cs_polyline_vertices *v, int half, int count, cs_boun
          add_arc(v, v->halved_x, v->halved_y, half, count, out);
 }
 
+static inline bool is_flat(const cs_boundary_piece *piece) { return piece->y1 - piece->y0 < FLAT; }
+
 /* The one chord of a piece. */
 static void set_line(const cs_boundary_piece *piece, cs_boundary_group *out) {
   out->x[0] = piece->x0;
   out->y[0] = piece->y0;
   out->x[1] = piece->x1;
   out->y[1] = piece->y1;
-  out->slope[0] = (piece->x1 - piece->x0) / (piece->y1 - piece->y0);
+  out->slope[0] = is_flat(piece) ? 0 : (piece->x1 - piece->x0) / (piece->y1 - piece->y0);
   out->curve[0] = 0;
   out->count = 1;
   out->first = 0;
@@ -320,7 +325,7 @@ static inline double length_of(const cs_pair *p, int degree) {
  * smaller one; by the square of the number of chords, sag x length / (length + CHORDS_SHORT) stays
  * about the same. */
 static inline bool choose_chords(double bend, double length, cs_boundary_piece *piece) {
-  if (!(bend > 8 * ONE_CHORD))
+  if (!(bend > 8 * ONE_CHORD) || is_flat(piece))
     return false;
   double even = sqrt(bend / (8 * CHORD_SAG));
   double by_length = sqrt(CHORDS_MOST * length / (length + CHORDS_SHORT * even));

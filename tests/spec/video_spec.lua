@@ -473,7 +473,7 @@ end }]])
       it(death[1] .. ", says so and leaves nothing", function()
         bench:write("out.mp4", "the film of yesterday")
         fake(death[2])
-        local code, _, err = faked "-o out.mp4 --size 256x160"
+        local code, _, err = faked "-o out.mp4 --size 512x320" -- 2.9 MB, of which a pipe holds 1
         assert.equal(5, code, err)
         assert.truthy(err:find(death[3], 1, true), err)
         assert.equal("the film of yesterday", bench:read "out.mp4")

@@ -197,6 +197,26 @@ static bool keeps_vertices_inside(const cs_boundary_set *set, const cs_boundary_
   return true;
 }
 
+/* Within a segment x lies between its ends, but for rounding; what an arc has beside its chord is less. */
+static bool is_place(const cs_boundary_walk *walk, double y) {
+  double x = cs_boundary_x(walk, y), room = 1 + 1e-9 * (fabs(walk->x0) + fabs(walk->x1));
+  return x >= fmin(walk->x0, walk->x1) - room && x <= fmax(walk->x0, walk->x1) + room;
+}
+
+static bool has_a_place_at_every_height(const cs_boundary_set *set) {
+  for (uint32_t i = 0; i < set->chain_count; i++) {
+    cs_boundary_walk walk;
+    cs_boundary_start(set, i, set->chains[i].y0, &walk);
+    for (int step = 0; step < 2000; step++) {
+      if (!is_place(&walk, walk.y0) || !is_place(&walk, walk.y0 + (walk.y1 - walk.y0) / 2))
+        return false;
+      if (!cs_boundary_next(set, &walk))
+        break;
+    }
+  }
+  return true;
+}
+
 static bool keeps_half_open_rule(const cs_boundary_set *set, const cs_boundary_frame *frame,
                                  test_random *random) {
   bool passed = true;
@@ -276,6 +296,7 @@ static void check_case(const cs_outline *outline, const celspan_matrix *matrix,
   cs_boundary_set turned_set = build(&turned, matrix, frame);
   int passed = CHECK(is_well_formed(&set, frame));
   passed &= CHECK(keeps_vertices_inside(&set, frame));
+  passed &= CHECK(has_a_place_at_every_height(&set));
   passed &= CHECK(keeps_half_open_rule(&set, frame, random));
   passed &= CHECK(starts_anywhere(&set, random));
   passed &= CHECK(are_turned_copies(&set, &turned_set));
@@ -317,6 +338,21 @@ static void wild_matrices_obey_the_rules(void) {
     if (random_below(&random, 4) == 0)
       matrix.m[random_below(&random, 9)] = 0;
     check_case(&outline, &matrix, &small, &random, seed + 100000);
+    cs_outline_finish(&outline, context->memory);
+  }
+}
+
+/* Outlines lower than any pixel, down to heights that are no normal numbers, have slopes beyond them. */
+static void the_flattest_curves_obey_the_rules(void) {
+  for (int seed = 1; seed <= 500; seed++) {
+    test_random random = {(uint64_t)seed + 200000};
+    cs_outline outline;
+    random_outline(&random, &outline);
+    celspan_matrix matrix = random_matrix(&random);
+    double flat = pow(10, random_between(&random, -326, -20));
+    for (int i = 3; i < 6; i++)
+      matrix.m[i] *= flat;
+    check_case(&outline, &matrix, &wide, &random, seed + 200000);
     cs_outline_finish(&outline, context->memory);
   }
 }
@@ -803,6 +839,7 @@ int main(void) {
   MUST(celspan_context_create(NULL, &context));
   random_curves_obey_the_rules();
   wild_matrices_obey_the_rules();
+  the_flattest_curves_obey_the_rules();
   polylines_stay_near_their_curves();
   a_circle_keeps_its_area();
   the_horizon_cuts_exactly();
