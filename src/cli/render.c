@@ -126,11 +126,12 @@ static void list_failed(const render_job *job, char *out, size_t size) {
     int added = snprintf(run, sizeof run, "%s%" PRId64, i ? ", " : "", failed[i]);
     if (end > i + 1)
       added += snprintf(run + added, sizeof run - (size_t)added, "-%" PRId64, failed[end - 1]);
-    bool fits = length + (size_t)added + sizeof more <= size;
-    memcpy(out + length, fits ? run : more, fits ? (size_t)added + 1 : sizeof more);
-    length += (size_t)added;
-    if (!fits)
+    if (length + (size_t)added + sizeof more > size) {
+      memcpy(out + length, more, sizeof more);
       return;
+    }
+    memcpy(out + length, run, (size_t)added + 1);
+    length += (size_t)added;
   }
 }
 

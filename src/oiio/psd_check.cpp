@@ -46,9 +46,9 @@ private:
   bool is_over_ = false;
 };
 
-/* The length of what follows. OpenImageIO takes memory for all of it before it reads the first byte. */
-uint64_t length_of(Source &source, Numbers &numbers, int bytes) {
-  uint64_t length = numbers.next(bytes);
+/* The length of what follows, in four bytes. OpenImageIO takes memory for all of it before it reads the first byte. */
+uint64_t length_of(Source &source, Numbers &numbers) {
+  uint64_t length = numbers.next(4);
   if (length > source.size())
     throw Failure(CELSPAN_INPUT, "is damaged: a part of it is longer than the file");
   return length;
@@ -62,7 +62,7 @@ void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
     numbers.skip(4);
     uint64_t at = numbers.at(), number = numbers.next(2);
     numbers.skip(numbers.next(1) | 1);
-    uint64_t length = length_of(source, numbers, 4);
+    uint64_t length = length_of(source, numbers);
     numbers.skip(length + (length & 1));
     if (number != THUMBNAIL && number != OLD_THUMBNAIL)
       continue;
@@ -122,8 +122,8 @@ void check_psd(Source &source) {
   Numbers numbers(source, 4);
   int length_bytes = numbers.next(2) == LARGE ? 8 : 4;
   numbers.skip(HEADER - 6);
-  numbers.skip(length_of(source, numbers, 4)); /* the colour table */
-  uint64_t resources = length_of(source, numbers, 4);
+  numbers.skip(length_of(source, numbers)); /* the colour table */
+  uint64_t resources = length_of(source, numbers);
   hide_thumbnails(source, numbers, resources);
   numbers.skip(resources);
   uint64_t section = numbers.next(length_bytes), list = numbers.next(length_bytes), rows = 0;

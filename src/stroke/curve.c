@@ -214,8 +214,8 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 /* ---------------------------------------------------------------- lengths */
 
 #define LENGTH_DEPTH 30
-#define LENGTH_ERROR                                                                               \
-  1e-11 /* of the polygon, for every halving alike; not below what coordinates round off */
+/* Of the polygon, for every halving alike; not below what coordinates round off. */
+#define LENGTH_ERROR 1e-11
 
 static double speed(const cs_bezier *line, double t) {
   celspan_point point, velocity;

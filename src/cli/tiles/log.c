@@ -61,7 +61,7 @@ celspan_status cs_tile_log_read(celspan_context *context, const cs_pyramid *pyra
   size_t size = sizeof log->path;
   if (snprintf(log->path, size, "%s/%s.tiles", pyramid->folder, pyramid->name) >= (int)size ||
       !cs_pyramid_tiles_folder(pyramid, folder, sizeof folder))
-    return cs_fail(context, CELSPAN_OUTPUT, "%.80s...: the name is too long", pyramid->folder);
+    return cs_pyramid_too_long(context, pyramid);
   write_head(log, head);
   FILE *file = fopen(log->path, "r");
   if (!file && errno != ENOENT)

@@ -108,7 +108,7 @@ static celspan_status write_description(celspan_context *context, const cs_pyram
   char path[PATH_SIZE];
   text_file out;
   if (!cs_pyramid_description_path(pyramid, path, sizeof path))
-    return cs_fail(context, CELSPAN_OUTPUT, "%.80s...: the name is too long", pyramid->folder);
+    return cs_pyramid_too_long(context, pyramid);
   CS_TRY(open_text(context, path, &out));
   if (pyramid->layout == CS_PYRAMID_DZI)
     put_dzi(&out, pyramid);
@@ -180,7 +180,7 @@ static celspan_status write_page(celspan_context *context, const cs_tile_page *p
   char path[PATH_SIZE];
   text_file out;
   if (snprintf(path, sizeof path, "%s/index.html", page->pyramid->folder) >= (int)sizeof path)
-    return cs_fail(context, CELSPAN_OUTPUT, "%.80s...: the name is too long", page->pyramid->folder);
+    return cs_pyramid_too_long(context, page->pyramid);
   CS_TRY(open_text(context, path, &out));
   put_bytes(&out, html, (size_t)(mark - html));
   put_data(&out, page);
@@ -256,7 +256,7 @@ celspan_status cs_tile_page_copy_viewer(celspan_context *context, const cs_pyram
   CS_TRY(find_viewer(context, from, path, &in));
   celspan_status status = CELSPAN_OK;
   if (snprintf(to, sizeof to, "%s" OPENSEADRAGON, pyramid->folder) >= (int)sizeof to)
-    status = cs_fail(context, CELSPAN_OUTPUT, "%.80s...: the name is too long", pyramid->folder);
+    status = cs_pyramid_too_long(context, pyramid);
   if (status == CELSPAN_OK)
     status = open_text(context, to, &out);
   if (status == CELSPAN_OK)

@@ -3,6 +3,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "base/context.h"
+
 /* ---------------------------------------------------------------- levels */
 
 static int32_t halved(int32_t side, int32_t times) {
@@ -125,4 +127,8 @@ bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t s
 
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size) {
   return name_with(pyramid, "_files", "", path, size);
+}
+
+celspan_status cs_pyramid_too_long(celspan_context *context, const cs_pyramid *pyramid) {
+  return cs_fail(context, CELSPAN_OUTPUT, "%.80s...: the name is too long", pyramid->folder);
 }

@@ -66,5 +66,7 @@ bool cs_pyramid_path(const cs_pyramid *pyramid, cs_pyramid_tile tile, bool is_al
 /* The file that describes the pyramid, and the folder of its tiles; both are in FOLDER. */
 bool cs_pyramid_description_path(const cs_pyramid *pyramid, char *path, size_t size);
 bool cs_pyramid_tiles_folder(const cs_pyramid *pyramid, char *path, size_t size);
+/* Sets and returns the failure of a name for which there is no room. */
+celspan_status cs_pyramid_too_long(celspan_context *context, const cs_pyramid *pyramid);
 
 #endif
