@@ -5,7 +5,9 @@ local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
 local LIBRARY = workbench.build .. "/tests/libstarve.so"
+local ALL = os.getenv "CELSPAN_STARVE"
 local SAMPLES = 60
+local LOADING_RUN = 100 -- of the allocations while OpenImageIO is loaded, one after the other
 local bench, random
 
 setup(function() random = prng.new(tonumber(os.getenv "CELSPAN_SEED") or 1) end)
@@ -30,20 +32,27 @@ return celspan.rostrum { back = "#fff",
 local RENDER = "render film.lua --workers 1 --progress none -o out/f.##."
 local JOIN = "join 'strips/#.png' -o out/f.01."
 
---- forked: in the processes that were forked alone; nil: in all.
-local function starve(at, lasts, ending, forked, command)
-  return bench:shell(("cd '%s' && rm -rf out && STARVE_AT=%d STARVE_LASTING=%d STARVE_COUNT=count STARVE_FORKED=%d "
-    .. "LD_PRELOAD=%s %s %s%s"):format(bench.folder, at, lasts and 1 or 0, forked and 1 or 0, LIBRARY,
-    bench.absolute, command or RENDER, ending))
+--- plan: at, the number of the allocation; lasts: and all after it; forked: in processes that were forked
+--- alone; level: of the programs (starve.c); last: each from `at` on up to it fails in a copy.
+local function starve(plan, ending, command)
+  local variables = { ("STARVE_AT=%d STARVE_COUNT=count STARVE_ENDINGS=endings"):format(plan.at) }
+  for name, value in pairs { LASTING = plan.lasts and 1, FORKED = plan.forked and 1, LEVEL = plan.level or false,
+                             UNTIL = plan.last or false } do
+    if value then variables[#variables + 1] = ("STARVE_%s=%d"):format(name, value) end
+  end
+  return bench:shell(("cd '%s' && rm -rf out && %s LD_PRELOAD=%s %s %s%s"):format(bench.folder,
+    table.concat(variables, " "), LIBRARY, bench.absolute, command or RENDER, ending))
 end
 
 local function frames(ending)
   return { bench:read("out/f.01." .. ending), bench:read("out/f.02." .. ending) }
 end
 
-local function check(at, lasts, ending, right, forked, command)
-  local code, _, err = starve(at, lasts, ending, forked, command)
-  local where = ("allocation %d%s: %s"):format(at, lasts and " and all after it" or "", err)
+--- Returns the exit code.
+local function check(plan, ending, right, command)
+  local code, _, err = starve(plan, ending, command)
+  local where = ("allocation %d%s%s%s: %s"):format(plan.at, plan.lasts and " and all after it" or "",
+    plan.forked and ", forked" or "", plan.level and ", level " .. plan.level or "", err)
   for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.", where .. " left " .. name) end
   if code == 0 then
     assert.are.same(right, frames(ending), where)
@@ -51,6 +60,14 @@ local function check(at, lasts, ending, right, forked, command)
     assert.are.equal(33, code, where)
     assert.truthy(err:find("memory", 1, true), where)
   end
+  return code
+end
+
+--- All numbers from 1 to count, or some of them by lot.
+local function chosen(count, samples)
+  local numbers = {}
+  for i = 1, ALL and count or samples do numbers[i] = ALL and i or random:whole(1, count) end
+  return numbers
 end
 
 local function sweep(scene, ending, lasts)
@@ -61,17 +78,59 @@ local function sweep(scene, ending, lasts)
 return celspan.film { size = { 40, 30 }, frames = 2, frame = function(f)
 %s
 end }]]):format(scenes[scene]))
-  assert.are.equal(0, (starve(0, false, ending)))
+  assert.are.equal(0, (starve({ at = 0 }, ending)))
   local right, count = frames(ending), tonumber(bench:read "count")
-  if os.getenv "CELSPAN_STARVE" then
-    for at = 1, count do check(at, lasts, ending, right) end
-  else
-    for _ = 1, SAMPLES do check(random:whole(1, count), lasts, ending, right) end
+  for _, at in ipairs(chosen(count, SAMPLES)) do check({ at = at, lasts = lasts }, ending, right) end
+end
+
+--- How copies end that the program takes for starved (cli/decoder/server.c): by an exit code, or killed or
+--- trapped.
+local STARVED = { [33] = true, [127] = true, [128 + 9] = true, [128 + 5] = true }
+
+--- The hundred thousand allocations while OpenImageIO is loaded, from one to another of them: in copies of
+--- the process that loads it. A copy that ends otherwise may have gone on with what it has, or have said
+--- that it cannot: a run of its own shows whether that was right, of so many samples of these at most.
+--- Returns how many were tried.
+local function sweep_loading(first, last, lasts, right, samples)
+  local others, tried = {}, 0
+  repeat
+    os.remove(bench.folder .. "/endings")
+    starve({ at = first, last = last, lasts = lasts, level = 1 }, "exr")
+    local before = first
+    for number, code in (bench:read "endings" or ""):gmatch "(%d+) (%-?%d+)\n" do
+      if not STARVED[tonumber(code)] then others[#others + 1] = tonumber(number) end
+      first, tried = tonumber(number) + 1, tried + 1
+    end
+  until first == before or first > last
+  for i = #others, 2, -1 do
+    local k = random:whole(1, i)
+    others[i], others[k] = others[k], others[i]
+  end
+  for i = 1, math.min(samples, #others) do check({ at = others[i], lasts = lasts, level = 1 }, "exr", right) end
+  return tried
+end
+
+--- Some of them, by lot, of as many as there are.
+local function sample_loading(lasts, right)
+  local most, first, tried = 120000, nil, 0
+  while tried == 0 do
+    first = random:whole(1, most)
+    tried = sweep_loading(first, first + LOADING_RUN, lasts, right, SAMPLES / 20)
+    most = first
   end
 end
 
---- Allocations of the processes that write through OpenImageIO, which are too many to be counted: by
---- lot, each power of ten as often as the others; of those that load it, and of those that use it.
+--- The processes that write, which are killed before they can tell how many there were.
+local function sweep_writers(lasts, right)
+  local at, in_vain = 0, 0
+  repeat
+    at = at + 1
+    in_vain = check({ at = at, lasts = lasts, forked = true }, "exr", right) == 0 and in_vain + 1 or 0
+  until in_vain == 100
+end
+
+--- What is written through OpenImageIO: the program, the process that loads it, and those that this forks
+--- to write.
 local function sweep_apart(lasts)
   local library = io.open(LIBRARY)
   if not library then return pending "the library that takes memory away is not built" end
@@ -80,13 +139,20 @@ local function sweep_apart(lasts)
 return celspan.film { size = { 40, 30 }, frames = 2, frame = function(f)
 %s
 end }]]):format(scenes.outlines))
-  local code, _, err = starve(0, false, "exr")
+  local code, _, err = starve({ at = 0, level = 0 }, "exr")
   if code == 5 and err:find "built without OpenImageIO" then return pending "there is no picture module" end
   assert.are.equal(0, code, err)
   local right = frames "exr"
-  for _ = 1, os.getenv "CELSPAN_STARVE" and 1000 or SAMPLES / 6 do
-    check(math.floor(10 ^ (2 + 3.1 * random:whole(0, 1000) / 1000)), lasts, "exr", right)
-    check(math.floor(10 ^ (3.7 * random:whole(0, 1000) / 1000)), lasts, "exr", right, true)
+  for _, at in ipairs(chosen(tonumber(bench:read "count"), SAMPLES / 6)) do
+    check({ at = at, lasts = lasts, level = 0 }, "exr", right)
+  end
+  if ALL then
+    assert.truthy(sweep_loading(1, 1e9, lasts, right, math.huge) > 1000)
+    return sweep_writers(lasts, right)
+  end
+  sample_loading(lasts, right)
+  for _ = 1, SAMPLES / 6 do
+    check({ at = math.floor(10 ^ (3.2 * random:whole(0, 1000) / 1000)), lasts = lasts, forked = true }, "exr", right)
   end
 end
 
@@ -101,9 +167,9 @@ local function sweep_join(lasts)
       .. "-o strips/%d.png"):format(bench.folder, bench.absolute, i, i))
     assert.are.equal(0, code, err)
   end
-  assert.are.equal(0, (starve(0, false, "png", false, JOIN)))
+  assert.are.equal(0, (starve({ at = 0 }, "png", JOIN)))
   local right = frames "png"
-  for at = 1, tonumber(bench:read "count") do check(at, lasts, "png", right, false, JOIN) end
+  for at = 1, tonumber(bench:read "count") do check({ at = at, lasts = lasts }, "png", right, JOIN) end
 end
 
 describe("without memory", function()
