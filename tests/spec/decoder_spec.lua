@@ -181,6 +181,15 @@ describe("a decoder", function()
     fails(5, "x%.exr: .*version", "render film.lua --progress none -o x.exr", "HOSTILE_IS_OLD=1")
   end)
 
+  it("that does not begin is given up", function()
+    film { "good.png" }
+    local options = "render film.lua --hash --progress none --limit picture-time=0.05"
+    fails(6, "good%.png: loading OpenImageIO took more than 0%.5 seconds, and was given up %(ten times %-%-limit picture%-time",
+      options, "HOSTILE_LOADING=hang")
+    if is_slow then return end -- the sanitizers' handlers stand before those of the program
+    fails(33, "good%.png: out of memory in starting the decoder", options, "HOSTILE_LOADING=stick")
+  end)
+
   it("that does not begin ends with the program", function()
     film { "good.png" }
     local code = bench:shell(([[cd '%s' && HOSTILE_LOADING=hang CELSPAN_PICTURE_MODULE='%s' '%s' render film.lua --hash \

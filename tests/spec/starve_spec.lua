@@ -29,7 +29,7 @@ return celspan.rostrum { back = "#fff",
                 celspan.circle { centre = { 20, 15 }, radius = 5 } - celspan.rect { 18, 10, 9, 9 } } }]],
 }
 
-local RENDER = "render film.lua --workers 1 --progress none -o out/f.##."
+local RENDER = "render film.lua --workers 1 --limit picture-time=1 --progress none -o out/f.##."
 local JOIN = "join 'strips/#.png' -o out/f.01."
 
 --- plan: at, the number of the allocation; lasts: and all after it; forked: in processes that were forked

@@ -3,6 +3,7 @@
  *   others                       64 x 64 grey pixels
  *   crash, abort, leave          a fault, an abort or an exit in reading
  *   hang                         reading never ends
+ *   stick                        likewise, after an allocation that failed
  *   eat                          memory is taken by reading until there is none, which is a failure
  *   choke                        likewise, but it is not noticed: a fault
  *   keep                         48 MiB are taken in reading, and never given back
@@ -16,6 +17,7 @@
  * With HOSTILE_IS_OLD in the environment it is of another version of celspan; what HOSTILE_LOADING names
  * it does when it is loaded.
  */
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,7 +109,9 @@ static celspan_status behave(const char *name, cs_picture_failure *failure) {
     exit(3);
   if (strstr(name, "babble") || strstr(name, "endless") || strstr(name, "odd") || strstr(name, "tell"))
     misspeak(name);
-  while (strstr(name, "hang"))
+  if (strstr(name, "stick"))
+    errno = ENOMEM;
+  while (strstr(name, "hang") || strstr(name, "stick"))
     pause();
   if (strstr(name, "eat") || strstr(name, "choke"))
     eat();

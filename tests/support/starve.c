@@ -32,9 +32,11 @@
 #include <stdlib.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#define COPY_SECONDS 20 /* after which one that does not end is ended */
+#define COPY_SECONDS 20 /* after which one that does not end is ended, by SIGUSR2 */
+#define PAUSE_NANOSECONDS 200000
 
 /* The allocator that this library stands before; declared nowhere. */
 void *__libc_malloc(size_t size);
@@ -79,10 +81,15 @@ __attribute__((constructor)) static void prepare(void) {
  * hold locks of the loader. */
 static pid_t copy_process(void) { return (pid_t)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0); }
 
+/* Its exit code, or 128 and the signal. */
 static int end_of(pid_t copy) {
+  const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
   int state = 0;
-  while (waitpid(copy, &state, 0) < 0 && errno == EINTR)
-    continue;
+  for (long pauses = 0; waitpid(copy, &state, WNOHANG) == 0; pauses++) {
+    if (pauses == COPY_SECONDS * (1000000000L / PAUSE_NANOSECONDS))
+      kill(copy, SIGUSR2);
+    nanosleep(&pause, NULL);
+  }
   return WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
 }
 
@@ -102,7 +109,6 @@ static bool is_copy(long number) {
   int before = errno;
   pid_t copy = copy_process();
   if (copy == 0) {
-    alarm(COPY_SECONDS);
     until = 0;
     fail_at = number;
     return true;

@@ -15,6 +15,8 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 
+enum { LOADING_PARTS = 10 }; /* the module may take as long to load as so many parts to decode */
+
 static struct {
   pthread_mutex_t lock;
   cs_decoder_limits limits;
@@ -66,6 +68,7 @@ static celspan_status fail(cs_picture_failure *failure, celspan_status status, c
 
 static celspan_status start(cs_decoder *decoder, cs_picture_failure *failure) {
   const cs_message_start desc = {.memory = decoder->is_writer ? 0 : all.limits.memory,
+                                 .loading = LOADING_PARTS * all.limits.seconds,
                                  .is_writer = decoder->is_writer};
   int memory = share_memory(decoder);
   if (memory < 0)

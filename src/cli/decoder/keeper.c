@@ -1,11 +1,13 @@
 #include "cli/decoder/keeper.h"
 
 #include <errno.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,13 +110,29 @@ static int fork_decoder(keeper *k, cs_message *message, int memory) {
   return -1;
 }
 
+/* Ends this process by SIGALRM after so many seconds; 0: never. */
+static void set_alarm(double seconds) {
+  double whole = floor(seconds);
+  const struct itimerval timer = {
+      .it_value = {.tv_sec = (time_t)whole, .tv_usec = (suseconds_t)((seconds - whole) * 1e6)}};
+  setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+/* A library that lacks memory may wait for itself for ever: GLib does so. */
+static celspan_status load(keeper *k, const cs_message_start *start) {
+  set_alarm(start->loading);
+  celspan_status status =
+      cs_store_module(k->context, start->is_writer ? CELSPAN_OUTPUT : CELSPAN_INPUT, &k->module);
+  set_alarm(0);
+  return status;
+}
+
 static void start_decoder(keeper *k, cs_message *message, int memory) {
   int socket = -1;
   celspan_status status = CELSPAN_OK;
   message->kind = CS_MESSAGE_DONE;
   if (!k->module)
-    status = cs_store_module(k->context, message->start.is_writer ? CELSPAN_OUTPUT : CELSPAN_INPUT,
-                             &k->module);
+    status = load(k, &message->start);
   bool is_starved = status != CELSPAN_OK && errno == ENOMEM;
   message->status = is_starved ? CELSPAN_NO_MEMORY : status;
   if (status != CELSPAN_OK)

@@ -10,7 +10,7 @@
  * that what happens to a decoder costs a fork and no loading.
  *
  * INVARIANT: the keeper ends when the program's end of its socket is closed, however the program
- * ended, and ends its decoders before.
+ * ended, and ends its decoders before; while it loads the module, in the time that it has for that.
  */
 #ifndef CS_CLI_DECODER_KEEPER_H
 #define CS_CLI_DECODER_KEEPER_H

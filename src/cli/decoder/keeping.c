@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -94,14 +95,25 @@ static celspan_status fail(cs_picture_failure *failure, celspan_status status, c
   return status;
 }
 
+static celspan_status explain_late(const cs_message_start *desc, cs_picture_failure *failure) {
+  failure->status = CELSPAN_LIMIT;
+  snprintf(failure->text, sizeof failure->text,
+           "loading OpenImageIO took more than %g seconds, and was given up (ten times --limit "
+           "picture-time=SECONDS)",
+           desc->loading);
+  return CELSPAN_LIMIT;
+}
+
 /* The keeper did not answer. The lock is held. */
-static celspan_status explain(cs_message_arrival arrival, celspan_status other,
-                              cs_picture_failure *failure) {
+static celspan_status explain(cs_message_arrival arrival, const cs_message_start *desc,
+                              celspan_status other, cs_picture_failure *failure) {
   int ending = finish();
   if (arrival == CS_MESSAGE_LATE)
     return fail(failure, CELSPAN_CANCELLED, "a signal asked to stop");
   if (cs_server_is_starved(ending))
     return fail(failure, CELSPAN_NO_MEMORY, "out of memory in starting the decoder of pictures");
+  if (WIFSIGNALED(ending) && WTERMSIG(ending) == SIGALRM)
+    return explain_late(desc, failure);
   fail(failure, other, "");
   snprintf(failure->text, sizeof failure->text,
            "the decoder of pictures ended before it began (%s %d); --trust does without it",
@@ -122,14 +134,15 @@ celspan_status cs_keeping_refuse(int error, celspan_status other, cs_picture_fai
 /* The lock is held. */
 static celspan_status start(cs_message *message, int memory, int *socket,
                             cs_picture_failure *failure) {
-  celspan_status other = message->start.is_writer ? CELSPAN_OUTPUT : CELSPAN_INPUT;
+  const cs_message_start desc = message->start;
+  celspan_status other = desc.is_writer ? CELSPAN_OUTPUT : CELSPAN_INPUT;
   const struct timeval pause = {.tv_usec = PAUSE_MICROSECONDS};
   int error = keeper.id ? 0 : spawn(NULL);
   if (error)
     return cs_keeping_refuse(error, other, failure);
   cs_message_arrival arrival = ask(message, memory, socket);
   if (arrival != CS_MESSAGE_ARRIVED)
-    return explain(arrival, other, failure);
+    return explain(arrival, &desc, other, failure);
   if (message->status != CELSPAN_OK || *socket < 0)
     return fail(failure, message->status ? (celspan_status)message->status : other, message->text);
   setsockopt(*socket, SOL_SOCKET, SO_RCVTIMEO, &pause, sizeof pause);

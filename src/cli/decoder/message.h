@@ -38,7 +38,8 @@ typedef enum cs_message_kind {
 
 typedef struct cs_message_start {
   uint64_t memory;   /* bytes that the decoder may have beside what it begins with; 0: any */
-  int32_t is_writer; /* a writer in place of a decoder: it has no limits */
+  double loading;    /* seconds that loading the module may take; 0: any */
+  int32_t is_writer; /* a writer in place of a decoder: it has no limits but that */
 } cs_message_start;
 
 typedef struct cs_message_open {

@@ -61,7 +61,7 @@ void cs_server_watch_faults(void) {
     _exit(CS_SERVER_NO_MEMORY);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   static char stack[FAULT_STACK];
-  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
+  static const int faults[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM};
   const stack_t apart = {.ss_sp = stack, .ss_size = sizeof stack};
   struct sigaction action;
   memset(&action, 0, sizeof action);

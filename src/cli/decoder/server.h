@@ -31,7 +31,7 @@ typedef struct cs_server_desc {
   int socket, memory; /* to the program; the shared memory */
 } cs_server_desc;
 
-/* Makes faults and libraries that end this process after a failed allocation end it with
+/* Makes faults, SIGALRM and libraries that end this process after a failed allocation end it with
  * CS_SERVER_NO_MEMORY. */
 void cs_server_watch_faults(void);
 /* Serves in this process until the other side is gone. */
