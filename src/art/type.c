@@ -1,7 +1,12 @@
+/* Without memory HarfBuzz goes on with empty tables, and keeps these: text would be wrong, and stay so.
+ * A failed allocation leaves its mark in errno, which is looked at after each call; a font that met one
+ * is made anew for the next call. */
 #include "art/type.h"
 
+#include <errno.h>
 #include <hb-ot.h>
 #include <hb.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,26 +15,17 @@
 #define SETTINGS 64
 
 struct cs_type_font {
-  hb_font_t *font;
+  const void *bytes; /* borrowed */
+  size_t size;
+  uint32_t face;
+  hb_variation_t settings[SETTINGS];
+  unsigned setting_count;
+  pthread_mutex_t lock; /* of what follows: parts of a font are made when they are asked for */
+  hb_font_t *font;      /* NULL: it lacked memory */
   hb_draw_funcs_t *functions;
 };
 
-/* ---------------------------------------------------------------- opening */
-
-static hb_tag_t tag_of(const char *text) { return hb_tag_from_string(text, -1); }
-
-static void set_variations(hb_face_t *face, hb_font_t *font, const celspan_variation *variations,
-                           size_t count, cs_type_font_info *info) {
-  hb_variation_t settings[SETTINGS];
-  count = count < SETTINGS ? count : SETTINGS;
-  for (size_t i = 0; i < count; i++) {
-    hb_ot_var_axis_info_t axis;
-    settings[i] = (hb_variation_t){tag_of(variations[i].tag), (float)variations[i].value};
-    if (hb_ot_var_find_axis_info(face, settings[i].tag, &axis))
-      info->variation |= (uint64_t)1 << i;
-  }
-  hb_font_set_variations(font, settings, (unsigned)count);
-}
+/* ---------------------------------------------------------------- outlines */
 
 static void on_move(hb_draw_funcs_t *functions, void *data, hb_draw_state_t *state, float x,
                     float y, void *user) {
@@ -70,48 +66,119 @@ static hb_draw_funcs_t *create_functions(void) {
   return functions;
 }
 
+/* ---------------------------------------------------------------- memory */
+
+static bool lacks_process; /* what HarfBuzz keeps for the process, for as long as that lives */
+
+/* Everything that HarfBuzz makes once, so that what fails later is of a font. */
+static void make_for_process(void) {
+  errno = 0;
+  hb_unicode_funcs_get_default();
+  hb_shape_list_shapers();
+  hb_font_destroy(hb_font_create(hb_face_get_empty()));
+  lacks_process = errno == ENOMEM;
+}
+
+static void drop(cs_type_font *font) {
+  hb_font_destroy(font->font);
+  hb_draw_funcs_destroy(font->functions);
+  font->font = NULL;
+  font->functions = NULL;
+}
+
+/* Makes the font, or makes it anew. The lock is held. */
+static void make(cs_type_font *font) {
+  hb_blob_t *blob =
+      hb_blob_create(font->bytes, (unsigned)font->size, HB_MEMORY_MODE_READONLY, NULL, NULL);
+  hb_face_t *face = hb_face_create(blob, font->face);
+  font->font = hb_font_create(face);
+  font->functions = create_functions();
+  hb_font_set_variations(font->font, font->settings, font->setting_count);
+  hb_font_make_immutable(font->font);
+  hb_draw_funcs_make_immutable(font->functions);
+  hb_face_destroy(face);
+  hb_blob_destroy(blob);
+}
+
+/* Before calls that use the font, and after them. */
+static void enter(cs_type_font *font) {
+  pthread_mutex_lock(&font->lock);
+  errno = 0;
+  if (!font->font)
+    make(font);
+}
+
+static celspan_status leave(cs_type_font *font) {
+  bool is_starved = errno == ENOMEM;
+  if (is_starved)
+    drop(font);
+  pthread_mutex_unlock(&font->lock);
+  return is_starved ? CELSPAN_NO_MEMORY : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- opening */
+
 static void close_font(cs_type_font *font) {
   if (!font)
     return;
-  hb_font_destroy(font->font);
-  hb_draw_funcs_destroy(font->functions);
+  drop(font);
+  pthread_mutex_destroy(&font->lock);
   free(font);
 }
 
-/* Fonts that do not tell how high their lines are have lines of an em. */
-static void read_lines(hb_font_t *font, cs_type_font_info *info) {
-  hb_font_extents_t extents;
-  bool is_told = hb_font_get_h_extents(font, &extents) && extents.ascender > extents.descender;
-  info->ascent = is_told ? extents.ascender : (int32_t)info->units;
-  info->descent = is_told ? -extents.descender : 0;
+static hb_tag_t tag_of(const char *text) { return hb_tag_from_string(text, -1); }
+
+static void set_variations(cs_type_font *font, const celspan_variation *variations, size_t count) {
+  font->setting_count = (unsigned)(count < SETTINGS ? count : SETTINGS);
+  for (size_t i = 0; i < font->setting_count; i++)
+    font->settings[i] = (hb_variation_t){tag_of(variations[i].tag), (float)variations[i].value};
 }
 
-static celspan_status open_font(const void *bytes, size_t size, uint32_t index,
+/* Bit i: the font has the axis of setting i. */
+static uint64_t find_axes(const cs_type_font *font) {
+  uint64_t axes = 0;
+  hb_ot_var_axis_info_t axis;
+  for (unsigned i = 0; i < font->setting_count; i++)
+    if (hb_ot_var_find_axis_info(hb_font_get_face(font->font), font->settings[i].tag, &axis))
+      axes |= (uint64_t)1 << i;
+  return axes;
+}
+
+/* Fonts that do not tell how high their lines are have lines of an em. */
+static void read_info(const cs_type_font *font, cs_type_font_info *info) {
+  hb_face_t *face = hb_font_get_face(font->font);
+  hb_font_extents_t extents;
+  bool is_told =
+      hb_font_get_h_extents(font->font, &extents) && extents.ascender > extents.descender;
+  uint32_t units = hb_face_get_upem(face);
+  *info = (cs_type_font_info){.units = units,
+                              .ascent = is_told ? extents.ascender : (int32_t)units,
+                              .descent = is_told ? -extents.descender : 0,
+                              .glyphs = hb_face_get_glyph_count(face),
+                              .variation = find_axes(font)};
+}
+
+static celspan_status open_font(const void *bytes, size_t size, uint32_t face,
                                 const celspan_variation *variations, size_t variation_count,
                                 cs_type_font_info *info, cs_type_font **out) {
-  cs_type_font *made = calloc(1, sizeof *made);
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, make_for_process);
+  cs_type_font *made = lacks_process ? NULL : calloc(1, sizeof *made);
   if (!made)
     return CELSPAN_NO_MEMORY;
-  hb_blob_t *blob = hb_blob_create(bytes, (unsigned)size, HB_MEMORY_MODE_READONLY, NULL, NULL);
-  hb_face_t *face = hb_face_create(blob, index);
-  made->font = hb_font_create(face);
-  made->functions = create_functions();
-  *info =
-      (cs_type_font_info){.units = hb_face_get_upem(face), .glyphs = hb_face_get_glyph_count(face)};
-  if (variation_count > 0)
-    set_variations(face, made->font, variations, variation_count, info);
-  read_lines(made->font, info);
-  hb_face_destroy(face);
-  hb_blob_destroy(blob);
-  /* Without memory HarfBuzz makes empty objects, which cannot be changed. */
-  if (hb_font_is_immutable(made->font) || hb_draw_funcs_is_immutable(made->functions)) {
+  made->bytes = bytes;
+  made->size = size;
+  made->face = face;
+  set_variations(made, variations, variation_count);
+  pthread_mutex_init(&made->lock, NULL);
+  enter(made);
+  read_info(made, info);
+  celspan_status status = leave(made);
+  if (status == CELSPAN_OK)
+    *out = made;
+  else
     close_font(made);
-    return CELSPAN_NO_MEMORY;
-  }
-  hb_font_make_immutable(made->font);
-  hb_draw_funcs_make_immutable(made->functions);
-  *out = made;
-  return CELSPAN_OK;
+  return status;
 }
 
 /* ---------------------------------------------------------------- glyphs */
@@ -148,22 +215,29 @@ static celspan_status shape(cs_type_font *font, const cs_type_run *run,
   for (size_t i = 0; i < feature_count; i++)
     features[i] = (hb_feature_t){tag_of(run->features[i].tag), run->features[i].value,
                                  HB_FEATURE_GLOBAL_START, HB_FEATURE_GLOBAL_END};
+  enter(font);
   hb_buffer_t *buffer = make_buffer(run);
-  celspan_status status = CELSPAN_NO_MEMORY;
-  if (hb_buffer_allocation_successful(buffer) &&
-      hb_shape_full(font->font, buffer, features, (unsigned)feature_count, NULL))
-    status = take_glyphs(buffer, take, user);
+  bool is_shaped = hb_buffer_allocation_successful(buffer) &&
+                   hb_shape_full(font->font, buffer, features, (unsigned)feature_count, NULL);
+  celspan_status status = leave(font);
+  if (status == CELSPAN_OK)
+    status = is_shaped ? take_glyphs(buffer, take, user) : CELSPAN_NO_MEMORY;
   hb_buffer_destroy(buffer);
   return status;
 }
 
-static void outline(cs_type_font *font, uint32_t glyph, const cs_type_outliner *outliner) {
+static celspan_status outline(cs_type_font *font, uint32_t glyph,
+                              const cs_type_outliner *outliner) {
+  enter(font);
   hb_font_get_glyph_shape(font->font, glyph, font->functions, (void *)outliner);
+  return leave(font);
 }
 
 static bool has(cs_type_font *font, uint32_t character) {
   hb_codepoint_t glyph;
-  return hb_font_get_nominal_glyph(font->font, character, &glyph);
+  enter(font);
+  bool is_there = hb_font_get_nominal_glyph(font->font, character, &glyph);
+  return leave(font) == CELSPAN_OK && is_there;
 }
 
 static void scripts(const uint32_t *characters, size_t count, uint32_t *out) {

@@ -13,7 +13,7 @@
 
 #include "artwork/type.h"
 
-#define CS_ART_MODULE_VERSION 3u
+#define CS_ART_MODULE_VERSION 4u
 
 typedef struct cs_art_failure {
   celspan_status status;

@@ -77,7 +77,8 @@ typedef struct cs_type_functions {
    * Errors: NO_MEMORY; CANCELLED when `take` answered false. Any thread. */
   celspan_status (*shape)(cs_type_font *font, const cs_type_run *run,
                           bool (*take)(void *user, const cs_type_glyph *glyph), void *user);
-  void (*outline)(cs_type_font *font, uint32_t glyph, const cs_type_outliner *outliner);
+  /* Errors: NO_MEMORY. Any thread. */
+  celspan_status (*outline)(cs_type_font *font, uint32_t glyph, const cs_type_outliner *outliner);
   bool (*has)(cs_type_font *font, uint32_t character);
   /* Embedding levels of one paragraph by the bidirectional algorithm: odd ones run to the left.
    * *base: that of the paragraph. Errors: NO_MEMORY. */

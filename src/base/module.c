@@ -14,6 +14,8 @@
 #endif
 
 #define PATH_SIZE 4096
+/* Bytes that must be there before libraries are loaded: some end the process when they lack memory then. */
+#define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
  * installed library or program, a Lua module in the build tree, a test program. A folder that ends
@@ -108,6 +110,8 @@ static bool find(const cs_module_desc *desc, module_search *search) {
 
 static celspan_status fail_search(celspan_context *context, const cs_module_desc *desc,
                                   celspan_status failure, const module_search *search) {
+  if (search->error == ENOMEM)
+    return cs_fail_memory(context);
   char text[CS_ERROR_TEXT_SIZE];
   if (search->error)
     return cs_fail(
@@ -142,12 +146,18 @@ static celspan_status get_table(celspan_context *context, const cs_module_desc *
   return CELSPAN_OK;
 }
 
-celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
-                              celspan_status failure, const void **table) {
+/* Where the loader has no memory for a name, it says that there is no such file: it is asked twice. */
+static void *open_object(const char *path) {
+  void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  return handle ? handle : dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
+
+static celspan_status load(celspan_context *context, const cs_module_desc *desc,
+                           celspan_status failure, const void **table) {
   module_search search = {.error = 0};
   if (!find(desc, &search))
     return fail_search(context, desc, failure, &search);
-  void *handle = dlopen(search.path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void *handle = open_object(search.path);
   if (!handle)
     return cs_fail(
         context, failure,
@@ -159,4 +169,22 @@ celspan_status cs_module_load(celspan_context *context, const cs_module_desc *de
   celspan_status status = get_table(context, desc, failure, search.path, entry, table);
   dlclose(handle);
   return status;
+}
+
+/* Volatile, for compilers know what is taken and given back at once, and leave both out. */
+static bool has_room(void) {
+  void *volatile room = malloc(ROOM);
+  free(room);
+  return room;
+}
+
+/* A failed allocation leaves its mark in errno, also where the loader tells of another reason. */
+celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
+                              celspan_status failure, const void **table) {
+  errno = 0;
+  celspan_status status =
+      has_room() ? load(context, desc, failure, table) : cs_fail_memory(context);
+  if (status == CELSPAN_OK || errno != ENOMEM)
+    return status;
+  return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory in loading the module %s", desc->file);
 }

@@ -24,7 +24,7 @@ typedef struct cs_module_desc {
 
 /* The table, valid for the rest of the process. Status `failure` (INPUT or OUTPUT) when there is no
  * such module, it cannot be read or loaded, or it is of another version; the message says what to
- * do. Any thread. */
+ * do. NO_MEMORY. Any thread. */
 CELSPAN_CHECKED celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                                               celspan_status failure, const void **table);
 

@@ -189,8 +189,10 @@ static celspan_status draw(celspan_context *context, cs_font *font, uint32_t gly
                            cs_outline *outline) {
   drawing d = {.context = context, .outline = outline, .status = CELSPAN_OK};
   const cs_type_outliner outliner = {on_move, on_line, on_conic, on_cubic, &d};
-  font->type->outline(font->font, glyph, &outliner);
+  celspan_status status = font->type->outline(font->font, glyph, &outliner);
   CS_TRY(d.status);
+  if (status != CELSPAN_OK)
+    return cs_fail_memory(context);
   if (d.is_broken)
     return cs_fail(context, CELSPAN_INPUT, "the outline of glyph %u of a font goes beyond %g units",
                    glyph, FARTHEST);

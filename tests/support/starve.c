@@ -5,7 +5,8 @@
  *   STARVE_LASTING=1   and all after it
  *   STARVE_FORKED=1    in processes that were forked alone, from the fork on
  *   STARVE_LEVEL=0     in the first program alone; 1: in those that it starts; 2: in those that these start
- *   STARVE_COUNT=FILE  how many there were is written there at the end
+ *   STARVE_COUNT=FILE  how many there were is written there at the end, and how many before and after the last
+ *                      module was loaded
  *
  * A run for each of the hundred thousand allocations while a library is loaded would load it as often.
  * So one run tries many:
@@ -21,6 +22,7 @@
  *
  * Copies share the descriptors of the process and have one thread: what they say to others is heard once.
  */
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -30,6 +32,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -45,6 +48,7 @@ void *__libc_realloc(void *block, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
 static atomic_long made, fail_at = -1, until;
+static long loading, loaded;          /* of those made */
 static atomic_bool lasts, is_waiting; /* for a fork */
 static bool is_spared;                /* a program of another level */
 
@@ -168,10 +172,20 @@ int posix_memalign(void **block, size_t alignment, size_t size) {
   return *block ? 0 : ENOMEM;
 }
 
+void *dlopen(const char *name, int flags) {
+  void *(*own)(const char *, int);
+  void *symbol = dlsym(RTLD_NEXT, "dlopen");
+  memcpy(&own, &symbol, sizeof own);
+  loading = made;
+  void *module = own(name, flags);
+  loaded = made;
+  return module;
+}
+
 __attribute__((destructor)) static void tell(void) {
-  char text[32];
+  char text[64];
   const char *path = getenv("STARVE_COUNT");
-  int length = snprintf(text, sizeof text, "%ld\n", (long)made);
+  int length = snprintf(text, sizeof text, "%ld %ld %ld\n", (long)made, loading, loaded);
   if (path && !is_spared)
     write_line(path, O_TRUNC, text, length);
 }

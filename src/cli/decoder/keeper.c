@@ -133,11 +133,9 @@ static void start_decoder(keeper *k, cs_message *message, int memory) {
   message->kind = CS_MESSAGE_DONE;
   if (!k->module)
     status = load(k, &message->start);
-  bool is_starved = status != CELSPAN_OK && errno == ENOMEM;
-  message->status = is_starved ? CELSPAN_NO_MEMORY : status;
+  message->status = status;
   if (status != CELSPAN_OK)
-    snprintf(message->text, sizeof message->text, "%s%s", is_starved ? "out of memory: " : "",
-             celspan_context_error(k->context));
+    snprintf(message->text, sizeof message->text, "%s", celspan_context_error(k->context));
   else
     socket = fork_decoder(k, message, memory);
   bool is_heard = cs_message_send(CS_KEEPER_SOCKET, message, socket);
