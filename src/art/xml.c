@@ -3,6 +3,7 @@
 /* The header tells of the limits of what entities grow to only to those who say this; libraries of
  * distributions are built with it. */
 #define XML_DTD
+#include <errno.h>
 #include <expat.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -126,12 +127,13 @@ static XML_Parser create_parser(document *doc) {
 
 static celspan_status parse(document *doc, const char *bytes, size_t size) {
   size_t done = 0;
+  errno = 0;
   do {
     size_t piece = size - done < PIECE_BYTES ? size - done : PIECE_BYTES;
     bool is_last = done + piece == size;
     if (XML_Parse(doc->parser, bytes + done, (int)piece, is_last) != XML_STATUS_OK) {
       enum XML_Error error = XML_GetErrorCode(doc->parser);
-      if (error == XML_ERROR_NO_MEMORY)
+      if (error == XML_ERROR_NO_MEMORY || errno == ENOMEM) /* it may tell of another error then */
         return fail(doc, CELSPAN_NO_MEMORY, "out of memory");
       if (error == XML_ERROR_ABORTED)
         return doc->failure->status != CELSPAN_OK ? doc->failure->status : CELSPAN_CANCELLED;

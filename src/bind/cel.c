@@ -8,6 +8,7 @@
 #include "bind/placed.h"
 #include "bind/shape.h"
 #include "bind/userdata.h"
+#include "scene/bounds.h"
 
 static void unref(void *handle) { celspan_cel_unref(handle); }
 
@@ -28,7 +29,10 @@ static celspan_status fade(celspan_context *context, void *handle, double k, voi
   return status;
 }
 
-static bool bounds(const void *handle, celspan_box *out) { return celspan_cel_bounds(handle, out); }
+static celspan_status bounds(celspan_context *context, const void *handle, bool *is_there,
+                             celspan_box *out) {
+  return cs_bounds_cel(context, handle, is_there, out);
+}
 
 static bool contains(const void *handle, celspan_point point) {
   return celspan_cel_contains(handle, point);

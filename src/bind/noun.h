@@ -19,7 +19,8 @@ typedef struct cs_kind {
   celspan_status (*transform)(celspan_context *context, void *handle, const celspan_matrix *matrix,
                               void **out);
   celspan_status (*fade)(celspan_context *context, void *handle, double k, void **out);
-  bool (*bounds)(const void *handle, celspan_box *out);
+  celspan_status (*bounds)(celspan_context *context, const void *handle, bool *is_there,
+                           celspan_box *out);
   bool (*contains)(const void *handle, celspan_point point);
   /* Pushes a field that is not kept but found in the core; false when there is none of this name.
    * NULL: there are none. */

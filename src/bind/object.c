@@ -5,6 +5,7 @@
 #include "bind/placed.h"
 #include "bind/stroke.h"
 #include "bind/userdata.h"
+#include "scene/bounds.h"
 
 static void unref(void *handle) { celspan_object_unref(handle); }
 
@@ -25,8 +26,9 @@ static celspan_status fade(celspan_context *context, void *handle, double k, voi
   return status;
 }
 
-static bool bounds(const void *handle, celspan_box *out) {
-  return celspan_object_bounds(handle, out);
+static celspan_status bounds(celspan_context *context, const void *handle, bool *is_there,
+                             celspan_box *out) {
+  return cs_bounds_object(context, handle, is_there, out);
 }
 
 static bool contains(const void *handle, celspan_point point) {

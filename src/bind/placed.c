@@ -135,7 +135,10 @@ static int fade(lua_State *L) {
 static int bounds(lua_State *L) {
   const cs_userdata *value = self(L, "bounds");
   celspan_box box;
-  if (!value->noun->kind->bounds(value->handle, &box))
+  bool is_there = false;
+  cs_host_try(L, "bounds",
+              value->noun->kind->bounds(cs_host_context(L), value->handle, &is_there, &box));
+  if (!is_there)
     return 0;
   lua_pushnumber(L, box.x);
   lua_pushnumber(L, box.y);

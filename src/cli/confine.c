@@ -1,5 +1,6 @@
 #include "cli/confine.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -96,10 +97,19 @@ static cs_exit refuse_folder(const char *folder) {
   return cs_report_usage("--allow %s: there is no such folder", folder);
 }
 
+/* Folders that could not be added. */
+static cs_exit refuse_roots(void) {
+  if (errno != ENOMEM)
+    return cs_report_usage("--allow and CELSPAN_PATH name too many folders");
+  cs_report_error("out of memory");
+  return CS_EXIT_MEMORY;
+}
+
 static cs_exit open_roots(const cs_request *request, cs_sandbox *out) {
   char folder[PATH_SIZE];
   const char *search = getenv("CELSPAN_PATH");
   folder_of(request->operands[0], folder);
+  errno = 0;
   bool is_good = cs_roots_add(&out->roots, folder);
   for (size_t i = 0; i < request->allowed.count && is_good; i++) {
     cs_exit outcome = refuse_folder(request->allowed.items[i]);
@@ -109,7 +119,7 @@ static cs_exit open_roots(const cs_request *request, cs_sandbox *out) {
   }
   if (search && is_good)
     is_good = cs_sandbox_allow_search(out, search);
-  return is_good ? CS_EXIT_OK : cs_report_usage("--allow and CELSPAN_PATH name too many folders");
+  return is_good ? CS_EXIT_OK : refuse_roots();
 }
 
 /* ---------------------------------------------------------------- strict */

@@ -1,5 +1,6 @@
 #include "sandbox/roots.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 bool cs_roots_add(cs_roots *roots, const char *folder) {
   char *resolved = realpath(folder[0] ? folder : ".", NULL);
   if (!resolved)
-    return true;
+    return errno != ENOMEM;
   if (roots->count == CS_ROOTS_MOST) {
     free(resolved);
     return false;
@@ -42,14 +43,15 @@ static bool cut(char *path) {
   return true;
 }
 
-/* The resolved path of the nearest that exists; to be freed. NULL: it is too long. */
+/* The resolved path of the nearest that exists; to be freed. NULL: it is too long, or there is no memory,
+ * which tells nothing of where a link leads. */
 static char *resolve(const char *path) {
   char above[PATH_MAX];
   if (strlen(path) >= sizeof above - 1)
     return NULL;
   strcpy(above, path[0] ? path : ".");
   char *resolved = realpath(above, NULL);
-  while (!resolved && strcmp(above, ".") != 0 && cut(above))
+  while (!resolved && errno != ENOMEM && strcmp(above, ".") != 0 && cut(above))
     resolved = realpath(above, NULL);
   return resolved;
 }

@@ -18,11 +18,11 @@ typedef struct cs_roots {
   size_t count;
 } cs_roots;
 
-/* Adds a folder; "" is the current one. false: there is no room or memory. A folder that does not
- * exist is left out. */
+/* Adds a folder; "" is the current one. false: there is no room, or, with ENOMEM in errno, no memory. A
+ * folder that does not exist is left out. */
 bool cs_roots_add(cs_roots *roots, const char *folder);
 void cs_roots_finish(cs_roots *roots);
-/* Whether the path is below one of them. */
+/* Whether the path is below one of them. Without memory it is not, with ENOMEM in errno. */
 bool cs_roots_hold(const cs_roots *roots, const char *path);
 
 #endif

@@ -1,10 +1,12 @@
 #include "sandbox/sandbox.h"
 
+#include <errno.h>
 #include <lauxlib.h>
 #include <lualib.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/context.h"
 #include "bind/caller.h"
 #include "sandbox/library.h"
 #include "sandbox/require.h"
@@ -85,7 +87,12 @@ static void end(void *user) { cs_guard_end(&((cs_sandbox *)user)->guard); }
 
 static void admit(void *user, lua_State *L, const char *path) {
   const cs_sandbox *sandbox = user;
-  if (!cs_roots_hold(&sandbox->roots, path))
+  errno = 0;
+  if (cs_roots_hold(&sandbox->roots, path))
+    return;
+  if (errno == ENOMEM)
+    cs_host_try(L, path, cs_fail_memory(cs_host_context(L)));
+  else
     cs_caller_error(L,
                     "%s: the sandbox lets scripts read below %s alone (--allow DIR adds a folder)",
                     path, sandbox->roots.count ? sandbox->roots.paths[0] : "their folder");

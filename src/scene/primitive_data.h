@@ -81,8 +81,4 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_measure(celspan_context *contex
 CELSPAN_CHECKED celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
                                                         cs_primitive_data *data);
 
-/* The box around a list's objects under a matrix; false when there is nothing. */
-bool cs_primitive_data_list_bounds(celspan_object *const *objects, size_t count,
-                                   const celspan_matrix *matrix, celspan_box *out);
-
 #endif

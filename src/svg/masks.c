@@ -1,6 +1,7 @@
 #include "svg/masks.h"
 
 #include "base/number.h"
+#include "scene/bounds.h"
 #include "svg/boxes.h"
 #include "svg/clips.h"
 #include "svg/markers.h"
@@ -14,6 +15,8 @@
 typedef struct masked_shape {
   celspan_object *object; /* owned */
   double share, alpha;
+  celspan_box box; /* where is_there */
+  bool is_there;
 } masked_shape;
 
 typedef struct mask {
@@ -154,19 +157,21 @@ static celspan_status add_child(mask *m, const cs_svg_node *node, const cs_svg_p
   }
 }
 
-/* Whether no shape shines through another: all are opaque, or their boxes are apart. */
-static bool are_separate(const mask *m) {
-  for (size_t i = 0; i < m->count; i++)
-    for (size_t k = i + 1; k < m->count; k++) {
-      celspan_box a, b;
-      if (m->shapes[k].alpha >= 1 || !celspan_object_bounds(m->shapes[i].object, &a) ||
-          !celspan_object_bounds(m->shapes[k].object, &b))
-        continue;
-      if (a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
-          b.y < a.y + a.height)
-        return false;
-    }
-  return true;
+static bool are_apart(const masked_shape *a, const masked_shape *b) {
+  return !a->is_there || !b->is_there || a->box.x >= b->box.x + b->box.width ||
+         b->box.x >= a->box.x + a->box.width || a->box.y >= b->box.y + b->box.height ||
+         b->box.y >= a->box.y + a->box.height;
+}
+
+/* A mask is flat where no shape shines through another: all are opaque, or their boxes are apart. */
+static celspan_status check_separate(mask *m) {
+  for (size_t i = 0; i < m->count && m->is_flat; i++) {
+    masked_shape *shape = &m->shapes[i];
+    CS_TRY(cs_bounds_object(m->reading->context, shape->object, &shape->is_there, &shape->box));
+    for (size_t k = 0; k < i; k++)
+      m->is_flat = m->is_flat && (shape->alpha >= 1 || are_apart(&m->shapes[k], shape));
+  }
+  return CELSPAN_OK;
 }
 
 /* Shape i without what lies over it, inside the mask's region. */
@@ -249,7 +254,8 @@ static celspan_status read_mask(mask *m, celspan_svg *art, const cs_svg_node *no
   for (const cs_svg_node *child = node->first; child && is_sized && status == CELSPAN_OK;
        child = child->next)
     status = add_child(m, child, &place, 1);
-  m->is_flat = m->is_flat && are_separate(m);
+  if (status == CELSPAN_OK)
+    status = check_separate(m);
   if (status == CELSPAN_OK)
     status = m->is_flat ? cut_pieces(m, art, region, out)
                         : cs_svg_skip(m->reading, node, "mask that is not flat");

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "scene/bounds.h"
 #include "scene/primitive_data.h"
 #include "svg/servers.h"
 #include "svg/shapes.h"
@@ -150,9 +151,10 @@ static celspan_status paint_by_server(stroking *p, const celspan_box *outline_bo
   celspan_object *stroke;
   celspan_matrix inverse;
   celspan_box box;
+  bool is_there;
   CS_TRY(make_stroke(p, NULL, &stroke));
-  celspan_status status = CELSPAN_OK;
-  if (celspan_object_bounds(stroke, &box) && celspan_matrix_inverse(p->place->matrix, &inverse)) {
+  celspan_status status = cs_bounds_object(p->reading->context, stroke, &is_there, &box);
+  if (status == CELSPAN_OK && is_there && celspan_matrix_inverse(p->place->matrix, &inverse)) {
     shape.painted = mapped_box(&box, &inverse);
     status = cs_svg_server_find(p->reading, &style->stroke, style, &shape, &server);
     if (status == CELSPAN_OK && server.kind == CS_SVG_SERVER_FLAT)

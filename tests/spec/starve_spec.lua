@@ -31,7 +31,7 @@ return celspan.rostrum { back = "#fff",
                 celspan.circle { centre = { 20, 15 }, radius = 5 } - celspan.rect { 18, 10, 9, 9 } } }]],
 }
 
-local RENDER = "render film.lua --workers 1 --limit picture-time=1 --progress none -o out/f.##."
+local RENDER = "render film.lua --workers 1 --limit picture-time=%d --progress none -o out/f.##."
 local JOIN = "join 'strips/#.png' -o out/f.01."
 
 --- plan: at, the number of the allocation; lasts: and all after it; forked: in processes that were forked
@@ -45,7 +45,7 @@ local function starve(plan, ending, command)
   end
   return bench:shell(("cd '%s' && rm -rf out && %s LD_PRELOAD=%s %s %s %s%s"):format(bench.folder,
     table.concat(variables, " "), LIBRARY, plan.may_die and "timeout -s KILL 5" or "", bench.absolute,
-    command or RENDER, ending))
+    command or RENDER:format(plan.last and 0 or 1), ending))
 end
 
 --- How many allocations there were, and how many before and after the last module was loaded.
@@ -95,19 +95,35 @@ end }]]):format(scenes[scene]))
   for _, at in ipairs(chosen(1, counts(), SAMPLES)) do check({ at = at, lasts = lasts }, ending, right) end
 end
 
---- Type is set by libraries that go on without memory. GLib, which one of them needs, ends the process or
---- waits for itself when it lacks memory in being loaded: then nothing may be left.
-local function sweep_text(lasts)
+--- What the art module is for: libraries that go on without memory would draw something else.
+local art = {
+  letters = [[
+return celspan.rostrum { back = "#fff", celspan.cel {
+  celspan.text { "HA " .. f.number, font = "font.ttf", size = 12, at = { 2, 20 } } } }]],
+  drawings = [[
+return celspan.rostrum { back = "#fff", celspan.cel { assert(require "celspan.svg".read "drawing.svg").object } }]],
+}
+
+local DRAWING = [[<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 40 30">
+<style>.a { fill: #f80 }</style><defs><linearGradient id="g"><stop offset="0" stop-color="red"/><stop offset="1"
+stop-color="blue"/></linearGradient><mask id="m"><circle cx="12" cy="9" r="9" fill="#fff"/><path d="M20 20h9"
+stroke="#888" stroke-width="4"/></mask></defs><rect class="a" x="2" y="2" width="30" height="20" mask="url(#m)"/>
+<path d="M5 20C10 10 20 30 35 15" stroke="url(#g)" stroke-width="3" fill="none"/><use xlink:href="#c" x="3"/>
+<circle id="c" cx="20" cy="20" r="5"/></svg>]]
+
+--- GLib, which a library of the module needs, ends the process or waits for itself when it lacks memory in
+--- being loaded: then nothing may be left.
+local function sweep_art(scene, lasts)
   local library = io.open(LIBRARY)
   if not library then return pending "the library that takes memory away is not built" end
   library:close()
   if not present.art() then return pending "there is no art module" end
   bench:write("font.ttf", system.read "scripts/type/block.ttf")
-  bench:write("film.lua", [[local celspan = require "celspan"
+  bench:write("drawing.svg", DRAWING)
+  bench:write("film.lua", ([[local celspan = require "celspan"
 return celspan.film { size = { 40, 30 }, frames = 2, frame = function(f)
-  return celspan.rostrum { back = "#fff", celspan.cel {
-    celspan.text { "HA " .. f.number, font = "font.ttf", size = 12, at = { 2, 20 } } } }
-end }]])
+%s
+end }]]):format(art[scene]))
   local code, _, err = starve({ at = 0 }, "png")
   assert.are.equal(0, code, err)
   local right, count, loading, loaded = frames "png", counts()
@@ -208,8 +224,10 @@ end
 describe("without memory", function()
   it("for once, strips are joined or not", function() sweep_join(false) end)
   it("for good, strips are joined or not", function() sweep_join(true) end)
-  it("for once, text is right", function() sweep_text(false) end)
-  it("for good, text is right", function() sweep_text(true) end)
+  for scene in pairs(art) do
+    it("for once, " .. scene .. " are right", function() sweep_art(scene, false) end)
+    it("for good, " .. scene .. " are right", function() sweep_art(scene, true) end)
+  end
   it("for once, what OpenImageIO writes ends well", function() sweep_apart(false) end)
   it("for good, what OpenImageIO writes ends well", function() sweep_apart(true) end)
   for scene, ending in pairs { outlines = "png", procedures = "span" } do

@@ -33,6 +33,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -113,6 +114,7 @@ static bool is_copy(long number) {
   int before = errno;
   pid_t copy = copy_process();
   if (copy == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     until = 0;
     fail_at = number;
     return true;

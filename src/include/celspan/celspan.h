@@ -781,7 +781,8 @@ CELSPAN_API celspan_origin celspan_object_origin(const celspan_object *object);
 CELSPAN_API celspan_object *celspan_object_ref(celspan_object *object);
 CELSPAN_API void celspan_object_unref(celspan_object *object);
 /* The smallest upright rectangle around what can be painted; false when there is nothing. For
- * booleans: of their operands (intersections intersect). Shared read. */
+ * booleans: of their operands (intersections intersect). Without memory that of a stroke is larger.
+ * Shared read. */
 CELSPAN_API bool celspan_object_bounds(const celspan_object *object, celspan_box *out);
 /* Whether the point is inside the shape, whatever its paint: left and top edges are in, right and
  * bottom ones out. A scan-line procedure is not asked; its shape is its bounds. Shared read. */
