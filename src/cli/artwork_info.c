@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/open.h"
+#include "bind/host.h"
 #include "cli/script.h"
 
 enum { HEAD = 64 };
@@ -67,6 +68,12 @@ static int describe(lua_State *L) {
   return 2;
 }
 
+/* Lua's own sentence may have come through a pcall of the library. */
+static bool lacks_memory(lua_State *L, int outcome, const char *message) {
+  return outcome == LUA_ERRMEM || (message && (cs_host_blame(L, message) == CELSPAN_NO_MEMORY ||
+                                               strstr(message, "not enough memory")));
+}
+
 static cs_exit print(lua_State *L, const char *path, cs_artwork kind) {
   call c = {path, kind};
   lua_pushcfunction(L, describe);
@@ -78,12 +85,13 @@ static cs_exit print(lua_State *L, const char *path, cs_artwork kind) {
     return CS_EXIT_OK;
   }
   const char *message = lua_tostring(L, -1);
-  if (outcome == LUA_OK && kind == CS_ARTWORK_PSD && message) {
+  bool is_starved = lacks_memory(L, outcome, message);
+  if (outcome == LUA_OK && kind == CS_ARTWORK_PSD && message && !is_starved) {
     printf("layers unread: %s\n", message); /* the picture that it is was told of */
     return CS_EXIT_OK;
   }
   cs_report_error("%s", message ? message : "no message");
-  return outcome == LUA_ERRMEM ? CS_EXIT_MEMORY : CS_EXIT_INPUT;
+  return is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT;
 }
 
 cs_exit cs_artwork_info_print(celspan_context *context, const char *path, cs_artwork kind) {

@@ -132,6 +132,23 @@ end }]]):format(art[scene]))
   end
 end
 
+local function sweep_info(lasts)
+  local library = io.open(LIBRARY)
+  if not library then return pending "the library that takes memory away is not built" end
+  library:close()
+  if not present.art() then return pending "there is no art module" end
+  bench:write("drawing.svg", DRAWING)
+  local code, right = starve({ at = 0 }, "drawing.svg", "info ")
+  assert.are.equal(0, code)
+  local count, loading, loaded = counts()
+  for _, at in ipairs(chosen(1, count, SAMPLES / 6)) do
+    local may_die = at > loading and at <= loaded
+    local ended, out, err = starve({ at = at, lasts = lasts, may_die = may_die }, "drawing.svg", "info ")
+    local where = ("allocation %d: %d, %s"):format(at, ended, err)
+    assert.truthy(ended == 0 and out == right or ended == 33 and err:find "memory" or may_die and ended > 128, where)
+  end
+end
+
 --- How copies end that the program takes for starved (cli/decoder/server.c): by an exit code, or killed or
 --- trapped.
 local STARVED = { [33] = true, [127] = true, [128 + 9] = true, [128 + 5] = true }
@@ -224,6 +241,8 @@ end
 describe("without memory", function()
   it("for once, strips are joined or not", function() sweep_join(false) end)
   it("for good, strips are joined or not", function() sweep_join(true) end)
+  it("for once, it is told what a drawing is, or not", function() sweep_info(false) end)
+  it("for good, it is told what a drawing is, or not", function() sweep_info(true) end)
   for scene in pairs(art) do
     it("for once, " .. scene .. " are right", function() sweep_art(scene, false) end)
     it("for good, " .. scene .. " are right", function() sweep_art(scene, true) end)

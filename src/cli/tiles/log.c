@@ -20,7 +20,8 @@ enum {
 };
 
 static celspan_status fail(celspan_context *context, const char *path, const char *what) {
-  return cs_fail(context, CELSPAN_OUTPUT, "%s: %s: %s", path, what, strerror(errno));
+  celspan_status status = errno == ENOMEM ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT;
+  return cs_fail(context, status, "%s: %s: %s", path, what, strerror(errno));
 }
 
 /* ---------------------------------------------------------------- reading */
