@@ -14,7 +14,8 @@
 #endif
 
 #define PATH_SIZE 4096
-/* Bytes that must be there before libraries are loaded: some end the process when they lack memory then. */
+/* Bytes that must be there before libraries are loaded: some end the process when they lack memory then.
+ * glibc would learn from a smaller block, given back, to keep blocks of that size for itself. */
 #define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
