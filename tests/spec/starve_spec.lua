@@ -66,6 +66,8 @@ local function check(plan, ending, right, command)
   for _, name in ipairs(bench:files "out") do assert.truthy(name:find "^f%.", where .. " left " .. name) end
   if code == 0 then
     assert.are.same(right, frames(ending), where)
+  elseif plan.level == 1 and code == 5 then -- OpenImageIO went on with half of what it needs, and fell in writing
+    assert.truthy(err:find("ended its decoder by signal", 1, true), where)
   elseif not (plan.may_die and code > 128) then
     assert.are.equal(33, code, where)
     assert.truthy(err:find("memory", 1, true), where)
