@@ -1,5 +1,6 @@
-/* Boxes around objects and cels, as celspan_object_bounds and celspan_cel_bounds give them, for callers that
- * draw by them.
+/* Boxes around objects and cels for callers whose picture depends on them: gradients that are spread over a
+ * box, places that scripts take from it. celspan_object_bounds and celspan_cel_bounds are for those that
+ * only leave out what lies beyond: without memory theirs are larger.
  *
  *   +-------------+
  *   |   .--.      |   the outer box always holds the stroke; the inner one is tight, and takes memory:
@@ -8,7 +9,7 @@
  *   |  +----+     |
  *   +-------------+
  *
- * INVARIANT: what is drawn by a box is drawn by the tight one, or not at all.
+ * INVARIANT: a box from here is the tight one.
  */
 #ifndef CS_SCENE_BOUNDS_H
 #define CS_SCENE_BOUNDS_H

@@ -165,7 +165,10 @@ static bool are_apart(const masked_shape *a, const masked_shape *b) {
 
 /* A mask is flat where no shape shines through another: all are opaque, or their boxes are apart. */
 static celspan_status check_separate(mask *m) {
-  for (size_t i = 0; i < m->count && m->is_flat; i++) {
+  size_t end = m->count; /* through those from here on nothing shines */
+  while (end > 0 && m->shapes[end - 1].alpha >= 1)
+    end--;
+  for (size_t i = 0; i < end && m->is_flat; i++) {
     masked_shape *shape = &m->shapes[i];
     CS_TRY(cs_bounds_object(m->reading->context, shape->object, &shape->is_there, &shape->box));
     for (size_t k = 0; k < i; k++)
